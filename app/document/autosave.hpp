@@ -1,0 +1,40 @@
+// A copy of unsaved work in the config folder, every 30 s of changes, and what a crash left there.
+// Each running program has its own file, autosave-<pid>.json, removed when it ends cleanly.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <vector>
+
+#include "app/document/workspace.hpp"
+
+namespace tendril::app {
+
+class Autosave {
+  public:
+    using Clock = std::chrono::steady_clock;
+
+    explicit Autosave(std::filesystem::path folder, Clock::duration interval = std::chrono::seconds(30));
+    /// Removes this program's file.
+    ~Autosave();
+    Autosave(const Autosave&) = delete;
+    Autosave& operator=(const Autosave&) = delete;
+
+    /// Writes the scene when it has unsaved changes that are not yet in the file, and `interval` has passed since
+    /// the first of them. A failure to write is told once, in a toast.
+    void update(Workspace& workspace, Clock::time_point now);
+    std::filesystem::path file() const;
+
+    /// Files of programs that no longer run, the newest first.
+    static std::vector<std::filesystem::path> left_behind(const std::filesystem::path& folder);
+
+  private:
+    std::filesystem::path folder_;
+    Clock::duration interval_;
+    Document written_;
+    Clock::time_point changed_at_{};
+    bool waiting_ = false;
+    bool failed_ = false;
+};
+
+}  // namespace tendril::app

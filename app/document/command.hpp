@@ -1,0 +1,91 @@
+// The one vocabulary of change. Every change to the document is a named command with JSON arguments, whoever
+// makes it: a drag, a panel, a shortcut, a script, a test. One table holds each command's name, arguments, help
+// and effect; the palette, --list-commands and the checks of arguments all come from it.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/document/workspace.hpp"
+
+namespace tendril::app {
+
+/// A command said no: what() is one line that says why. The workspace is as it was.
+class Refused : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+/// The command itself is not known: a mistake in a script, not a refusal.
+class UnknownCommand : public Refused {
+  public:
+    using Refused::Refused;
+};
+
+enum class ArgumentType { Number, Integer, Boolean, Text, Point };
+
+struct Argument {
+    std::string name;
+    ArgumentType type = ArgumentType::Number;
+    bool required = true;
+    std::string help;
+    double low = -1e9, high = 1e9;     ///< for numbers and integers
+    std::vector<std::string> choices;  ///< for texts; empty: any
+};
+
+/// Arguments that have been checked against their command: present where required, of the right type, finite and in
+/// range.
+class Arguments {
+  public:
+    explicit Arguments(const Json& json) : json_(json) {}
+    bool has(const char* name) const { return json_.contains(name); }
+    float number(const char* name) const { return json_.at(name).get<float>(); }
+    int integer(const char* name) const { return json_.at(name).get<int>(); }
+    bool boolean(const char* name) const { return json_.at(name).get<bool>(); }
+    std::string text(const char* name) const { return json_.at(name).get<std::string>(); }
+    glm::vec3 point(const char* name) const;
+
+  private:
+    const Json& json_;
+};
+
+/// What a command does to the history.
+enum class Effect {
+    Edit,     ///< changes the document; can be undone
+    Look,     ///< changes what is seen or chosen, in the document or around it; no undo entry
+    Replace,  ///< replaces the document and looks after the history itself
+};
+
+struct Command {
+    std::string name;
+    std::vector<Argument> arguments;
+    std::string help;
+    Effect effect = Effect::Edit;
+    /// May throw Refused, std::invalid_argument, std::out_of_range or std::runtime_error; all become a refusal.
+    std::function<void(Workspace&, const Arguments&)> apply;
+};
+
+class CommandTable {
+  public:
+    void add(Command command);
+    const Command* find(std::string_view name) const;
+    const std::vector<Command>& all() const { return commands_; }
+
+    /// Checks and applies. Throws Refused (or UnknownCommand), with the workspace unchanged. `gesture` merges the
+    /// undo entries of one drag.
+    void run(Workspace& workspace, std::string_view name, const Json& arguments, Gesture gesture = 0) const;
+
+  private:
+    std::vector<Command> commands_;
+};
+
+/// "chain.add length [position]", for lists and help.
+std::string usage(const Command& command);
+
+/// undo, redo, scene.*, camera.set, time.*, view.*: all that needs no lab.
+void add_workspace_commands(CommandTable& table);
+
+}  // namespace tendril::app

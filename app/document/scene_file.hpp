@@ -1,0 +1,27 @@
+// Scenes on disk: versioned JSON holding every lab's part, which lab was open, and the camera.
+//
+//   {"tendril_scene": 1, "lab": "chain", "camera": {...}, "labs": {"chain": {...}}}
+#pragma once
+
+#include <filesystem>
+
+#include "app/document/workspace.hpp"
+
+namespace tendril::app {
+
+inline constexpr int scene_version = 1;
+
+Json save_camera(const CameraPose& pose);
+CameraPose load_camera(const Json& json, const std::string& where);
+
+/// The scene of a workspace, and a workspace changed to hold a scene. Loading throws std::runtime_error with the
+/// place and the reason (a newer version, an unknown lab, a value out of range) and then leaves it unchanged; a lab
+/// that the scene does not mention becomes blank. Loading clears the history.
+Json save_scene(const Workspace& workspace);
+void load_scene(Workspace& workspace, const Json& scene);
+
+/// The same through a file; both keep `workspace.path` and `workspace.saved` up to date.
+void save_scene_file(Workspace& workspace, const std::filesystem::path& path);
+void load_scene_file(Workspace& workspace, const std::filesystem::path& path);
+
+}  // namespace tendril::app

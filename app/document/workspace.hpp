@@ -1,0 +1,58 @@
+// All that commands can change: the document and what surrounds it while the program runs.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/document/camera_pose.hpp"
+#include "app/document/document.hpp"
+#include "app/document/history.hpp"
+#include "app/document/settings.hpp"
+
+namespace tendril::app {
+
+inline constexpr double tick_seconds = 1.0 / 60.0;
+
+struct Clock {
+    bool playing = true;
+    std::uint64_t tick = 0;  ///< simulated ticks so far
+};
+
+enum class ToastKind { Info, Refusal };
+
+struct Toast {
+    std::string text;
+    ToastKind kind = ToastKind::Info;
+    int ticks_left = 0;
+};
+
+/// What the window shows for the moment.
+struct UiState {
+    bool help = false;
+    bool palette = false;
+    bool settings = false;
+    enum class FileDialog { None, Open, SaveAs } file_dialog = FileDialog::None;
+    std::vector<Toast> toasts;
+    bool quit = false;
+    bool operator==(const UiState&) const = delete;
+};
+
+struct Workspace {
+    Document document;
+    Document blank;       ///< what scene.new starts from
+    std::string lab;      ///< the lab that is open
+    CameraPose camera;
+    Clock clock;
+    History history;
+    Settings settings;
+    UiState ui;
+    std::filesystem::path path;  ///< the scene's file, empty while it has none
+    Document saved;              ///< as it was last saved or opened
+
+    bool modified() const { return document != saved; }
+    void toast(std::string text, ToastKind kind = ToastKind::Info);
+};
+
+}  // namespace tendril::app

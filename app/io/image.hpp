@@ -1,0 +1,24 @@
+// Pictures in memory and as PNG files.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <vector>
+
+namespace tendril::app {
+
+/// 8-bit RGBA, rows from the top.
+struct Image {
+    glm::ivec2 size{0};
+    std::vector<std::uint8_t> rgba;
+};
+
+/// Reads the pixels of a framebuffer of the current context; alpha is set to opaque.
+Image read_framebuffer(unsigned framebuffer, glm::ivec2 size);
+
+/// Throws std::runtime_error naming the path and the reason. Writing is atomic.
+void write_png(const std::filesystem::path& path, const Image& image);
+Image read_png(const std::filesystem::path& path);
+
+}  // namespace tendril::app

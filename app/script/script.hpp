@@ -1,0 +1,69 @@
+// Scripts: JSON lines, one object to a line, parsed whole before anything runs. A recording is a script whose first
+// line says what it started from.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "app/document/command.hpp"
+#include "app/window/event.hpp"
+
+namespace tendril::app {
+
+struct RunCommand {
+    std::string name;
+    Json arguments;
+    bool expect_refusal = false;
+};
+struct Wait {
+    int ticks = 0;
+};
+struct TakeScreenshot {
+    std::string path;
+};
+struct WriteState {
+    std::string path;
+};
+/// A value of the state, by its path ("segments.3.length"), held against exactly one measure.
+struct Expect {
+    enum class Measure { Equals, Near, Below, Above } measure = Measure::Equals;
+    std::string path;
+    Json value;
+    double within = 1e-4;  ///< for Near
+};
+
+/// Runs within the tick it takes; commands, screenshots, states and expectations take none.
+using Action = std::variant<Event, RunCommand, Wait, TakeScreenshot, WriteState, Expect>;
+
+struct ScriptLine {
+    int number = 0;  ///< in the file, from 1
+    Action action;
+};
+
+/// A recording's first line.
+struct RecordingStart {
+    glm::ivec2 size{0};
+    std::string lab;
+    Json scene;
+    Json settings;
+};
+
+struct Script {
+    std::optional<RecordingStart> start;
+    std::vector<ScriptLine> lines;
+};
+
+/// Throws std::runtime_error, "line 7: <reason>", for a line that is not JSON, not one of the known forms, of a
+/// wrong type, or names a command that the table does not have. Blank lines are skipped.
+Script parse_script(std::string_view text, const CommandTable& commands);
+
+/// Finds "segments.3.length" in a state; nothing where there is no such value.
+const Json* find_in_state(const Json& state, std::string_view path);
+
+/// Empty when the state is as expected; else what was found, in one line.
+std::string check_expectation(const Expect& expect, const Json& state);
+
+}  // namespace tendril::app

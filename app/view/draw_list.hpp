@@ -1,0 +1,61 @@
+// What to draw, with no GL in it. Labs fill one each frame; the renderer draws it, picking reads it,
+// and tests look into it.
+//
+// Everything solid is one shape, a *stroke*: two balls and what lies between them. A sphere is a stroke
+// whose ends coincide, a line one of constant width, a bone a tapered one. So one instanced call draws
+// them all, whatever their number, and one distance function picks them.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <string>
+#include <vector>
+
+namespace tendril::app {
+
+/// Names what a stroke belongs to for picking; the lab gives it its meaning. Nothing: not pickable.
+using PickId = std::int32_t;
+inline constexpr PickId no_pick = -1;
+
+enum class Unit : std::uint8_t { Metres, Pixels };
+enum class Shade : std::uint8_t { Lit, Flat, Ring };  ///< Ring: a flat circle outline facing the eye
+enum class Layer : std::uint8_t { Scene, Overlay };   ///< Overlay is drawn over the scene, whatever its depth
+
+struct Stroke {
+    glm::vec3 a{0.0f}, b{0.0f};
+    float radius_a = 1.0f, radius_b = 1.0f;
+    glm::vec4 colour{1.0f};
+    float ring_width = 0.0f;  ///< pixels; only for Shade::Ring
+    Unit unit = Unit::Metres;
+    Shade shade = Shade::Lit;
+    Layer layer = Layer::Scene;
+    bool shadow = false;  ///< darkens the ground beneath it
+    PickId pick = no_pick;
+    std::int16_t rank = 0;  ///< where pickable things overlap the higher rank wins, then the nearer
+};
+
+/// Text beside a point. The higher `rank` stays where two would overlap.
+struct Label {
+    glm::vec3 at{0.0f};
+    float clearance = 10.0f;  ///< pixels from the point to keep free
+    std::string text;
+    glm::vec3 colour{1.0f};
+    int rank = 0;
+};
+
+struct DrawList {
+    std::vector<Stroke> strokes;
+    std::vector<Label> labels;
+
+    void clear() { strokes.clear(), labels.clear(); }
+
+    /// Each returns the stroke it appended, for the fields that are seldom set.
+    Stroke& sphere(glm::vec3 centre, float radius, Unit unit, glm::vec4 colour);
+    Stroke& line(glm::vec3 a, glm::vec3 b, float width_pixels, glm::vec4 colour);
+    Stroke& bone(glm::vec3 a, glm::vec3 b, float radius_a, float radius_b, glm::vec4 colour);
+    Stroke& ring(glm::vec3 centre, float radius_pixels, float width_pixels, glm::vec4 colour);
+};
+
+}  // namespace tendril::app

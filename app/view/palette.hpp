@@ -1,0 +1,29 @@
+// Every colour of the picture, by what it means. The meanings are the same in all labs and both themes;
+// the hues are those of Okabe and Ito (2008), which colour-blind people tell apart.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "app/document/settings.hpp"
+
+namespace tendril::app {
+
+/// sRGB, 0 to 1.
+struct Palette {
+    // what things are
+    glm::vec3 target, head, tail, selection, limit, ghost;
+    // what is not special: joints and the links between them
+    glm::vec3 joint, link;
+    // axes
+    glm::vec3 axis_x, axis_y, axis_z;
+    // the room
+    glm::vec3 background_top, background_bottom, grid;
+    float shadow = 0.5f;  ///< how dark a contact shadow is, 0 to 1
+    // the panels
+    glm::vec3 bar, panel, field, border, text, text_dim, accent;
+};
+
+const Palette& palette(Theme theme);
+
+}  // namespace tendril::app

@@ -1,0 +1,40 @@
+// Draws a DrawList with GL 3.3 core: background, contact shadows, ground grid, strokes. Five draw calls at
+// the most, however much is in the list. Edges are anti-aliased by coverage, without multisampling, so that a
+// software rasteriser is fast and every backend gives the same picture.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <memory>
+
+#include "app/view/camera.hpp"
+#include "app/view/draw_list.hpp"
+#include "app/view/palette.hpp"
+
+namespace tendril::app {
+
+struct Frame {
+    unsigned framebuffer = 0;
+    glm::ivec2 framebuffer_size{0};  ///< pixels
+    float pixel_ratio = 1.0f;        ///< framebuffer pixels to a window coordinate
+    bool grid = true;
+};
+
+class Renderer {
+  public:
+    /// Needs a current context; throws std::runtime_error with the driver's words where a shader fails.
+    Renderer();
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    /// Clears the whole framebuffer to the palette and draws the list in the camera's viewport.
+    void draw(const DrawList& list, const Camera& camera, const Palette& palette, const Frame& frame);
+    /// GL draw calls that the last draw() made.
+    int draw_calls() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tendril::app
