@@ -20,20 +20,28 @@ class Autosave {
     Autosave(const Autosave&) = delete;
     Autosave& operator=(const Autosave&) = delete;
 
-    /// Writes the scene when it has unsaved changes that are not yet in the file, and `interval` has passed since
-    /// the first of them. A failure to write is told once, in a toast.
+    /// Writes the scene when it has unsaved changes that are not yet in the file, and `interval` has passed
+    /// since the first of them. A failure to write is told once, in a toast.
     void update(Workspace& workspace, Clock::time_point now);
     std::filesystem::path file() const;
 
     /// Files of programs that no longer run, the newest first.
     static std::vector<std::filesystem::path> left_behind(const std::filesystem::path& folder);
+    /// Opens such a file: the workspace then has unsaved changes to the file that was being worked on (the
+    /// member "path" beside the scene's own), or to none. Throws as load_scene_file does. The autosave itself
+    /// stays.
+    static void recover(Workspace& workspace, const std::filesystem::path& file);
 
   private:
+    void write(Workspace& workspace);
+    void remove();
+
     std::filesystem::path folder_;
     Clock::duration interval_;
     Document written_;
     Clock::time_point changed_at_{};
-    bool waiting_ = false;
+    bool waiting_ = false;   ///< since changed_at_
+    bool has_file_ = false;  ///< holds written_
     bool failed_ = false;
 };
 

@@ -1,4 +1,5 @@
-// Undo and redo: whole documents (they share what did not change), one entry per gesture, bounded memory.
+// Undo and redo: whole documents (they share what did not change), one entry per gesture, bounded memory: the
+// oldest entries go first, and only the nearest step may exceed the bound alone.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +19,9 @@ class History {
   public:
     explicit History(std::size_t max_entries = 1000, std::size_t max_bytes = 256u << 20);
 
-    /// Remembers `before`, the document as it was before the command `label` changed it.
+    /// Remembers `before`, the document as it was before the command `label` changed it, and forgets what
+    /// could be redone. Further pushes of the same nonzero gesture add nothing, until an undo or redo comes
+    /// between.
     void push(const Document& before, const std::string& label, Gesture gesture);
     /// Gives the document to go back to (or forward to) from `current`; nothing at the end.
     std::optional<Document> undo(const Document& current);
@@ -31,18 +34,26 @@ class History {
     std::string undo_label() const { return past_.empty() ? std::string() : past_.back().label; }
     std::string redo_label() const { return future_.empty() ? std::string() : future_.back().label; }
     std::size_t size() const { return past_.size(); }
+    /// Memory that the entries hold on to, what they share counted once.
     std::size_t bytes() const { return bytes_; }
 
   private:
     struct Entry {
         Document document;
         std::string label;
-        Gesture gesture = 0;
-        std::size_t bytes = 0;
+        std::size_t bytes = 0;  ///< of what it does not share with the entry before it in its list
     };
+    using Entries = std::deque<Entry>;
+
+    static std::size_t own_bytes(const Document& document, const Document* neighbour);
+    void append(Entries& entries, const Document& document, const std::string& label);
+    std::optional<Document> move_across(Entries& from, Entries& to, const Document& current);
+    void drop(Entries& entries);
+    void drop_front(Entries& entries);
     void trim();
 
-    std::deque<Entry> past_, future_;
+    Entries past_, future_;  ///< the nearest to now at the back
+    Gesture open_gesture_ = 0;
     std::size_t max_entries_, max_bytes_, bytes_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -18,23 +19,50 @@ inline constexpr std::size_t max_file_bytes = 64u << 20;
 inline constexpr int max_json_depth = 64;
 
 /// The number whose decimals are the fewest that read back as this very float: 0.1f gives 0.1.
+/// The value must be finite.
 Json number(float value);
 Json point(glm::vec3 p);
 Json pixel(glm::vec2 p);
+/// An angle as files hold it, in degrees; json_degrees gives back the very same radians.
+Json degrees(float radians);
 
-/// Parses one JSON value. Throws std::runtime_error: "line 3: <reason>". Depth is checked by a scan that
-/// allocates nothing, before the parser sees the text.
+/// JSON for people to read and compare: what fits a line stands on one. Ends with a newline.
+std::string json_to_text(const Json& json);
+/// A value as messages show it, cut short.
+std::string json_summary(const Json& json);
+
+/// Text that is not JSON, or too deep: what() is "line 3: <reason>".
+class ParseError : public std::runtime_error {
+  public:
+    ParseError(int at_line, const std::string& why)
+        : std::runtime_error("line " + std::to_string(at_line) + ": " + why), line(at_line), reason(why) {}
+    int line;
+    std::string reason;
+};
+
+/// Parses one JSON value; of members with the same name the last one counts. Throws ParseError. Depth is
+/// checked by a scan that allocates nothing, before the parser sees the text; the cost grows with the text,
+/// not with its square.
 Json parse_json(std::string_view text);
 
-/// Reads a whole file, at most max_file_bytes of it. Throws std::runtime_error naming the path.
+/// The line in a valid JSON text where the value "labs.chain.segments.3" stands, or the last part of that
+/// path that is there; 0 where there is none.
+int json_line(std::string_view text, std::string_view path);
+
+/// Reads a whole file, at most max_file_bytes of it, from a pipe or device too. Throws std::runtime_error
+/// naming the path.
 std::string read_text_file(const std::filesystem::path& path);
 /// read_text_file and parse_json; the message is "<path>: line 3: <reason>".
 Json read_json_file(const std::filesystem::path& path);
 
-/// Typed reads for files. Each throws std::runtime_error naming `where` (a path such as "labs.chain.target")
-/// and what was found there; numbers must be finite and at most 1e9 in magnitude.
+/// Typed reads for files. Each throws std::runtime_error that begins with `where` (a path such as
+/// "labs.chain.target"; empty for the whole) and says what was found there; numbers must be finite and at
+/// most 1e9 in magnitude.
 const Json& json_member(const Json& object, const char* key, const std::string& where);
 float json_number(const Json& value, const std::string& where);
+float json_number(const Json& value, const std::string& where, float low, float high);
+float json_degrees(const Json& value, const std::string& where);  ///< in radians
+/// A whole number; 3.0 is one.
 int json_integer(const Json& value, const std::string& where, int low, int high);
 bool json_bool(const Json& value, const std::string& where);
 std::string json_text(const Json& value, const std::string& where);

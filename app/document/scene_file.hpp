@@ -14,9 +14,10 @@ inline constexpr int scene_version = 1;
 Json save_camera(const CameraPose& pose);
 CameraPose load_camera(const Json& json, const std::string& where);
 
-/// The scene of a workspace, and a workspace changed to hold a scene. Loading throws std::runtime_error with the
-/// place and the reason (a newer version, an unknown lab, a value out of range) and then leaves it unchanged; a lab
-/// that the scene does not mention becomes blank. Loading clears the history.
+/// The scene of a workspace, and a workspace changed to hold a scene. Loading throws std::runtime_error with
+/// the place and the reason (a newer version, an unknown lab, a value out of range) and then leaves it
+/// unchanged; a lab that the scene does not mention becomes blank. Loading clears the history and starts time
+/// anew.
 Json save_scene(const Workspace& workspace);
 void load_scene(Workspace& workspace, const Json& scene);
 

@@ -1,0 +1,217 @@
+#include "app/document/atomic_file.hpp"
+
+#include <atomic>
+#include <cerrno>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#ifdef _WIN32
+#include <process.h>
+
+#include <fstream>
+#else
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#endif
+
+namespace tendril::app {
+namespace fs = std::filesystem;
+namespace {
+
+[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
+    throw std::runtime_error("cannot write " + path.string() + ": " + reason);
+}
+
+/// The file that a chain of symbolic links ends at, which need not exist yet.
+fs::path follow_links(const fs::path& path) {
+    constexpr int most_links = 40;
+    fs::path file = path;
+    std::error_code error;
+    for (int links = 0; fs::is_symlink(fs::symlink_status(file, error)); ++links) {
+        if (links == most_links) fail(path, "too many symbolic links");
+        const fs::path target = fs::read_symlink(file, error);
+        if (error) fail(path, error.message());
+        file = target.is_absolute() ? target : file.parent_path() / target;
+    }
+    return file;
+}
+
+fs::path folder_of(const fs::path& file) {
+    return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+/// What stands at `path` now. Throws where no file can ever be put.
+fs::file_status check_place(const fs::path& path) {
+    if (path.empty() || path.string().find('\0') != std::string::npos) fail(path, "not a file name");
+    std::error_code error;
+    const auto status = fs::status(path, error);
+    if (fs::is_directory(status) || !path.has_filename()) fail(path, "is a folder");
+    if (status.type() == fs::file_type::none) fail(path, error.message());
+    return status;
+}
+
+/// A device or a pipe (/dev/stdout) is written to; a file renamed over it would take its place.
+bool is_stream(const fs::file_status& status) {
+    return fs::exists(status) && !fs::is_regular_file(status);
+}
+
+/// A name that no other writer in this program or another one uses now.
+fs::path temporary_name(const fs::path& folder) {
+    static std::atomic<unsigned> counter{0};
+#ifdef _WIN32
+    const int pid = _getpid();
+#else
+    const int pid = ::getpid();
+#endif
+    return folder / (".tendril-" + std::to_string(pid) + "-" + std::to_string(counter++) + ".tmp");
+}
+
+#ifdef _WIN32
+
+void check_permission(const fs::path&) {}
+
+void write_stream(const fs::path& path, std::string_view bytes) {
+    std::ofstream out(path, std::ios::binary);
+    if (!out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush())
+        fail(path, "not writable");
+}
+
+class Temporary {
+  public:
+    Temporary(const fs::path& target, const fs::path& folder)
+        : target_(target), name_(temporary_name(folder)), out_(name_, std::ios::binary) {
+        if (!out_) fail(target_, "the folder is missing or not writable");
+    }
+    ~Temporary() {
+        std::error_code ignored;
+        out_.close();
+        if (!moved_) fs::remove(name_, ignored);
+    }
+    Temporary(const Temporary&) = delete;
+    Temporary& operator=(const Temporary&) = delete;
+
+    void fill(std::string_view bytes, const fs::path&) {
+        if (!out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush())
+            fail(target_, "the disk is full or gone");
+        out_.close();
+    }
+    void move_over(const fs::path& file) {
+        std::error_code error;
+        fs::rename(name_, file, error);
+        if (error) fail(target_, error.message());
+        moved_ = true;
+    }
+
+  private:
+    fs::path target_, name_;
+    std::ofstream out_;
+    bool moved_ = false;
+};
+
+#else
+
+std::string last_error() {
+    return std::generic_category().message(errno);
+}
+
+/// A file that its owner made read-only stays as it is, though a rename would not ask.
+void check_permission(const fs::path& path) {
+    if (::access(path.c_str(), W_OK) != 0 && errno != ENOENT) fail(path, last_error());
+}
+
+int open_file(const fs::path& path, int flags) {
+    int fd = -1;
+    do fd = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
+    while (fd < 0 && errno == EINTR);
+    return fd;
+}
+
+bool write_all(int fd, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t count = ::write(fd, bytes.data(), bytes.size());
+        if (count < 0 && errno != EINTR) return false;
+        if (count > 0) bytes.remove_prefix(static_cast<std::size_t>(count));
+    }
+    return true;
+}
+
+void write_stream(const fs::path& path, std::string_view bytes) {
+    const int fd = open_file(path, O_WRONLY);
+    if (fd < 0) fail(path, last_error());
+    const bool written = write_all(fd, bytes);
+    const std::string reason = last_error();
+    ::close(fd);
+    if (!written) fail(path, reason);
+}
+
+/// A new file beside the one to be written, gone again unless it is moved over it.
+class Temporary {
+  public:
+    Temporary(const fs::path& target, const fs::path& folder) : target_(target) {
+        // A name is taken where a program of the same number was killed while it wrote.
+        constexpr int tries = 1000;
+        for (int i = 0; i < tries && fd_ < 0; ++i) {
+            name_ = temporary_name(folder);
+            fd_ = open_file(name_, O_WRONLY | O_CREAT | O_EXCL);
+            if (fd_ < 0 && errno != EEXIST) break;
+        }
+        if (fd_ < 0) fail(target_, last_error());
+    }
+    ~Temporary() {
+        if (fd_ >= 0) ::close(fd_);
+        if (!moved_) ::unlink(name_.c_str());
+    }
+    Temporary(const Temporary&) = delete;
+    Temporary& operator=(const Temporary&) = delete;
+
+    /// Returns when the bytes are on the disk, with the permissions of `old` where that exists.
+    void fill(std::string_view bytes, const fs::path& old) {
+        struct stat before {};
+        if (::stat(old.c_str(), &before) == 0) require(::fchmod(fd_, before.st_mode & 07777) == 0);
+        require(write_all(fd_, bytes));
+        require(::fsync(fd_) == 0);
+        require(::close(std::exchange(fd_, -1)) == 0);
+    }
+    void move_over(const fs::path& file) {
+        require(::rename(name_.c_str(), file.c_str()) == 0);
+        moved_ = true;
+        // The new name is in place; a file system that cannot sync a folder does not undo that.
+        const int folder = open_file(folder_of(file), O_RDONLY | O_DIRECTORY);
+        if (folder < 0) return;
+        ::fsync(folder);
+        ::close(folder);
+    }
+
+  private:
+    void require(bool done) const {
+        if (!done) fail(target_, last_error());
+    }
+    fs::path target_, name_;
+    int fd_ = -1;
+    bool moved_ = false;
+};
+
+#endif
+
+}  // namespace
+
+void write_file_atomically(const fs::path& path, std::string_view bytes) {
+    if (is_stream(check_place(path))) return write_stream(path, bytes);
+    check_permission(path);
+    const fs::path file = follow_links(path);
+    Temporary temporary(path, folder_of(file));
+    temporary.fill(bytes, file);
+    temporary.move_over(file);
+}
+
+void check_writable(const fs::path& path) {
+    const bool stream = is_stream(check_place(path));
+    check_permission(path);
+    // Only making a file tells: permissions do not know of read-only and virtual file systems.
+    if (!stream) Temporary(path, folder_of(follow_links(path)));
+}
+
+}  // namespace tendril::app

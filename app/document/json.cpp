@@ -1,0 +1,189 @@
+#include "app/document/json.hpp"
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <numbers>
+#include <system_error>
+
+namespace tendril::app {
+namespace {
+
+constexpr double largest_number = 1e9;
+constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
+
+[[noreturn]] void fail(const std::string& where, const std::string& what) {
+    throw std::runtime_error(where.empty() ? what : where + ": " + what);
+}
+
+[[noreturn]] void expected(const std::string& what, const Json& found, const std::string& where) {
+    fail(where, "expected " + what + ", found " + json_summary(found));
+}
+
+double finite(const Json& value, const std::string& where) {
+    if (!value.is_number()) expected("a number", value, where);
+    const double x = value.get<double>();
+    if (!(std::abs(x) <= largest_number)) expected("a number of at most 1e9", value, where);
+    return x;
+}
+
+float from_degrees(double value) {
+    return static_cast<float>(value / degrees_per_radian);
+}
+
+std::string dump(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+void write_indented(std::string& out, const Json& json, std::size_t indent) {
+    constexpr std::size_t line_width = 100;
+    if (json.is_structured() && !json.empty()) {
+        std::string one_line = dump(json);
+        if (indent + one_line.size() > line_width) {
+            const std::string margin(indent + 1, ' ');
+            out += json.is_object() ? "{\n" : "[\n";
+            bool first = true;
+            for (const auto& item : json.items()) {
+                if (!first) out += ",\n";
+                first = false;
+                out += margin;
+                if (json.is_object()) out += dump(Json(item.key())) + ": ";
+                write_indented(out, item.value(), indent + 1);
+            }
+            out += '\n' + std::string(indent, ' ') + (json.is_object() ? '}' : ']');
+            return;
+        }
+        out += one_line;
+        return;
+    }
+    out += dump(json);
+}
+
+}  // namespace
+
+Json number(float value) {
+    std::array<char, 32> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+    double shortest = 0.0;
+    std::from_chars(digits.data(), end, shortest);
+    // Readers round twice, to double and then to float. Where that would miss the float, all its digits are
+    // kept.
+    return static_cast<float>(shortest) == value ? shortest : static_cast<double>(value);
+}
+
+Json point(glm::vec3 p) {
+    return Json::array({number(p.x), number(p.y), number(p.z)});
+}
+
+Json pixel(glm::vec2 p) {
+    return Json::array({number(p.x), number(p.y)});
+}
+
+Json degrees(float radians) {
+    const double exact = static_cast<double>(radians) * degrees_per_radian;
+    const Json rounded = number(static_cast<float>(exact));
+    return from_degrees(rounded.get<double>()) == radians ? rounded : Json(exact);
+}
+
+std::string json_to_text(const Json& json) {
+    std::string out;
+    write_indented(out, json, 0);
+    return out + '\n';
+}
+
+std::string json_summary(const Json& json) {
+    constexpr std::size_t longest = 60;
+    if (json.is_structured() && json.size() > 8) {
+        const char* what = json.is_array() ? "a list of " : "an object of ";
+        return what + std::to_string(json.size()) + (json.is_array() ? " values" : " members");
+    }
+    if (json.is_string() && json.get_ref<const std::string&>().size() > longest) return "a long text";
+    const std::string text = dump(json);
+    if (text.size() <= longest) return text;
+    return json.is_array() ? "a list" : "an object";
+}
+
+std::string read_text_file(const std::filesystem::path& path) {
+    const std::string shown = path.string();
+    if (shown.find('\0') != std::string::npos) throw std::runtime_error("not a file name");
+    const std::string too_large = "larger than " + std::to_string(max_file_bytes >> 20) + " MB";
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (std::filesystem::is_directory(status)) fail(shown, "is a folder");
+    // A regular file is refused by its size before a byte is read; a pipe or a device has none to ask for.
+    if (std::filesystem::is_regular_file(status) &&
+        std::filesystem::file_size(path, error) > max_file_bytes && !error)
+        fail(shown, too_large);
+
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(shown.c_str(), "rb"), &std::fclose);
+    if (!file) fail(shown, std::generic_category().message(errno));
+    std::string text;
+    std::array<char, 1 << 16> block{};
+    while (const std::size_t count = std::fread(block.data(), 1, block.size(), file.get())) {
+        text.append(block.data(), count);
+        if (text.size() > max_file_bytes) fail(shown, too_large);
+    }
+    if (std::ferror(file.get())) fail(shown, std::generic_category().message(errno));
+    return text;
+}
+
+Json read_json_file(const std::filesystem::path& path) {
+    const std::string text = read_text_file(path);
+    try {
+        return parse_json(text);
+    } catch (const ParseError& error) {
+        throw std::runtime_error(path.string() + ": " + error.what());
+    }
+}
+
+const Json& json_member(const Json& object, const char* key, const std::string& where) {
+    if (!object.is_object()) expected("an object", object, where);
+    const auto found = object.find(key);
+    if (found == object.end()) fail(where, '"' + std::string(key) + "\" is missing");
+    return *found;
+}
+
+float json_number(const Json& value, const std::string& where) {
+    return static_cast<float>(finite(value, where));
+}
+
+float json_number(const Json& value, const std::string& where, float low, float high) {
+    const float x = json_number(value, where);
+    if (!(x >= low && x <= high)) {
+        const std::string range = number(low).dump() + " to " + number(high).dump();
+        expected("a number from " + range, value, where);
+    }
+    return x;
+}
+
+float json_degrees(const Json& value, const std::string& where) {
+    return from_degrees(finite(value, where));
+}
+
+int json_integer(const Json& value, const std::string& where, int low, int high) {
+    const double x = value.is_number() ? value.get<double>() : std::nan("");
+    // 3.0 is a whole number too: not every writer of JSON keeps the difference.
+    if (!(x >= low && x <= high && x == std::floor(x)))
+        expected("a whole number from " + std::to_string(low) + " to " + std::to_string(high), value, where);
+    return static_cast<int>(x);
+}
+
+bool json_bool(const Json& value, const std::string& where) {
+    if (!value.is_boolean()) expected("true or false", value, where);
+    return value.get<bool>();
+}
+
+std::string json_text(const Json& value, const std::string& where) {
+    if (!value.is_string()) expected("a text", value, where);
+    return value.get<std::string>();
+}
+
+glm::vec3 json_point(const Json& value, const std::string& where) {
+    if (!value.is_array() || value.size() != 3) expected("a point [x, y, z]", value, where);
+    return {json_number(value[0], where), json_number(value[1], where), json_number(value[2], where)};
+}
+
+}  // namespace tendril::app

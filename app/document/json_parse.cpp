@@ -1,0 +1,196 @@
+// Text to JSON, for files that may come from anywhere: bounded depth, time that grows with the text alone,
+// and errors by line.
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "app/document/json.hpp"
+
+namespace tendril::app {
+namespace {
+
+int line_at(std::string_view text, std::size_t offset) {
+    const auto before = text.substr(0, offset);
+    return 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n'));
+}
+
+/// The end of the string that opens at `at`: past its closing quote, or past the text.
+std::size_t string_end(std::string_view text, std::size_t at) {
+    for (++at; at < text.size(); ++at) {
+        if (text[at] == '\\')
+            ++at;
+        else if (text[at] == '"')
+            return at + 1;
+    }
+    return text.size();
+}
+
+void check_depth(std::string_view text) {
+    int depth = 0;
+    for (std::size_t at = 0; at < text.size();) {
+        const char c = text[at];
+        if (c == '[' || c == '{') ++depth;
+        if (c == ']' || c == '}') --depth;
+        if (depth > max_json_depth)
+            throw ParseError(line_at(text, at), "nested deeper than " + std::to_string(max_json_depth));
+        at = c == '"' ? string_end(text, at) : at + 1;
+    }
+}
+
+/// What the parser means, without its name, position and grammar, fit for one line of any terminal.
+std::string concise(std::string_view what) {
+    constexpr std::size_t longest = 100;
+    const auto skip_past = [&](std::string_view mark) {
+        const auto at = what.find(mark);
+        if (at == what.npos) return false;
+        what.remove_prefix(at + mark.size());
+        return true;
+    };
+    std::string reason;
+    if (skip_past("number overflow parsing "))
+        reason = "number too large: ";
+    else
+        skip_past(" - ") || skip_past("] ");
+    for (const char c : what.substr(0, longest)) reason += c >= ' ' && c <= '~' ? c : '?';
+    return what.size() > longest ? reason + "..." : reason;
+}
+
+using Members = std::vector<std::pair<std::string, Json>>;
+
+/// The object of these members. The library's own way looks through the members so far for each new one,
+/// which takes hours for a file of nothing but keys.
+Json object_of(Members& members) {
+    std::vector<std::size_t> order(members.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return members[a].first < members[b].first; });
+    std::vector<bool> replaced(members.size());
+    for (std::size_t i = 1; i < order.size(); ++i)
+        replaced[order[i - 1]] = members[order[i - 1]].first == members[order[i]].first;
+
+    Json::object_t object;
+    object.reserve(members.size());
+    for (std::size_t i = 0; i < members.size(); ++i)
+        if (!replaced[i]) object.emplace_back(std::move(members[i].first), std::move(members[i].second));
+    return object;
+}
+
+/// Takes the parser's events and builds the value.
+class Builder : public nlohmann::json_sax<Json> {
+  public:
+    explicit Builder(std::string_view text) : text_(text) {}
+    Json take() { return std::move(result_); }
+
+    bool null() override { return value(nullptr); }
+    bool boolean(bool b) override { return value(b); }
+    bool number_integer(number_integer_t n) override { return value(n); }
+    bool number_unsigned(number_unsigned_t n) override { return value(n); }
+    bool number_float(number_float_t x, const string_t&) override { return value(x); }
+    bool string(string_t& s) override { return value(std::move(s)); }
+    bool binary(binary_t&) override { return false; }
+
+    bool start_object(std::size_t) override { return open_.emplace_back(), true; }
+    bool start_array(std::size_t) override { return open_.emplace_back(), true; }
+    bool key(string_t& name) override {
+        open_.back().members.emplace_back(std::move(name), nullptr);
+        open_.back().is_object = true;
+        return true;
+    }
+    bool end_object() override {
+        Json object = object_of(open_.back().members);
+        open_.pop_back();
+        return value(std::move(object));
+    }
+    bool end_array() override {
+        Json array = std::move(open_.back().items);
+        open_.pop_back();
+        return value(std::move(array));
+    }
+    bool parse_error(std::size_t position, const std::string&, const Json::exception& error) override {
+        throw ParseError(line_at(text_, position == 0 ? 0 : position - 1), concise(error.what()));
+    }
+
+  private:
+    struct Open {
+        bool is_object = false;
+        Members members;
+        Json::array_t items;
+    };
+
+    bool value(Json json) {
+        if (open_.empty())
+            result_ = std::move(json);
+        else if (open_.back().is_object)
+            open_.back().members.back().second = std::move(json);
+        else
+            open_.back().items.push_back(std::move(json));
+        return true;
+    }
+
+    std::string_view text_;
+    std::vector<Open> open_;
+    Json result_;
+};
+
+// Finding a line: the text is known to be valid, so values are skipped by their brackets and quotes alone.
+
+std::size_t skip_space(std::string_view text, std::size_t at) {
+    return std::min(text.find_first_not_of(" \t\r\n", at), text.size());
+}
+
+std::size_t skip_value(std::string_view text, std::size_t at) {
+    int depth = 0;
+    while (at < text.size()) {
+        const char c = text[at];
+        if (depth == 0 && (c == ',' || c == ']' || c == '}')) break;
+        if (c == '[' || c == '{') ++depth;
+        if (c == ']' || c == '}') --depth;
+        at = c == '"' ? string_end(text, at) : at + 1;
+    }
+    return at;
+}
+
+/// Where the child `name` (a key, or an index) of the container at `at` begins; npos where there is none.
+std::size_t find_child(std::string_view text, std::size_t at, std::string_view name) {
+    if (at >= text.size() || (text[at] != '{' && text[at] != '[')) return text.npos;
+    const bool object = text[at] == '{';
+    const std::string quoted = '"' + std::string(name) + '"';
+    at = skip_space(text, at + 1);
+    for (std::size_t index = 0; at < text.size() && text[at] != ']' && text[at] != '}'; ++index) {
+        bool here = !object && std::to_string(index) == name;
+        if (object) {
+            const std::size_t end = string_end(text, at);
+            here = text.substr(at, end - at) == quoted;
+            at = skip_space(text, skip_space(text, end) + 1);
+        }
+        if (here) return at;
+        at = skip_value(text, at);
+        if (at < text.size() && text[at] == ',') at = skip_space(text, at + 1);
+    }
+    return text.npos;
+}
+
+}  // namespace
+
+Json parse_json(std::string_view text) {
+    check_depth(text);
+    Builder builder(text);
+    Json::sax_parse(text, &builder);
+    return builder.take();
+}
+
+int json_line(std::string_view text, std::string_view path) {
+    std::size_t at = skip_space(text, 0);
+    bool found = false;
+    while (!path.empty()) {
+        const auto dot = path.find('.');
+        const std::size_t child = find_child(text, at, path.substr(0, dot));
+        if (child == text.npos) break;
+        found = true;
+        at = child;
+        path = dot == path.npos ? std::string_view() : path.substr(dot + 1);
+    }
+    return found ? line_at(text, at) : 0;
+}
+
+}  // namespace tendril::app

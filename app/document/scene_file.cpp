@@ -1,0 +1,145 @@
+#include "app/document/scene_file.hpp"
+
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include "app/document/atomic_file.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr float quarter_turn = static_cast<float>(std::numbers::pi / 2);
+constexpr float narrowest_view = 0.01f, widest_view = 3.0f;  // radians
+constexpr float nearest_eye = 1e-4f, farthest_eye = 1e9f;    // metres
+
+const Json* optional_member(const Json& object, const char* key) {
+    const auto found = object.find(key);
+    return found == object.end() ? nullptr : &*found;
+}
+
+void check_version(const Json& scene) {
+    if (!scene.is_object() || !scene.contains("tendril_scene"))
+        throw std::runtime_error("not a Tendril scene");
+    const Json& version = scene["tendril_scene"];
+    if (version.is_number_integer() && version > scene_version)
+        throw std::runtime_error("tendril_scene: version " + version.dump() +
+                                 " is newer than this program, which reads " + std::to_string(scene_version));
+    json_integer(version, "tendril_scene", 1, scene_version);
+}
+
+/// Whatever a part finds wrong becomes a reason to refuse the file.
+std::shared_ptr<const Part> load_part(const Part& blank, const Json& json, const std::string& where) {
+    try {
+        return blank.load(json, where);
+    } catch (const std::runtime_error&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw std::runtime_error(where + ": " + error.what());
+    }
+}
+
+Document load_document(const Document& blank, const Json& labs) {
+    Document document = blank;
+    for (const auto& [name, json] : labs.items()) {
+        const auto known = blank.parts().find(name);
+        if (known == blank.parts().end()) throw std::runtime_error("labs." + name + ": there is no such lab");
+        document.set(name, load_part(*known->second, json, "labs." + name));
+    }
+    return document;
+}
+
+/// "line 12: ", where the message begins with a place that the text has; else nothing.
+std::string line_prefix(std::string_view text, std::string_view message) {
+    const auto end = message.find(": ");
+    const int line = end == message.npos ? 0 : json_line(text, message.substr(0, end));
+    return line > 0 ? "line " + std::to_string(line) + ": " : std::string();
+}
+
+}  // namespace
+
+Json save_camera(const CameraPose& pose) {
+    return Json{{"target", point(pose.target)},
+                {"yaw_deg", degrees(pose.yaw)},
+                {"pitch_deg", degrees(pose.pitch)},
+                {"distance", number(pose.distance)},
+                {"field_of_view_deg", degrees(pose.field_of_view)},
+                {"orthographic", pose.orthographic}};
+}
+
+CameraPose load_camera(const Json& json, const std::string& where) {
+    if (!json.is_object())
+        throw std::runtime_error(where + ": expected an object, found " + json_summary(json));
+    CameraPose pose;
+    const auto place = [&](const char* key) { return where.empty() ? key : where + "." + key; };
+    const auto angle = [&](const char* key, float& value, float low, float high) {
+        const Json* found = optional_member(json, key);
+        if (!found) return;
+        value = json_degrees(*found, place(key));
+        if (!(value >= low && value <= high))
+            throw std::runtime_error(place(key) + ": expected " + degrees(low).dump() + " to " +
+                                     degrees(high).dump() + " degrees, found " + json_summary(*found));
+    };
+    if (const Json* found = optional_member(json, "target"))
+        pose.target = json_point(*found, place("target"));
+    angle("yaw_deg", pose.yaw, -1e9f, 1e9f);
+    angle("pitch_deg", pose.pitch, -quarter_turn, quarter_turn);
+    if (const Json* found = optional_member(json, "distance"))
+        pose.distance = json_number(*found, place("distance"), nearest_eye, farthest_eye);
+    angle("field_of_view_deg", pose.field_of_view, narrowest_view, widest_view);
+    if (const Json* found = optional_member(json, "orthographic"))
+        pose.orthographic = json_bool(*found, place("orthographic"));
+    return pose;
+}
+
+Json save_scene(const Workspace& workspace) {
+    Json labs = Json::object();
+    for (const auto& [name, part] : workspace.document.parts()) labs[name] = part->save();
+    return Json{{"tendril_scene", scene_version},
+                {"lab", workspace.lab},
+                {"camera", save_camera(workspace.camera)},
+                {"labs", std::move(labs)}};
+}
+
+void load_scene(Workspace& workspace, const Json& scene) {
+    check_version(scene);
+    const Json& labs = json_member(scene, "labs", "");
+    if (!labs.is_object()) throw std::runtime_error("labs: expected an object, found " + json_summary(labs));
+    Document document = load_document(workspace.blank, labs);
+    std::string lab = workspace.lab;
+    if (const Json* found = optional_member(scene, "lab")) {
+        lab = json_text(*found, "lab");
+        if (!document.parts().contains(lab))
+            throw std::runtime_error("lab: there is no lab " + json_summary(*found));
+    }
+    const Json* camera = optional_member(scene, "camera");
+    const CameraPose pose = camera ? load_camera(*camera, "camera") : workspace.first_view;
+
+    // Nothing below throws.
+    workspace.document = std::move(document);
+    workspace.lab = std::move(lab);
+    workspace.camera = pose;
+    workspace.clock.tick = 0;
+    workspace.history.clear();
+}
+
+void save_scene_file(Workspace& workspace, const std::filesystem::path& path) {
+    write_file_atomically(path, json_to_text(save_scene(workspace)));
+    workspace.path = path;
+    workspace.saved = workspace.document;
+}
+
+void load_scene_file(Workspace& workspace, const std::filesystem::path& path) {
+    const std::string text = read_text_file(path);
+    try {
+        load_scene(workspace, parse_json(text));
+    } catch (const ParseError& error) {
+        throw std::runtime_error(path.string() + ": " + error.what());
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(path.string() + ": " + line_prefix(text, error.what()) + error.what());
+    }
+    workspace.path = path;
+    workspace.saved = workspace.document;
+}
+
+}  // namespace tendril::app
