@@ -1,5 +1,5 @@
-// Scripts: JSON lines, one object to a line, parsed whole before anything runs. A recording is a script whose first
-// line says what it started from.
+// Scripts: JSON lines, one object to a line, parsed whole before anything runs. A recording is a script whose
+// first line says what it started from.
 #pragma once
 
 #include <optional>
@@ -28,6 +28,8 @@ struct WriteState {
     std::string path;
 };
 /// A value of the state, by its path ("segments.3.length"), held against exactly one measure.
+/// Equals: the same value throughout, numbers as 32-bit floats. Near: a number, or a list of them (a point),
+/// whose distance is at most `within`. Below and Above: a number strictly so.
 struct Expect {
     enum class Measure { Equals, Near, Below, Above } measure = Measure::Equals;
     std::string path;
@@ -43,8 +45,13 @@ struct ScriptLine {
     Action action;
 };
 
-/// A recording's first line.
+inline constexpr int recording_version = 1;
+inline constexpr int max_wait_ticks = 1'000'000;
+inline constexpr int max_window_side = 16384;
+
+/// A recording's first line: what it started from.
 struct RecordingStart {
+    std::string version;  ///< of the program that wrote it
     glm::ivec2 size{0};
     std::string lab;
     Json scene;
@@ -56,11 +63,13 @@ struct Script {
     std::vector<ScriptLine> lines;
 };
 
-/// Throws std::runtime_error, "line 7: <reason>", for a line that is not JSON, not one of the known forms, of a
-/// wrong type, or names a command that the table does not have. Blank lines are skipped.
+/// Throws std::runtime_error, "line 7: <reason>", for a line that is not JSON, not one of the known forms, of
+/// a wrong type, has a member too many, or names a command that the table does not have. Blank lines are
+/// skipped. A command's own arguments are checked when it runs.
 Script parse_script(std::string_view text, const CommandTable& commands);
 
-/// Finds "segments.3.length" in a state; nothing where there is no such value.
+/// Finds "segments.3.length" in a state, a number being an index into a list; nothing where there is no such
+/// value.
 const Json* find_in_state(const Json& state, std::string_view path);
 
 /// Empty when the state is as expected; else what was found, in one line.

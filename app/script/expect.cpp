@@ -1,0 +1,114 @@
+// Expectations: finding a value of the state by its path, and holding it against a measure.
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "app/script/script.hpp"
+
+namespace tendril::app {
+namespace {
+
+const Json* child(const Json& json, std::string_view name) {
+    if (json.is_object()) {
+        const auto found = json.find(std::string(name));
+        return found == json.end() ? nullptr : &*found;
+    }
+    if (!json.is_array()) return nullptr;
+    std::size_t index = 0;
+    const auto [rest, error] = std::from_chars(name.data(), name.data() + name.size(), index);
+    const bool whole = error == std::errc() && rest == name.data() + name.size();
+    return whole && index < json.size() ? &json[index] : nullptr;
+}
+
+/// The program computes with floats: 0.1 in a script means the float that is nearest to it.
+bool equal_numbers(const Json& a, const Json& b) {
+    constexpr double largest = std::numeric_limits<float>::max();
+    const bool floats = std::abs(a.get<double>()) <= largest && std::abs(b.get<double>()) <= largest;
+    if (!floats || (a.is_number_integer() && b.is_number_integer())) return a == b;
+    return a.get<float>() == b.get<float>();
+}
+
+bool equal(const Json& a, const Json& b) {
+    if (a.is_number() && b.is_number()) return equal_numbers(a, b);
+    if (a.type() != b.type() || a.size() != b.size()) return false;
+    if (!a.is_structured()) return a == b;
+    if (a.is_object()) {
+        for (const auto& [key, value] : a.items())
+            if (const Json* other = child(b, key); !other || !equal(value, *other)) return false;
+        return true;
+    }
+    for (std::size_t i = 0; i < a.size(); ++i)
+        if (!equal(a[i], b[i])) return false;
+    return true;
+}
+
+/// Between two numbers, or two points of as many coordinates; not a number where they cannot be compared.
+double distance(const Json& a, const Json& b) {
+    if (a.is_number() && b.is_number()) return std::abs(a.get<double>() - b.get<double>());
+    if (!a.is_array() || !b.is_array() || a.size() != b.size()) return std::nan("");
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        if (!a[i].is_number() || !b[i].is_number()) return std::nan("");
+        sum += std::pow(a[i].get<double>() - b[i].get<double>(), 2.0);
+    }
+    return std::sqrt(sum);
+}
+
+bool holds(const Expect& expect, const Json& found) {
+    using Measure = Expect::Measure;
+    switch (expect.measure) {
+        case Measure::Equals:
+            return equal(found, expect.value);
+        case Measure::Near:
+            return distance(found, expect.value) <= expect.within;
+        case Measure::Below:
+            return found.is_number() && found.get<double>() < expect.value.get<double>();
+        case Measure::Above:
+            return found.is_number() && found.get<double>() > expect.value.get<double>();
+    }
+    return false;
+}
+
+std::string measure_text(const Expect& expect) {
+    using Measure = Expect::Measure;
+    const std::string value = json_summary(expect.value);
+    switch (expect.measure) {
+        case Measure::Equals:
+            return value;
+        case Measure::Near:
+            return value + " within " + Json(expect.within).dump();
+        case Measure::Below:
+            return "below " + value;
+        case Measure::Above:
+            return "above " + value;
+    }
+    return value;
+}
+
+}  // namespace
+
+const Json* find_in_state(const Json& state, std::string_view path) {
+    const Json* found = &state;
+    while (found && !path.empty()) {
+        const auto dot = path.find('.');
+        found = child(*found, path.substr(0, dot));
+        path = dot == path.npos ? std::string_view() : path.substr(dot + 1);
+    }
+    return found;
+}
+
+std::string check_expectation(const Expect& expect, const Json& state) {
+    const Json* found = find_in_state(state, expect.path);
+    if (!found)
+        return "expected " + expect.path + " to be " + measure_text(expect) +
+               ", but the state has no such value";
+    if (holds(expect, *found)) return {};
+    std::string message =
+        "expected " + expect.path + " to be " + measure_text(expect) + ", found " + json_summary(*found);
+    const double off = distance(*found, expect.value);
+    if (expect.measure == Expect::Measure::Near && !std::isnan(off))
+        message += ", off by " + Json(off).dump();
+    return message;
+}
+
+}  // namespace tendril::app

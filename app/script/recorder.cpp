@@ -1,0 +1,101 @@
+#include "app/script/recorder.hpp"
+
+#include <algorithm>
+
+namespace tendril::app {
+namespace {
+
+const char* button_name(MouseButton button) {
+    switch (button) {
+        case MouseButton::Left:
+            return "left";
+        case MouseButton::Right:
+            return "right";
+        case MouseButton::Middle:
+            return "middle";
+    }
+    return "left";
+}
+
+/// One overload per event, so that an event without a line does not compile.
+struct LineOf {
+    Json operator()(const MouseMove& e) const { return {{"mouse", "move"}, {"at", pixel(e.at)}}; }
+    Json operator()(const MousePress& e) const {
+        return {{"mouse", e.down ? "down" : "up"}, {"button", button_name(e.button)}};
+    }
+    Json operator()(const MouseWheel& e) const { return {{"mouse", "wheel"}, {"by", number(e.by)}}; }
+    Json operator()(const KeyChange& e) const {
+        if (e.key == Key::Unknown) return nullptr;
+        return {{"key", std::string(key_name(e.key))}, {"action", e.down ? "down" : "up"}};
+    }
+    Json operator()(const KeyTap& e) const {
+        if (e.chord.key == Key::Unknown) return nullptr;
+        return Json{{"key", chord_name(e.chord)}};
+    }
+    Json operator()(const TextInput& e) const { return Json{{"text", e.utf8}}; }
+    Json operator()(const Resize& e) const { return Json{{"resize", Json::array({e.size.x, e.size.y})}}; }
+    Json operator()(const Drop& e) const { return Json{{"drop", Json(e.paths)}}; }
+    Json operator()(const Focus& e) const { return Json{{"focus", e.focused}}; }
+    Json operator()(const CloseRequest&) const { return nullptr; }
+};
+
+/// File names need not be UTF-8, but JSON is.
+std::string one_line(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::string wait_lines(int ticks) {
+    std::string text;
+    for (; ticks > 0; ticks -= max_wait_ticks)
+        text += one_line(Json{{"wait", std::min(ticks, max_wait_ticks)}});
+    return text;
+}
+
+}  // namespace
+
+Json event_line(const Event& event) {
+    return std::visit(LineOf(), event);
+}
+
+Recorder::Recorder(const RecordingStart& start) {
+    line(Json{{"recording", recording_version},
+              {"version", start.version},
+              {"size", Json::array({start.size.x, start.size.y})},
+              {"lab", start.lab},
+              {"scene", start.scene},
+              {"settings", start.settings}});
+}
+
+void Recorder::event(const Event& event) {
+    const Json json = event_line(event);
+    // It took its tick all the same.
+    if (json.is_null()) return idle_tick();
+    line(json);
+}
+
+void Recorder::idle_tick() {
+    ++waiting_;
+}
+
+void Recorder::command(const std::string& name, const Json& arguments, bool refused) {
+    Json json{{"command", name}};
+    for (const auto& [key, value] : arguments.items()) json[key] = value;
+    if (refused) json["refused"] = true;
+    line(json);
+}
+
+std::string Recorder::text() const {
+    return text_ + wait_lines(waiting_);
+}
+
+void Recorder::flush_wait() {
+    text_ += wait_lines(waiting_);
+    waiting_ = 0;
+}
+
+void Recorder::line(const Json& json) {
+    flush_wait();
+    text_ += one_line(json);
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,233 @@
+#include "app/script/script.hpp"
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <stdexcept>
+
+namespace tendril::app {
+namespace {
+
+[[noreturn]] void fail(const std::string& reason) {
+    throw std::runtime_error(reason);
+}
+
+/// A line must have the first of these members, may have the others, and no more.
+void check_members(const Json& line, std::initializer_list<std::string_view> known) {
+    for (const auto& [key, value] : line.items())
+        if (std::find(known.begin(), known.end(), key) == known.end()) fail("unknown member \"" + key + '"');
+}
+
+std::string nonempty_text(const Json& line, const char* key) {
+    std::string text = json_text(json_member(line, key, ""), key);
+    if (text.empty()) fail(std::string(key) + ": expected a text, found \"\"");
+    return text;
+}
+
+glm::ivec2 window_size(const Json& json, const std::string& where) {
+    if (!json.is_array() || json.size() != 2)
+        fail(where + ": expected [width, height], found " + json_summary(json));
+    return {json_integer(json[0], where, 1, max_window_side),
+            json_integer(json[1], where, 1, max_window_side)};
+}
+
+Action command_line(Json line, const CommandTable& commands) {
+    RunCommand run{nonempty_text(line, "command"), Json::object(), false};
+    if (!commands.find(run.name)) fail("unknown command " + json_summary(line["command"]));
+    if (line.contains("refused")) run.expect_refusal = json_bool(line["refused"], "refused");
+    line.erase("command");
+    line.erase("refused");
+    run.arguments = std::move(line);
+    return run;
+}
+
+MouseButton mouse_button(const Json& line) {
+    const Json& name = json_member(line, "button", "");
+    if (name == "left") return MouseButton::Left;
+    if (name == "right") return MouseButton::Right;
+    if (name == "middle") return MouseButton::Middle;
+    fail("button: expected \"left\", \"right\" or \"middle\", found " + json_summary(name));
+}
+
+Action mouse_line(const Json& line) {
+    const std::string what = json_text(line["mouse"], "mouse");
+    if (what == "move") {
+        check_members(line, {"mouse", "at"});
+        const Json& at = json_member(line, "at", "");
+        if (!at.is_array() || at.size() != 2) fail("at: expected [x, y], found " + json_summary(at));
+        return Event(MouseMove{{json_number(at[0], "at"), json_number(at[1], "at")}});
+    }
+    if (what == "down" || what == "up") {
+        check_members(line, {"mouse", "button"});
+        return Event(MousePress{mouse_button(line), what == "down"});
+    }
+    if (what == "wheel") {
+        check_members(line, {"mouse", "by"});
+        return Event(MouseWheel{json_number(json_member(line, "by", ""), "by")});
+    }
+    fail("mouse: expected \"move\", \"down\", \"up\" or \"wheel\", found " + json_summary(line["mouse"]));
+}
+
+Action key_line(const Json& line) {
+    check_members(line, {"key", "action"});
+    const std::string name = json_text(line["key"], "key");
+    if (!line.contains("action")) {
+        const auto chord = chord_from_name(name);
+        if (!chord) fail("unknown key " + json_summary(line["key"]));
+        return Event(KeyTap{*chord});
+    }
+    const Json& action = line["action"];
+    if (action != "down" && action != "up")
+        fail("action: expected \"down\" or \"up\", found " + json_summary(action));
+    const auto key = key_from_name(name);
+    if (!key) fail("unknown key " + json_summary(line["key"]));
+    return Event(KeyChange{*key, action == "down"});
+}
+
+Action text_line(const Json& line) {
+    check_members(line, {"text"});
+    return Event(TextInput{json_text(line["text"], "text")});
+}
+
+Action resize_line(const Json& line) {
+    check_members(line, {"resize"});
+    return Event(Resize{window_size(line["resize"], "resize")});
+}
+
+Action drop_line(const Json& line) {
+    check_members(line, {"drop"});
+    const Json& paths = line["drop"];
+    if (!paths.is_array() || paths.empty())
+        fail("drop: expected a list of paths, found " + json_summary(paths));
+    Drop drop;
+    for (const Json& path : paths) drop.paths.push_back(json_text(path, "drop"));
+    return Event(std::move(drop));
+}
+
+Action focus_line(const Json& line) {
+    check_members(line, {"focus"});
+    return Event(Focus{json_bool(line["focus"], "focus")});
+}
+
+Action wait_line(const Json& line) {
+    check_members(line, {"wait"});
+    return Wait{json_integer(line["wait"], "wait", 0, max_wait_ticks)};
+}
+
+Action screenshot_line(const Json& line) {
+    check_members(line, {"screenshot"});
+    return TakeScreenshot{nonempty_text(line, "screenshot")};
+}
+
+Action state_line(const Json& line) {
+    check_members(line, {"state"});
+    return WriteState{nonempty_text(line, "state")};
+}
+
+void check_comparable(const Json& value, bool points_too, const char* key) {
+    const bool list = points_too && value.is_array() && !value.empty();
+    if (!list) return void(json_number(value, key));
+    for (const Json& coordinate : value) json_number(coordinate, key);
+}
+
+Action expect_line(const Json& line) {
+    check_members(line, {"expect", "equals", "near", "within", "below", "above"});
+    using Measure = Expect::Measure;
+    constexpr std::array<std::pair<const char*, Measure>, 4> measures{{{"equals", Measure::Equals},
+                                                                       {"near", Measure::Near},
+                                                                       {"below", Measure::Below},
+                                                                       {"above", Measure::Above}}};
+    Expect expect;
+    expect.path = nonempty_text(line, "expect");
+    int given = 0;
+    for (const auto& [key, measure] : measures) {
+        if (!line.contains(key)) continue;
+        ++given;
+        expect.measure = measure;
+        expect.value = line[key];
+        if (measure != Measure::Equals) check_comparable(expect.value, measure == Measure::Near, key);
+    }
+    if (given != 1) fail("expected exactly one of \"equals\", \"near\", \"below\", \"above\"");
+    if (line.contains("within")) {
+        if (expect.measure != Measure::Near) fail("within: goes with \"near\" only");
+        json_number(line["within"], "within", 0.0f, 1e9f);
+        expect.within = line["within"].get<double>();
+    }
+    return expect;
+}
+
+RecordingStart recording_start(const Json& line) {
+    const Json& version = line["recording"];
+    if (version.is_number_integer() && version > recording_version)
+        fail("recording: version " + version.dump() + " is newer than this program, which reads " +
+             std::to_string(recording_version));
+    json_integer(version, "recording", 1, recording_version);
+    check_members(line, {"recording", "version", "size", "lab", "scene", "settings"});
+    RecordingStart start{.version = json_text(json_member(line, "version", ""), "version"),
+                         .size = window_size(json_member(line, "size", ""), "size"),
+                         .lab = json_text(json_member(line, "lab", ""), "lab"),
+                         .scene = json_member(line, "scene", ""),
+                         .settings = json_member(line, "settings", "")};
+    if (!start.scene.is_object()) fail("scene: expected an object, found " + json_summary(start.scene));
+    if (!start.settings.is_object())
+        fail("settings: expected an object, found " + json_summary(start.settings));
+    return start;
+}
+
+struct Form {
+    const char* member;  ///< tells the line's form
+    Action (*parse)(const Json& line);
+};
+constexpr std::array<Form, 10> forms{{{"expect", expect_line},
+                                      {"mouse", mouse_line},
+                                      {"key", key_line},
+                                      {"text", text_line},
+                                      {"resize", resize_line},
+                                      {"drop", drop_line},
+                                      {"focus", focus_line},
+                                      {"wait", wait_line},
+                                      {"screenshot", screenshot_line},
+                                      {"state", state_line}}};
+
+Action parse_action(const Json& line, const CommandTable& commands) {
+    // First, because a command's arguments may have any name.
+    if (line.contains("command")) return command_line(line, commands);
+    for (const Form& form : forms)
+        if (line.contains(form.member)) return form.parse(line);
+    if (line.contains("recording")) fail("a recording's start can only be the first line");
+    std::string known = "\"command\"";
+    for (const Form& form : forms) known += std::string(", \"") + form.member + '"';
+    fail("expected one of the members " + known);
+}
+
+void parse_line(std::string_view text, int line_number, const CommandTable& commands, Script& script) {
+    const Json line = parse_json(text);
+    if (!line.is_object()) fail("expected an object, found " + json_summary(line));
+    const bool first = !script.start && script.lines.empty();
+    if (first && line.contains("recording") && !line.contains("command"))
+        script.start = recording_start(line);
+    else
+        script.lines.push_back({line_number, parse_action(line, commands)});
+}
+
+}  // namespace
+
+Script parse_script(std::string_view text, const CommandTable& commands) {
+    Script script;
+    for (int line_number = 1; !text.empty(); ++line_number) {
+        const auto end = text.find('\n');
+        const std::string_view line = text.substr(0, end);
+        text.remove_prefix(end == text.npos ? text.size() : end + 1);
+        if (line.find_first_not_of(" \t\r") == line.npos) continue;
+        try {
+            parse_line(line, line_number, commands, script);
+        } catch (const ParseError& error) {
+            throw ParseError(line_number, error.reason);
+        } catch (const std::runtime_error& error) {
+            throw ParseError(line_number, error.what());
+        }
+    }
+    return script;
+}
+
+}  // namespace tendril::app
