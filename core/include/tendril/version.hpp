@@ -1,0 +1,11 @@
+// Which Tendril this is. The build refuses to configure when it differs from the project's own version.
+#pragma once
+
+namespace tendril {
+
+inline constexpr int version_major = 0;
+inline constexpr int version_minor = 1;
+inline constexpr int version_patch = 0;
+inline constexpr const char* version_string = "0.1.0";
+
+}  // namespace tendril

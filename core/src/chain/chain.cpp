@@ -1,0 +1,119 @@
+// Reading and editing. The modes are in modes.cpp, bulk loading in load.cpp.
+#include "tendril/chain/chain.hpp"
+
+#include <algorithm>
+
+#include "chain/checks.hpp"
+#include "chain/pull.hpp"
+
+namespace tendril {
+
+Chain::Chain(glm::vec3 default_direction) {
+    set_default_direction(default_direction);
+}
+
+float Chain::length(std::size_t index) const {
+    detail::require_index("length", index, size());
+    return segments_[index].length;
+}
+
+glm::vec3 Chain::position(std::size_t index) const {
+    detail::require_index("position", index, size());
+    return segments_[index].position;
+}
+
+float Chain::reach() const noexcept {
+    double sum = 0.0;  // a million short lengths would not add up in a float
+    for (std::size_t i = 1; i < size(); ++i) sum += static_cast<double>(segments_[i].length);
+    return static_cast<float>(sum);
+}
+
+void Chain::set_default_direction(glm::vec3 direction) {
+    detail::require_point("set_default_direction", "direction", direction);
+    const double x = direction.x, y = direction.y, z = direction.z;
+    const double length = std::sqrt(x * x + y * y + z * z);
+    if (std::abs(length - 1.0) > 1e-3) {
+        detail::refuse("set_default_direction", "direction", "a unit vector",
+                       "one of length " + detail::text(static_cast<float>(length)));
+    }
+    // A direction that is a unit vector as far as floats go is kept as it is: a saved one must come back the
+    // same.
+    if (std::abs(length - 1.0) > 2e-7) {
+        direction = {static_cast<float>(x / length), static_cast<float>(y / length),
+                     static_cast<float>(z / length)};
+    }
+    default_direction_ = direction;
+}
+
+bool Chain::has_point_at(glm::vec3 position) const noexcept {
+    return std::any_of(segments_.begin(), segments_.end(),
+                       [&](const Segment& segment) { return detail::coincide(segment.position, position); });
+}
+
+glm::vec3 Chain::link_direction(std::size_t from, std::size_t to) const noexcept {
+    return detail::direction(segments_[from].position, segments_[to].position, default_direction_);
+}
+
+void Chain::recalculate() noexcept {
+    if (!empty()) detail::pull_towards_tail(segments_, 0, segments_.front().position, default_direction_);
+}
+
+void Chain::add(float length) {
+    detail::require_length("add", "length", length);
+    glm::vec3 position{0.0f};
+    if (!empty()) {
+        const std::size_t tail = size() - 1;
+        const glm::vec3 along = tail > 0 ? link_direction(tail - 1, tail) : default_direction_;
+        position = detail::moved(segments_[tail].position, along, length);
+    }
+    segments_.push_back({position, length});
+}
+
+void Chain::add(const Segment& segment) {
+    detail::require_segment("add", "segment", segment);
+    if (has_point_at(segment.position)) return add(segment.length);
+    segments_.push_back(segment);
+    recalculate();
+}
+
+void Chain::insert(std::size_t index, const Segment& segment) {
+    detail::require_index("insert", index, size());
+    detail::require_segment("insert", "segment", segment);
+    if (has_point_at(segment.position)) return insert(index, segment.length);
+    segments_.insert(segments_.begin() + static_cast<std::ptrdiff_t>(index), segment);
+    recalculate();
+}
+
+void Chain::insert(std::size_t index, float length) {
+    detail::require_index("insert", index, size());
+    detail::require_length("insert", "length", length);
+    if (index == 0) {
+        const glm::vec3 along = size() > 1 ? link_direction(0, 1) : default_direction_;
+        const Segment& head = segments_.front();
+        segments_.insert(segments_.begin(),
+                         Segment{detail::moved(head.position, along, -head.length), length});
+        return;  // nothing else moves
+    }
+    const glm::vec3 along = link_direction(index - 1, index);
+    const glm::vec3 position = detail::moved(segments_[index - 1].position, along, length);
+    segments_.insert(segments_.begin() + static_cast<std::ptrdiff_t>(index), Segment{position, length});
+    for (std::size_t i = index + 1; i < size(); ++i) {
+        segments_[i].position = detail::moved(segments_[i].position, along, length);
+    }
+    recalculate();
+}
+
+void Chain::remove(std::size_t index) {
+    detail::require_index("remove", index, size());
+    segments_.erase(segments_.begin() + static_cast<std::ptrdiff_t>(index));
+    recalculate();
+}
+
+void Chain::set_length(std::size_t index, float length) {
+    detail::require_index("set_length", index, size());
+    detail::require_length("set_length", "length", length);
+    segments_[index].length = length;
+    recalculate();
+}
+
+}  // namespace tendril

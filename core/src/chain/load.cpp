@@ -1,0 +1,75 @@
+// Many segments at once: a saved chain comes back bit for bit, one that was written by hand or is damaged is
+// re-laid.
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "chain/checks.hpp"
+#include "chain/pull.hpp"
+#include "tendril/chain/chain.hpp"
+
+namespace tendril {
+namespace {
+
+double largest_coordinate(const glm::vec3& p) {
+    return static_cast<double>(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}));
+}
+
+/// How far a link may be from its length. Within 1e3 m that is the invariant. Further out, rounding a placed
+/// point costs up to half the spacing of floats per axis, so up to 0.87 of the spacing in all.
+double allowed_error(const glm::vec3& from, const Segment& to) {
+    const double allowed = 1e-4 * std::max(1.0, static_cast<double>(to.length));
+    const double furthest = std::max(largest_coordinate(from), largest_coordinate(to.position));
+    if (furthest <= 1e3) return allowed;
+    return allowed + furthest * static_cast<double>(std::numeric_limits<float>::epsilon());
+}
+
+bool holds(const glm::vec3& from, const Segment& to) {
+    const double x = static_cast<double>(to.position.x) - static_cast<double>(from.x);
+    const double y = static_cast<double>(to.position.y) - static_cast<double>(from.y);
+    const double z = static_cast<double>(to.position.z) - static_cast<double>(from.z);
+    const double distance =
+        std::sqrt(x * x + y * y + z * z);  // in double: far out, floats would lose the answer
+    return std::abs(distance - static_cast<double>(to.length)) <= allowed_error(from, to);
+}
+
+/// The first segment that is not at its length from the one before, or the number of segments.
+std::size_t first_loose(std::span<const Segment> segments) {
+    std::size_t i = 1;
+    while (i < segments.size() && holds(segments[i - 1].position, segments[i])) ++i;
+    return std::min(i, segments.size());
+}
+
+/// A pull that starts at segment `first`, where a segment given at the point of the one before it goes
+/// straight on.
+void relay_from(std::span<Segment> segments, std::size_t first, const glm::vec3& fallback) {
+    if (first >= segments.size()) return;
+    glm::vec3 given_before = segments[first - 1].position;
+    for (std::size_t i = first; i < segments.size(); ++i) {
+        const glm::vec3 anchor = segments[i - 1].position;
+        const glm::vec3 given = segments[i].position;
+        if (detail::coincide(given_before, given)) {
+            const glm::vec3 along =
+                i > 1 ? detail::direction(segments[i - 2].position, anchor, fallback) : fallback;
+            segments[i].position = detail::moved(anchor, along, segments[i].length);
+        } else {
+            segments[i].position = detail::step(anchor, given, segments[i].length, fallback);
+        }
+        given_before = given;
+    }
+}
+
+}  // namespace
+
+Chain Chain::from_segments(std::vector<Segment> segments, glm::vec3 default_direction) {
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        if (detail::is_point(segments[i].position) && detail::is_length(segments[i].length)) continue;
+        detail::require_segment("from_segments", "segments[" + std::to_string(i) + "]", segments[i]);
+    }
+    Chain chain(default_direction);
+    chain.segments_ = std::move(segments);
+    relay_from(chain.segments_, first_loose(chain.segments_), chain.default_direction_);
+    return chain;
+}
+
+}  // namespace tendril
