@@ -57,6 +57,7 @@ class Camera {
     glm::mat4 projection_{1.0f};
     glm::vec3 eye_{0.0f}, forward_{0.0f}, right_{0.0f}, up_{0.0f};
     float near_ = 0.01f;
+    float metres_per_pixel_at_one_ = 0.0f;  ///< at a depth of 1 m; orthographic: times the distance
 };
 
 /// The moves; each gives the new pose. Pixels are mouse movements; results stay in range.
@@ -64,7 +65,8 @@ CameraPose orbited(const CameraPose& pose, glm::vec2 pixels);
 CameraPose panned(const Camera& camera, glm::vec2 pixels);
 /// One notch is a factor of 1.15; what lies under the cursor stays under it.
 CameraPose zoomed(const Camera& camera, glm::vec2 cursor, float notches);
-/// Keeps the direction, and fits a sphere of that centre and radius into the viewport.
+/// Keeps the direction, and fits a sphere of that centre and radius into the viewport. A radius of 0 only
+/// moves the target there.
 CameraPose framed(const CameraPose& pose, const Rect& viewport, glm::vec3 centre, float radius);
 
 enum class FixedView { Front, Side, Top };

@@ -1,0 +1,18 @@
+// The files that travel inside the program: the shaders and the font. third_party/assets.cmake embeds them.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+namespace tendril::app {
+
+/// The text of a file in shaders/, such as "stroke.vert". Throws std::out_of_range for a name it does not
+/// know.
+std::string_view shader_source(std::string_view name);
+
+/// Roboto, as TrueType.
+std::span<const std::byte> font_regular();
+std::span<const std::byte> font_medium();
+
+}  // namespace tendril::app

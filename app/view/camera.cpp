@@ -1,0 +1,156 @@
+#include "app/view/camera.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace tendril::app {
+namespace {
+
+constexpr float nearest = 1e-3f;
+constexpr float farthest = 1e7f;
+constexpr float quarter_turn = glm::half_pi<float>();
+
+float bounded(float value, float low, float high, float otherwise) {
+    return std::isfinite(value) ? std::clamp(value, low, high) : otherwise;
+}
+
+/// The nearest pose that can be looked from, so that no scene file and no gesture can break the picture.
+CameraPose in_range(CameraPose pose) {
+    for (int i = 0; i < 3; ++i) pose.target[i] = bounded(pose.target[i], -farthest, farthest, 0.0f);
+    pose.yaw = std::isfinite(pose.yaw) ? std::remainder(pose.yaw, glm::two_pi<float>()) : 0.0f;
+    pose.pitch = bounded(pose.pitch, -quarter_turn, quarter_turn, 0.0f);
+    pose.distance = bounded(pose.distance, nearest, farthest, 10.0f);
+    pose.field_of_view = bounded(pose.field_of_view, 0.05f, 2.6f, 0.70f);
+    return pose;
+}
+
+Rect in_range(Rect viewport) {
+    const glm::vec2 size = viewport.size();
+    const bool usable = std::isfinite(size.x) && std::isfinite(size.y) && std::isfinite(viewport.min.x) &&
+                        std::isfinite(viewport.min.y) && size.x >= 1.0f && size.y >= 1.0f;
+    if (usable) return viewport;
+    return {viewport.min, viewport.min + glm::max(glm::vec2(1.0f), size)};
+}
+
+float half_height_at_target(const CameraPose& pose) {
+    return pose.distance * std::tan(0.5f * pose.field_of_view);
+}
+
+}  // namespace
+
+Camera::Camera(const CameraPose& pose, const Rect& viewport)
+    : pose_(in_range(pose)), viewport_(in_range(viewport)) {
+    const float sin_yaw = std::sin(pose_.yaw), cos_yaw = std::cos(pose_.yaw);
+    const float sin_pitch = std::sin(pose_.pitch), cos_pitch = std::cos(pose_.pitch);
+    // Written out from the angles rather than crossed with world up, so that looking straight down is nothing
+    // special.
+    forward_ = {-sin_yaw * cos_pitch, -sin_pitch, -cos_yaw * cos_pitch};
+    right_ = {cos_yaw, 0.0f, -sin_yaw};
+    up_ = {-sin_yaw * sin_pitch, cos_pitch, -cos_yaw * sin_pitch};
+    eye_ = pose_.target - forward_ * pose_.distance;
+    view_ = glm::mat4(
+        glm::vec4(right_.x, up_.x, -forward_.x, 0.0f), glm::vec4(right_.y, up_.y, -forward_.y, 0.0f),
+        glm::vec4(right_.z, up_.z, -forward_.z, 0.0f),
+        glm::vec4(-glm::dot(right_, eye_), -glm::dot(up_, eye_), glm::dot(forward_, eye_), 1.0f));
+
+    const glm::vec2 size = viewport_.size();
+    const float aspect = size.x / size.y;
+    metres_per_pixel_at_one_ = 2.0f * std::tan(0.5f * pose_.field_of_view) / size.y;
+    if (pose_.orthographic) {
+        // Nothing is cut off in front either: one sees a parallel picture from anywhere along the line.
+        const float half = half_height_at_target(pose_), reach = 100.0f * pose_.distance;
+        near_ = -reach;
+        projection_ = glm::ortho(-half * aspect, half * aspect, -half, half, -reach, reach);
+    } else {
+        near_ = 0.01f * pose_.distance;
+        projection_ = glm::perspective(pose_.field_of_view, aspect, near_, 1000.0f * pose_.distance);
+    }
+}
+
+float Camera::depth(glm::vec3 point) const {
+    return glm::dot(point - eye_, forward_);
+}
+
+std::optional<glm::vec2> Camera::project(glm::vec3 point) const {
+    const glm::vec3 from_eye = point - eye_;
+    const float along = glm::dot(from_eye, forward_);
+    if (!pose_.orthographic && !(along > 0.0f)) return std::nullopt;
+    const glm::vec2 side(glm::dot(from_eye, right_), -glm::dot(from_eye, up_));
+    const float away = pose_.orthographic ? pose_.distance : along;
+    const glm::vec2 pixel = viewport_.centre() + side / (metres_per_pixel_at_one_ * away);
+    if (!std::isfinite(pixel.x) || !std::isfinite(pixel.y)) return std::nullopt;
+    return pixel;
+}
+
+float Camera::metres_per_pixel(glm::vec3 point) const {
+    const float away = pose_.orthographic ? pose_.distance : std::max(depth(point), near_);
+    return metres_per_pixel_at_one_ * away;
+}
+
+Ray Camera::ray(glm::vec2 pixel) const {
+    const glm::vec2 side = (pixel - viewport_.centre()) * metres_per_pixel_at_one_;
+    const glm::vec3 offset = right_ * side.x - up_ * side.y;
+    if (pose_.orthographic) return {eye_ + offset * pose_.distance, forward_};
+    return {eye_, glm::normalize(forward_ + offset)};
+}
+
+std::optional<glm::vec3> Camera::on_plane(glm::vec2 pixel, glm::vec3 through, glm::vec3 normal) const {
+    const Ray sight = ray(pixel);
+    const float slope = glm::dot(sight.direction, normal);
+    // Edge on, a pixel is worth kilometres, which is of use to nobody.
+    if (!(std::abs(slope) > 1e-4f * glm::length(normal))) return std::nullopt;
+    const float along = glm::dot(through - sight.origin, normal) / slope;
+    if (!std::isfinite(along) || (along <= 0.0f && !pose_.orthographic)) return std::nullopt;
+    return sight.origin + sight.direction * along;
+}
+
+CameraPose orbited(const CameraPose& pose, glm::vec2 pixels) {
+    constexpr float radians_per_pixel = 0.006f;
+    CameraPose moved = in_range(pose);
+    moved.yaw -= radians_per_pixel * pixels.x;
+    moved.pitch += radians_per_pixel * pixels.y;
+    return in_range(moved);
+}
+
+CameraPose panned(const Camera& camera, glm::vec2 pixels) {
+    CameraPose moved = camera.pose();
+    const float scale = camera.metres_per_pixel(moved.target);
+    moved.target += scale * (camera.up() * pixels.y - camera.right() * pixels.x);
+    return in_range(moved);
+}
+
+CameraPose zoomed(const Camera& camera, glm::vec2 cursor, float notches) {
+    const CameraPose& pose = camera.pose();
+    CameraPose moved = pose;
+    moved.distance = in_range(CameraPose{.distance = pose.distance * std::pow(1.15f, -notches)}).distance;
+    // The point under the cursor in the target's plane is to stay there, and all in that plane shrinks or
+    // grows alike.
+    const glm::vec2 offset = (cursor - camera.viewport().centre()) * camera.metres_per_pixel(pose.target);
+    const float left = 1.0f - moved.distance / pose.distance;
+    moved.target += left * (camera.right() * offset.x - camera.up() * offset.y);
+    return in_range(moved);
+}
+
+CameraPose framed(const CameraPose& pose, const Rect& viewport, glm::vec3 centre, float radius) {
+    constexpr float margin = 1.12f;
+    CameraPose moved = in_range(pose);
+    moved.target = centre;
+    const glm::vec2 size = in_range(viewport).size();
+    const float tangent = std::tan(0.5f * moved.field_of_view) * std::min(1.0f, size.x / size.y);
+    // In perspective the outline of a ball is where the line of sight touches it: at the sine of the half
+    // angle.
+    const float sine = tangent / std::sqrt(1.0f + tangent * tangent);
+    if (radius > 0.0f) moved.distance = margin * radius / (moved.orthographic ? tangent : sine);
+    return in_range(moved);
+}
+
+CameraPose turned_to(const CameraPose& pose, FixedView view) {
+    CameraPose moved = in_range(pose);
+    moved.yaw = view == FixedView::Side ? quarter_turn : 0.0f;
+    moved.pitch = view == FixedView::Top ? quarter_turn : 0.0f;
+    return moved;
+}
+
+}  // namespace tendril::app

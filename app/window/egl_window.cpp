@@ -1,0 +1,151 @@
+#include "app/window/egl_window.hpp"
+
+#include <stdexcept>
+
+#include "app/window/gl.hpp"
+#include "app/window/offscreen_window.hpp"
+#include "app/window/shared_library.hpp"
+
+#ifdef TENDRIL_HAS_EGL
+#define EGL_NO_X11  // keeps X11's macros out
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+
+#include <array>
+#endif
+
+namespace tendril::app {
+
+#ifdef TENDRIL_HAS_EGL
+namespace {
+
+/// The functions of EGL that are used here, found when it is opened.
+struct Egl {
+    SharedLibrary library{"libEGL.so.1"};
+    decltype(&eglGetProcAddress) get_proc_address =
+        library.get<decltype(&eglGetProcAddress)>("eglGetProcAddress");
+    decltype(&eglInitialize) initialize = library.get<decltype(&eglInitialize)>("eglInitialize");
+    decltype(&eglTerminate) terminate = library.get<decltype(&eglTerminate)>("eglTerminate");
+    decltype(&eglBindAPI) bind_api = library.get<decltype(&eglBindAPI)>("eglBindAPI");
+    decltype(&eglCreateContext) create_context = library.get<decltype(&eglCreateContext)>("eglCreateContext");
+    decltype(&eglDestroyContext) destroy_context =
+        library.get<decltype(&eglDestroyContext)>("eglDestroyContext");
+    decltype(&eglMakeCurrent) make_current = library.get<decltype(&eglMakeCurrent)>("eglMakeCurrent");
+    decltype(&eglReleaseThread) release_thread = library.get<decltype(&eglReleaseThread)>("eglReleaseThread");
+};
+
+/// As in osmesa_window.cpp: glad's loader takes no argument of its own.
+decltype(&eglGetProcAddress) loading = nullptr;
+
+/// The display and the context; one object, so that whatever step fails, the steps before it are undone.
+class Context {
+  public:
+    Context() {
+        const auto get_platform_display = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
+            egl_.get_proc_address("eglGetPlatformDisplayEXT"));
+        if (get_platform_display == nullptr) throw std::runtime_error("EGL: no eglGetPlatformDisplayEXT");
+        display_ = get_platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+        if (display_ == EGL_NO_DISPLAY) throw std::runtime_error("EGL: no surfaceless display");
+        if (egl_.initialize(display_, nullptr, nullptr) != EGL_TRUE) {
+            throw std::runtime_error("EGL: the surfaceless display can't be initialised");
+        }
+        try {
+            make_current();
+        } catch (...) {
+            close();
+            throw;
+        }
+    }
+    ~Context() { close(); }
+    Context(const Context&) = delete;
+    Context& operator=(const Context&) = delete;
+
+  private:
+    void make_current() {
+        if (egl_.bind_api(EGL_OPENGL_API) != EGL_TRUE) throw std::runtime_error("EGL: no desktop OpenGL");
+        const std::array<EGLint, 7> attributes{EGL_CONTEXT_MAJOR_VERSION,
+                                               3,
+                                               EGL_CONTEXT_MINOR_VERSION,
+                                               3,
+                                               EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                               EGL_NONE};
+        context_ = egl_.create_context(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
+        if (context_ == EGL_NO_CONTEXT) throw std::runtime_error("EGL: no OpenGL 3.3 core context");
+        if (egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE) {
+            throw std::runtime_error("EGL: the context can't be made current without a surface");
+        }
+        loading = egl_.get_proc_address;
+        load_gl([](const char* name) { return reinterpret_cast<GLADapiproc>(loading(name)); }, "EGL");
+    }
+    void close() {
+        egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        if (context_ != EGL_NO_CONTEXT) egl_.destroy_context(display_, context_);
+        egl_.terminate(display_);
+        egl_.release_thread();
+    }
+
+    Egl egl_;
+    EGLDisplay display_ = EGL_NO_DISPLAY;
+    EGLContext context_ = EGL_NO_CONTEXT;
+};
+
+class EglWindow final : public OffscreenWindow {
+  public:
+    explicit EglWindow(glm::ivec2 size) : OffscreenWindow(size) {
+        glGenFramebuffers(1, &framebuffer_);
+        glGenRenderbuffers(1, &colour_);
+        glGenRenderbuffers(1, &depth_);
+        allocate(size);
+    }
+    ~EglWindow() override {
+        glDeleteFramebuffers(1, &framebuffer_);
+        glDeleteRenderbuffers(1, &colour_);
+        glDeleteRenderbuffers(1, &depth_);
+    }
+    EglWindow(const EglWindow&) = delete;
+    EglWindow& operator=(const EglWindow&) = delete;
+
+    unsigned framebuffer() const override { return framebuffer_; }
+    void present() override { glFinish(); }
+    void resize(glm::ivec2 size) override {
+        check_window_size(size);
+        if (size != size_) allocate(size);
+    }
+
+  private:
+    void allocate(glm::ivec2 size) {
+        glBindRenderbuffer(GL_RENDERBUFFER, colour_);
+        glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, size.x, size.y);
+        glBindRenderbuffer(GL_RENDERBUFFER, depth_);
+        glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, size.x, size.y);
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
+        if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+            throw std::runtime_error("EGL: no framebuffer of this size");
+        }
+        size_ = size;
+    }
+
+    Context context_;
+    GLuint framebuffer_ = 0;
+    GLuint colour_ = 0;
+    GLuint depth_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Window> open_egl_window(glm::ivec2 size) {
+    return std::make_unique<EglWindow>(size);
+}
+
+#else
+
+std::unique_ptr<Window> open_egl_window(glm::ivec2) {
+    throw std::runtime_error("EGL: this program was built without its header, EGL/eglext.h");
+}
+
+#endif
+
+}  // namespace tendril::app

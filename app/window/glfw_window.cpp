@@ -1,0 +1,260 @@
+#include "app/window/glfw_window.hpp"
+
+// Our GL declarations first, so that GLFW brings none along.
+#include "app/window/gl.hpp"
+// then
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+#include "app/window/glfw_keys.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// GLFW reports errors to a plain function without an argument of its own: the last one is kept here.
+std::string& last_error() {
+    static std::string text;
+    return text;
+}
+
+std::string take_error() {
+    std::string text = std::exchange(last_error(), {});
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text.empty() ? "GLFW gives no reason" : text;
+}
+
+/// Started with the window and stopped with it.
+struct Library {
+    Library() {
+        glfwSetErrorCallback([](int, const char* text) { last_error() = text; });
+        if (glfwInit() != GLFW_TRUE) throw std::runtime_error("no display: " + take_error());
+    }
+    ~Library() { glfwTerminate(); }
+    Library(const Library&) = delete;
+    Library& operator=(const Library&) = delete;
+};
+
+int cursor_shape(Cursor cursor) {
+    switch (cursor) {
+        case Cursor::Hand:
+            return GLFW_HAND_CURSOR;
+#ifdef GLFW_RESIZE_ALL_CURSOR
+        case Cursor::Grab:
+            return GLFW_RESIZE_ALL_CURSOR;
+#else
+        case Cursor::Grab:
+            return GLFW_HAND_CURSOR;
+#endif
+        case Cursor::Text:
+            return GLFW_IBEAM_CURSOR;
+        case Cursor::ResizeColumn:
+            return GLFW_HRESIZE_CURSOR;
+        case Cursor::Arrow:
+            break;
+    }
+    return GLFW_ARROW_CURSOR;
+}
+
+class GlfwWindow final : public Window {
+  public:
+    explicit GlfwWindow(glm::ivec2 size);
+
+    glm::ivec2 size() const override {
+        glm::ivec2 s{0};
+        glfwGetWindowSize(window_, &s.x, &s.y);
+        return {std::max(s.x, 1), std::max(s.y, 1)};  // a minimised window is 0 x 0 on some systems
+    }
+    glm::ivec2 framebuffer_size() const override {
+        glm::ivec2 s{0};
+        glfwGetFramebufferSize(window_, &s.x, &s.y);
+        return {std::max(s.x, 1), std::max(s.y, 1)};
+    }
+    float content_scale() const override {
+        glm::vec2 scale{1.0f};
+        glfwGetWindowContentScale(window_, &scale.x, &scale.y);
+        // Where window coordinates are scaled already (macOS, Wayland), that part is not wished for once
+        // more.
+        const float done = static_cast<float>(framebuffer_size().x) / static_cast<float>(size().x);
+        return std::clamp(scale.x / std::max(done, 0.1f), 0.5f, 4.0f);
+    }
+
+    void poll(std::vector<Event>& events, double seconds) override;
+    void present() override;
+    void resize(glm::ivec2 size) override {
+        check_window_size(size);
+        glfwSetWindowSize(window_, size.x, size.y);
+    }
+
+    void set_cursor(Cursor cursor) override;
+    void set_title(const std::string& title) override { glfwSetWindowTitle(window_, title.c_str()); }
+    std::string clipboard() override {
+        const char* const text = glfwGetClipboardString(window_);
+        return text == nullptr ? std::string() : std::string(text);
+    }
+    void set_clipboard(const std::string& text) override { glfwSetClipboardString(window_, text.c_str()); }
+
+  private:
+    static GlfwWindow& of(GLFWwindow* window) {
+        return *static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window));
+    }
+    void listen();
+    void listen_to_input();
+    void on_key(int key, int scancode, int action);
+    void on_text(unsigned codepoint);
+    /// Says the size, even an unchanged one: that makes the program draw what the system has lost.
+    void report_size() { pending_.emplace_back(Resize{size()}); }
+
+    Library library_;
+    GLFWwindow* window_ = nullptr;
+    std::vector<Event> pending_;
+    std::array<Key, GLFW_KEY_LAST + 1> held_{};  ///< what each held key was called when it went down
+    std::array<GLFWcursor*, 5> cursors_{};       ///< made when first shown; GLFW frees them at the end
+    Cursor cursor_ = Cursor::Arrow;
+    bool shown_ = false;
+};
+
+GlfwWindow::GlfwWindow(glm::ivec2 size) {
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+#ifdef __APPLE__
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+#endif
+    glfwWindowHint(GLFW_DEPTH_BITS, 24);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);  // until there is a picture
+    glfwWindowHintString(GLFW_X11_CLASS_NAME, "tendril");
+    glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "tendril");
+    window_ = glfwCreateWindow(size.x, size.y, "Tendril", nullptr, nullptr);
+    if (window_ == nullptr) throw std::runtime_error("no window with OpenGL 3.3: " + take_error());
+    glfwMakeContextCurrent(window_);
+    load_gl(glfwGetProcAddress, "GLFW");
+    glfwSwapInterval(1);
+    listen();
+    listen_to_input();
+}
+
+void GlfwWindow::listen() {
+    glfwSetWindowUserPointer(window_, this);
+    glfwSetWindowSizeCallback(window_, [](GLFWwindow* w, int width, int height) {
+        if (width > 0 && height > 0) of(w).report_size();
+    });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { of(w).report_size(); });
+    glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* w, float, float) { of(w).report_size(); });
+    glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int focused) {
+        of(w).pending_.emplace_back(Focus{focused == GLFW_TRUE});
+    });
+    glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) {
+        glfwSetWindowShouldClose(w, GLFW_FALSE);  // the program decides
+        of(w).pending_.emplace_back(CloseRequest{});
+    });
+    glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
+        of(w).pending_.emplace_back(Drop{std::vector<std::string>(paths, paths + count)});
+    });
+}
+
+void GlfwWindow::listen_to_input() {
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
+        of(w).pending_.emplace_back(MouseMove{glm::vec2(x, y)});
+    });
+    glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double y) {
+        if (y != 0.0) of(w).pending_.emplace_back(MouseWheel{static_cast<float>(y)});
+    });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
+        const MouseButton name = button == GLFW_MOUSE_BUTTON_RIGHT    ? MouseButton::Right
+                                 : button == GLFW_MOUSE_BUTTON_MIDDLE ? MouseButton::Middle
+                                                                      : MouseButton::Left;
+        if (button <= GLFW_MOUSE_BUTTON_MIDDLE) {
+            of(w).pending_.emplace_back(MousePress{name, action == GLFW_PRESS});
+        }
+    });
+    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int) {
+        of(w).on_key(key, scancode, action);
+    });
+    glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned codepoint) { of(w).on_text(codepoint); });
+}
+
+void GlfwWindow::on_key(int key, int scancode, int action) {
+    if (key < 0 || key > GLFW_KEY_LAST) return;
+    Key& held = held_[static_cast<std::size_t>(key)];
+    // Let go under the name it was pressed by, whatever the layout has become in between.
+    const Key name = action == GLFW_PRESS ? translated_key(key, scancode) : held;
+    if (name == Key::Unknown) return;
+    const bool down = action != GLFW_RELEASE;
+    // The left and the right one of a modifier are one key: down with the first, up with the last.
+    const auto others = std::count(held_.begin(), held_.end(), name) - (held == name ? 1 : 0);
+    held = down ? name : Key::Unknown;
+    const bool modifier = name == Key::Shift || name == Key::Ctrl || name == Key::Alt || name == Key::Super;
+    if (modifier && (others > 0 || action == GLFW_REPEAT)) return;
+    pending_.emplace_back(KeyChange{name, down});
+}
+
+void GlfwWindow::on_text(unsigned codepoint) {
+    pending_.emplace_back(TextInput{utf8(codepoint)});
+    // Where the question mark sits differs from layout to layout, and so does what it is typed with.
+    if (codepoint == U'?') {
+        pending_.emplace_back(KeyChange{Key::Question, true});
+        pending_.emplace_back(KeyChange{Key::Question, false});
+    }
+}
+
+/// Appends, joining what came in several pieces only because nobody asked for it in between.
+void append(std::vector<Event>& events, Event&& event) {
+    if (!events.empty()) {
+        Event& last = events.back();
+        const bool move = std::holds_alternative<MouseMove>(event) && std::holds_alternative<MouseMove>(last);
+        const bool resize = std::holds_alternative<Resize>(event) && std::holds_alternative<Resize>(last);
+        if (move || resize) {
+            last = std::move(event);
+            return;
+        }
+        auto* const wheel = std::get_if<MouseWheel>(&event);
+        auto* const before = std::get_if<MouseWheel>(&last);
+        if (wheel != nullptr && before != nullptr) {
+            before->by += wheel->by;
+            return;
+        }
+    }
+    events.push_back(std::move(event));
+}
+
+void GlfwWindow::poll(std::vector<Event>& events, double seconds) {
+    // Something may have come while a frame was shown; that must not wait.
+    if (pending_.empty() && seconds > 0.0) {
+        glfwWaitEventsTimeout(seconds);
+    } else {
+        glfwPollEvents();
+    }
+    for (Event& event : pending_) append(events, std::move(event));
+    pending_.clear();
+}
+
+void GlfwWindow::present() {
+    glfwSwapBuffers(window_);
+    if (!shown_) {
+        glfwShowWindow(window_);
+        shown_ = true;
+        report_size();  // what was drawn while it was hidden may not be on the screen
+    }
+}
+
+void GlfwWindow::set_cursor(Cursor cursor) {
+    if (cursor == cursor_) return;
+    cursor_ = cursor;
+    GLFWcursor*& shape = cursors_.at(static_cast<std::size_t>(cursor));
+    if (shape == nullptr) shape = glfwCreateStandardCursor(cursor_shape(cursor));
+    glfwSetCursor(window_, shape);  // null is the arrow
+}
+
+}  // namespace
+
+std::unique_ptr<Window> open_glfw_window(glm::ivec2 size) {
+    return std::make_unique<GlfwWindow>(size);
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,105 @@
+#include "app/window/osmesa_window.hpp"
+
+#include <stdexcept>
+
+#include "app/window/gl.hpp"
+#include "app/window/offscreen_window.hpp"
+#include "app/window/shared_library.hpp"
+
+#ifdef TENDRIL_HAS_OSMESA
+#include <GL/osmesa.h>
+
+#include <array>
+#include <cstdint>
+#endif
+
+namespace tendril::app {
+
+#ifdef TENDRIL_HAS_OSMESA
+namespace {
+
+/// The functions of OSMesa that are used here, found when it is opened.
+struct OsMesa {
+    SharedLibrary library{"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"};
+    decltype(&OSMesaCreateContextAttribs) create_context =
+        library.get<decltype(&OSMesaCreateContextAttribs)>("OSMesaCreateContextAttribs");
+    decltype(&OSMesaDestroyContext) destroy_context =
+        library.get<decltype(&OSMesaDestroyContext)>("OSMesaDestroyContext");
+    decltype(&OSMesaMakeCurrent) make_current =
+        library.get<decltype(&OSMesaMakeCurrent)>("OSMesaMakeCurrent");
+    decltype(&OSMesaGetProcAddress) get_proc_address =
+        library.get<decltype(&OSMesaGetProcAddress)>("OSMesaGetProcAddress");
+};
+
+/// glad's loader is a plain function without an argument of its own, so what it calls has to be reachable
+/// from one. Set only while loading.
+decltype(&OSMesaGetProcAddress) loading = nullptr;
+
+class OsMesaWindow final : public OffscreenWindow {
+  public:
+    explicit OsMesaWindow(glm::ivec2 size) : OffscreenWindow(size) {
+        // A forward-compatible context is refused, so it is not asked for.
+        const std::array<int, 13> attributes{OSMESA_FORMAT,
+                                             OSMESA_RGBA,
+                                             OSMESA_DEPTH_BITS,
+                                             24,
+                                             OSMESA_PROFILE,
+                                             OSMESA_CORE_PROFILE,
+                                             OSMESA_CONTEXT_MAJOR_VERSION,
+                                             3,
+                                             OSMESA_CONTEXT_MINOR_VERSION,
+                                             3,
+                                             0};
+        context_ = osmesa_.create_context(attributes.data(), nullptr);
+        if (context_ == nullptr) throw std::runtime_error("OSMesa: no OpenGL 3.3 core context");
+        try {
+            allocate(size);
+            loading = osmesa_.get_proc_address;
+            load_gl([](const char* name) { return reinterpret_cast<GLADapiproc>(loading(name)); }, "OSMesa");
+        } catch (...) {
+            osmesa_.destroy_context(context_);
+            throw;
+        }
+    }
+    ~OsMesaWindow() override { osmesa_.destroy_context(context_); }
+    OsMesaWindow(const OsMesaWindow&) = delete;
+    OsMesaWindow& operator=(const OsMesaWindow&) = delete;
+
+    void present() override { glFinish(); }
+
+    void resize(glm::ivec2 size) override {
+        check_window_size(size);
+        if (size != size_) allocate(size);
+    }
+
+  private:
+    void allocate(glm::ivec2 size) {
+        std::vector<std::uint32_t> pixels(static_cast<std::size_t>(size.x) *
+                                          static_cast<std::size_t>(size.y));
+        if (osmesa_.make_current(context_, pixels.data(), GL_UNSIGNED_BYTE, size.x, size.y) != GL_TRUE) {
+            throw std::runtime_error("OSMesa: the context can't be made current at this size");
+        }
+        pixels_ = std::move(pixels);
+        size_ = size;
+    }
+
+    OsMesa osmesa_;
+    OSMesaContext context_ = nullptr;
+    std::vector<std::uint32_t> pixels_;
+};
+
+}  // namespace
+
+std::unique_ptr<Window> open_osmesa_window(glm::ivec2 size) {
+    return std::make_unique<OsMesaWindow>(size);
+}
+
+#else
+
+std::unique_ptr<Window> open_osmesa_window(glm::ivec2) {
+    throw std::runtime_error("OSMesa: this program was built without its header, GL/osmesa.h");
+}
+
+#endif
+
+}  // namespace tendril::app

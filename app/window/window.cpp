@@ -1,0 +1,39 @@
+#include "app/window/window.hpp"
+
+#include <stdexcept>
+
+#include "app/window/egl_window.hpp"
+#include "app/window/gl.hpp"
+#include "app/window/glfw_window.hpp"
+#include "app/window/osmesa_window.hpp"
+
+namespace tendril::app {
+
+std::unique_ptr<Window> open_window(Backend backend, glm::ivec2 size) {
+    check_window_size(size);
+    switch (backend) {
+        case Backend::Glfw:
+            return open_glfw_window(size);
+        case Backend::OsMesa:
+            return open_osmesa_window(size);
+        case Backend::Egl:
+            return open_egl_window(size);
+    }
+    throw std::runtime_error("no such kind of window");
+}
+
+std::unique_ptr<Window> open_offscreen(glm::ivec2 size) {
+    check_window_size(size);
+    try {
+        return open_osmesa_window(size);
+    } catch (const std::runtime_error& no_osmesa) {
+        try {
+            return open_egl_window(size);
+        } catch (const std::runtime_error& no_egl) {
+            throw std::runtime_error(std::string("nothing to draw with off screen: ") + no_osmesa.what() +
+                                     "; " + no_egl.what());
+        }
+    }
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,7 @@
+#version 330 core
+// One triangle that covers everything.
+
+void main() {
+    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+    gl_Position = vec4(corner * 4.0 - 1.0, 0.0, 1.0);
+}

@@ -1,0 +1,32 @@
+# The shaders and the font, as bytes inside the program: it then runs from anywhere. The assembler's .incbin takes the
+# files as they are, which is as fast for a font as for a line of text.
+find_path(TENDRIL_FONT_FOLDER Roboto-Regular.ttf
+    PATHS /usr/share/fonts/truetype/roboto/unhinted/RobotoTTF /usr/share/fonts/truetype/roboto/unhinted
+          /usr/share/fonts/truetype/roboto /usr/share/fonts/google-roboto /usr/share/fonts/TTF
+          /opt/homebrew/share/fonts $ENV{HOME}/Library/Fonts
+    DOC "The folder of Roboto-Regular.ttf and Roboto-Medium.ttf")
+mark_as_advanced(TENDRIL_FONT_FOLDER)
+tendril_require(TENDRIL_FONT_FOLDER "the font Roboto" fonts-roboto-unhinted)
+
+file(GLOB asset_shaders CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/shaders/*.vert
+     ${PROJECT_SOURCE_DIR}/shaders/*.frag ${PROJECT_SOURCE_DIR}/shaders/*.glsl)
+set(asset_files ${asset_shaders} ${TENDRIL_FONT_FOLDER}/Roboto-Regular.ttf ${TENDRIL_FONT_FOLDER}/Roboto-Medium.ttf)
+
+set(asset_blobs "")
+set(asset_table "")
+set(asset_index 0)
+foreach(path IN LISTS asset_files)
+    tendril_require_file(${path})
+    get_filename_component(name ${path} NAME)
+    set(symbol "tendril_asset_${asset_index}")
+    math(EXPR asset_index "${asset_index} + 1")
+    string(APPEND asset_blobs "TENDRIL_ASSET(${symbol}, \"${path}\")\n")
+    string(APPEND asset_table "    {\"${name}\", ${symbol}_begin, ${symbol}_end},\n")
+endforeach()
+configure_file(assets.cpp.in ${CMAKE_CURRENT_BINARY_DIR}/assets.cpp @ONLY)
+# The compiler can't see through .incbin, so say what the object depends on.
+set_source_files_properties(${CMAKE_CURRENT_BINARY_DIR}/assets.cpp PROPERTIES OBJECT_DEPENDS "${asset_files}")
+
+add_library(tendril_assets STATIC ${CMAKE_CURRENT_BINARY_DIR}/assets.cpp)
+target_include_directories(tendril_assets PUBLIC ${PROJECT_SOURCE_DIR})
+target_link_libraries(tendril_assets PRIVATE tendril_warnings)
