@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void fail(const fs::path& path, const std::string& reason) {
-    throw std::runtime_error("cannot write " + path.string() + ": " + reason);
+    // A name may hold a zero byte, but no message can.
+    throw std::runtime_error("cannot write " + std::string(path.string().c_str()) + ": " + reason);
 }
 
 /// The file that a chain of symbolic links ends at, which need not exist yet.

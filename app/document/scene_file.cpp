@@ -22,7 +22,7 @@ void check_version(const Json& scene) {
     if (!scene.is_object() || !scene.contains("tendril_scene"))
         throw std::runtime_error("not a Tendril scene");
     const Json& version = scene["tendril_scene"];
-    if (version.is_number_integer() && version > scene_version)
+    if (version.is_number() && version.get<double>() > scene_version)
         throw std::runtime_error("tendril_scene: version " + version.dump() +
                                  " is newer than this program, which reads " + std::to_string(scene_version));
     json_integer(version, "tendril_scene", 1, scene_version);
@@ -43,7 +43,7 @@ Document load_document(const Document& blank, const Json& labs) {
     Document document = blank;
     for (const auto& [name, json] : labs.items()) {
         const auto known = blank.parts().find(name);
-        if (known == blank.parts().end()) throw std::runtime_error("labs." + name + ": there is no such lab");
+        if (known == blank.parts().end()) throw std::runtime_error("labs: there is no lab " + json_summary(Json(name)));
         document.set(name, load_part(*known->second, json, "labs." + name));
     }
     return document;

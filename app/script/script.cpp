@@ -15,7 +15,7 @@ namespace {
 /// A line must have the first of these members, may have the others, and no more.
 void check_members(const Json& line, std::initializer_list<std::string_view> known) {
     for (const auto& [key, value] : line.items())
-        if (std::find(known.begin(), known.end(), key) == known.end()) fail("unknown member \"" + key + '"');
+        if (std::find(known.begin(), known.end(), key) == known.end()) fail("unknown member " + json_summary(Json(key)));
 }
 
 std::string nonempty_text(const Json& line, const char* key) {
@@ -158,7 +158,7 @@ Action expect_line(const Json& line) {
 
 RecordingStart recording_start(const Json& line) {
     const Json& version = line["recording"];
-    if (version.is_number_integer() && version > recording_version)
+    if (version.is_number() && version.get<double>() > recording_version)
         fail("recording: version " + version.dump() + " is newer than this program, which reads " +
              std::to_string(recording_version));
     json_integer(version, "recording", 1, recording_version);

@@ -1,0 +1,50 @@
+// Plays a script against whatever can take ticks and commands.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "app/script/script.hpp"
+
+namespace tendril::app {
+
+/// What a script acts on: the program, or in a test something that looks like it.
+class Stage {
+  public:
+    virtual ~Stage() = default;
+    /// One tick that takes the event, or none.
+    virtual void tick(const Event* event) = 0;
+    /// Throws Refused.
+    virtual void run(const RunCommand& command) = 0;
+    /// Throws std::runtime_error where the path cannot be written.
+    virtual void write_screenshot(const std::string& path) = 0;
+    virtual void write_state(const std::string& path) = 0;
+    virtual Json state() = 0;
+};
+
+/// An expectation that failed, a refusal, or an acceptance where a refusal was expected: "line 7: <what was found>".
+class ScriptFailure : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+class Player {
+  public:
+    explicit Player(Script script) : script_(std::move(script)) {}
+
+    /// Runs on until one tick has passed or the script has ended. Throws ScriptFailure, after which the script is over,
+    /// and what the stage throws where it cannot write.
+    void advance(Stage& stage);
+    bool done() const { return waiting_ == 0 && next_ >= script_.lines.size(); }
+
+  private:
+    /// Whether the line took a tick.
+    bool play(const ScriptLine& line, Stage& stage);
+    void end() { next_ = script_.lines.size(), waiting_ = 0; }
+
+    Script script_;
+    std::size_t next_ = 0;
+    int waiting_ = 0;
+};
+
+}  // namespace tendril::app

@@ -1,0 +1,186 @@
+#include "app/document/autosave.hpp"
+
+#include <gtest/gtest.h>
+
+#include "app/document/scene_file.hpp"
+#include "tests/app/support/child.hpp"
+#include "tests/app/support/temp_folder.hpp"
+#include "tests/app/support/test_part.hpp"
+
+namespace tendril::app {
+namespace {
+
+using namespace std::chrono_literals;
+using test::has;
+using test::message_of;
+using test::TempFolder;
+using test::TestPart;
+
+const Autosave::Clock::time_point start{1000s};
+
+void change(Workspace& workspace, const std::string& title) {
+    workspace.document.edit<TestPart>("arm").title = title;
+}
+
+std::string saved_title(const std::filesystem::path& file) {
+    return read_json_file(file)["labs"]["arm"]["title"].get<std::string>();
+}
+
+/// The number of a program that has ended.
+std::string dead_pid() {
+    const pid_t pid = ::fork();
+    if (pid == 0) ::_exit(0);
+    ::waitpid(pid, nullptr, 0);
+    return std::to_string(pid);
+}
+
+TEST(Autosave, writes_30_seconds_after_the_first_change) {
+    const TempFolder folder;
+    Workspace workspace = test::make_workspace();
+    Autosave autosave(folder.path());
+    autosave.update(workspace, start);
+    change(workspace, "one");
+    autosave.update(workspace, start + 1s);
+    change(workspace, "two");
+    autosave.update(workspace, start + 30s);
+    EXPECT_TRUE(folder.names().empty());
+    autosave.update(workspace, start + 31s);
+    EXPECT_EQ(saved_title(autosave.file()), "two");
+
+    change(workspace, "three");
+    autosave.update(workspace, start + 40s);
+    autosave.update(workspace, start + 69s);
+    EXPECT_EQ(saved_title(autosave.file()), "two");
+    autosave.update(workspace, start + 70s);
+    EXPECT_EQ(saved_title(autosave.file()), "three");
+}
+
+TEST(Autosave, writes_nothing_while_nothing_changes) {
+    const TempFolder folder;
+    Workspace workspace = test::make_workspace();
+    Autosave autosave(folder.path());
+    for (int i = 0; i < 100; ++i) autosave.update(workspace, start + i * 10s);
+    EXPECT_TRUE(folder.names().empty());
+
+    change(workspace, "one");
+    autosave.update(workspace, start + 2000s);
+    autosave.update(workspace, start + 2030s);
+    std::filesystem::remove(autosave.file());
+    for (int i = 0; i < 100; ++i) autosave.update(workspace, start + 3000s + i * 10s);
+    EXPECT_TRUE(folder.names().empty()) << "the same document once more";
+}
+
+TEST(Autosave, takes_its_file_away_once_the_work_is_saved_and_at_the_end) {
+    const TempFolder folder;
+    Workspace workspace = test::make_workspace();
+    {
+        Autosave autosave(folder.path(), 0s);
+        change(workspace, "one");
+        autosave.update(workspace, start);
+        EXPECT_EQ(folder.names().size(), 1u);
+        save_scene_file(workspace, folder / "scene.json");
+        autosave.update(workspace, start + 1s);
+        EXPECT_EQ(folder.names(), std::vector<std::string>{"scene.json"});
+        change(workspace, "two");
+        autosave.update(workspace, start + 2s);
+        EXPECT_EQ(folder.names().size(), 2u);
+    }
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"scene.json"});
+}
+
+TEST(Autosave, makes_its_folder_and_tells_once_when_it_cannot) {
+    const TempFolder folder;
+    Workspace workspace = test::make_workspace();
+    change(workspace, "one");
+    {
+        Autosave autosave(folder / "a" / "b", 0s);
+        autosave.update(workspace, start);
+        EXPECT_TRUE(std::filesystem::exists(autosave.file()));
+        EXPECT_TRUE(workspace.ui.toasts.empty());
+    }
+    test::write(folder / "file", "");
+    Autosave autosave(folder / "file", 0s);
+    for (int i = 0; i < 5; ++i) {
+        change(workspace, std::to_string(i));
+        autosave.update(workspace, start + i * 1s);
+    }
+    ASSERT_EQ(workspace.ui.toasts.size(), 1u);
+    EXPECT_TRUE(has(workspace.ui.toasts[0].text, "Autosave: "));
+    EXPECT_EQ(workspace.ui.toasts[0].kind, ToastKind::Refusal);
+}
+
+TEST(Autosave, offers_only_what_programs_that_ended_left_the_newest_first) {
+    const TempFolder folder;
+    const std::string old_file = "autosave-" + dead_pid() + ".json",
+                      new_file = "autosave-" + dead_pid() + ".json";
+    const std::string aside = "autosave-" + std::to_string(::getpid()) + ".1.json";
+    for (const std::string& name :
+         {old_file, new_file, aside, "autosave-" + std::to_string(::getpid()) + ".json",
+          std::string("autosave-1.json"), std::string("autosave-.json"), std::string("autosave-0.json"),
+          std::string("autosave--5.json"), std::string("autosave-99999999999999999999.json"),
+          std::string("autosave-12x.json"), std::string("autosave.json"), std::string("settings.json"),
+          "autosave-" + dead_pid() + ".json.bak"})
+        test::write(folder / name, "{}");
+    std::filesystem::create_directory(folder / ("autosave-" + dead_pid() + ".json"));
+    const auto now = std::filesystem::file_time_type::clock::now();
+    std::filesystem::last_write_time(folder / aside, now - 3h);
+    std::filesystem::last_write_time(folder / old_file, now - 2h);
+    std::filesystem::last_write_time(folder / new_file, now - 1h);
+    EXPECT_EQ(Autosave::left_behind(folder.path()),
+              (std::vector<std::filesystem::path>{folder / new_file, folder / old_file, folder / aside}));
+    EXPECT_TRUE(Autosave::left_behind(folder / "missing").empty());
+    EXPECT_TRUE(Autosave::left_behind("").empty());
+}
+
+TEST(Autosave, of_a_program_that_was_killed_is_found_and_recovered) {
+    const TempFolder folder;
+    const pid_t victim = ::fork();
+    if (victim == 0) {
+        Workspace workspace = test::make_workspace();
+        workspace.path = "/work/scene.json";
+        change(workspace, "precious");
+        Autosave autosave(folder.path(), 0s);
+        autosave.update(workspace, start);
+        ::_exit(1);  // no destructor runs
+    }
+    ::waitpid(victim, nullptr, 0);
+
+    const auto files = Autosave::left_behind(folder.path());
+    ASSERT_EQ(files.size(), 1u);
+    Workspace workspace = test::make_workspace();
+    Autosave::recover(workspace, files[0]);
+    EXPECT_EQ(workspace.document.get<TestPart>("arm").title, "precious");
+    EXPECT_EQ(workspace.path, "/work/scene.json");
+    EXPECT_TRUE(workspace.modified());
+    EXPECT_TRUE(std::filesystem::exists(files[0]));
+}
+
+/// In a container every start of the program may have the same number.
+TEST(Autosave, does_not_overwrite_what_a_program_of_the_same_number_left) {
+    const TempFolder folder;
+    Workspace lost = test::make_workspace();
+    for (const char* title : {"first crash", "second crash"}) {
+        change(lost, title);
+        const std::string own = "autosave-" + std::to_string(::getpid()) + ".json";
+        test::write(folder / own, json_to_text(save_scene(lost)));
+        const Autosave autosave(folder.path());
+    }
+    const auto files = Autosave::left_behind(folder.path());
+    ASSERT_EQ(files.size(), 2u);
+    EXPECT_NE(saved_title(files[0]), saved_title(files[1]));
+}
+
+TEST(Autosave, that_is_broken_is_refused_and_changes_nothing) {
+    const TempFolder folder;
+    Workspace workspace = test::make_workspace();
+    for (const char* text :
+         {"", "{", "[]", R"({"tendril_scene": 1, "labs": {}, "path": 3})", R"({"tendril_scene": 2})"}) {
+        test::write(folder / "autosave-1.json", text);
+        EXPECT_NE(message_of([&] { Autosave::recover(workspace, folder / "autosave-1.json"); }), "") << text;
+        EXPECT_FALSE(workspace.modified());
+        EXPECT_EQ(workspace.path, "");
+    }
+}
+
+}  // namespace
+}  // namespace tendril::app

@@ -1,0 +1,196 @@
+#include "app/document/history.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/app/support/test_part.hpp"
+
+namespace tendril::app {
+namespace {
+
+using test::make_part;
+using test::TestPart;
+
+/// A document whose "arm" is titled so.
+Document document_of(const std::string& title, std::size_t floats = 0) {
+    Document document;
+    document.set("arm", make_part(title, std::vector<float>(floats)));
+    return document;
+}
+
+std::string title_of(const Document& document) {
+    return document.get<TestPart>("arm").title;
+}
+
+TEST(History, goes_back_and_forward_with_the_labels_of_the_commands) {
+    History history;
+    EXPECT_FALSE(history.can_undo() || history.can_redo());
+    EXPECT_EQ(history.undo_label() + history.redo_label(), "");
+    history.push(document_of("0"), "chain.add", 0);
+    history.push(document_of("1"), "chain.mode", 0);
+    EXPECT_EQ(history.undo_label(), "chain.mode");
+
+    auto now = history.undo(document_of("2"));
+    EXPECT_EQ(title_of(*now), "1");
+    EXPECT_EQ(history.undo_label(), "chain.add");
+    EXPECT_EQ(history.redo_label(), "chain.mode");
+    now = history.undo(*now);
+    EXPECT_EQ(title_of(*now), "0");
+    EXPECT_FALSE(history.undo(*now));
+    EXPECT_EQ(history.redo_label(), "chain.add");
+    now = history.redo(*now);
+    now = history.redo(*now);
+    EXPECT_EQ(title_of(*now), "2");
+    EXPECT_FALSE(history.redo(*now));
+    EXPECT_EQ(history.size(), 2u);
+}
+
+TEST(History, forgets_what_could_be_redone_when_something_else_is_done) {
+    History history;
+    history.push(document_of("0"), "a", 0);
+    history.push(document_of("1"), "b", 0);
+    const auto now = history.undo(document_of("2"));
+    history.push(*now, "c", 0);
+    EXPECT_FALSE(history.can_redo());
+    EXPECT_EQ(history.undo_label(), "c");
+    EXPECT_EQ(title_of(*history.undo(document_of("3"))), "1");
+}
+
+TEST(History, holds_one_entry_for_a_gesture) {
+    History history;
+    history.push(document_of("0"), "chain.target", 7);
+    history.push(document_of("1"), "chain.target", 7);
+    history.push(document_of("2"), "chain.target", 7);
+    EXPECT_EQ(history.size(), 1u);
+    history.push(document_of("3"), "chain.target", 8);
+    EXPECT_EQ(history.size(), 2u);
+    history.push(document_of("4"), "chain.target", 7);
+    EXPECT_EQ(history.size(), 3u) << "another gesture came between";
+    history.push(document_of("5"), "chain.add", 0);
+    history.push(document_of("6"), "chain.add", 0);
+    EXPECT_EQ(history.size(), 5u) << "0 is a gesture of its own";
+    EXPECT_EQ(title_of(*history.undo(document_of("7"))), "6");
+}
+
+TEST(History, an_undo_amid_a_gesture_ends_its_entry) {
+    History history;
+    history.push(document_of("0"), "drag", 7);
+    auto now = history.undo(document_of("1"));
+    history.push(*now, "drag", 7);
+    EXPECT_EQ(history.size(), 1u);
+    EXPECT_FALSE(history.can_redo());
+
+    history.push(document_of("2"), "drag", 8);
+    now = history.undo(document_of("3"));
+    now = history.redo(*now);
+    history.push(*now, "drag", 8);
+    EXPECT_EQ(history.size(), 3u);
+}
+
+TEST(History, keeps_the_newest_of_too_many_entries) {
+    History history(10);
+    for (int i = 0; i < 100; ++i) history.push(document_of(std::to_string(i)), "edit", 0);
+    EXPECT_EQ(history.size(), 10u);
+    Document now = document_of("100");
+    for (int i = 99; i >= 90; --i) {
+        now = *history.undo(now);
+        EXPECT_EQ(title_of(now), std::to_string(i));
+    }
+    EXPECT_FALSE(history.undo(now));
+}
+
+TEST(History, counts_what_entries_share_once) {
+    History history;
+    Document document = document_of("arm");
+    document.set("rope", make_part("rope", std::vector<float>(1'000'000)));
+    for (int i = 0; i < 100; ++i) {
+        history.push(document, "edit", 0);
+        document.edit<TestPart>("arm").title = std::to_string(i);
+    }
+    EXPECT_GT(history.bytes(), 4'000'000u);
+    EXPECT_LT(history.bytes(), 4'100'000u);
+    history.clear();
+    EXPECT_EQ(history.bytes(), 0u);
+}
+
+TEST(History, keeps_within_its_bytes_and_always_one_step) {
+    History history(1000, 1'000'000);
+    for (int i = 0; i < 100; ++i) history.push(document_of(std::to_string(i), 25'000), "edit", 0);
+    EXPECT_LE(history.bytes(), 1'000'000u);
+    EXPECT_GE(history.size(), 8u);
+    EXPECT_EQ(title_of(*history.undo(document_of("100", 25'000))), "99");
+
+    history.clear();
+    history.push(document_of("huge", 1'000'000), "edit", 0);
+    EXPECT_EQ(history.size(), 1u) << "the last step can be taken back, however large it is";
+    history.push(document_of("huger", 1'000'000), "edit", 0);
+    EXPECT_EQ(history.size(), 1u);
+    EXPECT_EQ(title_of(*history.undo(document_of("now"))), "huger");
+}
+
+/// Against a list of titles and a position in it, which is all that a history means.
+TEST(History, behaves_like_a_list_with_a_place_in_it) {
+    std::mt19937 random(4);
+    History history;
+    std::vector<Document> states{document_of("start")};
+    std::size_t place = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        switch (random() % 3) {
+            case 0:
+                history.push(states[place], "edit", 0);
+                states.resize(++place);
+                states.push_back(document_of(std::to_string(i), random() % 100));
+                if (place > 900) history.clear(), states = {states[place]}, place = 0;
+                break;
+            case 1: {
+                const auto back = history.undo(states[place]);
+                ASSERT_EQ(back.has_value(), place > 0);
+                if (back) {
+                    ASSERT_TRUE(*back == states[--place]);
+                }
+                break;
+            }
+            default: {
+                const auto forward = history.redo(states[place]);
+                ASSERT_EQ(forward.has_value(), place + 1 < states.size());
+                if (forward) {
+                    ASSERT_TRUE(*forward == states[++place]);
+                }
+            }
+        }
+        ASSERT_EQ(history.size(), place);
+    }
+    history.clear();
+    EXPECT_EQ(history.bytes(), 0u);
+}
+
+TEST(History, never_exceeds_its_bounds_whatever_is_done) {
+    std::mt19937 random(5);
+    constexpr std::size_t bound = 100'000;
+    History history(20, bound);
+    Document now = document_of("start");
+    now.set("rope", make_part("rope"));
+    for (int i = 0; i < 20'000; ++i) {
+        const auto before = now;
+        switch (random() % 4) {
+            case 0:
+                if (const auto back = history.undo(now)) now = *back;
+                break;
+            case 1:
+                if (const auto forward = history.redo(now)) now = *forward;
+                break;
+            default:
+                history.push(before, "edit", random() % 3);
+                now.edit<TestPart>(random() % 2 ? "arm" : "rope").values.resize(random() % 3000);
+        }
+        // One step back and one forward may stay though they are too large; each part is at most 12 kB here.
+        ASSERT_LE(history.bytes(), bound + 4 * 13'000);
+        ASSERT_LE(history.size(), 20u);
+    }
+    history.clear();
+    EXPECT_EQ(history.bytes(), 0u);
+}
+
+}  // namespace
+}  // namespace tendril::app

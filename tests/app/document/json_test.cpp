@@ -1,0 +1,181 @@
+#include "app/document/json.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "tests/app/support/temp_folder.hpp"
+
+namespace tendril::app {
+namespace {
+
+using test::has;
+using test::message_of;
+
+std::string parse_message(std::string_view text) {
+    return message_of([&] { parse_json(text); });
+}
+
+TEST(Json, a_number_has_the_fewest_decimals_that_read_back) {
+    EXPECT_EQ(number(0.1f).dump(), "0.1");
+    EXPECT_EQ(number(1.0f).dump(), "1.0");
+    EXPECT_EQ(number(-0.0f).dump(), "-0.0");
+    EXPECT_EQ(number(16777216.0f).dump(), "16777216.0");
+    EXPECT_EQ(point({0.1f, 0.0f, -2.5f}).dump(), "[0.1,0.0,-2.5]");
+}
+
+TEST(Json, every_float_comes_back_bit_for_bit_through_text) {
+    std::mt19937 random(1);
+    for (int i = 0; i < 200'000; ++i) {
+        const auto value = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+        if (!std::isfinite(value)) continue;
+        const float back = parse_json(number(value).dump()).get<float>();
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(back), std::bit_cast<std::uint32_t>(value))
+            << number(value).dump();
+    }
+}
+
+TEST(Json, an_angle_is_in_degrees_and_comes_back_bit_for_bit) {
+    EXPECT_EQ(degrees(static_cast<float>(std::numbers::pi / 2)).dump(), "90.0");
+    EXPECT_EQ(json_degrees(Json(180), ""), static_cast<float>(std::numbers::pi));
+    std::mt19937 random(2);
+    std::uniform_real_distribution<float> any(-10.0f, 10.0f);
+    for (int i = 0; i < 100'000; ++i) {
+        const float radians = any(random);
+        ASSERT_EQ(json_degrees(parse_json(degrees(radians).dump()), ""), radians);
+    }
+}
+
+TEST(Json, errors_name_the_line_and_a_short_reason) {
+    EXPECT_TRUE(has(parse_message(""), "line 1: unexpected end of input"));
+    EXPECT_TRUE(has(parse_message("{\n \"a\": 1,\n \"b\" 2}"), "line 3: unexpected number literal"));
+    EXPECT_TRUE(has(parse_message("[1,\n2,\n"), "line 3: unexpected end of input"));
+    EXPECT_EQ(parse_message("[1,\n1e999]"), "line 2: number too large: '1e999'");
+    EXPECT_TRUE(has(parse_message("[\n\n\"a\xff\"]"), "line 3: invalid string: ill-formed UTF-8 byte"));
+    EXPECT_TRUE(has(parse_message("1 2"), "line 1: unexpected number literal"));
+    EXPECT_TRUE(has(parse_message("nul"), "line 1: invalid literal"));
+    for (const char* bad :
+         {"", "{", "[1,]", "{\"a\":}", "\"\\x\"", "01", "NaN", "Infinity", "// a", "{a:1}", "\x01"}) {
+        const std::string message = parse_message(bad);
+        EXPECT_TRUE(message.starts_with("line 1: ")) << bad << " gives " << message;
+        EXPECT_FALSE(has(message, "json.exception"));
+        EXPECT_LT(message.size(), 160u) << bad;
+    }
+}
+
+TEST(Json, an_error_in_a_long_or_strange_token_is_one_short_printable_line) {
+    const std::string message = parse_message('"' + std::string(1 << 20, 'a') + "\xff\n\x1b[31m\"");
+    EXPECT_LT(message.size(), 160u);
+    for (const char c : message) EXPECT_TRUE(c >= ' ' && c <= '~');
+}
+
+TEST(Json, nesting_of_64_is_read_and_of_65_refused) {
+    const auto nested = [](std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
+    EXPECT_EQ(parse_message(nested(64)), "");
+    EXPECT_EQ(parse_message(nested(65)), "line 1: nested deeper than 64");
+    std::string objects;
+    for (int i = 0; i < 65; ++i) objects += "{\"a\":\n";
+    EXPECT_EQ(parse_message(objects), "line 65: nested deeper than 64");
+}
+
+TEST(Json, brackets_in_strings_are_not_nesting) {
+    const std::string brackets(100, '[');
+    EXPECT_EQ(parse_json("\"" + brackets + "\"").get<std::string>(), brackets);
+    EXPECT_EQ(parse_json("\"\\\"" + brackets + "\"").get<std::string>(), '"' + brackets);
+    EXPECT_EQ(parse_json("[\"\\\\\", \"" + brackets + "\"]")[1].get<std::string>(), brackets);
+    EXPECT_EQ(parse_message("[\"\\\\\"" + brackets), "line 1: nested deeper than 64");
+}
+
+TEST(Json, of_repeated_members_the_last_counts) {
+    EXPECT_EQ(parse_json(R"({"a": 1, "b": 2, "a": 3, "a": {"a": 4}})").dump(), R"({"b":2,"a":{"a":4}})");
+    EXPECT_EQ(parse_json(R"([{}, {"": 1}, [[], null, true, -1, 1.5, "x"]])").dump(),
+              R"([{},{"":1},[[],null,true,-1,1.5,"x"]])");
+}
+
+TEST(Json, a_file_of_nothing_but_keys_takes_no_ages) {
+    std::string text = "{\"k\":0";
+    for (int i = 0; i < 300'000; ++i) text += ",\"k" + std::to_string(i % 200'000) + "\":1";
+    EXPECT_EQ(parse_json(text + '}').size(), 200'001u);  // hours, were each key compared with all before it
+}
+
+TEST(Json, text_for_people_reads_back_the_same) {
+    const Json json =
+        parse_json(R"({"a": {}, "b": [], "long": [[1, 2, 3.5], "very long text that goes on and on and on",
+        {"key \"quoted\"": null, "another": "very long text that goes on and on and on", "empty": ""}], "last": true})");
+    const std::string text = json_to_text(json);
+    EXPECT_EQ(parse_json(text), json);
+    EXPECT_TRUE(has(text, "\n  [1,2,3.5],\n"));
+    EXPECT_EQ(text.back(), '\n');
+    EXPECT_EQ(json_to_text(Json("\xff")), "\"\xEF\xBF\xBD\"\n");
+}
+
+TEST(Json, a_line_is_found_by_its_path) {
+    const std::string_view text =
+        "{\n"
+        " \"a\": {\"x\": 1,\n"
+        "   \"y\": [\"],\\\"{\",\n"
+        "      {\"z\" : 5}]\n"
+        " },\n"
+        " \"b\"\n:\n {}\n"
+        "}\n";
+    EXPECT_EQ(json_line(text, "a"), 2);
+    EXPECT_EQ(json_line(text, "a.x"), 2);
+    EXPECT_EQ(json_line(text, "a.y"), 3);
+    EXPECT_EQ(json_line(text, "a.y.1"), 4);
+    EXPECT_EQ(json_line(text, "a.y.1.z"), 4);
+    EXPECT_EQ(json_line(text, "a.y.7"), 3) << "the last part that is there";
+    EXPECT_EQ(json_line(text, "a.x.nothing"), 2);
+    EXPECT_EQ(json_line(text, "b"), 8);
+    EXPECT_EQ(json_line(text, "c"), 0);
+    EXPECT_EQ(json_line(text, ""), 0);
+    EXPECT_EQ(json_line("", "a"), 0);
+}
+
+TEST(Json, typed_reads_say_where_and_what) {
+    const Json json =
+        parse_json(R"({"n": 1.5, "i": 3, "w": 4.0, "t": "text", "b": true, "p": [1, 2, 3], "big": 1.1e9})");
+    EXPECT_EQ(json_number(json["n"], "n"), 1.5f);
+    EXPECT_EQ(json_integer(json["i"], "i", 0, 3), 3);
+    EXPECT_EQ(json_integer(json["w"], "w", 0, 9), 4);
+    EXPECT_EQ(json_text(json["t"], "t"), "text");
+    EXPECT_TRUE(json_bool(json["b"], "b"));
+    EXPECT_EQ(json_point(json["p"], "p"), glm::vec3(1, 2, 3));
+
+    const auto message = [](auto action) { return message_of(action); };
+    EXPECT_EQ(message([&] { json_member(json, "x", "labs.a"); }), "labs.a: \"x\" is missing");
+    EXPECT_EQ(message([&] { json_member(json, "x", ""); }), "\"x\" is missing");
+    EXPECT_EQ(message([&] { json_member(json["n"], "x", "n"); }), "n: expected an object, found 1.5");
+    EXPECT_EQ(message([&] { json_number(json["t"], "t"); }), "t: expected a number, found \"text\"");
+    EXPECT_EQ(message([&] { json_number(json["big"], "big"); }),
+              "big: expected a number of at most 1e9, found 1100000000.0");
+    EXPECT_EQ(message([&] { json_number(json["n"], "n", 2.0f, 3.0f); }),
+              "n: expected a number from 2.0 to 3.0, found 1.5");
+    EXPECT_EQ(message([&] { json_integer(json["n"], "n", 0, 9); }),
+              "n: expected a whole number from 0 to 9, found 1.5");
+    EXPECT_EQ(message([&] { json_integer(json["i"], "i", 0, 2); }),
+              "i: expected a whole number from 0 to 2, found 3");
+    EXPECT_EQ(message([&] { json_integer(Json(1e300), "i", 0, 2); }),
+              "i: expected a whole number from 0 to 2, found 1e+300");
+    EXPECT_EQ(message([&] { json_bool(json["i"], "i"); }), "i: expected true or false, found 3");
+    EXPECT_EQ(message([&] { json_text(json["b"], "b"); }), "b: expected a text, found true");
+    EXPECT_EQ(message([&] {
+                  json_point(Json::array({1, 2}), "p");
+              }),
+              "p: expected a point [x, y, z], found [1,2]");
+    EXPECT_EQ(message([&] {
+                  json_point(Json::array({1, 2, "3"}), "p");
+              }),
+              "p: expected a number, found \"3\"");
+    EXPECT_EQ(message([&] { json_text(Json(std::vector<int>(1000)), "t"); }),
+              "t: expected a text, found a list of 1000 values");
+    EXPECT_EQ(message([&] { json_number(Json(std::string(1000, 'x')), "t"); }),
+              "t: expected a number, found a long text");
+    EXPECT_EQ(message([&] { json_number(Json(std::nan("")), "t"); }),
+              "t: expected a number of at most 1e9, found null");
+}
+
+}  // namespace
+}  // namespace tendril::app

@@ -1,0 +1,275 @@
+#include "app/document/scene_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <numbers>
+#include <random>
+
+#include "tests/app/support/temp_folder.hpp"
+#include "tests/app/support/test_part.hpp"
+
+namespace tendril::app {
+namespace {
+
+using test::has;
+using test::make_part;
+using test::message_of;
+using test::TempFolder;
+using test::TestPart;
+
+/// Something of everything, all different from blank.
+Workspace make_busy_workspace() {
+    Workspace workspace = test::make_workspace();
+    workspace.document.edit<TestPart>("arm").title = "an \"arm\" [{\\ \xC3\xA4";
+    workspace.document.edit<TestPart>("arm").values = {0.1f, -0.0f, 1e-40f, 3.0e8f};
+    workspace.document.edit<TestPart>("rope").target = {1.0f, 2.5f, -3.25f};
+    workspace.lab = "rope";
+    workspace.camera = {{1, 2, 3}, 0.3f, -0.7f, 4.2f, 0.9f, true};
+    workspace.history.push(workspace.blank, "edit", 0);
+    workspace.path = "old.json";
+    workspace.clock.tick = 77;
+    return workspace;
+}
+
+/// All that loading may change, to see whether it did.
+std::string snapshot(const Workspace& w) {
+    return save_scene(w).dump() + w.path.string() + std::to_string(w.history.size()) +
+           (w.modified() ? " modified" : "") + std::to_string(w.clock.tick);
+}
+
+/// Loads what must be refused and gives the reason; the workspace must not change.
+std::string refusal(const Json& scene) {
+    Workspace workspace = make_busy_workspace();
+    const Document document = workspace.document;
+    const std::string before = snapshot(workspace);
+    const std::string message = message_of([&] { load_scene(workspace, scene); });
+    EXPECT_EQ(snapshot(workspace), before);
+    EXPECT_TRUE(workspace.document == document);
+    return message;
+}
+
+TEST(SceneFile, comes_back_as_it_was_saved) {
+    const Workspace saved = make_busy_workspace();
+    Workspace loaded = test::make_workspace();
+    load_scene(loaded, parse_json(json_to_text(save_scene(saved))));
+    EXPECT_EQ(save_scene(loaded).dump(), save_scene(saved).dump());
+    EXPECT_EQ(loaded.lab, "rope");
+    EXPECT_TRUE(loaded.camera == saved.camera);
+    EXPECT_EQ(loaded.document.get<TestPart>("arm").values, saved.document.get<TestPart>("arm").values);
+    EXPECT_EQ(loaded.history.size(), 0u);
+    EXPECT_EQ(loaded.clock.tick, 0u);
+}
+
+TEST(SceneFile, keeps_a_camera_bit_for_bit) {
+    std::mt19937 random(7);
+    const auto in = [&](float low, float high) {
+        return std::uniform_real_distribution<float>(low, high)(random);
+    };
+    for (int i = 0; i < 20'000; ++i) {
+        const CameraPose pose{{in(-1e3f, 1e3f), in(-1, 1), in(-1, 1)},
+                              in(-10, 10),
+                              in(-1.57f, 1.57f),
+                              in(0.01f, 1e4f),
+                              in(0.1f, 2.0f),
+                              random() % 2 == 0};
+        ASSERT_TRUE(load_camera(parse_json(save_camera(pose).dump()), "camera") == pose);
+    }
+    const CameraPose steep{.pitch = static_cast<float>(std::numbers::pi / 2)};
+    EXPECT_EQ(save_camera(steep)["pitch_deg"].dump(), "90.0");
+    EXPECT_TRUE(load_camera(save_camera(steep), "camera") == steep);
+}
+
+TEST(SceneFile, what_it_does_not_mention_becomes_blank_or_stays) {
+    Workspace workspace = make_busy_workspace();
+    workspace.first_view.distance = 5.5f;
+    load_scene(workspace, parse_json(R"({"tendril_scene": 1, "labs": {}, "unknown": [1, 2]})"));
+    EXPECT_TRUE(workspace.document == workspace.blank);
+    EXPECT_EQ(workspace.lab, "rope");
+    EXPECT_TRUE(workspace.camera == workspace.first_view);
+    load_scene(workspace, parse_json(R"({"tendril_scene": 1, "labs": {}, "camera": {"distance": 7}})"));
+    EXPECT_EQ(workspace.camera.distance, 7.0f);
+    EXPECT_EQ(workspace.camera.pitch, CameraPose{}.pitch);
+}
+
+TEST(SceneFile, of_any_other_kind_is_refused_with_the_place_and_the_reason) {
+    const std::string arm = R"({"title": "a", "values": [], "target": [0, 0, 0]})";
+    const auto scene = [](const std::string& members) { return R"({"tendril_scene": 1, )" + members + "}"; };
+    const auto with_arm = [&](const std::string& part) { return scene(R"("labs": {"arm": )" + part + "}"); };
+    const auto with_camera = [&](const std::string& camera) {
+        return scene(R"("labs": {}, "camera": )" + camera);
+    };
+    const std::vector<std::pair<std::string, std::string>> bad{
+        {"[]", "not a Tendril scene"},
+        {"3", "not a Tendril scene"},
+        {"{}", "not a Tendril scene"},
+        {R"({"tendril_scene": 2, "labs": {}})",
+         "tendril_scene: version 2 is newer than this program, which reads 1"},
+        {R"({"tendril_scene": 99999999999999999999, "labs": {}})", "tendril_scene: "},
+        {R"({"tendril_scene": 18446744073709551615, "labs": {}})", "is newer than"},
+        {R"({"tendril_scene": 0, "labs": {}})",
+         "tendril_scene: expected a whole number from 1 to 1, found 0"},
+        {R"({"tendril_scene": "1", "labs": {}})", "tendril_scene: "},
+        {R"({"tendril_scene": null, "labs": {}})", "tendril_scene: "},
+        {R"({"tendril_scene": 1})", "\"labs\" is missing"},
+        {scene(R"("labs": [])"), "labs: expected an object, found []"},
+        {scene(R"("labs": {"piano": {}})"), "labs: there is no lab \"piano\""},
+        {scene(R"("labs": {}, "lab": "piano")"), "lab: there is no lab \"piano\""},
+        {scene(R"("labs": {}, "lab": 3)"), "lab: expected a text, found 3"},
+        {with_arm("null"), "labs.arm: expected an object, found null"},
+        {with_arm("[]"), "labs.arm: expected an object"},
+        {with_arm("{}"), "labs.arm: \"title\" is missing"},
+        {with_arm(R"({"title": 3})"), "labs.arm.title: expected a text, found 3"},
+        {with_arm(R"({"title": "", "values": {}})"), "labs.arm.values: expected a list"},
+        {with_arm(R"({"title": "", "values": [1, "2"]})"),
+         "labs.arm.values.1: expected a number, found \"2\""},
+        {with_arm(R"({"title": "", "values": [2e9]})"),
+         "labs.arm.values.0: expected a number of at most 1e9"},
+        {with_arm(R"({"title": "", "values": [], "target": [1, 2]})"),
+         "labs.arm.target: expected a point [x, y, z]"},
+        {scene(R"("labs": {"arm": )" + arm + R"(, "rope": 1})"), "labs.rope: expected an object, found 1"},
+        {with_camera("[]"), "camera: expected an object, found []"},
+        {with_camera(R"({"target": 1})"), "camera.target: expected a point"},
+        {with_camera(R"({"yaw_deg": "0"})"), "camera.yaw_deg: expected a number, found \"0\""},
+        {with_camera(R"({"pitch_deg": 91})"), "camera.pitch_deg: expected -90.0 to 90.0 degrees, found 91"},
+        {with_camera(R"({"distance": 0})"), "camera.distance: expected a number from "},
+        {with_camera(R"({"distance": -1})"), "camera.distance: "},
+        {with_camera(R"({"field_of_view_deg": 180})"), "camera.field_of_view_deg: expected "},
+        {with_camera(R"({"field_of_view_deg": 0})"), "camera.field_of_view_deg: expected "},
+        {with_camera(R"({"orthographic": 0})"), "camera.orthographic: expected true or false, found 0"},
+    };
+    for (const auto& [text, reason] : bad) EXPECT_TRUE(has(refusal(parse_json(text)), reason)) << text;
+    EXPECT_EQ(message_of([&] {
+                  Workspace workspace = make_busy_workspace();
+                  load_scene(workspace, parse_json(with_arm(arm)));
+              }),
+              "");
+}
+
+/// A lab that trips over a file in its own way still only refuses it.
+TEST(SceneFile, that_a_part_chokes_on_is_refused) {
+    struct Choking : TestPart {
+        std::shared_ptr<Part> load(const Json& json, const std::string&) const override {
+            if (json == 1) throw std::invalid_argument("length must be positive");
+            return json.at("nothing").get<int>() > 0 ? nullptr : clone();
+        }
+    };
+    Workspace workspace = test::make_workspace();
+    workspace.blank.set("arm", std::make_shared<Choking>());
+    const auto load = [&](int part) {
+        load_scene(workspace, Json{{"tendril_scene", 1}, {"labs", {{"arm", part}}}});
+    };
+    EXPECT_THROW(load(1), std::runtime_error);
+    EXPECT_THROW(load(2), std::runtime_error);
+    EXPECT_EQ(message_of([&] { load(1); }), "labs.arm: length must be positive");
+}
+
+TEST(SceneFile, on_disk_remembers_where_it_is_and_that_it_is_saved) {
+    const TempFolder folder;
+    Workspace workspace = make_busy_workspace();
+    ASSERT_TRUE(workspace.modified());
+    save_scene_file(workspace, folder / "scene.json");
+    EXPECT_EQ(workspace.path, folder / "scene.json");
+    EXPECT_FALSE(workspace.modified());
+    EXPECT_EQ(workspace.history.size(), 1u) << "saving is no reason to forget";
+
+    Workspace other = test::make_workspace();
+    load_scene_file(other, folder / "scene.json");
+    EXPECT_EQ(other.path, folder / "scene.json");
+    EXPECT_FALSE(other.modified());
+    EXPECT_EQ(save_scene(other).dump(), save_scene(workspace).dump());
+    save_scene_file(other, folder / "again.json");
+    EXPECT_EQ(test::read(folder / "again.json"), test::read(folder / "scene.json"));
+}
+
+TEST(SceneFile, errors_on_disk_name_the_file_and_the_line) {
+    const TempFolder folder;
+    Workspace workspace = make_busy_workspace();
+    const auto message = [&](const std::string& text) {
+        test::write(folder / "s.json", text);
+        const std::string before = snapshot(workspace);
+        const std::string error = message_of([&] { load_scene_file(workspace, folder / "s.json"); });
+        EXPECT_EQ(snapshot(workspace), before);
+        return error;
+    };
+    EXPECT_TRUE(has(message("{\n\n\"a\" 1}"), "s.json: line 3: unexpected number literal"));
+    EXPECT_TRUE(has(message("{\"tendril_scene\": 1,\n\"labs\": {\n\"arm\": {\"title\": \"\",\n\"values\": "
+                            "[1,\n2,\n\"x\"]}}}"),
+                    "s.json: line 6: labs.arm.values.2: expected a number, found \"x\""));
+    EXPECT_TRUE(has(message("{\"tendril_scene\": 1,\n\"labs\": {\n\"arm\": {}}}"),
+                    "s.json: line 3: labs.arm: \"title\" is missing"));
+    EXPECT_TRUE(
+        has(message("{\n\"tendril_scene\": 7}"), "s.json: line 2: tendril_scene: version 7 is newer"));
+    EXPECT_TRUE(has(message("{}"), "s.json: not a Tendril scene"));
+    EXPECT_TRUE(has(message(std::string(100, '[')), "s.json: line 1: nested deeper than 64"));
+    EXPECT_TRUE(has(message_of([&] { load_scene_file(workspace, folder / "none"); }), "none: No such file"));
+    EXPECT_TRUE(has(message_of([&] { load_scene_file(workspace, folder.path()); }), ": is a folder"));
+    EXPECT_TRUE(
+        has(message_of([&] { save_scene_file(workspace, folder / "none" / "s.json"); }), "cannot write "));
+    EXPECT_EQ(workspace.path, "old.json");
+}
+
+TEST(SceneFile, cut_off_anywhere_is_refused) {
+    const TempFolder folder;
+    Workspace workspace = make_busy_workspace();
+    const std::string text = json_to_text(save_scene(workspace));
+    const std::string before = snapshot(workspace);
+    // The last byte is the newline after the closing brace.
+    for (std::size_t size = 0; size + 1 < text.size(); ++size) {
+        test::write(folder / "cut.json", std::string_view(text).substr(0, size));
+        const std::string message = message_of([&] { load_scene_file(workspace, folder / "cut.json"); });
+        ASSERT_TRUE(has(message, "cut.json: line ")) << size << " of " << text.size() << " bytes";
+        ASSERT_EQ(snapshot(workspace), before);
+    }
+}
+
+TEST(SceneFile, with_any_byte_changed_is_refused_or_read_whole) {
+    const std::string text = json_to_text(save_scene(make_busy_workspace()));
+    std::mt19937 random(8);
+    int refused = 0, accepted = 0;
+    for (int i = 0; i < 30'000; ++i) {
+        std::string changed = text;
+        for (unsigned flips = 1 + static_cast<unsigned>(random()) % 3; flips > 0; --flips)
+            changed[random() % changed.size()] = static_cast<char>(random() % 256);
+        Workspace workspace = make_busy_workspace();
+        const std::string before = snapshot(workspace);
+        try {
+            load_scene(workspace, parse_json(changed));
+            ++accepted;
+            Workspace again = test::make_workspace();
+            load_scene(again, parse_json(json_to_text(save_scene(workspace))));
+            ASSERT_EQ(save_scene(again).dump(), save_scene(workspace).dump());
+        } catch (const std::runtime_error& error) {
+            ++refused;
+            ASSERT_EQ(snapshot(workspace), before) << error.what();
+        }
+    }
+    EXPECT_GT(refused, 1000);
+    EXPECT_GT(accepted, 1000);
+}
+
+/// Every value of a scene in turn replaced by one of every kind.
+TEST(SceneFile, with_any_value_of_another_kind_is_refused_or_read_whole) {
+    const Json scene = save_scene(make_busy_workspace()).flatten();
+    const std::vector<Json> others{
+        nullptr, true, -1, 1e8, 3e9, 1e300, "text", Json::array(), Json::object(), Json::array({1, 2, 3})};
+    int refused = 0;
+    for (const auto& [place, value] : scene.items()) {
+        for (const Json& other : others) {
+            Json changed = save_scene(make_busy_workspace());
+            changed[Json::json_pointer(place)] = other;
+            Workspace workspace = make_busy_workspace();
+            const std::string before = snapshot(workspace);
+            const std::string message = message_of([&] { load_scene(workspace, changed); });
+            if (message.empty()) continue;
+            ++refused;
+            EXPECT_EQ(snapshot(workspace), before) << place << " as " << other;
+            EXPECT_FALSE(has(message, "json.exception")) << place << " as " << other;
+            EXPECT_TRUE(has(message, ": ")) << place << " as " << other;
+        }
+    }
+    EXPECT_GT(refused, 100);
+}
+
+}  // namespace
+}  // namespace tendril::app

@@ -1,0 +1,52 @@
+#include "app/document/workspace.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/app/support/test_part.hpp"
+
+namespace tendril::app {
+namespace {
+
+TEST(Workspace, knows_whether_it_differs_from_what_was_saved) {
+    Workspace workspace = test::make_workspace();
+    EXPECT_FALSE(workspace.modified());
+    workspace.document.edit<test::TestPart>("arm").title = "other";
+    EXPECT_TRUE(workspace.modified());
+    workspace.document = workspace.saved;
+    EXPECT_FALSE(workspace.modified());
+}
+
+TEST(Workspace, an_edit_leaves_the_documents_that_shared_the_part_alone) {
+    const Workspace before = test::make_workspace();
+    Workspace after = before;
+    after.document.edit<test::TestPart>("arm").title = "other";
+    EXPECT_EQ(before.document.get<test::TestPart>("arm").title, "blank arm");
+    EXPECT_EQ(before.document.parts().at("rope"), after.document.parts().at("rope"));
+}
+
+TEST(Workspace, shows_the_last_few_toasts_and_refusals_longer) {
+    Workspace workspace;
+    workspace.toast("saved");
+    workspace.toast("no", ToastKind::Refusal);
+    ASSERT_EQ(workspace.ui.toasts.size(), 2u);
+    EXPECT_EQ(workspace.ui.toasts[0].ticks_left, 4 * 60);
+    EXPECT_EQ(workspace.ui.toasts[1].ticks_left, 7 * 60);
+    EXPECT_EQ(workspace.ui.toasts[1].kind, ToastKind::Refusal);
+    for (int i = 0; i < 10; ++i) workspace.toast(std::to_string(i));
+    ASSERT_EQ(workspace.ui.toasts.size(), 4u);
+    EXPECT_EQ(workspace.ui.toasts.back().text, "9");
+}
+
+TEST(Workspace, a_toast_said_again_lasts_anew_and_stands_once) {
+    Workspace workspace;
+    workspace.toast("limit", ToastKind::Refusal);
+    workspace.ui.toasts[0].ticks_left = 3;
+    workspace.toast("other");
+    workspace.toast("limit", ToastKind::Refusal);
+    ASSERT_EQ(workspace.ui.toasts.size(), 2u);
+    EXPECT_EQ(workspace.ui.toasts[1].text, "limit");
+    EXPECT_EQ(workspace.ui.toasts[1].ticks_left, 7 * 60);
+}
+
+}  // namespace
+}  // namespace tendril::app
