@@ -67,7 +67,7 @@ Autosave::Autosave(fs::path folder, Clock::duration interval)
     // it.
     std::error_code ignored;
     for (int i = 1; fs::exists(file(), ignored) && i < 1000; ++i) {
-        const fs::path aside = folder_ / name_for(own_pid(), "." + std::to_string(i));
+        const fs::path aside = folder_ / name_for(own_pid(), std::string(".").append(std::to_string(i)));
         if (!fs::exists(aside, ignored)) fs::rename(file(), aside, ignored);
     }
 }
@@ -140,6 +140,11 @@ void Autosave::recover(Workspace& workspace, const fs::path& file) {
     load_scene(workspace, scene);
     workspace.path = path;
     workspace.saved = Document();
+}
+
+void Autosave::adopt(const fs::path& file) {
+    std::error_code ignored;
+    fs::rename(file, file.parent_path() / name_for(own_pid()), ignored);
 }
 
 }  // namespace tendril::app

@@ -31,6 +31,8 @@ class Autosave {
     /// member "path" beside the scene's own), or to none. Throws as load_scene_file does. The autosave itself
     /// stays.
     static void recover(Workspace& workspace, const std::filesystem::path& file);
+    /// Makes such a file this program's own, so that the work in it stays safe until it is saved.
+    static void adopt(const std::filesystem::path& file);
 
   private:
     void write(Workspace& workspace);

@@ -31,9 +31,9 @@ struct Argument {
     std::string name;
     ArgumentType type = ArgumentType::Number;
     bool required = true;
-    std::string help;
+    std::string help{};
     double low = -1e9, high = 1e9;     ///< for numbers and integers
-    std::vector<std::string> choices;  ///< for texts; empty: any
+    std::vector<std::string> choices{};  ///< for texts; empty: any
 };
 
 /// Arguments that have been checked against their command: present where required, of the right type, finite and in
@@ -65,7 +65,7 @@ struct Command {
     std::string help;
     Effect effect = Effect::Edit;
     /// May throw Refused, std::invalid_argument, std::out_of_range or std::runtime_error; all become a refusal.
-    std::function<void(Workspace&, const Arguments&)> apply;
+    std::function<void(Workspace&, const Arguments&)> apply{};
 };
 
 class CommandTable {

@@ -43,7 +43,8 @@ Document load_document(const Document& blank, const Json& labs) {
     Document document = blank;
     for (const auto& [name, json] : labs.items()) {
         const auto known = blank.parts().find(name);
-        if (known == blank.parts().end()) throw std::runtime_error("labs: there is no lab " + json_summary(Json(name)));
+        if (known == blank.parts().end())
+            throw std::runtime_error("labs: there is no lab " + json_summary(Json(name)));
         document.set(name, load_part(*known->second, json, "labs." + name));
     }
     return document;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <glm/vec2.hpp>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ inline constexpr double tick_seconds = 1.0 / 60.0;
 struct Clock {
     bool playing = true;
     std::uint64_t tick = 0;  ///< simulated ticks so far
+    bool step_due = false;   ///< take one tick though paused
 };
 
 enum class ToastKind { Info, Refusal };
@@ -35,14 +37,16 @@ struct UiState {
     bool settings = false;
     enum class FileDialog { None, Open, SaveAs } file_dialog = FileDialog::None;
     std::vector<Toast> toasts;
+    std::vector<std::filesystem::path> recoverable;  ///< what a crash left, until it is answered
+    glm::vec2 view_size{1000.0f, 700.0f};  ///< the 3D view, in window coordinates
     bool quit = false;
-    bool operator==(const UiState&) const = delete;
 };
 
 struct Workspace {
     Document document;
     Document blank;       ///< what scene.new starts from
     std::string lab;      ///< the lab that is open
+    CameraPose first_view;  ///< what scene.new looks from
     CameraPose camera;
     Clock clock;
     History history;

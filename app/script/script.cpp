@@ -15,7 +15,8 @@ namespace {
 /// A line must have the first of these members, may have the others, and no more.
 void check_members(const Json& line, std::initializer_list<std::string_view> known) {
     for (const auto& [key, value] : line.items())
-        if (std::find(known.begin(), known.end(), key) == known.end()) fail("unknown member " + json_summary(Json(key)));
+        if (std::find(known.begin(), known.end(), key) == known.end())
+            fail("unknown member " + json_summary(Json(key)));
 }
 
 std::string nonempty_text(const Json& line, const char* key) {

@@ -1,29 +1,17 @@
 #include "app/view/renderer.hpp"
 
-#include <cmath>
-
-#include "app/view/renderer_ground.hpp"
+#include "app/view/renderer_grid.hpp"
+#include "app/view/renderer_shadows.hpp"
 #include "app/view/renderer_strokes.hpp"
 
 namespace tendril::app {
 
 struct Renderer::Impl {
-    Program background{"background.vert", "background.frag"};
-    Instances whole{0, {}};
-    GroundPass ground;
+    BackgroundPass background;
+    GridPass grid;
+    ShadowPass shadows;
     StrokePass strokes;
     int draw_calls = 0;
-
-    int draw_background(const Palette& palette, glm::ivec2 size) const {
-        glDisable(GL_BLEND);
-        glDisable(GL_DEPTH_TEST);
-        background.use();
-        background.set("top", palette.background_top);
-        background.set("bottom", palette.background_bottom);
-        background.set("height", static_cast<float>(size.y));
-        whole.draw(0, 1);
-        return 1;
-    }
 };
 
 namespace {
@@ -47,7 +35,18 @@ void reset_state() {
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthMask(GL_TRUE);
     glDepthRange(0.0, 1.0);
+    glActiveTexture(GL_TEXTURE0);
     glBindSampler(0, 0);
+}
+
+/// The panels' backend saves and restores what it finds; this leaves it something plain.
+void leave_plain_state() {
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    glBindBuffer(GL_ARRAY_BUFFER, 0);
+    glUseProgram(0);
 }
 
 }  // namespace
@@ -58,30 +57,29 @@ Renderer::~Renderer() = default;
 void Renderer::draw(const DrawList& list, const Camera& camera, const Palette& palette, const Frame& frame) {
     const PixelRect viewport = pixel_rect(camera.viewport(), frame);
     const bool seen = viewport.size.x > 0 && viewport.size.y > 0;
+    const glm::ivec2 size = frame.framebuffer_size;
     int calls = 0;
     reset_state();
-    if (seen) calls += impl_->ground.draw_shadows(list, camera, palette.shadow, viewport);
+    if (seen) calls += impl_->shadows.prepare(list, camera, palette.shadow, viewport);
 
     glBindFramebuffer(GL_FRAMEBUFFER, frame.framebuffer);
-    glViewport(0, 0, frame.framebuffer_size.x, frame.framebuffer_size.y);
+    glViewport(0, 0, size.x, size.y);
     glClearDepth(1.0);
     glClear(GL_DEPTH_BUFFER_BIT);
-    calls += impl_->draw_background(palette, frame.framebuffer_size);
+    calls += impl_->background.draw(palette, size);
     if (seen) {
         glEnable(GL_SCISSOR_TEST);
         glScissor(viewport.min.x, viewport.min.y, viewport.size.x, viewport.size.y);
-        // The ground's geometry is in the camera's own clip space, the strokes' in pixels of the framebuffer.
+        // The ground is drawn in the camera's clip space, the strokes in pixels of the framebuffer.
         glViewport(viewport.min.x, viewport.min.y, viewport.size.x, viewport.size.y);
-        calls += impl_->ground.draw_ground(camera, palette, frame, viewport);
-        glViewport(0, 0, frame.framebuffer_size.x, frame.framebuffer_size.y);
+        if (frame.grid) calls += impl_->grid.draw(camera, palette, frame);
+        calls += impl_->shadows.draw(camera);
+        glViewport(0, 0, size.x, size.y);
         impl_->strokes.prepare(list, camera, frame);
         calls += impl_->strokes.draw(Layer::Scene);
         calls += impl_->strokes.draw(Layer::Overlay);
-        glDisable(GL_SCISSOR_TEST);
     }
-    glDisable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
-    glUseProgram(0);
+    leave_plain_state();
     impl_->draw_calls = calls;
 }
 

@@ -1,4 +1,4 @@
-// Draws a DrawList with GL 3.3 core: background, contact shadows, ground grid, strokes. Five draw calls at
+// Draws a DrawList with GL 3.3 core: background, contact shadows, ground grid, strokes. Six draw calls at
 // the most, however much is in the list. Edges are anti-aliased by coverage, without multisampling, so that a
 // software rasteriser is fast and every backend gives the same picture.
 #pragma once

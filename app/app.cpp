@@ -1,0 +1,222 @@
+#include "app/app.hpp"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <tendril/version.hpp>
+
+#include "app/document/atomic_file.hpp"
+#include "app/document/scene_file.hpp"
+#include "app/shell/labels_view.hpp"
+#include "app/shell/theme.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr int settling_ticks = 3;  ///< Dear ImGui sizes some windows from what they held a frame ago
+
+Cursor wanted_cursor(const Ui& ui, const Pointer& pointer) {
+    if (!ui.wants_mouse()) return pointer.cursor();
+    switch (ImGui::GetMouseCursor()) {
+        case ImGuiMouseCursor_TextInput: return Cursor::Text;
+        case ImGuiMouseCursor_ResizeEW: return Cursor::ResizeColumn;
+        case ImGuiMouseCursor_Hand: return Cursor::Hand;
+        default: return Cursor::Arrow;
+    }
+}
+
+}  // namespace
+
+App::App(Window& window, bool complain)
+    : window_(window),
+      complain_(complain),
+      commands_(make_command_table(labs_)),
+      workspace_(make_blank_workspace(labs_)),
+      shell_(ui_) {
+    ImGui::GetIO().SetClipboardTextFn = [](void* data, const char* text) {
+        static_cast<Window*>(data)->set_clipboard(text);
+    };
+    ImGui::GetIO().ClipboardUserData = &window_;
+    // Pasting is an event (the loop turns it into text), so that a recording holds what was pasted.
+    ImGui::GetIO().GetClipboardTextFn = [](void*) { return ""; };
+    for (int i = 0; i < settling_ticks; ++i) compose(nullptr, false);
+}
+
+float App::ui_scale() const {
+    const float ratio = static_cast<float>(window_.framebuffer_size().x) /
+                        static_cast<float>(std::max(1, window_.size().x));
+    return window_.content_scale() / ratio * workspace_.settings.text_scale;
+}
+
+void App::start_from(const RecordingStart& start) {
+    load_scene(workspace_, start.scene);
+    if (labs_.find(start.lab) == nullptr) throw std::runtime_error("lab: there is no lab \"" + start.lab + "\"");
+    workspace_.lab = start.lab;
+    std::vector<std::string> complaints;
+    workspace_.settings = load_settings(start.settings, complaints);
+    if (!complaints.empty()) throw std::runtime_error("settings: " + complaints.front());
+    window_.resize(start.size);
+    for (int i = 0; i < settling_ticks; ++i) compose(nullptr, false);
+}
+
+void App::start_recording() {
+    Settings settings = workspace_.settings;
+    settings.text_scale = ui_scale();  // the window's own scale is not there when it is played
+    recorder_.emplace(RecordingStart{.version = version_string,
+                                     .size = window_.size(),
+                                     .lab = workspace_.lab,
+                                     .scene = save_scene(workspace_),
+                                     .settings = save_settings(settings)});
+}
+
+void App::tick(const Event* event) {
+    if (recorder_) event != nullptr ? recorder_->event(*event) : recorder_->idle_tick();
+    input_.take(event);
+    compose(event, true);
+    settling_ = event != nullptr ? settling_ticks : std::max(0, settling_ - 1);
+    update_window();
+}
+
+void App::compose(const Event* event, bool in_tick) {
+    layout_ = lay_out(window_.size(), ui_scale(), workspace_.settings, lab().has_timeline(workspace_));
+    workspace_.ui.view_size = layout_.view.size();
+    Emit emit;
+    if (in_tick && event != nullptr) take_event(*event, emit);
+    ui_.begin({window_.size(), window_.framebuffer_size(), layout_.scale}, workspace_.settings.theme, input_, event);
+    if (in_tick) {
+        take_shortcut(emit);
+        const Camera camera(workspace_.camera, layout_.view);
+        pointer_.take(event, input_, {workspace_, lab(), camera, drawn_, ui_.wants_mouse()}, emit);
+        run_emitted(emit);
+    }
+
+    std::string hint = lab().hint(workspace_, pointer_.dragged() != no_pick ? pointer_.dragged() : pointer_.hovered());
+    if (const std::string bound = pointer_.constraint(input_); pointer_.dragged() != no_pick && !bound.empty()) {
+        hint = "Moving " + bound + ".";
+    }
+    if (hint.empty()) hint = "Right-drag turns the view, middle-drag shifts it, the wheel zooms. ? shows every key.";
+    shell_.frame({workspace_, labs_, lab(), commands_, layout_, hint}, emit);
+    if (in_tick) {
+        run_emitted(emit);
+        advance_time();
+    }
+
+    const Camera camera(workspace_.camera, layout_.view);
+    drawn_.clear();
+    lab().draw({workspace_, camera, palette(workspace_.settings.theme), pointer_.hovered(), pointer_.dragged()}, drawn_);
+    draw_labels(camera);
+    ui_.end();
+}
+
+void App::take_event(const Event& event, Emit& emit) {
+    if (const auto* press = std::get_if<MousePress>(&event)) {
+        if (press->down) ++gesture_;
+    } else if (const auto* resize = std::get_if<Resize>(&event)) {
+        if (window_.size() != resize->size) window_.resize(resize->size);
+        layout_ = lay_out(window_.size(), ui_scale(), workspace_.settings, lab().has_timeline(workspace_));
+    } else if (const auto* drop = std::get_if<Drop>(&event)) {
+        if (!drop->paths.empty()) emit("scene.open", {{"path", drop->paths.front()}});
+    } else if (std::holds_alternative<CloseRequest>(event)) {
+        emit("quit");
+    }
+}
+
+void App::take_shortcut(Emit& emit) {
+    const Chord chord = input_.pressed();
+    if (chord.key == Key::Unknown) return;
+    const Shortcut* shortcut = find_shortcut(chord);
+    if (shortcut == nullptr || (ui_.wants_text() && !shortcut->while_typing)) return;
+    emit(shortcut->command, shortcut->arguments);
+}
+
+void App::run_emitted(Emit& emit) {
+    for (Emitted& command : emit.take()) {
+        try {
+            commands_.run(workspace_, command.name, command.arguments, command.continuous ? gesture_ : 0);
+            if (command.continuous && pointer_.dragged() != no_pick) workspace_.settings.hint_seen = true;
+        } catch (const Refused& refusal) {
+            workspace_.toast(refusal.what(), ToastKind::Refusal);
+            if (complain_) std::fprintf(stderr, "tendril: %s\n", refusal.what());
+        }
+    }
+}
+
+void App::run(const RunCommand& command) {
+    try {
+        commands_.run(workspace_, command.name, command.arguments);
+        if (recorder_) recorder_->command(command.name, command.arguments, false);
+    } catch (const Refused& refusal) {
+        if (recorder_) recorder_->command(command.name, command.arguments, true);
+        workspace_.toast(refusal.what(), ToastKind::Refusal);
+        settling_ = settling_ticks;
+        throw;
+    }
+    settling_ = settling_ticks;
+    compose(nullptr, false);  // so that the next event finds what is now there
+}
+
+void App::advance_time() {
+    Clock& clock = workspace_.clock;
+    const bool moving = lab().moving(workspace_);
+    if ((clock.playing && moving) || clock.step_due) {
+        if (moving) lab().step(workspace_);
+        ++clock.tick;
+        clock.step_due = false;
+    }
+    auto& toasts = workspace_.ui.toasts;
+    for (Toast& toast : toasts) --toast.ticks_left;
+    std::erase_if(toasts, [](const Toast& toast) { return toast.ticks_left <= 0; });
+}
+
+void App::draw_labels(const Camera& camera) {
+    show_labels(drawn_.labels, camera, palette(workspace_.settings.theme), layout_.scale);
+}
+
+void App::update_window() {
+    window_.set_cursor(wanted_cursor(ui_, pointer_));
+    std::string title = "Tendril";
+    if (!workspace_.path.empty()) title = workspace_.path.filename().string() + " - " + title;
+    if (title != title_) window_.set_title(title_ = title);
+}
+
+void App::draw() {
+    const glm::ivec2 pixels = window_.framebuffer_size();
+    const Camera camera(workspace_.camera, layout_.view);
+    renderer_.draw(drawn_, camera, palette(workspace_.settings.theme),
+                   {.framebuffer = window_.framebuffer(),
+                    .framebuffer_size = pixels,
+                    .pixel_ratio = static_cast<float>(pixels.x) / static_cast<float>(std::max(1, window_.size().x))});
+    ui_.draw();
+}
+
+Image App::screenshot() {
+    for (int i = 0; i < settling_ticks; ++i) compose(nullptr, false);
+    draw();
+    return read_framebuffer(window_.framebuffer(), window_.framebuffer_size());
+}
+
+void App::write_screenshot(const std::string& path) { write_png(path, screenshot()); }
+
+void App::write_state(const std::string& path) { write_file_atomically(path, state().dump(2) + "\n"); }
+
+Json App::state() {
+    const Camera camera(workspace_.camera, layout_.view);
+    Json state = lab().state(workspace_);
+    Json handles = Json::array();
+    for (const Handle& handle : lab().handles(workspace_)) {
+        const auto at = camera.project(handle.position);
+        handles.push_back({{"name", handle.name}, {"pixel", at ? pixel(*at) : Json(nullptr)}});
+    }
+    state["handles"] = std::move(handles);
+    state["camera"] = save_camera(workspace_.camera);
+    state["time"] = {{"playing", workspace_.clock.playing}, {"tick", workspace_.clock.tick}};
+    return state;
+}
+
+bool App::restless() const {
+    const bool moving = workspace_.clock.step_due || (workspace_.clock.playing && lab().moving(workspace_));
+    return moving || settling_ > 0 || !workspace_.ui.toasts.empty();
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,88 @@
+// The frame: events in, commands out, document changed, lab stepped, picture drawn. The real window and the one off
+// screen run this very same code; only where events come from and where pixels go differs.
+//
+// Time runs in ticks of 1/60 s. A tick takes at most one event, so a recording, which is a list of events and of empty
+// ticks, plays back exactly.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/document/autosave.hpp"
+#include "app/io/image.hpp"
+#include "app/labs/labs.hpp"
+#include "app/script/player.hpp"
+#include "app/script/recorder.hpp"
+#include "app/shell/pointer.hpp"
+#include "app/shell/shell.hpp"
+#include "app/shell/ui.hpp"
+#include "app/view/renderer.hpp"
+#include "app/window/window.hpp"
+
+namespace tendril::app {
+
+class App final : public Stage {
+  public:
+    /// `window` must outlive the app, with its context current. Where `complain`, refusals also go to stderr.
+    explicit App(Window& window, bool complain = false);
+
+    Workspace& workspace() { return workspace_; }
+    const CommandTable& commands() const { return commands_; }
+    const Labs& labs() const { return labs_; }
+
+    /// What a recording starts from: taken on from there, and written down from now on.
+    void start_from(const RecordingStart& start);
+    void start_recording();
+    /// The script so far; empty unless recording.
+    std::string recording() const { return recorder_ ? recorder_->text() : std::string(); }
+
+    // Stage
+    void tick(const Event* event) override;
+    void run(const RunCommand& command) override;
+    void write_screenshot(const std::string& path) override;
+    void write_state(const std::string& path) override;
+    Json state() override;
+
+    /// Draws the last tick's picture into the window's framebuffer.
+    void draw();
+    /// The picture as it is when everything has come to rest.
+    Image screenshot();
+    /// Whether the next tick may look different from this one without any event.
+    bool restless() const;
+    bool quit() const { return workspace_.ui.quit; }
+    /// A person is in the middle of a drag.
+    bool busy() const { return pointer_.busy(); }
+    int draw_calls() const { return renderer_.draw_calls(); }
+
+  private:
+    const Lab& lab() const { return *labs_.find(workspace_.lab); }
+    float ui_scale() const;
+    /// Runs the user interface and builds the picture, once; time passes only in a tick.
+    void compose(const Event* event, bool in_tick);
+    void take_event(const Event& event, Emit& emit);
+    void take_shortcut(Emit& emit);
+    void run_emitted(Emit& emit);
+    void advance_time();
+    void draw_labels(const Camera& camera);
+    void update_window();
+
+    Window& window_;
+    bool complain_;
+    Labs labs_;
+    CommandTable commands_;
+    Workspace workspace_;
+    Renderer renderer_;
+    Ui ui_;
+    Shell shell_;
+    Input input_;
+    Pointer pointer_;
+    DrawList drawn_;
+    Layout layout_;
+    std::optional<Recorder> recorder_;
+    Gesture gesture_ = 1;
+    int settling_ = 0;  ///< ticks in which the panels may still change after the last event
+    std::string title_;
+};
+
+}  // namespace tendril::app

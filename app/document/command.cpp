@@ -1,0 +1,154 @@
+#include "app/document/command.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tendril::app {
+namespace {
+
+const char* type_name(ArgumentType type) {
+    switch (type) {
+        case ArgumentType::Number:
+            return "a number";
+        case ArgumentType::Integer:
+            return "a whole number";
+        case ArgumentType::Boolean:
+            return "true or false";
+        case ArgumentType::Text:
+            return "a text";
+        case ArgumentType::Point:
+            return "a point [x, y, z]";
+    }
+    return "";
+}
+
+/// A value as a message shows it: its JSON, shortened when somebody hands in a novel.
+std::string shown(const Json& value) {
+    std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
+    if (text.size() > 60) text = text.substr(0, 57) + "...";
+    return text;
+}
+
+std::string plain(double value) {
+    return Json(value).dump();
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
+    return text;
+}
+
+/// Is it a finite number of at most 1e9 in magnitude, as everything that comes in must be?
+bool sane(const Json& value) {
+    if (!value.is_number()) return false;
+    const double number = value.get<double>();
+    return std::isfinite(number) && std::abs(number) <= 1e9;
+}
+
+/// Refuses a value that does not fit its argument; `where` is "chain.add: length".
+void check_value(const Argument& argument, const Json& value, const std::string& where) {
+    const auto refuse = [&](const std::string& rule) {
+        throw Refused(where + " must be " + rule + ", got " + shown(value));
+    };
+    switch (argument.type) {
+        case ArgumentType::Boolean:
+            if (!value.is_boolean()) refuse(type_name(argument.type));
+            return;
+        case ArgumentType::Text:
+            if (!value.is_string()) refuse(type_name(argument.type));
+            if (!argument.choices.empty() && std::find(argument.choices.begin(), argument.choices.end(),
+                                                       value.get<std::string>()) == argument.choices.end()) {
+                refuse("one of " + joined(argument.choices));
+            }
+            return;
+        case ArgumentType::Point:
+            if (!value.is_array() || value.size() != 3) refuse(type_name(argument.type));
+            for (const auto& coordinate : value) {
+                if (!sane(coordinate)) refuse("three finite numbers of at most 1e9 in magnitude");
+            }
+            return;
+        case ArgumentType::Integer:
+            if (!value.is_number()) refuse(type_name(argument.type));
+            if (!sane(value) || std::trunc(value.get<double>()) != value.get<double>()) {
+                refuse(type_name(argument.type));
+            }
+            break;
+        case ArgumentType::Number:
+            if (!value.is_number()) refuse(type_name(argument.type));
+            if (!sane(value)) refuse("finite and at most 1e9 in magnitude");
+            break;
+    }
+    const double number = value.get<double>();
+    if (number < argument.low) refuse("at least " + plain(argument.low));
+    if (number > argument.high) refuse("at most " + plain(argument.high));
+}
+
+void check_arguments(const Command& command, const Json& given) {
+    if (!given.is_object() && !given.is_null()) {
+        throw Refused(command.name + ": arguments must be an object, got " + shown(given));
+    }
+    for (const auto& [name, value] : given.items()) {
+        const auto known = std::find_if(command.arguments.begin(), command.arguments.end(),
+                                        [&key = name](const Argument& a) { return a.name == key; });
+        if (known == command.arguments.end()) {
+            throw Refused(command.name + ": unknown argument \"" + name + "\"; it takes: " + usage(command));
+        }
+        check_value(*known, value, command.name + ": " + name);
+    }
+    for (const auto& argument : command.arguments) {
+        if (argument.required && !given.contains(argument.name)) {
+            throw Refused(command.name + ": " + argument.name + " is missing (" + type_name(argument.type) +
+                          ")");
+        }
+    }
+}
+
+}  // namespace
+
+glm::vec3 Arguments::point(const char* name) const {
+    const Json& value = json_.at(name);
+    return {value[0].get<float>(), value[1].get<float>(), value[2].get<float>()};
+}
+
+void CommandTable::add(Command command) {
+    if (find(command.name) != nullptr) throw std::logic_error("command added twice: " + command.name);
+    commands_.push_back(std::move(command));
+}
+
+const Command* CommandTable::find(std::string_view name) const {
+    const auto found = std::find_if(commands_.begin(), commands_.end(),
+                                    [&](const Command& command) { return command.name == name; });
+    return found == commands_.end() ? nullptr : &*found;
+}
+
+void CommandTable::run(Workspace& workspace, std::string_view name, const Json& arguments,
+                       Gesture gesture) const {
+    const Command* command = find(name);
+    if (command == nullptr) throw UnknownCommand("unknown command \"" + std::string(name) + "\"");
+    check_arguments(*command, arguments);
+
+    const Document before = workspace.document;  // parts are shared: a few pointers
+    try {
+        command->apply(workspace, Arguments(arguments));
+    } catch (const Refused&) {
+        workspace.document = before;
+        throw;
+    } catch (const std::exception& error) {
+        workspace.document = before;
+        throw Refused(command->name + ": " + error.what());
+    }
+    if (command->effect == Effect::Edit && workspace.document != before) {
+        workspace.history.push(before, command->name, gesture);
+    }
+}
+
+std::string usage(const Command& command) {
+    std::string text = command.name;
+    for (const auto& argument : command.arguments) {
+        text += argument.required ? " " + argument.name : " [" + argument.name + "]";
+    }
+    return text;
+}
+
+}  // namespace tendril::app

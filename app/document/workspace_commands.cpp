@@ -1,0 +1,256 @@
+#include "app/document/autosave.hpp"
+#include "app/document/command.hpp"
+#include "app/document/scene_file.hpp"
+
+namespace tendril::app {
+namespace {
+
+void step_through(Workspace& workspace, bool back) {
+    auto document =
+        back ? workspace.history.undo(workspace.document) : workspace.history.redo(workspace.document);
+    if (!document) throw Refused(back ? "undo: nothing to undo" : "redo: nothing to redo");
+    workspace.document = std::move(*document);
+}
+
+void add_history_commands(CommandTable& table) {
+    table.add({.name = "undo",
+               .arguments = {},
+               .help = "Takes back the last change; a whole drag is one change",
+               .effect = Effect::Replace,
+               .apply = [](Workspace& w, const Arguments&) { step_through(w, true); }});
+    table.add({.name = "redo",
+               .arguments = {},
+               .help = "Brings back what was undone",
+               .effect = Effect::Replace,
+               .apply = [](Workspace& w, const Arguments&) { step_through(w, false); }});
+}
+
+void add_scene_commands(CommandTable& table) {
+    table.add({.name = "scene.new",
+               .arguments = {},
+               .help = "Starts afresh in every lab; undo brings the old scene back",
+               .effect = Effect::Edit,
+               .apply = [](Workspace& w, const Arguments&) {
+                   w.document = w.blank;
+                   w.saved = w.blank;
+                   w.path.clear();
+                   w.camera = w.first_view;
+                   w.clock.tick = 0;
+               }});
+    table.add({.name = "scene.open",
+               .arguments = {{.name = "path", .type = ArgumentType::Text, .help = "the scene file"}},
+               .help = "Opens a scene file",
+               .effect = Effect::Replace,
+               .apply = [](Workspace& w, const Arguments& a) { load_scene_file(w, a.text("path")); }});
+    table.add({.name = "scene.save",
+               .arguments = {{.name = "path",
+                              .type = ArgumentType::Text,
+                              .required = false,
+                              .help = "where to; the scene's own file when left out"}},
+               .help = "Saves the scene; the old file stays whole until the new one is",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments& a) {
+                   const std::filesystem::path path =
+                       a.has("path") ? std::filesystem::path(a.text("path")) : w.path;
+                   if (path.empty()) throw Refused("scene.save: path is missing; the scene has no file yet");
+                   save_scene_file(w, path);
+                   w.toast("Saved " + path.filename().string());
+               }});
+}
+
+/// The path argument, if it is one of those that are offered; it is offered no longer.
+std::filesystem::path taken_offer(Workspace& workspace, const Arguments& given) {
+    auto& offers = workspace.ui.recoverable;
+    const std::filesystem::path path = given.text("path");
+    if (std::erase(offers, path) == 0) throw Refused("there is nothing to recover at " + path.string());
+    return path;
+}
+
+void add_recovery_commands(CommandTable& table) {
+    const Argument path{.name = "path", .type = ArgumentType::Text, .help = "an autosave that a crash left"};
+    table.add({.name = "scene.recover",
+               .arguments = {path},
+               .help = "Takes up work that a crash left unsaved",
+               .effect = Effect::Replace,
+               .apply = [](Workspace& w, const Arguments& a) {
+                   const std::filesystem::path file = taken_offer(w, a);
+                   Autosave::recover(w, file);
+                   Autosave::adopt(file);
+                   w.toast("Recovered. It is not saved yet.");
+               }});
+    table.add({.name = "scene.discard",
+               .arguments = {path},
+               .help = "Deletes what a crash left unsaved",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments& a) {
+                   std::error_code ignored;
+                   std::filesystem::remove(taken_offer(w, a), ignored);
+               }});
+}
+
+void add_dialog_commands(CommandTable& table) {
+    table.add({.name = "scene.open_dialog",
+               .arguments = {},
+               .help = "Asks which scene to open",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments&) { w.ui.file_dialog = UiState::FileDialog::Open; }});
+    table.add({.name = "scene.save_dialog",
+               .arguments = {{.name = "ask", .type = ArgumentType::Boolean, .required = false,
+                              .help = "for a new name, although the scene has one"}},
+               .help = "Saves the scene; asks where to if it has no file yet",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments& a) {
+                   if (w.path.empty() || (a.has("ask") && a.boolean("ask"))) {
+                       w.ui.file_dialog = UiState::FileDialog::SaveAs;
+                   } else {
+                       save_scene_file(w, std::filesystem::path(w.path));
+                       w.toast("Saved " + w.path.filename().string());
+                   }
+               }});
+    table.add({.name = "view.close",
+               .arguments = {},
+               .help = "Closes what lies over the scene: palette, help, settings, a dialog",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments&) {
+                   w.ui.help = w.ui.palette = w.ui.settings = false;
+                   w.ui.file_dialog = UiState::FileDialog::None;
+                   w.ui.toasts.clear();
+               }});
+}
+
+void add_time_commands(CommandTable& table) {
+    const auto add = [&](const char* name, const char* help, auto change) {
+        table.add({.name = name,
+                   .arguments = {},
+                   .help = help,
+                   .effect = Effect::Look,
+                   .apply = [change](Workspace& w, const Arguments&) { change(w); }});
+    };
+    add("time.play", "Lets time run", [](Workspace& w) { w.clock.playing = true; });
+    add("time.pause", "Stops time", [](Workspace& w) { w.clock.playing = false; });
+    add("time.toggle", "Pauses, or lets time run again",
+        [](Workspace& w) { w.clock.playing = !w.clock.playing; });
+    add("time.step", "Pauses, and takes one tick of 1/60 s", [](Workspace& w) {
+        w.clock.playing = false;
+        w.clock.step_due = true;
+    });
+}
+
+void add_window_commands(CommandTable& table) {
+    const auto toggle = [&](const char* name, const char* help, auto member) {
+        table.add({.name = name,
+                   .arguments = {{.name = "open",
+                                  .type = ArgumentType::Boolean,
+                                  .required = false,
+                                  .help = "the other way round when left out"}},
+                   .help = help,
+                   .effect = Effect::Look,
+                   .apply = [member](Workspace& w, const Arguments& a) {
+                       bool& open = member(w);
+                       open = a.has("open") ? a.boolean("open") : !open;
+                   }});
+    };
+    toggle("view.help", "Shows every key and what the mouse does",
+           [](Workspace& w) -> bool& { return w.ui.help; });
+    toggle("view.palette", "Finds a command by its name", [](Workspace& w) -> bool& { return w.ui.palette; });
+    toggle("view.settings", "Shows the settings", [](Workspace& w) -> bool& { return w.ui.settings; });
+
+    table.add(
+        {.name = "view.panels",
+         .arguments =
+             {{.name = "left", .type = ArgumentType::Boolean, .required = false, .help = "the lab's panel"},
+              {.name = "right", .type = ArgumentType::Boolean, .required = false, .help = "the inspector"}},
+         .help = "Folds the side panels away or brings them back",
+         .effect = Effect::Look,
+         .apply = [](Workspace& w, const Arguments& a) {
+             Settings& s = w.settings;
+             const bool toggle_both = !a.has("left") && !a.has("right");
+             const bool open = !(s.left_open || s.right_open);
+             if (toggle_both) s.left_open = s.right_open = open;
+             if (a.has("left")) s.left_open = a.boolean("left");
+             if (a.has("right")) s.right_open = a.boolean("right");
+         }});
+    table.add({.name = "view.panel_width",
+               .arguments = {{.name = "side", .type = ArgumentType::Text, .help = "which panel", .choices = {"left", "right"}},
+                             {.name = "width", .help = "unscaled pixels", .low = 180, .high = 520}},
+               .help = "Makes a side panel wider or narrower",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments& a) {
+                   (a.text("side") == "left" ? w.settings.left_width : w.settings.right_width) = a.number("width");
+               }});
+    table.add({.name = "view.theme",
+               .arguments = {{.name = "name",
+                              .type = ArgumentType::Text,
+                              .required = false,
+                              .help = "the other one when left out",
+                              .choices = {"dark", "light"}}},
+               .help = "Dark or light",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments& a) {
+                   const bool light =
+                       a.has("name") ? a.text("name") == "light" : w.settings.theme == Theme::Dark;
+                   w.settings.theme = light ? Theme::Light : Theme::Dark;
+               }});
+    table.add({.name = "view.segments",
+               .arguments = {{.name = "style",
+                              .type = ArgumentType::Text,
+                              .required = false,
+                              .help = "the other one when left out",
+                              .choices = {"spheres", "bones"}}},
+               .help = "Draws segments as lines and spheres, or as tapered bones",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments& a) {
+                   SegmentStyle& style = w.settings.segments;
+                   const bool bones =
+                       a.has("style") ? a.text("style") == "bones" : style == SegmentStyle::LinesAndSpheres;
+                   style = bones ? SegmentStyle::Bones : SegmentStyle::LinesAndSpheres;
+               }});
+    table.add({.name = "view.labels",
+               .arguments = {{.name = "show",
+                              .type = ArgumentType::Text,
+                              .required = false,
+                              .help = "the other one when left out",
+                              .choices = {"hover", "always"}}},
+               .help = "Shows labels on hover, or always",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments& a) {
+                   LabelMode& labels = w.settings.labels;
+                   const bool always =
+                       a.has("show") ? a.text("show") == "always" : labels == LabelMode::Hover;
+                   labels = always ? LabelMode::Always : LabelMode::Hover;
+               }});
+    table.add(
+        {.name = "view.text_scale",
+         .arguments = {{.name = "scale", .help = "1 is the system's own size", .low = 0.5, .high = 3.0}},
+         .help = "Size of text and widgets",
+         .effect = Effect::Look,
+         .apply = [](Workspace& w, const Arguments& a) { w.settings.text_scale = a.number("scale"); }});
+    table.add({.name = "quit",
+               .arguments = {},
+               .help = "Ends the program",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments&) { w.ui.quit = true; }});
+}
+
+}  // namespace
+
+void add_workspace_commands(CommandTable& table) {
+    add_history_commands(table);
+    add_scene_commands(table);
+    add_recovery_commands(table);
+    add_dialog_commands(table);
+    add_time_commands(table);
+    add_window_commands(table);
+    table.add({.name = "lab.open",
+               .arguments = {{.name = "name", .type = ArgumentType::Text, .help = "as --list-labs has it"}},
+               .help = "Opens a lab",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments& a) {
+                   const std::string name = a.text("name");
+                   if (!w.document.parts().contains(name))
+                       throw Refused("lab.open: there is no lab \"" + name + "\"");
+                   w.lab = name;
+               }});
+}
+
+}  // namespace tendril::app

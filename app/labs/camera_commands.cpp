@@ -1,0 +1,64 @@
+#include "app/labs/camera_commands.hpp"
+
+#include <glm/trigonometric.hpp>
+
+namespace tendril::app {
+namespace {
+
+void set_pose(Workspace& workspace, const Arguments& given) {
+    CameraPose& pose = workspace.camera;
+    if (given.has("target")) pose.target = given.point("target");
+    if (given.has("yaw_deg")) pose.yaw = glm::radians(given.number("yaw_deg"));
+    if (given.has("pitch_deg")) pose.pitch = glm::radians(given.number("pitch_deg"));
+    if (given.has("distance")) pose.distance = given.number("distance");
+    if (given.has("field_of_view_deg")) pose.field_of_view = glm::radians(given.number("field_of_view_deg"));
+    if (given.has("orthographic")) pose.orthographic = given.boolean("orthographic");
+}
+
+Argument angle(const char* name, double low, double high) {
+    return {.name = name, .required = false, .help = "degrees", .low = low, .high = high};
+}
+
+}  // namespace
+
+void add_camera_commands(CommandTable& table, const Labs& labs) {
+    table.add({.name = "camera.set",
+               .arguments = {{.name = "target", .type = ArgumentType::Point, .required = false,
+                              .help = "what it turns about"},
+                             angle("yaw_deg", -1e6, 1e6),
+                             angle("pitch_deg", -90, 90),
+                             {.name = "distance", .required = false, .help = "metres", .low = 1e-3, .high = 1e7},
+                             angle("field_of_view_deg", 1, 150),
+                             {.name = "orthographic", .type = ArgumentType::Boolean, .required = false,
+                              .help = "without perspective"}},
+               .help = "Places the camera; what is left out stays",
+               .effect = Effect::Look,
+               .apply = set_pose});
+    table.add({.name = "camera.frame",
+               .arguments = {{.name = "what", .type = ArgumentType::Text, .help = "what to bring into view",
+                              .choices = {"all", "selection"}}},
+               .help = "Brings everything, or the selection, into view",
+               .effect = Effect::Look,
+               .apply = [&labs](Workspace& w, const Arguments& a) {
+                   const Bounds bounds = labs.find(w.lab)->bounds(w, a.text("what") == "selection");
+                   w.camera = framed(w.camera, {{0.0f, 0.0f}, w.ui.view_size}, bounds.centre, bounds.radius);
+               }});
+    table.add({.name = "camera.view",
+               .arguments = {{.name = "name", .type = ArgumentType::Text, .help = "where from",
+                              .choices = {"front", "side", "top"}}},
+               .help = "Looks from the front, the side or the top",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments& a) {
+                   const std::string name = a.text("name");
+                   w.camera = turned_to(w.camera, name == "front"  ? FixedView::Front
+                                                  : name == "side" ? FixedView::Side
+                                                                   : FixedView::Top);
+               }});
+    table.add({.name = "camera.orthographic",
+               .arguments = {},
+               .help = "Turns perspective off, or on again",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments&) { w.camera.orthographic = !w.camera.orthographic; }});
+}
+
+}  // namespace tendril::app

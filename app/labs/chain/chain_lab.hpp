@@ -1,0 +1,44 @@
+// The Chain lab: drag the target and see a chain follow, in four modes.
+#pragma once
+
+#include "app/labs/chain/chain_part.hpp"
+#include "app/labs/lab.hpp"
+
+namespace tendril::app {
+
+inline constexpr PickId target_pick = 0;
+inline PickId segment_pick(std::size_t index) { return static_cast<PickId>(index) + 1; }
+inline std::size_t picked_segment(PickId pick) { return static_cast<std::size_t>(pick) - 1; }
+
+class ChainLab final : public Lab {
+  public:
+    std::string name() const override { return chain_lab; }
+    std::string title() const override { return "Chain"; }
+    std::shared_ptr<Part> blank() const override;
+    CameraPose first_view() const override;
+    void add_commands(CommandTable& table) const override;
+
+    bool moving(const Workspace& workspace) const override;
+    void step(Workspace& workspace) const override;
+    void draw(const View& view, DrawList& list) const override;
+
+    std::vector<Handle> handles(const Workspace& workspace) const override;
+    glm::vec3 position_of(const Workspace& workspace, PickId pick) const override;
+    void drag(const Workspace& workspace, PickId pick, glm::vec3 to, Emit& emit) const override;
+    void click(const Workspace& workspace, PickId pick, Emit& emit) const override;
+    std::string hint(const Workspace& workspace, PickId pick) const override;
+
+    Bounds bounds(const Workspace& workspace, bool selection_only) const override;
+    void panel(const Workspace& workspace, Emit& emit) const override;
+    void inspector(const Workspace& workspace, Emit& emit) const override;
+    bool has_timeline(const Workspace& workspace) const override { return moving(workspace); }
+    void timeline(const Workspace& workspace, Emit& emit) const override;
+    Json state(const Workspace& workspace) const override;
+};
+
+/// The lab's part of a workspace.
+inline const ChainPart& chain_part(const Workspace& workspace) {
+    return workspace.document.get<ChainPart>(chain_lab);
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,151 @@
+#include <algorithm>
+#include <cstdio>
+#include <glm/geometric.hpp>
+
+#include "app/labs/chain/chain_lab.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr std::size_t most_labels = 2000;  ///< more would never find room beside one another
+
+/// How large a joint's ball is, in pixels: a handle of steady size, smaller only where the joints crowd together.
+float joint_pixels(const ChainPart& part, const Camera& camera) {
+    constexpr float largest = 7.5f, smallest = 2.5f;
+    if (part.chain.size() < 2) return largest;
+    const float mean_length = part.chain.reach() / static_cast<float>(part.chain.size() - 1);
+    const float metres_per_pixel = camera.metres_per_pixel(camera.pose().target);
+    return std::clamp(0.3f * mean_length / metres_per_pixel, smallest, largest);
+}
+
+class Drawing {
+  public:
+    Drawing(const View& view, DrawList& list)
+        : view_(view),
+          list_(list),
+          part_(chain_part(view.workspace)),
+          ball_(joint_pixels(part_, view.camera)),
+          bones_(view.workspace.settings.segments == SegmentStyle::Bones) {}
+
+    void run() {
+        list_.strokes.reserve(2 * part_.chain.size() + 16);
+        for (std::size_t i = 1; i < part_.chain.size(); ++i) link(i);
+        for (std::size_t i = 0; i < part_.chain.size(); ++i) joint(i);
+        path();
+        target();
+        labels();
+    }
+
+  private:
+    glm::vec3 at(std::size_t i) const { return part_.chain.segments()[i].position; }
+    float length(std::size_t i) const { return part_.chain.segments()[i].length; }
+
+    glm::vec3 joint_colour(std::size_t i) const {
+        const Palette& p = view_.palette;
+        if (i == 0) return p.head;
+        if (i + 1 == part_.chain.size()) return p.tail;
+        return p.joint;
+    }
+
+    /// From joint i - 1 to joint i.
+    void link(std::size_t i) {
+        Stroke& stroke = [&]() -> Stroke& {
+            if (!bones_) {
+                const float width = std::clamp(0.45f * ball_, 1.5f, 3.0f);
+                return list_.line(at(i - 1), at(i), width, glm::vec4(view_.palette.link, 1.0f));
+            }
+            const float thick = std::min(0.13f * length(i), 0.16f);
+            return list_.bone(at(i - 1), at(i), thick, 0.35f * thick, glm::vec4(view_.palette.joint, 1.0f));
+        }();
+        stroke.shadow = true;
+        stroke.pick = segment_pick(i);
+    }
+
+    void joint(std::size_t i) {
+        const PickId pick = segment_pick(i);
+        const bool hovered = view_.hovered == pick || view_.dragged == pick;
+        const bool end = i == 0 || i + 1 == part_.chain.size();
+        const float grown = ball_ * (end ? 1.25f : 1.0f) + (hovered ? 1.5f : 0.0f);
+        Stroke& ball = list_.sphere(at(i), grown, Unit::Pixels, glm::vec4(joint_colour(i), 1.0f));
+        ball.shadow = true;
+        ball.pick = pick;
+        ball.rank = 1;
+        if (part_.selected == i) {
+            list_.ring(at(i), grown + 4.0f, 2.5f, glm::vec4(view_.palette.selection, 1.0f)).layer = Layer::Overlay;
+        } else if (hovered) {
+            list_.ring(at(i), grown + 3.0f, 1.5f, glm::vec4(view_.palette.text, 0.55f)).layer = Layer::Overlay;
+        }
+        if (part_.mode == Mode::WithIndex && part_.index == i) {
+            list_.ring(at(i), grown + 8.0f, 1.5f, glm::vec4(view_.palette.target, 0.8f)).layer = Layer::Overlay;
+        }
+    }
+
+    /// A line down to the ground tells how high the target hangs.
+    void target() {
+        const glm::vec3 at = part_.target;
+        const bool hovered = view_.hovered == target_pick || view_.dragged == target_pick;
+        const glm::vec4 orange(view_.palette.target, 1.0f);
+        if (at.y > 0.05f) {
+            list_.line(at, {at.x, 0.0f, at.z}, 1.0f, glm::vec4(view_.palette.target, 0.35f));
+        }
+        Stroke& ball = list_.sphere(at, hovered ? 12.5f : 11.0f, Unit::Pixels, orange);
+        ball.shadow = true;
+        ball.layer = Layer::Overlay;
+        ball.pick = target_pick;
+        ball.rank = 2;
+        list_.ring(at, hovered ? 18.0f : 16.5f, 1.5f, glm::vec4(view_.palette.target, hovered ? 1.0f : 0.6f)).layer =
+            Layer::Overlay;
+    }
+
+    /// The way that a moving target goes.
+    void path() {
+        if (part_.motion.path == Motion::Path::Still) return;
+        constexpr std::uint32_t pieces = 96;
+        const std::uint32_t round = ticks_per_round(part_.motion);
+        glm::vec3 from = motion_point(part_.motion, 0);
+        for (std::uint32_t i = 1; i <= pieces; ++i) {
+            const glm::vec3 to = motion_point(part_.motion, round * i / pieces);
+            list_.line(from, to, 1.5f, glm::vec4(view_.palette.target, 0.3f));
+            from = to;
+        }
+    }
+
+    void label(std::size_t i, int rank) {
+        char text[64];
+        if (i == 0) {
+            std::snprintf(text, sizeof text, "0");
+        } else {
+            std::snprintf(text, sizeof text, "%zu  %.3g m", i, static_cast<double>(length(i)));
+        }
+        list_.labels.push_back({.at = at(i), .clearance = ball_ + 7.0f, .text = text, .colour = view_.palette.text,
+                                .rank = rank});
+    }
+
+    void labels() {
+        if (view_.workspace.settings.labels == LabelMode::Always) {
+            const std::size_t stride = part_.chain.size() / most_labels + 1;
+            for (std::size_t i = 0; i < part_.chain.size(); i += stride) {
+                const bool end = i == 0 || i + 1 == part_.chain.size();
+                label(i, part_.selected == i ? 2 : end ? 1 : 0);
+            }
+        } else {
+            const PickId pick = view_.dragged != no_pick ? view_.dragged : view_.hovered;
+            if (pick != no_pick && pick != target_pick && picked_segment(pick) < part_.chain.size()) {
+                label(picked_segment(pick), 3);
+            }
+            if (part_.selected && segment_pick(*part_.selected) != pick) label(*part_.selected, 2);
+        }
+    }
+
+    const View& view_;
+    DrawList& list_;
+    const ChainPart& part_;
+    float ball_;
+    bool bones_;
+};
+
+}  // namespace
+
+void ChainLab::draw(const View& view, DrawList& list) const { Drawing(view, list).run(); }
+
+}  // namespace tendril::app

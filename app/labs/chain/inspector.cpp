@@ -1,0 +1,99 @@
+#include <imgui.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "app/labs/chain/chain_lab.hpp"
+#include "app/widgets/fields.hpp"
+
+namespace tendril::app {
+namespace {
+
+void selection_rows(const ChainPart& part, Emit& emit) {
+    section("Selection");
+    if (!part.selected) {
+        note("Nothing is selected.");
+        return;
+    }
+    const std::size_t i = *part.selected;
+    const glm::vec3 at = part.chain.position(i);
+    reading("segment", "%zu%s", i, i == 0 ? " (head)" : i + 1 == part.chain.size() ? " (tail)" : "");
+    glm::vec3 to = at;
+    if (point_field("at", to, 0.01f)) emit.continuously("chain.pull", {{"index", i}, {"to", point(to)}});
+    float length = part.chain.length(i);
+    if (number_field("length", length, 0.01f, 0.0f, 1000.0f, "%.3f m")) {
+        emit.continuously("chain.set_length", {{"index", i}, {"length", number(length)}});
+    }
+    if (i == 0) note("The head's length ties nothing; it counts once something is inserted before it.");
+    reading("to the target", "%.3f m", static_cast<double>(glm::distance(at, part.target)));
+}
+
+void chain_rows(const ChainPart& part) {
+    section("Chain");
+    const Chain& chain = part.chain;
+    reading("segments", "%zu", chain.size());
+    if (chain.empty()) return;
+    const auto segments = chain.segments();
+    reading("reach", "%.3f m", static_cast<double>(chain.reach()));
+    reading("head to target", "%.3f m", static_cast<double>(glm::distance(segments.front().position, part.target)));
+    reading("tail to target", "%.3f m", static_cast<double>(glm::distance(segments.back().position, part.target)));
+    float worst = 0.0f;
+    for (std::size_t i = 1; i < segments.size(); ++i) worst = std::max(worst, length_error(chain, i));
+    reading("worst error", "%.1e m", static_cast<double>(worst));
+}
+
+void segment_row(const ChainPart& part, std::size_t i, Emit& emit) {
+    const Segment& segment = part.chain.segments()[i];
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    char id[24];
+    std::snprintf(id, sizeof id, "%zu", i);
+    if (ImGui::Selectable(id, part.selected == i, ImGuiSelectableFlags_SpanAllColumns)) {
+        emit("chain.select", {{"index", i}});
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        ImGui::TableNextColumn();
+        ImGui::Text("%7.2f", static_cast<double>(segment.position[axis]));
+    }
+    ImGui::TableNextColumn();
+    ImGui::Text("%6.2f", static_cast<double>(segment.length));
+    ImGui::TableNextColumn();
+    ImGui::Text("%.0e", static_cast<double>(length_error(part.chain, i)));
+}
+
+void segment_table(const ChainPart& part, Emit& emit) {
+    section("Segments, in metres");
+    const ImGuiTableFlags flags =
+        ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_NoPadOuterX;
+    const float least = 8.0f * ImGui::GetTextLineHeightWithSpacing();
+    const float height = std::max(least, ImGui::GetContentRegionAvail().y);
+    if (!ImGui::BeginTable("segments", 6, flags, {0.0f, height})) return;
+    ImGui::TableSetupScrollFreeze(0, 1);
+    const auto column = [](const char* name, float share) {
+        ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthStretch, share);
+    };
+    column("#", 0.8f);
+    column("x", 1.1f);
+    column("y", 1.1f);
+    column("z", 1.1f);
+    column("length", 1.1f);
+    column("error", 1.1f);
+    ImGui::TableHeadersRow();
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(part.chain.size()));
+    while (clipper.Step()) {
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) segment_row(part, static_cast<std::size_t>(i), emit);
+    }
+    ImGui::EndTable();
+}
+
+}  // namespace
+
+void ChainLab::inspector(const Workspace& workspace, Emit& emit) const {
+    const ChainPart& part = chain_part(workspace);
+    selection_rows(part, emit);
+    chain_rows(part);
+    segment_table(part, emit);
+}
+
+}  // namespace tendril::app

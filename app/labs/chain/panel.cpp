@@ -1,0 +1,107 @@
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "app/labs/chain/chain_lab.hpp"
+#include "app/labs/chain/presets.hpp"
+#include "app/widgets/fields.hpp"
+#include "app/widgets/timeline.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// Length that the next added or inserted segment gets: a wish of the panel, no part of the document.
+float& next_length() { return *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("next length"), 1.0f); }
+
+void mode_rows(const ChainPart& part, Emit& emit) {
+    section("Mode");
+    for (const Mode mode : all_modes) {
+        if (ImGui::RadioButton(mode_title(mode), part.mode == mode)) emit("chain.mode", {{"mode", mode_name(mode)}});
+    }
+    note(mode_help(part.mode));
+
+    const auto with = [&](const char* name, Json value) {
+        emit.continuously("chain.mode", {{"mode", mode_name(part.mode)}, {name, std::move(value)}});
+    };
+    if (part.mode == Mode::WithIndex && !part.chain.empty()) {
+        int index = static_cast<int>(part.index);
+        if (integer_slider("index", index, 0, static_cast<int>(part.chain.size()) - 1)) with("index", index);
+    }
+    if (part.mode == Mode::Fixed) {
+        int iterations = part.iterations[static_cast<std::size_t>(part.mode)];
+        if (integer_field("iterations", iterations, 1, max_iterations)) with("iterations", iterations);
+        float tolerance = part.tolerance;
+        if (number_field("tolerance", tolerance, 0.0005f, 0.0f, 10.0f, "%.4f m")) with("tolerance", number(tolerance));
+    }
+}
+
+void segment_rows(const ChainPart& part, Emit& emit) {
+    section("Segments");
+    number_field("new length", next_length(), 0.01f, 0.0f, 1000.0f, "%.3f m");
+    const Json length = number(next_length());
+    if (row_button("Add", 3, true, "Appends a segment at the tail")) emit("chain.add", {{"length", length}});
+    if (row_button("Insert", 3, part.selected.has_value(), "Inserts a segment before the selected one")) {
+        emit("chain.insert", {{"index", *part.selected}, {"length", length}});
+    }
+    if (row_button("Remove", 3, part.selected.has_value(), "Removes the selected segment")) {
+        emit("chain.remove", {{"index", *part.selected}});
+    }
+    if (part.selected) {
+        float selected = part.chain.length(*part.selected);
+        const std::string name = "length of " + std::to_string(*part.selected);
+        if (number_field(name.c_str(), selected, 0.01f, 0.0f, 1000.0f, "%.3f m")) {
+            emit.continuously("chain.set_length", {{"index", *part.selected}, {"length", number(selected)}});
+        }
+    } else {
+        note("Click a joint to select it.");
+    }
+}
+
+void target_rows(const ChainPart& part, Emit& emit) {
+    section("Target");
+    glm::vec3 target = part.target;
+    if (point_field("target", target, 0.01f)) emit.continuously("chain.target", {{"to", point(target)}});
+
+    static constexpr const char* titles[] = {"stands still", "goes in a circle", "goes in an eight", "sweeps along X"};
+    int path = static_cast<int>(part.motion.path);
+    if (choice_field("by itself", path, titles, static_cast<int>(std::size(titles)))) {
+        emit("chain.motion", {{"path", motion_name(all_motions[static_cast<std::size_t>(path)])}});
+    }
+    if (part.motion.path == Motion::Path::Still) return;
+    const auto with = [&](const char* name, float value) {
+        emit.continuously("chain.motion", {{"path", motion_name(part.motion.path)}, {name, number(value)}});
+    };
+    float radius = part.motion.radius, period = part.motion.period;
+    if (number_field("radius", radius, 0.01f, 0.0f, 1000.0f, "%.2f m")) with("radius", radius);
+    if (number_field("round", period, 0.02f, 0.1f, 600.0f, "%.2f s")) with("period", period);
+}
+
+void preset_rows(Emit& emit) {
+    section("Begin with");
+    for (const Preset& preset : presets()) {
+        const std::string tip = std::to_string(preset.count) + " segments";
+        if (row_button(preset.title, 3, true, tip.c_str())) emit("chain.preset", {{"name", preset.name}});
+    }
+    if (row_button("Empty", 2, true, "Takes every segment away")) emit("chain.clear");
+    if (row_button("Reset", 2, true, "Everything as at the first start; undo brings it back")) emit("scene.new");
+}
+
+}  // namespace
+
+void ChainLab::panel(const Workspace& workspace, Emit& emit) const {
+    const ChainPart& part = chain_part(workspace);
+    mode_rows(part, emit);
+    segment_rows(part, emit);
+    target_rows(part, emit);
+    preset_rows(emit);
+}
+
+void ChainLab::timeline(const Workspace& workspace, Emit& emit) const {
+    const Motion& motion = chain_part(workspace).motion;
+    int tick = static_cast<int>(motion.ticks);
+    if (app::timeline("round", tick, static_cast<int>(ticks_per_round(motion)), tick_seconds)) {
+        emit.continuously("chain.seek", {{"tick", tick}});
+    }
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,108 @@
+#include "app/labs/chain/presets.hpp"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <random>
+#include <stdexcept>
+
+namespace tendril::app {
+namespace {
+
+using Segments = std::vector<Segment>;
+
+/// Lays `count` segments along the steps that `step(i)` gives, head first; a step's length is its segment's.
+template <class Step>
+Segments laid(glm::vec3 head, std::size_t count, Step step) {
+    Segments segments;
+    segments.reserve(count);
+    glm::vec3 at = head;
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::vec3 by = step(i);
+        if (i > 0) at += by;
+        segments.push_back({at, glm::length(by)});
+    }
+    return segments;
+}
+
+float part_of(std::size_t i, std::size_t count) {
+    return count < 2 ? 0.0f : static_cast<float>(i) / static_cast<float>(count - 1);
+}
+
+/// The lab's first chain: metre by metre along +X.
+Segments start(std::size_t count) {
+    return laid({0, 0, 0}, count, [](std::size_t) { return glm::vec3(1, 0, 0); });
+}
+
+/// Rises from the ground in an S and grows finer towards its tip.
+Segments tentacle(std::size_t count) {
+    const float scale = 7.0f / static_cast<float>(count);
+    return laid({0, 0, 0}, count, [=](std::size_t i) {
+        const float t = part_of(i, count);
+        const float lean = 1.1f * std::sin(6.0f * t) * (0.3f + 0.7f * t);
+        return scale * (1.5f - 0.9f * t) * glm::vec3(std::sin(lean), std::cos(lean), 0.35f * std::sin(4.0f * t));
+    });
+}
+
+/// Shoulder, elbow, wrist and finger joints, in metres; longer counts add finger joints.
+Segments arm(std::size_t count) {
+    return laid({0, 3, 0}, count, [](std::size_t i) {
+        switch (i) {
+            case 0: return glm::vec3(1.0f, 0.0f, 0.0f);
+            case 1: return glm::vec3(0.9f, -2.8f, 0.0f);
+            case 2: return glm::vec3(2.2f, 1.1f, 0.6f);
+            case 3: return glm::vec3(0.7f, 0.35f, 0.0f);
+            default: return glm::vec3(0.32f, -0.06f, 0.0f);
+        }
+    });
+}
+
+/// A wave on the ground.
+Segments snake(std::size_t count) {
+    const float step = 9.0f / static_cast<float>(count);
+    return laid({-4.5f, 0.1f, 0}, count, [=](std::size_t i) {
+        const float lean = 1.0f * std::cos(15.0f * part_of(i, count));
+        return step * glm::vec3(std::cos(lean), 0.0f, std::sin(lean));
+    });
+}
+
+/// A rising coil.
+Segments coil(std::size_t count) {
+    const float step = 26.0f / static_cast<float>(count);
+    return laid({2, 0.1f, 0}, count, [=](std::size_t i) {
+        const float turn = 13.0f * part_of(i, count);
+        return step * glm::vec3(-std::sin(turn), 0.14f, std::cos(turn));
+    });
+}
+
+/// Lengths and directions at random, the same for the same seed.
+Segments random_walk(std::size_t count, std::uint32_t seed) {
+    std::mt19937 generator(seed);
+    // Its own mapping to [-1, 1]: the standard's distributions differ from library to library.
+    const auto signed_unit = [&] { return static_cast<float>(generator() >> 8) / 8388608.0f - 1.0f; };
+    const float scale = 8.0f / std::sqrt(static_cast<float>(count));
+    return laid({0, 2.5f, 0}, count, [&](std::size_t) {
+        const glm::vec3 direction{signed_unit(), 0.8f * signed_unit(), signed_unit()};
+        return scale * 0.6f * (direction + glm::vec3(0.25f, 0.0f, 0.0f));
+    });
+}
+
+}  // namespace
+
+const std::vector<Preset>& presets() {
+    static const std::vector<Preset> list{{"start", "Start", 8},   {"arm", "Arm", 7},
+                                          {"tentacle", "Tentacle", 24}, {"snake", "Snake", 40},
+                                          {"coil", "Coil", 120},     {"random", "Random", 16}};
+    return list;
+}
+
+Chain make_preset(const std::string& name, std::size_t count, std::uint32_t seed) {
+    if (name == "start") return Chain::from_segments(start(count));
+    if (name == "arm") return Chain::from_segments(arm(count));
+    if (name == "tentacle") return Chain::from_segments(tentacle(count));
+    if (name == "snake") return Chain::from_segments(snake(count));
+    if (name == "coil") return Chain::from_segments(coil(count));
+    if (name == "random") return Chain::from_segments(random_walk(count, seed));
+    throw std::invalid_argument("unknown preset \"" + name + "\"");
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,36 @@
+#include "app/labs/labs.hpp"
+
+#include <algorithm>
+
+#include "app/labs/camera_commands.hpp"
+#include "app/labs/chain/chain_lab.hpp"
+
+namespace tendril::app {
+
+Labs::Labs() {
+    labs_.push_back(std::make_unique<ChainLab>());
+}
+
+const Lab* Labs::find(std::string_view name) const {
+    const auto found = std::find_if(labs_.begin(), labs_.end(), [&](const auto& lab) { return lab->name() == name; });
+    return found == labs_.end() ? nullptr : found->get();
+}
+
+Workspace make_blank_workspace(const Labs& labs) {
+    Workspace workspace;
+    for (const auto& lab : labs.all()) workspace.document.set(lab->name(), lab->blank());
+    workspace.blank = workspace.saved = workspace.document;
+    workspace.lab = labs.all().front()->name();
+    workspace.camera = workspace.first_view = labs.all().front()->first_view();
+    return workspace;
+}
+
+CommandTable make_command_table(const Labs& labs) {
+    CommandTable table;
+    add_workspace_commands(table);
+    add_camera_commands(table, labs);
+    for (const auto& lab : labs.all()) lab->add_commands(table);
+    return table;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,133 @@
+#include "app/live_loop.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/document/atomic_file.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr double most_credit = 0.25;     ///< after a long stall time is dropped rather than raced through
+constexpr double least_credit = -0.05;   ///< a burst of events may run this far ahead
+constexpr double longest_sleep = 1.0;    ///< so that a signal or an autosave never waits longer
+
+std::filesystem::path settings_file() { return config_folder() / "settings.json"; }
+
+bool is_move(const Event& event) { return std::holds_alternative<MouseMove>(event); }
+
+}  // namespace
+
+LiveLoop::LiveLoop(App& app, Window& window, const Options& options) : app_(app), window_(window), options_(options) {
+    if (!options_.config || config_folder().empty()) {
+        options_.config = false;
+        return;
+    }
+    std::vector<std::string> complaints;
+    std::error_code error;
+    if (std::filesystem::exists(settings_file(), error)) {
+        try {
+            app_.workspace().settings = load_settings(read_json_file(settings_file()), complaints);
+        } catch (const std::runtime_error& unreadable) {
+            complaints.push_back(unreadable.what());
+        }
+    }
+    for (const std::string& complaint : complaints) app_.workspace().toast("Settings: " + complaint, ToastKind::Refusal);
+    kept_ = app_.workspace().settings;
+    app_.workspace().ui.recoverable = Autosave::left_behind(config_folder());
+    autosave_.emplace(config_folder());
+}
+
+void LiveLoop::run(Player& player, std::optional<int> frames) {
+    using Time = std::chrono::steady_clock;
+    auto last = Time::now();
+    std::vector<Event> events;
+    while (!options_.ending && !app_.quit() && (!frames || ticks_ < *frames)) {
+        events.clear();
+        // With a count of frames to run, time must pass whether or not anything moves.
+        window_.poll(events, frames ? 0.0 : patience(player));
+        const auto now = Time::now();
+        turn(events, std::chrono::duration<double>(now - last).count(), player);
+        if (frames && ticks_ < *frames && credit_ >= tick_seconds) tick(player);
+        last = now;
+        keep_house();
+    }
+}
+
+double LiveLoop::patience(const Player& player) const {
+    if (frames_drawn_ == 0) return 0.0;
+    if (queue_.empty() && player.done() && !app_.restless()) return longest_sleep;
+    return std::max(0.0, tick_seconds - credit_);
+}
+
+void LiveLoop::sample(std::vector<Event> events) {
+    for (Event& event : events) {
+        if (std::holds_alternative<Focus>(event)) ctrl_ = false;  // its release may be told to another window
+        if (const auto* key = std::get_if<KeyChange>(&event)) {
+            if (key->key == Key::Ctrl) ctrl_ = key->down;
+            if (key->key == Key::V && key->down && ctrl_) {
+                queue_.push_back(TextInput{window_.clipboard()});  // a recording must hold what was pasted
+                continue;
+            }
+        }
+        // Of several moves between two ticks only the last is seen.
+        if (is_move(event) && !queue_.empty() && is_move(queue_.back())) queue_.pop_back();
+        queue_.push_back(std::move(event));
+    }
+}
+
+void LiveLoop::tick(Player& player) {
+    credit_ -= tick_seconds;
+    ++ticks_;
+    if (!queue_.empty()) {
+        const Event event = std::move(queue_.front());
+        queue_.pop_front();
+        app_.tick(&event);
+    } else if (!player.done()) {
+        player.advance(app_);
+    } else {
+        app_.tick(nullptr);
+    }
+}
+
+bool LiveLoop::take_ticks(Player& player) {
+    bool ticked = false;
+    // What was clicked and typed is taken at once; moves, which come a thousand a second, wait for their tick.
+    while (!queue_.empty() && !(is_move(queue_.front()) && queue_.size() == 1) && credit_ > least_credit) {
+        tick(player);
+        ticked = true;
+    }
+    while (credit_ >= tick_seconds && (!queue_.empty() || !player.done() || app_.restless())) {
+        tick(player);
+        ticked = true;
+    }
+    return ticked;
+}
+
+void LiveLoop::turn(std::vector<Event> events, double elapsed, Player& player) {
+    // While nothing moves no time runs up, or the first event after a rest would be followed by a rush of ticks.
+    const bool resting = queue_.empty() && player.done() && !app_.restless();
+    credit_ = resting ? tick_seconds : std::min(credit_ + elapsed, most_credit);
+    sample(std::move(events));
+    if (take_ticks(player) || frames_drawn_ == 0) {
+        app_.draw();
+        window_.present();
+        ++frames_drawn_;
+    }
+}
+
+void LiveLoop::keep_house() {
+    if (!options_.config || app_.busy()) return;
+    Workspace& workspace = app_.workspace();
+    autosave_->update(workspace, Autosave::Clock::now());
+    if (workspace.settings == kept_) return;
+    kept_ = workspace.settings;
+    try {
+        std::filesystem::create_directories(config_folder());
+        write_file_atomically(settings_file(), save_settings(kept_).dump(2) + "\n");
+    } catch (const std::exception& error) {
+        workspace.toast(std::string("Settings are not kept: ") + error.what(), ToastKind::Refusal);
+    }
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,97 @@
+// The command line.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <tendril/version.hpp>
+
+#include "app/labs/labs.hpp"
+#include "app/session.hpp"
+#include "app/shell/shortcuts.hpp"
+
+namespace {
+
+using namespace tendril::app;
+
+/// "1280x720"; throws CLI::ValidationError for what is no size or one that no window has.
+glm::ivec2 read_size(const std::string& text) {
+    int width = 0, height = 0, used = 0;
+    const int read = std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &used);
+    if (read != 2 || used != static_cast<int>(text.size()) || width < 1 || height < 1 || width > 16384 || height > 16384) {
+        throw CLI::ValidationError("--size: must be WIDTHxHEIGHT, each 1 to 16384, got \"" + text + "\"");
+    }
+    return {width, height};
+}
+
+void list_commands() {
+    const Labs labs;
+    static constexpr const char* types[] = {"number", "integer", "boolean", "text", "[x, y, z]"};
+    const CommandTable table = make_command_table(labs);
+    for (const Command& command : table.all()) {
+        std::printf("%s\n    %s\n", usage(command).c_str(), command.help.c_str());
+        for (const Argument& argument : command.arguments) {
+            std::string choices;
+            for (const auto& choice : argument.choices) choices += (choices.empty() ? ": " : ", ") + choice;
+            std::printf("    %-18s %s%s; %s%s\n", argument.name.c_str(), types[static_cast<int>(argument.type)],
+                        argument.required ? "" : ", optional", argument.help.c_str(), choices.c_str());
+        }
+    }
+}
+
+void list_labs() {
+    for (const Labs labs; const auto& lab : labs.all()) std::printf("%s\n", lab->name().c_str());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App line("Tendril: see, tune and carry away procedural animation.", "tendril");
+    SessionOptions options;
+    std::string size;
+    bool no_config = false, labs = false, commands = false, shortcut_list = false;
+    const std::map<std::string, Backend> backends{
+        {"glfw", Backend::Glfw}, {"osmesa", Backend::OsMesa}, {"egl", Backend::Egl}};
+
+    line.add_option("SCENE", options.scene, "A scene file to open");
+    line.add_option("--lab", options.lab, "Open this lab")->option_text("NAME");
+    line.add_option("--size", size, "Size of the window, or of the picture")->option_text("WxH");
+    line.add_flag("--headless", options.headless, "Without a window or a display");
+    line.add_option_function<std::string>(
+            "--backend", [&](const std::string& name) { options.backend = backends.at(name); },
+            "What draws: a window, or one of the two that need no display")
+        ->check(CLI::IsMember({"glfw", "osmesa", "egl"}))
+        ->option_text("glfw|osmesa|egl");
+    line.add_option("--script", options.script, "Play a script or a recording")->option_text("FILE");
+    line.add_option("--frames", options.frames, "Run that many ticks of 1/60 s more, then end")
+        ->check(CLI::Range(0, 1'000'000))
+        ->option_text("N");
+    line.add_option("--screenshot", options.screenshot, "Write the last picture")->option_text("PNG");
+    line.add_option("--state", options.state, "Write the last state")->option_text("JSON");
+    line.add_option("--record", options.record, "Write down what is done, as a script")->option_text("FILE");
+    line.add_flag("--no-config", no_config, "Neither read nor write settings");
+    line.add_flag("--list-labs", labs, "Print the labs");
+    line.add_flag("--list-commands", commands, "Print every command with its arguments");
+    line.add_flag("--list-shortcuts", shortcut_list, "Print keys and mouse, as the README has them");
+    line.set_version_flag("--version", std::string("tendril ") + tendril::version_string);
+
+    try {
+        line.parse(argc, argv);
+        if (!size.empty()) options.size = read_size(size);
+        if (options.backend && *options.backend != Backend::Glfw) options.headless = true;
+        if (options.headless && options.backend == Backend::Glfw) {
+            throw CLI::ValidationError("--backend glfw opens a window, --headless wants none");
+        }
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return line.exit(error);
+        std::fprintf(stderr, "tendril: %s\n", error.what());
+        return 2;
+    }
+    options.config = !no_config;
+    if (labs) list_labs();
+    if (commands) list_commands();
+    if (shortcut_list) std::fputs(shortcuts_markdown().c_str(), stdout);
+    if (labs || commands || shortcut_list) return 0;
+
+    end_session_on_signals();
+    return run_session(options);
+}

@@ -1,0 +1,110 @@
+#include "app/session.hpp"
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+
+#include "app/app.hpp"
+#include "app/document/atomic_file.hpp"
+#include "app/document/scene_file.hpp"
+#include "app/live_loop.hpp"
+
+namespace tendril::app {
+namespace {
+
+std::atomic<bool> ending{false};  // what a signal handler may touch
+
+constexpr glm::ivec2 headless_size{1280, 720}, window_size{1440, 900};
+
+std::unique_ptr<Window> make_window(const SessionOptions& options, glm::ivec2 size) {
+    if (!options.headless) return open_window(Backend::Glfw, size);
+    return options.backend ? open_window(*options.backend, size) : open_offscreen(size);
+}
+
+/// Refuses before anything runs what could not be written at the end.
+void check_outputs(const SessionOptions& options) {
+    for (const std::string& path : {options.screenshot, options.state, options.record}) {
+        if (!path.empty()) check_writable(path);
+    }
+}
+
+Script read_script(const SessionOptions& options, const CommandTable& commands) {
+    if (options.script.empty()) return {};
+    try {
+        return parse_script(read_text_file(options.script), commands);
+    } catch (const std::runtime_error& error) {
+        const std::string what = error.what();
+        throw std::runtime_error(what.starts_with("line ") ? options.script + ": " + what : what);
+    }
+}
+
+void open_scene(App& app, const SessionOptions& options) {
+    if (!options.scene.empty()) load_scene_file(app.workspace(), options.scene);
+    if (!options.lab.empty()) {
+        if (app.labs().find(options.lab) == nullptr) {
+            throw std::runtime_error("there is no lab \"" + options.lab + "\"; --list-labs names them");
+        }
+        app.workspace().lab = options.lab;
+    }
+}
+
+void write_outputs(App& app, const SessionOptions& options) {
+    if (!options.record.empty()) write_file_atomically(options.record, app.recording());
+    if (!options.state.empty()) app.write_state(options.state);
+    if (!options.screenshot.empty()) app.write_screenshot(options.screenshot);
+}
+
+void run_headless(App& app, Player& player, int frames) {
+    while (!player.done() && !ending && !app.quit()) player.advance(app);
+    for (int i = 0; i < frames && !ending && !app.quit(); ++i) app.tick(nullptr);
+}
+
+int run(const SessionOptions& options) {
+    check_outputs(options);
+    const Labs labs;
+    Script script = read_script(options, make_command_table(labs));
+    glm::ivec2 size = options.size.value_or(options.headless ? headless_size : window_size);
+    if (script.start) size = script.start->size;
+
+    const auto window = make_window(options, size);
+    App app(*window, options.headless);
+    LiveLoop live(app, *window, {.config = options.config && !options.headless, .ending = ending});
+    open_scene(app, options);
+    if (script.start) app.start_from(*script.start);
+    if (!options.record.empty()) app.start_recording();
+
+    int exit_code = 0;
+    Player player(std::move(script));
+    try {
+        if (options.headless) {
+            run_headless(app, player, options.frames.value_or(0));
+        } else {
+            live.run(player, options.frames);
+        }
+    } catch (const ScriptFailure& failure) {
+        std::fprintf(stderr, "tendril: %s: %s\n", options.script.c_str(), failure.what());
+        exit_code = 1;
+    }
+    write_outputs(app, options);
+    return exit_code;
+}
+
+}  // namespace
+
+int run_session(const SessionOptions& options) {
+    try {
+        return run(options);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "tendril: %s\n", error.what());
+        return 2;
+    }
+}
+
+void end_session_on_signals() {
+    const auto end = [](int) { ending = true; };
+    std::signal(SIGINT, end);
+    std::signal(SIGTERM, end);
+}
+
+}  // namespace tendril::app

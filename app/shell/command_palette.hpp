@@ -1,0 +1,38 @@
+// Ctrl+K: finds a command by its name or help, and runs it with arguments typed as they would be in a script.
+#pragma once
+
+#include <array>
+#include <glm/vec2.hpp>
+#include <string>
+
+#include "app/document/command.hpp"
+#include "app/widgets/emit.hpp"
+
+namespace tendril::app {
+
+/// Reads `chain.add length=1.5 position=[0,1,0]`: a name, then arguments as JSON, where a bare word is a text.
+struct TypedCommand {
+    std::string name;
+    Json arguments = Json::object();
+};
+/// Throws std::runtime_error naming the piece that it cannot read.
+TypedCommand read_typed_command(const std::string& line);
+
+/// Commands that match every word of the query, in name or help; those whose name starts with it first.
+std::vector<const Command*> search_commands(const CommandTable& table, const std::string& query);
+
+class CommandPalette {
+  public:
+    void frame(bool open, const CommandTable& table, glm::vec2 screen, float scale, Emit& emit);
+
+  private:
+    void run(const CommandTable& table, const Command* chosen, Emit& emit);
+    void list(const std::vector<const Command*>& found);
+
+    std::array<char, 512> line_{};
+    int chosen_ = 0;
+    bool was_open_ = false;
+    std::string complaint_;
+};
+
+}  // namespace tendril::app

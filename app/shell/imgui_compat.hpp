@@ -1,0 +1,64 @@
+// Every difference between the versions of Dear ImGui that Tendril builds with (1.86 to 1.92), in one place.
+#pragma once
+
+#include <imgui.h>
+
+#include "app/shell/input.hpp"
+
+namespace tendril::app {
+
+struct ImGuiKeyPair {
+    ImGuiKey imgui;
+    Key key;
+};
+
+inline constexpr ImGuiKeyPair imgui_keys[] = {
+    {ImGuiKey_Tab, Key::Tab},           {ImGuiKey_LeftArrow, Key::Left},  {ImGuiKey_RightArrow, Key::Right},
+    {ImGuiKey_UpArrow, Key::Up},        {ImGuiKey_DownArrow, Key::Down},  {ImGuiKey_PageUp, Key::PageUp},
+    {ImGuiKey_PageDown, Key::PageDown}, {ImGuiKey_Home, Key::Home},       {ImGuiKey_End, Key::End},
+    {ImGuiKey_Insert, Key::Insert},     {ImGuiKey_Delete, Key::Delete},   {ImGuiKey_Backspace, Key::Backspace},
+    {ImGuiKey_Space, Key::Space},       {ImGuiKey_Enter, Key::Enter},     {ImGuiKey_Escape, Key::Escape},
+    {ImGuiKey_A, Key::A},               {ImGuiKey_C, Key::C},             {ImGuiKey_V, Key::V},
+    {ImGuiKey_X, Key::X},               {ImGuiKey_Y, Key::Y},             {ImGuiKey_Z, Key::Z},
+};
+
+/// Once, after the context is made.
+inline void imgui_setup_keys() {
+#if IMGUI_VERSION_NUM < 18700
+    for (const auto& pair : imgui_keys) ImGui::GetIO().KeyMap[pair.imgui] = static_cast<int>(pair.key);
+#endif
+}
+
+/// Tells ImGui what is held; to be called before every NewFrame, so that nothing but our own input counts.
+inline void imgui_feed(const Input& input) {
+    ImGuiIO& io = ImGui::GetIO();
+    const bool buttons[] = {input.button(MouseButton::Left), input.button(MouseButton::Right),
+                            input.button(MouseButton::Middle)};
+#if IMGUI_VERSION_NUM < 18700
+    io.MousePos = ImVec2(input.mouse().x, input.mouse().y);
+    for (int i = 0; i < 3; ++i) io.MouseDown[i] = buttons[i];
+    for (std::size_t i = 0; i < static_cast<std::size_t>(Key::Count); ++i) io.KeysDown[i] = input.keys()[i];
+    io.KeyCtrl = input.ctrl();
+    io.KeyShift = input.shift();
+    io.KeyAlt = input.alt();
+    io.KeySuper = input.held(Key::Super);
+#else
+    io.ConfigInputTrickleEventQueue = false;  // a tick takes one event: there is nothing to spread
+    io.AddMousePosEvent(input.mouse().x, input.mouse().y);
+    for (int i = 0; i < 3; ++i) io.AddMouseButtonEvent(i, buttons[i]);
+    for (const auto& pair : imgui_keys) io.AddKeyEvent(pair.imgui, input.held(pair.key));
+    io.AddKeyEvent(ImGuiMod_Ctrl, input.ctrl());
+    io.AddKeyEvent(ImGuiMod_Shift, input.shift());
+    io.AddKeyEvent(ImGuiMod_Alt, input.alt());
+#endif
+}
+
+inline void imgui_feed_wheel(float by) {
+#if IMGUI_VERSION_NUM < 18700
+    ImGui::GetIO().MouseWheel += by;
+#else
+    ImGui::GetIO().AddMouseWheelEvent(0.0f, by);
+#endif
+}
+
+}  // namespace tendril::app

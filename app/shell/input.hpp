@@ -1,0 +1,38 @@
+// What is held down right now, built up from events.
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <glm/vec2.hpp>
+
+#include "app/window/event.hpp"
+
+namespace tendril::app {
+
+class Input {
+  public:
+    /// Takes one event, or none: what a KeyTap pressed is let go again at the next call.
+    void take(const Event* event);
+
+    glm::vec2 mouse() const { return mouse_; }
+    bool button(MouseButton b) const { return buttons_[static_cast<std::size_t>(b)]; }
+    bool held(Key key) const { return keys_[static_cast<std::size_t>(key)]; }
+    bool ctrl() const { return held(Key::Ctrl); }
+    bool shift() const { return held(Key::Shift); }
+    bool alt() const { return held(Key::Alt); }
+    /// The chord that this tick's event pressed; Key::Unknown if none.
+    Chord pressed() const { return pressed_; }
+    const std::bitset<static_cast<std::size_t>(Key::Count)>& keys() const { return keys_; }
+
+  private:
+    void hold(Key key, bool down) { keys_[static_cast<std::size_t>(key)] = down; }
+    void tap(const Chord& chord, bool down);
+
+    glm::vec2 mouse_{-1.0f};
+    std::array<bool, 3> buttons_{};
+    std::bitset<static_cast<std::size_t>(Key::Count)> keys_;
+    Chord tapped_, pressed_;
+    std::bitset<static_cast<std::size_t>(Key::Count)> before_tap_;
+};
+
+}  // namespace tendril::app

@@ -1,0 +1,19 @@
+// Where everything is: the window divided into bars, panels and the 3D view.
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include "app/document/settings.hpp"
+#include "app/view/camera.hpp"
+
+namespace tendril::app {
+
+struct Layout {
+    Rect top, left, right, timeline, status, view;
+    float scale = 1.0f;
+};
+
+/// Everything in window coordinates. In a narrow window the panels give way before the view does.
+Layout lay_out(glm::vec2 window, float scale, const Settings& settings, bool has_timeline);
+
+}  // namespace tendril::app

@@ -1,0 +1,170 @@
+// What lies over the scene for a while: help, settings, toasts, the first hint.
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "app/shell/shell.hpp"
+#include "app/shell/shortcuts.hpp"
+#include "app/shell/theme.hpp"
+#include "app/widgets/fields.hpp"
+
+namespace tendril::app {
+namespace {
+
+glm::vec2 screen_of(const ShellFrame& frame) { return {frame.layout.top.max.x, frame.layout.status.max.y}; }
+
+void key_row(const std::string& keys, const std::string& effect) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s", keys.c_str());
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(effect.c_str());
+}
+
+/// One table of the help: a title, then rows that `rows` adds.
+template <class Rows>
+void key_table(const char* title, float key_width, Rows rows) {
+    section(title);
+    if (!ImGui::BeginTable(title, 2, ImGuiTableFlags_NoPadOuterX)) return;
+    ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, key_width);
+    ImGui::TableSetupColumn("effect", ImGuiTableColumnFlags_WidthStretch);
+    rows();
+    ImGui::EndTable();
+}
+
+/// "Ctrl+Shift+Z, Ctrl+Y": every key of the table with that title.
+std::string all_keys(const Shortcut& wanted) {
+    std::string keys;
+    for (const Shortcut& shortcut : shortcuts()) {
+        if (shortcut.title == wanted.title) keys += (keys.empty() ? "" : ", ") + chord_label(shortcut.chord);
+    }
+    return keys;
+}
+
+void keys_of(Section which) {
+    std::string last;
+    for (const Shortcut& shortcut : shortcuts()) {
+        if (shortcut.section != which || (!shortcut.in_menu && shortcut.command != "view.close")) continue;
+        if (shortcut.title != last) key_row(all_keys(shortcut), shortcut.title);
+        last = shortcut.title;
+    }
+}
+
+}  // namespace
+
+bool begin_sheet(const char* title, glm::vec2 screen, glm::vec2 wanted) {
+    const glm::vec2 size = glm::min(wanted, 0.94f * screen);
+    ImGui::SetNextWindowPos({0.5f * screen.x, 0.5f * screen.y}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize({size.x, size.y});
+    bool open = true;
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 9.0f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(20.0f, 14.0f));
+    ImGui::Begin(title, &open, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                   ImGuiWindowFlags_NoSavedSettings);
+    ImGui::PopStyleVar(3);
+    return open;
+}
+
+void show_help(const ShellFrame& frame, Emit& emit) {
+    const float scale = frame.layout.scale;
+    if (!begin_sheet("Keys and mouse", screen_of(frame), {860.0f * scale, 560.0f * scale})) {
+        emit("view.help", {{"open", false}});
+    }
+    if (ImGui::BeginTable("columns", 2, ImGuiTableFlags_NoPadOuterX)) {
+        ImGui::TableNextColumn();
+        key_table("Mouse", 190.0f * scale, [] {
+            for (const auto& help : mouse_help()) key_row(help.gesture, help.effect);
+        });
+        key_table("Time", 190.0f * scale, [] { keys_of(Section::Time); });
+        key_table("Help", 190.0f * scale, [] { keys_of(Section::Help); });
+        ImGui::TableNextColumn();
+        key_table("Scene", 150.0f * scale, [] { keys_of(Section::Scene); });
+        key_table("Edit", 150.0f * scale, [] { keys_of(Section::Edit); });
+        key_table("View", 150.0f * scale, [] { keys_of(Section::View); });
+        ImGui::EndTable();
+    }
+    ImGui::End();
+}
+
+void show_settings(const ShellFrame& frame, Emit& emit) {
+    const Settings& settings = frame.workspace.settings;
+    const float scale = frame.layout.scale;
+    if (!begin_sheet("Settings", screen_of(frame), {380.0f * scale, 260.0f * scale})) {
+        emit("view.settings", {{"open", false}});
+    }
+    static constexpr const char* themes[] = {"dark", "light"};
+    static constexpr const char* styles[] = {"lines and spheres", "bones"};
+    static constexpr const char* labels[] = {"on hover", "always"};
+    int theme = settings.theme == Theme::Light, style = settings.segments == SegmentStyle::Bones,
+        label = settings.labels == LabelMode::Always;
+    if (choice_field("theme", theme, themes, 2)) emit("view.theme", {{"name", themes[theme]}});
+    if (choice_field("segments", style, styles, 2)) emit("view.segments", {{"style", style == 1 ? "bones" : "spheres"}});
+    if (choice_field("labels", label, labels, 2)) emit("view.labels", {{"show", label == 1 ? "always" : "hover"}});
+    // Steps, not a slider: a slider would move under the mouse as the text grows.
+    reading("text size", "%.0f %%", static_cast<double>(settings.text_scale) * 100.0);
+    const auto step = [&](const char* title, float by) {
+        const float scaled = std::clamp(settings.text_scale + by, 0.5f, 3.0f);
+        if (row_button(title, 2)) emit("view.text_scale", {{"scale", number(scaled)}});
+    };
+    step("Smaller", -0.1f);
+    step("Larger", 0.1f);
+    ImGui::End();
+}
+
+void show_recovery(const ShellFrame& frame, Emit& emit) {
+    const auto& offers = frame.workspace.ui.recoverable;
+    if (offers.empty()) return;
+    const float scale = frame.layout.scale;
+    begin_sheet("Unsaved work", screen_of(frame), {460.0f * scale, 190.0f * scale});
+    note("Tendril ended before this work was saved:");
+    ImGui::TextWrapped("%s", offers.front().string().c_str());
+    ImGui::Spacing();
+    const Json path{{"path", offers.front().string()}};
+    if (row_button("Recover it", 2)) emit("scene.recover", path);
+    if (row_button("Delete it", 2)) emit("scene.discard", path);
+    ImGui::End();
+}
+
+void show_toasts(const ShellFrame& frame) {
+    const float scale = frame.layout.scale;
+    const Palette& colours = palette(frame.workspace.settings.theme);
+    const Rect& view = frame.layout.view;
+    const float width = std::min(520.0f * scale, std::max(120.0f, view.size().x - 32.0f * scale));
+    float bottom = view.max.y - 16.0f * scale;
+    const auto& toasts = frame.workspace.ui.toasts;
+    for (std::size_t i = toasts.size(); i-- > 0;) {
+        const Toast& toast = toasts[i];
+        const std::string id = "toast " + std::to_string(i);
+        ImGui::SetNextWindowPos({view.centre().x, bottom}, ImGuiCond_Always, {0.5f, 1.0f});
+        ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {width, 400.0f * scale});
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 7.0f);
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
+        const glm::vec3 mark = toast.kind == ToastKind::Refusal ? colours.limit : colours.accent;
+        ImGui::PushStyleColor(ImGuiCol_Border, imgui_colour(mark, 0.8f));
+        ImGui::Begin(id.c_str(), nullptr,
+                     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings |
+                         ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+        ImGui::PopStyleColor();
+        ImGui::PopStyleVar(2);
+        ImGui::PushTextWrapPos(width - 20.0f * scale);
+        ImGui::TextUnformatted(toast.text.c_str());
+        ImGui::PopTextWrapPos();
+        bottom -= ImGui::GetWindowSize().y + 8.0f * scale;
+        ImGui::End();
+    }
+}
+
+void show_first_hint(const ShellFrame& frame) {
+    if (frame.workspace.settings.hint_seen) return;
+    const Rect& view = frame.layout.view;
+    const std::string text = "Drag the orange ball. Right-drag turns the view. ? shows every key.";
+    const Palette& colours = palette(frame.workspace.settings.theme);
+    const float wrap = std::max(80.0f, view.size().x - 40.0f);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+    ImGui::GetBackgroundDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(),
+                                            {view.centre().x - 0.5f * size.x, view.min.y + 22.0f * frame.layout.scale},
+                                            imgui_u32(colours.text, 0.85f), text.c_str(), nullptr, wrap);
+}
+
+}  // namespace tendril::app

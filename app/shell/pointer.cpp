@@ -1,0 +1,143 @@
+#include "app/shell/pointer.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "app/view/picking.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr float drag_threshold = 4.0f;  ///< pixels; less is a click
+constexpr float slack = 4.0f;           ///< pixels beyond a handle's edge that still catch it
+
+/// The axis of the first axis key held.
+std::optional<glm::vec3> held_axis(const Input& input) {
+    if (input.held(Key::X)) return glm::vec3(1, 0, 0);
+    if (input.held(Key::Y)) return glm::vec3(0, 1, 0);
+    if (input.held(Key::Z)) return glm::vec3(0, 0, 1);
+    return std::nullopt;
+}
+
+/// The point of the line `through + t axis` nearest to a ray; nothing where they run side by side.
+std::optional<glm::vec3> on_line(const Ray& ray, glm::vec3 through, glm::vec3 axis) {
+    const glm::vec3 between = through - ray.origin;
+    const float b = glm::dot(axis, ray.direction);
+    const float denominator = 1.0f - b * b;
+    if (denominator < 1e-5f) return std::nullopt;
+    const float t = (b * glm::dot(ray.direction, between) - glm::dot(axis, between)) / denominator;
+    return through + t * axis;
+}
+
+}  // namespace
+
+void emit_camera(Emit& emit, const CameraPose& from, const CameraPose& to) {
+    Json arguments = Json::object();
+    if (to.target != from.target) arguments["target"] = point(to.target);
+    if (to.yaw != from.yaw) arguments["yaw_deg"] = number(glm::degrees(to.yaw));
+    if (to.pitch != from.pitch) arguments["pitch_deg"] = number(std::clamp(glm::degrees(to.pitch), -90.0f, 90.0f));
+    if (to.distance != from.distance) arguments["distance"] = number(to.distance);
+    if (!arguments.empty()) emit.continuously("camera.set", std::move(arguments));
+}
+
+void Pointer::take(const Event* event, const Input& input, const Scene& scene, Emit& emit) {
+    if (event != nullptr) {
+        if (const auto* button = std::get_if<MousePress>(event)) {
+            if (button->down && doing_ == Doing::Nothing && !scene.over_panel) press(*button, input, scene);
+            if (!button->down && button->button == button_) let_go(*button, scene, emit);
+        } else if (std::holds_alternative<MouseMove>(*event)) {
+            move(input, scene, emit);
+        } else if (const auto* wheel = std::get_if<MouseWheel>(event)) {
+            if (!scene.over_panel && scene.camera.viewport().contains(input.mouse())) {
+                emit_camera(emit, scene.workspace.camera, zoomed(scene.camera, input.mouse(), wheel->by));
+            }
+        } else if (const auto* focus = std::get_if<Focus>(event); focus != nullptr && !focus->focused) {
+            release();
+        } else if (std::holds_alternative<KeyChange>(*event) && doing_ == Doing::Drag) {
+            drag(input, scene, emit);  // an axis key takes hold at once
+        }
+    }
+    last_ = input.mouse();
+    if (doing_ == Doing::Nothing) {
+        const bool inside = !scene.over_panel && scene.camera.viewport().contains(input.mouse());
+        hovered_ = inside ? pick(scene.drawn, scene.camera, input.mouse(), slack) : no_pick;
+    }
+}
+
+void Pointer::release() {
+    doing_ = Doing::Nothing;
+    caught_ = no_pick;
+}
+
+void Pointer::press(const MousePress& press, const Input& input, const Scene& scene) {
+    if (!scene.camera.viewport().contains(input.mouse())) return;
+    button_ = press.button;
+    caught_at_ = input.mouse();
+    caught_ = no_pick;
+    if (const auto action = mouse_action(press.button, input.shift(), input.alt())) {
+        doing_ = *action == MouseAction::Orbit ? Doing::Orbit : Doing::Pan;
+        return;
+    }
+    if (press.button != MouseButton::Left) return;
+    doing_ = Doing::Press;
+    caught_ = hovered_ = pick(scene.drawn, scene.camera, input.mouse(), slack);
+    if (caught_ == no_pick) return;
+    caught_position_ = scene.lab.position_of(scene.workspace, caught_);
+    const auto pixel = scene.camera.project(caught_position_);
+    offset_ = pixel ? *pixel - caught_at_ : glm::vec2(0.0f);
+}
+
+void Pointer::let_go(const MousePress&, const Scene& scene, Emit& emit) {
+    if (doing_ == Doing::Press) scene.lab.click(scene.workspace, caught_, emit);
+    release();
+}
+
+void Pointer::move(const Input& input, const Scene& scene, Emit& emit) {
+    const glm::vec2 by = input.mouse() - last_;
+    switch (doing_) {
+        case Doing::Nothing: break;
+        case Doing::Orbit: emit_camera(emit, scene.workspace.camera, orbited(scene.workspace.camera, by)); break;
+        case Doing::Pan: emit_camera(emit, scene.workspace.camera, panned(scene.camera, by)); break;
+        case Doing::Press:
+            if (caught_ == no_pick || glm::distance(input.mouse(), caught_at_) < drag_threshold) break;
+            doing_ = Doing::Drag;
+            [[fallthrough]];
+        case Doing::Drag: drag(input, scene, emit); break;
+    }
+}
+
+void Pointer::drag(const Input& input, const Scene& scene, Emit& emit) {
+    if (const auto to = dragged_to(input, scene.camera)) scene.lab.drag(scene.workspace, caught_, *to, emit);
+}
+
+std::optional<glm::vec3> Pointer::dragged_to(const Input& input, const Camera& camera) const {
+    const glm::vec2 pixel = input.mouse() + offset_;  // the pixel that the handle itself should have
+    std::optional<glm::vec3> to;
+    if (const auto axis = held_axis(input)) {
+        to = on_line(camera.ray(pixel), caught_position_, *axis);
+    } else if (input.shift()) {
+        to = camera.on_plane(pixel, caught_position_, {0, 1, 0});
+    } else {
+        to = camera.on_plane(pixel, caught_position_, camera.forward());
+    }
+    // Near the horizon of a plane, or along an axis seen end on, a pixel means kilometres: stay where it makes sense.
+    const float farthest = 50.0f * (camera.pose().distance + glm::distance(caught_position_, camera.eye()));
+    if (to && glm::distance(*to, caught_position_) > farthest) return std::nullopt;
+    return to;
+}
+
+std::string Pointer::constraint(const Input& input) const {
+    if (input.held(Key::X)) return "along X";
+    if (input.held(Key::Y)) return "along Y";
+    if (input.held(Key::Z)) return "along Z";
+    if (input.shift()) return "in the ground plane";
+    return {};
+}
+
+Cursor Pointer::cursor() const {
+    if (doing_ == Doing::Drag || doing_ == Doing::Orbit || doing_ == Doing::Pan) return Cursor::Grab;
+    return hovered_ != no_pick ? Cursor::Hand : Cursor::Arrow;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,61 @@
+// The mouse in the 3D view: hover, click, drag a handle, turn and shift the camera. It changes nothing itself: it emits
+// commands.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "app/labs/lab.hpp"
+#include "app/shell/input.hpp"
+#include "app/shell/shortcuts.hpp"
+#include "app/window/window.hpp"
+
+namespace tendril::app {
+
+class Pointer {
+  public:
+    struct Scene {
+        const Workspace& workspace;
+        const Lab& lab;
+        const Camera& camera;
+        const DrawList& drawn;   ///< the last picture: what one sees is what one picks
+        bool over_panel = false;  ///< the mouse is meant for a panel
+    };
+
+    /// Takes this tick's event. Emits camera.set, the lab's drag and click commands, and a document is changed by them
+    /// afterwards.
+    void take(const Event* event, const Input& input, const Scene& scene, Emit& emit);
+    /// Ends whatever is going on, without a click.
+    void release();
+
+    PickId hovered() const { return hovered_; }
+    PickId dragged() const { return doing_ == Doing::Drag ? caught_ : no_pick; }
+    bool busy() const { return doing_ != Doing::Nothing; }
+    /// The axis or plane that a held key binds the drag to; empty for the view plane.
+    std::string constraint(const Input& input) const;
+    Cursor cursor() const;
+
+  private:
+    enum class Doing { Nothing, Press, Drag, Orbit, Pan };
+
+    void press(const MousePress& press, const Input& input, const Scene& scene);
+    void let_go(const MousePress& press, const Scene& scene, Emit& emit);
+    void move(const Input& input, const Scene& scene, Emit& emit);
+    void drag(const Input& input, const Scene& scene, Emit& emit);
+    std::optional<glm::vec3> dragged_to(const Input& input, const Camera& camera) const;
+
+    Doing doing_ = Doing::Nothing;
+    MouseButton button_ = MouseButton::Left;
+    PickId hovered_ = no_pick;
+    PickId caught_ = no_pick;
+    glm::vec2 caught_at_{0.0f};       ///< where the button went down
+    glm::vec2 last_{0.0f};            ///< the mouse a tick ago
+    glm::vec2 offset_{0.0f};          ///< from the mouse to the handle's pixel when caught
+    glm::vec3 caught_position_{0.0f};  ///< the handle when caught
+};
+
+/// The command that puts the camera there.
+void emit_camera(Emit& emit, const CameraPose& from, const CameraPose& to);
+
+}  // namespace tendril::app

@@ -1,0 +1,56 @@
+// The window around the labs: bars, panels, and what lies over the scene for a while. It reads the workspace and emits
+// commands.
+#pragma once
+
+#include <imgui.h>
+
+#include <string>
+
+#include "app/labs/labs.hpp"
+#include "app/shell/command_palette.hpp"
+#include "app/shell/file_dialog.hpp"
+#include "app/shell/layout.hpp"
+#include "app/shell/ui.hpp"
+
+namespace tendril::app {
+
+/// What a frame of the shell shows beside the workspace.
+struct ShellFrame {
+    const Workspace& workspace;
+    const Labs& labs;
+    const Lab& lab;
+    const CommandTable& commands;
+    const Layout& layout;
+    std::string hint;  ///< what the mouse would do where it is
+};
+
+class Shell {
+  public:
+    explicit Shell(const Ui& ui) : ui_(ui) {}
+    void frame(const ShellFrame& frame, Emit& emit);
+
+  private:
+    void top_bar(const ShellFrame& frame, Emit& emit);
+    void menu(const ShellFrame& frame, Emit& emit);
+    void side_panel(const ShellFrame& frame, bool left, Emit& emit);
+    void status_bar(const ShellFrame& frame);
+
+    const Ui& ui_;
+    CommandPalette palette_;
+    FileDialog file_dialog_;
+};
+
+// What lies over the scene; each in a file of its own.
+void show_help(const ShellFrame& frame, Emit& emit);
+void show_settings(const ShellFrame& frame, Emit& emit);
+void show_recovery(const ShellFrame& frame, Emit& emit);
+void show_toasts(const ShellFrame& frame);
+void show_first_hint(const ShellFrame& frame);
+
+/// A fixed window without decoration that fills `rect`. Always ImGui::End() after it.
+void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 padding);
+
+/// A window of the given share of the screen in the middle of it, closed by Escape or the cross; false once closed.
+bool begin_sheet(const char* title, glm::vec2 screen, glm::vec2 wanted);
+
+}  // namespace tendril::app

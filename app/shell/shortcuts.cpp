@@ -1,0 +1,132 @@
+#include "app/shell/shortcuts.hpp"
+
+#include <algorithm>
+
+namespace tendril::app {
+namespace {
+
+Shortcut row(const char* chord, const char* command, Json arguments, const char* title, Section section,
+             bool in_menu = true, bool while_typing = false) {
+    return {*chord_from_name(chord), command, std::move(arguments), title, section, in_menu, while_typing};
+}
+
+constexpr MouseBinding mouse_bindings[] = {
+    {MouseButton::Right, false, false, MouseAction::Orbit},
+    {MouseButton::Left, false, true, MouseAction::Orbit},
+    {MouseButton::Middle, false, false, MouseAction::Pan},
+    {MouseButton::Right, true, false, MouseAction::Pan},
+};
+
+std::string gesture_name(const MouseBinding& binding) {
+    const char* button = binding.button == MouseButton::Left    ? "left drag"
+                         : binding.button == MouseButton::Right ? "right drag"
+                                                                : "middle drag";
+    std::string name = std::string(binding.shift ? "Shift+" : "") + (binding.alt ? "Alt+" : "") + button;
+    name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+    return name;
+}
+
+std::string gestures_of(MouseAction action) {
+    std::string text;
+    for (const auto& binding : mouse_bindings) {
+        if (binding.action == action) text += (text.empty() ? "" : ", ") + gesture_name(binding);
+    }
+    return text;
+}
+
+}  // namespace
+
+const char* section_title(Section section) {
+    switch (section) {
+        case Section::Scene: return "Scene";
+        case Section::Edit: return "Edit";
+        case Section::View: return "View";
+        case Section::Time: return "Time";
+        case Section::Help: return "Help";
+    }
+    return "";
+}
+
+const std::vector<Shortcut>& shortcuts() {
+    static const std::vector<Shortcut> table{
+        row("ctrl+n", "scene.new", Json::object(), "New scene", Section::Scene),
+        row("ctrl+o", "scene.open_dialog", Json::object(), "Open...", Section::Scene),
+        row("ctrl+s", "scene.save_dialog", {{"ask", false}}, "Save", Section::Scene),
+        row("ctrl+shift+s", "scene.save_dialog", {{"ask", true}}, "Save as...", Section::Scene),
+        row("ctrl+q", "quit", Json::object(), "Quit", Section::Scene, true, true),
+        row("ctrl+z", "undo", Json::object(), "Undo", Section::Edit),
+        row("ctrl+shift+z", "redo", Json::object(), "Redo", Section::Edit),
+        row("ctrl+y", "redo", Json::object(), "Redo", Section::Edit, false),
+        row("f", "camera.frame", {{"what", "selection"}}, "Frame selection", Section::View),
+        row("home", "camera.frame", {{"what", "all"}}, "Frame all", Section::View),
+        row("1", "camera.view", {{"name", "front"}}, "Front", Section::View),
+        row("3", "camera.view", {{"name", "side"}}, "Side", Section::View),
+        row("7", "camera.view", {{"name", "top"}}, "Top", Section::View),
+        row("5", "camera.orthographic", Json::object(), "Orthographic", Section::View),
+        row("b", "view.segments", Json::object(), "Bones or spheres", Section::View),
+        row("l", "view.labels", Json::object(), "Labels always", Section::View),
+        row("t", "view.theme", Json::object(), "Light or dark", Section::View),
+        row("f9", "view.panels", Json::object(), "Fold panels", Section::View),
+        row("space", "time.toggle", Json::object(), "Play or pause", Section::Time),
+        row(".", "time.step", Json::object(), "One tick", Section::Time),
+        row("?", "view.help", Json::object(), "Keys and mouse", Section::Help),
+        row("f1", "view.help", Json::object(), "Keys and mouse", Section::Help, false, true),
+        row("ctrl+k", "view.palette", Json::object(), "Find a command", Section::Help, true, true),
+        row("ctrl+,", "view.settings", Json::object(), "Settings", Section::Help),
+        row("escape", "view.close", Json::object(), "Close, or let go", Section::Help, false, true),
+    };
+    return table;
+}
+
+const Shortcut* find_shortcut(const Chord& chord) {
+    const auto found = std::find_if(shortcuts().begin(), shortcuts().end(),
+                                    [&](const Shortcut& shortcut) { return shortcut.chord == chord; });
+    return found == shortcuts().end() ? nullptr : &*found;
+}
+
+std::string keys_for(std::string_view command) {
+    for (const auto& shortcut : shortcuts()) {
+        if (shortcut.command == command) return chord_label(shortcut.chord);
+    }
+    return {};
+}
+
+std::optional<MouseAction> mouse_action(MouseButton button, bool shift, bool alt) {
+    for (const auto& binding : mouse_bindings) {
+        if (binding.button == button && binding.shift == shift && binding.alt == alt) return binding.action;
+    }
+    return std::nullopt;
+}
+
+const std::vector<MouseHelp>& mouse_help() {
+    static const std::vector<MouseHelp> list{
+        {"Left drag on a handle", "moves it, in the plane of the view"},
+        {"X, Y or Z held", "moves it along that axis"},
+        {"Shift held", "moves it in the ground plane"},
+        {"Left click", "selects"},
+        {gestures_of(MouseAction::Orbit), "turns the view"},
+        {gestures_of(MouseAction::Pan), "shifts the view"},
+        {"Wheel", "zooms to the cursor"},
+        {"File dropped on the window", "opens it"},
+    };
+    return list;
+}
+
+std::string shortcuts_markdown() {
+    std::string text = "| keys | what they do |\n| --- | --- |\n";
+    std::vector<std::string> done;
+    for (const auto& shortcut : shortcuts()) {
+        if (std::find(done.begin(), done.end(), shortcut.title) != done.end()) continue;
+        done.push_back(shortcut.title);
+        std::string keys;
+        for (const auto& other : shortcuts()) {
+            if (other.title == shortcut.title) keys += (keys.empty() ? "" : ", ") + chord_label(other.chord);
+        }
+        text += "| " + keys + " | " + shortcut.title + " |\n";
+    }
+    text += "\n| mouse | what it does |\n| --- | --- |\n";
+    for (const auto& help : mouse_help()) text += "| " + help.gesture + " | " + help.effect + " |\n";
+    return text;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,97 @@
+#include "app/shell/ui.hpp"
+
+#include <imgui.h>
+#include <backends/imgui_impl_opengl3.h>
+
+#include <glm/common.hpp>
+#include <stdexcept>
+
+#include "app/document/workspace.hpp"
+#include "app/shell/imgui_compat.hpp"
+#include "app/shell/theme.hpp"
+#include "app/view/assets.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr float base_text = 15.0f;  ///< pixels at scale 1
+
+// Latin, Greek for maths, and the punctuation that the texts use.
+constexpr ImWchar glyphs[] = {0x0020, 0x024F, 0x0370, 0x03FF, 0x2010, 0x205E, 0x20A0, 0x20BF, 0x2190, 0x2193,
+                              0x2200, 0x2265, 0};
+
+ImFont* add_font(std::span<const std::byte> file, float pixels) {
+    ImFontConfig config;
+    config.FontDataOwnedByAtlas = false;
+    config.OversampleH = 2;
+    config.OversampleV = 2;
+    config.GlyphRanges = glyphs;
+    // ImGui takes the pointer as its own to free, though told not to: it never writes there.
+    void* bytes = const_cast<std::byte*>(file.data());
+    return ImGui::GetIO().Fonts->AddFontFromMemoryTTF(bytes, static_cast<int>(file.size()), pixels, &config);
+}
+
+}  // namespace
+
+Ui::Ui() {
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.LogFilename = nullptr;
+    io.ConfigInputTextCursorBlink = false;
+    io.ConfigWindowsMoveFromTitleBarOnly = true;
+    io.DeltaTime = static_cast<float>(tick_seconds);
+    imgui_setup_keys();
+    if (!ImGui_ImplOpenGL3_Init("#version 330")) throw std::runtime_error("Dear ImGui cannot use this GL context");
+}
+
+Ui::~Ui() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui::DestroyContext();
+}
+
+void Ui::load_fonts(float scale, float pixel_ratio) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.Fonts->Clear();
+    const float pixels = scale * pixel_ratio;  // rasterised in pixels, shown in window coordinates
+    add_font(font_regular(), base_text * pixels);
+    heading_ = add_font(font_medium(), base_text * pixels);
+    small_ = add_font(font_regular(), 0.87f * base_text * pixels);
+    io.FontGlobalScale = 1.0f / pixel_ratio;
+#if IMGUI_VERSION_NUM < 19200
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+#endif
+}
+
+void Ui::begin(const Surface& surface, Theme theme, const Input& input, const Event* event) {
+    ImGuiIO& io = ImGui::GetIO();
+    const glm::vec2 size = glm::max(glm::vec2(surface.size), glm::vec2(1.0f));
+    const glm::vec2 ratio = glm::vec2(surface.framebuffer_size) / size;
+    io.DisplaySize = {size.x, size.y};
+    io.DisplayFramebufferScale = {ratio.x, ratio.y};
+
+    if (surface.scale != font_scale_ || ratio.x != font_ratio_) load_fonts(surface.scale, ratio.x);
+    if (surface.scale != font_scale_ || theme != theme_ || font_ratio_ == 0.0f) apply_theme(theme, surface.scale);
+    font_scale_ = surface.scale;
+    font_ratio_ = ratio.x;
+    theme_ = theme;
+
+    imgui_feed(input);
+    if (event != nullptr) {
+        if (const auto* wheel = std::get_if<MouseWheel>(event)) imgui_feed_wheel(wheel->by);
+        if (const auto* text = std::get_if<TextInput>(event)) io.AddInputCharactersUTF8(text->utf8.c_str());
+    }
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui::NewFrame();
+}
+
+void Ui::end() { ImGui::Render(); }
+
+void Ui::draw() { ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData()); }
+
+bool Ui::wants_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
+bool Ui::wants_text() const { return ImGui::GetIO().WantTextInput; }
+
+}  // namespace tendril::app

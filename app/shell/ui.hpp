@@ -1,0 +1,50 @@
+// Dear ImGui, set up once: context, fonts, backend, and our input as its only input. No ini file, a fixed time step, no
+// blinking cursor: so the same events give the same pixels.
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include "app/document/settings.hpp"
+#include "app/shell/input.hpp"
+
+struct ImFont;
+
+namespace tendril::app {
+
+class Ui {
+  public:
+    /// Needs a current GL context.
+    Ui();
+    ~Ui();
+    Ui(const Ui&) = delete;
+    Ui& operator=(const Ui&) = delete;
+
+    struct Surface {
+        glm::ivec2 size{0};              ///< window coordinates
+        glm::ivec2 framebuffer_size{0};  ///< pixels
+        float scale = 1.0f;              ///< of text and widgets, in window coordinates
+    };
+
+    /// Starts a frame that sees `event` (or none).
+    void begin(const Surface& surface, Theme theme, const Input& input, const Event* event);
+    /// Ends it; draw() may follow, now or later.
+    void end();
+    void draw();
+
+    /// Whether a panel, rather than the scene, is meant by the mouse (the keyboard).
+    bool wants_mouse() const;
+    bool wants_text() const;
+    ImFont* heading() const { return heading_; }
+    ImFont* small() const { return small_; }
+
+  private:
+    void load_fonts(float scale, float pixel_ratio);
+
+    ImFont* heading_ = nullptr;
+    ImFont* small_ = nullptr;
+    float font_scale_ = 0.0f;
+    float font_ratio_ = 0.0f;
+    Theme theme_ = Theme::Dark;
+};
+
+}  // namespace tendril::app

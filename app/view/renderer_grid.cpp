@@ -1,0 +1,88 @@
+#include "app/view/renderer_grid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tendril::app {
+namespace {
+
+/// A plane to draw a grid on: two axes of the world, by number.
+struct GridPlane {
+    int u = 0, v = 2;
+    float strength = 1.0f;
+};
+
+/// The ground; but looking level along an axis, in parallel projection, the ground is a line, and the grid
+/// stands up behind the scene instead.
+GridPlane grid_plane(const Camera& camera) {
+    if (!camera.pose().orthographic) return {};
+    const glm::vec3 f = glm::abs(camera.forward());
+    const float aligned = std::clamp((std::max(f.x, f.z) - 0.9990f) / 0.0009f, 0.0f, 1.0f);
+    if (aligned <= 0.0f) return {};
+    return f.z > f.x ? GridPlane{0, 1, aligned} : GridPlane{2, 1, aligned};
+}
+
+glm::vec3 unit(int axis) {
+    glm::vec3 result{0.0f};
+    result[axis] = 1.0f;
+    return result;
+}
+
+/// How strong the lines of the three sizes are when the finest have faded by this much.
+glm::vec3 line_strengths(float faded, float all) {
+    constexpr float minor = 0.34f, major = 0.62f;
+    const float soft = faded * faded * (3.0f - 2.0f * faded);
+    return all * glm::vec3(minor * (1.0f - soft), major + soft * (minor - major), major);
+}
+
+}  // namespace
+
+int BackgroundPass::draw(const Palette& palette, glm::ivec2 framebuffer_size) const {
+    glDisable(GL_BLEND);
+    glDisable(GL_DEPTH_TEST);
+    program_.use();
+    program_.set("top", palette.background_top);
+    program_.set("bottom", palette.background_bottom);
+    program_.set("height", static_cast<float>(framebuffer_size.y));
+    whole_.draw(0, 1);
+    return 1;
+}
+
+int GridPass::draw(const Camera& camera, const Palette& palette, const Frame& frame) const {
+    const GridPlane plane = grid_plane(camera);
+    const glm::vec3 target = camera.pose().target;
+    // Ten metres away the lines are one metre apart; with every factor of ten both grow by ten.
+    const float scale = std::max(camera.pose().distance, 0.5f * std::abs(camera.eye().y));
+    const float decade = std::log10(scale / 10.0f), whole = std::floor(decade);
+    const float spacing = std::pow(10.0f, whole);
+    // Counted from a crossing of the coarsest lines nearby, as coordinates far from the origin have lost
+    // their fine digits.
+    const float coarsest = 100.0f * spacing;
+    const glm::vec2 looked_at(target[plane.u], target[plane.v]);
+    const glm::vec2 crossing = coarsest * glm::round(looked_at / coarsest);
+    const std::array<glm::vec3, 3> axis_colours{palette.axis_x, palette.axis_y, palette.axis_z};
+
+    program_.use();
+    program_.set("to_clip", camera.projection() * camera.view());
+    program_.set("centre", crossing.x * unit(plane.u) + crossing.y * unit(plane.v));
+    program_.set("axis_u", unit(plane.u));
+    program_.set("axis_v", unit(plane.v));
+    program_.set("target", looked_at - crossing);
+    program_.set("reach", 16.0f * scale);
+    program_.set("per_metre", 1.0f / spacing);
+    program_.set("strengths", line_strengths(decade - whole, plane.strength));
+    program_.set("origin", -crossing);
+    program_.set("half_width", 0.5f * std::max(1.0f, frame.pixel_ratio) + 0.5f);
+    program_.set("line_colour", palette.grid);
+    program_.set("u_colour", axis_colours[static_cast<std::size_t>(plane.u)]);
+    program_.set("v_colour", axis_colours[static_cast<std::size_t>(plane.v)]);
+    glDisable(GL_DEPTH_TEST);
+    glEnable(GL_BLEND);
+    glBlendEquation(GL_FUNC_ADD);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    whole_.draw(0, 1);
+    return 1;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,52 @@
+// Contact shadows on the ground.
+//
+// They are collected in a picture of their own, smaller than the frame because they are soft, in which the
+// darker one wins where two meet: adding them up would turn a chain into a black worm. That picture is then
+// laid over the ground.
+#pragma once
+
+#include <vector>
+
+#include "app/view/gl_objects.hpp"
+#include "app/view/renderer.hpp"
+
+namespace tendril::app {
+
+/// Framebuffer pixels from the bottom left.
+struct PixelRect {
+    glm::ivec2 min{0}, size{0};
+};
+
+class ShadowPass {
+  public:
+    ShadowPass();
+    ~ShadowPass();
+    ShadowPass(const ShadowPass&) = delete;
+    ShadowPass& operator=(const ShadowPass&) = delete;
+
+    /// Draws the shadows' own picture, and leaves that framebuffer bound where there are any.
+    int prepare(const DrawList& list, const Camera& camera, float darkness, PixelRect viewport);
+    /// Lays it over the bound framebuffer, in the GL viewport, which is the camera.s.
+    int draw(const Camera& camera) const;
+
+  private:
+    struct Shadow {
+        glm::vec4 ends;     ///< on the ground: a.x, a.z, b.x, b.z
+        glm::vec4 heights;  ///< of the axis at a, at b; radius at a, at b
+    };
+    void collect(const DrawList& list, const Camera& camera, float darkness);
+    void add(const Stroke& stroke, const Camera& camera, float darkness);
+    void thin_out();
+    void allocate(glm::ivec2 size);
+
+    Program program_{"shadow.vert", "shadow.frag"};
+    Program over_program_{"shadow_over.vert", "shadow_over.frag"};
+    Instances buffer_, whole_{0, {}};
+    std::vector<Shadow> shadows_;
+    Rect bounds_;        ///< of all shadows, in window pixels
+    float area_ = 0.0f;  ///< of all shadows, in window pixels
+    GLuint framebuffer_ = 0, texture_ = 0;
+    glm::ivec2 size_{0};
+};
+
+}  // namespace tendril::app

@@ -1,0 +1,31 @@
+// The rows of a panel: a dim name on the left, a field on the right; numbers of fixed width, with their units.
+// Each field returns true in a frame in which a person changed its value. The names are ids too: unique in a panel.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <string>
+
+namespace tendril::app {
+
+/// A heading over a group of rows, with some air above it.
+void section(const char* title);
+/// Dim text, wrapped.
+void note(const std::string& text);
+
+bool number_field(const char* name, float& value, float speed, float low, float high, const char* format);
+bool integer_field(const char* name, int& value, int low, int high);
+bool integer_slider(const char* name, int& value, int low, int high);
+bool point_field(const char* name, glm::vec3& value, float speed);
+bool choice_field(const char* name, int& chosen, const char* const* titles, int count);
+
+/// A row that is only read.
+void reading(const char* name, const char* format, ...)
+#if defined(__GNUC__)
+    __attribute__((format(printf, 2, 3)))
+#endif
+    ;
+
+/// A button as wide as its share of the row: `of` buttons to a row.
+bool row_button(const char* title, int of, bool enabled = true, const char* tooltip = nullptr);
+
+}  // namespace tendril::app
