@@ -77,9 +77,14 @@ static inline void pull_towards_tail(std::span<Segment> segments, std::size_t pi
 static inline void pull_towards_head(std::span<Segment> segments, std::size_t pinned, glm::vec3 target,
                                      const glm::vec3& fallback) noexcept {
     segments[pinned].position = target;
+    float length = segments[pinned].length;
     for (std::size_t i = pinned; i > 0; --i) {
-        target = step(target, segments[i - 1].position, segments[i].length, fallback);
-        segments[i - 1].position = target;
+        Segment& segment = segments[i - 1];
+        target = step(target, segment.position, length, fallback);
+        segment.position = target;
+        length =
+            segment
+                .length;  // carried along: read beside a coordinate just written, it would wait for the write
     }
 }
 

@@ -1,0 +1,201 @@
+// Editing, row by row of the chain's page, with cases worked out by hand.
+#include <cstdint>
+
+#include "chain_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+const float root_half = std::sqrt(0.5f);
+
+TEST(ChainEdit, StartsEmpty) {
+    const Chain chain;
+    EXPECT_TRUE(chain.empty());
+    EXPECT_EQ(chain.size(), 0u);
+    EXPECT_TRUE(chain.segments().empty());
+    EXPECT_EQ(chain.reach(), 0.0f);
+    EXPECT_EQ(chain.default_direction(), glm::vec3(1, 0, 0));
+}
+
+TEST(ChainEdit, AddLengthStartsAtTheOriginAndGoesAlongTheDefaultDirection) {
+    Chain chain(glm::vec3(0, 0, -1));
+    chain.add(5.0f);
+    chain.add(2.0f);
+    chain.add(0.5f);
+    expect_positions(chain, {{0, 0, 0}, {0, 0, -2}, {0, 0, -2.5f}});
+    EXPECT_EQ(chain.length(0), 5.0f);
+    EXPECT_EQ(chain.reach(), 2.5f);
+}
+
+TEST(ChainEdit, AddLengthGoesOnAlongTheLastSegment) {
+    Chain chain;
+    chain.add(Segment{{0, 0, 0}, 1});
+    chain.add(Segment{{3, 3, 0}, 1});
+    chain.add(2.0f);
+    expect_positions(chain, {{0, 0, 0}, {root_half, root_half, 0}, {3 * root_half, 3 * root_half, 0}});
+}
+
+TEST(ChainEdit, AddLengthAfterALinkWithoutDirectionTakesTheDefaultOne) {
+    Chain chain;
+    chain.add(Segment{{0, 0, 0}, 1});
+    chain.add(Segment{{0, 4, 0}, 2});
+    chain.add(0.0f);
+    chain.add(1.0f);
+    expect_positions(chain, {{0, 0, 0}, {0, 2, 0}, {0, 2, 0}, {1, 2, 0}});
+}
+
+TEST(ChainEdit, AddSegmentLiesTowardsItsPosition) {
+    Chain chain;
+    chain.add(Segment{{1, 1, 1}, 9});
+    chain.add(Segment{{1, 1, 8}, 2});
+    chain.add(Segment{{1, 9, 3}, 1});
+    expect_positions(chain, {{1, 1, 1}, {1, 1, 3}, {1, 2, 3}});
+}
+
+TEST(ChainEdit, SegmentsAtOnePointMakeAStraightChain) {
+    Chain chain(glm::vec3(0, 1, 0));
+    for (int i = 0; i < 6; ++i) chain.add(Segment{{2, 2, 2}, 1});
+    expect_positions(chain, {{2, 2, 2}, {2, 3, 2}, {2, 4, 2}, {2, 5, 2}, {2, 6, 2}, {2, 7, 2}});
+}
+
+TEST(ChainEdit, ASegmentGivenAtAnyPointOfTheChainCarriesNoDirection) {
+    Chain chain = straight(4);
+    chain.add(Segment{{1, 0, 0}, 2});  // where segment 1 is: straight on, not back
+    expect_positions(chain, {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {5, 0, 0}});
+    chain.add(Segment{{1, 0.001f, 0}, 1});  // a millimetre off is somewhere else
+    EXPECT_LT(chain.position(5).x, chain.position(4).x);
+}
+
+TEST(ChainEdit, InsertSegmentAtATakenPointIsInsertLength) {
+    for (const std::size_t index : {0u, 1u, 3u}) {
+        Chain given = straight(4), by_length = straight(4);
+        given.insert(index, Segment{{2, 0, 0}, 0.5f});
+        by_length.insert(index, 0.5f);
+        EXPECT_TRUE(same_bits(given, by_length)) << index;
+    }
+}
+
+TEST(ChainEdit, InsertSegmentIsReLaid) {
+    Chain chain = straight(3);
+    chain.insert(1, Segment{{0, 7, 0}, 1});
+    // From (0,1,0) towards (1,0,0) by 1, then from there towards (2,0,0) by 1.
+    const glm::vec3 second(root_half, 1 - root_half, 0);
+    const glm::vec3 step = glm::vec3(2, 0, 0) - second;
+    const float scale = 1.0f / std::sqrt(step.x * step.x + step.y * step.y);
+    expect_positions(chain, {{0, 0, 0}, {0, 1, 0}, second, second + step * scale});
+}
+
+TEST(ChainEdit, InsertSegmentAsHeadTiesTheOldHeadByItsOwnLength) {
+    Chain chain;
+    chain.add(Segment{{0, 0, 0}, 3});
+    chain.add(Segment{{1, 0, 0}, 1});
+    chain.insert(0, Segment{{-9, 0, 0}, 5});
+    expect_positions(chain, {{-9, 0, 0}, {-6, 0, 0}, {-5, 0, 0}});
+    EXPECT_EQ(chain.length(0), 5.0f);
+    EXPECT_EQ(chain.length(1), 3.0f);
+}
+
+TEST(ChainEdit, InsertLengthCarriesTheRestAlongAndKeepsTheShape) {
+    Chain chain;
+    chain.add(Segment{{0, 0, 0}, 1});
+    chain.add(Segment{{1, 0, 0}, 1});
+    chain.add(Segment{{1, 5, 0}, 2});
+    chain.insert(1, 0.5f);
+    expect_positions(chain, {{0, 0, 0}, {0.5f, 0, 0}, {1.5f, 0, 0}, {1.5f, 2, 0}});
+    chain.insert(3, 1.0f);
+    expect_positions(chain, {{0, 0, 0}, {0.5f, 0, 0}, {1.5f, 0, 0}, {1.5f, 1, 0}, {1.5f, 3, 0}});
+}
+
+TEST(ChainEdit, InsertLengthAsHeadMovesNothingElse) {
+    Chain chain;
+    chain.add(Segment{{4, 4, 4}, 2});
+    chain.add(Segment{{4, 9, 4}, 1});
+    chain.add(Segment{{9, 5, 4}, 1.3f});
+    const Chain before = chain;
+    chain.insert(0, 7.0f);
+    ASSERT_EQ(chain.size(), 4u);
+    EXPECT_LE(distance(chain.position(0), {4, 2, 4}), 1e-6);
+    EXPECT_EQ(chain.length(0), 7.0f);
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_TRUE(same_bits(chain.segments()[i + 1], before.segments()[i])) << i;
+    EXPECT_TRUE(Holds(chain));
+}
+
+TEST(ChainEdit, InsertLengthBeforeASingleSegmentUsesTheDefaultDirection) {
+    Chain chain(glm::vec3(0, 1, 0));
+    chain.add(2.0f);
+    chain.insert(0, 1.0f);
+    expect_positions(chain, {{0, -2, 0}, {0, 0, 0}});
+}
+
+TEST(ChainEdit, RemoveReLaysFromTheHead) {
+    Chain chain = straight(4);
+    chain.remove(1);
+    expect_positions(chain, {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
+    chain.remove(0);
+    expect_positions(chain, {{1, 0, 0}, {2, 0, 0}});
+    chain.remove(1);
+    chain.remove(0);
+    EXPECT_TRUE(chain.empty());
+}
+
+TEST(ChainEdit, SetLengthReLays) {
+    Chain chain = straight(4);
+    chain.set_length(2, 3.0f);
+    expect_positions(chain, {{0, 0, 0}, {1, 0, 0}, {4, 0, 0}, {3, 0, 0}});  // towards its old place, so back
+    chain.set_length(0, 8.0f);
+    expect_positions(chain, {{0, 0, 0}, {1, 0, 0}, {4, 0, 0}, {3, 0, 0}});
+    EXPECT_EQ(chain.length(0), 8.0f);
+    EXPECT_EQ(chain.reach(), 5.0f);
+}
+
+TEST(ChainEdit, LengthZeroIsLegal) {
+    Chain chain = straight(3);
+    chain.set_length(1, 0.0f);
+    expect_positions(chain, {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}});
+    chain.set_length(1, 2.0f);  // the two coincide: along the default direction
+    expect_positions(chain, {{0, 0, 0}, {2, 0, 0}, {1, 0, 0}});
+}
+
+TEST(ChainEdit, RecalculateLeavesAChainThatHolds) {
+    Chain chain;
+    chain.recalculate();
+    for (int i = 0; i < 5; ++i) chain.add(Segment{glm::vec3(i * i, 3 - i, i), 1.0f});
+    const Chain before = chain;
+    chain.recalculate();
+    for (std::size_t i = 0; i < chain.size(); ++i)
+        EXPECT_LE(distance(chain.position(i), before.position(i)), 1e-5);
+    EXPECT_TRUE(same_bits(chain.position(0), before.position(0)));
+}
+
+TEST(ChainEdit, AcceptsItsOwnSegments) {
+    Chain chain = straight(4);
+    for (int i = 0; i < 20; ++i) chain.add(chain.segments()[2]);
+    for (int i = 0; i < 20; ++i) chain.insert(1, chain.segments()[3]);
+    EXPECT_EQ(chain.size(), 44u);
+    EXPECT_TRUE(Holds(chain));
+}
+
+TEST(ChainEdit, AHundredThousandAddsAreQuick) {
+    const Chain chain = straight(100'000, 0.01f);  // quadratic work would take minutes
+    EXPECT_EQ(chain.size(), 100'000u);
+    EXPECT_NEAR(chain.reach(), 999.99f, 1e-3f);
+    EXPECT_TRUE(Holds(chain));
+}
+
+TEST(ChainEdit, DefaultDirectionMayBeAlmostAUnitVector) {
+    const Chain chain(glm::vec3(0.577f, 0.577f, 0.577f));
+    EXPECT_NEAR(distance(chain.default_direction(), glm::vec3(0)), 1.0, 1e-7);
+    // Once it is one, it stays bit for bit: a saved direction comes back the same.
+    EXPECT_TRUE(same_bits(Chain(chain.default_direction()).default_direction(), chain.default_direction()));
+}
+
+TEST(ChainEdit, DefaultDirectionMovesNothing) {
+    Chain chain = straight(3);
+    chain.set_default_direction({0, 1, 0});
+    expect_positions(chain, {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
+    EXPECT_NE(chain, straight(3));
+}
+
+}  // namespace
+}  // namespace tendril::test

@@ -1,0 +1,183 @@
+// Whatever is thrown at a chain: it holds after every operation, it is bitwise unchanged after every refusal,
+// and the pinned point is bitwise where it was pinned to. The seed is printed; TENDRIL_SEED=<number> sets it.
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "chain_support.hpp"
+#include "random.hpp"
+
+namespace tendril::test {
+namespace {
+
+std::uint64_t seed() {
+    const char* given = std::getenv("TENDRIL_SEED");
+    const std::uint64_t value = given ? std::strtoull(given, nullptr, 0) : 20'260'101u;
+    std::printf("seed %llu\n", static_cast<unsigned long long>(value));
+    return value;
+}
+
+float hostile_number(Random& random) {
+    constexpr float numbers[] = {nan,    infinity, -infinity, 1e9f,   -1e9f,   1e10f,  -1e10f,
+                                 -1.0f,  -0.0f,    0.0f,      1e-40f, -1e-40f, 1e-45f, 3e38f,
+                                 1e-30f, 3.4e-4f,  3.5e-4f,   5e8f,   1e-7f};
+    return numbers[random.below(std::size(numbers))];
+}
+
+float some_length(Random& random) {
+    if (random.chance(25)) return hostile_number(random);
+    if (random.chance(10)) return 0.0f;
+    const float scale[] = {0.001f, 1.0f, 4.0f, 10.0f};
+    return std::abs(random.around(scale[random.below(4)]));
+}
+
+glm::vec3 some_point(const Chain& chain, Random& random) {
+    if (!chain.empty() && random.chance(10)) return chain.segments()[random.below(chain.size())].position;
+    glm::vec3 point = random.point(random.chance(30) ? 1e9f : 200.0f);
+    if (random.chance(25)) point[static_cast<int>(random.below(3))] = hostile_number(random);
+    return point;
+}
+
+std::size_t some_index(const Chain& chain, Random& random) {
+    constexpr std::size_t hostile[] = {SIZE_MAX, SIZE_MAX - 1, SIZE_MAX / 2, SIZE_MAX / 16, 1u << 31};
+    if (random.chance(25)) return hostile[random.below(std::size(hostile))];
+    return random.below(chain.size() + 1);  // now and then one too many
+}
+
+/// Where a pull must have left a point, to the bit.
+struct Pin {
+    bool set = false;
+    std::size_t index = 0;
+    glm::vec3 position{0.0f};
+};
+
+Pin pull(Chain& chain, Random& random) {
+    const bool empty = chain.empty();
+    const std::size_t tail = empty ? 0 : chain.size() - 1;
+    const glm::vec3 target = some_point(chain, random);
+    switch (random.below(4)) {
+        case 0:
+            chain.forward(target);
+            return {!empty, 0, target};
+        case 1:
+            chain.backward(target);
+            return {!empty, tail, target};
+        case 2: {
+            const Pin pin{!empty, tail, empty ? target : chain.position(tail)};
+            const int iterations = static_cast<int>(random.below(6)) - (random.chance(20) ? 3 : -1);
+            chain.fixed(target, {.iterations = iterations, .tolerance = some_length(random)});
+            return pin;
+        }
+        default: {
+            const std::size_t index = some_index(chain, random);
+            chain.with_index(index, target);
+            return {!empty, index, target};
+        }
+    }
+}
+
+Pin operate(Chain& chain, Random& random) {
+    if (random.chance(2)) return pull(chain, random);
+    const Segment segment{some_point(chain, random), some_length(random)};
+    const std::size_t index = some_index(chain, random);
+    switch (random.below(chain.size() > 64 ? 1 : 8)) {
+        case 0:
+            chain.remove(index);
+            break;
+        case 1:
+            chain.set_length(index, segment.length);
+            break;
+        case 2:
+            chain.insert(index, segment.length);
+            break;
+        case 3:
+            chain.insert(index, segment);
+            break;
+        case 4:
+            chain.add(segment.length);
+            break;
+        case 5:
+            chain.add(segment);
+            break;
+        case 6:
+            chain.recalculate();
+            break;
+        default:
+            chain.set_default_direction(random.chance(2) ? segment.position : glm::vec3(0, 1, 0));
+            break;
+    }
+    return {};
+}
+
+/// Saved and loaded it is the same to the bit, unless it lies where nothing may be loaded from.
+bool comes_back(const Chain& chain) {
+    const auto segments = chain.segments();
+    for (const Segment& segment : segments) {
+        for (int axis = 0; axis < 3; ++axis) {
+            if (std::abs(segment.position[axis]) > max_magnitude) return true;
+        }
+    }
+    return same_bits(Chain::from_segments({segments.begin(), segments.end()}, chain.default_direction()),
+                     chain);
+}
+
+TEST(ChainProperty, AHundredThousandHostileOperations) {
+    Random random(seed());
+    Chain chain, before;
+    std::size_t longest = 0;
+    int refused = 0, near = 0, pinned = 0;
+    for (int i = 0; i < 100'000; ++i) {
+        if (random.chance(250)) chain = Chain();  // otherwise a length of 1e9 would keep it far out for good
+        before = chain;
+        try {
+            const Pin pin = operate(chain, random);
+            if (pin.set) {
+                ++pinned;
+                ASSERT_TRUE(same_bits(chain.position(pin.index), pin.position)) << "operation " << i;
+            }
+        } catch (const std::logic_error& error) {
+            ++refused;
+            ASSERT_TRUE(same_bits(chain, before)) << "operation " << i << ": " << error.what();
+        }
+        ASSERT_TRUE(Holds(chain)) << "operation " << i;
+        ASSERT_TRUE(comes_back(chain)) << "operation " << i;
+        longest = std::max(longest, chain.size());
+        near += !chain.empty() && lies_within(chain, 1e3);
+    }
+    std::printf("%d refused, %d pulled, %d ended within 1e3 m, at most %zu segments\n", refused, pinned, near,
+                longest);
+    EXPECT_GT(refused, 5'000);  // or this would not test what it says
+    EXPECT_GT(pinned, 20'000);
+    EXPECT_GT(near, 30'000);
+}
+
+TEST(ChainProperty, TenThousandRandomChains) {
+    Random random(seed() + 1);
+    for (int i = 0; i < 10'000; ++i) {
+        Chain chain;
+        const std::size_t count = 1 + random.below(64);
+        for (std::size_t k = 0; k < count; ++k) {
+            const float length = std::abs(random.around(5.0f));
+            random.chance(3) ? chain.add(length) : chain.add(Segment{random.point(200.0f), length});
+        }
+        ASSERT_TRUE(Holds(chain)) << "chain " << i;
+        const glm::vec3 target = random.point(500.0f);
+        const std::size_t index = random.below(count);
+
+        chain.forward(target);
+        ASSERT_TRUE(same_bits(chain.position(0), target) && Holds(chain)) << "chain " << i << ", forward";
+        chain.backward(-target);
+        ASSERT_TRUE(same_bits(chain.position(count - 1), -target) && Holds(chain))
+            << "chain " << i << ", backward";
+        chain.fixed(target, {.iterations = 4});
+        ASSERT_TRUE(same_bits(chain.position(count - 1), -target) && Holds(chain))
+            << "chain " << i << ", fixed";
+        chain.with_index(index, target);
+        ASSERT_TRUE(same_bits(chain.position(index), target) && Holds(chain))
+            << "chain " << i << ", with index";
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test

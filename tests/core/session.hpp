@@ -1,0 +1,17 @@
+// A fixed session over the library, and the number it must end in under every compiler and optimisation.
+#pragma once
+
+#include <cstdint>
+
+namespace tendril::test {
+
+/// What `session_hash` gives. It changes only with what the library computes, and then knowingly: a change
+/// here means that everyone's saved scenes and recordings play differently.
+inline constexpr std::uint64_t golden_session_hash = 0xf7b7c11b0c7f4723u;
+
+/// Runs 20 000 pseudo-random edits and pulls and hashes the bits of every position after each (64-bit
+/// FNV-1a). All numbers in it come from an integer generator and are exact in a float, so that only the
+/// library can differ.
+std::uint64_t session_hash();
+
+}  // namespace tendril::test

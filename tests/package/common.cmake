@@ -1,0 +1,28 @@
+# Shared by the scripts here. In: source, work, version, compiler, generator, pkg_config.
+set(prefix ${work}/moved)  # where the installed library ends up
+set(consumer ${CMAKE_CURRENT_LIST_DIR}/consumer)
+set(expected "tendril ${version}: 3 segments, reach 2, head at 1 2 3, tail at 1 2 1\n")
+
+# Runs a command, stops with its output when it fails, and leaves the output in `output`.
+function(run)
+    execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+    if(NOT result EQUAL 0)
+        message(FATAL_ERROR "${ARGV}\n${output}${errors}")
+    endif()
+    set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+# Configures a project afresh and builds it: build_project(<source> <build> <options>...)
+function(build_project from to)
+    file(REMOVE_RECURSE ${to})
+    run(${CMAKE_COMMAND} -S ${from} -B ${to} -G ${generator} -D CMAKE_CXX_COMPILER=${compiler}
+        -D CMAKE_BUILD_TYPE=Release ${ARGN})
+    run(${CMAKE_COMMAND} --build ${to} --config Release)
+endfunction()
+
+function(expect_output program)
+    run(${program})
+    if(NOT output STREQUAL expected)
+        message(FATAL_ERROR "${program} said\n${output}instead of\n${expected}")
+    endif()
+endfunction()
