@@ -88,13 +88,13 @@ std::string measure_text(const Expect& expect) {
 }  // namespace
 
 const Json* find_in_state(const Json& state, std::string_view path) {
-    const Json* found = &state;
-    while (found && !path.empty()) {
+    if (path.empty()) return &state;
+    for (const Json* found = &state;;) {
         const auto dot = path.find('.');
         found = child(*found, path.substr(0, dot));
-        path = dot == path.npos ? std::string_view() : path.substr(dot + 1);
+        if (!found || dot == path.npos) return found;
+        path.remove_prefix(dot + 1);
     }
-    return found;
 }
 
 std::string check_expectation(const Expect& expect, const Json& state) {

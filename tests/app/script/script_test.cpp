@@ -1,0 +1,262 @@
+#include "app/script/script.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/app/script/script_support.hpp"
+#include "tests/app/support/temp_folder.hpp"
+
+namespace tendril::app {
+namespace {
+
+using test::has;
+using test::message_of;
+using test::parse;
+
+template <class T>
+T only(std::string_view line) {
+    const Script script = parse(line);
+    EXPECT_EQ(script.lines.size(), 1u);
+    return std::get<T>(script.lines.at(0).action);
+}
+
+template <class T>
+T only_event(std::string_view line) {
+    return std::get<T>(only<Event>(line));
+}
+
+std::string refusal(std::string_view text) {
+    return message_of([&] { parse(text); });
+}
+
+TEST(Script, has_lines_for_commands) {
+    const auto run = only<RunCommand>(R"({"command": "chain.mode", "mode": "with_index", "index": 3})");
+    EXPECT_EQ(run.name, "chain.mode");
+    EXPECT_EQ(run.arguments.dump(), R"({"mode":"with_index","index":3})");
+    EXPECT_FALSE(run.expect_refusal);
+    EXPECT_TRUE(only<RunCommand>(R"({"refused": true, "command": "undo"})").expect_refusal);
+    EXPECT_FALSE(only<RunCommand>(R"({"command": "undo", "refused": false})").expect_refusal);
+    EXPECT_EQ(only<RunCommand>(R"({"command": "undo"})").arguments.dump(), "{}");
+    // An argument may have the name of another line's form.
+    EXPECT_EQ(
+        only<RunCommand>(R"({"key": 1, "command": "undo", "wait": 2, "recording": 3})").arguments.size(), 3u);
+}
+
+TEST(Script, has_lines_for_the_mouse) {
+    EXPECT_EQ(only_event<MouseMove>(R"({"mouse": "move", "at": [640, 360.25]})").at,
+              glm::vec2(640.0f, 360.25f));
+    const auto down = only_event<MousePress>(R"({"mouse": "down", "button": "left"})");
+    EXPECT_TRUE(down.down && down.button == MouseButton::Left);
+    const auto up = only_event<MousePress>(R"({"mouse": "up", "button": "right"})");
+    EXPECT_TRUE(!up.down && up.button == MouseButton::Right);
+    EXPECT_EQ(only_event<MousePress>(R"({"mouse": "up", "button": "middle"})").button, MouseButton::Middle);
+    EXPECT_EQ(only_event<MouseWheel>(R"({"mouse": "wheel", "by": -2})").by, -2.0f);
+}
+
+TEST(Script, has_lines_for_keys_and_text) {
+    EXPECT_TRUE(only_event<KeyTap>(R"({"key": "ctrl+z"})").chord == (Chord{.key = Key::Z, .ctrl = true}));
+    EXPECT_TRUE(only_event<KeyTap>(R"({"key": "Shift+Ctrl+Z"})").chord ==
+                (Chord{.key = Key::Z, .ctrl = true, .shift = true}));
+    const auto down = only_event<KeyChange>(R"({"key": "x", "action": "down"})");
+    EXPECT_TRUE(down.down && down.key == Key::X);
+    const auto up = only_event<KeyChange>(R"({"key": "shift", "action": "up"})");
+    EXPECT_TRUE(!up.down && up.key == Key::Shift);
+    EXPECT_EQ(only_event<TextInput>(R"({"text": "0.5"})").utf8, "0.5");
+}
+
+TEST(Script, has_lines_for_the_window) {
+    EXPECT_EQ(only_event<Resize>(R"({"resize": [800, 600]})").size, glm::ivec2(800, 600));
+    EXPECT_EQ(only_event<Resize>(R"({"resize": [1, 16384]})").size, glm::ivec2(1, 16384));
+    EXPECT_EQ(only_event<Drop>(R"({"drop": ["a.json", "b"]})").paths,
+              (std::vector<std::string>{"a.json", "b"}));
+    EXPECT_FALSE(only_event<Focus>(R"({"focus": false})").focused);
+}
+
+TEST(Script, has_lines_for_time_pictures_and_states) {
+    EXPECT_EQ(only<Wait>(R"({"wait": 30})").ticks, 30);
+    EXPECT_EQ(only<Wait>(R"({"wait": 0})").ticks, 0);
+    EXPECT_EQ(only<TakeScreenshot>(R"({"screenshot": "after.png"})").path, "after.png");
+    EXPECT_EQ(only<WriteState>(R"({"state": "after.json"})").path, "after.json");
+}
+
+TEST(Script, has_lines_for_expectations) {
+    using Measure = Expect::Measure;
+    const auto near = only<Expect>(R"({"expect": "tail", "near": [1, 2, 0], "within": 0.001})");
+    EXPECT_TRUE(near.measure == Measure::Near && near.path == "tail" && near.within == 0.001);
+    EXPECT_EQ(near.value, Json::array({1, 2, 0}));
+    EXPECT_EQ(only<Expect>(R"({"expect": "x", "near": 1})").within, 1e-4);
+    EXPECT_TRUE(only<Expect>(R"({"expect": "segments.3.length", "equals": 0.5})").measure == Measure::Equals);
+    EXPECT_TRUE(only<Expect>(R"({"expect": "mode", "equals": {"a": [null]}})").value ==
+                Json({{"a", {nullptr}}}));
+    EXPECT_TRUE(only<Expect>(R"({"expect": "x", "below": 1})").measure == Measure::Below);
+    EXPECT_TRUE(only<Expect>(R"({"expect": "x", "above": -1.5})").measure == Measure::Above);
+}
+
+TEST(Script, numbers_its_lines_as_the_file_does) {
+    const Script script = parse("\n{\"wait\": 1}\r\n  \t\n\n{\"wait\": 2}");
+    ASSERT_EQ(script.lines.size(), 2u);
+    EXPECT_EQ(script.lines[0].number, 2);
+    EXPECT_EQ(script.lines[1].number, 5);
+    EXPECT_FALSE(script.start);
+    EXPECT_TRUE(parse("").lines.empty());
+    EXPECT_TRUE(refusal("{\"wait\": 1}\n\n{\"wait\": }\n").starts_with("line 3: unexpected '}'"));
+    EXPECT_EQ(refusal("{\"wait\": 1}\n{\"wait\": -1}\nnonsense"),
+              "line 2: wait: expected a whole number from 0 to 1000000, found -1");
+}
+
+constexpr const char* recording =
+    R"({"recording": 1, "version": "0.1.0", "size": [640, 480], "lab": "chain", "scene": {"a": 1}, "settings": {"b": 2}})";
+
+TEST(Script, that_is_a_recording_says_what_it_started_from) {
+    const Script script = parse(std::string("\n") + recording + "\n{\"wait\": 1}\n");
+    ASSERT_TRUE(script.start);
+    EXPECT_EQ(script.start->version, "0.1.0");
+    EXPECT_EQ(script.start->size, glm::ivec2(640, 480));
+    EXPECT_EQ(script.start->lab, "chain");
+    EXPECT_EQ(script.start->scene.dump(), R"({"a":1})");
+    EXPECT_EQ(script.start->settings.dump(), R"({"b":2})");
+    EXPECT_EQ(script.lines.size(), 1u);
+}
+
+TEST(Script, that_is_no_recording_of_this_kind_is_refused) {
+    EXPECT_EQ(refusal(R"({"recording": 2, "news": 1})"),
+              "line 1: recording: version 2 is newer than this program, which reads 1");
+    EXPECT_TRUE(has(refusal(std::string(recording) + '\n' + recording),
+                    "line 2: a recording's start can only be the first line"));
+    EXPECT_TRUE(has(refusal(std::string("{\"wait\": 1}\n") + recording),
+                    "line 2: a recording's start can only be the first"));
+    const Json whole = parse_json(recording);
+    for (const auto& [key, value] : whole.items()) {
+        Json without = whole;
+        without.erase(key);
+        EXPECT_NE(refusal(without.dump()), "") << key;
+        for (const Json& wrong : {Json(nullptr), Json(-1.5), Json::array(), Json::array({0, 1})}) {
+            Json changed = whole;
+            changed[key] = wrong;
+            EXPECT_TRUE(has(refusal(changed.dump()), "line 1: " + key + ": ")) << changed;
+        }
+    }
+    Json extra = whole;
+    extra["more"] = 1;
+    EXPECT_EQ(refusal(extra.dump()), "line 1: unknown member \"more\"");
+}
+
+TEST(Script, that_has_a_wrong_line_is_refused_with_the_reason) {
+    const std::string no_form =
+        "expected one of the members \"command\", \"expect\", \"mouse\", \"key\", \"text\", \"resize\", "
+        "\"drop\", "
+        "\"focus\", \"wait\", \"screenshot\", \"state\"";
+    const std::string one_measure = "expected exactly one of \"equals\", \"near\", \"below\", \"above\"";
+    const std::vector<std::pair<std::string, std::string>> bad{
+        {"nonsense", "invalid literal"},
+        {"[]", "expected an object, found []"},
+        {"3", "expected an object, found 3"},
+        {"{}", no_form},
+        {R"({"comand": "undo"})", no_form},
+        {R"({"wait": 1} {"wait": 2})", "unexpected '{'"},
+        {R"({"wait": 1e999})", "number too large: '1e999'"},
+        {std::string(65, '[') + std::string(65, ']'), "nested deeper than 64"},
+
+        {R"({"command": "chain.fly"})", "unknown command \"chain.fly\""},
+        {R"({"command": 3})", "command: expected a text, found 3"},
+        {R"({"command": ""})", "command: expected a text, found \"\""},
+        {R"({"command": "undo", "refused": 1})", "refused: expected true or false, found 1"},
+
+        {R"({"mouse": "jump"})", R"(mouse: expected "move", "down", "up" or "wheel", found "jump")"},
+        {R"({"mouse": ["move"]})", "mouse: expected a text, found [\"move\"]"},
+        {R"({"mouse": "move"})", "\"at\" is missing"},
+        {R"({"mouse": "move", "at": [1]})", "at: expected [x, y], found [1]"},
+        {R"({"mouse": "move", "at": [1, 2, 3]})", "at: expected [x, y], found [1,2,3]"},
+        {R"({"mouse": "move", "at": {"x": 1, "y": 2}})", "at: expected [x, y], found "},
+        {R"({"mouse": "move", "at": [1, "2"]})", "at: expected a number, found \"2\""},
+        {R"({"mouse": "move", "at": [1, null]})", "at: expected a number, found null"},
+        {R"({"mouse": "move", "at": [1, 1e10]})",
+         "at: expected a number of at most 1e9, found 10000000000.0"},
+        {R"({"mouse": "move", "at": [1, 2], "button": "left"})", "unknown member \"button\""},
+        {R"({"mouse": "down"})", "\"button\" is missing"},
+        {R"({"mouse": "down", "button": "top"})",
+         R"(button: expected "left", "right" or "middle", found "top")"},
+        {R"({"mouse": "up", "button": 0})", "button: expected"},
+        {R"({"mouse": "down", "button": "left", "at": [1, 2]})", "unknown member \"at\""},
+        {R"({"mouse": "wheel"})", "\"by\" is missing"},
+        {R"({"mouse": "wheel", "by": "1"})", "by: expected a number, found \"1\""},
+        {R"({"mouse": "wheel", "by": 1, "at": [1, 2]})", "unknown member \"at\""},
+
+        {R"({"key": "hyper+z"})", "unknown key \"hyper+z\""},
+        {R"({"key": ""})", "unknown key \"\""},
+        {R"({"key": "ctrl+"})", "unknown key \"ctrl+\""},
+        {R"({"key": 5})", "key: expected a text, found 5"},
+        {R"({"key": "x", "action": "press"})", R"(action: expected "down" or "up", found "press")"},
+        {R"({"key": "x", "action": true})", "action: expected"},
+        {R"({"key": "ctrl+x", "action": "down"})", "unknown key \"ctrl+x\""},
+        {R"({"key": "", "action": "down"})", "unknown key \"\""},
+        {R"({"key": "x", "held": true})", "unknown member \"held\""},
+        {R"({"text": 0.5})", "text: expected a text, found 0.5"},
+        {R"({"text": "a", "wait": 1})", "unknown member \"wait\""},
+
+        {R"({"resize": [800]})", "resize: expected [width, height], found [800]"},
+        {R"({"resize": [0, 600]})", "resize: expected a whole number from 1 to 16384, found 0"},
+        {R"({"resize": [800, 16385]})", "resize: expected a whole number from 1 to 16384, found 16385"},
+        {R"({"resize": [800.5, 600]})", "resize: expected a whole number from 1 to 16384, found 800.5"},
+        {R"({"resize": "800x600"})", "resize: expected [width, height]"},
+        {R"({"drop": []})", "drop: expected a list of paths, found []"},
+        {R"({"drop": "a.json"})", "drop: expected a list of paths, found \"a.json\""},
+        {R"({"drop": [1]})", "drop: expected a text, found 1"},
+        {R"({"focus": 1})", "focus: expected true or false, found 1"},
+
+        {R"({"wait": 1.5})", "wait: expected a whole number from 0 to 1000000, found 1.5"},
+        {R"({"wait": 1000001})", "wait: expected a whole number from 0 to 1000000, found 1000001"},
+        {R"({"wait": "30"})", "wait: expected a whole number from 0 to 1000000, found \"30\""},
+        {R"({"wait": 18446744073709551615})",
+         "wait: expected a whole number from 0 to 1000000, found 18446744073709551615"},
+        {R"({"screenshot": ""})", "screenshot: expected a text, found \"\""},
+        {R"({"screenshot": null})", "screenshot: expected a text, found null"},
+        {R"({"state": 1})", "state: expected a text, found 1"},
+        {R"({"state": "a", "screenshot": "b"})", "unknown member \"state\""},
+
+        {R"({"expect": "tail"})", one_measure},
+        {R"({"expect": "tail", "equals": 1, "near": 1})", one_measure},
+        {R"({"expect": "tail", "below": 1, "above": 0})", one_measure},
+        {R"({"expect": "", "equals": 1})", "expect: expected a text, found \"\""},
+        {R"({"expect": 3, "equals": 1})", "expect: expected a text, found 3"},
+        {R"({"expect": "tail", "near": "1"})", "near: expected a number, found \"1\""},
+        {R"({"expect": "tail", "near": []})", "near: expected a number, found []"},
+        {R"({"expect": "tail", "near": [1, true]})", "near: expected a number, found true"},
+        {R"({"expect": "tail", "below": [1]})", "below: expected a number, found [1]"},
+        {R"({"expect": "tail", "above": null})", "above: expected a number, found null"},
+        {R"({"expect": "tail", "near": 1, "within": -1})", "within: expected a number from 0.0 to "},
+        {R"({"expect": "tail", "near": 1, "within": "1"})", "within: expected a number, found \"1\""},
+        {R"({"expect": "tail", "equals": 1, "within": 1})", "within: goes with \"near\" only"},
+        {R"({"expect": "tail", "is": 1})", "unknown member \"is\""},
+    };
+    for (const auto& [line, reason] : bad)
+        EXPECT_TRUE(has(refusal("{\"wait\": 1}\n" + line), "line 2: " + reason)) << line;
+}
+
+/// Not a line of it would run.
+TEST(Script, cut_off_anywhere_within_a_line_is_refused) {
+    const std::string line = R"({"expect": "tail", "near": [1, 2, 0], "within": 0.001})";
+    for (std::size_t size = 1; size < line.size(); ++size)
+        EXPECT_TRUE(refusal("{\"wait\": 1}\n" + line.substr(0, size)).starts_with("line 2: ")) << size;
+}
+
+TEST(Script, with_any_byte_changed_is_refused_or_read) {
+    const std::string text =
+        std::string(recording) +
+        "\n{\"command\": \"chain.add\", \"length\": 1}\n{\"mouse\": \"move\", \"at\": [1, 2.5]}\n"
+        "{\"key\": \"ctrl+z\"}\n{\"expect\": \"a.0.b\", \"near\": [1], \"within\": 1e-3}\n{\"drop\": "
+        "[\"a\"]}\n";
+    std::mt19937 random(9);
+    int refused = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        std::string changed = text;
+        changed[random() % changed.size()] = static_cast<char>(random() % 256);
+        const std::string message = refusal(changed);
+        refused += !message.empty();
+        ASSERT_TRUE(message.empty() || message.starts_with("line ")) << message;
+        ASSERT_FALSE(has(message, "json.exception"));
+    }
+    EXPECT_GT(refused, 1000);
+}
+
+}  // namespace
+}  // namespace tendril::app
