@@ -52,8 +52,7 @@ Document load_document(const Document& blank, const Json& labs) {
 
 /// "line 12: ", where the message begins with a place that the text has; else nothing.
 std::string line_prefix(std::string_view text, std::string_view message) {
-    const auto end = message.find(": ");
-    const int line = end == message.npos ? 0 : json_line(text, message.substr(0, end));
+    const int line = json_line(text, message.substr(0, message.find_first_of(": ")));
     return line > 0 ? "line " + std::to_string(line) + ": " : std::string();
 }
 

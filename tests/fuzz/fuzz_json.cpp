@@ -1,0 +1,27 @@
+// Our parser reads what the JSON library reads, to the same value, except what is nested too deep; and a line
+// is found for any path.
+#include "app/document/json.hpp"
+#include "tests/fuzz/check.hpp"
+
+using namespace tendril::app;
+using tendril::fuzz::check;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string_view text = tendril::fuzz::text_of(data, size);
+    Json ours;
+    try {
+        ours = parse_json(text);
+    } catch (const ParseError& error) {
+        const bool deep = error.reason.find("deeper") != std::string::npos;
+        check(deep || !Json::accept(text), "what the library reads, we read");
+        check(error.line >= 1, "an error has a line");
+        return 0;
+    }
+    // Compared without order: of repeated members both keep the last, but in different places.
+    const auto theirs = nlohmann::json::parse(text);
+    check(nlohmann::json::parse(ours.dump()) == theirs, "our value is the library's");
+    check(parse_json(json_to_text(ours)) == ours, "text for people reads back the same");
+    json_summary(ours);
+    for (const char* path : {"a", "a.b", "0", "0.0.0", "labs.chain.segments.0", "."}) json_line(text, path);
+    return 0;
+}

@@ -1,0 +1,53 @@
+// A script is refused by a std::runtime_error, or all of it can be used: its events are written as they were
+// read, its commands are carried out or refused, and its expectations give an answer.
+#include "app/labs/labs.hpp"
+#include "app/script/recorder.hpp"
+#include "app/script/script.hpp"
+#include "tests/fuzz/check.hpp"
+
+using namespace tendril::app;
+using tendril::fuzz::check;
+
+namespace {
+
+void use(const Event& event, const CommandTable& commands) {
+    const Json line = event_line(event);
+    check(!line.is_null(), "an event that was read leaves a line");
+    const Script again = parse_script(line.dump(), commands);
+    check(event_line(std::get<Event>(again.lines.at(0).action)) == line,
+          "an event is written as it was read");
+}
+
+void use(const RunCommand& command, Workspace& workspace, const CommandTable& commands) {
+    if (command.name.starts_with("scene.")) return;  // these touch files
+    const Document before = workspace.document;
+    try {
+        commands.run(workspace, command.name, command.arguments);
+    } catch (const Refused&) {
+        check(workspace.document == before, "a refused command changes nothing");
+    }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const Labs labs;
+    static const CommandTable commands = make_command_table(labs);
+    Script script;
+    try {
+        script = parse_script(tendril::fuzz::text_of(data, size), commands);
+    } catch (const std::runtime_error&) {
+        return 0;
+    }
+    Workspace workspace = make_blank_workspace(labs);
+    for (const ScriptLine& line : script.lines) {
+        if (const auto* event = std::get_if<Event>(&line.action)) use(*event, commands);
+        if (const auto* command = std::get_if<RunCommand>(&line.action)) use(*command, workspace, commands);
+        if (const auto* expect = std::get_if<Expect>(&line.action)) {
+            const Lab* lab = labs.find(workspace.lab);
+            check(lab != nullptr, "there is always a lab");
+            check_expectation(*expect, lab->state(workspace));
+        }
+    }
+    return 0;
+}
