@@ -32,8 +32,7 @@ App::App(Window& window, bool complain)
     : window_(window),
       complain_(complain),
       commands_(make_command_table(labs_)),
-      workspace_(make_blank_workspace(labs_)),
-      shell_(ui_) {
+      workspace_(make_blank_workspace(labs_)) {
     ImGui::GetIO().SetClipboardTextFn = [](void* data, const char* text) {
         static_cast<Window*>(data)->set_clipboard(text);
     };
@@ -74,6 +73,8 @@ void App::tick(const Event* event) {
     if (recorder_) event != nullptr ? recorder_->event(*event) : recorder_->idle_tick();
     input_.take(event);
     compose(event, true);
+    // What an event opened takes a second pass before it can have the keyboard: so the next event finds it ready.
+    if (event != nullptr && !std::holds_alternative<MouseMove>(*event)) compose(nullptr, false);
     settling_ = event != nullptr ? settling_ticks : std::max(0, settling_ - 1);
     update_window();
 }
@@ -97,10 +98,8 @@ void App::compose(const Event* event, bool in_tick) {
     }
     if (hint.empty()) hint = "Right-drag turns the view, middle-drag shifts it, the wheel zooms. ? shows every key.";
     shell_.frame({workspace_, labs_, lab(), commands_, layout_, hint}, emit);
-    if (in_tick) {
-        run_emitted(emit);
-        advance_time();
-    }
+    run_emitted(emit);
+    if (in_tick) advance_time();
 
     const Camera camera(workspace_.camera, layout_.view);
     drawn_.clear();
@@ -125,6 +124,11 @@ void App::take_event(const Event& event, Emit& emit) {
 void App::take_shortcut(Emit& emit) {
     const Chord chord = input_.pressed();
     if (chord.key == Key::Unknown) return;
+    if (chord.key == Key::Escape && pointer_.dragged() != no_pick) {
+        pointer_.release();  // a drag that was let go leaves nothing behind
+        emit("undo");
+        return;
+    }
     const Shortcut* shortcut = find_shortcut(chord);
     if (shortcut == nullptr || (ui_.wants_text() && !shortcut->while_typing)) return;
     emit(shortcut->command, shortcut->arguments);

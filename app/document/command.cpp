@@ -104,6 +104,14 @@ void check_arguments(const Command& command, const Json& given) {
     }
 }
 
+/// "chain.remove: index 9 is out of range": the library's messages begin with its own name for the operation, which the
+/// command's name already says.
+std::string refusal_text(const std::string& command, std::string what) {
+    const std::string operation = command.substr(command.rfind('.') + 1) + ": ";
+    if (what.starts_with(operation)) what.erase(0, operation.size());
+    return command + ": " + what;
+}
+
 }  // namespace
 
 glm::vec3 Arguments::point(const char* name) const {
@@ -131,12 +139,9 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
     const Document before = workspace.document;  // parts are shared: a few pointers
     try {
         command->apply(workspace, Arguments(arguments));
-    } catch (const Refused&) {
-        workspace.document = before;
-        throw;
     } catch (const std::exception& error) {
         workspace.document = before;
-        throw Refused(command->name + ": " + error.what());
+        throw Refused(refusal_text(command->name, error.what()));
     }
     if (command->effect == Effect::Edit && workspace.document != before) {
         workspace.history.push(before, command->name, gesture);

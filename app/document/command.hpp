@@ -64,7 +64,7 @@ struct Command {
     std::vector<Argument> arguments;
     std::string help;
     Effect effect = Effect::Edit;
-    /// May throw Refused, std::invalid_argument, std::out_of_range or std::runtime_error; all become a refusal.
+    /// Whatever it throws becomes a refusal, with the command's name before it.
     std::function<void(Workspace&, const Arguments&)> apply{};
 };
 

@@ -8,7 +8,7 @@ namespace {
 void step_through(Workspace& workspace, bool back) {
     auto document =
         back ? workspace.history.undo(workspace.document) : workspace.history.redo(workspace.document);
-    if (!document) throw Refused(back ? "undo: nothing to undo" : "redo: nothing to redo");
+    if (!document) throw Refused(back ? "nothing to undo" : "nothing to redo");
     workspace.document = std::move(*document);
 }
 
@@ -52,7 +52,7 @@ void add_scene_commands(CommandTable& table) {
                .apply = [](Workspace& w, const Arguments& a) {
                    const std::filesystem::path path =
                        a.has("path") ? std::filesystem::path(a.text("path")) : w.path;
-                   if (path.empty()) throw Refused("scene.save: path is missing; the scene has no file yet");
+                   if (path.empty()) throw Refused("path is missing; the scene has no file yet");
                    save_scene_file(w, path);
                    w.toast("Saved " + path.filename().string());
                }});
@@ -248,7 +248,7 @@ void add_workspace_commands(CommandTable& table) {
                .apply = [](Workspace& w, const Arguments& a) {
                    const std::string name = a.text("name");
                    if (!w.document.parts().contains(name))
-                       throw Refused("lab.open: there is no lab \"" + name + "\"");
+                       throw Refused("there is no lab \"" + name + "\"");
                    w.lab = name;
                }});
 }

@@ -7,6 +7,7 @@
 
 #include "app/shell/shortcuts.hpp"
 #include "app/shell/theme.hpp"
+#include "app/widgets/fonts.hpp"
 #include "app/widgets/icons.hpp"
 
 namespace tendril::app {
@@ -87,7 +88,7 @@ void Shell::top_bar(const ShellFrame& frame, Emit& emit) {
     menu(frame, emit);
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
-    ImGui::PushFont(ui_.heading());
+    ImGui::PushFont(heading_font());
     ImGui::TextUnformatted("Tendril");
     ImGui::PopFont();
     for (const auto& lab : frame.labs.all()) {
@@ -149,10 +150,19 @@ void Shell::side_panel(const ShellFrame& frame, bool left, Emit& emit) {
     begin_region(left ? "left" : "right", rect, colours.panel, {0.0f, 0.0f});
     panel_edge(rect, left, scale, emit);
     ImGui::SetCursorPos({left ? 0.0f : 5.0f * scale, 0.0f});
+    // The bar's room is always kept, so that nothing shifts when it is needed; unneeded, it is not seen.
+    float& overflow = overflow_[left ? 0 : 1];
+    const float grab = overflow > 0.0f ? 1.0f : 0.0f;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(14.0f * scale, 6.0f * scale));
+    ImVec4 bar = ImGui::GetStyleColorVec4(ImGuiCol_ScrollbarGrab);
+    bar.w *= grab;
+    ImGui::PushStyleColor(ImGuiCol_ScrollbarGrab, bar);
     ImGui::BeginChild("content", {std::max(1.0f, rect.size().x - 5.0f * scale), 0.0f}, false,
-                      ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoNav);
+                      ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoNav |
+                          ImGuiWindowFlags_AlwaysVerticalScrollbar);
+    ImGui::PopStyleColor();
     ImGui::PopStyleVar();
+    overflow = ImGui::GetScrollMaxY();
     if (left) {
         frame.lab.panel(frame.workspace, emit);
     } else {
@@ -167,7 +177,7 @@ void Shell::status_bar(const ShellFrame& frame) {
     const Palette& colours = palette(workspace.settings.theme);
     const float scale = frame.layout.scale;
     begin_region("status", frame.layout.status, colours.bar, {14.0f * scale, 5.0f * scale});
-    ImGui::PushFont(ui_.small());
+    ImGui::PushFont(small_font());
     const std::string name = workspace.path.empty() ? "untitled" : workspace.path.filename().string();
     const std::string scene = name + (workspace.modified() ? " *" : "");
     const float room = ImGui::GetContentRegionAvail().x;

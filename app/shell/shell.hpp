@@ -10,7 +10,6 @@
 #include "app/shell/command_palette.hpp"
 #include "app/shell/file_dialog.hpp"
 #include "app/shell/layout.hpp"
-#include "app/shell/ui.hpp"
 
 namespace tendril::app {
 
@@ -26,7 +25,6 @@ struct ShellFrame {
 
 class Shell {
   public:
-    explicit Shell(const Ui& ui) : ui_(ui) {}
     void frame(const ShellFrame& frame, Emit& emit);
 
   private:
@@ -35,7 +33,7 @@ class Shell {
     void side_panel(const ShellFrame& frame, bool left, Emit& emit);
     void status_bar(const ShellFrame& frame);
 
-    const Ui& ui_;
+    float overflow_[2] = {0.0f, 0.0f};  ///< how far each side panel can scroll
     CommandPalette palette_;
     FileDialog file_dialog_;
 };

@@ -20,7 +20,7 @@ constexpr float base_text = 15.0f;  ///< pixels at scale 1
 constexpr ImWchar glyphs[] = {0x0020, 0x024F, 0x0370, 0x03FF, 0x2010, 0x205E, 0x20A0, 0x20BF, 0x2190, 0x2193,
                               0x2200, 0x2265, 0};
 
-ImFont* add_font(std::span<const std::byte> file, float pixels) {
+void add_font(std::span<const std::byte> file, float pixels) {
     ImFontConfig config;
     config.FontDataOwnedByAtlas = false;
     config.OversampleH = 2;
@@ -28,7 +28,7 @@ ImFont* add_font(std::span<const std::byte> file, float pixels) {
     config.GlyphRanges = glyphs;
     // ImGui takes the pointer as its own to free, though told not to: it never writes there.
     void* bytes = const_cast<std::byte*>(file.data());
-    return ImGui::GetIO().Fonts->AddFontFromMemoryTTF(bytes, static_cast<int>(file.size()), pixels, &config);
+    ImGui::GetIO().Fonts->AddFontFromMemoryTTF(bytes, static_cast<int>(file.size()), pixels, &config);
 }
 
 }  // namespace
@@ -55,9 +55,10 @@ void Ui::load_fonts(float scale, float pixel_ratio) {
     ImGuiIO& io = ImGui::GetIO();
     io.Fonts->Clear();
     const float pixels = scale * pixel_ratio;  // rasterised in pixels, shown in window coordinates
+    // in the order of widgets/fonts.hpp
     add_font(font_regular(), base_text * pixels);
-    heading_ = add_font(font_medium(), base_text * pixels);
-    small_ = add_font(font_regular(), 0.87f * base_text * pixels);
+    add_font(font_medium(), base_text * pixels);
+    add_font(font_regular(), 0.87f * base_text * pixels);
     io.FontGlobalScale = 1.0f / pixel_ratio;
 #if IMGUI_VERSION_NUM < 19200
     ImGui_ImplOpenGL3_DestroyFontsTexture();

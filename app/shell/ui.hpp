@@ -7,8 +7,6 @@
 #include "app/document/settings.hpp"
 #include "app/shell/input.hpp"
 
-struct ImFont;
-
 namespace tendril::app {
 
 class Ui {
@@ -34,14 +32,10 @@ class Ui {
     /// Whether a panel, rather than the scene, is meant by the mouse (the keyboard).
     bool wants_mouse() const;
     bool wants_text() const;
-    ImFont* heading() const { return heading_; }
-    ImFont* small() const { return small_; }
 
   private:
     void load_fonts(float scale, float pixel_ratio);
 
-    ImFont* heading_ = nullptr;
-    ImFont* small_ = nullptr;
     float font_scale_ = 0.0f;
     float font_ratio_ = 0.0f;
     Theme theme_ = Theme::Dark;

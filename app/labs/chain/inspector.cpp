@@ -1,10 +1,12 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <glm/geometric.hpp>
 
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/widgets/fields.hpp"
+#include "app/widgets/fonts.hpp"
 
 namespace tendril::app {
 namespace {
@@ -42,6 +44,15 @@ void chain_rows(const ChainPart& part) {
     reading("worst error", "%.1e m", static_cast<double>(worst));
 }
 
+/// Set flush right in its column, so that digits stay under digits.
+void right(const char* format, float value) {
+    char text[24];
+    std::snprintf(text, sizeof text, format, static_cast<double>(value));
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text).x;
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, room));
+    ImGui::TextUnformatted(text);
+}
+
 void segment_row(const ChainPart& part, std::size_t i, Emit& emit) {
     const Segment& segment = part.chain.segments()[i];
     ImGui::TableNextRow();
@@ -53,38 +64,52 @@ void segment_row(const ChainPart& part, std::size_t i, Emit& emit) {
     }
     for (int axis = 0; axis < 3; ++axis) {
         ImGui::TableNextColumn();
-        ImGui::Text("%7.2f", static_cast<double>(segment.position[axis]));
+        right("%.2f", segment.position[axis]);
     }
     ImGui::TableNextColumn();
-    ImGui::Text("%6.2f", static_cast<double>(segment.length));
+    right("%.2f", segment.length);
     ImGui::TableNextColumn();
-    ImGui::Text("%.0e", static_cast<double>(length_error(part.chain, i)));
+    right("%.0e", length_error(part.chain, i));
+}
+
+void header_row() {
+    struct Column {
+        const char* name;
+        float share;
+    };
+    constexpr Column columns[] = {{"#", 0.75f}, {"x", 1.0f}, {"y", 1.0f}, {"z", 1.0f}, {"length", 1.05f}, {"error", 1.1f}};
+    for (const Column& column : columns) ImGui::TableSetupColumn(column.name, ImGuiTableColumnFlags_WidthStretch, column.share);
+    ImGui::TableSetupScrollFreeze(0, 1);
+    ImGui::TableNextRow();
+    for (const Column& column : columns) {
+        ImGui::TableNextColumn();
+        const bool first = column.name[0] == '#';
+        const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(column.name).x;
+        if (!first) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, room));
+        ImGui::TextDisabled("%s", column.name);
+    }
 }
 
 void segment_table(const ChainPart& part, Emit& emit) {
     section("Segments, in metres");
-    const ImGuiTableFlags flags =
-        ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_NoPadOuterX;
+    const ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_NoPadOuterX;
     const float least = 8.0f * ImGui::GetTextLineHeightWithSpacing();
     const float height = std::max(least, ImGui::GetContentRegionAvail().y);
-    if (!ImGui::BeginTable("segments", 6, flags, {0.0f, height})) return;
-    ImGui::TableSetupScrollFreeze(0, 1);
-    const auto column = [](const char* name, float share) {
-        ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthStretch, share);
-    };
-    column("#", 0.8f);
-    column("x", 1.1f);
-    column("y", 1.1f);
-    column("z", 1.1f);
-    column("length", 1.1f);
-    column("error", 1.1f);
-    ImGui::TableHeadersRow();
-    ImGuiListClipper clipper;
-    clipper.Begin(static_cast<int>(part.chain.size()));
-    while (clipper.Step()) {
-        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) segment_row(part, static_cast<std::size_t>(i), emit);
+    ImGui::PushFont(small_font());
+    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(3.0f, 2.0f));
+    if (ImGui::BeginTable("segments", 6, flags, {0.0f, height})) {
+        header_row();
+        ImGuiListClipper clipper;
+        clipper.Begin(static_cast<int>(part.chain.size()));
+        while (clipper.Step()) {
+            for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+                segment_row(part, static_cast<std::size_t>(i), emit);
+            }
+        }
+        ImGui::EndTable();
     }
-    ImGui::EndTable();
+    ImGui::PopStyleVar();
+    ImGui::PopFont();
 }
 
 }  // namespace

@@ -1,0 +1,14 @@
+// The fonts that the shell loads, by their use. They are in the atlas in this order.
+#pragma once
+
+#include <imgui.h>
+
+namespace tendril::app {
+
+enum class Font { Text, Heading, Small };
+
+inline ImFont* font(Font which) { return ImGui::GetIO().Fonts->Fonts[static_cast<int>(which)]; }
+inline ImFont* small_font() { return font(Font::Small); }
+inline ImFont* heading_font() { return font(Font::Heading); }
+
+}  // namespace tendril::app
