@@ -2,50 +2,44 @@
 // Grid lines of three sizes, each ten times the one before. As the camera draws back the finest fades out and the
 // coarsest fades in, so that it always looks like one grid. Lines are a pixel wide and anti-aliased by their distance in
 // pixels; where they would crowd together they fade instead of shimmering.
+//
+// This covers most of the picture, so every operation counts where a processor does the drawing.
 
-in vec2 at;
+in vec2 at;       // metres from a crossing of the coarsest lines
+in vec2 outward;  // from what the camera looks at, 1 at the edge of the grid
 
-uniform vec2 target;
-uniform float reach;
-uniform float spacing;
-uniform float finer_gone;  // 0: the finest lines are there in full, 1: they are gone
+uniform float per_metre;   // finest lines in a metre
+uniform vec3 strengths;    // of the finest lines, the middle ones, the coarsest
 uniform vec2 origin;
-uniform float line_width;
-uniform float line_strength;
+uniform float half_width;  // of a line, in pixels, and half a pixel more for its soft edge
 uniform vec3 line_colour;
 uniform vec3 u_colour;
 uniform vec3 v_colour;
-uniform sampler2D shadows;
-uniform vec4 shadow_rect;
 
 out vec4 colour;
 
-vec2 covered(vec2 pixels) { return clamp(0.5 * line_width + 0.5 - pixels, 0.0, 1.0); }
-
-float lines(vec2 metres_per_pixel, float size) {
-    vec2 cell = size / metres_per_pixel;
-    vec2 away = abs(fract(at / size + 0.5) - 0.5) * cell;
-    vec2 both = covered(away) * smoothstep(3.0, 14.0, cell);
+// How much of the pixel lines `cell` pixels apart cover, `place` being counted in cells.
+float lines(vec2 place, vec2 cell) {
+    vec2 away = abs(fract(place) - 0.5) * cell;
+    vec2 both = clamp(half_width - away, 0.0, 1.0) * clamp(cell * 0.08 - 0.24, 0.0, 1.0);
     return max(both.x, both.y);
 }
 
 void main() {
-    float near = 1.0 - smoothstep(0.08 * reach, reach, length(at - target));
-    if (near <= 0.0) discard;
-    vec2 metres_per_pixel = vec2(length(vec2(dFdx(at.x), dFdy(at.x))), length(vec2(dFdx(at.y), dFdy(at.y))));
+    vec2 across = dFdx(at), upward = dFdy(at);
+    vec2 pixels = inversesqrt(across * across + upward * upward);  // to a metre
 
-    const float minor = 0.34, major = 0.62;
-    float fading = finer_gone * finer_gone * (3.0 - 2.0 * finer_gone);
-    float line = max(max(minor * (1.0 - fading) * lines(metres_per_pixel, spacing),
-                         mix(major, minor, fading) * lines(metres_per_pixel, 10.0 * spacing)),
-                     major * lines(metres_per_pixel, 100.0 * spacing));
+    vec2 place = at * per_metre, cell = pixels / per_metre;
+    float line = strengths.x * lines(place + 0.5, cell);
+    line = max(line, strengths.y * lines(place * 0.1 + 0.5, cell * 10.0));
+    line = max(line, strengths.z * lines(place * 0.01 + 0.5, cell * 100.0));
+
     // The line where v is the origin's is the u axis.
-    vec2 axes = covered(abs(at - origin) / metres_per_pixel);
-    vec3 tint = mix(line_colour, v_colour, axes.x);
-    tint = mix(tint, u_colour, axes.y);
-    line = max(line, 0.85 * max(axes.x, axes.y)) * near * near * line_strength;
+    vec2 axes = clamp(half_width - abs(at - origin) * pixels, 0.0, 1.0);
+    line = max(line, 0.85 * max(axes.x, axes.y));
+    vec3 tint = mix(mix(line_colour, v_colour, axes.x), u_colour, axes.y);
 
-    float shade = texture(shadows, (gl_FragCoord.xy - shadow_rect.xy) / shadow_rect.zw).r;
-    float light = 1.0 - shade;
-    colour = vec4(tint * line * light, 1.0 - light * (1.0 - line));
+    float near = max(1.0 - dot(outward, outward), 0.0);
+    near *= near;
+    colour = vec4(tint, 1.0) * (line * near * near);
 }

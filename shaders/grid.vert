@@ -8,10 +8,11 @@ uniform vec3 axis_v;
 uniform vec2 target;
 uniform float reach;
 
-out vec2 at;  // metres from the centre
+out vec2 at;
+out vec2 outward;
 
 void main() {
-    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
-    at = target + reach * corner;
+    outward = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+    at = target + reach * outward;
     gl_Position = to_clip * vec4(centre + axis_u * at.x + axis_v * at.y, 1.0);
 }

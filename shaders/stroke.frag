@@ -2,88 +2,71 @@
 // One pixel of one stroke: how much of it is covered, which way the surface there faces, how deep it lies.
 
 in vec2 at;
-flat in vec4 shape;
-flat in vec4 depths_and_axis;
+flat in vec4 outline;
+flat in vec4 solid;
+flat in vec4 fractions;
 flat in vec4 premultiplied;
-flat in vec2 kind;
+flat in vec4 style_and_axis;
 
-uniform bool orthographic;
-uniform float pixels_per_metre;
+uniform float orthographic;
+uniform float metres_per_pixel;
 uniform vec2 to_window_depth;
 uniform vec3 sky;
 
 out vec4 colour;
 
-// Distance to the outline, below zero inside, and where along the axis that is: as distance_to() in
-// app/view/stroke_projection.cpp.
-vec2 outline(vec2 p) {
-    float length_ = shape.x, narrowing = shape.y - shape.z;
-    vec2 to_ends = vec2(length(p) - shape.y, length(p - vec2(length_, 0.0)) - shape.z);
-    if (length_ <= abs(narrowing) + 1e-3) return narrowing >= 0.0 ? vec2(to_ends.x, 0.0) : vec2(to_ends.y, 1.0);
-    float y = abs(p.y);
-    float sine = narrowing / length_, cosine = sqrt(1.0 - sine * sine);
-    float foot = p.x - y * sine / cosine;
-    if (foot <= 0.0) return vec2(to_ends.x, 0.0);
-    if (foot >= length_) return vec2(to_ends.y, 1.0);
-    return vec2(p.x * sine + y * cosine - shape.y, foot / length_);
+// Where on the axis the circle is whose edge is nearest: back along the normal of the flank, which leans by the slope.
+float nearest_circle() { return clamp(at.x - abs(at.y) * outline.w, 0.0, outline.x); }
+
+// Of all the balls along the axis, the one whose surface the line of sight meets first; 0 at a, 1 at b.
+//
+// Let c(t) = (L t, 0, n t) be their centres, n being how much nearer to the eye b is, and r(t) = R + k t their radii. The
+// surface they sweep is where |Q - c(t)| = r(t), and where moving on along t changes nothing. For Q on the line of sight
+// through (x, y), taking z out of the two leaves
+//     t = (e + n sqrt((e^2 - g (x^2 + y^2 - R^2)) / m)) / g,   e = L x + R k,  g = L^2 - k^2,  m = g + n^2.
+float nearest_ball() {
+    float e = solid.x * at.x + outline.y * solid.y;
+    float within = dot(at, at) - outline.y * outline.y;
+    float root = sqrt(max((e * e - solid.w * within) * fractions.x, 0.0));
+    return clamp((e + solid.z * root) * fractions.y, 0.0, 1.0);
 }
 
-// Of all the balls along the axis, the one whose surface the line of sight meets first. The surface that they sweep is
-// where |Q - c(t)| = r(t) and moving on along t changes nothing; eliminating t leaves a quadratic in the height z.
-float nearest_ball(vec2 p) {
-    float length_ = shape.x, radius = shape.y, growth = shape.z - shape.y, rise = shape.w;
-    float m = length_ * length_ + rise * rise - growth * growth;
-    if (m <= 1e-3) return growth > 0.0 ? 1.0 : 0.0;  // one ball holds the other
-    float e = p.x * length_ + radius * growth;
-    float a = 1.0 - rise * rise / m;
-    if (abs(a) < 1e-4) a = 1e-4;
-    float b = rise * e / m;
-    float root = sqrt(max(b * b - a * (dot(p, p) - radius * radius - e * e / m), 0.0));
-    float t = (e + rise * (b + root) / a) / m;
-    // Seen end on, the other root is the cone's mirror image beyond its tip.
-    if (radius + growth * t < 0.0) t = (e + rise * (b - root) / a) / m;
-    return clamp(t, 0.0, 1.0);
-}
-
-vec3 lit(vec3 base, vec3 normal, float alpha) {
-    const vec3 key = normalize(vec3(-0.45, 0.62, 0.64));
-    float from_key = max(dot(normal, key), 0.0);
-    float from_sky = 0.5 + 0.5 * dot(normal, sky);
-    float facing = normal.z;
-    vec3 shaded = base * (0.40 + 0.22 * from_sky + 0.46 * from_key);
-    float glint = max(dot(reflect(-key, normal), vec3(0.0, 0.0, 1.0)), 0.0);
+// A key light at the upper left of whoever looks, the sky above, a darker rim that sets things off from what is behind.
+vec3 lit(vec3 normal) {
+    const vec3 key = vec3(-0.451, 0.621, 0.641);
+    float from_key = dot(normal, key);
+    float from_sky = dot(normal, sky);
+    float glint = max(2.0 * from_key * normal.z - key.z, 0.0);  // the key's reflection, along the line of sight
     glint *= glint;
     glint *= glint;
     glint *= glint;
-    shaded += 0.10 * alpha * glint;
-    float rim = 1.0 - facing;
-    return shaded * (1.0 - 0.25 * rim * rim);
+    float rim = 1.0 - normal.z;
+    float light = (0.52 + 0.11 * from_sky + 0.44 * max(from_key, 0.0)) * (1.0 - 0.22 * rim * rim);
+    return premultiplied.rgb * light + 0.12 * premultiplied.a * glint;
 }
 
 void main() {
-    vec2 edge = outline(at);
-    float distance_ = kind.y > 0.0 ? abs(edge.x) - kind.y : edge.x;
-    float coverage = clamp(0.5 - distance_, 0.0, 1.0);
+    float foot = nearest_circle();
+    float distance_ = length(at - vec2(foot, 0.0)) - outline.y - foot * outline.z;
+    float ring = style_and_axis.y;
+    distance_ = ring > 0.0 ? abs(distance_) - ring : distance_;
+    float coverage = min(0.5 - distance_, 1.0);
     if (coverage <= 0.0) discard;
 
-    float t = edge.y;
-    vec3 rgb = premultiplied.rgb;
-    float bulge = 0.0;
-    if (kind.x > 0.5) {
-        t = nearest_ball(at);
-        float radius = mix(shape.y, shape.z, t);
-        vec2 across = (at - vec2(t * shape.x, 0.0)) / radius;
-        float squared = dot(across, across);
-        if (squared > 1.0) across *= inversesqrt(squared);
-        float facing = sqrt(max(1.0 - squared, 0.0));
-        bulge = facing * radius;
-        vec2 along = depths_and_axis.zw;
-        vec3 normal = vec3(along * across.x + vec2(-along.y, along.x) * across.y, facing);
-        rgb = lit(premultiplied.rgb, normal, premultiplied.a);
-    }
+    float t = nearest_ball();
+    float radius = outline.y + t * solid.y;
+    vec2 across = (at - vec2(t * solid.x, 0.0)) / radius;
+    float squared = dot(across, across);
+    float facing = sqrt(max(1.0 - squared, 0.0));
+    across *= inversesqrt(max(squared, 1.0));  // half a pixel beyond the edge it faces as it does at the edge
+    vec2 along = style_and_axis.zw;
+    vec3 normal = vec3(along * across.x + vec2(-along.y, along.x) * across.y, facing);
+    float is_lit = style_and_axis.x;
+    vec3 rgb = mix(premultiplied.rgb, lit(normal), is_lit);
     colour = vec4(min(rgb, premultiplied.a), premultiplied.a) * coverage;
 
-    float depth = mix(depths_and_axis.x, depths_and_axis.y, t);
-    depth = orthographic ? depth - bulge / pixels_per_metre : depth / max(1.0 - bulge / pixels_per_metre, 1e-3);
-    gl_FragDepth = clamp(to_window_depth.x * depth + to_window_depth.y, 0.0, 1.0);
+    float bulge = is_lit * facing * radius * metres_per_pixel;
+    float depth = mix(fractions.z, fractions.w, t);
+    depth = (depth - orthographic * bulge) / max(1.0 - (1.0 - orthographic) * bulge, 1e-3);
+    gl_FragDepth = to_window_depth.x * depth + to_window_depth.y;
 }

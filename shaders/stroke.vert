@@ -1,40 +1,61 @@
 #version 330 core
-// Spans a rectangle around one stroke's outline, along its axis; what lies inside is the fragment shader's business.
+// Spans as few pixels as will hold one stroke's outline; what lies inside is the fragment shader's business. Whatever is
+// the same all over a stroke is worked out here, once.
+//
+// The stroke's own coordinates: pixels, from the centre of its larger end a towards b, and across.
 
 layout(location = 0) in vec4 ends;    // pixels: a, b
-layout(location = 1) in vec4 sizes;   // pixels: radius at a, at b; depths there
+layout(location = 1) in vec4 sizes;   // pixels: radius at a, and at b, which is no larger; depths there
 layout(location = 2) in vec4 colour;  // straight alpha
 layout(location = 3) in vec2 style;   // lit, half the ring's width
 
 uniform vec2 framebuffer_size;
 uniform float pixels_per_metre;
-uniform bool orthographic;
+uniform float orthographic;
 
-out vec2 at;                  // pixels from a: along the axis, across it
-flat out vec4 shape;          // length, radius a, radius b, how much nearer to the eye b is: all in pixels
-flat out vec4 depths_and_axis;
+out vec2 at;
+flat out vec4 outline;    // length of the axis, radius at a, what it grows by in a pixel; slope of the foot
+flat out vec4 solid;      // length, growth from a to b, how much nearer to the eye b is; g
+flat out vec4 fractions;  // 1/m, 1/g (see the fragment shader), depths
 flat out vec4 premultiplied;
-flat out vec2 kind;
+flat out vec4 style_and_axis;
 
 void main() {
     vec2 axis = ends.zw - ends.xy;
-    float length_ = length(axis);
-    vec2 along = length_ > 1e-3 ? axis / length_ : vec2(1.0, 0.0);
+    float len = length(axis);
+    vec2 along = len > 1e-3 ? axis / len : vec2(1.0, 0.0);
+    float growth = sizes.y - sizes.x;
 
-    float towards_eye = (sizes.z - sizes.w) * pixels_per_metre;
-    // The depths are inverse ones in perspective: 1/z_a - 1/z_b is (z_b - z_a) / (z_a z_b), and the scale there is the
-    // geometric mean of the two ends'.
-    if (!orthographic) towards_eye *= -inversesqrt(sizes.z * sizes.w);
+    // In perspective the depths are inverse ones: 1/za - 1/zb is (zb - za) / (za zb), and the scale there is that of the
+    // ends' geometric mean.
+    float nearer = (sizes.z - sizes.w) * pixels_per_metre;
+    nearer *= mix(-inversesqrt(max(sizes.z * sizes.w, 1e-30)), 1.0, orthographic);
 
-    float rim = 1.0 + style.y;
-    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
-    at = vec2(mix(-sizes.x - rim, length_ + sizes.y + rim, corner.x),
-              (2.0 * corner.y - 1.0) * (max(sizes.x, sizes.y) + rim));
-    shape = vec4(length_, sizes.xy, towards_eye);
-    depths_and_axis = vec4(sizes.zw, along);
+    // One circle within the other: the outline is the larger.
+    bool circle = len <= 1e-3 - growth;
+    float slope = circle ? 0.0 : growth / len;
+    outline = vec4(circle ? 0.0 : len, sizes.x, slope, -slope * inversesqrt(max(1.0 - slope * slope, 1e-6)));
+
+    // And where the smaller ball stays behind the larger one, or inside, the larger is all there is to see.
+    float g = len * len - growth * growth, m = g + nearer * nearer;
+    bool ball = circle && nearer <= 0.0 || m <= 1e-3;
+    if (abs(g) < 1e-3) g = 1e-3;
+    solid = ball ? vec4(0.0, 0.0, 0.0, 1.0) : vec4(len, growth, nearer, g);
+    fractions = vec4(ball ? vec2(1.0) : vec2(1.0 / m, 1.0 / g), sizes.zw);
     premultiplied = vec4(colour.rgb * colour.a, colour.a);
-    kind = style;
+    style_and_axis = vec4(style, along);
 
+    float rim = 0.51 + style.y;
+    if (circle) {
+        // One triangle around the circle and a second one of no size: half the work of a square.
+        float side = 1.7320508 * (sizes.x + rim);
+        at = gl_VertexID == 0 ? vec2(-side, -sizes.x - rim)
+           : gl_VertexID == 1 ? vec2(side, -sizes.x - rim)
+                              : vec2(0.0, 2.0 * (sizes.x + rim));
+    } else {
+        vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+        at = vec2(mix(-sizes.x - rim, len + sizes.y + rim, corner.x), (2.0 * corner.y - 1.0) * (sizes.x + rim));
+    }
     vec2 pixel = ends.xy + along * at.x + vec2(-along.y, along.x) * at.y;
     gl_Position = vec4(pixel / framebuffer_size * 2.0 - 1.0, 0.0, 1.0);
 }

@@ -72,7 +72,11 @@ Instances::~Instances() {
 
 void Instances::send(const void* data, std::size_t bytes) {
     glBindBuffer(GL_ARRAY_BUFFER, buffer_);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_STREAM_DRAW);
+    if (bytes > capacity_) {
+        capacity_ = bytes + bytes / 2;
+        glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(capacity_), nullptr, GL_STREAM_DRAW);
+    }
+    glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(bytes), data);
 }
 
 void Instances::draw(std::size_t first, std::size_t count) const {

@@ -65,6 +65,7 @@ class Instances {
     std::vector<Attribute> attributes_;
     GLuint vertex_array_ = 0;
     GLuint buffer_ = 0;
+    std::size_t capacity_ = 0;  ///< bytes
 };
 
 }  // namespace tendril::app

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace tendril::app {
 namespace {
@@ -66,6 +67,12 @@ StrokePass::Instance StrokePass::instance(const Stroke& stroke, const ProjectedS
                  .colour = {},
                  .lit = stroke.shade == Shade::Lit ? 1.0f : 0.0f,
                  .ring = stroke.shade == Shade::Ring ? 0.5f * ratio * stroke.ring_width : 0.0f};
+    // The shader wants the larger end first.
+    if (out.radius_a < out.radius_b) {
+        std::swap(out.a, out.b);
+        std::swap(out.radius_a, out.radius_b);
+        std::swap(out.depth_a, out.depth_b);
+    }
     // Nothing is drawn thinner than a pixel; it fades instead, which is what a sharper screen would average
     // to.
     constexpr float thinnest = 0.5f;
@@ -87,14 +94,16 @@ void StrokePass::set_uniforms(const Camera& camera, const Frame& frame) const {
     const glm::mat4& p = camera.projection();
     const bool orthographic = camera.pose().orthographic;
     program_.set("framebuffer_size", glm::vec2(frame.framebuffer_size));
-    program_.set("orthographic", orthographic ? 1 : 0);
+    program_.set("orthographic", orthographic ? 1.0f : 0.0f);
     // Depth in the buffer is a straight line in the interpolated one, orthographic or not.
     const float slope = orthographic ? -p[2][2] : p[3][2], offset = orthographic ? p[3][2] : -p[2][2];
     program_.set("to_window_depth", glm::vec2(0.5f * slope, 0.5f + 0.5f * offset));
     // Framebuffer pixels to a metre: at a depth of 1 m, or everywhere.
     const glm::vec3 target = camera.pose().target;
     const float scale = frame.pixel_ratio / camera.metres_per_pixel(target);
-    program_.set("pixels_per_metre", orthographic ? scale : scale * camera.depth(target));
+    const float pixels_per_metre = orthographic ? scale : scale * camera.depth(target);
+    program_.set("pixels_per_metre", pixels_per_metre);
+    program_.set("metres_per_pixel", 1.0f / pixels_per_metre);
     // World up, seen by the camera: where the sky's light comes from.
     program_.set("sky", glm::vec3(camera.right().y, camera.up().y, -camera.forward().y));
 }
