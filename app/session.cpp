@@ -18,7 +18,13 @@ std::atomic<bool> ending{false};  // what a signal handler may touch
 constexpr glm::ivec2 headless_size{1280, 720}, window_size{1440, 900};
 
 std::unique_ptr<Window> make_window(const SessionOptions& options, glm::ivec2 size) {
-    if (!options.headless) return open_window(Backend::Glfw, size);
+    if (!options.headless) {
+        try {
+            return open_window(Backend::Glfw, size);
+        } catch (const std::runtime_error& error) {
+            throw std::runtime_error(std::string(error.what()) + "; --headless --screenshot FILE draws without a window");
+        }
+    }
     return options.backend ? open_window(*options.backend, size) : open_offscreen(size);
 }
 

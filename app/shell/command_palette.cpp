@@ -135,7 +135,9 @@ void CommandPalette::frame(bool open, const CommandTable& table, glm::vec2 scree
     }
     const float width = std::min(820.0f * scale, 0.9f * screen.x);
     ImGui::SetNextWindowPos({0.5f * screen.x, 0.14f * screen.y}, ImGuiCond_Always, {0.5f, 0.0f});
-    ImGui::SetNextWindowSize({width, std::min(420.0f * scale, 0.7f * screen.y)});
+    const auto found = search_commands(table, line_.data());
+    const float rows = static_cast<float>(std::max<std::size_t>(found.size(), 3)) + 5.0f;  // with the line and its help
+    ImGui::SetNextWindowSize({width, std::min(rows * ImGui::GetTextLineHeightWithSpacing(), 0.7f * screen.y)});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 9.0f);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
@@ -156,7 +158,6 @@ void CommandPalette::frame(bool open, const CommandTable& table, glm::vec2 scree
         chosen_ = 0;
         complaint_.clear();
     }
-    const auto found = search_commands(table, line_.data());
     const auto step = [&](ImGuiKey key, int by) {
         if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(key))) chosen_ += by;
     };

@@ -47,7 +47,7 @@ void apply_theme(Theme theme, float scale) {
     set(ImGuiCol_TextSelectedBg, p.accent, 0.35f);
     set(ImGuiCol_WindowBg, p.panel);
     set(ImGuiCol_ChildBg, p.panel, 0.0f);
-    set(ImGuiCol_PopupBg, towards_text(p.panel, 0.02f), 0.99f);
+    set(ImGuiCol_PopupBg, towards_text(p.panel, 0.02f));
     set(ImGuiCol_Border, p.border);
     set(ImGuiCol_BorderShadow, p.border, 0.0f);
     set(ImGuiCol_Separator, p.border);

@@ -1,0 +1,135 @@
+#include "app/view/labels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+
+namespace tendril::app {
+namespace {
+
+/// Which way from its point a label lies; right first, as people read on from there, and above before below.
+constexpr std::array<glm::vec2, 8> sides{{
+    {1.0f, 0.0f},
+    {0.7f, -0.7f},
+    {0.7f, 0.7f},
+    {0.0f, -1.0f},
+    {0.0f, 1.0f},
+    {-1.0f, 0.0f},
+    {-0.7f, -0.7f},
+    {-0.7f, 0.7f},
+}};
+
+Rect box_at(const LabelRequest& request, glm::vec2 side) {
+    // The label's nearest edge or corner touches the circle that is to stay free.
+    const glm::vec2 away = glm::vec2((side.x > 0.0f) - (side.x < 0.0f), (side.y > 0.0f) - (side.y < 0.0f));
+    const glm::vec2 centre = request.at + side * request.clearance + 0.5f * away * request.size;
+    // Whole pixels keep text sharp.
+    const glm::vec2 low = glm::round(centre - 0.5f * request.size);
+    return {low, low + request.size};
+}
+
+bool overlap(const Rect& a, const Rect& b, float gap) {
+    return a.min.x < b.max.x + gap && b.min.x < a.max.x + gap && a.min.y < b.max.y + gap &&
+           b.min.y < a.max.y + gap;
+}
+
+bool within(const Rect& box, const Rect& viewport) {
+    return box.min.x >= viewport.min.x && box.min.y >= viewport.min.y && box.max.x <= viewport.max.x &&
+           box.max.y <= viewport.max.y;
+}
+
+bool usable(const LabelRequest& r, const Rect& viewport) {
+    const bool finite = std::isfinite(r.at.x + r.at.y + r.size.x + r.size.y + r.clearance);
+    return finite && r.size.x > 0.0f && r.size.y > 0.0f && viewport.contains(r.at);
+}
+
+/// The boxes taken so far, by the cells of a grid that they touch.
+class Taken {
+  public:
+    Taken(const Rect& viewport, glm::vec2 cell, float gap)
+        : origin_(viewport.min), cell_(cell), gap_(gap), count_(glm::ivec2(viewport.size() / cell) + 1) {
+        cells_.resize(static_cast<std::size_t>(count_.x) * static_cast<std::size_t>(count_.y));
+    }
+
+    bool is_free(const Rect& box) const {
+        bool free = true;
+        each_cell({box.min - gap_, box.max + gap_}, [&](std::size_t cell) {
+            for (const std::uint32_t other : cells_[cell]) free = free && !overlap(box, boxes_[other], gap_);
+            return free;
+        });
+        return free;
+    }
+    void add(const Rect& box) {
+        const auto index = static_cast<std::uint32_t>(boxes_.size());
+        boxes_.push_back(box);
+        each_cell(box, [&](std::size_t cell) {
+            cells_[cell].push_back(index);
+            return true;
+        });
+    }
+
+  private:
+    /// Until the visitor says false.
+    template <typename Visit>
+    void each_cell(const Rect& box, Visit visit) const {
+        const glm::ivec2 last = count_ - 1;
+        const glm::ivec2 low = glm::clamp(glm::ivec2((box.min - origin_) / cell_), glm::ivec2(0), last);
+        const glm::ivec2 high = glm::clamp(glm::ivec2((box.max - origin_) / cell_), glm::ivec2(0), last);
+        for (int y = low.y; y <= high.y; ++y) {
+            for (int x = low.x; x <= high.x; ++x) {
+                if (!visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(count_.x) +
+                           static_cast<std::size_t>(x)))
+                    return;
+            }
+        }
+    }
+
+    glm::vec2 origin_, cell_;
+    float gap_;
+    glm::ivec2 count_;
+    std::vector<std::vector<std::uint32_t>> cells_;
+    std::vector<Rect> boxes_;
+};
+
+/// About one label to a cell, and no more cells than are worth their memory.
+glm::vec2 cell_size(std::span<const LabelRequest> requests, const Rect& viewport) {
+    glm::vec2 sum(0.0f);
+    float count = 0.0f;
+    for (const LabelRequest& request : requests) {
+        if (!usable(request, viewport)) continue;
+        sum += glm::min(request.size, viewport.size());
+        count += 1.0f;
+    }
+    const glm::vec2 mean = count > 0.0f ? sum / count : glm::vec2(64.0f);
+    return glm::max(mean, glm::max(viewport.size() / 256.0f, glm::vec2(8.0f)));
+}
+
+}  // namespace
+
+std::vector<PlacedLabel> place_labels(std::span<const LabelRequest> requests, const Rect& viewport,
+                                      float gap) {
+    std::vector<PlacedLabel> placed;
+    if (requests.empty() || !(viewport.size().x >= 1.0f) || !(viewport.size().y >= 1.0f)) return placed;
+    std::vector<std::size_t> order(requests.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return requests[a].rank > requests[b].rank; });
+
+    Taken taken(viewport, cell_size(requests, viewport), gap);
+    for (const std::size_t index : order) {
+        const LabelRequest& request = requests[index];
+        if (!usable(request, viewport)) continue;
+        for (const glm::vec2 side : sides) {
+            const Rect box = box_at(request, side);
+            if (!within(box, viewport) || !taken.is_free(box)) continue;
+            taken.add(box);
+            placed.push_back({index, box});
+            break;
+        }
+    }
+    return placed;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,214 @@
+// The Chain lab's commands: what each does, what each refuses, and that a refusal changes nothing.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "app/document/scene_file.hpp"
+#include "app/labs/chain/chain_lab.hpp"
+#include "app/labs/labs.hpp"
+
+namespace tendril::app {
+namespace {
+
+class ChainCommands : public testing::Test {
+  protected:
+    Labs labs;
+    CommandTable table = make_command_table(labs);
+    Workspace workspace = make_blank_workspace(labs);
+
+    const ChainPart& part() const { return chain_part(workspace); }
+    void run(const char* name, Json arguments = Json::object(), Gesture gesture = 0) {
+        table.run(workspace, name, arguments, gesture);
+    }
+    /// Runs what must be refused; gives the message, having checked that nothing changed.
+    std::string refused(const char* name, const Json& arguments) {
+        const Json scene = save_scene(workspace);
+        const std::size_t history = workspace.history.size();
+        try {
+            table.run(workspace, name, arguments);
+        } catch (const Refused& refusal) {
+            EXPECT_EQ(save_scene(workspace), scene) << name << " changed something, though refused";
+            EXPECT_EQ(workspace.history.size(), history);
+            return refusal.what();
+        }
+        ADD_FAILURE() << name << " " << arguments << " was accepted";
+        return {};
+    }
+};
+
+TEST_F(ChainCommands, StartIsEightMetresAlongXWithTheTargetOnTheTail) {
+    ASSERT_EQ(part().chain.size(), 8u);
+    for (std::size_t i = 0; i < 8; ++i) {
+        EXPECT_EQ(part().chain.position(i), glm::vec3(static_cast<float>(i), 0, 0));
+        EXPECT_EQ(part().chain.length(i), 1.0f);
+    }
+    EXPECT_EQ(part().mode, Mode::Backward);
+    EXPECT_EQ(part().target, glm::vec3(7, 0, 0));
+}
+
+TEST_F(ChainCommands, TargetAppliesTheModeOnceAndModeAloneMovesNothing) {
+    run("chain.target", {{"to", {5, 2, 0}}});
+    EXPECT_EQ(part().chain.position(7), glm::vec3(5, 2, 0));
+    const Chain before = part().chain;
+    run("chain.mode", {{"mode", "forward"}});
+    EXPECT_EQ(part().chain, before);
+    run("chain.target", {{"to", {0, 3, 1}}});
+    EXPECT_EQ(part().chain.position(0), glm::vec3(0, 3, 1));
+    const glm::vec3 tail = part().chain.position(7);
+    run("chain.mode", {{"mode", "fixed"}, {"iterations", 20}});
+    run("chain.target", {{"to", {1, 1, 1}}});
+    EXPECT_EQ(part().chain.position(7), tail);
+    run("chain.mode", {{"mode", "with_index"}, {"index", 3}});
+    run("chain.target", {{"to", {2, 2, 2}}});
+    EXPECT_EQ(part().chain.position(3), glm::vec3(2, 2, 2));
+}
+
+TEST_F(ChainCommands, EachModeKeepsItsOwnIterations) {
+    run("chain.mode", {{"mode", "fixed"}, {"iterations", 7}, {"tolerance", 0.01}});
+    run("chain.mode", {{"mode", "forward"}, {"iterations", 3}});
+    EXPECT_EQ(part().tolerance, 0.01f);
+    run("chain.mode", {{"mode", "fixed"}});
+    EXPECT_EQ(labs.find("chain")->state(workspace).at("iterations"), 7);
+    run("chain.mode", {{"mode", "with_index"}, {"index", 5}});
+    run("chain.mode", {{"mode", "backward"}});
+    EXPECT_EQ(part().index, 5u);
+}
+
+TEST_F(ChainCommands, EditsLiveAndTheSelectionStaysWithItsSegment) {
+    run("chain.select", {{"index", 4}});
+    run("chain.insert", {{"index", 2}, {"length", 0.5}});
+    EXPECT_EQ(part().chain.size(), 9u);
+    EXPECT_EQ(part().selected, 5u);
+    run("chain.remove", {{"index", 0}});
+    EXPECT_EQ(part().selected, 4u);
+    run("chain.remove", {{"index", 7}});
+    run("chain.set_length", {{"index", 1}, {"length", 0.25}});
+    EXPECT_EQ(part().chain.length(1), 0.25f);
+    run("chain.add", {{"length", 2}, {"position", {0, 9, 0}}});
+    EXPECT_NEAR(glm::distance(part().chain.position(7), part().chain.position(6)), 2.0f, 1e-4f);
+    while (!part().chain.empty()) run("chain.remove", {{"index", part().chain.size() - 1}});
+    EXPECT_FALSE(part().selected);
+    run("chain.target", {{"to", {1, 2, 3}}});  // an empty chain: only the target moves
+    EXPECT_EQ(part().target, glm::vec3(1, 2, 3));
+    run("chain.add", {{"length", 1}});
+    EXPECT_EQ(part().chain.size(), 1u);
+}
+
+TEST_F(ChainCommands, ClearTakesADirectionForWhatHasNone) {
+    run("chain.clear", {{"default_direction", {0, 1, 0}}});
+    EXPECT_TRUE(part().chain.empty());
+    for (int i = 0; i < 5; ++i) run("chain.add", {{"length", 1}, {"position", {1, 1, 1}}});
+    EXPECT_EQ(part().chain.position(4), glm::vec3(1, 5, 1));
+    refused("chain.clear", {{"default_direction", {0, 0, 0}}});
+    refused("chain.clear", {{"default_direction", {0, 5, 0}}});
+}
+
+TEST_F(ChainCommands, PullTakesTheTargetAlongAndLeavesTheMode) {
+    run("chain.pull", {{"index", 2}, {"to", {2, 3, 0}}});
+    EXPECT_EQ(part().chain.position(2), glm::vec3(2, 3, 0));
+    EXPECT_EQ(part().target, glm::vec3(2, 3, 0));
+    EXPECT_EQ(part().mode, Mode::Backward);
+}
+
+TEST_F(ChainCommands, RefusalsSayWhyInOneLine) {
+    EXPECT_EQ(refused("chain.remove", {{"index", 8}}), "chain.remove: index 8 is out of range, the chain has 8 segments");
+    EXPECT_EQ(refused("chain.add", Json::object()), "chain.add: length is missing (a number)");
+    EXPECT_EQ(refused("chain.add", {{"length", -1}}), "chain.add: length must be at least 0.0, got -1");
+    EXPECT_EQ(refused("chain.add", {{"length", "long"}}), "chain.add: length must be a number, got \"long\"");
+    EXPECT_EQ(refused("chain.add", {{"lenght", 1}, {"length", 1}}).substr(0, 44),
+              "chain.add: unknown argument \"lenght\"; it tak");
+    EXPECT_EQ(refused("chain.mode", {{"mode", "sideways"}}).substr(0, 36), "chain.mode: mode must be one of forw");
+    const double nan = std::nan(""), inf = HUGE_VAL;
+    for (const double bad : {nan, inf, -inf, 1e10, -1e10}) {
+        refused("chain.add", {{"length", bad}});
+        refused("chain.target", {{"to", {0, bad, 0}}});
+        refused("chain.add", {{"length", 1}, {"position", {bad, 0, 0}}});
+        refused("chain.set_length", {{"index", 1}, {"length", bad}});
+        refused("chain.remove", {{"index", bad}});
+    }
+    for (const Json& bad : {Json(1.5), Json(-1), Json("0"), Json(nullptr), Json::array(), Json(true), Json(8)}) {
+        refused("chain.remove", {{"index", bad}});
+        refused("chain.insert", {{"index", bad}, {"length", 1}});
+        refused("chain.select", {{"index", bad}});
+        refused("chain.mode", {{"mode", "with_index"}, {"index", bad}});
+    }
+    refused("chain.target", {{"to", {1, 2}}});
+    refused("chain.target", {{"to", {1, 2, "3"}}});
+    refused("chain.mode", {{"mode", "fixed"}, {"iterations", 0}});
+    refused("chain.preset", {{"name", "octopus"}});
+    refused("chain.preset", {{"name", "coil"}, {"count", 0}});
+    refused("chain.preset", {{"name", "coil"}, {"count", 1000001}});
+    refused("chain.seek", {{"tick", 3}});
+    refused("undo", Json::object());
+    EXPECT_THROW(run("chain.fly"), UnknownCommand);
+    EXPECT_THROW(run("chain.add", Json::array({1})), Refused);
+}
+
+TEST_F(ChainCommands, ADragIsOneUndoStepAndUndoIsExact) {
+    const Json start = save_scene(workspace);
+    for (int i = 0; i < 30; ++i) run("chain.target", {{"to", {5, 0.1 * i, 0.3}}}, 42);
+    EXPECT_EQ(workspace.history.size(), 1u);
+    const Json dragged = save_scene(workspace);
+    run("undo");
+    EXPECT_EQ(save_scene(workspace), start);
+    run("redo");
+    EXPECT_EQ(save_scene(workspace), dragged);
+    run("chain.select", {{"index", 1}});  // choosing is no change
+    EXPECT_EQ(workspace.history.size(), 1u);
+}
+
+TEST_F(ChainCommands, PresetsAreSoundAtEverySize) {
+    for (const char* name : {"start", "arm", "tentacle", "snake", "coil", "random"}) {
+        for (const int count : {1, 2, 3, 50, 3000}) {
+            run("chain.preset", {{"name", name}, {"count", count}, {"seed", 7}});
+            const Chain& chain = part().chain;
+            ASSERT_EQ(chain.size(), static_cast<std::size_t>(count));
+            EXPECT_EQ(part().target, chain.position(chain.size() - 1));
+            for (std::size_t i = 0; i < chain.size(); ++i) {
+                EXPECT_TRUE(std::isfinite(glm::length(chain.position(i))));
+                EXPECT_GT(chain.length(i), 0.0f);
+                EXPECT_LE(length_error(chain, i), 1e-4f * std::max(1.0f, chain.length(i))) << name << " " << i;
+            }
+        }
+    }
+}
+
+TEST_F(ChainCommands, ASceneComesBackBitForBit) {
+    for (int i = 0; i < 200; ++i) {
+        run("chain.preset", {{"name", "random"}, {"count", 20}, {"seed", i}});
+        run("chain.target", {{"to", {std::sin(i), std::cos(3 * i), 0.01 * i}}});
+        const Chain chain = part().chain;
+        const Json scene = parse_json(save_scene(workspace).dump());
+        run("chain.clear");
+        load_scene(workspace, scene);
+        EXPECT_EQ(part().chain, chain);
+        EXPECT_EQ(save_scene(workspace), scene);
+    }
+}
+
+TEST_F(ChainCommands, AMovingTargetStartsWhereItIsAndPullsTheChain) {
+    const Lab& lab = *labs.find("chain");
+    EXPECT_FALSE(lab.moving(workspace));
+    for (const char* path : {"circle", "figure_eight", "sweep"}) {
+        run("chain.motion", {{"path", path}, {"radius", 1.5}, {"period", 2}});
+        EXPECT_TRUE(lab.moving(workspace));
+        EXPECT_NEAR(glm::distance(motion_point(part().motion, 0), part().target), 0.0f, 1e-5f);
+        const glm::vec3 first = part().target;
+        float farthest = 0.0f;
+        for (int i = 0; i < 120; ++i) {
+            lab.step(workspace);
+            EXPECT_EQ(part().chain.position(7), part().target);
+            farthest = std::max(farthest, glm::distance(first, part().target));
+        }
+        EXPECT_GT(farthest, 1.0f) << path;
+        EXPECT_NEAR(glm::distance(first, part().target), 0.0f, 1e-5f) << path << " does not close";
+    }
+    run("chain.seek", {{"tick", 30}});
+    EXPECT_EQ(part().motion.ticks, 30u);
+    run("chain.motion", {{"path", "still"}});
+    EXPECT_FALSE(lab.moving(workspace));
+}
+
+}  // namespace
+}  // namespace tendril::app

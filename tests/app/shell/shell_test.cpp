@@ -1,0 +1,108 @@
+// The shell without a window: shortcuts, layout, input, the command palette's reading and searching.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "app/labs/labs.hpp"
+#include "app/shell/command_palette.hpp"
+#include "app/shell/input.hpp"
+#include "app/shell/layout.hpp"
+#include "app/shell/shortcuts.hpp"
+
+namespace tendril::app {
+namespace {
+
+TEST(Shortcuts, EachRunsACommandOfTheTableAndNoTwoShareAKey) {
+    const Labs labs;
+    const CommandTable table = make_command_table(labs);
+    std::vector<std::string> seen;
+    for (const Shortcut& shortcut : shortcuts()) {
+        ASSERT_NE(table.find(shortcut.command), nullptr) << shortcut.command;
+        const std::string chord = chord_name(shortcut.chord);
+        EXPECT_EQ(std::count(seen.begin(), seen.end(), chord), 0) << chord;
+        seen.push_back(chord);
+        EXPECT_EQ(find_shortcut(shortcut.chord), &shortcut);
+        EXPECT_NE(shortcuts_markdown().find(shortcut.title), std::string::npos);
+        if (shortcut.command == "undo" || shortcut.command == "redo") continue;  // nothing to take back yet
+        Workspace workspace = make_blank_workspace(labs);
+        EXPECT_NO_THROW(table.run(workspace, shortcut.command, shortcut.arguments)) << shortcut.command;
+    }
+    EXPECT_EQ(keys_for("undo"), "Ctrl+Z");
+    EXPECT_EQ(find_shortcut(*chord_from_name("ctrl+alt+f12")), nullptr);
+}
+
+TEST(Shortcuts, TheMouseTurnsAndShiftsTheView) {
+    EXPECT_EQ(mouse_action(MouseButton::Right, false, false), MouseAction::Orbit);
+    EXPECT_EQ(mouse_action(MouseButton::Left, false, true), MouseAction::Orbit);
+    EXPECT_EQ(mouse_action(MouseButton::Middle, false, false), MouseAction::Pan);
+    EXPECT_EQ(mouse_action(MouseButton::Right, true, false), MouseAction::Pan);
+    EXPECT_EQ(mouse_action(MouseButton::Left, false, false), std::nullopt);
+    EXPECT_EQ(mouse_action(MouseButton::Left, true, false), std::nullopt);  // a drag in the ground plane
+}
+
+TEST(LayoutOfTheWindow, PartsTileItWithoutOverlapAtEverySize) {
+    std::mt19937 random(3);
+    const auto pick = [&](int low, int high) { return std::uniform_int_distribution(low, high)(random); };
+    for (int i = 0; i < 2000; ++i) {
+        const glm::vec2 window(pick(1, 5000), pick(1, 3000));
+        Settings settings;
+        settings.left_open = pick(0, 1) == 1;
+        settings.right_open = pick(0, 1) == 1;
+        settings.left_width = static_cast<float>(pick(180, 520));
+        settings.right_width = static_cast<float>(pick(180, 520));
+        const Layout layout = lay_out(window, static_cast<float>(pick(5, 30)) / 10.0f, settings, pick(0, 1) == 1);
+        const float area = window.x * (window.y - layout.top.size().y - layout.status.size().y);
+        float covered = 0.0f;
+        for (const Rect& rect : {layout.left, layout.right, layout.view, layout.timeline}) {
+            EXPECT_GE(rect.size().x, 0.0f);
+            EXPECT_GE(rect.size().y, 0.0f);
+            covered += rect.size().x * rect.size().y;
+        }
+        if (area > 0.0f && layout.status.min.y > layout.top.max.y) EXPECT_NEAR(covered / area, 1.0f, 1e-3f);
+        EXPECT_GE(layout.view.size().x, 0.3f * window.x);
+        EXPECT_EQ(layout.status.max, window);
+    }
+}
+
+TEST(InputState, HeldKeysAreModifiersAndATapLetsGo) {
+    Input input;
+    const Event down = KeyChange{Key::X, true}, up = KeyChange{Key::X, false};
+    input.take(&down);
+    EXPECT_TRUE(input.held(Key::X));
+    const Event tap = KeyTap{{Key::Z, true, false, false}};
+    input.take(&tap);
+    EXPECT_EQ(input.pressed(), (Chord{Key::Z, true, false, false}));
+    EXPECT_TRUE(input.ctrl());
+    input.take(nullptr);
+    EXPECT_FALSE(input.ctrl());
+    EXPECT_FALSE(input.held(Key::Z));
+    EXPECT_TRUE(input.held(Key::X));
+    input.take(&up);
+    EXPECT_FALSE(input.held(Key::X));
+    input.take(&down);
+    const Event away = Focus{false};
+    input.take(&away);
+    EXPECT_FALSE(input.held(Key::X)) << "what is let go elsewhere is never told";
+}
+
+TEST(CommandPaletteLine, IsReadAsItWouldStandInAScript) {
+    const TypedCommand typed = read_typed_command("chain.add length=1.5 position=[0, 1, 0] note=\"a b\" name=coil");
+    EXPECT_EQ(typed.name, "chain.add");
+    EXPECT_EQ(typed.arguments, (Json{{"length", 1.5}, {"position", {0, 1, 0}}, {"note", "a b"}, {"name", "coil"}}));
+    EXPECT_THROW(read_typed_command("chain.add 1.5"), std::runtime_error);
+    EXPECT_THROW(read_typed_command("   "), std::runtime_error);
+    EXPECT_THROW(read_typed_command("chain.add =3"), std::runtime_error);
+}
+
+TEST(CommandPaletteLine, FindsByNameAndByHelp) {
+    const Labs labs;
+    const CommandTable table = make_command_table(labs);
+    EXPECT_EQ(search_commands(table, "").size(), table.all().size());
+    EXPECT_EQ(search_commands(table, "chain.add").front()->name, "chain.add");
+    EXPECT_EQ(search_commands(table, "chain.add length=3").front()->name, "chain.add");
+    EXPECT_EQ(search_commands(table, "TAIL append").front()->name, "chain.add");
+    EXPECT_TRUE(search_commands(table, "xyzzy").empty());
+}
+
+}  // namespace
+}  // namespace tendril::app

@@ -1,0 +1,78 @@
+// What a frame of the Chain lab costs off screen, and how long the program takes to its first picture.
+//
+// A frame is what the window does when the mouse moves in mid-drag: one tick (input, commands, chain, panels, draw list)
+// and one picture, at 1280x720. Counters: frames a second, GL draw calls, and the cost relative to ten segments, which is
+// measured in the same run.
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <memory>
+
+#include "app/app.hpp"
+#include "app/io/image.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr glm::ivec2 size{1280, 720};
+
+/// The program with a coil of that many segments, its target caught by the mouse.
+struct DraggedCoil {
+    std::unique_ptr<Window> window = open_offscreen(size);
+    App app{*window};
+    glm::vec2 from{0.0f};
+    int step = 0;
+
+    explicit DraggedCoil(int segments) {
+        app.run({.name = "chain.preset", .arguments = {{"name", "coil"}, {"count", segments}}});
+        app.run({.name = "camera.frame", .arguments = {{"what", "all"}}});
+        const Json state = app.state();
+        const Json pixel = state.at("handles").at(0).at("pixel");
+        from = {pixel[0].get<float>(), pixel[1].get<float>()};
+        tick(MouseMove{from});
+        tick(MousePress{});
+    }
+    void tick(const Event& event) { app.tick(&event); }
+    void frame() {
+        const float way = static_cast<float>(++step % 40);
+        tick(MouseMove{from + glm::vec2(way - 60.0f, way)});
+        app.draw();
+        const Image image = read_framebuffer(window->framebuffer(), window->framebuffer_size());
+        benchmark::DoNotOptimize(image.rgba.data());
+    }
+};
+
+double seconds_a_frame(DraggedCoil& coil, int frames) {
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < frames; ++i) coil.frame();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / frames;
+}
+
+void drag_frame(benchmark::State& state) {
+    const double baseline = [] {  // one program at a time: GL and Dear ImGui have one current context
+        DraggedCoil ten(10);
+        seconds_a_frame(ten, 3);
+        return seconds_a_frame(ten, 20);
+    }();
+    DraggedCoil coil(static_cast<int>(state.range(0)));
+    coil.frame();
+    for (auto _ : state) coil.frame();
+    state.counters["fps"] = benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+    state.counters["draw_calls"] = coil.app.draw_calls();
+    // an inverted rate of seconds a frame over the baseline's: times as long as a frame of ten segments
+    state.counters["times_ten"] = benchmark::Counter(static_cast<double>(state.iterations()) * baseline,
+                                                     benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(drag_frame)->Arg(10)->Arg(1000)->Arg(10000)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void start_to_first_picture(benchmark::State& state) {
+    for (auto _ : state) {
+        const auto window = open_offscreen(size);
+        App app(*window);
+        benchmark::DoNotOptimize(app.screenshot().rgba.data());
+    }
+}
+BENCHMARK(start_to_first_picture)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace
+}  // namespace tendril::app
