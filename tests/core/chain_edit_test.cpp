@@ -2,6 +2,7 @@
 #include <cstdint>
 
 #include "chain_support.hpp"
+#include "random.hpp"
 
 namespace tendril::test {
 namespace {
@@ -110,14 +111,24 @@ TEST(ChainEdit, InsertLengthAsHeadMovesNothingElse) {
     Chain chain;
     chain.add(Segment{{4, 4, 4}, 2});
     chain.add(Segment{{4, 9, 4}, 1});
-    chain.add(Segment{{9, 5, 4}, 1.3f});
+    Random random(3);
+    for (int i = 0; i < 40; ++i) chain.add(Segment{random.point(50.0f), 1.3f});
     const Chain before = chain;
     chain.insert(0, 7.0f);
-    ASSERT_EQ(chain.size(), 4u);
+    ASSERT_EQ(chain.size(), 43u);
     EXPECT_LE(distance(chain.position(0), {4, 2, 4}), 1e-6);
     EXPECT_EQ(chain.length(0), 7.0f);
-    for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < 42; ++i)
         EXPECT_TRUE(same_bits(chain.segments()[i + 1], before.segments()[i])) << i;
+    EXPECT_TRUE(Holds(chain));
+}
+
+TEST(ChainEdit, InsertLengthDoesNotPileUpRounding) {
+    Chain chain;  // on both sides of 512 m, where the spacing of floats doubles, so its points round
+                  // differently
+    for (int i = 0; i < 8; ++i) chain.add(Segment{{505 + 2 * i, 3 * (i % 2), 126 + i}, 2.0f});
+    for (int i = 0; i < 2000; ++i) chain.insert(1, 0.0005f * static_cast<float>(1 + i % 7));
+    EXPECT_TRUE(lies_within(chain, 1e3));
     EXPECT_TRUE(Holds(chain));
 }
 
@@ -186,8 +197,16 @@ TEST(ChainEdit, AHundredThousandAddsAreQuick) {
 TEST(ChainEdit, DefaultDirectionMayBeAlmostAUnitVector) {
     const Chain chain(glm::vec3(0.577f, 0.577f, 0.577f));
     EXPECT_NEAR(distance(chain.default_direction(), glm::vec3(0)), 1.0, 1e-7);
-    // Once it is one, it stays bit for bit: a saved direction comes back the same.
-    EXPECT_TRUE(same_bits(Chain(chain.default_direction()).default_direction(), chain.default_direction()));
+}
+
+TEST(ChainEdit, ADefaultDirectionThatIsAUnitVectorStaysBitForBit) {
+    Random random(5);  // so that a saved one comes back the same
+    for (int i = 0; i < 1000; ++i) {
+        const glm::vec3 any = random.point(1.0f);
+        const Chain chain(any / static_cast<float>(distance(any, glm::vec3(0))));
+        EXPECT_TRUE(
+            same_bits(Chain(chain.default_direction()).default_direction(), chain.default_direction()));
+    }
 }
 
 TEST(ChainEdit, DefaultDirectionMovesNothing) {

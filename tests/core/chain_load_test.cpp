@@ -45,6 +45,7 @@ TEST(ChainLoad, LinksAreLooseBeyondTheInvariantOnly) {
     EXPECT_EQ(Chain::from_segments({{{0, 0, 0}, 0}, {{1.00009f, 0, 0}, 1}}).position(1).x, 1.00009f);
     EXPECT_EQ(Chain::from_segments({{{0, 0, 0}, 0}, {{1.00011f, 0, 0}, 1}}).position(1).x, 1.0f);
     EXPECT_EQ(Chain::from_segments({{{0, 0, 0}, 0}, {{500.04f, 0, 0}, 500}}).position(1).x, 500.04f);
+    EXPECT_EQ(Chain::from_segments({{{900, 0, 0}, 0}, {{901.0002f, 0, 0}, 1}}).position(1).x, 901.0f);
 }
 
 TEST(ChainLoad, SegmentsAtOnePointMakeAStraightChain) {

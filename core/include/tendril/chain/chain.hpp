@@ -121,9 +121,9 @@ class Chain {
     void remove(std::size_t index);
     /// Changes a length and re-lays. Throws std::out_of_range, std::invalid_argument.
     void set_length(std::size_t index, float length);
-    /// Re-lays the chain: a forward pull with the head on its own place. Corrects nothing that was not
-    /// already right (every operation leaves a chain that holds), but is there for those who want to be told
-    /// so.
+    /// Re-lays the chain: a forward pull with the head on its own place. Every operation leaves a chain that
+    /// holds, so this moves nothing by more than rounding, but for links shorter than 0.35 mm: they turn to
+    /// default_direction, as in any pull.
     void recalculate() noexcept;
 
     // ---- The four modes. Each does nothing to an empty chain; targets are in metres.

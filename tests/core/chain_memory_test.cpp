@@ -1,0 +1,66 @@
+// Running out of memory in the middle of an edit leaves the chain as it was; a pull needs no memory at all.
+#include <cstdlib>
+#include <new>
+
+#include "chain_support.hpp"
+
+namespace {
+bool memory_is_out = false;
+}
+
+// The whole test program allocates through these; they fail only between the two marks below.
+void* operator new(std::size_t size) {
+    if (!memory_is_out) {
+        if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+    }
+    throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+
+namespace tendril::test {
+namespace {
+
+template <class Call>
+void without_memory(Call call) {
+    memory_is_out = true;
+    try {
+        call();
+    } catch (...) {
+        memory_is_out = false;
+        throw;
+    }
+    memory_is_out = false;
+}
+
+TEST(ChainMemory, AFailedEditChangesNothing) {
+    Chain chain = Chain::from_segments({{{0, 0, 0}, 1}, {{1, 0, 0}, 1}, {{2, 0, 0}, 1}});  // no room to spare
+    const Chain before = chain;
+    EXPECT_THROW(without_memory([&] { chain.add(1.0f); }), std::bad_alloc);
+    EXPECT_THROW(without_memory([&] { chain.add(Segment{{5, 5, 5}, 1}); }), std::bad_alloc);
+    EXPECT_THROW(without_memory([&] { chain.insert(0, 1.0f); }), std::bad_alloc);
+    EXPECT_THROW(without_memory([&] { chain.insert(2, 1.0f); }), std::bad_alloc);
+    EXPECT_THROW(without_memory([&] { chain.insert(1, Segment{{5, 5, 5}, 1}); }), std::bad_alloc);
+    EXPECT_TRUE(same_bits(chain, before));
+}
+
+TEST(ChainMemory, PullsAndRemovalsNeedNone) {
+    Chain chain = straight(50);
+    without_memory([&] {
+        chain.forward({1, 2, 3});
+        chain.backward({3, 2, 1});
+        chain.fixed({1, 1, 1}, {.iterations = 5});
+        chain.with_index(20, {0, 9, 0});
+        chain.set_length(3, 2.0f);
+        chain.remove(7);
+        chain.recalculate();
+    });
+    EXPECT_TRUE(Holds(chain));
+}
+
+}  // namespace
+}  // namespace tendril::test
