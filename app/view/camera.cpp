@@ -26,12 +26,14 @@ CameraPose in_range(CameraPose pose) {
     return pose;
 }
 
-Rect in_range(Rect viewport) {
-    const glm::vec2 size = viewport.size();
-    const bool usable = std::isfinite(size.x) && std::isfinite(size.y) && std::isfinite(viewport.min.x) &&
-                        std::isfinite(viewport.min.y) && size.x >= 1.0f && size.y >= 1.0f;
-    if (usable) return viewport;
-    return {viewport.min, viewport.min + glm::max(glm::vec2(1.0f), size)};
+Rect in_range(const Rect& viewport) {
+    constexpr float most_pixels = 1e5f;
+    const auto pixels = [](glm::vec2 p) {
+        return glm::vec2(bounded(p.x, -most_pixels, most_pixels, 0.0f),
+                         bounded(p.y, -most_pixels, most_pixels, 0.0f));
+    };
+    const glm::vec2 low = pixels(viewport.min);
+    return {low, glm::max(pixels(viewport.max), low + 1.0f)};
 }
 
 float half_height_at_target(const CameraPose& pose) {
