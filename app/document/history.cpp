@@ -12,16 +12,24 @@ void History::push(const Document& before, const std::string& label, Gesture ges
     const bool same_gesture = gesture != 0 && gesture == open_gesture_;
     open_gesture_ = gesture;
     if (same_gesture) return;
-    append(past_, before, label);
+    append(past_, before, label, past_.empty() ? nullptr : &past_.back().document);
     trim();
 }
 
 std::optional<Document> History::undo(const Document& current) {
-    return move_across(past_, future_, current);
+    auto entry = take(past_);
+    if (!entry) return std::nullopt;
+    append(future_, current, entry->label, &entry->document);
+    trim();
+    return std::move(entry->document);
 }
 
 std::optional<Document> History::redo(const Document& current) {
-    return move_across(future_, past_, current);
+    auto entry = take(future_);
+    if (!entry) return std::nullopt;
+    append(past_, current, entry->label, past_.empty() ? nullptr : &past_.back().document);
+    trim();
+    return std::move(entry->document);
 }
 
 void History::clear() {
@@ -30,31 +38,29 @@ void History::clear() {
     open_gesture_ = 0;
 }
 
-std::optional<Document> History::move_across(Entries& from, Entries& to, const Document& current) {
+std::optional<History::Entry> History::take(Entries& entries) {
     open_gesture_ = 0;
-    if (from.empty()) return std::nullopt;
-    Entry entry = std::move(from.back());
-    from.pop_back();
+    if (entries.empty()) return std::nullopt;
+    Entry entry = std::move(entries.back());
+    entries.pop_back();
     bytes_ -= entry.bytes;
-    append(to, current, entry.label);
-    trim();
-    return std::move(entry.document);
+    return entry;
 }
 
-void History::append(Entries& entries, const Document& document, const std::string& label) {
-    const std::size_t bytes = own_bytes(document, entries.empty() ? nullptr : &entries.back().document);
+void History::append(Entries& entries, const Document& document, const std::string& label,
+                     const Document* older) {
+    const std::size_t bytes = own_bytes(document, older);
     entries.push_back({document, label, bytes});
     bytes_ += bytes;
 }
 
-/// What `document` holds that `neighbour` does not.
-std::size_t History::own_bytes(const Document& document, const Document* neighbour) {
+/// What `document` holds that the one before it in time does not.
+std::size_t History::own_bytes(const Document& document, const Document* older) {
     std::size_t bytes = sizeof(Entry);
     for (const auto& [lab, part] : document.parts()) {
         if (!part) continue;
-        const auto shared = neighbour ? neighbour->parts().find(lab) : document.parts().end();
-        if (!neighbour || shared == neighbour->parts().end() || shared->second != part)
-            bytes += part->bytes();
+        const auto shared = older ? older->parts().find(lab) : document.parts().end();
+        if (!older || shared == older->parts().end() || shared->second != part) bytes += part->bytes();
     }
     return bytes;
 }
@@ -64,14 +70,19 @@ void History::drop(Entries& entries) {
     entries.clear();
 }
 
-void History::drop_front(Entries& entries) {
-    bytes_ -= entries.front().bytes;
-    entries.pop_front();
+void History::drop_oldest() {
+    bytes_ -= past_.front().bytes;
+    past_.pop_front();
     // The next one now answers for what it shared with the one that went.
-    Entry& front = entries.front();
-    bytes_ -= front.bytes;
-    front.bytes = own_bytes(front.document, nullptr);
-    bytes_ += front.bytes;
+    Entry& oldest = past_.front();
+    bytes_ -= oldest.bytes;
+    oldest.bytes = own_bytes(oldest.document, nullptr);
+    bytes_ += oldest.bytes;
+}
+
+void History::drop_last() {
+    bytes_ -= future_.front().bytes;
+    future_.pop_front();
 }
 
 /// Forgets what is farthest from now. The nearest step back (and forward) stays, however large it is.
@@ -79,8 +90,8 @@ void History::trim() {
     const auto too_much = [this] {
         return past_.size() + future_.size() > max_entries_ || bytes_ > max_bytes_;
     };
-    while (too_much() && past_.size() > 1) drop_front(past_);
-    while (too_much() && future_.size() > 1) drop_front(future_);
+    while (too_much() && past_.size() > 1) drop_oldest();
+    while (too_much() && future_.size() > 1) drop_last();
 }
 
 }  // namespace tendril::app

@@ -41,15 +41,16 @@ class History {
     struct Entry {
         Document document;
         std::string label;
-        std::size_t bytes = 0;  ///< of what it does not share with the entry before it in its list
+        std::size_t bytes = 0;  ///< of what it does not share with the document before it in time
     };
     using Entries = std::deque<Entry>;
 
-    static std::size_t own_bytes(const Document& document, const Document* neighbour);
-    void append(Entries& entries, const Document& document, const std::string& label);
-    std::optional<Document> move_across(Entries& from, Entries& to, const Document& current);
+    static std::size_t own_bytes(const Document& document, const Document* older);
+    void append(Entries& entries, const Document& document, const std::string& label, const Document* older);
+    std::optional<Entry> take(Entries& entries);
     void drop(Entries& entries);
-    void drop_front(Entries& entries);
+    void drop_oldest();
+    void drop_last();
     void trim();
 
     Entries past_, future_;  ///< the nearest to now at the back

@@ -3,16 +3,36 @@
 #include <imgui.h>
 
 #include "app/shell/theme.hpp"
+#include "app/view/labels.hpp"
+#include "app/widgets/fonts.hpp"
 
 namespace tendril::app {
 
 void show_labels(const std::vector<Label>& labels, const Camera& camera, const Palette& palette, float scale) {
-    ImDrawList* list = ImGui::GetBackgroundDrawList();
+    if (labels.empty()) return;
+    ImGui::PushFont(small_font());
+    const ImVec2 padding{4.0f * scale, 1.0f * scale};
+    std::vector<LabelRequest> requests;
+    std::vector<const Label*> asked;
     for (const Label& label : labels) {
-        if (const auto at = camera.project(label.at)) {
-            list->AddText({at->x + label.clearance * scale, at->y - 8.0f}, imgui_u32(palette.text), label.text.c_str());
-        }
+        const auto at = camera.project(label.at);
+        if (!at) continue;
+        const ImVec2 size = ImGui::CalcTextSize(label.text.c_str());
+        requests.push_back({.at = *at,
+                            .size = {size.x + 2.0f * padding.x, size.y + 2.0f * padding.y},
+                            .clearance = label.clearance,
+                            .rank = label.rank});
+        asked.push_back(&label);
     }
+    ImDrawList* list = ImGui::GetBackgroundDrawList();
+    for (const PlacedLabel& placed : place_labels(requests, camera.viewport())) {
+        const Label& label = *asked[placed.request];
+        const Rect& box = placed.box;
+        // A plate keeps the text legible over whatever lies behind it.
+        list->AddRectFilled({box.min.x, box.min.y}, {box.max.x, box.max.y}, imgui_u32(palette.bar, 0.62f), 3.0f * scale);
+        list->AddText({box.min.x + padding.x, box.min.y + padding.y}, imgui_u32(label.colour), label.text.c_str());
+    }
+    ImGui::PopFont();
 }
 
 }  // namespace tendril::app

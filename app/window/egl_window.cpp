@@ -25,7 +25,6 @@ struct Egl {
     decltype(&eglGetProcAddress) get_proc_address =
         library.get<decltype(&eglGetProcAddress)>("eglGetProcAddress");
     decltype(&eglInitialize) initialize = library.get<decltype(&eglInitialize)>("eglInitialize");
-    decltype(&eglTerminate) terminate = library.get<decltype(&eglTerminate)>("eglTerminate");
     decltype(&eglBindAPI) bind_api = library.get<decltype(&eglBindAPI)>("eglBindAPI");
     decltype(&eglCreateContext) create_context = library.get<decltype(&eglCreateContext)>("eglCreateContext");
     decltype(&eglDestroyContext) destroy_context =
@@ -78,10 +77,11 @@ class Context {
         loading = egl_.get_proc_address;
         load_gl([](const char* name) { return reinterpret_cast<GLADapiproc>(loading(name)); }, "EGL");
     }
+    /// The display stays initialised for whoever opens it next: terminating it unloads the driver, which does
+    /// not free all it has allocated.
     void close() {
         egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         if (context_ != EGL_NO_CONTEXT) egl_.destroy_context(display_, context_);
-        egl_.terminate(display_);
         egl_.release_thread();
     }
 

@@ -17,7 +17,7 @@ std::shared_ptr<Part> ChainLab::blank() const {
 }
 
 CameraPose ChainLab::first_view() const {
-    return {.target = {3.6f, 0.55f, 0.0f}, .yaw = glm::radians(-20.0f), .pitch = glm::radians(20.0f), .distance = 14.5f};
+    return {.target = {3.5f, 0.7f, 0.0f}, .yaw = glm::radians(-20.0f), .pitch = glm::radians(20.0f), .distance = 12.5f};
 }
 
 void ChainLab::add_commands(CommandTable& table) const { add_chain_commands(table); }

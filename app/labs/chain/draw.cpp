@@ -113,12 +113,16 @@ class Drawing {
     void label(std::size_t i, int rank) {
         char text[64];
         if (i == 0) {
-            std::snprintf(text, sizeof text, "0");
+            std::snprintf(text, sizeof text, "0 head");
         } else {
-            std::snprintf(text, sizeof text, "%zu  %.3g m", i, static_cast<double>(length(i)));
+            const char* role = i + 1 == part_.chain.size() ? " tail" : "";
+            std::snprintf(text, sizeof text, "%zu%s  %.3g m", i, role, static_cast<double>(length(i)));
         }
-        list_.labels.push_back({.at = at(i), .clearance = ball_ + 7.0f, .text = text, .colour = view_.palette.text,
-                                .rank = rank});
+        // The target's ring is wider than a joint.
+        const float target_pixels = glm::distance(at(i), part_.target) / view_.camera.metres_per_pixel(part_.target);
+        const float clearance = target_pixels < ball_ ? 20.0f : ball_ + 7.0f;
+        list_.labels.push_back(
+            {.at = at(i), .clearance = clearance, .text = text, .colour = view_.palette.text, .rank = rank});
     }
 
     void labels() {

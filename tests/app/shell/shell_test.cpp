@@ -1,6 +1,7 @@
 // The shell without a window: shortcuts, layout, input, the command palette's reading and searching.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "app/labs/labs.hpp"
@@ -58,7 +59,9 @@ TEST(LayoutOfTheWindow, PartsTileItWithoutOverlapAtEverySize) {
             EXPECT_GE(rect.size().y, 0.0f);
             covered += rect.size().x * rect.size().y;
         }
-        if (area > 0.0f && layout.status.min.y > layout.top.max.y) EXPECT_NEAR(covered / area, 1.0f, 1e-3f);
+        if (area > 0.0f && layout.status.min.y > layout.top.max.y) {
+            EXPECT_NEAR(covered / area, 1.0f, 1e-3f);
+        }
         EXPECT_GE(layout.view.size().x, 0.3f * window.x);
         EXPECT_EQ(layout.status.max, window);
     }
