@@ -114,6 +114,47 @@ TEST(History, counts_what_entries_share_once) {
     EXPECT_EQ(history.bytes(), 0u);
 }
 
+TEST(History, still_counts_what_its_oldest_entries_shared_when_they_are_gone) {
+    History history(10);
+    Document document = document_of("arm");
+    document.set("rope", make_part("rope", std::vector<float>(1'000'000)));
+    for (int i = 0; i < 100; ++i) {
+        history.push(document, "edit", 0);
+        document.edit<TestPart>("arm").title = std::to_string(i);
+    }
+    EXPECT_GT(history.bytes(), 4'000'000u);
+    EXPECT_LT(history.bytes(), 4'100'000u);
+}
+
+TEST(History, a_large_part_that_does_not_change_costs_no_steps_to_undo) {
+    History history(1000, 6'000'000);
+    Document now = document_of("arm");
+    now.set("rope", make_part("rope", std::vector<float>(1'000'000)));
+    for (int i = 0; i < 20; ++i) {
+        history.push(now, "edit", 0);
+        now.edit<TestPart>("arm").title = std::to_string(i);
+    }
+    for (int i = 0; i < 10; ++i) now = *history.undo(now);
+    EXPECT_EQ(history.size(), 10u);
+    for (int i = 0; i < 10; ++i) now = *history.redo(now);
+    EXPECT_EQ(title_of(now), "19");
+    EXPECT_EQ(history.size(), 20u);
+}
+
+TEST(History, forgets_the_farthest_of_what_could_be_redone_when_it_is_too_large) {
+    History history(1000, 1'000'000);
+    history.push(document_of("0", 50'000), "a", 0);
+    history.push(document_of("1", 50'000), "b", 0);
+    auto now = history.undo(document_of("huge", 1'000'000));
+    EXPECT_EQ(history.redo_label(), "b") << "one step forward stays";
+    now = history.undo(*now);
+    EXPECT_EQ(title_of(*now), "0");
+    EXPECT_LE(history.bytes(), 1'000'000u);
+    now = history.redo(*now);
+    EXPECT_EQ(title_of(*now), "1");
+    EXPECT_FALSE(history.can_redo());
+}
+
 TEST(History, keeps_within_its_bytes_and_always_one_step) {
     History history(1000, 1'000'000);
     for (int i = 0; i < 100; ++i) history.push(document_of(std::to_string(i), 25'000), "edit", 0);

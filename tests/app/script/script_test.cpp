@@ -33,7 +33,9 @@ TEST(Script, has_lines_for_commands) {
     EXPECT_EQ(run.name, "chain.mode");
     EXPECT_EQ(run.arguments.dump(), R"({"mode":"with_index","index":3})");
     EXPECT_FALSE(run.expect_refusal);
-    EXPECT_TRUE(only<RunCommand>(R"({"refused": true, "command": "undo"})").expect_refusal);
+    const auto refused = only<RunCommand>(R"({"refused": true, "command": "undo", "index": 1})");
+    EXPECT_TRUE(refused.expect_refusal);
+    EXPECT_EQ(refused.arguments.dump(), R"({"index":1})");
     EXPECT_FALSE(only<RunCommand>(R"({"command": "undo", "refused": false})").expect_refusal);
     EXPECT_EQ(only<RunCommand>(R"({"command": "undo"})").arguments.dump(), "{}");
     // An argument may have the name of another line's form.
@@ -230,6 +232,20 @@ TEST(Script, that_has_a_wrong_line_is_refused_with_the_reason) {
     };
     for (const auto& [line, reason] : bad)
         EXPECT_TRUE(has(refusal("{\"wait\": 1}\n" + line), "line 2: " + reason)) << line;
+}
+
+TEST(Script, that_has_a_member_too_many_is_refused) {
+    for (const char* line :
+         {R"({"mouse": "move", "at": [1, 2]})", R"({"mouse": "down", "button": "left"})",
+          R"({"mouse": "wheel", "by": 1})", R"({"key": "x"})", R"({"key": "x", "action": "up"})",
+          R"({"text": "a"})", R"({"resize": [8, 6]})", R"({"drop": ["a"]})", R"({"focus": true})",
+          R"({"wait": 1})", R"({"screenshot": "a"})", R"({"state": "a"})",
+          R"({"expect": "a", "equals": 1})"}) {
+        EXPECT_EQ(refusal(line), "");
+        Json more = parse_json(line);
+        more["more"] = 1;
+        EXPECT_EQ(refusal(more.dump()), "line 1: unknown member \"more\"") << line;
+    }
 }
 
 /// Not a line of it would run.
