@@ -1,0 +1,78 @@
+// The pictures that the program draws, held against the golden ones; with both backends that need no display.
+#include "tests/app/golden/golden.hpp"
+
+#include "tests/app/golden/compare.hpp"
+#include "tests/app/support/program.hpp"
+
+namespace tendril::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Why a backend is not there; empty where it is.
+std::string missing(const std::string& backend) {
+    const Outcome outcome = run_program({"--headless", "--backend", backend, "--frames", "0"});
+    return outcome.exit_code == 0 ? std::string() : outcome.err;
+}
+
+app::Image draw(const fs::path& script, const std::string& backend) {
+    const TempFolder folder;
+    const fs::path picture = folder / "picture.png";
+    const Outcome outcome = run_program(
+        {"--headless", "--backend", backend, "--script", script.string(), "--screenshot", picture.string()});
+    // What a script expects to be refused is told all the same.
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return fs::exists(picture) ? app::read_png(picture) : app::Image{};
+}
+
+class Golden : public testing::TestWithParam<fs::path> {
+  protected:
+    fs::path picture() const { return fs::path(GetParam()).replace_extension(".png"); }
+    std::string name() const { return GetParam().stem().string(); }
+};
+
+TEST_P(Golden, osmesa_draws) {
+    if (const std::string why = missing("osmesa"); !why.empty()) GTEST_SKIP() << why;
+    const app::Image actual = draw(GetParam(), "osmesa");
+    const Renewal renewal = wanted_renewal();
+    const bool keep = renewal == Renewal::Failing && fs::exists(picture()) &&
+                      compare(app::read_png(picture()), actual).same;
+    if (renewal != Renewal::None && !keep) renew_golden(picture(), actual);
+    EXPECT_TRUE(looks_like(actual, picture(), name() + ".osmesa"));
+}
+
+TEST_P(Golden, egl_draws) {
+    if (const std::string why = missing("egl"); !why.empty()) GTEST_SKIP() << why;
+    if (wanted_renewal() != Renewal::None) GTEST_SKIP() << "OSMesa draws the golden pictures";
+    EXPECT_TRUE(looks_like(draw(GetParam(), "egl"), picture(), name() + ".egl"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Pictures, Golden, testing::ValuesIn(golden_scripts()),
+                         [](const auto& script) { return script.param.stem().string(); });
+
+TEST(GoldenPictures, one_of_the_backends_draws) {
+    EXPECT_TRUE(missing("osmesa").empty() || missing("egl").empty());
+}
+
+TEST(GoldenPictures, none_is_left_without_its_script) {
+    for (const auto& entry : fs::directory_iterator(golden_folder())) {
+        if (entry.path().extension() != ".png") continue;
+        EXPECT_TRUE(fs::exists(fs::path(entry.path()).replace_extension(".jsonl"))) << entry.path();
+    }
+}
+
+TEST(GoldenPictures, are_of_different_things) {
+    std::vector<app::Image> pictures;
+    const auto scripts = golden_scripts();
+    ASSERT_GE(scripts.size(), 16u);
+    for (const fs::path& script : scripts) {
+        app::Image picture = app::read_png(fs::path(script).replace_extension(".png"));
+        for (std::size_t i = 0; i < pictures.size(); ++i) {
+            EXPECT_FALSE(picture.rgba == pictures[i].rgba) << script.stem() << " and " << scripts[i].stem();
+        }
+        pictures.push_back(std::move(picture));
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test
