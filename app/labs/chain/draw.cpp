@@ -65,7 +65,8 @@ class Drawing {
         const PickId pick = segment_pick(i);
         const bool hovered = view_.hovered == pick || view_.dragged == pick;
         const bool end = i == 0 || i + 1 == part_.chain.size();
-        const float grown = ball_ * (end ? 1.25f : 1.0f) + (hovered ? 1.5f : 0.0f);
+        const float plain = bones_ ? 0.75f * ball_ : ball_;  // a bone shows where its joint is
+        const float grown = plain * (end ? 1.25f : 1.0f) + (hovered ? 1.5f : 0.0f);
         Stroke& ball = list_.sphere(at(i), grown, Unit::Pixels, glm::vec4(joint_colour(i), 1.0f));
         ball.shadow = true;
         ball.pick = pick;

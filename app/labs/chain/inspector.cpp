@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <string_view>
 
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/widgets/fields.hpp"
@@ -48,6 +49,7 @@ void chain_rows(const ChainPart& part) {
 void right(const char* format, float value) {
     char text[24];
     std::snprintf(text, sizeof text, format, static_cast<double>(value));
+    if (std::string_view(text) == "-0.00") std::snprintf(text, sizeof text, "0.00");
     const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text).x;
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, room));
     ImGui::TextUnformatted(text);
