@@ -34,8 +34,8 @@ void main() {
     line = max(line, strengths.y * lines(place * 0.1 + 0.5, cell * 10.0));
     line = max(line, strengths.z * lines(place * 0.01 + 0.5, cell * 100.0));
 
-    // The line where v is the origin's is the u axis.
-    vec2 axes = clamp(half_width - abs(at - origin) * pixels, 0.0, 1.0);
+    // The line where v is the origin's is the u axis; a little wider than the others.
+    vec2 axes = clamp(half_width + 0.25 - abs(at - origin) * pixels, 0.0, 1.0);
     line = max(line, 0.85 * max(axes.x, axes.y));
     vec3 tint = mix(mix(line_colour, v_colour, axes.x), u_colour, axes.y);
 

@@ -14,7 +14,7 @@ void main() {
     float height = mix(above.x, above.y, t), radius = mix(above.z, above.w, t);
     float clearance = height - radius;
     // Spreads with height and pales as it does.
-    float reach = 2.6 * radius + 0.9 * clearance;
+    float reach = 2.6 * radius + 0.8 * clearance;
     float away = length(at - vec2(t * length_, 0.0)) / reach;
     float soft = max(1.0 - away * away, 0.0);
     float strength = radius / (radius + 0.35 * clearance);

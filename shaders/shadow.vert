@@ -17,7 +17,7 @@ void main() {
     // What touches or reaches into the ground lies on it.
     above = vec4(max(heights.xy, heights.zw), heights.zw);
     // As in shadow.frag: beyond this the shadow has faded out.
-    vec2 reach = 2.6 * heights.zw + 0.9 * (above.xy - heights.zw);
+    vec2 reach = 2.6 * heights.zw + 0.8 * (above.xy - heights.zw);
     vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
     at = vec2(mix(-reach.x, length_ + reach.y, corner.x), (2.0 * corner.y - 1.0) * max(reach.x, reach.y));
     vec2 ground = ends.xy + along * at.x + vec2(-along.y, along.x) * at.y;

@@ -41,7 +41,7 @@ vec3 lit(vec3 normal) {
     glint *= glint;
     glint *= glint;
     float rim = 1.0 - normal.z;
-    float light = (0.52 + 0.11 * from_sky + 0.44 * max(from_key, 0.0)) * (1.0 - 0.22 * rim * rim);
+    float light = (0.66 + 0.11 * from_sky + 0.30 * max(from_key, 0.0)) * (1.0 - 0.25 * rim * rim);
     return premultiplied.rgb * light + 0.12 * premultiplied.a * glint;
 }
 

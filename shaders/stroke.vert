@@ -46,15 +46,19 @@ void main() {
     style_and_axis = vec4(style, along);
 
     float rim = 0.51 + style.y;
+    vec2 low = vec2(-sizes.x - rim, -sizes.x - rim), high = vec2(len + sizes.y + rim, sizes.x + rim);
     if (circle) {
         // One triangle around the circle and a second one of no size: half the work of a square.
-        float side = 1.7320508 * (sizes.x + rim);
-        at = gl_VertexID == 0 ? vec2(-side, -sizes.x - rim)
-           : gl_VertexID == 1 ? vec2(side, -sizes.x - rim)
-                              : vec2(0.0, 2.0 * (sizes.x + rim));
+        float side = 1.7320508 * high.y;
+        at = gl_VertexID == 0 ? vec2(-side, low.y) : gl_VertexID == 1 ? vec2(side, low.y) : vec2(0.0, 2.0 * high.y);
+    } else if ((high.x - low.x) * (high.y - low.y) < 100.0) {
+        // For something this small a triangle twice the size of the rectangle still costs less than a second triangle.
+        vec2 extent = high - low, middle = 0.5 * (low + high);
+        at = gl_VertexID == 0 ? vec2(middle.x - extent.x, low.y)
+           : gl_VertexID == 1 ? vec2(middle.x + extent.x, low.y)
+                              : vec2(middle.x, low.y + 2.0 * extent.y);
     } else {
-        vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
-        at = vec2(mix(-sizes.x - rim, len + sizes.y + rim, corner.x), (2.0 * corner.y - 1.0) * (sizes.x + rim));
+        at = mix(low, high, vec2(gl_VertexID & 1, gl_VertexID >> 1));
     }
     vec2 pixel = ends.xy + along * at.x + vec2(-along.y, along.x) * at.y;
     gl_Position = vec4(pixel / framebuffer_size * 2.0 - 1.0, 0.0, 1.0);

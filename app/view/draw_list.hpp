@@ -53,8 +53,10 @@ struct DrawList {
 
     /// Each returns the stroke it appended, for the fields that are seldom set.
     Stroke& sphere(glm::vec3 centre, float radius, Unit unit, glm::vec4 colour);
+    /// Lines keep their width on the screen, and end behind the balls that they join.
     Stroke& line(glm::vec3 a, glm::vec3 b, float width_pixels, glm::vec4 colour);
     Stroke& bone(glm::vec3 a, glm::vec3 b, float radius_a, float radius_b, glm::vec4 colour);
+    /// `radius_pixels` is that of the line's middle.
     Stroke& ring(glm::vec3 centre, float radius_pixels, float width_pixels, glm::vec4 colour);
 };
 

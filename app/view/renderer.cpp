@@ -1,14 +1,13 @@
 #include "app/view/renderer.hpp"
 
-#include "app/view/renderer_grid.hpp"
+#include "app/view/renderer_backdrop.hpp"
 #include "app/view/renderer_shadows.hpp"
 #include "app/view/renderer_strokes.hpp"
 
 namespace tendril::app {
 
 struct Renderer::Impl {
-    BackgroundPass background;
-    GridPass grid;
+    Backdrop backdrop;
     ShadowPass shadows;
     StrokePass strokes;
     int draw_calls = 0;
@@ -62,17 +61,14 @@ void Renderer::draw(const DrawList& list, const Camera& camera, const Palette& p
     reset_state();
     if (seen) calls += impl_->shadows.prepare(list, camera, palette.shadow, viewport);
 
-    glBindFramebuffer(GL_FRAMEBUFFER, frame.framebuffer);
-    glViewport(0, 0, size.x, size.y);
+    calls += impl_->backdrop.draw(camera, palette, frame, viewport);
     glClearDepth(1.0);
     glClear(GL_DEPTH_BUFFER_BIT);
-    calls += impl_->background.draw(palette, size);
     if (seen) {
         glEnable(GL_SCISSOR_TEST);
         glScissor(viewport.min.x, viewport.min.y, viewport.size.x, viewport.size.y);
         // The ground is drawn in the camera's clip space, the strokes in pixels of the framebuffer.
         glViewport(viewport.min.x, viewport.min.y, viewport.size.x, viewport.size.y);
-        if (frame.grid) calls += impl_->grid.draw(camera, palette, frame);
         calls += impl_->shadows.draw(camera);
         glViewport(0, 0, size.x, size.y);
         impl_->strokes.prepare(list, camera, frame);

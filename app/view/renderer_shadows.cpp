@@ -9,17 +9,37 @@ namespace tendril::app {
 namespace {
 
 /// The shadows' picture has one pixel for this many of the frame's, each way.
-constexpr int coarseness = 3;
-/// More than this many pixels of shadow are thinned out; see thin_out().
-constexpr float most_pixels = 6e6f;
+constexpr int coarseness = 4;
+/// More than this many window pixels of shadow are thinned out; see thin_out().
+constexpr float most_pixels = 3e7f;
+/// A shadow paler than this part of the darkest is a faint one.
+constexpr float faint = 0.4f;
 
 /// How far from the axis's foot a shadow reaches, and how dark it is there; the same as in shadow.vert and
 /// shadow.frag.
 float reach(float radius, float clearance) {
-    return 2.6f * radius + 0.9f * clearance;
+    return 2.6f * radius + 0.8f * clearance;
 }
 float strength(float radius, float clearance) {
     return radius / (radius + 0.35f * clearance);
+}
+
+/// What the patch of ground around the line from `a` to `b` covers, in window pixels; all of the viewport
+/// where part of it is beside or behind the eye.
+Rect patch_on_screen(const Camera& camera, glm::vec3 a, glm::vec3 b, float extent) {
+    const glm::vec3 axis = b - a;
+    const float length = glm::length(axis);
+    const glm::vec3 along = extent * (length > 1e-6f ? axis / length : glm::vec3(1.0f, 0.0f, 0.0f));
+    const glm::vec3 across(-along.z, 0.0f, along.x);
+    Rect box{glm::vec2(1e9f), glm::vec2(-1e9f)};
+    for (const glm::vec3 corner :
+         {a - along - across, a - along + across, b + along - across, b + along + across}) {
+        if (camera.depth(corner) < camera.near_plane()) return camera.viewport();
+        const std::optional<glm::vec2> pixel = camera.project(corner);
+        if (!pixel) return camera.viewport();
+        box = {glm::min(box.min, *pixel), glm::max(box.max, *pixel)};
+    }
+    return box;
 }
 
 }  // namespace
@@ -62,21 +82,12 @@ void ShadowPass::add(const Stroke& stroke, const Camera& camera, float darkness)
     const glm::vec3 foot_a(stroke.a.x, 0.0f, stroke.a.z), foot_b(stroke.b.x, 0.0f, stroke.b.z);
     if (!std::isfinite(extent + foot_a.x + foot_a.z + foot_b.x + foot_b.z)) return;
 
-    const auto pixel_a = camera.project(foot_a), pixel_b = camera.project(foot_b);
-    const float nearer = std::min(camera.metres_per_pixel(foot_a), camera.metres_per_pixel(foot_b));
-    Rect box = camera.viewport();
-    // Close to the eye perspective makes more of it than its middle tells; then it may be anywhere.
-    const bool close =
-        camera.near_plane() > 0.0f && std::min(camera.depth(foot_a), camera.depth(foot_b)) < 2.0f * extent;
-    if (pixel_a && pixel_b && !close) {
-        const float pixels = 2.0f * extent / nearer;
-        box = {glm::min(*pixel_a, *pixel_b) - pixels, glm::max(*pixel_a, *pixel_b) + pixels};
-    }
+    Rect box = patch_on_screen(camera, foot_a, foot_b, extent);
     box = {glm::max(box.min, camera.viewport().min), glm::min(box.max, camera.viewport().max)};
     const glm::vec2 size = box.size();
     if (size.x <= 0.0f || size.y <= 0.0f) return;
 
-    shadows_.push_back({{foot_a.x, foot_a.z, foot_b.x, foot_b.z}, {height, radius}});
+    shadows_.push_back({{foot_a.x, foot_a.z, foot_b.x, foot_b.z}, {height, radius}, darkest});
     bounds_ = {glm::min(bounds_.min, box.min), glm::max(bounds_.max, box.max)};
     area_ += size.x * size.y;
 }
@@ -92,14 +103,15 @@ void ShadowPass::collect(const DrawList& list, const Camera& camera, float darkn
     thin_out();
 }
 
-/// Thousands of strokes whose shadows cover the whole ground many times over don't need every one of them:
-/// with the darkest winning, a few are as good.
+/// What thousands of strokes high above the ground hide of the sky covers all of it many times over, and with
+/// the darkest winning a few of them are as good as all. Those close to the ground are all kept.
 void ShadowPass::thin_out() {
+    constexpr std::size_t few = 500;
     const auto step = static_cast<std::size_t>(area_ / most_pixels) + 1;
-    if (step == 1) return;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < shadows_.size(); i += step) shadows_[kept++] = shadows_[i];
-    shadows_.resize(kept);
+    if (step == 1 || shadows_.size() <= few) return;
+    std::size_t seen = 0;
+    std::erase_if(shadows_,
+                  [&](const Shadow& shadow) { return shadow.darkest < faint && seen++ % step != 0; });
 }
 
 int ShadowPass::prepare(const DrawList& list, const Camera& camera, float darkness, PixelRect viewport) {

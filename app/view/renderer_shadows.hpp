@@ -8,14 +8,9 @@
 #include <vector>
 
 #include "app/view/gl_objects.hpp"
-#include "app/view/renderer.hpp"
+#include "app/view/renderer_backdrop.hpp"
 
 namespace tendril::app {
-
-/// Framebuffer pixels from the bottom left.
-struct PixelRect {
-    glm::ivec2 min{0}, size{0};
-};
 
 class ShadowPass {
   public:
@@ -33,6 +28,7 @@ class ShadowPass {
     struct Shadow {
         glm::vec4 ends;     ///< on the ground: a.x, a.z, b.x, b.z
         glm::vec4 heights;  ///< of the axis at a, at b; radius at a, at b
+        float darkest;      ///< 0 to 1; not for the shader
     };
     void collect(const DrawList& list, const Camera& camera, float darkness);
     void add(const Stroke& stroke, const Camera& camera, float darkness);

@@ -55,6 +55,13 @@ bool StrokeProjector::project(const Stroke& stroke, ProjectedStroke& out, float 
         out.radius_a *= scale_a;
         out.radius_b *= scale_b;
     }
+    // A line lies a little deeper than it is, so that it ends behind the ball at its end, also where it comes
+    // out of that ball towards the eye.
+    if (stroke.unit == Unit::Pixels && stroke.shade == Shade::Flat) {
+        constexpr float pixels_deeper = 8.0f;
+        out.depth_a += pixels_deeper / scale_a;
+        out.depth_b += pixels_deeper / scale_b;
+    }
     // One sum finds any part that is not finite.
     const float sum = out.a.x + out.a.y + out.b.x + out.b.y + out.radius_a + out.radius_b + a.z + b.z;
     if (!std::isfinite(sum) || out.radius_a < 0.0f || out.radius_b < 0.0f) return false;

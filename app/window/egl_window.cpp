@@ -90,54 +90,10 @@ class Context {
     EGLContext context_ = EGL_NO_CONTEXT;
 };
 
-class EglWindow final : public OffscreenWindow {
-  public:
-    explicit EglWindow(glm::ivec2 size) : OffscreenWindow(size) {
-        glGenFramebuffers(1, &framebuffer_);
-        glGenRenderbuffers(1, &colour_);
-        glGenRenderbuffers(1, &depth_);
-        allocate(size);
-    }
-    ~EglWindow() override {
-        glDeleteFramebuffers(1, &framebuffer_);
-        glDeleteRenderbuffers(1, &colour_);
-        glDeleteRenderbuffers(1, &depth_);
-    }
-    EglWindow(const EglWindow&) = delete;
-    EglWindow& operator=(const EglWindow&) = delete;
-
-    unsigned framebuffer() const override { return framebuffer_; }
-    void present() override { glFinish(); }
-    void resize(glm::ivec2 size) override {
-        check_window_size(size);
-        if (size != size_) allocate(size);
-    }
-
-  private:
-    void allocate(glm::ivec2 size) {
-        glBindRenderbuffer(GL_RENDERBUFFER, colour_);
-        glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, size.x, size.y);
-        glBindRenderbuffer(GL_RENDERBUFFER, depth_);
-        glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, size.x, size.y);
-        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_);
-        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
-        if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-            throw std::runtime_error("EGL: no framebuffer of this size");
-        }
-        size_ = size;
-    }
-
-    Context context_;
-    GLuint framebuffer_ = 0;
-    GLuint colour_ = 0;
-    GLuint depth_ = 0;
-};
-
 }  // namespace
 
 std::unique_ptr<Window> open_egl_window(glm::ivec2 size) {
-    return std::make_unique<EglWindow>(size);
+    return std::make_unique<OffscreenWindow<Context>>(size);
 }
 
 #else

@@ -27,7 +27,8 @@ struct MousePress {
 struct MouseWheel {
     float by = 0.0f;
 };
-/// A key went down (repeats come as further downs) or up.
+/// A key went down (repeats come as further downs) or up. Keys are named by what the keyboard's layout writes on them.
+/// Question comes down and up at once, wherever it is typed, after the key (with Shift or without) that typed it.
 struct KeyChange {
     Key key = Key::Unknown;
     bool down = true;
@@ -39,6 +40,7 @@ struct KeyTap {
 struct TextInput {
     std::string utf8;
 };
+/// The same size again means that the picture was lost and is to be drawn anew.
 struct Resize {
     glm::ivec2 size{0};
 };

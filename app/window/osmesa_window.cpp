@@ -35,14 +35,14 @@ struct OsMesa {
 /// from one. Set only while loading.
 decltype(&OSMesaGetProcAddress) loading = nullptr;
 
-class OsMesaWindow final : public OffscreenWindow {
+class Context {
   public:
-    explicit OsMesaWindow(glm::ivec2 size) : OffscreenWindow(size) {
+    Context() {
         // A forward-compatible context is refused, so it is not asked for.
         const std::array<int, 13> attributes{OSMESA_FORMAT,
                                              OSMESA_RGBA,
                                              OSMESA_DEPTH_BITS,
-                                             24,
+                                             0,
                                              OSMESA_PROFILE,
                                              OSMESA_CORE_PROFILE,
                                              OSMESA_CONTEXT_MAJOR_VERSION,
@@ -53,45 +53,34 @@ class OsMesaWindow final : public OffscreenWindow {
         context_ = osmesa_.create_context(attributes.data(), nullptr);
         if (context_ == nullptr) throw std::runtime_error("OSMesa: no OpenGL 3.3 core context");
         try {
-            allocate(size);
-            loading = osmesa_.get_proc_address;
-            load_gl([](const char* name) { return reinterpret_cast<GLADapiproc>(loading(name)); }, "OSMesa");
+            make_current();
         } catch (...) {
             osmesa_.destroy_context(context_);
             throw;
         }
     }
-    ~OsMesaWindow() override { osmesa_.destroy_context(context_); }
-    OsMesaWindow(const OsMesaWindow&) = delete;
-    OsMesaWindow& operator=(const OsMesaWindow&) = delete;
-
-    void present() override { glFinish(); }
-
-    void resize(glm::ivec2 size) override {
-        check_window_size(size);
-        if (size != size_) allocate(size);
-    }
+    ~Context() { osmesa_.destroy_context(context_); }
+    Context(const Context&) = delete;
+    Context& operator=(const Context&) = delete;
 
   private:
-    void allocate(glm::ivec2 size) {
-        std::vector<std::uint32_t> pixels(static_cast<std::size_t>(size.x) *
-                                          static_cast<std::size_t>(size.y));
-        if (osmesa_.make_current(context_, pixels.data(), GL_UNSIGNED_BYTE, size.x, size.y) != GL_TRUE) {
-            throw std::runtime_error("OSMesa: the context can't be made current at this size");
+    void make_current() {
+        if (osmesa_.make_current(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1) != GL_TRUE) {
+            throw std::runtime_error("OSMesa: the context can't be made current");
         }
-        pixels_ = std::move(pixels);
-        size_ = size;
+        loading = osmesa_.get_proc_address;
+        load_gl([](const char* name) { return reinterpret_cast<GLADapiproc>(loading(name)); }, "OSMesa");
     }
 
     OsMesa osmesa_;
     OSMesaContext context_ = nullptr;
-    std::vector<std::uint32_t> pixels_;
+    std::array<std::uint8_t, 4> pixel_{};  ///< OSMesa wants a picture of its own, which is never drawn in
 };
 
 }  // namespace
 
 std::unique_ptr<Window> open_osmesa_window(glm::ivec2 size) {
-    return std::make_unique<OsMesaWindow>(size);
+    return std::make_unique<OffscreenWindow<Context>>(size);
 }
 
 #else

@@ -1,4 +1,4 @@
-// Off screen, drawn by Mesa's OSMesa into a piece of memory: needs no display and no graphics card.
+// Off screen, drawn by the software rasteriser in Mesa's OSMesa: needs no display and no graphics card.
 #pragma once
 
 #include <memory>

@@ -175,6 +175,21 @@ TEST_P(Drawing, IsTheSameEveryTime) {
     EXPECT_EQ(draw(list, pose, palette(Theme::Light), true).rgba, first.rgba);
 }
 
+TEST_P(Drawing, TheKeptBackdropIsTheSameAsADrawnOne) {
+    const DrawList list = many(5);
+    const CameraPose pose{.yaw = 0.4f, .pitch = 0.5f};
+    const Image drawn = draw(list, pose, palette(Theme::Dark), true);
+    const int calls = renderer_.draw_calls();
+    EXPECT_EQ(draw(list, pose, palette(Theme::Dark), true).rgba, drawn.rgba) << "the frame that fills it";
+    EXPECT_EQ(draw(list, pose, palette(Theme::Dark), true).rgba, drawn.rgba) << "and those that use it";
+    EXPECT_EQ(renderer_.draw_calls(), calls);
+    const Image light = draw(list, pose, palette(Theme::Light), true);
+    EXPECT_NE(light.rgba, drawn.rgba) << "another theme is another backdrop";
+    draw(list, pose, palette(Theme::Light), true);
+    EXPECT_NE(draw(list, pose, palette(Theme::Light), false).rgba, light.rgba);
+    EXPECT_EQ(draw(list, pose, palette(Theme::Dark), true).rgba, drawn.rgba);
+}
+
 TEST_P(Drawing, BrokenStrokesAndPosesAreHarmless) {
     const float nan = std::nanf(""), infinite = INFINITY;
     DrawList list;

@@ -1,0 +1,55 @@
+// What lies behind all strokes, the gradient and the grid, kept while the camera stands still.
+//
+// On a software rasteriser these two take longer than anything else in a small scene, and while one drags a
+// chain or watches a rope swing they stay as they are. So once a second frame asks for the same backdrop it
+// is drawn into a picture of its own, and from then on copied from there. Copying gives the same bits as
+// drawing.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "app/view/gl_objects.hpp"
+#include "app/view/renderer_grid.hpp"
+
+namespace tendril::app {
+
+/// Framebuffer pixels from the bottom left.
+struct PixelRect {
+    glm::ivec2 min{0}, size{0};
+};
+
+class Backdrop {
+  public:
+    Backdrop();
+    ~Backdrop();
+    Backdrop(const Backdrop&) = delete;
+    Backdrop& operator=(const Backdrop&) = delete;
+
+    /// Fills frame.framebuffer, and leaves it bound. Returns the number of draw calls; a copy counts as one
+    /// for each that it saves, so that the number tells of the picture and not of the frame before.
+    int draw(const Camera& camera, const Palette& palette, const Frame& frame, PixelRect viewport);
+
+  private:
+    /// All that the backdrop depends on.
+    struct Key {
+        CameraPose pose;
+        Rect viewport;
+        std::array<glm::vec3, 6> colours;
+        glm::ivec2 size;
+        float pixel_ratio;
+        bool grid;
+        bool operator==(const Key&) const = default;
+    };
+    int draw_directly(const Camera& camera, const Palette& palette, const Frame& frame,
+                      PixelRect viewport) const;
+    void keep(const Camera& camera, const Palette& palette, const Frame& frame, PixelRect viewport);
+
+    BackgroundPass background_;
+    GridPass grid_;
+    GLuint framebuffer_ = 0, colour_ = 0;
+    glm::ivec2 size_{0};
+    std::optional<Key> last_, kept_;
+};
+
+}  // namespace tendril::app
