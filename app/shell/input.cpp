@@ -29,13 +29,12 @@ void Input::take(const Event* event) {
     } else if (const auto* key = std::get_if<KeyChange>(event)) {
         hold(key->key, key->down);
         if (key->down) pressed_ = {key->key, ctrl(), shift(), alt()};
+        // "?" is known by what it writes, whatever is held to write it.
+        if (key->key == Key::Question) pressed_.shift = pressed_.alt = false;
     } else if (const auto* key_tap = std::get_if<KeyTap>(event)) {
         tapped_ = key_tap->chord;
         tap(tapped_, true);
         pressed_ = {tapped_.key, ctrl(), shift(), alt()};
-    } else if (const auto* text = std::get_if<TextInput>(event)) {
-        // "?" is on another key of every keyboard, so it is known by what it writes.
-        if (text->utf8 == "?") pressed_ = {Key::Question, false, false, false};
     } else if (const auto* focus = std::get_if<Focus>(event); focus != nullptr && !focus->focused) {
         keys_.reset();  // whatever is let go elsewhere is not told here
         buttons_ = {};
