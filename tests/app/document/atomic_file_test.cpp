@@ -190,7 +190,7 @@ TEST(AtomicFile, steps_past_the_remains_of_a_dead_writer) {
         for (int i = 0; i < 500; ++i)
             test::write(
                 folder / (".tendril-" + std::to_string(::getpid()) + "-" + std::to_string(i) + ".tmp"),
-                "half");
+                "half of something longer");
         write_file_atomically(folder / "file", "whole");
         return 0;
     });
