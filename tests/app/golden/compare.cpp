@@ -124,25 +124,31 @@ float mean3(const std::vector<float>& values, const LabPicture& shape, int x, in
     return sum / 9.0f;
 }
 
-/// a - b, blurred by 1 4 6 4 1 both ways.
-LabPicture blurred_difference(const LabPicture& a, const LabPicture& b) {
-    constexpr std::array<float, 5> weights{1.0f / 16, 4.0f / 16, 6.0f / 16, 4.0f / 16, 1.0f / 16};
-    LabPicture rows(a.size), result(a.size);
-    for (int y = 0; y < a.size.y; ++y) {
-        for (int x = 0; x < a.size.x; ++x) {
-            for (int i = 0; i < 5; ++i) {
-                rows.at(x, y) +=
-                    weights[static_cast<std::size_t>(i)] * (a.at(x + i - 2, y) - b.at(x + i - 2, y));
-            }
+template <std::size_t Count>
+LabPicture blurred(const LabPicture& picture, const std::array<float, Count>& weights) {
+    constexpr int half = static_cast<int>(Count) / 2;
+    LabPicture rows(picture.size), result(picture.size);
+    for (int y = 0; y < picture.size.y; ++y) {
+        for (int x = 0; x < picture.size.x; ++x) {
+            for (std::size_t i = 0; i < Count; ++i)
+                rows.at(x, y) += weights[i] * picture.at(x + static_cast<int>(i) - half, y);
         }
     }
-    for (int y = 0; y < a.size.y; ++y) {
-        for (int x = 0; x < a.size.x; ++x) {
-            for (int i = 0; i < 5; ++i)
-                result.at(x, y) += weights[static_cast<std::size_t>(i)] * rows.at(x, y + i - 2);
+    for (int y = 0; y < picture.size.y; ++y) {
+        for (int x = 0; x < picture.size.x; ++x) {
+            for (std::size_t i = 0; i < Count; ++i)
+                result.at(x, y) += weights[i] * rows.at(x, y + static_cast<int>(i) - half);
         }
     }
     return result;
+}
+
+constexpr std::array<float, 3> narrow{0.25f, 0.5f, 0.25f};
+constexpr std::array<float, 5> wide{1.0f / 16, 4.0f / 16, 6.0f / 16, 4.0f / 16, 1.0f / 16};
+
+LabPicture minus(LabPicture a, const LabPicture& b) {
+    for (std::size_t i = 0; i < a.values.size(); ++i) a.values[i] -= b.values[i];
+    return a;
 }
 
 void mark(Image& picture, int x, int y) {
@@ -179,13 +185,13 @@ Difference compare(const Image& expected, const Image& actual, const Tolerance& 
     if (box.max.x == 0) return result;
 
     const LabPicture a = lab_of(expected, box), b = lab_of(actual, box);
-    const std::vector<float> outside = excesses(a, b);
-    const LabPicture blurred = blurred_difference(a, b);
+    const std::vector<float> outside = excesses(blurred(a, narrow), blurred(b, narrow));
+    const LabPicture apart = blurred(minus(a, b), wide);
     result.picture = dimmed(expected);
     float worst = 0.0f;
     for (int y = 0; y < a.size.y; ++y) {
         for (int x = 0; x < a.size.x; ++x) {
-            const float colour = mean3(outside, a, x, y), shape = glm::length(blurred.at(x, y));
+            const float colour = mean3(outside, a, x, y), shape = glm::length(apart.at(x, y));
             result.colour = std::max(result.colour, colour);
             result.shape = std::max(result.shape, shape);
             const float share = std::max(colour / tolerance.colour, shape / tolerance.shape);

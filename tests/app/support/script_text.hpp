@@ -17,6 +17,10 @@ class ScriptText {
         text_ += json.dump() + "\n";
         return *this;
     }
+    ScriptText& lines(const ScriptText& other) {
+        text_ += other.text_;
+        return *this;
+    }
     ScriptText& command(const std::string& name, Json arguments = Json::object(), bool refused = false) {
         arguments["command"] = name;
         if (refused) arguments["refused"] = true;

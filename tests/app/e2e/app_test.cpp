@@ -1,0 +1,179 @@
+// The frame itself, run in this process on a window off screen.
+#include "app/app.hpp"
+
+#include <glm/geometric.hpp>
+
+#include "app/document/scene_file.hpp"
+#include "app/labs/chain/chain_lab.hpp"
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+using namespace app;
+
+class AppTest : public testing::Test {
+  protected:
+    void take(const Event& event) { app_.tick(&event); }
+    void run(const std::string& name, const Json& arguments) { app_.run({name, arguments}); }
+    glm::vec2 pixel(const std::string& name) { return handle(app_.state(), name); }
+    const ChainPart& part() { return chain_part(app_.workspace()); }
+    /// Has caught the target and moved it a little.
+    void begin_drag() {
+        const glm::vec2 caught = pixel("target");
+        take(MouseMove{caught});
+        take(MousePress{MouseButton::Left, true});
+        take(MouseMove{caught + glm::vec2(-40, -60)});
+        ASSERT_TRUE(app_.busy());
+        ASSERT_GT(part().target.y, 0.1f);
+    }
+
+    std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
+    App app_{*window_};
+};
+
+TEST_F(AppTest, draw_calls_do_not_grow_with_segments) {
+    std::vector<int> calls;
+    for (int count : {10, 1000, 10'000}) {
+        run("chain.preset", {{"name", "coil"}, {"count", count}});
+        run("camera.frame", {{"what", "all"}});
+        app_.draw();
+        calls.push_back(app_.draw_calls());
+    }
+    EXPECT_GT(calls[0], 0);
+    EXPECT_LT(calls[0], 12);
+    EXPECT_EQ(calls[1], calls[0]);
+    EXPECT_EQ(calls[2], calls[0]);
+}
+
+TEST_F(AppTest, rests_when_nothing_moves_and_not_while_something_does) {
+    for (int i = 0; i < 10; ++i) app_.tick(nullptr);
+    EXPECT_FALSE(app_.restless());
+    take(MouseMove{{640, 400}});
+    EXPECT_TRUE(app_.restless());  // the panels may follow a few ticks later
+    for (int i = 0; i < 10; ++i) app_.tick(nullptr);
+    EXPECT_FALSE(app_.restless());
+    run("chain.motion", {{"path", "circle"}});
+    for (int i = 0; i < 10; ++i) app_.tick(nullptr);
+    EXPECT_TRUE(app_.restless());
+    run("time.pause", Json::object());
+    for (int i = 0; i < 10; ++i) app_.tick(nullptr);
+    EXPECT_FALSE(app_.restless());
+}
+
+TEST_F(AppTest, losing_the_focus_in_mid_drag_ends_the_drag) {
+    begin_drag();
+    take(Focus{false});
+    EXPECT_FALSE(app_.busy());
+    const glm::vec3 left_at = part().target;
+    take(MouseMove{{400, 300}});
+    EXPECT_EQ(part().target, left_at);
+    take(Focus{true});
+    take(MousePress{MouseButton::Left, false});
+    take(MouseMove{{420, 320}});
+    EXPECT_EQ(part().target, left_at);
+    run("undo", Json::object());
+    EXPECT_EQ(part().target, glm::vec3(7, 0, 0)) << "what was dragged is one step";
+}
+
+TEST_F(AppTest, a_key_held_when_the_focus_goes_is_not_held_when_it_comes_back) {
+    take(KeyChange{Key::X, true});
+    take(Focus{false});
+    take(Focus{true});
+    const glm::vec2 caught = pixel("target");
+    take(MouseMove{caught});
+    take(MousePress{MouseButton::Left, true});
+    take(MouseMove{caught + glm::vec2(-40, -60)});
+    EXPECT_GT(part().target.y, 0.1f) << "X still binds the drag";
+}
+
+TEST_F(AppTest, a_resize_in_mid_drag_does_no_harm) {
+    begin_drag();
+    take(Resize{{1600, 900}});
+    EXPECT_EQ(window_->size(), glm::ivec2(1600, 900));
+    take(MouseMove{{700, 350}});
+    take(MouseMove{{720, 360}});
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(std::isfinite(part().target[i]));
+    EXPECT_LT(glm::distance(pixel("target"), glm::vec2(720, 360)), 1.0f);
+    take(Resize{{1, 1}});
+    take(MouseMove{{0, 0}});
+    app_.draw();
+    take(Resize{{1280, 720}});
+    take(MousePress{MouseButton::Left, false});
+    EXPECT_FALSE(app_.busy());
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(std::isfinite(part().target[i]));
+}
+
+TEST_F(AppTest, a_second_button_in_mid_drag_changes_nothing) {
+    begin_drag();
+    const CameraPose camera = app_.workspace().camera;
+    take(MousePress{MouseButton::Right, true});
+    take(MouseMove{{600, 300}});
+    take(MousePress{MouseButton::Right, false});
+    EXPECT_TRUE(app_.busy());
+    EXPECT_EQ(app_.workspace().camera, camera);
+    take(MousePress{MouseButton::Left, false});
+    EXPECT_FALSE(app_.busy());
+}
+
+TEST_F(AppTest, a_dropped_scene_opens_and_a_broken_one_shows_a_toast) {
+    const TempFolder folder;
+    run("chain.preset", {{"name", "arm"}});
+    run("scene.save", {{"path", (folder / "arm.json").string()}});
+    write(folder / "broken.json", "{\"tendril_scene\": 1,");
+    run("scene.new", Json::object());
+    run("chain.target", {{"to", {1, 2, 3}}});
+    const Json before = app_.state();
+    app_.workspace().ui.toasts.clear();
+
+    take(Drop{{(folder / "broken.json").string()}});
+    EXPECT_EQ(app_.state()["segments"], before["segments"]);
+    ASSERT_EQ(app_.workspace().ui.toasts.size(), 1u);
+    EXPECT_EQ(app_.workspace().ui.toasts[0].kind, ToastKind::Refusal);
+    EXPECT_TRUE(has(app_.workspace().ui.toasts[0].text, "broken.json"));
+    EXPECT_TRUE(has(app_.workspace().ui.toasts[0].text, "line 1"));
+
+    take(Drop{{(folder / "arm.json").string()}});
+    EXPECT_EQ(part().chain.size(), 7u);
+    EXPECT_EQ(app_.workspace().path, folder / "arm.json");
+    take(Drop{{}});
+    EXPECT_EQ(part().chain.size(), 7u);
+}
+
+TEST_F(AppTest, a_toast_goes_by_itself) {
+    EXPECT_THROW(run("chain.remove", {{"index", 99}}), Refused);
+    ASSERT_EQ(app_.workspace().ui.toasts.size(), 1u);
+    for (int i = 0; i < 60 * 20 && !app_.workspace().ui.toasts.empty(); ++i) app_.tick(nullptr);
+    EXPECT_TRUE(app_.workspace().ui.toasts.empty());
+}
+
+TEST_F(AppTest, the_first_hint_stays_until_the_first_drag) {
+    EXPECT_FALSE(app_.workspace().settings.hint_seen);
+    run("chain.target", {{"to", {1, 2, 3}}});
+    EXPECT_FALSE(app_.workspace().settings.hint_seen);
+    begin_drag();
+    EXPECT_TRUE(app_.workspace().settings.hint_seen);
+}
+
+TEST_F(AppTest, closing_the_window_quits) {
+    EXPECT_FALSE(app_.quit());
+    take(CloseRequest{});
+    EXPECT_TRUE(app_.quit());
+}
+
+TEST_F(AppTest, shortcuts_are_deaf_while_one_types) {
+    take(KeyTap{{Key::K, true, false, false}});
+    app_.tick(nullptr);
+    take(TextInput{"b"});
+    take(KeyTap{{Key::B, false, false, false}});
+    EXPECT_EQ(app_.workspace().settings.segments, SegmentStyle::LinesAndSpheres);
+    take(KeyTap{{Key::Escape, false, false, false}});
+    app_.tick(nullptr);
+    EXPECT_FALSE(app_.workspace().ui.palette);
+    app_.tick(nullptr);
+    take(KeyTap{{Key::B, false, false, false}});
+    EXPECT_EQ(app_.workspace().settings.segments, SegmentStyle::Bones);
+}
+
+}  // namespace
+}  // namespace tendril::test

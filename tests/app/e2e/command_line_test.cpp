@@ -1,0 +1,187 @@
+// The command line: what it lists, and what it cannot do, said in one line with exit code 2 and nothing
+// overwritten.
+#include <algorithm>
+#include <sstream>
+
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Strings = std::vector<std::string>;
+
+class CommandLine : public testing::Test {
+  protected:
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    TempFolder folder_;
+};
+
+Strings lines_of(const std::string& text) {
+    Strings lines;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    return lines;
+}
+
+TEST_F(CommandLine, lists_and_says_what_it_is_asked) {
+    for (const char* flag : {"--list-commands", "--list-labs", "--list-shortcuts", "--version", "--help"}) {
+        const Outcome outcome = run_program({flag}, {{"DISPLAY", {}}, {"WAYLAND_DISPLAY", {}}});
+        EXPECT_TRUE(succeeded(outcome)) << flag;
+        EXPECT_FALSE(outcome.out.empty()) << flag;
+    }
+    EXPECT_EQ(run_program({"--list-labs"}).out, "chain\n");
+    EXPECT_TRUE(run_program({"--version"}).out.starts_with("tendril "));
+}
+
+TEST_F(CommandLine, help_names_every_flag) {
+    const std::string help = run_program({"--help"}).out;
+    for (const char* flag :
+         {"SCENE", "--lab", "--size", "--headless", "--backend", "--script", "--frames", "--screenshot",
+          "--state", "--record", "--no-config", "--list-labs", "--list-commands", "--version"}) {
+        EXPECT_TRUE(has(help, flag));
+    }
+}
+
+TEST_F(CommandLine, lists_the_chain_commands_with_exactly_these_arguments) {
+    const std::string list = run_program({"--list-commands"}).out;
+    for (const char* usage :
+         {"chain.clear [default_direction]", "chain.add length [position]",
+          "chain.insert index length [position]", "chain.remove index", "chain.set_length index length",
+          "chain.mode mode [index] [iterations] [tolerance]", "chain.target to", "undo", "redo", "scene.new",
+          "scene.open path", "time.play", "time.pause", "time.step"}) {
+        const Strings lines = lines_of(list);
+        EXPECT_NE(std::find(lines.begin(), lines.end(), usage), lines.end()) << usage;
+    }
+    for (const char* name :
+         {"chain.select", "chain.preset name", "scene.save", "lab.open name", "camera.set"}) {
+        EXPECT_TRUE(has(list, std::string("\n") + name));
+    }
+}
+
+// The README's tables and the program's shortcuts are the same text.
+TEST_F(CommandLine, the_readme_has_the_shortcuts) {
+    const fs::path readme = fs::path(TENDRIL_SOURCE_DIR) / "README.md";
+    ASSERT_TRUE(fs::exists(readme));
+    const std::string text = read(readme), begin = "<!-- shortcuts -->\n", end = "<!-- /shortcuts -->";
+    const auto from = text.find(begin), to = text.find(end);
+    ASSERT_NE(from, text.npos) << "README.md has no line " << begin;
+    ASSERT_NE(to, text.npos) << "README.md has no line " << end;
+    std::string found = text.substr(from + begin.size(), to - from - begin.size());
+    std::string expected = run_program({"--list-shortcuts"}).out;
+    const auto trim = [](std::string& s) {
+        while (!s.empty() && s.front() == '\n') s.erase(0, 1);
+        while (!s.empty() && s.back() == '\n') s.pop_back();
+    };
+    trim(found);
+    trim(expected);
+    EXPECT_EQ(found, expected) << "tendril --list-shortcuts prints what belongs there";
+}
+
+struct Mistake {
+    const char* name;
+    Strings arguments;
+    Strings told;  ///< parts of the complaint
+};
+
+class Mistakes : public testing::TestWithParam<Mistake> {};
+
+TEST_P(Mistakes, are_one_line_and_exit_code_2) {
+    const TempFolder folder;
+    write(folder / "state.json", "old");
+    write(folder / "picture.png", "old");
+    write(folder / "record.jsonl", "old");
+    Strings arguments{"--state",      (folder / "state.json").string(),
+                      "--screenshot", (folder / "picture.png").string(),
+                      "--record",     (folder / "record.jsonl").string()};
+    arguments.insert(arguments.end(), GetParam().arguments.begin(), GetParam().arguments.end());
+    const Outcome outcome = run_program(arguments, {{"DISPLAY", {}}, {"WAYLAND_DISPLAY", {}}});
+    EXPECT_TRUE(complained(outcome, 2, GetParam().told));
+    EXPECT_TRUE(outcome.out.empty()) << outcome.out;
+    for (const char* name : {"state.json", "picture.png", "record.jsonl"})
+        EXPECT_EQ(read(folder / name), "old") << name;
+    EXPECT_EQ(folder.names().size(), 3u);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, Mistakes,
+    testing::Values(
+        Mistake{"size_zero", {"--headless", "--size", "0x0"}, {"--size", "0x0"}},
+        Mistake{"size_negative", {"--headless", "--size", "-5x10"}, {"--size"}},
+        Mistake{"size_no_number", {"--headless", "--size", "wide"}, {"--size", "wide"}},
+        Mistake{"size_half", {"--headless", "--size", "800"}, {"--size", "800"}},
+        Mistake{"size_trailing", {"--headless", "--size", "800x600x2"}, {"--size"}},
+        Mistake{"size_huge", {"--headless", "--size", "99999x99999"}, {"--size"}},
+        Mistake{"size_overflow", {"--headless", "--size", "99999999999999999999x1"}, {"--size"}},
+        Mistake{"flag", {"--headless", "--no-such-flag"}, {"--no-such-flag"}},
+        Mistake{"second_scene", {"--headless", "a.json", "b.json"}, {"b.json"}},
+        Mistake{"lab", {"--headless", "--lab", "kitchen"}, {"lab", "kitchen"}},
+        Mistake{"lab_without_name", {"--headless", "--lab"}, {"--lab"}},
+        Mistake{"backend", {"--headless", "--backend", "crayon"}, {"--backend", "crayon"}},
+        Mistake{"backend_with_window", {"--headless", "--backend", "glfw"}, {"glfw"}},
+        Mistake{"frames_negative", {"--headless", "--frames", "-1"}, {"--frames"}},
+        Mistake{"frames_no_number", {"--headless", "--frames", "many"}, {"--frames", "many"}},
+        Mistake{"no_script", {"--headless", "--script", "/no/such/script.jsonl"}, {"/no/such/script.jsonl"}},
+        Mistake{"script_is_folder", {"--headless", "--script", "/"}, {"/"}},
+        Mistake{"no_scene", {"--headless", "/no/such/scene.json"}, {"/no/such/scene.json"}},
+        Mistake{"no_display", {}, {"no display"}}),
+    [](const auto& mistake) { return mistake.param.name; });
+
+TEST_F(CommandLine, no_window_without_a_display_and_the_line_says_what_helps) {
+    const Outcome outcome = run_program({}, {{"DISPLAY", {}}, {"WAYLAND_DISPLAY", {}}});
+    EXPECT_TRUE(complained(outcome, 2, {"display"}));
+    EXPECT_TRUE(complained(run_program({}, {{"DISPLAY", ":9731"}, {"WAYLAND_DISPLAY", {}}}), 2, {"display"}));
+}
+
+TEST_F(CommandLine, a_path_that_cannot_be_written_is_refused_before_anything_runs) {
+    fs::create_directory(folder_ / "folder");
+    write(folder_ / "file", "a file is no folder");
+    write(folder_ / "script.jsonl", ScriptText().line({{"state", path("ran.json")}}).text());
+    for (const char* flag : {"--state", "--screenshot", "--record"}) {
+        for (const std::string& target :
+             {path("missing/out"), path("folder"), path("file/out"), std::string("/proc/out")}) {
+            const Outcome outcome =
+                run_program({"--headless", "--script", path("script.jsonl"), flag, target});
+            EXPECT_TRUE(complained(outcome, 2, {target})) << flag;
+        }
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "ran.json"));
+    EXPECT_EQ(read(folder_ / "file"), "a file is no folder");
+}
+
+TEST_F(CommandLine, a_path_within_a_script_that_cannot_be_written_ends_it_with_2) {
+    for (const char* form : {"screenshot", "state"}) {
+        write(folder_ / "script.jsonl", ScriptText().line({{form, path("missing/out")}}).text());
+        EXPECT_TRUE(complained(run_program({"--headless", "--script", path("script.jsonl")}), 2,
+                               {path("missing/out")}))
+            << form;
+    }
+}
+
+TEST_F(CommandLine, frames_are_ticks) {
+    write(folder_ / "script.jsonl", ScriptText().command("chain.motion", {{"path", "circle"}}).text());
+    const Outcome outcome = run_program(
+        {"--headless", "--script", path("script.jsonl"), "--frames", "25", "--state", path("state.json")});
+    EXPECT_TRUE(succeeded(outcome));
+    EXPECT_EQ(app::parse_json(read(folder_ / "state.json"))["time"]["tick"], 25);
+}
+
+TEST_F(CommandLine, headless_neither_reads_nor_writes_settings) {
+    fs::create_directory(folder_ / "tendril");
+    write(folder_ / "tendril/settings.json", R"({"theme": "light", "left_open": false})");
+    const Environment config{{"XDG_CONFIG_HOME", folder_.path().string()}};
+    write(folder_ / "script.jsonl", ScriptText().key("l").wait(2).text());
+    const Strings arguments{"--headless", "--script", path("script.jsonl"), "--screenshot"};
+    const auto with = [&](const std::string& name) {
+        Strings all = arguments;
+        all.push_back(path(name));
+        return all;
+    };
+    EXPECT_TRUE(succeeded(run_program(with("configured.png"), config)));
+    EXPECT_TRUE(succeeded(run_program(with("plain.png"))));
+    EXPECT_TRUE(read(folder_ / "configured.png") == read(folder_ / "plain.png"));
+    EXPECT_EQ(read(folder_ / "tendril/settings.json"), R"({"theme": "light", "left_open": false})");
+}
+
+}  // namespace
+}  // namespace tendril::test

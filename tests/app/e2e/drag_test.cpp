@@ -1,0 +1,239 @@
+// The mouse in the 3D view, played in pixels against the built program.
+#include <glm/geometric.hpp>
+
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+using app::Json;
+const glm::vec2 elsewhere(640, 660);  ///< in the view, with nothing under it
+
+/// Where everything is before the first event.
+const Json& start() {
+    static const Json state = state_after(ScriptText().wait(1));
+    return state;
+}
+glm::vec2 target_pixel() {
+    return handle(start(), "target");
+}
+glm::vec3 target_of(const Json& state) {
+    return point_of(state.at("target"));
+}
+
+/// What a drag must have left as it was, whatever else moved.
+void expect_lengths_kept(const Json& state) {
+    const Json& segments = state.at("segments");
+    for (std::size_t i = 1; i < segments.size(); ++i) {
+        const float length =
+            glm::distance(point_of(segments[i]["position"]), point_of(segments[i - 1]["position"]));
+        EXPECT_NEAR(length, segments[i]["length"].get<float>(), 1e-4f) << i;
+    }
+}
+
+TEST(Drag, the_target_follows_the_mouse_and_keeps_the_offset) {
+    for (const glm::vec2 offset : {glm::vec2(0, 0), glm::vec2(6, -4), glm::vec2(-5, 5)}) {
+        const glm::vec2 caught = target_pixel() + offset;
+        const glm::vec2 to(560.5f, 213.25f);
+        const Json state = state_after(ScriptText().drag({caught, caught + glm::vec2(-20, -30), to}));
+        EXPECT_LT(glm::distance(handle(state, "target"), to - offset), 0.02f) << offset.x << ", " << offset.y;
+        EXPECT_EQ(state["tail"], state["target"]);
+        expect_lengths_kept(state);
+    }
+}
+
+TEST(Drag, follows_the_mouse_from_everywhere) {
+    const Json poses = Json::array({Json{{"yaw_deg", 70}, {"pitch_deg", 35}, {"distance", 20}},
+                                    Json{{"yaw_deg", -120}, {"pitch_deg", -10}, {"distance", 9}},
+                                    Json{{"orthographic", true}, {"pitch_deg", 80}, {"distance", 15}}});
+    for (const Json& pose : poses) {
+        ScriptText script;
+        script.command("camera.set", pose);
+        const glm::vec2 caught = handle(state_after(script), "target");
+        const glm::vec2 to(610, 300);
+        const Json state = state_after(script.drag({caught, {640, 350}, to}));
+        EXPECT_LT(glm::distance(handle(state, "target"), to), 0.05f) << pose.dump();
+        expect_lengths_kept(state);
+    }
+}
+
+TEST(Drag, moves_in_the_plane_of_the_view) {
+    ScriptText script;
+    script.command("camera.set", {{"yaw_deg", 0}, {"pitch_deg", 0}});
+    const glm::vec2 caught = handle(state_after(script), "target");
+    const Json state = state_after(script.drag({caught, {600, 250}, {500, 200}}));
+    EXPECT_NEAR(target_of(state).z, 0.0f, 1e-5f);
+    EXPECT_GT(target_of(state).y, 1.0f);
+}
+
+TEST(Drag, an_axis_key_keeps_the_other_coordinates) {
+    const char* keys[] = {"x", "y", "z"};
+    for (int axis = 0; axis < 3; ++axis) {
+        ScriptText script;
+        script.command("chain.target", {{"to", {4.0, 1.5, 0.5}}});
+        const Json before = state_after(script);
+        const glm::vec2 caught = handle(before, "target");
+        script.move(caught)
+            .down()
+            .hold(keys[axis])
+            .move(caught + glm::vec2(40, 35))
+            .move(caught + glm::vec2(60, -70));
+        const Json state = state_after(script.up().release(keys[axis]));
+        const glm::vec3 by = target_of(state) - target_of(before);
+        EXPECT_GT(std::abs(by[axis]), 0.1f) << keys[axis];
+        EXPECT_EQ(by[(axis + 1) % 3], 0.0f) << keys[axis];
+        EXPECT_EQ(by[(axis + 2) % 3], 0.0f) << keys[axis];
+    }
+}
+
+TEST(Drag, an_axis_key_may_come_and_go_in_mid_drag) {
+    const glm::vec2 caught = target_pixel(), to = caught + glm::vec2(-90, -120);
+    ScriptText script;
+    script.move(caught).down().move(to).hold("y");
+    const Json bound = state_after(script);
+    EXPECT_EQ(target_of(bound).x, 7.0f);
+    EXPECT_EQ(target_of(bound).z, 0.0f);
+    const Json free = state_after(script.release("y").up());
+    EXPECT_LT(glm::distance(handle(free, "target"), to), 0.02f);
+}
+
+TEST(Drag, shift_keeps_the_height) {
+    ScriptText script;
+    script.command("chain.target", {{"to", {4.0, 1.5, 0.5}}});
+    const glm::vec2 caught = handle(state_after(script), "target");
+    script.hold("shift")
+        .drag({caught, caught + glm::vec2(30, 20), caught + glm::vec2(-80, 60)})
+        .release("shift");
+    const Json state = state_after(script);
+    EXPECT_NEAR(target_of(state).y, 1.5f, 1e-5f);
+    EXPECT_LT(glm::distance(handle(state, "target"), caught + glm::vec2(-80, 60)), 0.05f);
+}
+
+TEST(Drag, a_segment_takes_the_target_along_and_leaves_the_mode) {
+    for (const char* mode : {"forward", "backward", "fixed", "with_index"}) {
+        ScriptText script;
+        script.command("chain.mode", {{"mode", mode}, {"index", 1}});
+        const glm::vec2 caught = handle(start(), "segment.3"), to = caught + glm::vec2(-30, -140);
+        const Json state = state_after(script.drag({caught, caught + glm::vec2(-10, -60), to}));
+        EXPECT_LT(glm::distance(handle(state, "segment.3"), to), 0.02f) << mode;
+        EXPECT_EQ(state["segments"][3]["position"], state["target"]) << mode;
+        EXPECT_EQ(state["mode"], mode);
+        EXPECT_EQ(state["index"], 1) << mode;
+        expect_lengths_kept(state);
+    }
+}
+
+TEST(Drag, pulls_as_with_index_does) {
+    const glm::vec2 caught = handle(start(), "segment.3"), to = caught + glm::vec2(-30, -140);
+    const Json dragged = state_after(ScriptText().drag({caught, to}));
+    ScriptText script;
+    script.command("chain.mode", {{"mode", "with_index"}, {"index", 3}});
+    script.command("chain.target", {{"to", dragged["target"]}});
+    EXPECT_EQ(state_after(script)["segments"], dragged["segments"]);
+}
+
+TEST(Drag, begins_only_beyond_a_few_pixels) {
+    const glm::vec2 caught = handle(start(), "segment.3");
+    const Json trembled =
+        state_after(ScriptText().drag({caught, caught + glm::vec2(2, 1), caught + glm::vec2(-1, 2)}));
+    EXPECT_EQ(trembled["segments"], start()["segments"]);
+    EXPECT_EQ(trembled["selected"], 3);
+    const Json moved = state_after(ScriptText().drag({caught, caught + glm::vec2(0, 6)}));
+    EXPECT_NE(moved["segments"], start()["segments"]);
+}
+
+TEST(Drag, where_handles_overlap_the_target_wins) {
+    // The target lies on the tail from the start.
+    const Json state = state_after(ScriptText().drag({target_pixel(), {700, 250}, {600, 200}}));
+    EXPECT_EQ(state["tail"], state["target"]);
+    EXPECT_TRUE(state["selected"].is_null());
+}
+
+TEST(Click, selects_a_segment_and_the_empty_room_nothing) {
+    ScriptText script;
+    script.click(handle(start(), "segment.5"));
+    const Json selected = state_after(script);
+    EXPECT_EQ(selected["selected"], 5);
+    EXPECT_EQ(selected["segments"], start()["segments"]);
+    EXPECT_EQ(selected["index"], 0);
+    EXPECT_TRUE(state_after(script.click(elsewhere))["selected"].is_null());
+}
+
+TEST(Click, sets_the_index_in_the_mode_that_has_one) {
+    ScriptText script;
+    script.command("chain.mode", {{"mode", "with_index"}, {"index", 1}}).click(handle(start(), "segment.5"));
+    const Json state = state_after(script);
+    EXPECT_EQ(state["index"], 5);
+    EXPECT_EQ(state["mode"], "with_index");
+}
+
+TEST(Undo, takes_back_a_whole_drag_at_once) {
+    ScriptText script;
+    std::vector<glm::vec2> path{target_pixel()};
+    for (int i = 1; i < 30; ++i) path.push_back(path.front() + glm::vec2(-6 * i, -4 * i));
+    const Json dragged = state_after(script.drag(path));
+    const Json undone = state_after(script.key("ctrl+z"));
+    EXPECT_NE(dragged["segments"], start()["segments"]);
+    EXPECT_EQ(undone["segments"], start()["segments"]);
+    EXPECT_EQ(undone["target"], start()["target"]);
+    EXPECT_EQ(state_after(script.key("ctrl+shift+z"))["segments"], dragged["segments"]);
+    script.key("ctrl+z").key("ctrl+y");
+    EXPECT_EQ(state_after(script)["segments"], dragged["segments"]);
+    script.key("ctrl+z").command("undo", Json::object(), true);
+    EXPECT_EQ(state_after(script)["segments"], start()["segments"]);
+}
+
+TEST(Undo, two_drags_are_two_steps) {
+    ScriptText script;
+    script.drag({target_pixel(), {700, 250}, {650, 200}});
+    const Json first = state_after(script);
+    script.drag({{650, 200}, {600, 300}, {560, 330}});
+    EXPECT_NE(state_after(script)["segments"], first["segments"]);
+    EXPECT_EQ(state_after(script.key("ctrl+z"))["segments"], first["segments"]);
+    EXPECT_EQ(state_after(script.key("ctrl+z"))["segments"], start()["segments"]);
+}
+
+TEST(Undo, escape_in_mid_drag_puts_everything_back) {
+    ScriptText script;
+    script.move(target_pixel()).down().move({700, 250}).move({650, 200}).key("escape").move({500, 300}).up();
+    const Json state = state_after(script);
+    EXPECT_EQ(state["segments"], start()["segments"]);
+    EXPECT_EQ(state["target"], start()["target"]);
+}
+
+TEST(Camera, turns_shifts_and_zooms_without_leaving_a_step_to_undo) {
+    const std::vector<ScriptText> moves{
+        ScriptText().drag({elsewhere, {600, 600}, {500, 640}}, "right"),
+        ScriptText().drag({elsewhere, {600, 600}, {500, 640}}, "middle"),
+        ScriptText().hold("alt").drag({elsewhere, {600, 600}}).release("alt"),
+        ScriptText().hold("shift").drag({elsewhere, {600, 600}}, "right").release("shift"),
+        ScriptText().move(elsewhere).wheel(2),
+        ScriptText().key("1"),
+        ScriptText().key("3"),
+        ScriptText().key("7"),
+        ScriptText().key("5"),
+        ScriptText().key("home"),
+        ScriptText().command("chain.select", {{"index", 2}}).key("f"),
+    };
+    for (ScriptText script : moves) {
+        script.command("undo", Json::object(), true);
+        const Json state = state_after(script);
+        EXPECT_NE(state["camera"], start()["camera"]) << script.text();
+        EXPECT_EQ(state["segments"], start()["segments"]) << script.text();
+    }
+}
+
+TEST(Camera, what_lies_under_the_cursor_stays_there_in_a_zoom) {
+    const glm::vec2 cursor = handle(start(), "segment.1");
+    const Json state = state_after(ScriptText().move(cursor).wheel(4));
+    EXPECT_LT(state["camera"]["distance"].get<float>(), 0.7f * start()["camera"]["distance"].get<float>());
+    // What stays is the plane of the camera's target; the segment is near it, not in it.
+    EXPECT_LT(glm::distance(handle(state, "segment.1"), cursor), 25.0f);
+    const Json flat = state_after(ScriptText().key("1").key("5"));
+    const glm::vec2 point = handle(flat, "segment.1");
+    const Json zoomed = state_after(ScriptText().key("1").key("5").move(point).wheel(3));
+    EXPECT_LT(glm::distance(handle(zoomed, "segment.1"), point), 0.05f);
+}
+
+}  // namespace
+}  // namespace tendril::test

@@ -1,0 +1,128 @@
+// The loop of a real window, turned by hand: it draws when something may have changed, and only then.
+#include "app/live_loop.hpp"
+
+#include "app/labs/chain/chain_lab.hpp"
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+using namespace app;
+
+class LiveLoopTest : public testing::Test {
+  protected:
+    void turn(std::vector<Event> events = {}, double elapsed = tick_seconds) {
+        loop_.turn(std::move(events), elapsed, player_);
+    }
+    void settle() {
+        for (int i = 0; i < 20; ++i) turn();
+    }
+    const ChainPart& part() { return chain_part(app_.workspace()); }
+
+    std::unique_ptr<Window> window_ = open_offscreen({1000, 640});
+    App app_{*window_};
+    std::atomic<bool> ending_{false};
+    LiveLoop loop_{app_, *window_, {.config = false, .ending = ending_}};
+    Player player_{Script{}};
+};
+
+TEST_F(LiveLoopTest, an_idle_window_draws_nothing) {
+    settle();
+    EXPECT_GE(loop_.frames_drawn(), 1);
+    const int drawn = loop_.frames_drawn();
+    for (int i = 0; i < 600; ++i) turn();
+    EXPECT_EQ(loop_.frames_drawn(), drawn);
+    EXPECT_GT(loop_.patience(player_), 0.5) << "and sleeps";
+}
+
+TEST_F(LiveLoopTest, an_event_is_drawn_at_once_and_then_all_is_still_again) {
+    settle();
+    const int drawn = loop_.frames_drawn();
+    turn({KeyChange{Key::L, true}}, 0.0);
+    EXPECT_EQ(loop_.frames_drawn(), drawn + 1);
+    settle();
+    const int after = loop_.frames_drawn();
+    EXPECT_LE(after, drawn + 8);
+    for (int i = 0; i < 100; ++i) turn();
+    EXPECT_EQ(loop_.frames_drawn(), after);
+}
+
+TEST_F(LiveLoopTest, what_moves_by_itself_is_drawn_all_the_time) {
+    app_.run({"chain.motion", {{"path", "circle"}}});
+    settle();
+    const int drawn = loop_.frames_drawn();
+    const auto tick = app_.workspace().clock.tick;
+    for (int i = 0; i < 60; ++i) turn();
+    EXPECT_NEAR(loop_.frames_drawn() - drawn, 60, 2);
+    EXPECT_NEAR(static_cast<double>(app_.workspace().clock.tick - tick), 60.0, 2.0);
+}
+
+TEST_F(LiveLoopTest, time_keeps_pace_with_slow_frames_but_does_not_race_after_a_stall) {
+    app_.run({"chain.motion", {{"path", "circle"}}});
+    settle();
+    auto tick = app_.workspace().clock.tick;
+    for (int i = 0; i < 15; ++i) turn({}, 4 * tick_seconds);
+    EXPECT_NEAR(static_cast<double>(app_.workspace().clock.tick - tick), 60.0, 4.0);
+    tick = app_.workspace().clock.tick;
+    turn({}, 30.0);
+    EXPECT_LE(app_.workspace().clock.tick - tick, 20u);
+}
+
+TEST_F(LiveLoopTest, a_thousand_moves_between_two_frames_are_one) {
+    settle();
+    const glm::vec2 target = handle(app_.state(), "target");
+    turn({MouseMove{target}, MousePress{MouseButton::Left, true}});
+    std::vector<Event> moves;
+    for (int i = 1; i <= 1000; ++i) {
+        moves.push_back(MouseMove{target + static_cast<float>(i) * glm::vec2(-0.1f, -0.15f)});
+    }
+    const int drawn = loop_.frames_drawn();
+    turn(moves);
+    turn();
+    EXPECT_LE(loop_.frames_drawn(), drawn + 2);
+    const glm::vec2 now = handle(app_.state(), "target");
+    EXPECT_NEAR(now.x, target.x - 100.0f, 0.1f);
+    EXPECT_NEAR(now.y, target.y - 150.0f, 0.1f);
+}
+
+TEST_F(LiveLoopTest, no_press_is_lost_in_a_burst) {
+    settle();
+    // Pressed, moved and let go between two frames: nothing of it may fall under the table.
+    const glm::vec2 target = handle(app_.state(), "target");
+    turn({MouseMove{target}, MousePress{MouseButton::Left, true}, MouseMove{target + glm::vec2(-30, -30)},
+          MouseMove{target + glm::vec2(-60, -90)}, MousePress{MouseButton::Left, false},
+          MouseMove{{600, 600}}});
+    settle();
+    EXPECT_FALSE(app_.busy());
+    const glm::vec2 now = handle(app_.state(), "target");
+    EXPECT_NEAR(now.x, target.x - 60.0f, 0.1f);
+    EXPECT_NEAR(now.y, target.y - 90.0f, 0.1f);
+}
+
+TEST_F(LiveLoopTest, what_is_pasted_is_recorded_as_text) {
+    app_.start_recording();
+    settle();
+    window_->set_clipboard("chain.add length=0.25");
+    turn({KeyChange{Key::Ctrl, true}, KeyChange{Key::K, true}, KeyChange{Key::K, false},
+          KeyChange{Key::Ctrl, false}});
+    settle();
+    turn({KeyChange{Key::Ctrl, true}, KeyChange{Key::V, true}, KeyChange{Key::V, false},
+          KeyChange{Key::Ctrl, false}});
+    settle();
+    turn({KeyChange{Key::Enter, true}, KeyChange{Key::Enter, false}});
+    settle();
+    EXPECT_EQ(part().chain.size(), 9u);
+    EXPECT_TRUE(has(app_.recording(), "{\"text\":\"chain.add length=0.25\"}"));
+}
+
+TEST_F(LiveLoopTest, a_script_plays_in_the_window_at_its_own_pace) {
+    ScriptText script;
+    script.command("chain.motion", {{"path", "circle"}}).wait(30).command("time.pause");
+    Player player(parse_script(script.text(), app_.commands()));
+    for (int i = 0; i < 200 && !player.done(); ++i) loop_.turn({}, tick_seconds, player);
+    EXPECT_TRUE(player.done());
+    EXPECT_NEAR(static_cast<double>(app_.workspace().clock.tick), 30.0, 1.0);
+}
+
+}  // namespace
+}  // namespace tendril::test

@@ -1,0 +1,168 @@
+// A recording, played, gives the same state and the same picture, byte for byte.
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+using app::Json;
+
+/// What a run leaves: its state and its picture as they lie on the disk.
+struct Left {
+    std::string state, picture, recording;
+    bool operator==(const Left&) const = default;
+};
+
+class Recording : public testing::Test {
+  protected:
+    Left run(const std::string& script, const std::string& name, std::vector<std::string> more = {}) {
+        const auto path = [&](const char* suffix) { return (folder_ / (name + suffix)).string(); };
+        std::vector<std::string> arguments{"--headless", "--script",    script,
+                                           "--state",    path(".json"), "--screenshot",
+                                           path(".png"), "--record",    path(".jsonl")};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_TRUE(succeeded(run_program(arguments)));
+        return {read(path(".json")), read(path(".png")), read(path(".jsonl"))};
+    }
+    /// Records the script, plays the recording twice, and expects the same from all three.
+    /// The scene's file, and whether it has unsaved changes, are no part of a recording but stand in the
+    /// status line: a picture that differs there differs from the recorded one.
+    enum class Title { Same, Lost };
+    Left record_and_replay(const ScriptText& script, Title title = Title::Same,
+                           std::vector<std::string> more = {}) {
+        write(folder_ / "script.jsonl", script.text());
+        const Left recorded = run((folder_ / "script.jsonl").string(), "recorded", more);
+        const Left first = run((folder_ / "recorded.jsonl").string(), "first");
+        const Left second = run((folder_ / "first.jsonl").string(), "second");
+        EXPECT_EQ(recorded.state, first.state);
+        EXPECT_TRUE(title == Title::Lost || recorded.picture == first.picture);
+        // A replay records itself, so the second is a recording of a recording.
+        EXPECT_EQ(first.state, second.state);
+        EXPECT_TRUE(first.picture == second.picture);
+        EXPECT_EQ(first.recording, second.recording);
+        return recorded;
+    }
+    TempFolder folder_;
+};
+
+Json state_of(const Left& left) {
+    return app::parse_json(left.state);
+}
+
+const Json& start() {
+    static const Json state = state_after(ScriptText().wait(1));
+    return state;
+}
+
+TEST_F(Recording, begins_with_what_it_started_from) {
+    const Left left = record_and_replay(ScriptText().wait(3), Title::Lost);
+    const Json first = app::parse_json(left.recording.substr(0, left.recording.find('\n')));
+    EXPECT_EQ(first["recording"], 1);
+    EXPECT_EQ(first["size"], Json::array({1280, 720}));
+    EXPECT_EQ(first["lab"], "chain");
+    EXPECT_TRUE(first["version"].is_string());
+    EXPECT_TRUE(first["scene"].is_object());
+    EXPECT_TRUE(first["settings"].is_object());
+    EXPECT_TRUE(has(left.recording, "{\"wait\":3}"));
+}
+
+TEST_F(Recording, holds_drags_and_commands) {
+    const glm::vec2 target = handle(start(), "target");
+    ScriptText script;
+    script.drag({target, {700.5f, 250.25f}, {600.125f, 200}})
+        .command("chain.mode", {{"mode", "fixed"}, {"iterations", 7}})
+        .drag({{600.125f, 200}, {520, 260}})
+        .command("chain.set_length", {{"index", 2}, {"length", 0.1}})
+        .command("chain.remove", {{"index", 77}}, true)
+        .key("ctrl+z")
+        .drag({{640, 660}, {600, 610}}, "right")
+        .wheel(1.5f);
+    const Json state = state_of(record_and_replay(script));
+    EXPECT_NE(state["segments"], start()["segments"]);
+    EXPECT_EQ(state["mode"], "fixed");
+}
+
+// Everything of the window that is no scene: panels, palette, help, keys, wheel over a list, resizing.
+TEST_F(Recording, holds_the_use_of_panels) {
+    const glm::vec2 forward_radio(60, 104), target = handle(start(), "target");
+    ScriptText script;
+    script.click(forward_radio).wait(2);
+    script.key("ctrl+k").text("chain.add length=0.75").key("enter").wait(2);
+    script.drag({target, {700, 250}, {650, 300}});
+    script.key("ctrl+k").text("theme").key("enter").wait(1);
+    script.move({130, 500}).wheel(-3).wheel(1);
+    script.move({1140, 400}).wheel(-2);
+    script.drag({{640, 660}, {580, 600}, {500, 620}}, "right").drag({{640, 660}, {580, 600}}, "middle");
+    script.hold("shift")
+        .move({640, 640})
+        .release("shift")
+        .key("l")
+        .key("b")
+        .key("?")
+        .wait(1)
+        .key("escape")
+        .key("f9");
+    script.line({{"resize", {1000, 700}}}).line({{"focus", false}}).line({{"focus", true}}).wait(5);
+    const Json state = state_of(record_and_replay(script));
+    EXPECT_EQ(state["mode"], "forward");
+    EXPECT_EQ(state["segments"].size(), 9u);
+    EXPECT_EQ(state["segments"][8]["length"], 0.75);
+}
+
+TEST_F(Recording, holds_text_typed_into_a_field) {
+    // A double click on the target's height opens the field.
+    const glm::vec2 field(173, 472);
+    ScriptText script;
+    script.click(field).click(field).wait(1).key("ctrl+a").text("1.25").key("enter").wait(3);
+    const Json state = state_of(record_and_replay(script));
+    EXPECT_EQ(state["target"], Json::array({7.0, 1.25, 0.0}))
+        << "the target's y field has moved in the panel";
+}
+
+TEST_F(Recording, holds_time) {
+    ScriptText script;
+    script.command("chain.motion", {{"path", "figure_eight"}, {"radius", 1.7}, {"period", 2.3}}).wait(41);
+    script.key("space").wait(10).key(".").key(".").key("space").wait(7);
+    const Left left = record_and_replay(script);
+    EXPECT_EQ(state_of(left)["motion"], "figure_eight");
+    // 41 ticks, the one of the key that pauses apart, two steps, and what ran after the second space.
+    EXPECT_GT(state_of(left)["time"]["tick"], 45);
+    EXPECT_LT(state_of(left)["time"]["tick"], 60);
+}
+
+TEST_F(Recording, starts_from_the_scene_size_and_lab_it_was_made_with) {
+    ScriptText first;
+    first.command("chain.preset", {{"name", "tentacle"}})
+        .command("chain.target", {{"to", {1, 2, 3}}})
+        .command("camera.set", {{"yaw_deg", 33}})
+        .command("scene.save", {{"path", (folder_ / "tentacle.json").string()}});
+    play(first);
+    ScriptText script;
+    script.command("chain.mode", {{"mode", "forward"}})
+        .command("chain.target", {{"to", {0.5, 1, 0}}})
+        .wait(2);
+    const Left left = record_and_replay(
+        script, Title::Lost, {"--size", "900x600", "--lab", "chain", (folder_ / "tentacle.json").string()});
+    EXPECT_EQ(state_of(left)["segments"].size(), 24u);
+    const Json start_line = app::parse_json(left.recording.substr(0, left.recording.find('\n')));
+    EXPECT_EQ(start_line["size"], Json::array({900, 600}));
+}
+
+TEST_F(Recording, expectations_screenshots_and_states_within_a_script) {
+    const auto path = [&](const char* name) { return (folder_ / name).string(); };
+    ScriptText script;
+    script.command("chain.target", {{"to", {3, 2, 0}}})
+        .line({{"state", path("after.json")}})
+        .line({{"screenshot", path("after.png")}})
+        .line({{"expect", "tail"}, {"near", {3, 2, 0}}, {"within", 0.001}})
+        .line({{"expect", "segments.3.length"}, {"equals", 1}})
+        .line({{"expect", "reach"}, {"above", 6.9}})
+        .line({{"expect", "reach"}, {"below", 7.1}})
+        .command("chain.target", {{"to", {0, 0, 0}}});
+    const Json state = play(script).state;
+    EXPECT_EQ(app::parse_json(read(path("after.json")))["target"], Json::array({3.0, 2.0, 0.0}));
+    EXPECT_EQ(state["target"], Json::array({0.0, 0.0, 0.0}));
+    EXPECT_EQ(app::read_png(path("after.png")).size, glm::ivec2(1280, 720));
+}
+
+}  // namespace
+}  // namespace tendril::test

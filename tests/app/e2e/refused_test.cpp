@@ -1,0 +1,161 @@
+// Commands with hostile arguments, in scripts: refused with a reason, the document unchanged, the exit code
+// as app.md has it.
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+using app::Json;
+
+struct Refusal {
+    std::string line;  ///< as it stands in the script, without the closing brace
+    std::string told;  ///< a part of the reason
+};
+
+/// Each is valid JSON. 1e999 is no number that JSON readers agree on; it may be refused as no JSON at all.
+const std::vector<Refusal>& refusals() {
+    static const std::vector<Refusal> list{
+        {R"({"command": "chain.add")", "length"},
+        {R"({"command": "chain.add", "length": "long")", "length"},
+        {R"({"command": "chain.add", "length": null)", "length"},
+        {R"({"command": "chain.add", "length": [1])", "length"},
+        {R"({"command": "chain.add", "length": -1)", "-1"},
+        {R"({"command": "chain.add", "length": -1e-30)", "length"},
+        {R"({"command": "chain.add", "length": 1.1e9)", "length"},
+        {R"({"command": "chain.add", "length": 1e300)", "length"},
+        {R"({"command": "chain.add", "length": 1, "position": [0, 0])", "position"},
+        {R"({"command": "chain.add", "length": 1, "position": [0, 0, 0, 0])", "position"},
+        {R"({"command": "chain.add", "length": 1, "position": [0, "up", 0])", "position"},
+        {R"({"command": "chain.add", "length": 1, "position": [0, 2e9, 0])", "position"},
+        {R"({"command": "chain.add", "length": 1, "position": {"x": 1})", "position"},
+        {R"({"command": "chain.add", "length": 1, "colour": "red")", "colour"},
+        {R"({"command": "chain.insert", "index": 8, "length": 1)", "8"},
+        {R"({"command": "chain.insert", "index": -1, "length": 1)", "-1"},
+        {R"({"command": "chain.insert", "index": 1.5, "length": 1)", "1.5"},
+        {R"({"command": "chain.insert", "index": 2)", "length"},
+        {R"({"command": "chain.insert", "length": 2)", "index"},
+        {R"({"command": "chain.remove")", "index"},
+        {R"({"command": "chain.remove", "index": 8)", "8"},
+        {R"({"command": "chain.remove", "index": 1e18)", "index"},
+        {R"({"command": "chain.remove", "index": 4294967296)", "index"},
+        {R"({"command": "chain.remove", "index": true)", "index"},
+        {R"({"command": "chain.set_length", "index": 99, "length": 1)", "99"},
+        {R"({"command": "chain.set_length", "index": 1, "length": -3)", "-3"},
+        {R"({"command": "chain.mode")", "mode"},
+        {R"({"command": "chain.mode", "mode": "sideways")", "sideways"},
+        {R"({"command": "chain.mode", "mode": 3)", "mode"},
+        {R"({"command": "chain.mode", "mode": "with_index", "index": 8)", "8"},
+        {R"({"command": "chain.mode", "mode": "fixed", "iterations": 0)", "iterations"},
+        {R"({"command": "chain.mode", "mode": "fixed", "iterations": 1e6)", "iterations"},
+        {R"({"command": "chain.mode", "mode": "fixed", "tolerance": -1)", "tolerance"},
+        {R"({"command": "chain.target")", "to"},
+        {R"({"command": "chain.target", "to": [1, 2])", "to"},
+        {R"({"command": "chain.target", "to": "here")", "to"},
+        {R"({"command": "chain.target", "to": [1e10, 0, 0])", "to"},
+        {R"({"command": "chain.target", "to": [0, 1e300, 0])", "to"},
+        {R"({"command": "chain.target", "to": [0, null, 0])", "to"},
+        {R"({"command": "chain.pull", "index": 8, "to": [0, 0, 0])", "8"},
+        {R"({"command": "chain.select", "index": 8)", "8"},
+        {R"({"command": "chain.clear", "default_direction": [0, 0, 0])", "direction"},
+        {R"({"command": "chain.clear", "default_direction": [2, 0, 0])", "direction"},
+        {R"({"command": "chain.preset", "name": "hydra")", "hydra"},
+        {R"({"command": "chain.preset", "name": "coil", "count": 0)", "count"},
+        {R"({"command": "chain.preset", "name": "coil", "count": 1e9)", "count"},
+        {R"({"command": "chain.motion", "path": "circle", "period": 0)", "period"},
+        {R"({"command": "chain.seek", "tick": 4)", "path"},
+        {R"({"command": "camera.set", "distance": 0)", "distance"},
+        {R"({"command": "camera.set", "distance": -4)", "distance"},
+        {R"({"command": "camera.set", "pitch_deg": 100)", "pitch_deg"},
+        {R"({"command": "camera.set", "target": [1e12, 0, 0])", "target"},
+        {R"({"command": "lab.open", "name": "kitchen")", "kitchen"},
+        {R"({"command": "undo")", "undo"},
+        {R"({"command": "redo")", "redo"},
+        {R"({"command": "undo", "times": 3)", "times"},
+        {R"({"command": "scene.open", "path": "/no/such/scene.json")", "/no/such/scene.json"},
+        {R"({"command": "scene.open", "path": "/")", "/"},
+        {R"({"command": "scene.save", "path": "/no/such/folder/scene.json")", "/no/such/folder/scene.json"},
+        {R"({"command": "scene.save")", "path"},
+        {R"({"command": "view.text_scale", "scale": 0)", "scale"},
+        {R"({"command": "view.panel_width", "side": "left", "width": 1)", "width"},
+    };
+    return list;
+}
+
+class Refused : public testing::Test {
+  protected:
+    Outcome run(const std::string& script) {
+        write(folder_ / "script.jsonl", script);
+        return run_program({"--headless", "--script", (folder_ / "script.jsonl").string(), "--state",
+                            (folder_ / "state.json").string()});
+    }
+    std::string state() { return read(folder_ / "state.json"); }
+    TempFolder folder_;
+};
+
+TEST_F(Refused, changes_nothing_and_ends_the_script_with_1) {
+    EXPECT_TRUE(succeeded(run("{\"wait\": 1}\n")));
+    const std::string before = state();
+    for (const Refusal& refusal : refusals()) {
+        const Outcome outcome = run("{\"wait\": 1}\n" + refusal.line + "}\n{\"command\": \"chain.clear\"}\n");
+        EXPECT_TRUE(complained(outcome, 1, {"line 2", refusal.told})) << refusal.line;
+        EXPECT_EQ(state(), before) << refusal.line;
+    }
+}
+
+TEST_F(Refused, as_expected_lets_the_script_go_on) {
+    std::string script;
+    for (const Refusal& refusal : refusals()) script += refusal.line + ", \"refused\": true}\n";
+    EXPECT_TRUE(succeeded(run("{\"wait\": 1}\n")));
+    const std::string before = state();
+    EXPECT_EQ(run(script).exit_code, 0);
+    EXPECT_EQ(state(), before);
+}
+
+TEST_F(Refused, where_it_was_accepted_is_a_failure) {
+    const Outcome outcome = run("{\"command\": \"chain.add\", \"length\": 1, \"refused\": true}\n");
+    EXPECT_TRUE(complained(outcome, 1, {"line 1", "chain.add"}));
+    EXPECT_FALSE(state().empty());
+}
+
+TEST_F(Refused, leaves_no_step_to_undo) {
+    std::string script;
+    for (const Refusal& refusal : refusals()) script += refusal.line + ", \"refused\": true}\n";
+    script += "{\"command\": \"undo\", \"refused\": true}\n";
+    EXPECT_EQ(run(script).exit_code, 0);
+}
+
+TEST_F(Refused, expectation_says_what_was_found_and_the_state_is_written) {
+    struct Failing {
+        const char* line;
+        const char* found;
+    };
+    for (const Failing& failing : {Failing{R"({"expect": "mode", "equals": "forward"})", "backward"},
+                                   Failing{R"({"expect": "tail", "near": [1, 2, 3], "within": 0.5})", "7"},
+                                   Failing{R"({"expect": "segments.3.length", "below": 1})", "1"},
+                                   Failing{R"({"expect": "segments.3.length", "above": 1})", "1"},
+                                   Failing{R"({"expect": "segments.8.length", "above": 0})", "no such value"},
+                                   Failing{R"({"expect": "moon", "equals": 1})", "moon"}}) {
+        const Outcome outcome =
+            run(std::string("{\"wait\": 1}\n") + failing.line + "\n{\"command\": \"chain.clear\"}\n");
+        EXPECT_TRUE(complained(outcome, 1, {"line 2", failing.found})) << failing.line;
+        EXPECT_EQ(app::parse_json(state())["segments"].size(), 8u) << failing.line;
+    }
+}
+
+TEST_F(Refused, infinity_and_nan_have_no_way_in) {
+    EXPECT_TRUE(succeeded(run("{\"wait\": 1}\n")));
+    const std::string before = state();
+    for (const char* value : {"1e999", "-1e999", "NaN", "Infinity", "-Infinity", "1e39", "nan"}) {
+        for (const char* command :
+             {R"({"command": "chain.add", "length": )", R"({"command": "chain.target", "to": [0, 0, )"}) {
+            const bool point = std::string(command).find("to") != std::string::npos;
+            const Outcome outcome = run(std::string(command) + value + (point ? "]}\n" : "}\n"));
+            EXPECT_TRUE(outcome.exit_code == 1 || outcome.exit_code == 2) << value;
+            EXPECT_TRUE(complained(outcome, outcome.exit_code, {"line 1"})) << value;
+            EXPECT_EQ(state(), before) << value;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test
