@@ -174,7 +174,7 @@ void App::advance_time() {
 }
 
 void App::draw_labels(const Camera& camera) {
-    show_labels(drawn_.labels, camera, palette(workspace_.settings.theme), layout_.scale);
+    show_labels(drawn_, camera, palette(workspace_.settings.theme), layout_.scale);
 }
 
 void App::update_window() {

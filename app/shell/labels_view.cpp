@@ -8,7 +8,22 @@
 
 namespace tendril::app {
 
-void show_labels(const std::vector<Label>& labels, const Camera& camera, const Palette& palette, float scale) {
+namespace {
+
+/// The balls of a picture, as pixels: what a label had better not cover.
+std::vector<Rect> balls_of(const DrawList& drawn, const Camera& camera) {
+    std::vector<Rect> boxes;
+    for (const Stroke& stroke : drawn.strokes) {
+        if (stroke.a != stroke.b || stroke.unit != Unit::Pixels || stroke.shade != Shade::Lit) continue;
+        if (const auto at = camera.project(stroke.a)) boxes.push_back({*at - stroke.radius_a, *at + stroke.radius_a});
+    }
+    return boxes;
+}
+
+}  // namespace
+
+void show_labels(const DrawList& drawn, const Camera& camera, const Palette& palette, float scale) {
+    const std::vector<Label>& labels = drawn.labels;
     if (labels.empty()) return;
     ImGui::PushFont(small_font());
     const ImVec2 padding{4.0f * scale, 1.0f * scale};
@@ -25,7 +40,8 @@ void show_labels(const std::vector<Label>& labels, const Camera& camera, const P
         asked.push_back(&label);
     }
     ImDrawList* list = ImGui::GetBackgroundDrawList();
-    for (const PlacedLabel& placed : place_labels(requests, camera.viewport())) {
+    const std::vector<Rect> balls = balls_of(drawn, camera);
+    for (const PlacedLabel& placed : place_labels(requests, camera.viewport(), 2.0f, balls)) {
         const Label& label = *asked[placed.request];
         const Rect& box = placed.box;
         // A plate keeps the text legible over whatever lies behind it.

@@ -1,14 +1,12 @@
 // Draws a picture's labels as text beneath the panels.
 #pragma once
 
-#include <vector>
-
 #include "app/view/camera.hpp"
 #include "app/view/draw_list.hpp"
 #include "app/view/palette.hpp"
 
 namespace tendril::app {
 
-void show_labels(const std::vector<Label>& labels, const Camera& camera, const Palette& palette, float scale);
+void show_labels(const DrawList& drawn, const Camera& camera, const Palette& palette, float scale);
 
 }  // namespace tendril::app

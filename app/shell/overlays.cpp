@@ -90,7 +90,7 @@ void show_help(const ShellFrame& frame, Emit& emit) {
 void show_settings(const ShellFrame& frame, Emit& emit) {
     const Settings& settings = frame.workspace.settings;
     const float scale = frame.layout.scale;
-    if (!begin_sheet("Settings", screen_of(frame), {380.0f * scale, 260.0f * scale})) {
+    if (!begin_sheet("Settings", screen_of(frame), {380.0f * scale, 236.0f * scale})) {
         emit("view.settings", {{"open", false}});
     }
     static constexpr const char* themes[] = {"dark", "light"};

@@ -56,6 +56,7 @@ void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 p
 
 void Shell::menu(const ShellFrame& frame, Emit& emit) {
     if (icon_button("menu", Icon::Menu, "Menu")) ImGui::OpenPopup("menu popup");
+    ImGui::SetNextWindowPos({ImGui::GetItemRectMin().x, frame.layout.top.max.y + 2.0f});
     if (!ImGui::BeginPopup("menu popup")) return;
     Section open = Section::Scene;
     bool first = true;

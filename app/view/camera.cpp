@@ -36,8 +36,11 @@ Rect in_range(const Rect& viewport) {
     return {low, glm::max(pixels(viewport.max), low + 1.0f)};
 }
 
-float half_height_at_target(const CameraPose& pose) {
-    return pose.distance * std::tan(0.5f * pose.field_of_view);
+/// Tangent of half the vertical field. In a view narrower than this the field's width is kept instead of its height, so
+/// that what fits a wide window still fits when panels or large text make the view narrow.
+float half_field(const CameraPose& pose, float aspect) {
+    constexpr float narrow = 1.25f, widest = 4.0f;
+    return std::tan(0.5f * pose.field_of_view) * std::clamp(narrow / aspect, 1.0f, widest);
 }
 
 }  // namespace
@@ -59,15 +62,16 @@ Camera::Camera(const CameraPose& pose, const Rect& viewport)
 
     const glm::vec2 size = viewport_.size();
     const float aspect = size.x / size.y;
-    metres_per_pixel_at_one_ = 2.0f * std::tan(0.5f * pose_.field_of_view) / size.y;
+    const float field = half_field(pose_, aspect);
+    metres_per_pixel_at_one_ = 2.0f * field / size.y;
     if (pose_.orthographic) {
         // Nothing is cut off in front either: one sees a parallel picture from anywhere along the line.
-        const float half = half_height_at_target(pose_), reach = 100.0f * pose_.distance;
+        const float half = pose_.distance * field, reach = 100.0f * pose_.distance;
         near_ = -reach;
         projection_ = glm::ortho(-half * aspect, half * aspect, -half, half, -reach, reach);
     } else {
         near_ = 0.01f * pose_.distance;
-        projection_ = glm::perspective(pose_.field_of_view, aspect, near_, 1000.0f * pose_.distance);
+        projection_ = glm::perspective(2.0f * std::atan(field), aspect, near_, 1000.0f * pose_.distance);
     }
 }
 
@@ -140,7 +144,8 @@ CameraPose framed(const CameraPose& pose, const Rect& viewport, glm::vec3 centre
     CameraPose moved = in_range(pose);
     moved.target = centre;
     const glm::vec2 size = in_range(viewport).size();
-    const float tangent = std::tan(0.5f * moved.field_of_view) * std::min(1.0f, size.x / size.y);
+    const float aspect = size.x / size.y;
+    const float tangent = half_field(moved, aspect) * std::min(1.0f, aspect);
     // In perspective the outline of a ball is where the line of sight touches it: at the sine of the half
     // angle.
     const float sine = tangent / std::sqrt(1.0f + tangent * tangent);

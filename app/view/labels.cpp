@@ -5,20 +5,22 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 
 namespace tendril::app {
 namespace {
 
-/// Which way from its point a label lies; right first, as people read on from there, and above before below.
+/// Which way from its point a label lies. Slantwise first, for what runs through a point mostly runs along or up; to the
+/// right before the left, as people read on from there, and above before below.
 constexpr std::array<glm::vec2, 8> sides{{
-    {1.0f, 0.0f},
     {0.7f, -0.7f},
     {0.7f, 0.7f},
+    {1.0f, 0.0f},
+    {-0.7f, -0.7f},
+    {-0.7f, 0.7f},
     {0.0f, -1.0f},
     {0.0f, 1.0f},
     {-1.0f, 0.0f},
-    {-0.7f, -0.7f},
-    {-0.7f, 0.7f},
 }};
 
 Rect box_at(const LabelRequest& request, glm::vec2 side) {
@@ -108,8 +110,8 @@ glm::vec2 cell_size(std::span<const LabelRequest> requests, const Rect& viewport
 
 }  // namespace
 
-std::vector<PlacedLabel> place_labels(std::span<const LabelRequest> requests, const Rect& viewport,
-                                      float gap) {
+std::vector<PlacedLabel> place_labels(std::span<const LabelRequest> requests, const Rect& viewport, float gap,
+                                      std::span<const Rect> obstacles) {
     std::vector<PlacedLabel> placed;
     if (requests.empty() || !(viewport.size().x >= 1.0f) || !(viewport.size().y >= 1.0f)) return placed;
     std::vector<std::size_t> order(requests.size());
@@ -117,17 +119,27 @@ std::vector<PlacedLabel> place_labels(std::span<const LabelRequest> requests, co
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return requests[a].rank > requests[b].rank; });
 
-    Taken taken(viewport, cell_size(requests, viewport), gap);
+    const glm::vec2 cell = cell_size(requests, viewport);
+    Taken taken(viewport, cell, gap), blocked(viewport, cell, 0.0f);
+    for (const Rect& obstacle : obstacles) {
+        if (overlap(obstacle, viewport, 0.0f)) blocked.add(obstacle);
+    }
     for (const std::size_t index : order) {
         const LabelRequest& request = requests[index];
         if (!usable(request, viewport)) continue;
+        std::optional<Rect> best;
         for (const glm::vec2 side : sides) {
             const Rect box = box_at(request, side);
             if (!within(box, viewport) || !taken.is_free(box)) continue;
-            taken.add(box);
-            placed.push_back({index, box});
-            break;
+            if (!best) best = box;
+            if (blocked.is_free(box)) {
+                best = box;
+                break;
+            }
         }
+        if (!best) continue;
+        taken.add(*best);
+        placed.push_back({index, *best});
     }
     return placed;
 }

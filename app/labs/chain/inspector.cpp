@@ -69,7 +69,7 @@ void segment_row(const ChainPart& part, std::size_t i, Emit& emit) {
         right("%.2f", segment.position[axis]);
     }
     ImGui::TableNextColumn();
-    right("%.2f", segment.length);
+    right("%.3f", segment.length);
     ImGui::TableNextColumn();
     right("%.0e", length_error(part.chain, i));
 }

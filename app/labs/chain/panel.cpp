@@ -80,7 +80,9 @@ void preset_rows(Emit& emit) {
     section("Begin with");
     for (const Preset& preset : presets()) {
         const std::string tip = std::to_string(preset.count) + " segments";
-        if (row_button(preset.title, 3, true, tip.c_str())) emit("chain.preset", {{"name", preset.name}});
+        if (!row_button(preset.title, 3, true, tip.c_str())) continue;
+        emit("chain.preset", {{"name", preset.name}});
+        emit("camera.frame", {{"what", "all"}});  // they differ in size
     }
     if (row_button("Empty", 2, true, "Takes every segment away")) emit("chain.clear");
     if (row_button("Reset", 2, true, "Everything as at the first start; undo brings it back")) emit("scene.new");
