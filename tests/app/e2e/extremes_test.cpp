@@ -1,0 +1,108 @@
+// What nobody does on purpose: windows of every shape, numbers at the edge, novels typed in. The program
+// stays up.
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+using app::Json;
+
+/// Plays to the end with a picture drawn, whatever is refused on the way.
+testing::AssertionResult survives(const ScriptText& script) {
+    const TempFolder folder;
+    write(folder / "script.jsonl", script.text());
+    const Outcome outcome = run_program({"--headless", "--script", (folder / "script.jsonl").string(),
+                                         "--screenshot", (folder / "picture.png").string()});
+    if (outcome.exit_code == 0) return testing::AssertionSuccess();
+    return testing::AssertionFailure()
+           << "exit code " << outcome.exit_code << ": " << outcome.err.substr(0, 400);
+}
+
+TEST(Extremes, windows_of_every_shape_with_every_sheet_open) {
+    for (const char* open : {"f9", "?", "ctrl+k", "ctrl+,", "ctrl+o"}) {
+        ScriptText script;
+        script.key(open);
+        for (const int width : {1, 40, 200, 640, 2000}) {
+            for (const int height : {1, 40, 200, 600}) script.line({{"resize", {width, height}}}).wait(1);
+        }
+        script.line({{"resize", {16384, 1}}}).line({{"resize", {1, 16384}}}).line({{"resize", {640, 480}}});
+        EXPECT_TRUE(survives(script)) << open;
+    }
+}
+
+TEST(Extremes, texts_of_every_size) {
+    for (const double scale : {0.5, 3.0}) {
+        ScriptText script;
+        script.command("view.text_scale", {{"scale", scale}}).key("?").line({{"resize", {300, 200}}}).wait(2);
+        EXPECT_TRUE(survives(script)) << scale;
+    }
+}
+
+TEST(Extremes, a_wheel_that_turns_a_million_times) {
+    for (const float by : {-1e9f, -1e8f, 1e9f}) {
+        for (const glm::vec2 at : {glm::vec2(140, 400), glm::vec2(640, 400), glm::vec2(1150, 450)}) {
+            EXPECT_TRUE(survives(ScriptText().line({{"resize", {1100, 336}}}).move(at).wheel(by).wait(2)))
+                << by << " at " << at.x;
+            EXPECT_TRUE(survives(ScriptText().move(at).wheel(by).wheel(-by).wait(2))) << by << " at " << at.x;
+        }
+    }
+    EXPECT_TRUE(survives(ScriptText().line({{"resize", {689, 336}}}).move({524, 174}).wheel(-3e8f).wait(2)));
+}
+
+TEST(Extremes, a_mouse_that_is_kilometres_away) {
+    ScriptText script;
+    script.move({1e9f, -1e9f}).down().move({-1e9f, 1e9f}).up();
+    script.drag({{640, 400}, {1e9f, 1e9f}, {0, 0}}, "right")
+        .drag({{640, 400}, {1e9f, 1e9f}, {0, 0}}, "middle");
+    EXPECT_TRUE(survives(script));
+    const Json state = state_after(ScriptText().wait(1));
+    EXPECT_TRUE(survives(ScriptText().drag({handle(state, "target"), {1e9f, 1e9f}, {-1e9f, 0}})));
+}
+
+TEST(Extremes, a_novel_typed_into_the_palette) {
+    EXPECT_TRUE(
+        survives(ScriptText().key("ctrl+k").text(std::string(300'000, 'x').c_str()).key("enter").wait(3)));
+    EXPECT_TRUE(survives(
+        ScriptText().key("ctrl+k").text("\xF0\x9F\x8E\xA8\xC3\xA4\xE4\xB8\xAD\x01\n\t").key("enter")));
+}
+
+TEST(Extremes, a_refusal_as_long_as_a_novel_is_told_in_one_line) {
+    const TempFolder folder;
+    ScriptText script;
+    script.command("scene.open", {{"path", "/" + std::string(100'000, 'y')}}, true).wait(1);
+    EXPECT_TRUE(survives(script));
+    write(folder / "script.jsonl", ScriptText().command("scene.open", {{"path", "/no\nsuch\nfile"}}).text());
+    EXPECT_TRUE(complained(run_program({"--headless", "--script", (folder / "script.jsonl").string()}), 1,
+                           {"line 1"}));
+}
+
+TEST(Extremes, five_hundred_refusals_at_once) {
+    ScriptText script;
+    for (int i = 0; i < 500; ++i) script.command("chain.remove", {{"index", 1000 + i}}, true);
+    EXPECT_TRUE(survives(script.wait(1)));
+}
+
+TEST(Extremes, chains_near_the_limits_of_their_numbers) {
+    const std::vector<ScriptText> scripts{
+        ScriptText().command("chain.target", {{"to", {1e9, 1e9, 1e9}}}),
+        ScriptText().command("chain.set_length", {{"index", 2}, {"length", 1e9}}),
+        ScriptText()
+            .command("chain.clear")
+            .command("chain.add", {{"length", 1e-30}})
+            .command("chain.add", {{"length", 1e-30}}),
+        ScriptText()
+            .command("chain.clear")
+            .command("chain.add", {{"length", 0}})
+            .command("chain.add", {{"length", 0}}),
+        ScriptText().command("chain.clear"),
+        ScriptText().command("camera.set", {{"distance", 1e7}, {"target", {1e9, 0, 0}}}),
+        ScriptText().command("camera.set", {{"distance", 1e-3}}),
+    };
+    for (ScriptText script : scripts) {
+        for (const char* key : {"home", "f", "1", "3", "7", "5", "b", "l"}) script.key(key);
+        EXPECT_TRUE(survives(script.wait(1).drag({{640, 400}, {500, 300}}))) << script.text();
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test

@@ -1,0 +1,255 @@
+// The real window: the built program on a display of its own, with the mouse and the keys of that display.
+#include <signal.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <glm/common.hpp>
+#include <memory>
+#include <thread>
+
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+namespace fs = std::filesystem;
+using app::Json;
+
+void sleep(int milliseconds) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+}
+
+/// Waits for something to become true; false when it never does.
+template <class Condition>
+bool eventually(const Condition& condition, int seconds = 15) {
+    for (int i = 0; i < seconds * 50 * sanitizer_factor; ++i) {
+        if (condition()) return true;
+        sleep(20);
+    }
+    return false;
+}
+
+std::vector<std::string> names_in(const fs::path& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder))
+        names.push_back(entry.path().filename().string());
+    return names;
+}
+
+bool installed(const char* program) {
+    return std::system((std::string("command -v ") + program + " > /dev/null 2>&1").c_str()) == 0;
+}
+
+class RealWindow : public testing::Test {
+  protected:
+    void SetUp() override {
+        for (const char* program : {"Xvfb", "xdotool"}) {
+            if (!installed(program))
+                GTEST_SKIP() << program << " is not installed (third_party/packages-debian.txt)";
+        }
+        // It chooses a free display itself and says which.
+        server_ = std::make_unique<Process>(std::vector<std::string>{
+            "Xvfb", "-displayfd", "1", "-screen", "0", "1600x1000x24", "-nolisten", "tcp"});
+        ASSERT_TRUE(eventually([&] { return server_->out().ends_with('\n') || !server_->running(); }));
+        ASSERT_TRUE(server_->running()) << server_->err();
+        display_ = ':';
+        display_ += server_->out();
+        display_.pop_back();
+    }
+    void TearDown() override {
+        program_.reset();
+        server_.reset();
+    }
+
+    Environment environment() const {
+        return {{"DISPLAY", display_},
+                {"WAYLAND_DISPLAY", {}},
+                {"XDG_CONFIG_HOME", (folder_ / "config").string()},
+                {"LIBGL_ALWAYS_SOFTWARE", "1"}};
+    }
+    void start(std::vector<std::string> more = {}) {
+        std::vector<std::string> arguments{"--size", "1280x720", "--state", state_path()};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        program_ = std::make_unique<Process>(program_command(arguments), environment());
+        ASSERT_TRUE(eventually([&] { return !program_->running() || find_window(); })) << "no window came up";
+        ASSERT_TRUE(program_->running()) << program_->err();
+        // There is no window manager to give it the focus, or a place.
+        xdotool({"windowmove", window_, "0", "0"});
+        xdotool({"windowfocus", window_});
+        sleep(300);
+    }
+    bool find_window() {
+        const Outcome found = xdotool({"search", "--onlyvisible", "--name", "^Tendril$"});
+        window_ = found.out.substr(0, found.out.find('\n'));
+        return !window_.empty();
+    }
+    Outcome xdotool(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "xdotool");
+        return Process(arguments, environment()).wait(20.0);
+    }
+    void move(glm::vec2 at) {
+        xdotool(
+            {"mousemove", "--sync", std::to_string(std::lround(at.x)), std::to_string(std::lround(at.y))});
+        sleep(50);
+    }
+    void click(glm::vec2 at) {
+        move(at);
+        xdotool({"click", "1"});
+        sleep(150);
+    }
+    void key(const char* name) {
+        xdotool({"key", "--clearmodifiers", name});
+        sleep(150);
+    }
+    /// The state it left, once it has ended cleanly.
+    Json ended() {
+        const Outcome outcome = program_->wait(20.0);
+        EXPECT_TRUE(succeeded(outcome));
+        return app::parse_json(read(folder_ / "state.json"));
+    }
+    std::string state_path() const { return (folder_ / "state.json").string(); }
+    fs::path settings_path() const { return folder_ / "config/tendril/settings.json"; }
+
+    TempFolder folder_;
+    std::unique_ptr<Process> server_, program_;
+    std::string display_, window_;
+};
+
+/// Where things are at first: the same off screen as in a window of that size.
+const Json& first_state() {
+    static const Json state = state_after(ScriptText().wait(1));
+    return state;
+}
+
+TEST_F(RealWindow, the_target_is_dragged_and_another_mode_is_clicked) {
+    start({"--no-config"});
+    const glm::vec2 target = handle(first_state(), "target"), to(600, 250);
+    move(target);
+    xdotool({"mousedown", "1"});
+    sleep(50);
+    for (int i = 1; i <= 8; ++i) move(glm::mix(target, to, static_cast<float>(i) / 8.0f));
+    xdotool({"mouseup", "1"});
+    sleep(100);
+    click({60, 104});  // Forward, in the panel
+    key("ctrl+q");
+
+    const Json state = ended();
+    EXPECT_EQ(state["mode"], "forward");
+    const glm::vec2 found = handle(state, "target");
+    EXPECT_NEAR(found.x, to.x, 1.5f);
+    EXPECT_NEAR(found.y, to.y, 1.5f);
+    EXPECT_EQ(state["tail"], state["target"]) << "it was dragged in the mode before";
+}
+
+TEST_F(RealWindow, what_it_recorded_gives_the_same_off_screen) {
+    start({"--no-config", "--record", (folder_ / "record.jsonl").string()});
+    const glm::vec2 target = handle(first_state(), "target");
+    move(target);
+    xdotool({"mousedown", "1"});
+    for (const glm::vec2 at : {glm::vec2(750, 300), glm::vec2(700, 260), glm::vec2(640, 280)}) move(at);
+    xdotool({"mouseup", "1"});
+    xdotool({"keydown", "ctrl", "key", "k", "keyup", "ctrl"});
+    sleep(200);
+    xdotool({"type", "--delay", "30", "chain.add length=0.5"});
+    sleep(200);
+    key("Return");
+    move({640, 600});
+    xdotool({"click", "4"});
+    xdotool({"click", "5"});
+    key("b");
+    sleep(300);
+    key("ctrl+q");
+    const Json state = ended();
+    EXPECT_EQ(state["segments"].size(), 9u);
+    const Outcome replay = run_program({"--headless", "--script", (folder_ / "record.jsonl").string(),
+                                        "--state", (folder_ / "replay.json").string()});
+    EXPECT_TRUE(succeeded(replay));
+    EXPECT_EQ(app::parse_json(read(folder_ / "replay.json")), state);
+}
+
+TEST_F(RealWindow, the_picture_follows_its_size) {
+    start({"--no-config", "--screenshot", (folder_ / "window.png").string()});
+    xdotool({"windowsize", "--sync", window_, "1000", "640"});
+    sleep(400);
+    key("ctrl+q");
+    const Json state = ended();
+    const Played off_screen = play(ScriptText().wait(1), {.more = {"--size", "1000x640"}});
+    EXPECT_EQ(state["handles"], off_screen.state["handles"]);
+    EXPECT_EQ(app::read_png(folder_ / "window.png").size, glm::ivec2(1000, 640));
+}
+
+TEST_F(RealWindow, its_close_button_ends_it_cleanly) {
+    start({"--no-config"});
+    if (xdotool({"windowquit", window_}).exit_code != 0) GTEST_SKIP() << "this xdotool has no windowquit";
+    EXPECT_EQ(ended()["segments"].size(), 8u);
+}
+
+TEST_F(RealWindow, idle_it_takes_no_processor_time) {
+    start({"--no-config"});
+    sleep(1500);
+    const double before = program_->cpu_seconds();
+    sleep(2000);
+    EXPECT_LT(program_->cpu_seconds() - before, 0.3);
+    program_->signal(SIGTERM);
+    ended();
+}
+
+TEST_F(RealWindow, settings_are_kept_by_name) {
+    start();
+    key("t");
+    sleep(500);
+    key("ctrl+q");
+    ended();
+    const Json settings = app::parse_json(read(settings_path()));
+    EXPECT_EQ(settings["theme"], "light");
+
+    // The next start reads them, and leaves them as they are.
+    start({"--screenshot", (folder_ / "light.png").string()});
+    program_->signal(SIGINT);
+    ended();
+    const app::Image picture = app::read_png(folder_ / "light.png");
+    EXPECT_GT(picture.rgba[4 * 5], 150) << "the bar is light";
+    EXPECT_EQ(app::parse_json(read(settings_path())), settings);
+    EXPECT_EQ(names_in(settings_path().parent_path()), std::vector<std::string>{"settings.json"})
+        << "a clean end leaves no autosave";
+}
+
+TEST_F(RealWindow, without_config_settings_are_neither_read_nor_written) {
+    fs::create_directories(settings_path().parent_path());
+    write(settings_path(), R"({"theme": "light"})");
+    start({"--no-config", "--screenshot", (folder_ / "dark.png").string()});
+    key("l");
+    sleep(500);
+    program_->signal(SIGTERM);
+    ended();
+    EXPECT_LT(app::read_png(folder_ / "dark.png").rgba[4 * 5], 100);
+    EXPECT_EQ(read(settings_path()), R"({"theme": "light"})");
+}
+
+TEST_F(RealWindow, broken_settings_stop_nothing) {
+    fs::create_directories(settings_path().parent_path());
+    write(settings_path(), "{\"theme\": \"li");
+    start();
+    key("ctrl+q");
+    ended();
+}
+
+TEST_F(RealWindow, offers_what_a_crash_left) {
+    // Autosaves come after half a minute: this one is made by hand, as of a program that is no more.
+    ScriptText script;
+    script.command("chain.preset", {{"name", "arm"}})
+        .command("scene.save", {{"path", (folder_ / "arm.json").string()}});
+    play(script);
+    fs::create_directories(settings_path().parent_path());
+    fs::copy_file(folder_ / "arm.json", settings_path().parent_path() / "autosave-999999.json");
+    start({"--screenshot", (folder_ / "offer.png").string()});
+    program_->signal(SIGTERM);
+    const Json state = ended();
+    EXPECT_EQ(state["segments"].size(), 8u) << "offered, not taken unasked";
+    EXPECT_TRUE(fs::exists(settings_path().parent_path() / "autosave-999999.json"))
+        << "and kept until it is answered";
+}
+
+}  // namespace
+}  // namespace tendril::test
