@@ -22,7 +22,7 @@ app::Image draw(const fs::path& script, const std::string& backend) {
         {"--headless", "--backend", backend, "--script", script.string(), "--screenshot", picture.string()});
     // What a script expects to be refused is told all the same.
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    return fs::exists(picture) ? app::read_png(picture) : app::Image{};
+    return outcome.exit_code == 0 ? app::read_png(picture) : app::Image{};
 }
 
 class Golden : public testing::TestWithParam<fs::path> {
@@ -34,6 +34,7 @@ class Golden : public testing::TestWithParam<fs::path> {
 TEST_P(Golden, osmesa_draws) {
     if (const std::string why = missing("osmesa"); !why.empty()) GTEST_SKIP() << why;
     const app::Image actual = draw(GetParam(), "osmesa");
+    ASSERT_FALSE(actual.rgba.empty()) << GetParam() << " did not lead where it should";
     const Renewal renewal = wanted_renewal();
     const bool keep = renewal == Renewal::Failing && fs::exists(picture()) &&
                       compare(app::read_png(picture()), actual).same;
