@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "app/shell/shortcuts.hpp"
+#include "app/widgets/text.hpp"
 
 namespace tendril::app {
 namespace {
@@ -35,6 +38,28 @@ std::vector<std::string> pieces(const std::string& line) {
     }
     if (!piece.empty()) found.push_back(piece);
     return found;
+}
+
+/// Scrolls just as far as it takes to have the last item wholly in the window.
+void scroll_to_item() {
+    const float top = ImGui::GetWindowPos().y, bottom = top + ImGui::GetWindowSize().y;
+    if (ImGui::GetItemRectMin().y < top) ImGui::SetScrollHereY(0.0f);
+    if (ImGui::GetItemRectMax().y > bottom) ImGui::SetScrollHereY(1.0f);
+}
+
+void begin_palette(std::size_t commands, glm::vec2 screen, float scale) {
+    const float width = std::min(820.0f * scale, 0.9f * screen.x);
+    const float rows = static_cast<float>(std::max<std::size_t>(commands, 3)) + 5.0f;  // with the line and its help
+    ImGui::SetNextWindowPos({0.5f * screen.x, 0.14f * screen.y}, ImGuiCond_Always, {0.5f, 0.0f});
+    ImGui::SetNextWindowSize({width, std::min(rows * ImGui::GetTextLineHeightWithSpacing(), 0.7f * screen.y)});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 9.0f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
+    ImGui::Begin("palette", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoNav);
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar(2);
 }
 
 }  // namespace
@@ -74,19 +99,33 @@ std::vector<const Command*> search_commands(const CommandTable& table, const std
     return first;
 }
 
+void CommandPalette::forget() {
+    line_.fill('\0');
+    chosen_ = listed_choice_ = 0;
+    take_caret_ = false;
+    complaint_.clear();
+}
+
+void CommandPalette::run_chosen(const Command& chosen, Emit& emit) {
+    const auto needed = std::find_if(chosen.arguments.begin(), chosen.arguments.end(),
+                                     [](const Argument& a) { return a.required; });
+    if (needed == chosen.arguments.end()) {
+        emit("view.palette", {{"open", false}});
+        emit(chosen.name);
+        return;
+    }
+    std::snprintf(line_.data(), line_.size(), "%s %s=", chosen.name.c_str(), needed->name.c_str());
+    complaint_ = "Type its arguments: " + usage(chosen);
+    chosen_ = 0;
+    take_caret_ = true;
+}
+
 void CommandPalette::run(const CommandTable& table, const Command* chosen, Emit& emit) {
     const std::string line = line_.data();
+    take_caret_ = true;
     try {
         if (line.find('=') == std::string::npos && chosen != nullptr) {
-            const bool needs = std::any_of(chosen->arguments.begin(), chosen->arguments.end(),
-                                           [](const Argument& a) { return a.required; });
-            if (!needs) {
-                emit("view.palette", {{"open", false}});
-                emit(chosen->name);
-                return;
-            }
-            std::snprintf(line_.data(), line_.size(), "%s %s=", chosen->name.c_str(), chosen->arguments.front().name.c_str());
-            complaint_ = "Type its arguments: " + usage(*chosen);
+            run_chosen(*chosen, emit);
             return;
         }
         const TypedCommand typed = read_typed_command(line);
@@ -98,7 +137,39 @@ void CommandPalette::run(const CommandTable& table, const Command* chosen, Emit&
     }
 }
 
-void CommandPalette::list(const std::vector<const Command*>& found) {
+bool CommandPalette::line_field(bool appearing) {
+    if (appearing) ImGui::SetWindowFocus();
+    if (appearing || take_caret_) ImGui::SetKeyboardFocusHere();
+    // Dear ImGui selects the whole line when it hands over the keyboard: what is typed next would replace it.
+    const auto caret_to_end = [](ImGuiInputTextCallbackData* data) {
+        bool& wanted = *static_cast<bool*>(data->UserData);
+        if (wanted) data->CursorPos = data->SelectionStart = data->SelectionEnd = data->BufTextLen;
+        wanted = false;
+        return 0;
+    };
+    ImGui::SetNextItemWidth(-1.0f);
+    const bool entered = ImGui::InputTextWithHint(
+        "##line", "Find a command: chain.add length=1.5", line_.data(), line_.size(),
+        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackAlways, caret_to_end, &take_caret_);
+    if (entered) ImGui::SetKeyboardFocusHere(-1);  // Enter lets go of the line; whatever comes of it, take it back
+    if (ImGui::IsItemEdited()) {
+        chosen_ = 0;
+        complaint_.clear();
+    }
+    return entered;
+}
+
+void CommandPalette::move_choice(int count) {
+    const auto step = [&](ImGuiKey key, int by) {
+        if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(key))) chosen_ += by;
+    };
+    step(ImGuiKey_DownArrow, 1);
+    step(ImGuiKey_UpArrow, -1);
+    chosen_ = std::clamp(chosen_, 0, std::max(0, count - 1));
+}
+
+const Command* CommandPalette::list(const Found& found, bool bring_choice_into_view) {
+    const Command* clicked = nullptr;
     ImGui::BeginChild("found", {0.0f, -ImGui::GetTextLineHeightWithSpacing()}, false, ImGuiWindowFlags_NoNav);
     if (ImGui::BeginTable("commands", 3, ImGuiTableFlags_NoPadOuterX | ImGuiTableFlags_SizingStretchProp)) {
         ImGui::TableSetupColumn("usage", ImGuiTableColumnFlags_WidthStretch, 1.0f);
@@ -109,70 +180,50 @@ void CommandPalette::list(const std::vector<const Command*>& found) {
             ImGui::TableNextRow();
             ImGui::TableNextColumn();
             ImGui::PushID(i);
-            if (ImGui::Selectable("##row", i == chosen_, ImGuiSelectableFlags_SpanAllColumns)) chosen_ = i;
+            if (ImGui::Selectable("##row", i == chosen_, ImGuiSelectableFlags_SpanAllColumns)) clicked = &command;
             ImGui::PopID();
-            if (i == chosen_ && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY();
+            if (i == chosen_ && bring_choice_into_view) scroll_to_item();
             ImGui::SameLine(0.0f, 0.0f);
-            ImGui::TextUnformatted(usage(command).c_str());
+            text_elided(usage(command), ImGui::GetContentRegionAvail().x);
             ImGui::TableNextColumn();
-            ImGui::TextDisabled("%s", command.help.c_str());
+            text_elided(command.help, ImGui::GetContentRegionAvail().x, true);
             ImGui::TableNextColumn();
             ImGui::TextDisabled("%s", keys_for(command.name).c_str());
         }
         ImGui::EndTable();
     }
     ImGui::EndChild();
+    return clicked;
+}
+
+void CommandPalette::explain(const Found& found) {
+    const float room = ImGui::GetContentRegionAvail().x;
+    if (!complaint_.empty()) {
+        ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_CheckMark));
+        text_elided(complaint_, room);
+        ImGui::PopStyleColor();
+    } else {
+        text_elided(std::to_string(found.size()) + " commands.  Up and Down choose, Enter runs, Escape closes.", room, true);
+    }
 }
 
 void CommandPalette::frame(bool open, const CommandTable& table, glm::vec2 screen, float scale, Emit& emit) {
     const bool appearing = open && !was_open_;
     was_open_ = open;
     if (!open) return;
-    if (appearing) {
-        line_.fill('\0');
-        chosen_ = 0;
-        complaint_.clear();
-    }
-    const float width = std::min(820.0f * scale, 0.9f * screen.x);
-    ImGui::SetNextWindowPos({0.5f * screen.x, 0.14f * screen.y}, ImGuiCond_Always, {0.5f, 0.0f});
-    const auto found = search_commands(table, line_.data());
-    const float rows = static_cast<float>(std::max<std::size_t>(found.size(), 3)) + 5.0f;  // with the line and its help
-    ImGui::SetNextWindowSize({width, std::min(rows * ImGui::GetTextLineHeightWithSpacing(), 0.7f * screen.y)});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 9.0f);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
-    ImGui::Begin("palette", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_NoNav);
-    ImGui::PopStyleColor();
-    ImGui::PopStyleVar(2);
-
-    ImGui::SetNextItemWidth(-1.0f);
-    if (appearing) {
-        ImGui::SetWindowFocus();
-        ImGui::SetKeyboardFocusHere();
-    }
-    const bool entered = ImGui::InputTextWithHint("##line", "Find a command: chain.add length=1.5", line_.data(),
-                                                  line_.size(), ImGuiInputTextFlags_EnterReturnsTrue);
-    if (ImGui::IsItemEdited()) {
-        chosen_ = 0;
-        complaint_.clear();
-    }
-    const auto step = [&](ImGuiKey key, int by) {
-        if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(key))) chosen_ += by;
-    };
-    step(ImGuiKey_DownArrow, 1);
-    step(ImGuiKey_UpArrow, -1);
-    chosen_ = std::clamp(chosen_, 0, std::max(0, static_cast<int>(found.size()) - 1));
-    list(found);
-    if (!complaint_.empty()) {
-        ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s", complaint_.c_str());
-    } else {
-        ImGui::TextDisabled("%zu commands.  Up and Down choose, Enter runs, Escape closes.", found.size());
-    }
-    if (entered) {
+    if (appearing) forget();
+    const Found before = search_commands(table, line_.data());
+    begin_palette(before.size(), screen, scale);
+    const bool entered = line_field(appearing);
+    const Found found = search_commands(table, line_.data());
+    move_choice(static_cast<int>(found.size()));
+    const bool moved = std::exchange(listed_choice_, chosen_) != chosen_;
+    const Command* clicked = list(found, moved);
+    explain(found);
+    if (clicked != nullptr) {
+        run_chosen(*clicked, emit);
+    } else if (entered) {
         run(table, found.empty() ? nullptr : found[static_cast<std::size_t>(chosen_)], emit);
-        ImGui::SetKeyboardFocusHere(-1);
     }
     ImGui::End();
 }

@@ -26,12 +26,23 @@ class CommandPalette {
     void frame(bool open, const CommandTable& table, glm::vec2 screen, float scale, Emit& emit);
 
   private:
+    using Found = std::vector<const Command*>;
+    void forget();
+    /// The line that is typed in; whether Enter ended it.
+    bool line_field(bool appearing);
+    void move_choice(int count);
+    /// The list; the row that was clicked, if any.
+    const Command* list(const Found& found, bool bring_choice_into_view);
+    void explain(const Found& found);
+    /// Runs what is typed, or `chosen` where only a search is typed.
     void run(const CommandTable& table, const Command* chosen, Emit& emit);
-    void list(const std::vector<const Command*>& found);
+    void run_chosen(const Command& chosen, Emit& emit);
 
     std::array<char, 512> line_{};
     int chosen_ = 0;
+    int listed_choice_ = 0;    ///< as the list last showed it
     bool was_open_ = false;
+    bool take_caret_ = false;  ///< the line wants the keyboard, the caret after its last character
     std::string complaint_;
 };
 

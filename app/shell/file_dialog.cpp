@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <glm/common.hpp>
 
 #include "app/shell/shell.hpp"
+#include "app/widgets/fields.hpp"
+#include "app/widgets/text.hpp"
 
 namespace tendril::app {
 
@@ -48,32 +51,20 @@ void FileDialog::take(bool saving, const fs::path& mine, Emit& emit) {
         complaint_ = path.filename().string() + " is there already. Save once more to replace it.";
         return;
     }
-    emit("view.close");
+    // The command closes the dialog where it succeeds: a refused name stays, to be mended.
     emit(saving ? "scene.save" : "scene.open", {{"path", path.string()}});
 }
 
-void FileDialog::frame(const Workspace& workspace, glm::vec2 screen, Emit& emit) {
-    const auto wanted = workspace.ui.file_dialog;
-    const bool open = wanted != UiState::FileDialog::None;
-    const bool appearing = open && !was_open_;
-    was_open_ = open;
-    if (!open) return;
-    const bool saving = wanted == UiState::FileDialog::SaveAs;
-    if (appearing) {
-        std::error_code error;
-        const fs::path start = workspace.path.empty() ? fs::current_path(error) : fs::absolute(workspace.path).parent_path();
-        go_to(start);
-        confirmed_.clear();
-        std::snprintf(name_.data(), name_.size(), "%s", saving ? workspace.path.filename().string().c_str() : "");
-    }
-    if (!begin_sheet(saving ? "Save scene as" : "Open scene", screen, {0.5f * screen.x, 0.6f * screen.y})) {
-        emit("view.close");
-    }
-    if (ImGui::Button("Up")) go_to(folder_.parent_path());
-    ImGui::SameLine();
-    ImGui::TextDisabled("%s", folder_.string().c_str());
-    ImGui::BeginChild("entries", {0.0f, -2.0f * ImGui::GetFrameHeightWithSpacing() - ImGui::GetTextLineHeight()}, true);
+void FileDialog::start(const Workspace& workspace, bool saving) {
+    std::error_code error;
+    go_to(workspace.path.empty() ? fs::current_path(error) : fs::absolute(workspace.path).parent_path());
+    confirmed_.clear();
+    std::snprintf(name_.data(), name_.size(), "%s", saving ? workspace.path.filename().string().c_str() : "");
+}
+
+bool FileDialog::list() {
     fs::path entered;
+    bool chosen = false;
     for (const Entry& entry : entries_) {
         const std::string shown = entry.folder ? entry.name + "/" : entry.name;
         if (!ImGui::Selectable(shown.c_str(), entry.name == name_.data(), ImGuiSelectableFlags_AllowDoubleClick)) continue;
@@ -81,19 +72,39 @@ void FileDialog::frame(const Workspace& workspace, glm::vec2 screen, Emit& emit)
             entered = folder_ / entry.name;
         } else {
             std::snprintf(name_.data(), name_.size(), "%s", entry.name.c_str());
-            if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) take(saving, workspace.path, emit);
+            chosen = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
         }
     }
     if (!entered.empty()) go_to(entered);
+    return chosen;
+}
+
+void FileDialog::frame(const Workspace& workspace, glm::vec2 screen, float scale, Emit& emit) {
+    const auto wanted = workspace.ui.file_dialog;
+    const bool open = wanted != UiState::FileDialog::None;
+    const bool appearing = open && !was_open_;
+    was_open_ = open;
+    if (!open) return;
+    const bool saving = wanted == UiState::FileDialog::SaveAs;
+    if (appearing) start(workspace, saving);
+    const glm::vec2 size = glm::max(glm::vec2(520.0f, 420.0f) * scale, glm::vec2(0.5f, 0.6f) * screen);
+    if (!begin_sheet(saving ? "Save scene as" : "Open scene", screen, size)) emit("view.close");
+    if (ImGui::Button("Up")) go_to(folder_.parent_path());
+    ImGui::SameLine();
+    text_elided(folder_.string(), ImGui::GetContentRegionAvail().x, true);
+    const float wrap = ImGui::GetContentRegionAvail().x;
+    const float complaint = complaint_.empty() ? 0.0f : ImGui::CalcTextSize(complaint_.c_str(), nullptr, false, wrap).y;
+    ImGui::BeginChild("entries", {0.0f, -2.0f * ImGui::GetFrameHeightWithSpacing() - complaint}, true);
+    bool done = list();
     ImGui::EndChild();
     ImGui::SetNextItemWidth(-1.0f);
     if (appearing) ImGui::SetKeyboardFocusHere();
-    const bool done = ImGui::InputTextWithHint("##name", "file name", name_.data(), name_.size(),
-                                               ImGuiInputTextFlags_EnterReturnsTrue);
-    if (ImGui::Button(saving ? "Save" : "Open") || done) take(saving, workspace.path, emit);
+    done |= ImGui::InputTextWithHint("##name", "file name", name_.data(), name_.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+    done |= ImGui::Button(saving ? "Save" : "Open");
     ImGui::SameLine();
     if (ImGui::Button("Cancel")) emit("view.close");
-    if (!complaint_.empty()) ImGui::TextDisabled("%s", complaint_.c_str());
+    if (!complaint_.empty()) note(complaint_);
+    if (done) take(saving, workspace.path, emit);
     ImGui::End();
 }
 

@@ -14,14 +14,17 @@ namespace tendril::app {
 
 class FileDialog {
   public:
-    void frame(const Workspace& workspace, glm::vec2 screen, Emit& emit);
+    void frame(const Workspace& workspace, glm::vec2 screen, float scale, Emit& emit);
 
   private:
     struct Entry {
         std::string name;
         bool folder;
     };
+    void start(const Workspace& workspace, bool saving);
     void go_to(const std::filesystem::path& folder);
+    /// The folders and scenes; true once a scene is chosen for good.
+    bool list();
     /// `mine` is the scene's own file, which it may replace unasked.
     void take(bool saving, const std::filesystem::path& mine, Emit& emit);
 

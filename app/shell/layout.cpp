@@ -6,12 +6,13 @@
 namespace tendril::app {
 
 Layout lay_out(glm::vec2 window, float scale, const Settings& settings, bool has_timeline) {
-    constexpr float bar = 44.0f, status = 28.0f, timeline = 46.0f;
+    constexpr float bar = 44.0f, status = 28.0f, timeline = 46.0f, folded = 12.0f;
     constexpr float least_view = 0.34f;  // of the width: what the 3D view keeps, whatever the panels ask for
 
     const float most = std::max(0.0f, 0.5f * (1.0f - least_view) * window.x);
-    const float left = settings.left_open ? std::round(std::min(settings.left_width * scale, most)) : 0.0f;
-    const float right = settings.right_open ? std::round(std::min(settings.right_width * scale, most)) : 0.0f;
+    const auto side = [&](bool open, float width) { return std::round(std::min((open ? width : folded) * scale, most)); };
+    const float left = side(settings.left_open, settings.left_width);
+    const float right = side(settings.right_open, settings.right_width);
     const float top = std::round(bar * scale);
     const float low = std::max(top, window.y - std::round(status * scale));
     const float middle = has_timeline ? std::max(top, low - std::round(timeline * scale)) : low;

@@ -1,24 +1,26 @@
-// What lies over the scene for a while: help, settings, toasts, the first hint.
+// What lies over the scene: help, settings, toasts and the first hint for a while, the legend always.
 #include <imgui.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "app/shell/shell.hpp"
 #include "app/shell/shortcuts.hpp"
 #include "app/shell/theme.hpp"
 #include "app/widgets/fields.hpp"
+#include "app/widgets/fonts.hpp"
 
 namespace tendril::app {
 namespace {
 
-glm::vec2 screen_of(const ShellFrame& frame) { return {frame.layout.top.max.x, frame.layout.status.max.y}; }
-
 void key_row(const std::string& keys, const std::string& effect) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s", keys.c_str());
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_CheckMark));
+    ImGui::TextWrapped("%s", keys.c_str());
+    ImGui::PopStyleColor();
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(effect.c_str());
+    ImGui::TextWrapped("%s", effect.c_str());
 }
 
 /// One table of the help: a title, then rows that `rows` adds.
@@ -32,20 +34,11 @@ void key_table(const char* title, float key_width, Rows rows) {
     ImGui::EndTable();
 }
 
-/// "Ctrl+Shift+Z, Ctrl+Y": every key of the table with that title.
-std::string all_keys(const Shortcut& wanted) {
-    std::string keys;
-    for (const Shortcut& shortcut : shortcuts()) {
-        if (shortcut.title == wanted.title) keys += (keys.empty() ? "" : ", ") + chord_label(shortcut.chord);
-    }
-    return keys;
-}
-
 void keys_of(Section which) {
     std::string last;
     for (const Shortcut& shortcut : shortcuts()) {
         if (shortcut.section != which || (!shortcut.in_menu && shortcut.command != "view.close")) continue;
-        if (shortcut.title != last) key_row(all_keys(shortcut), shortcut.title);
+        if (shortcut.title != last) key_row(all_keys_for(shortcut), shortcut.title);
         last = shortcut.title;
     }
 }
@@ -59,7 +52,8 @@ bool begin_sheet(const char* title, glm::vec2 screen, glm::vec2 wanted) {
     bool open = true;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 9.0f);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(20.0f, 14.0f));
+    const float scale = ImGui::GetFontSize() / 15.0f;
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(20.0f * scale, 14.0f * scale));
     ImGui::Begin(title, &open, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                    ImGuiWindowFlags_NoSavedSettings);
     ImGui::PopStyleVar(3);
@@ -68,20 +62,24 @@ bool begin_sheet(const char* title, glm::vec2 screen, glm::vec2 wanted) {
 
 void show_help(const ShellFrame& frame, Emit& emit) {
     const float scale = frame.layout.scale;
-    if (!begin_sheet("Keys and mouse", screen_of(frame), {860.0f * scale, 560.0f * scale})) {
+    if (!begin_sheet("Keys and mouse", frame.screen(), {860.0f * scale, 560.0f * scale})) {
         emit("view.help", {{"open", false}});
     }
-    if (ImGui::BeginTable("columns", 2, ImGuiTableFlags_NoPadOuterX)) {
+    // Side by side where there is room, else one below the other.
+    const float room = ImGui::GetContentRegionAvail().x;
+    const bool two = room > 720.0f * scale;
+    const float mouse = std::min(190.0f * scale, 0.45f * room), keys = two ? 150.0f * scale : mouse;
+    if (ImGui::BeginTable("columns", two ? 2 : 1, ImGuiTableFlags_NoPadOuterX)) {
         ImGui::TableNextColumn();
-        key_table("Mouse", 190.0f * scale, [] {
+        key_table("Mouse", mouse, [] {
             for (const auto& help : mouse_help()) key_row(help.gesture, help.effect);
         });
-        key_table("Time", 190.0f * scale, [] { keys_of(Section::Time); });
-        key_table("Help", 190.0f * scale, [] { keys_of(Section::Help); });
+        key_table("Time", mouse, [] { keys_of(Section::Time); });
+        key_table("Help", mouse, [] { keys_of(Section::Help); });
         ImGui::TableNextColumn();
-        key_table("Scene", 150.0f * scale, [] { keys_of(Section::Scene); });
-        key_table("Edit", 150.0f * scale, [] { keys_of(Section::Edit); });
-        key_table("View", 150.0f * scale, [] { keys_of(Section::View); });
+        key_table("Scene", keys, [] { keys_of(Section::Scene); });
+        key_table("Edit", keys, [] { keys_of(Section::Edit); });
+        key_table("View", keys, [] { keys_of(Section::View); });
         ImGui::EndTable();
     }
     ImGui::End();
@@ -90,7 +88,7 @@ void show_help(const ShellFrame& frame, Emit& emit) {
 void show_settings(const ShellFrame& frame, Emit& emit) {
     const Settings& settings = frame.workspace.settings;
     const float scale = frame.layout.scale;
-    if (!begin_sheet("Settings", screen_of(frame), {380.0f * scale, 236.0f * scale})) {
+    if (!begin_sheet("Settings", frame.screen(), {380.0f * scale, 236.0f * scale})) {
         emit("view.settings", {{"open", false}});
     }
     static constexpr const char* themes[] = {"dark", "light"};
@@ -116,7 +114,7 @@ void show_recovery(const ShellFrame& frame, Emit& emit) {
     const auto& offers = frame.workspace.ui.recoverable;
     if (offers.empty()) return;
     const float scale = frame.layout.scale;
-    begin_sheet("Unsaved work", screen_of(frame), {460.0f * scale, 190.0f * scale});
+    if (!begin_sheet("Unsaved work", frame.screen(), {460.0f * scale, 190.0f * scale})) emit("scene.recover_later");
     note("Tendril ended before this work was saved:");
     ImGui::TextWrapped("%s", offers.front().string().c_str());
     ImGui::Spacing();
@@ -165,6 +163,36 @@ void show_first_hint(const ShellFrame& frame) {
     ImGui::GetBackgroundDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(),
                                             {view.centre().x - 0.5f * size.x, view.min.y + 22.0f * frame.layout.scale},
                                             imgui_u32(colours.text, 0.85f), text.c_str(), nullptr, wrap);
+}
+
+void show_legend(const ShellFrame& frame) {
+    const Palette& colours = frame.colours();
+    const struct {
+        const char* name;
+        glm::vec3 colour;
+        bool ring;
+    } rows[] = {{"head", colours.head, false},
+                {"tail", colours.tail, false},
+                {"target", colours.target, false},
+                {"selection", colours.selection, true}};
+    const Rect& view = frame.layout.view;
+    const float scale = frame.layout.scale;
+    if (view.size().y < 300.0f * scale || view.size().x < 260.0f * scale) return;  // the picture comes first
+    ImGui::PushFont(small_font());
+    const float line = 1.35f * ImGui::GetFontSize();
+    float y = view.max.y - 12.0f * scale - line * static_cast<float>(std::size(rows));
+    ImDrawList* list = ImGui::GetBackgroundDrawList();
+    for (const auto& row : rows) {
+        const ImVec2 centre{view.min.x + 18.0f * scale, y + 0.5f * ImGui::GetFontSize()};
+        if (row.ring) {
+            list->AddCircle(centre, 3.6f * scale, imgui_u32(row.colour), 20, 1.5f * scale);
+        } else {
+            list->AddCircleFilled(centre, 4.0f * scale, imgui_u32(row.colour), 20);
+        }
+        list->AddText({centre.x + 12.0f * scale, y}, imgui_u32(colours.text_dim), row.name);
+        y += line;
+    }
+    ImGui::PopFont();
 }
 
 }  // namespace tendril::app

@@ -9,13 +9,16 @@
 #include "app/shell/theme.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/icons.hpp"
+#include "app/widgets/text.hpp"
 
 namespace tendril::app {
 namespace {
 
 constexpr ImGuiWindowFlags region_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                           ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                                          ImGuiWindowFlags_NoNav;
+                                          ImGuiWindowFlags_NoNavFocus;  // Tab still goes from field to field
+
+constexpr float folds_below = 90.0f;  ///< unscaled pixels: a panel that is dragged narrower folds away
 
 /// "Play or pause (Space)": a title and its key, for a tooltip.
 std::string with_keys(const char* title, std::string_view command) {
@@ -23,7 +26,7 @@ std::string with_keys(const char* title, std::string_view command) {
     return keys.empty() ? title : std::string(title) + " (" + keys + ")";
 }
 
-/// The strip along a panel's inner edge that makes it wider or narrower.
+/// The strip along a panel's inner edge that makes it wider or narrower, and folds it away.
 void panel_edge(const Rect& rect, bool left, float scale, Emit& emit) {
     const float x = left ? rect.max.x : rect.min.x;
     const float grip = 5.0f * scale;
@@ -36,28 +39,39 @@ void panel_edge(const Rect& rect, bool left, float scale, Emit& emit) {
     if (ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 1.0f)) {
         const float mouse = ImGui::GetIO().MousePos.x;
         const float width = (left ? mouse - rect.min.x : rect.max.x - mouse) / scale;
+        if (width < folds_below) {
+            emit("view.panels", {{left ? "left" : "right", false}});
+            return;
+        }
         emit.continuously("view.panel_width",
                           {{"side", left ? "left" : "right"}, {"width", number(std::clamp(width, 180.0f, 520.0f))}});
     }
 }
 
-}  // namespace
-
-void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 padding) {
-    ImGui::SetNextWindowPos({rect.min.x, rect.min.y});
-    ImGui::SetNextWindowSize({std::max(1.0f, rect.size().x), std::max(1.0f, rect.size().y)});
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, imgui_colour(colour));
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
-    ImGui::Begin(name, nullptr, region_flags);
-    ImGui::PopStyleVar(2);
-    ImGui::PopStyleColor();
+/// What stays of a folded panel: a strip that brings it back.
+void folded_strip(const ShellFrame& frame, const Rect& rect, bool left, Emit& emit) {
+    begin_region(left ? "left strip" : "right strip", rect, frame.colours().panel, {0.0f, 0.0f});
+    const bool pressed = ImGui::InvisibleButton("unfold", {rect.size().x, std::max(1.0f, rect.size().y)});
+    const bool hovered = ImGui::IsItemHovered();
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    if (hovered) {
+        list->AddRectFilled({rect.min.x, rect.min.y}, {rect.max.x, rect.max.y}, ImGui::GetColorU32(ImGuiCol_ButtonHovered));
+        ImGui::SetTooltip("%s", with_keys("Bring the panel back", "view.panels").c_str());
+    }
+    const float inner = left ? rect.max.x - 1.0f : rect.min.x;
+    list->AddLine({inner, rect.min.y}, {inner, rect.max.y}, ImGui::GetColorU32(ImGuiCol_Border));
+    draw_icon(list, left ? Icon::ChevronRight : Icon::ChevronLeft, {rect.centre().x, rect.centre().y},
+              std::min(0.8f * rect.size().x, 14.0f * frame.layout.scale),
+              ImGui::GetColorU32(hovered ? ImGuiCol_Text : ImGuiCol_TextDisabled));
+    if (pressed) emit("view.panels", {{left ? "left" : "right", true}});
+    ImGui::End();
 }
 
-void Shell::menu(const ShellFrame& frame, Emit& emit) {
+void menu(const ShellFrame& frame, Emit& emit) {
     if (icon_button("menu", Icon::Menu, "Menu")) ImGui::OpenPopup("menu popup");
     ImGui::SetNextWindowPos({ImGui::GetItemRectMin().x, frame.layout.top.max.y + 2.0f});
     if (!ImGui::BeginPopup("menu popup")) return;
+    close_popup_on_escape();
     Section open = Section::Scene;
     bool first = true;
     for (const Shortcut& shortcut : shortcuts()) {
@@ -79,87 +93,145 @@ void Shell::menu(const ShellFrame& frame, Emit& emit) {
     ImGui::EndPopup();
 }
 
-void Shell::top_bar(const ShellFrame& frame, Emit& emit) {
-    const Workspace& workspace = frame.workspace;
-    const Layout& layout = frame.layout;
-    const Palette& colours = palette(workspace.settings.theme);
-    begin_region("top", layout.top, colours.bar, {10.0f * layout.scale, 8.0f * layout.scale});
-    const float button = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemSpacing.x;
+float button_width(const std::string& title) {
+    return ImGui::CalcTextSize(title.c_str()).x + 2.0f * ImGui::GetStyle().FramePadding.x;
+}
 
-    menu(frame, emit);
-    ImGui::SameLine();
-    ImGui::AlignTextToFramePadding();
+/// The program's name, where there is room for it, and the labs.
+void tabs(const ShellFrame& frame, float room, Emit& emit) {
+    const float gap = ImGui::GetStyle().ItemSpacing.x;
     ImGui::PushFont(heading_font());
-    ImGui::TextUnformatted("Tendril");
+    float needed = gap + ImGui::CalcTextSize("Tendril").x;
+    for (const auto& lab : frame.labs.all()) needed += 2.0f * gap + button_width(lab->title());
+    if (needed <= room) {
+        ImGui::SameLine();
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextUnformatted("Tendril");
+    }
     ImGui::PopFont();
     for (const auto& lab : frame.labs.all()) {
         ImGui::SameLine(0.0f, 2.0f * gap);
-        const bool open = lab->name() == workspace.lab;
+        const bool open = lab->name() == frame.workspace.lab;
         ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(open ? ImGuiCol_Header : ImGuiCol_ChildBg));
         if (ImGui::Button(lab->title().c_str())) emit("lab.open", {{"name", lab->name()}});
         ImGui::PopStyleColor();
     }
+}
 
-    const float middle = 0.5f * layout.top.size().x;
-    char time[32];
-    std::snprintf(time, sizeof time, "%8.2f s", static_cast<double>(workspace.clock.tick) * tick_seconds);
+void play_button(const ShellFrame& frame, Emit& emit) {
+    const bool playing = frame.workspace.clock.playing, moving = frame.lab.moving(frame.workspace);
+    if (!moving) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    if (icon_button("play", playing ? Icon::Pause : Icon::Play, nullptr)) emit("time.toggle");
+    if (!moving) ImGui::PopStyleColor();
+    if (!ImGui::IsItemHovered()) return;
+    const char* effect = !moving ? "Nothing moves by itself here" : playing ? "Pause" : "Play";
+    ImGui::SetTooltip("%s", with_keys(effect, "time.toggle").c_str());
+}
+
+/// In the middle of the window, or wherever there is room between `from` and `to`; without the time if there is little.
+void time_controls(const ShellFrame& frame, float from, float to, Emit& emit) {
+    const Clock& clock = frame.workspace.clock;
+    const float gap = ImGui::GetStyle().ItemSpacing.x;
+    const float buttons = 2.0f * ImGui::GetFrameHeight() + gap;
     const float time_width = ImGui::CalcTextSize("00000.00 s").x;
-    ImGui::SameLine(middle - button - 0.5f * gap - 0.5f * time_width);
-    const bool playing = workspace.clock.playing;
-    if (icon_button("play", playing ? Icon::Pause : Icon::Play,
-                    with_keys(playing ? "Pause" : "Play", "time.toggle").c_str())) {
-        emit("time.toggle");
-    }
+    const bool with_time = buttons + gap + time_width <= to - from;
+    const float width = with_time ? buttons + gap + time_width : buttons;
+    const float middle = 0.5f * (frame.layout.top.size().x - buttons - time_width);
+    ImGui::SameLine(std::clamp(middle, from, std::max(from, to - width)));
+    play_button(frame, emit);
     ImGui::SameLine();
     if (icon_button("step", Icon::Step, with_keys("One tick of 1/60 s", "time.step").c_str())) emit("time.step");
+    if (!with_time) return;
+    char time[32];
+    std::snprintf(time, sizeof time, "%8.2f s", static_cast<double>(clock.tick) * tick_seconds);
     ImGui::SameLine();
-    const bool runs = playing && frame.lab.moving(workspace);
     ImGui::AlignTextToFramePadding();
+    const bool runs = clock.playing && frame.lab.moving(frame.workspace);
     runs ? ImGui::TextUnformatted(time) : ImGui::TextDisabled("%s", time);
+}
 
-    const float right = layout.top.size().x - 10.0f * layout.scale;
-    ImGui::SameLine(right - 4.0f * button - 3.0f * gap);
+/// Undo, redo, help and settings, from `from` to the right end.
+void tools(const ShellFrame& frame, float from, Emit& emit) {
+    const Workspace& workspace = frame.workspace;
     const History& history = workspace.history;
     const auto about = [](const char* title, const std::string& what) {
         return what.empty() ? std::string(title) : std::string(title) + " " + what;
     };
-    if (icon_button("undo", Icon::Undo, with_keys(about("Undo", history.undo_label()).c_str(), "undo").c_str(),
-                    history.can_undo())) {
-        emit("undo");
-    }
+    const auto tool = [&](const char* command, Icon icon, const std::string& tip, bool enabled, bool active) {
+        if (icon_button(command, icon, with_keys(tip.c_str(), command).c_str(), enabled, active)) emit(command);
+    };
+    ImGui::SameLine(from);
+    tool("undo", Icon::Undo, about("Undo", history.undo_label()), history.can_undo(), false);
     ImGui::SameLine();
-    if (icon_button("redo", Icon::Redo, with_keys(about("Redo", history.redo_label()).c_str(), "redo").c_str(),
-                    history.can_redo())) {
-        emit("redo");
-    }
+    tool("redo", Icon::Redo, about("Redo", history.redo_label()), history.can_redo(), false);
     ImGui::SameLine();
-    if (icon_button("help", Icon::Help, with_keys("Keys and mouse", "view.help").c_str(), true, workspace.ui.help)) {
-        emit("view.help");
-    }
+    tool("view.help", Icon::Help, "Keys and mouse", true, workspace.ui.help);
     ImGui::SameLine();
-    if (icon_button("settings", Icon::Gear, with_keys("Settings", "view.settings").c_str(), true, workspace.ui.settings)) {
-        emit("view.settings");
-    }
+    tool("view.settings", Icon::Gear, "Settings", true, workspace.ui.settings);
+}
+
+void top_bar(const ShellFrame& frame, Emit& emit) {
+    const Layout& layout = frame.layout;
+    begin_region("top", layout.top, frame.colours().bar, {10.0f * layout.scale, 8.0f * layout.scale});
+    const float button = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemSpacing.x;
+    const float tools_at = layout.top.size().x - 10.0f * layout.scale - 4.0f * button - 3.0f * gap;
+    menu(frame, emit);
+    tabs(frame, tools_at - ImGui::GetItemRectMax().x - 2.0f * button - 5.0f * gap, emit);
+    time_controls(frame, ImGui::GetItemRectMax().x + 2.0f * gap, tools_at - 2.0f * gap, emit);
+    tools(frame, tools_at, emit);
     ImGui::End();
+}
+
+void status_bar(const ShellFrame& frame) {
+    const Workspace& workspace = frame.workspace;
+    const float scale = frame.layout.scale;
+    begin_region("status", frame.layout.status, frame.colours().bar, {14.0f * scale, 5.0f * scale});
+    ImGui::PushFont(small_font());
+    const std::string name = workspace.path.empty() ? "untitled" : workspace.path.filename().string();
+    const float room = ImGui::GetContentRegionAvail().x;
+    const std::string scene = elided(name + (workspace.modified() ? " *" : ""), 0.4f * room);
+    const float scene_width = ImGui::CalcTextSize(scene.c_str()).x;
+    text_elided(frame.hint, room - scene_width - 2.0f * ImGui::GetFontSize(), true);
+    ImGui::SameLine(room - scene_width + ImGui::GetWindowContentRegionMin().x);
+    ImGui::TextDisabled("%s", scene.c_str());
+    ImGui::PopFont();
+    ImGui::End();
+}
+
+}  // namespace
+
+void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 padding) {
+    ImGui::SetNextWindowPos({rect.min.x, rect.min.y});
+    ImGui::SetNextWindowSize({std::max(1.0f, rect.size().x), std::max(1.0f, rect.size().y)});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, imgui_colour(colour));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+    ImGui::Begin(name, nullptr, region_flags);
+    ImGui::PopStyleVar(2);
+    ImGui::PopStyleColor();
 }
 
 void Shell::side_panel(const ShellFrame& frame, bool left, Emit& emit) {
     const Rect& rect = left ? frame.layout.left : frame.layout.right;
     if (rect.size().x < 1.0f) return;
+    const Settings& settings = frame.workspace.settings;
+    if (!(left ? settings.left_open : settings.right_open)) {
+        folded_strip(frame, rect, left, emit);
+        return;
+    }
     const float scale = frame.layout.scale;
-    const Palette& colours = palette(frame.workspace.settings.theme);
-    begin_region(left ? "left" : "right", rect, colours.panel, {0.0f, 0.0f});
+    begin_region(left ? "left" : "right", rect, frame.colours().panel, {0.0f, 0.0f});
     panel_edge(rect, left, scale, emit);
     ImGui::SetCursorPos({left ? 0.0f : 5.0f * scale, 0.0f});
     // The bar's room is always kept, so that nothing shifts when it is needed; unneeded, it is not seen.
     float& overflow = overflow_[left ? 0 : 1];
     const float grab = overflow > 0.0f ? 1.0f : 0.0f;
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(14.0f * scale, 6.0f * scale));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(std::min(14.0f * scale, 0.06f * rect.size().x), 6.0f * scale));
     ImVec4 bar = ImGui::GetStyleColorVec4(ImGuiCol_ScrollbarGrab);
     bar.w *= grab;
     ImGui::PushStyleColor(ImGuiCol_ScrollbarGrab, bar);
     ImGui::BeginChild("content", {std::max(1.0f, rect.size().x - 5.0f * scale), 0.0f}, false,
-                      ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoNav |
+                      ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoNavFocus |
                           ImGuiWindowFlags_AlwaysVerticalScrollbar);
     ImGui::PopStyleColor();
     ImGui::PopStyleVar();
@@ -173,23 +245,6 @@ void Shell::side_panel(const ShellFrame& frame, bool left, Emit& emit) {
     ImGui::End();
 }
 
-void Shell::status_bar(const ShellFrame& frame) {
-    const Workspace& workspace = frame.workspace;
-    const Palette& colours = palette(workspace.settings.theme);
-    const float scale = frame.layout.scale;
-    begin_region("status", frame.layout.status, colours.bar, {14.0f * scale, 5.0f * scale});
-    ImGui::PushFont(small_font());
-    const std::string name = workspace.path.empty() ? "untitled" : workspace.path.filename().string();
-    const std::string scene = name + (workspace.modified() ? " *" : "");
-    const float room = ImGui::GetContentRegionAvail().x;
-    const float scene_width = ImGui::CalcTextSize(scene.c_str()).x;
-    ImGui::TextDisabled("%s", frame.hint.c_str());
-    ImGui::SameLine(room - scene_width + ImGui::GetWindowContentRegionMin().x);
-    ImGui::TextDisabled("%s", scene.c_str());
-    ImGui::PopFont();
-    ImGui::End();
-}
-
 void Shell::frame(const ShellFrame& frame, Emit& emit) {
     top_bar(frame, emit);
     side_panel(frame, true, emit);
@@ -197,18 +252,18 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
     const Workspace& workspace = frame.workspace;
     if (frame.layout.timeline.size().y > 1.0f) {
         const float scale = frame.layout.scale;
-        begin_region("timeline", frame.layout.timeline, palette(workspace.settings.theme).panel,
+        begin_region("timeline", frame.layout.timeline, frame.colours().panel,
                      {12.0f * scale, 6.0f * scale});
         frame.lab.timeline(workspace, emit);
         ImGui::End();
     }
     status_bar(frame);
     show_first_hint(frame);
+    show_legend(frame);
     if (workspace.ui.help) show_help(frame, emit);
     if (workspace.ui.settings) show_settings(frame, emit);
-    palette_.frame(workspace.ui.palette, frame.commands, {frame.layout.top.max.x, frame.layout.status.max.y},
-                   frame.layout.scale, emit);
-    file_dialog_.frame(workspace, {frame.layout.top.max.x, frame.layout.status.max.y}, emit);
+    palette_.frame(workspace.ui.palette, frame.commands, frame.screen(), frame.layout.scale, emit);
+    file_dialog_.frame(workspace, frame.screen(), frame.layout.scale, emit);
     show_recovery(frame, emit);
     show_toasts(frame);
 }

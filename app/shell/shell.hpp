@@ -21,6 +21,9 @@ struct ShellFrame {
     const CommandTable& commands;
     const Layout& layout;
     std::string hint;  ///< what the mouse would do where it is
+
+    glm::vec2 screen() const { return {layout.top.max.x, layout.status.max.y}; }
+    const Palette& colours() const { return palette(workspace.settings.theme); }
 };
 
 class Shell {
@@ -28,10 +31,7 @@ class Shell {
     void frame(const ShellFrame& frame, Emit& emit);
 
   private:
-    void top_bar(const ShellFrame& frame, Emit& emit);
-    void menu(const ShellFrame& frame, Emit& emit);
     void side_panel(const ShellFrame& frame, bool left, Emit& emit);
-    void status_bar(const ShellFrame& frame);
 
     float overflow_[2] = {0.0f, 0.0f};  ///< how far each side panel can scroll
     CommandPalette palette_;
@@ -44,6 +44,7 @@ void show_settings(const ShellFrame& frame, Emit& emit);
 void show_recovery(const ShellFrame& frame, Emit& emit);
 void show_toasts(const ShellFrame& frame);
 void show_first_hint(const ShellFrame& frame);
+void show_legend(const ShellFrame& frame);
 
 /// A fixed window without decoration that fills `rect`. Always ImGui::End() after it.
 void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 padding);

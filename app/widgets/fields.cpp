@@ -4,16 +4,33 @@
 
 #include <algorithm>
 #include <cstdarg>
+#include <cstdio>
+
+#include "app/widgets/text.hpp"
 
 namespace tendril::app {
 namespace {
 
-/// Writes the row's name and leaves the cursor where its field goes; gives the field's id.
+constexpr float name_share = 0.38f;  ///< of the row, where name and field stand beside each other
+
+/// Too narrow for a name and a field side by side, at the size that the text has.
+bool narrow() {
+    return ImGui::GetWindowContentRegionMax().x - ImGui::GetWindowContentRegionMin().x < 9.0f * ImGui::GetFontSize();
+}
+
+/// Writes the row's name and leaves the cursor where its field goes, beside it or, if need be, below; gives the field's
+/// id.
 std::string begin_row(const char* name) {
-    const float share = 0.38f;
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextDisabled("%s", name);
-    ImGui::SameLine(ImGui::GetWindowContentRegionMin().x + share * ImGui::GetWindowContentRegionMax().x);
+    const float from = ImGui::GetWindowContentRegionMin().x;
+    const float field = name_share * ImGui::GetWindowContentRegionMax().x;
+    const bool below = narrow() || ImGui::CalcTextSize(name).x > field;
+    if (below) {
+        text_elided(name, ImGui::GetContentRegionAvail().x, true);
+    } else {
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextDisabled("%s", name);
+        ImGui::SameLine(from + field);
+    }
     ImGui::SetNextItemWidth(-1.0f);
     return std::string("##") + name;
 }
@@ -64,28 +81,55 @@ bool point_field(const char* name, glm::vec3& value, float speed) {
 
 bool choice_field(const char* name, int& chosen, const char* const* titles, int count) {
     const std::string id = begin_row(name);
-    return ImGui::Combo(id.c_str(), &chosen, titles, count);
+    const float room = ImGui::CalcItemWidth() - ImGui::GetFrameHeight() - ImGui::GetStyle().FramePadding.x;
+    if (!ImGui::BeginCombo(id.c_str(), elided(titles[chosen], room).c_str())) return false;
+    close_popup_on_escape();
+    bool changed = false;
+    for (int i = 0; i < count; ++i) {
+        if (ImGui::Selectable(titles[i], i == chosen)) {
+            changed = i != chosen;
+            chosen = i;
+        }
+        if (i == chosen) ImGui::SetItemDefaultFocus();
+    }
+    ImGui::EndCombo();
+    return changed;
+}
+
+bool option_button(const char* title, bool chosen) {
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemInnerSpacing.x;
+    const std::string shown = elided(title, room);
+    const bool pressed = ImGui::RadioButton((shown + "###" + title).c_str(), chosen);
+    if (shown != title && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", title);
+    return pressed;
 }
 
 void reading(const char* name, const char* format, ...) {
-    begin_row(name);
     char text[128];
     va_list arguments;
     va_start(arguments, format);
     std::vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    // Set flush right, so that digits stay under digits.
-    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text).x;
-    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, room));
-    ImGui::TextUnformatted(text);
+    const float needed = ImGui::CalcTextSize(name).x + ImGui::CalcTextSize(text).x + ImGui::GetFontSize();
+    if (needed > ImGui::GetContentRegionAvail().x) {
+        text_elided(name, ImGui::GetContentRegionAvail().x, true);
+    } else {
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextDisabled("%s", name);
+        ImGui::SameLine();
+    }
+    text_flush_right(text);
 }
 
 bool row_button(const char* title, int of, bool enabled, const char* tooltip) {
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float whole = ImGui::GetWindowContentRegionMax().x - ImGui::GetWindowContentRegionMin().x;
+    const float least = 4.5f * ImGui::GetFontSize();  // fewer to a row where they would be smaller than this
+    of = std::clamp(static_cast<int>((whole + gap) / (least + gap)), 1, of);
     const float width = (whole - gap * static_cast<float>(of - 1)) / static_cast<float>(of);
+    const std::string shown = elided(title, width - ImGui::GetStyle().FramePadding.x);
     ImGui::BeginDisabled(!enabled);
-    const bool pressed = ImGui::Button(title, {width, 0.0f});
+    const bool pressed = ImGui::Button((shown + "###" + title).c_str(), {width, 0.0f});
     ImGui::EndDisabled();
     if (tooltip != nullptr && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", tooltip);
     ImGui::SameLine();  // the next one beside it, unless the row is full

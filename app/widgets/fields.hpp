@@ -1,4 +1,5 @@
-// The rows of a panel: a dim name on the left, a field on the right; numbers of fixed width, with their units.
+// The rows of a panel: a dim name on the left, a field on the right (below, where there is no room beside it); numbers
+// of fixed width, with their units.
 // Each field returns true in a frame in which a person changed its value. The names are ids too: unique in a panel.
 #pragma once
 
@@ -17,6 +18,8 @@ bool integer_field(const char* name, int& value, int low, int high);
 bool integer_slider(const char* name, int& value, int low, int high);
 bool point_field(const char* name, glm::vec3& value, float speed);
 bool choice_field(const char* name, int& chosen, const char* const* titles, int count);
+/// One of several that exclude each other.
+bool option_button(const char* title, bool chosen);
 
 /// A row that is only read.
 void reading(const char* name, const char* format, ...)
@@ -25,7 +28,7 @@ void reading(const char* name, const char* format, ...)
 #endif
     ;
 
-/// A button as wide as its share of the row: `of` buttons to a row.
+/// A button as wide as its share of the row: `of` buttons to a row, or fewer where they would be too small.
 bool row_button(const char* title, int of, bool enabled = true, const char* tooltip = nullptr);
 
 }  // namespace tendril::app

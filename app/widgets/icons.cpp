@@ -85,10 +85,6 @@ void draw_icon(ImDrawList* list, Icon icon, ImVec2 centre, float size, ImU32 col
             pen.line(-0.25f, -0.5f, 0.25f, 0.0f);
             pen.line(0.25f, 0.0f, -0.25f, 0.5f);
             break;
-        case Icon::Search:
-            list->AddCircle(pen.at(-0.15f, -0.15f), 0.5f * pen.half, colour, 24, pen.width);
-            pen.line(0.22f, 0.22f, 0.7f, 0.7f);
-            break;
     }
 }
 

@@ -38,14 +38,15 @@ bool timeline(const char* id, int& tick, int ticks, double seconds) {
     }
 
     ImDrawList* list = ImGui::GetWindowDrawList();
-    const float base = at.y + height - 3.0f;
+    const float unit = ImGui::GetFontSize() / 15.0f;  // pixels, at the size that the text has
+    const float base = at.y + height - 3.0f * unit;
     const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
-    list->AddLine({from, base}, {from + span, base}, ImGui::GetColorU32(ImGuiCol_Border), 2.0f);
+    list->AddLine({from, base}, {from + span, base}, ImGui::GetColorU32(ImGuiCol_Border), 2.0f * unit);
     const double whole = ticks * seconds;
-    const double step = mark_seconds(whole / static_cast<double>(span), 60.0);
+    const double step = mark_seconds(whole / static_cast<double>(span), 60.0 * static_cast<double>(unit));
     for (double t = 0.0; t <= whole + 1e-9; t += step) {
         const float x = from + span * static_cast<float>(t / whole);
-        list->AddLine({x, base - 5.0f}, {x, base}, dim);
+        list->AddLine({x, base - 5.0f * unit}, {x, base}, dim);
         char text[16];
         std::snprintf(text, sizeof text, "%.3g s", t);
         const float half = 0.5f * ImGui::CalcTextSize(text).x;
@@ -53,8 +54,9 @@ bool timeline(const char* id, int& tick, int ticks, double seconds) {
     }
     const float head = from + span * static_cast<float>(tick) / static_cast<float>(ticks);
     const ImU32 accent = ImGui::GetColorU32(ImGuiCol_CheckMark);
-    list->AddLine({from, base}, {head, base}, accent, 2.0f);
-    list->AddCircleFilled({head, base - 1.0f}, ImGui::IsItemHovered() || ImGui::IsItemActive() ? 6.0f : 5.0f, accent, 20);
+    list->AddLine({from, base}, {head, base}, accent, 2.0f * unit);
+    const float radius = ImGui::IsItemHovered() || ImGui::IsItemActive() ? 6.0f : 5.0f;
+    list->AddCircleFilled({head, base - unit}, radius * unit, accent, 20);
     return moved;
 }
 

@@ -10,8 +10,8 @@ namespace {
 constexpr std::size_t most_labels = 2000;  ///< more would never find room beside one another
 
 /// How large a joint's ball is, in pixels: a handle of steady size, smaller only where the joints crowd together.
-float joint_pixels(const ChainPart& part, const Camera& camera) {
-    constexpr float largest = 7.5f, smallest = 2.5f;
+float joint_pixels(const ChainPart& part, const Camera& camera, float scale) {
+    const float largest = 7.5f * scale, smallest = 2.5f * scale;
     if (part.chain.size() < 2) return largest;
     const float mean_length = part.chain.reach() / static_cast<float>(part.chain.size() - 1);
     const float metres_per_pixel = camera.metres_per_pixel(camera.pose().target);
@@ -24,7 +24,7 @@ class Drawing {
         : view_(view),
           list_(list),
           part_(chain_part(view.workspace)),
-          ball_(joint_pixels(part_, view.camera)),
+          ball_(joint_pixels(part_, view.camera, view.scale)),
           bones_(view.workspace.settings.segments == SegmentStyle::Bones) {}
 
     void run() {
@@ -40,6 +40,8 @@ class Drawing {
     glm::vec3 at(std::size_t i) const { return part_.chain.segments()[i].position; }
     float length(std::size_t i) const { return part_.chain.segments()[i].length; }
 
+    float px(float pixels) const { return pixels * view_.scale; }
+
     glm::vec3 joint_colour(std::size_t i) const {
         const Palette& p = view_.palette;
         if (i == 0) return p.head;
@@ -51,7 +53,7 @@ class Drawing {
     void link(std::size_t i) {
         Stroke& stroke = [&]() -> Stroke& {
             if (!bones_) {
-                const float width = std::clamp(0.45f * ball_, 1.5f, 3.0f);
+                const float width = std::clamp(0.45f * ball_, px(1.5f), px(3.0f));
                 return list_.line(at(i - 1), at(i), width, glm::vec4(view_.palette.link, 1.0f));
             }
             const float thick = std::min(0.13f * length(i), 0.16f);
@@ -66,18 +68,18 @@ class Drawing {
         const bool hovered = view_.hovered == pick || view_.dragged == pick;
         const bool end = i == 0 || i + 1 == part_.chain.size();
         const float plain = bones_ ? 0.75f * ball_ : ball_;  // a bone shows where its joint is
-        const float grown = plain * (end ? 1.25f : 1.0f) + (hovered ? 1.5f : 0.0f);
+        const float grown = plain * (end ? 1.25f : 1.0f) + (hovered ? px(1.5f) : 0.0f);
         Stroke& ball = list_.sphere(at(i), grown, Unit::Pixels, glm::vec4(joint_colour(i), 1.0f));
         ball.shadow = true;
         ball.pick = pick;
         ball.rank = 1;
         if (part_.selected == i) {
-            list_.ring(at(i), grown + 4.0f, 2.5f, glm::vec4(view_.palette.selection, 1.0f)).layer = Layer::Overlay;
+            list_.ring(at(i), grown + px(4.0f), px(2.5f), glm::vec4(view_.palette.selection, 1.0f)).layer = Layer::Overlay;
         } else if (hovered) {
-            list_.ring(at(i), grown + 3.0f, 1.5f, glm::vec4(view_.palette.text, 0.55f)).layer = Layer::Overlay;
+            list_.ring(at(i), grown + px(3.0f), px(1.5f), glm::vec4(view_.palette.text, 0.55f)).layer = Layer::Overlay;
         }
         if (part_.mode == Mode::WithIndex && part_.index == i) {
-            list_.ring(at(i), grown + 8.0f, 1.5f, glm::vec4(view_.palette.target, 0.8f)).layer = Layer::Overlay;
+            list_.ring(at(i), grown + px(8.0f), px(1.5f), glm::vec4(view_.palette.target, 0.8f)).layer = Layer::Overlay;
         }
     }
 
@@ -87,14 +89,14 @@ class Drawing {
         const bool hovered = view_.hovered == target_pick || view_.dragged == target_pick;
         const glm::vec4 orange(view_.palette.target, 1.0f);
         if (at.y > 0.05f) {
-            list_.line(at, {at.x, 0.0f, at.z}, 1.0f, glm::vec4(view_.palette.target, 0.35f));
+            list_.line(at, {at.x, 0.0f, at.z}, px(1.0f), glm::vec4(view_.palette.target, 0.35f));
         }
-        Stroke& ball = list_.sphere(at, hovered ? 12.5f : 11.0f, Unit::Pixels, orange);
+        Stroke& ball = list_.sphere(at, px(hovered ? 12.5f : 11.0f), Unit::Pixels, orange);
         ball.shadow = true;
         ball.layer = Layer::Overlay;
         ball.pick = target_pick;
         ball.rank = 2;
-        list_.ring(at, hovered ? 18.0f : 16.5f, 1.5f, glm::vec4(view_.palette.target, hovered ? 1.0f : 0.6f)).layer =
+        list_.ring(at, px(hovered ? 18.0f : 16.5f), px(1.5f), glm::vec4(view_.palette.target, hovered ? 1.0f : 0.6f)).layer =
             Layer::Overlay;
     }
 
@@ -106,7 +108,7 @@ class Drawing {
         glm::vec3 from = motion_point(part_.motion, 0);
         for (std::uint32_t i = 1; i <= pieces; ++i) {
             const glm::vec3 to = motion_point(part_.motion, round * i / pieces);
-            list_.line(from, to, 1.5f, glm::vec4(view_.palette.target, 0.3f));
+            list_.line(from, to, px(1.5f), glm::vec4(view_.palette.target, 0.3f));
             from = to;
         }
     }
@@ -121,7 +123,7 @@ class Drawing {
         }
         // The target's ring is wider than a joint.
         const float target_pixels = glm::distance(at(i), part_.target) / view_.camera.metres_per_pixel(part_.target);
-        const float clearance = target_pixels < ball_ ? 20.0f : ball_ + 7.0f;
+        const float clearance = target_pixels < ball_ ? px(20.0f) : ball_ + px(7.0f);
         list_.labels.push_back(
             {.at = at(i), .clearance = clearance, .text = text, .colour = view_.palette.text, .rank = rank});
     }

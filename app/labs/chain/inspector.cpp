@@ -4,10 +4,12 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <string_view>
+#include <utility>
 
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
+#include "app/widgets/text.hpp"
 
 namespace tendril::app {
 namespace {
@@ -42,17 +44,14 @@ void chain_rows(const ChainPart& part) {
     reading("tail to target", "%.3f m", static_cast<double>(glm::distance(segments.back().position, part.target)));
     float worst = 0.0f;
     for (std::size_t i = 1; i < segments.size(); ++i) worst = std::max(worst, length_error(chain, i));
-    reading("worst error", "%.1e m", static_cast<double>(worst));
+    reading("worst error", worst == 0.0f ? "%.0f m" : "%.1e m", static_cast<double>(worst));
 }
 
-/// Set flush right in its column, so that digits stay under digits.
-void right(const char* format, float value) {
+void number_cell(const char* format, float value) {
     char text[24];
     std::snprintf(text, sizeof text, format, static_cast<double>(value));
     if (std::string_view(text) == "-0.00") std::snprintf(text, sizeof text, "0.00");
-    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text).x;
-    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, room));
-    ImGui::TextUnformatted(text);
+    text_flush_right(text);
 }
 
 void segment_row(const ChainPart& part, std::size_t i, Emit& emit) {
@@ -66,41 +65,59 @@ void segment_row(const ChainPart& part, std::size_t i, Emit& emit) {
     }
     for (int axis = 0; axis < 3; ++axis) {
         ImGui::TableNextColumn();
-        right("%.2f", segment.position[axis]);
+        number_cell("%.2f", segment.position[axis]);
     }
     ImGui::TableNextColumn();
-    right("%.3f", segment.length);
+    number_cell("%.3f", segment.length);
     ImGui::TableNextColumn();
-    right("%.0e", length_error(part.chain, i));
+    number_cell("%.0e", length_error(part.chain, i));
 }
 
-void header_row() {
+/// `fixed`: columns as wide as their numbers, to be scrolled sideways, where the panel is too narrow for them.
+void header_row(bool fixed) {
     struct Column {
         const char* name;
         float share;
     };
     constexpr Column columns[] = {{"#", 0.75f}, {"x", 1.0f}, {"y", 1.0f}, {"z", 1.0f}, {"length", 1.05f}, {"error", 1.1f}};
-    for (const Column& column : columns) ImGui::TableSetupColumn(column.name, ImGuiTableColumnFlags_WidthStretch, column.share);
-    ImGui::TableSetupScrollFreeze(0, 1);
+    for (const Column& column : columns) {
+        const float width = fixed ? 3.6f * column.share * ImGui::GetFontSize() : column.share;
+        ImGui::TableSetupColumn(column.name, fixed ? ImGuiTableColumnFlags_WidthFixed : ImGuiTableColumnFlags_WidthStretch,
+                                width);
+    }
+    ImGui::TableSetupScrollFreeze(fixed ? 1 : 0, 1);
     ImGui::TableNextRow();
     for (const Column& column : columns) {
         ImGui::TableNextColumn();
-        const bool first = column.name[0] == '#';
-        const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(column.name).x;
-        if (!first) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, room));
-        ImGui::TextDisabled("%s", column.name);
+        if (column.name[0] == '#') {
+            ImGui::TextDisabled("%s", column.name);
+        } else {
+            text_flush_right(column.name, true);
+        }
     }
+}
+
+/// Within the table: brings a row that was selected elsewhere into view, once.
+void follow_selection(const ChainPart& part, float row_height) {
+    int& followed = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("followed"), -1);
+    const int selected = part.selected ? static_cast<int>(*part.selected) : -1;
+    if (std::exchange(followed, selected) == selected || selected < 0) return;
+    const float top = static_cast<float>(selected) * row_height;
+    const float room = ImGui::GetWindowHeight() - 2.0f * row_height;  // below the header, and the row itself
+    if (top < ImGui::GetScrollY() || top > ImGui::GetScrollY() + room) ImGui::SetScrollY(top - 0.5f * room);
 }
 
 void segment_table(const ChainPart& part, Emit& emit) {
     section("Segments, in metres");
-    const ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_NoPadOuterX;
+    ImGui::PushFont(small_font());
+    const bool narrow = ImGui::GetContentRegionAvail().x < 16.0f * ImGui::GetFontSize();
+    const ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_NoPadOuterX |
+                                  (narrow ? ImGuiTableFlags_ScrollX : ImGuiTableFlags_None);
     const float least = 8.0f * ImGui::GetTextLineHeightWithSpacing();
     const float height = std::max(least, ImGui::GetContentRegionAvail().y);
-    ImGui::PushFont(small_font());
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(3.0f, 2.0f));
     if (ImGui::BeginTable("segments", 6, flags, {0.0f, height})) {
-        header_row();
+        header_row(narrow);
         ImGuiListClipper clipper;
         clipper.Begin(static_cast<int>(part.chain.size()));
         while (clipper.Step()) {
@@ -108,6 +125,7 @@ void segment_table(const ChainPart& part, Emit& emit) {
                 segment_row(part, static_cast<std::size_t>(i), emit);
             }
         }
+        follow_selection(part, clipper.ItemsHeight);
         ImGui::EndTable();
     }
     ImGui::PopStyleVar();

@@ -16,7 +16,7 @@ float& next_length() { return *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetI
 void mode_rows(const ChainPart& part, Emit& emit) {
     section("Mode");
     for (const Mode mode : all_modes) {
-        if (ImGui::RadioButton(mode_title(mode), part.mode == mode)) emit("chain.mode", {{"mode", mode_name(mode)}});
+        if (option_button(mode_title(mode), part.mode == mode)) emit("chain.mode", {{"mode", mode_name(mode)}});
     }
     note(mode_help(part.mode));
 
@@ -53,27 +53,28 @@ void segment_rows(const ChainPart& part, Emit& emit) {
             emit.continuously("chain.set_length", {{"index", *part.selected}, {"length", number(selected)}});
         }
     } else {
-        note("Click a joint to select it.");
+        note(part.chain.empty() ? "Add a segment, or begin with one of these." : "Click a joint to select it.");
     }
 }
 
-void target_rows(const ChainPart& part, Emit& emit) {
+void target_rows(const ChainPart& part, bool playing, Emit& emit) {
     section("Target");
     glm::vec3 target = part.target;
     if (point_field("target", target, 0.01f)) emit.continuously("chain.target", {{"to", point(target)}});
 
-    static constexpr const char* titles[] = {"stands still", "goes in a circle", "goes in an eight", "sweeps along X"};
+    static constexpr const char* titles[] = {"stands still", "in a circle", "in a figure eight", "along X"};
     int path = static_cast<int>(part.motion.path);
-    if (choice_field("by itself", path, titles, static_cast<int>(std::size(titles)))) {
+    if (choice_field("moves", path, titles, static_cast<int>(std::size(titles)))) {
         emit("chain.motion", {{"path", motion_name(all_motions[static_cast<std::size_t>(path)])}});
     }
     if (part.motion.path == Motion::Path::Still) return;
+    if (!playing) note("Time is paused: Space lets it run.");
     const auto with = [&](const char* name, float value) {
         emit.continuously("chain.motion", {{"path", motion_name(part.motion.path)}, {name, number(value)}});
     };
     float radius = part.motion.radius, period = part.motion.period;
     if (number_field("radius", radius, 0.01f, 0.0f, 1000.0f, "%.2f m")) with("radius", radius);
-    if (number_field("round", period, 0.02f, 0.1f, 600.0f, "%.2f s")) with("period", period);
+    if (number_field("period", period, 0.02f, 0.1f, 600.0f, "%.2f s")) with("period", period);
 }
 
 void preset_rows(Emit& emit) {
@@ -94,7 +95,7 @@ void ChainLab::panel(const Workspace& workspace, Emit& emit) const {
     const ChainPart& part = chain_part(workspace);
     mode_rows(part, emit);
     segment_rows(part, emit);
-    target_rows(part, emit);
+    target_rows(part, workspace.clock.playing, emit);
     preset_rows(emit);
 }
 

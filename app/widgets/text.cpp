@@ -1,0 +1,62 @@
+#include "app/widgets/text.hpp"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+namespace tendril::app {
+namespace {
+
+float width_of(const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; }
+
+void write(const std::string& text, bool dim) {
+    if (dim) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ImGui::TextUnformatted(text.c_str(), text.c_str() + text.size());
+    if (dim) ImGui::PopStyleColor();
+}
+
+/// Where the character that byte `at` belongs to begins, in UTF-8.
+std::size_t character_begin(const std::string& text, std::size_t at) {
+    while (at > 0 && at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0) == 0x80) --at;
+    return at;
+}
+
+}  // namespace
+
+std::string elided(const std::string& text, float width) {
+    if (width_of(text) <= width) return text;
+    std::size_t fits = 0, too_many = text.size();
+    while (fits + 1 < too_many) {
+        const std::size_t middle = (fits + too_many) / 2;
+        const bool ok = width_of(text.substr(0, character_begin(text, middle)) + "...") <= width;
+        (ok ? fits : too_many) = middle;
+    }
+    std::string cut = text.substr(0, character_begin(text, fits));
+    while (!cut.empty() && cut.back() == ' ') cut.pop_back();
+    return cut + "...";
+}
+
+void text_elided(const std::string& text, float width, bool dim) {
+    const std::string shown = elided(text, width);
+    write(shown, dim);
+    if (shown == text || !ImGui::IsItemHovered()) return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(28.0f * ImGui::GetFontSize());
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+void text_flush_right(const std::string& text, bool dim) {
+    const float room = ImGui::GetContentRegionAvail().x - width_of(text);
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, room));
+    write(text, dim);
+}
+
+bool escape_pressed() { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)); }
+
+void close_popup_on_escape() {
+    if (escape_pressed()) ImGui::CloseCurrentPopup();
+}
+
+}  // namespace tendril::app
