@@ -126,7 +126,7 @@ void show_recovery(const ShellFrame& frame, Emit& emit) {
 
 void show_toasts(const ShellFrame& frame) {
     const float scale = frame.layout.scale;
-    const Palette& colours = palette(frame.workspace.settings.theme);
+    const Palette& colours = frame.colours();
     const Rect& view = frame.layout.view;
     const float width = std::min(520.0f * scale, std::max(120.0f, view.size().x - 32.0f * scale));
     float bottom = view.max.y - 16.0f * scale;
@@ -156,13 +156,14 @@ void show_toasts(const ShellFrame& frame) {
 void show_first_hint(const ShellFrame& frame) {
     if (frame.workspace.settings.hint_seen) return;
     const Rect& view = frame.layout.view;
-    const std::string text = "Drag the orange ball. Right-drag turns the view. ? shows every key.";
-    const Palette& colours = palette(frame.workspace.settings.theme);
+    const Palette& colours = frame.colours();
     const float wrap = std::max(80.0f, view.size().x - 40.0f);
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
-    ImGui::GetBackgroundDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(),
-                                            {view.centre().x - 0.5f * size.x, view.min.y + 22.0f * frame.layout.scale},
-                                            imgui_u32(colours.text, 0.85f), text.c_str(), nullptr, wrap);
+    const auto size_of = [&](const char* text) { return ImGui::CalcTextSize(text, nullptr, false, wrap); };
+    const char* text = "Drag the orange ball. Right-drag turns the view. ? shows every key.";
+    if (size_of(text).y > 0.3f * view.size().y) text = "Drag the orange ball.";  // large letters in a small view
+    const ImVec2 at{view.centre().x - 0.5f * size_of(text).x, view.min.y + 22.0f * frame.layout.scale};
+    ImGui::GetBackgroundDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, imgui_u32(colours.text, 0.85f),
+                                            text, nullptr, wrap);
 }
 
 void show_legend(const ShellFrame& frame) {
