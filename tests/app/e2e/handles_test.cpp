@@ -66,7 +66,9 @@ TEST(HandlesOutOfView, have_a_pixel_outside_or_none) {
     ScriptText script;
     script.command("camera.set",
                    {{"target", {0, 0, -30}}, {"yaw_deg", 0}, {"pitch_deg", 0}, {"distance", 10}});
-    for (const auto& each : state_after(script).at("handles")) {
+    const app::Json state = state_after(script);
+    ASSERT_EQ(state.at("handles").size(), 9u);
+    for (const auto& each : state.at("handles")) {
         EXPECT_TRUE(each.at("pixel").is_null()) << each.dump();
     }
 }
