@@ -49,9 +49,11 @@ void scroll_to_item() {
 
 void begin_palette(std::size_t commands, glm::vec2 screen, float scale) {
     const float width = std::min(820.0f * scale, 0.9f * screen.x);
-    const float rows = static_cast<float>(std::max<std::size_t>(commands, 3)) + 5.0f;  // with the line and its help
+    const float rows =
+        static_cast<float>(std::max<std::size_t>(commands, 3)) + 5.0f;  // with the line and its help
     ImGui::SetNextWindowPos({0.5f * screen.x, 0.14f * screen.y}, ImGuiCond_Always, {0.5f, 0.0f});
-    ImGui::SetNextWindowSize({width, std::min(rows * ImGui::GetTextLineHeightWithSpacing(), 0.7f * screen.y)});
+    ImGui::SetNextWindowSize(
+        {width, std::min(rows * ImGui::GetTextLineHeightWithSpacing(), 0.7f * screen.y)});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 9.0f);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
@@ -129,7 +131,8 @@ void CommandPalette::run(const CommandTable& table, const Command* chosen, Emit&
             return;
         }
         const TypedCommand typed = read_typed_command(line);
-        if (table.find(typed.name) == nullptr) throw std::runtime_error("there is no command \"" + typed.name + "\"");
+        if (table.find(typed.name) == nullptr)
+            throw std::runtime_error("there is no command \"" + typed.name + "\"");
         emit("view.palette", {{"open", false}});
         emit(typed.name, typed.arguments);
     } catch (const std::runtime_error& error) {
@@ -148,10 +151,12 @@ bool CommandPalette::line_field(bool appearing) {
         return 0;
     };
     ImGui::SetNextItemWidth(-1.0f);
-    const bool entered = ImGui::InputTextWithHint(
-        "##line", "Find a command: chain.add length=1.5", line_.data(), line_.size(),
-        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackAlways, caret_to_end, &take_caret_);
-    if (entered) ImGui::SetKeyboardFocusHere(-1);  // Enter lets go of the line; whatever comes of it, take it back
+    const bool entered =
+        ImGui::InputTextWithHint("##line", "Find a command: chain.add length=1.5", line_.data(), line_.size(),
+                                 ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackAlways,
+                                 caret_to_end, &take_caret_);
+    if (entered)
+        ImGui::SetKeyboardFocusHere(-1);  // Enter lets go of the line; whatever comes of it, take it back
     if (ImGui::IsItemEdited()) {
         chosen_ = 0;
         complaint_.clear();
@@ -180,7 +185,8 @@ const Command* CommandPalette::list(const Found& found, bool bring_choice_into_v
             ImGui::TableNextRow();
             ImGui::TableNextColumn();
             ImGui::PushID(i);
-            if (ImGui::Selectable("##row", i == chosen_, ImGuiSelectableFlags_SpanAllColumns)) clicked = &command;
+            if (ImGui::Selectable("##row", i == chosen_, ImGuiSelectableFlags_SpanAllColumns))
+                clicked = &command;
             ImGui::PopID();
             if (i == chosen_ && bring_choice_into_view) scroll_to_item();
             ImGui::SameLine(0.0f, 0.0f);
@@ -203,7 +209,9 @@ void CommandPalette::explain(const Found& found) {
         text_elided(complaint_, room);
         ImGui::PopStyleColor();
     } else {
-        text_elided(std::to_string(found.size()) + " commands.  Up and Down choose, Enter runs, Escape closes.", room, true);
+        text_elided(
+            std::to_string(found.size()) + " commands.  Up and Down choose, Enter runs, Escape closes.", room,
+            true);
     }
 }
 

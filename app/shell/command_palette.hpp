@@ -10,7 +10,8 @@
 
 namespace tendril::app {
 
-/// Reads `chain.add length=1.5 position=[0,1,0]`: a name, then arguments as JSON, where a bare word is a text.
+/// Reads `chain.add length=1.5 position=[0,1,0]`: a name, then arguments as JSON, where a bare word is a
+/// text.
 struct TypedCommand {
     std::string name;
     Json arguments = Json::object();
@@ -40,7 +41,7 @@ class CommandPalette {
 
     std::array<char, 512> line_{};
     int chosen_ = 0;
-    int listed_choice_ = 0;    ///< as the list last showed it
+    int listed_choice_ = 0;  ///< as the list last showed it
     bool was_open_ = false;
     bool take_caret_ = false;  ///< the line wants the keyboard, the caret after its last character
     std::string complaint_;

@@ -67,7 +67,9 @@ bool FileDialog::list() {
     bool chosen = false;
     for (const Entry& entry : entries_) {
         const std::string shown = entry.folder ? entry.name + "/" : entry.name;
-        if (!ImGui::Selectable(shown.c_str(), entry.name == name_.data(), ImGuiSelectableFlags_AllowDoubleClick)) continue;
+        if (!ImGui::Selectable(shown.c_str(), entry.name == name_.data(),
+                               ImGuiSelectableFlags_AllowDoubleClick))
+            continue;
         if (entry.folder) {
             entered = folder_ / entry.name;
         } else {
@@ -93,13 +95,18 @@ void FileDialog::frame(const Workspace& workspace, glm::vec2 screen, float scale
     ImGui::SameLine();
     text_elided(folder_.string(), ImGui::GetContentRegionAvail().x, true);
     const float wrap = ImGui::GetContentRegionAvail().x;
-    const float complaint = complaint_.empty() ? 0.0f : ImGui::CalcTextSize(complaint_.c_str(), nullptr, false, wrap).y;
+    const float complaint =
+        complaint_.empty() ? 0.0f : ImGui::CalcTextSize(complaint_.c_str(), nullptr, false, wrap).y;
     ImGui::BeginChild("entries", {0.0f, -2.0f * ImGui::GetFrameHeightWithSpacing() - complaint}, true);
     bool done = list();
     ImGui::EndChild();
     ImGui::SetNextItemWidth(-1.0f);
     if (appearing) ImGui::SetKeyboardFocusHere();
-    done |= ImGui::InputTextWithHint("##name", "file name", name_.data(), name_.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+    if (ImGui::InputTextWithHint("##name", "file name", name_.data(), name_.size(),
+                                 ImGuiInputTextFlags_EnterReturnsTrue)) {
+        done = true;
+        ImGui::SetKeyboardFocusHere(-1);  // a name that is refused can be mended at once
+    }
     done |= ImGui::Button(saving ? "Save" : "Open");
     ImGui::SameLine();
     if (ImGui::Button("Cancel")) emit("view.close");

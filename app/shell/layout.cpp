@@ -10,7 +10,9 @@ Layout lay_out(glm::vec2 window, float scale, const Settings& settings, bool has
     constexpr float least_view = 0.34f;  // of the width: what the 3D view keeps, whatever the panels ask for
 
     const float most = std::max(0.0f, 0.5f * (1.0f - least_view) * window.x);
-    const auto side = [&](bool open, float width) { return std::round(std::min((open ? width : folded) * scale, most)); };
+    const auto side = [&](bool open, float width) {
+        return std::round(std::min((open ? width : folded) * scale, most));
+    };
     const float left = side(settings.left_open, settings.left_width);
     const float right = side(settings.right_open, settings.right_width);
     const float top = std::round(bar * scale);

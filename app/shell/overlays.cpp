@@ -54,8 +54,9 @@ bool begin_sheet(const char* title, glm::vec2 screen, glm::vec2 wanted) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
     const float scale = ImGui::GetFontSize() / 15.0f;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(20.0f * scale, 14.0f * scale));
-    ImGui::Begin(title, &open, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                                   ImGuiWindowFlags_NoSavedSettings);
+    ImGui::Begin(title, &open,
+                 ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings);
     ImGui::PopStyleVar(3);
     return open;
 }
@@ -97,8 +98,10 @@ void show_settings(const ShellFrame& frame, Emit& emit) {
     int theme = settings.theme == Theme::Light, style = settings.segments == SegmentStyle::Bones,
         label = settings.labels == LabelMode::Always;
     if (choice_field("theme", theme, themes, 2)) emit("view.theme", {{"name", themes[theme]}});
-    if (choice_field("segments", style, styles, 2)) emit("view.segments", {{"style", style == 1 ? "bones" : "spheres"}});
-    if (choice_field("labels", label, labels, 2)) emit("view.labels", {{"show", label == 1 ? "always" : "hover"}});
+    if (choice_field("segments", style, styles, 2))
+        emit("view.segments", {{"style", style == 1 ? "bones" : "spheres"}});
+    if (choice_field("labels", label, labels, 2))
+        emit("view.labels", {{"show", label == 1 ? "always" : "hover"}});
     // Steps, not a slider: a slider would move under the mouse as the text grows.
     reading("text size", "%.0f %%", static_cast<double>(settings.text_scale) * 100.0);
     const auto step = [&](const char* title, float by) {
@@ -114,7 +117,8 @@ void show_recovery(const ShellFrame& frame, Emit& emit) {
     const auto& offers = frame.workspace.ui.recoverable;
     if (offers.empty()) return;
     const float scale = frame.layout.scale;
-    if (!begin_sheet("Unsaved work", frame.screen(), {460.0f * scale, 190.0f * scale})) emit("scene.recover_later");
+    if (!begin_sheet("Unsaved work", frame.screen(), {460.0f * scale, 190.0f * scale}))
+        emit("scene.recover_later");
     note("Tendril ended before this work was saved:");
     ImGui::TextWrapped("%s", offers.front().string().c_str());
     ImGui::Spacing();
@@ -128,7 +132,9 @@ void show_toasts(const ShellFrame& frame) {
     const float scale = frame.layout.scale;
     const Palette& colours = frame.colours();
     const Rect& view = frame.layout.view;
-    const float width = std::min(520.0f * scale, std::max(120.0f, view.size().x - 32.0f * scale));
+    // As wide as the view; over the panels too where it is too narrow to be read in.
+    const float margin = 32.0f * scale, legible = std::min(380.0f * scale, frame.screen().x - margin);
+    const float width = std::max(120.0f, std::min(520.0f * scale, std::max(view.size().x - margin, legible)));
     float bottom = view.max.y - 16.0f * scale;
     const auto& toasts = frame.workspace.ui.toasts;
     for (std::size_t i = toasts.size(); i-- > 0;) {
@@ -141,8 +147,9 @@ void show_toasts(const ShellFrame& frame) {
         const glm::vec3 mark = toast.kind == ToastKind::Refusal ? colours.limit : colours.accent;
         ImGui::PushStyleColor(ImGuiCol_Border, imgui_colour(mark, 0.8f));
         ImGui::Begin(id.c_str(), nullptr,
-                     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings |
-                         ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+                     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
+                         ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
         ImGui::PopStyleColor();
         ImGui::PopStyleVar(2);
         ImGui::PushTextWrapPos(width - 20.0f * scale);
@@ -160,10 +167,11 @@ void show_first_hint(const ShellFrame& frame) {
     const float wrap = std::max(80.0f, view.size().x - 40.0f);
     const auto size_of = [&](const char* text) { return ImGui::CalcTextSize(text, nullptr, false, wrap); };
     const char* text = "Drag the orange ball. Right-drag turns the view. ? shows every key.";
-    if (size_of(text).y > 0.3f * view.size().y) text = "Drag the orange ball.";  // large letters in a small view
+    if (size_of(text).y > 0.3f * view.size().y)
+        text = "Drag the orange ball.";  // large letters in a small view
     const ImVec2 at{view.centre().x - 0.5f * size_of(text).x, view.min.y + 22.0f * frame.layout.scale};
-    ImGui::GetBackgroundDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, imgui_u32(colours.text, 0.85f),
-                                            text, nullptr, wrap);
+    ImGui::GetBackgroundDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at,
+                                            imgui_u32(colours.text, 0.85f), text, nullptr, wrap);
 }
 
 void show_legend(const ShellFrame& frame) {

@@ -15,7 +15,8 @@ namespace tendril::app {
 namespace {
 
 constexpr ImGuiWindowFlags region_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                          ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                          ImGuiWindowFlags_NoSavedSettings |
+                                          ImGuiWindowFlags_NoBringToFrontOnFocus |
                                           ImGuiWindowFlags_NoNavFocus;  // Tab still goes from field to field
 
 constexpr float folds_below = 90.0f;  ///< unscaled pixels: a panel that is dragged narrower folds away
@@ -43,8 +44,8 @@ void panel_edge(const Rect& rect, bool left, float scale, Emit& emit) {
             emit("view.panels", {{left ? "left" : "right", false}});
             return;
         }
-        emit.continuously("view.panel_width",
-                          {{"side", left ? "left" : "right"}, {"width", number(std::clamp(width, 180.0f, 520.0f))}});
+        emit.continuously("view.panel_width", {{"side", left ? "left" : "right"},
+                                               {"width", number(std::clamp(width, 180.0f, 520.0f))}});
     }
 }
 
@@ -55,7 +56,8 @@ void folded_strip(const ShellFrame& frame, const Rect& rect, bool left, Emit& em
     const bool hovered = ImGui::IsItemHovered();
     ImDrawList* list = ImGui::GetWindowDrawList();
     if (hovered) {
-        list->AddRectFilled({rect.min.x, rect.min.y}, {rect.max.x, rect.max.y}, ImGui::GetColorU32(ImGuiCol_ButtonHovered));
+        list->AddRectFilled({rect.min.x, rect.min.y}, {rect.max.x, rect.max.y},
+                            ImGui::GetColorU32(ImGuiCol_ButtonHovered));
         ImGui::SetTooltip("%s", with_keys("Bring the panel back", "view.panels").c_str());
     }
     const float inner = left ? rect.max.x - 1.0f : rect.min.x;
@@ -112,7 +114,8 @@ void tabs(const ShellFrame& frame, float room, Emit& emit) {
     for (const auto& lab : frame.labs.all()) {
         ImGui::SameLine(0.0f, 2.0f * gap);
         const bool open = lab->name() == frame.workspace.lab;
-        ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(open ? ImGuiCol_Header : ImGuiCol_ChildBg));
+        ImGui::PushStyleColor(ImGuiCol_Button,
+                              ImGui::GetStyleColorVec4(open ? ImGuiCol_Header : ImGuiCol_ChildBg));
         if (ImGui::Button(lab->title().c_str())) emit("lab.open", {{"name", lab->name()}});
         ImGui::PopStyleColor();
     }
@@ -128,7 +131,8 @@ void play_button(const ShellFrame& frame, Emit& emit) {
     ImGui::SetTooltip("%s", with_keys(effect, "time.toggle").c_str());
 }
 
-/// In the middle of the window, or wherever there is room between `from` and `to`; without the time if there is little.
+/// In the middle of the window, or wherever there is room between `from` and `to`; without the time if there
+/// is little.
 void time_controls(const ShellFrame& frame, float from, float to, Emit& emit) {
     const Clock& clock = frame.workspace.clock;
     const float gap = ImGui::GetStyle().ItemSpacing.x;
@@ -140,7 +144,8 @@ void time_controls(const ShellFrame& frame, float from, float to, Emit& emit) {
     ImGui::SameLine(std::clamp(middle, from, std::max(from, to - width)));
     play_button(frame, emit);
     ImGui::SameLine();
-    if (icon_button("step", Icon::Step, with_keys("One tick of 1/60 s", "time.step").c_str())) emit("time.step");
+    if (icon_button("step", Icon::Step, with_keys("One tick of 1/60 s", "time.step").c_str()))
+        emit("time.step");
     if (!with_time) return;
     char time[32];
     std::snprintf(time, sizeof time, "%8.2f s", static_cast<double>(clock.tick) * tick_seconds);
@@ -158,7 +163,8 @@ void tools(const ShellFrame& frame, float from, Emit& emit) {
         return what.empty() ? std::string(title) : std::string(title) + " " + what;
     };
     const auto tool = [&](const char* command, Icon icon, const std::string& tip, bool enabled, bool active) {
-        if (icon_button(command, icon, with_keys(tip.c_str(), command).c_str(), enabled, active)) emit(command);
+        if (icon_button(command, icon, with_keys(tip.c_str(), command).c_str(), enabled, active))
+            emit(command);
     };
     ImGui::SameLine(from);
     tool("undo", Icon::Undo, about("Undo", history.undo_label()), history.can_undo(), false);
@@ -226,7 +232,8 @@ void Shell::side_panel(const ShellFrame& frame, bool left, Emit& emit) {
     // The bar's room is always kept, so that nothing shifts when it is needed; unneeded, it is not seen.
     float& overflow = overflow_[left ? 0 : 1];
     const float grab = overflow > 0.0f ? 1.0f : 0.0f;
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(std::min(14.0f * scale, 0.06f * rect.size().x), 6.0f * scale));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding,
+                        ImVec2(std::min(14.0f * scale, 0.06f * rect.size().x), 6.0f * scale));
     ImVec4 bar = ImGui::GetStyleColorVec4(ImGuiCol_ScrollbarGrab);
     bar.w *= grab;
     ImGui::PushStyleColor(ImGuiCol_ScrollbarGrab, bar);
@@ -252,8 +259,7 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
     const Workspace& workspace = frame.workspace;
     if (frame.layout.timeline.size().y > 1.0f) {
         const float scale = frame.layout.scale;
-        begin_region("timeline", frame.layout.timeline, frame.colours().panel,
-                     {12.0f * scale, 6.0f * scale});
+        begin_region("timeline", frame.layout.timeline, frame.colours().panel, {12.0f * scale, 6.0f * scale});
         frame.lab.timeline(workspace, emit);
         ImGui::End();
     }

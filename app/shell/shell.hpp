@@ -1,5 +1,5 @@
-// The window around the labs: bars, panels, and what lies over the scene for a while. It reads the workspace and emits
-// commands.
+// The window around the labs: bars, panels, and what lies over the scene for a while. It reads the workspace
+// and emits commands.
 #pragma once
 
 #include <imgui.h>
@@ -49,7 +49,8 @@ void show_legend(const ShellFrame& frame);
 /// A fixed window without decoration that fills `rect`. Always ImGui::End() after it.
 void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 padding);
 
-/// A window of the given share of the screen in the middle of it, closed by Escape or the cross; false once closed.
+/// A window of the given share of the screen in the middle of it, closed by Escape or the cross; false once
+/// closed.
 bool begin_sheet(const char* title, glm::vec2 screen, glm::vec2 wanted);
 
 }  // namespace tendril::app

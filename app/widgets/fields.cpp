@@ -15,11 +15,12 @@ constexpr float name_share = 0.38f;  ///< of the row, where name and field stand
 
 /// Too narrow for a name and a field side by side, at the size that the text has.
 bool narrow() {
-    return ImGui::GetWindowContentRegionMax().x - ImGui::GetWindowContentRegionMin().x < 9.0f * ImGui::GetFontSize();
+    return ImGui::GetWindowContentRegionMax().x - ImGui::GetWindowContentRegionMin().x <
+           9.0f * ImGui::GetFontSize();
 }
 
-/// Writes the row's name and leaves the cursor where its field goes, beside it or, if need be, below; gives the field's
-/// id.
+/// Writes the row's name and leaves the cursor where its field goes, beside it or, if need be, below; gives
+/// the field's id.
 std::string begin_row(const char* name) {
     const float from = ImGui::GetWindowContentRegionMin().x;
     const float field = name_share * ImGui::GetWindowContentRegionMax().x;
@@ -97,7 +98,8 @@ bool choice_field(const char* name, int& chosen, const char* const* titles, int 
 }
 
 bool option_button(const char* title, bool chosen) {
-    const float room = ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemInnerSpacing.x;
+    const float room =
+        ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemInnerSpacing.x;
     const std::string shown = elided(title, room);
     const bool pressed = ImGui::RadioButton((shown + "###" + title).c_str(), chosen);
     if (shown != title && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", title);
@@ -131,7 +133,8 @@ bool row_button(const char* title, int of, bool enabled, const char* tooltip) {
     ImGui::BeginDisabled(!enabled);
     const bool pressed = ImGui::Button((shown + "###" + title).c_str(), {width, 0.0f});
     ImGui::EndDisabled();
-    if (tooltip != nullptr && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", tooltip);
+    if (tooltip != nullptr && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+        ImGui::SetTooltip("%s", tooltip);
     ImGui::SameLine();  // the next one beside it, unless the row is full
     if (ImGui::GetCursorPosX() + width > ImGui::GetWindowContentRegionMax().x + 1.0f) ImGui::NewLine();
     return pressed;

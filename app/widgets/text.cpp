@@ -7,7 +7,9 @@
 namespace tendril::app {
 namespace {
 
-float width_of(const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; }
+float width_of(const std::string& text) {
+    return ImGui::CalcTextSize(text.c_str()).x;
+}
 
 void write(const std::string& text, bool dim) {
     if (dim) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
@@ -53,7 +55,9 @@ void text_flush_right(const std::string& text, bool dim) {
     write(text, dim);
 }
 
-bool escape_pressed() { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)); }
+bool escape_pressed() {
+    return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+}
 
 void close_popup_on_escape() {
     if (escape_pressed()) ImGui::CloseCurrentPopup();

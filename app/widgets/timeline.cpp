@@ -9,7 +9,8 @@
 namespace tendril::app {
 namespace {
 
-/// The smallest of 0.1, 0.2, 0.5, 1, 2, 5, ... seconds whose marks lie at least `apart` pixels from each other.
+/// The smallest of 0.1, 0.2, 0.5, 1, 2, 5, ... seconds whose marks lie at least `apart` pixels from each
+/// other.
 double mark_seconds(double seconds_per_pixel, double apart) {
     const double least = seconds_per_pixel * apart;
     double step = std::pow(10.0, std::floor(std::log10(std::max(least, 1e-3))));
@@ -32,7 +33,8 @@ bool timeline(const char* id, int& tick, int ticks, double seconds) {
     bool moved = false;
     if (ImGui::IsItemActive()) {
         const float share = std::clamp((ImGui::GetIO().MousePos.x - from) / span, 0.0f, 1.0f);
-        const int wanted = std::min(static_cast<int>(std::lround(share * static_cast<float>(ticks))), ticks - 1);
+        const int wanted =
+            std::min(static_cast<int>(std::lround(share * static_cast<float>(ticks))), ticks - 1);
         moved = wanted != tick;
         tick = wanted;
     }

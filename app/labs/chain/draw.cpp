@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::size_t most_labels = 2000;  ///< more would never find room beside one another
 
-/// How large a joint's ball is, in pixels: a handle of steady size, smaller only where the joints crowd together.
+/// How large a joint's ball is, in pixels: a handle of steady size, smaller only where the joints crowd
+/// together.
 float joint_pixels(const ChainPart& part, const Camera& camera, float scale) {
     const float largest = 7.5f * scale, smallest = 2.5f * scale;
     if (part.chain.size() < 2) return largest;
@@ -74,12 +75,15 @@ class Drawing {
         ball.pick = pick;
         ball.rank = 1;
         if (part_.selected == i) {
-            list_.ring(at(i), grown + px(4.0f), px(2.5f), glm::vec4(view_.palette.selection, 1.0f)).layer = Layer::Overlay;
+            list_.ring(at(i), grown + px(4.0f), px(2.5f), glm::vec4(view_.palette.selection, 1.0f)).layer =
+                Layer::Overlay;
         } else if (hovered) {
-            list_.ring(at(i), grown + px(3.0f), px(1.5f), glm::vec4(view_.palette.text, 0.55f)).layer = Layer::Overlay;
+            list_.ring(at(i), grown + px(3.0f), px(1.5f), glm::vec4(view_.palette.text, 0.55f)).layer =
+                Layer::Overlay;
         }
         if (part_.mode == Mode::WithIndex && part_.index == i) {
-            list_.ring(at(i), grown + px(8.0f), px(1.5f), glm::vec4(view_.palette.target, 0.8f)).layer = Layer::Overlay;
+            list_.ring(at(i), grown + px(8.0f), px(1.5f), glm::vec4(view_.palette.target, 0.8f)).layer =
+                Layer::Overlay;
         }
     }
 
@@ -96,8 +100,10 @@ class Drawing {
         ball.layer = Layer::Overlay;
         ball.pick = target_pick;
         ball.rank = 2;
-        list_.ring(at, px(hovered ? 18.0f : 16.5f), px(1.5f), glm::vec4(view_.palette.target, hovered ? 1.0f : 0.6f)).layer =
-            Layer::Overlay;
+        list_
+            .ring(at, px(hovered ? 18.0f : 16.5f), px(1.5f),
+                  glm::vec4(view_.palette.target, hovered ? 1.0f : 0.6f))
+            .layer = Layer::Overlay;
     }
 
     /// The way that a moving target goes.
@@ -122,7 +128,8 @@ class Drawing {
             std::snprintf(text, sizeof text, "%zu%s  %.3g m", i, role, static_cast<double>(length(i)));
         }
         // The target's ring is wider than a joint.
-        const float target_pixels = glm::distance(at(i), part_.target) / view_.camera.metres_per_pixel(part_.target);
+        const float target_pixels =
+            glm::distance(at(i), part_.target) / view_.camera.metres_per_pixel(part_.target);
         const float clearance = target_pixels < ball_ ? px(20.0f) : ball_ + px(7.0f);
         list_.labels.push_back(
             {.at = at(i), .clearance = clearance, .text = text, .colour = view_.palette.text, .rank = rank});
@@ -153,6 +160,8 @@ class Drawing {
 
 }  // namespace
 
-void ChainLab::draw(const View& view, DrawList& list) const { Drawing(view, list).run(); }
+void ChainLab::draw(const View& view, DrawList& list) const {
+    Drawing(view, list).run();
+}
 
 }  // namespace tendril::app

@@ -40,8 +40,10 @@ void chain_rows(const ChainPart& part) {
     if (chain.empty()) return;
     const auto segments = chain.segments();
     reading("reach", "%.3f m", static_cast<double>(chain.reach()));
-    reading("head to target", "%.3f m", static_cast<double>(glm::distance(segments.front().position, part.target)));
-    reading("tail to target", "%.3f m", static_cast<double>(glm::distance(segments.back().position, part.target)));
+    reading("head to target", "%.3f m",
+            static_cast<double>(glm::distance(segments.front().position, part.target)));
+    reading("tail to target", "%.3f m",
+            static_cast<double>(glm::distance(segments.back().position, part.target)));
     float worst = 0.0f;
     for (std::size_t i = 1; i < segments.size(); ++i) worst = std::max(worst, length_error(chain, i));
     reading("worst error", worst == 0.0f ? "%.0f m" : "%.1e m", static_cast<double>(worst));
@@ -73,16 +75,19 @@ void segment_row(const ChainPart& part, std::size_t i, Emit& emit) {
     number_cell("%.0e", length_error(part.chain, i));
 }
 
-/// `fixed`: columns as wide as their numbers, to be scrolled sideways, where the panel is too narrow for them.
+/// `fixed`: columns as wide as their numbers, to be scrolled sideways, where the panel is too narrow for
+/// them.
 void header_row(bool fixed) {
     struct Column {
         const char* name;
         float share;
     };
-    constexpr Column columns[] = {{"#", 0.75f}, {"x", 1.0f}, {"y", 1.0f}, {"z", 1.0f}, {"length", 1.05f}, {"error", 1.1f}};
+    constexpr Column columns[] = {{"#", 0.75f}, {"x", 1.0f},       {"y", 1.0f},
+                                  {"z", 1.0f},  {"length", 1.05f}, {"error", 1.1f}};
     for (const Column& column : columns) {
         const float width = fixed ? 3.6f * column.share * ImGui::GetFontSize() : column.share;
-        ImGui::TableSetupColumn(column.name, fixed ? ImGuiTableColumnFlags_WidthFixed : ImGuiTableColumnFlags_WidthStretch,
+        ImGui::TableSetupColumn(column.name,
+                                fixed ? ImGuiTableColumnFlags_WidthFixed : ImGuiTableColumnFlags_WidthStretch,
                                 width);
     }
     ImGui::TableSetupScrollFreeze(fixed ? 1 : 0, 1);
@@ -111,7 +116,8 @@ void segment_table(const ChainPart& part, Emit& emit) {
     section("Segments, in metres");
     ImGui::PushFont(small_font());
     const bool narrow = ImGui::GetContentRegionAvail().x < 16.0f * ImGui::GetFontSize();
-    const ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_NoPadOuterX |
+    const ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY |
+                                  ImGuiTableFlags_NoPadOuterX |
                                   (narrow ? ImGuiTableFlags_ScrollX : ImGuiTableFlags_None);
     const float least = 8.0f * ImGui::GetTextLineHeightWithSpacing();
     const float height = std::max(least, ImGui::GetContentRegionAvail().y);

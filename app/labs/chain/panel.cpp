@@ -11,12 +11,15 @@ namespace tendril::app {
 namespace {
 
 /// Length that the next added or inserted segment gets: a wish of the panel, no part of the document.
-float& next_length() { return *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("next length"), 1.0f); }
+float& next_length() {
+    return *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("next length"), 1.0f);
+}
 
 void mode_rows(const ChainPart& part, Emit& emit) {
     section("Mode");
     for (const Mode mode : all_modes) {
-        if (option_button(mode_title(mode), part.mode == mode)) emit("chain.mode", {{"mode", mode_name(mode)}});
+        if (option_button(mode_title(mode), part.mode == mode))
+            emit("chain.mode", {{"mode", mode_name(mode)}});
     }
     note(mode_help(part.mode));
 
@@ -31,7 +34,8 @@ void mode_rows(const ChainPart& part, Emit& emit) {
         int iterations = part.iterations[static_cast<std::size_t>(part.mode)];
         if (integer_field("iterations", iterations, 1, max_iterations)) with("iterations", iterations);
         float tolerance = part.tolerance;
-        if (number_field("tolerance", tolerance, 0.0005f, 0.0f, 10.0f, "%.4f m")) with("tolerance", number(tolerance));
+        if (number_field("tolerance", tolerance, 0.0005f, 0.0f, 10.0f, "%.4f m"))
+            with("tolerance", number(tolerance));
     }
 }
 
@@ -53,7 +57,8 @@ void segment_rows(const ChainPart& part, Emit& emit) {
             emit.continuously("chain.set_length", {{"index", *part.selected}, {"length", number(selected)}});
         }
     } else {
-        note(part.chain.empty() ? "Add a segment, or begin with one of these." : "Click a joint to select it.");
+        note(part.chain.empty() ? "Add a segment, or begin with one of these."
+                                : "Click a joint to select it.");
     }
 }
 
@@ -86,7 +91,8 @@ void preset_rows(Emit& emit) {
         emit("camera.frame", {{"what", "all"}});  // they differ in size
     }
     if (row_button("Empty", 2, true, "Takes every segment away")) emit("chain.clear");
-    if (row_button("Reset", 2, true, "Everything as at the first start; undo brings it back")) emit("scene.new");
+    if (row_button("Reset", 2, true, "Everything as at the first start; undo brings it back"))
+        emit("chain.reset");
 }
 
 }  // namespace
