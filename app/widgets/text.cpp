@@ -34,7 +34,7 @@ std::string elided(const std::string& text, float width) {
         (ok ? fits : too_many) = middle;
     }
     std::string cut = text.substr(0, character_begin(text, fits));
-    while (!cut.empty() && cut.back() == ' ') cut.pop_back();
+    while (!cut.empty() && (cut.back() == ' ' || cut.back() == '.')) cut.pop_back();
     return cut + "...";
 }
 
