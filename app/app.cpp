@@ -15,6 +15,8 @@ namespace tendril::app {
 namespace {
 
 constexpr int settling_ticks = 3;  ///< Dear ImGui sizes some windows from what they held a frame ago
+/// Time must go on after a click until a second one is no longer a double click.
+constexpr int double_click_ticks = 20;
 
 Cursor wanted_cursor(const Ui& ui, const Pointer& pointer) {
     if (!ui.wants_mouse()) return pointer.cursor();
@@ -39,13 +41,9 @@ App::App(Window& window, bool complain)
     ImGui::GetIO().ClipboardUserData = &window_;
     // Pasting is an event (the loop turns it into text), so that a recording holds what was pasted.
     ImGui::GetIO().GetClipboardTextFn = [](void*) { return ""; };
-    for (int i = 0; i < settling_ticks; ++i) compose(nullptr, false);
-}
-
-float App::ui_scale() const {
-    const float ratio = static_cast<float>(window_.framebuffer_size().x) /
-                        static_cast<float>(std::max(1, window_.size().x));
-    return window_.content_scale() / ratio * workspace_.settings.text_scale;
+    size_ = window_.size();
+    base_scale_ = window_.content_scale();
+    for (int i = 0; i < settling_ticks; ++i) compose(nullptr, Pass::Settle);
 }
 
 void App::start_from(const RecordingStart& start) {
@@ -55,40 +53,50 @@ void App::start_from(const RecordingStart& start) {
     std::vector<std::string> complaints;
     workspace_.settings = load_settings(start.settings, complaints);
     if (!complaints.empty()) throw std::runtime_error("settings: " + complaints.front());
+    workspace_.path = start.path;
+    workspace_.saved = start.modified ? Document() : workspace_.document;
+    workspace_.history.clear();
+    base_scale_ = start.scale;
     window_.resize(start.size);
-    for (int i = 0; i < settling_ticks; ++i) compose(nullptr, false);
+    size_ = start.size;
+    for (int i = 0; i < settling_ticks; ++i) compose(nullptr, Pass::Settle);
 }
 
 void App::start_recording() {
-    Settings settings = workspace_.settings;
-    settings.text_scale = ui_scale();  // the window's own scale is not there when it is played
     recorder_.emplace(RecordingStart{.version = version_string,
-                                     .size = window_.size(),
+                                     .size = size_,
                                      .lab = workspace_.lab,
                                      .scene = save_scene(workspace_),
-                                     .settings = save_settings(settings)});
+                                     .settings = save_settings(workspace_.settings),
+                                     .path = workspace_.path.string(),
+                                     .modified = workspace_.modified(),
+                                     .scale = base_scale_});
 }
 
 void App::tick(const Event* event) {
     if (recorder_) event != nullptr ? recorder_->event(*event) : recorder_->idle_tick();
     input_.take(event);
-    compose(event, true);
+    compose(event, Pass::Tick);
+    input_.end_tap();
     // What an event opened takes a second pass before it can have the keyboard: so the next event finds it ready.
-    if (event != nullptr && !std::holds_alternative<MouseMove>(*event)) compose(nullptr, false);
-    settling_ = event != nullptr ? settling_ticks : std::max(0, settling_ - 1);
+    if (event != nullptr && !std::holds_alternative<MouseMove>(*event)) compose(nullptr, Pass::Settle);
+    const bool pressed = event != nullptr && std::holds_alternative<MousePress>(*event);
+    settling_ = pressed ? double_click_ticks : std::max(event != nullptr ? settling_ticks : 0, settling_ - 1);
     update_window();
 }
 
-void App::compose(const Event* event, bool in_tick) {
-    layout_ = lay_out(window_.size(), ui_scale(), workspace_.settings, lab().has_timeline(workspace_));
+void App::compose(const Event* event, Pass pass) {
+    const bool in_tick = pass == Pass::Tick;
+    layout_ = lay_out(size_, ui_scale(), workspace_.settings, lab().has_timeline(workspace_));
     workspace_.ui.view_size = layout_.view.size();
     Emit emit;
     if (in_tick && event != nullptr) take_event(*event, emit);
-    ui_.begin({window_.size(), window_.framebuffer_size(), layout_.scale}, workspace_.settings.theme, input_, event);
+    ui_.begin({size_, window_.framebuffer_size(), layout_.scale}, workspace_.settings.theme, input_, event,
+              pass != Pass::Picture);
     if (in_tick) {
         take_shortcut(emit);
         const Camera camera(workspace_.camera, layout_.view);
-        pointer_.take(event, input_, {workspace_, lab(), camera, drawn_, ui_.wants_mouse()}, emit);
+        pointer_.take(event, input_, {workspace_, lab(), camera, drawn_, ui_.wants_mouse(), layout_.scale}, emit);
         run_emitted(emit);
     }
 
@@ -98,13 +106,16 @@ void App::compose(const Event* event, bool in_tick) {
     }
     if (hint.empty()) hint = "Right-drag turns the view, middle-drag shifts it, the wheel zooms. ? shows every key.";
     shell_.frame({workspace_, labs_, lab(), commands_, layout_, hint}, emit);
+    if (pass == Pass::Picture) emit.take();
     run_emitted(emit);
     if (in_tick) advance_time();
 
     const Camera camera(workspace_.camera, layout_.view);
     drawn_.clear();
-    lab().draw({workspace_, camera, palette(workspace_.settings.theme), pointer_.hovered(), pointer_.dragged()}, drawn_);
-    draw_labels(camera);
+    lab().draw({workspace_, camera, palette(workspace_.settings.theme), pointer_.hovered(), pointer_.dragged(),
+                layout_.scale},
+               drawn_);
+    show_labels(drawn_, camera, palette(workspace_.settings.theme), layout_.scale);
     ui_.end();
 }
 
@@ -112,8 +123,9 @@ void App::take_event(const Event& event, Emit& emit) {
     if (const auto* press = std::get_if<MousePress>(&event)) {
         if (press->down) ++gesture_;
     } else if (const auto* resize = std::get_if<Resize>(&event)) {
-        if (window_.size() != resize->size) window_.resize(resize->size);
-        layout_ = lay_out(window_.size(), ui_scale(), workspace_.settings, lab().has_timeline(workspace_));
+        size_ = resize->size;
+        if (window_.size() != size_) window_.resize(size_);
+        layout_ = lay_out(size_, ui_scale(), workspace_.settings, lab().has_timeline(workspace_));
     } else if (const auto* drop = std::get_if<Drop>(&event)) {
         if (!drop->paths.empty()) emit("scene.open", {{"path", drop->paths.front()}});
     } else if (std::holds_alternative<CloseRequest>(event)) {
@@ -126,10 +138,12 @@ void App::take_shortcut(Emit& emit) {
     if (chord.key == Key::Unknown) return;
     if (chord.key == Key::Escape && pointer_.dragged() != no_pick) {
         pointer_.release();  // a drag that was let go leaves nothing behind
-        emit("undo");
+        if (workspace_.history.is_open(gesture_)) emit("undo");
         return;
     }
     const Shortcut* shortcut = find_shortcut(chord);
+    // A key that is held repeats what goes on step by step, but turns nothing on and off again.
+    if (shortcut != nullptr && input_.repeated() && !shortcut->repeats) return;
     if (shortcut == nullptr || (ui_.wants_text() && !shortcut->while_typing)) return;
     emit(shortcut->command, shortcut->arguments);
 }
@@ -157,24 +171,24 @@ void App::run(const RunCommand& command) {
         throw;
     }
     settling_ = settling_ticks;
-    compose(nullptr, false);  // so that the next event finds what is now there
+    while (workspace_.clock.steps_due > 0) step_lab();
+    compose(nullptr, Pass::Settle);  // so that the next event finds what is now there
+}
+
+void App::step_lab() {
+    Clock& clock = workspace_.clock;
+    if (lab().moving(workspace_)) lab().step(workspace_);
+    ++clock.tick;
+    clock.steps_due = std::max(0, clock.steps_due - 1);
 }
 
 void App::advance_time() {
-    Clock& clock = workspace_.clock;
-    const bool moving = lab().moving(workspace_);
-    if ((clock.playing && moving) || clock.step_due) {
-        if (moving) lab().step(workspace_);
-        ++clock.tick;
-        clock.step_due = false;
-    }
+    const Clock& clock = workspace_.clock;
+    if (clock.steps_due > 0 || (clock.playing && lab().moving(workspace_))) step_lab();
+    while (clock.steps_due > 0) step_lab();
     auto& toasts = workspace_.ui.toasts;
     for (Toast& toast : toasts) --toast.ticks_left;
     std::erase_if(toasts, [](const Toast& toast) { return toast.ticks_left <= 0; });
-}
-
-void App::draw_labels(const Camera& camera) {
-    show_labels(drawn_, camera, palette(workspace_.settings.theme), layout_.scale);
 }
 
 void App::update_window() {
@@ -195,7 +209,7 @@ void App::draw() {
 }
 
 Image App::screenshot() {
-    for (int i = 0; i < settling_ticks; ++i) compose(nullptr, false);
+    for (int i = 0; i < settling_ticks; ++i) compose(nullptr, Pass::Picture);
     draw();
     return read_framebuffer(window_.framebuffer(), window_.framebuffer_size());
 }
@@ -218,8 +232,10 @@ Json App::state() {
     return state;
 }
 
+bool App::busy() const { return pointer_.busy() || ImGui::IsAnyItemActive(); }
+
 bool App::restless() const {
-    const bool moving = workspace_.clock.step_due || (workspace_.clock.playing && lab().moving(workspace_));
+    const bool moving = workspace_.clock.playing && lab().moving(workspace_);
     return moving || settling_ > 0 || !workspace_.ui.toasts.empty();
 }
 

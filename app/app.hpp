@@ -52,19 +52,22 @@ class App final : public Stage {
     bool restless() const;
     bool quit() const { return workspace_.ui.quit; }
     /// A person is in the middle of a drag.
-    bool busy() const { return pointer_.busy(); }
+    bool busy() const;
     int draw_calls() const { return renderer_.draw_calls(); }
 
   private:
     const Lab& lab() const { return *labs_.find(workspace_.lab); }
-    float ui_scale() const;
-    /// Runs the user interface and builds the picture, once; time passes only in a tick.
-    void compose(const Event* event, bool in_tick);
+    float ui_scale() const { return base_scale_ * workspace_.settings.text_scale; }
+    /// A pass of the user interface. A tick takes an event and lets time pass. What an event opened settles in a second
+    /// pass. A picture is drawn of what is there, and changes nothing.
+    enum class Pass { Tick, Settle, Picture };
+    /// Runs the user interface and builds the picture, once.
+    void compose(const Event* event, Pass pass);
     void take_event(const Event& event, Emit& emit);
     void take_shortcut(Emit& emit);
     void run_emitted(Emit& emit);
     void advance_time();
-    void draw_labels(const Camera& camera);
+    void step_lab();
     void update_window();
 
     Window& window_;
@@ -80,6 +83,8 @@ class App final : public Stage {
     DrawList drawn_;
     Layout layout_;
     std::optional<Recorder> recorder_;
+    glm::ivec2 size_{0};       ///< the window's; changed by events alone, so that a recording has every change
+    float base_scale_ = 1.0f;  ///< the window's wish for the size of text and widgets
     Gesture gesture_ = 1;
     int settling_ = 0;  ///< ticks in which the panels may still change after the last event
     std::string title_;

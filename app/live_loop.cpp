@@ -52,6 +52,8 @@ void LiveLoop::run(Player& player, std::optional<int> frames) {
         last = now;
         keep_house();
     }
+    // What a person lets go is let go, unless it has a name; what was ended from outside is kept.
+    if (autosave_) autosave_->end(app_.workspace(), options_.ending || !app_.workspace().path.empty());
 }
 
 double LiveLoop::patience(const Player& player) const {
@@ -80,8 +82,10 @@ void LiveLoop::tick(Player& player) {
     credit_ -= tick_seconds;
     ++ticks_;
     if (!queue_.empty()) {
-        const Event event = std::move(queue_.front());
+        Event event = std::move(queue_.front());
         queue_.pop_front();
+        // The window has gone on being pulled since: what counts is the size it has now.
+        if (auto* resize = std::get_if<Resize>(&event)) resize->size = window_.size();
         app_.tick(&event);
     } else if (!player.done()) {
         player.advance(app_);

@@ -8,6 +8,7 @@
 #include "app/app.hpp"
 #include "app/document/atomic_file.hpp"
 #include "app/document/scene_file.hpp"
+#include "app/document/text.hpp"
 #include "app/live_loop.hpp"
 
 namespace tendril::app {
@@ -16,6 +17,8 @@ namespace {
 std::atomic<bool> ending{false};  // what a signal handler may touch
 
 constexpr glm::ivec2 headless_size{1280, 720}, window_size{1440, 900};
+
+void complain(const std::string& what) { std::fprintf(stderr, "tendril: %s\n", single_line(what).c_str()); }
 
 std::unique_ptr<Window> make_window(const SessionOptions& options, glm::ivec2 size) {
     if (!options.headless) {
@@ -75,7 +78,9 @@ int run(const SessionOptions& options) {
 
     const auto window = make_window(options, size);
     App app(*window, options.headless);
-    LiveLoop live(app, *window, {.config = options.config && !options.headless, .ending = ending});
+    // A recording brings its own settings; they are not this person's.
+    const bool config = options.config && !options.headless && !script.start;
+    LiveLoop live(app, *window, {.config = config, .ending = ending});
     open_scene(app, options);
     if (script.start) app.start_from(*script.start);
     if (!options.record.empty()) app.start_recording();
@@ -89,8 +94,11 @@ int run(const SessionOptions& options) {
             live.run(player, options.frames);
         }
     } catch (const ScriptFailure& failure) {
-        std::fprintf(stderr, "tendril: %s: %s\n", options.script.c_str(), failure.what());
+        complain(options.script + ": " + failure.what());
         exit_code = 1;
+    } catch (const std::runtime_error& error) {  // a screenshot or a state that could not be written
+        complain(error.what());
+        exit_code = 2;
     }
     write_outputs(app, options);
     return exit_code;
@@ -102,7 +110,7 @@ int run_session(const SessionOptions& options) {
     try {
         return run(options);
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "tendril: %s\n", error.what());
+        complain(error.what());
         return 2;
     }
 }

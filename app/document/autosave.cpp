@@ -72,8 +72,12 @@ Autosave::Autosave(fs::path folder, Clock::duration interval)
     }
 }
 
-Autosave::~Autosave() {
-    remove();
+void Autosave::end(Workspace& workspace, bool keep_unsaved) {
+    if (keep_unsaved && workspace.modified()) {
+        write(workspace);
+    } else {
+        remove();
+    }
 }
 
 fs::path Autosave::file() const {

@@ -15,4 +15,12 @@ struct CameraPose {
     bool operator==(const CameraPose&) const = default;
 };
 
+/// What every way in keeps to: commands, files and the camera itself. Metres and radians.
+namespace camera_range {
+inline constexpr double nearest = 1e-3, farthest = 1e7;
+inline constexpr float target = 1e7f;  ///< largest magnitude of a coordinate
+inline constexpr float pitch = 1.5707964f;
+inline constexpr float narrowest = 0.05f, widest = 2.6f;
+}  // namespace camera_range
+
 }  // namespace tendril::app

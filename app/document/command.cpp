@@ -22,13 +22,6 @@ const char* type_name(ArgumentType type) {
     return "";
 }
 
-/// A value as a message shows it: its JSON, shortened when somebody hands in a novel.
-std::string shown(const Json& value) {
-    std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
-    if (text.size() > 60) text = text.substr(0, 57) + "...";
-    return text;
-}
-
 std::string plain(double value) {
     return Json(value).dump();
 }
@@ -49,7 +42,7 @@ bool sane(const Json& value) {
 /// Refuses a value that does not fit its argument; `where` is "chain.add: length".
 void check_value(const Argument& argument, const Json& value, const std::string& where) {
     const auto refuse = [&](const std::string& rule) {
-        throw Refused(where + " must be " + rule + ", got " + shown(value));
+        throw Refused(where + " must be " + rule + ", got " + json_summary(value));
     };
     switch (argument.type) {
         case ArgumentType::Boolean:
@@ -86,7 +79,7 @@ void check_value(const Argument& argument, const Json& value, const std::string&
 
 void check_arguments(const Command& command, const Json& given) {
     if (!given.is_object() && !given.is_null()) {
-        throw Refused(command.name + ": arguments must be an object, got " + shown(given));
+        throw Refused(command.name + ": arguments must be an object, got " + json_summary(given));
     }
     for (const auto& [name, value] : given.items()) {
         const auto known = std::find_if(command.arguments.begin(), command.arguments.end(),
@@ -137,14 +130,20 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
     check_arguments(*command, arguments);
 
     const Document before = workspace.document;  // parts are shared: a few pointers
+    const std::filesystem::path path = workspace.path;
+    const bool modified = workspace.modified();
     try {
         command->apply(workspace, Arguments(arguments));
     } catch (const std::exception& error) {
         workspace.document = before;
         throw Refused(refusal_text(command->name, error.what()));
     }
-    if (command->effect == Effect::Edit && workspace.document != before) {
-        workspace.history.push(before, command->name, gesture);
+    if (workspace.document == before) return;
+    if (command->effect == Effect::Edit) {
+        const bool moved = workspace.path != path;
+        workspace.history.push(before, command->name, gesture, moved ? std::optional(path) : std::nullopt);
+    } else if (command->effect == Effect::Look && !modified) {
+        workspace.saved = workspace.document;  // choosing something is nothing that wants saving
     }
 }
 

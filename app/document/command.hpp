@@ -10,14 +10,15 @@
 #include <string_view>
 #include <vector>
 
+#include "app/document/text.hpp"
 #include "app/document/workspace.hpp"
 
 namespace tendril::app {
 
-/// A command said no: what() is one line that says why. The workspace is as it was.
+/// A command said no: what() is one line that says why. The document is as it was.
 class Refused : public std::runtime_error {
   public:
-    using std::runtime_error::runtime_error;
+    explicit Refused(const std::string& why) : std::runtime_error(single_line(why)) {}
 };
 /// The command itself is not known: a mistake in a script, not a refusal.
 class UnknownCommand : public Refused {

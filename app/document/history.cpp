@@ -7,27 +7,30 @@ namespace tendril::app {
 History::History(std::size_t max_entries, std::size_t max_bytes)
     : max_entries_(max_entries), max_bytes_(max_bytes) {}
 
-void History::push(const Document& before, const std::string& label, Gesture gesture) {
+void History::push(const Document& before, const std::string& label, Gesture gesture,
+                   std::optional<std::filesystem::path> path) {
     drop(future_);
     const bool same_gesture = gesture != 0 && gesture == open_gesture_;
     open_gesture_ = gesture;
     if (same_gesture) return;
-    append(past_, before, label, past_.empty() ? nullptr : &past_.back().document);
+    append(past_, before, label, past_.empty() ? nullptr : &past_.back().document, std::move(path));
     trim();
 }
 
-std::optional<Document> History::undo(const Document& current) {
+std::optional<Document> History::undo(const Document& current, std::filesystem::path* path) {
     auto entry = take(past_);
     if (!entry) return std::nullopt;
-    append(future_, current, entry->label, &entry->document);
+    if (entry->path && path != nullptr) std::swap(*entry->path, *path);
+    append(future_, current, entry->label, &entry->document, std::move(entry->path));
     trim();
     return std::move(entry->document);
 }
 
-std::optional<Document> History::redo(const Document& current) {
+std::optional<Document> History::redo(const Document& current, std::filesystem::path* path) {
     auto entry = take(future_);
     if (!entry) return std::nullopt;
-    append(past_, current, entry->label, past_.empty() ? nullptr : &past_.back().document);
+    if (entry->path && path != nullptr) std::swap(*entry->path, *path);
+    append(past_, current, entry->label, past_.empty() ? nullptr : &past_.back().document, std::move(entry->path));
     trim();
     return std::move(entry->document);
 }
@@ -48,9 +51,9 @@ std::optional<History::Entry> History::take(Entries& entries) {
 }
 
 void History::append(Entries& entries, const Document& document, const std::string& label,
-                     const Document* older) {
+                     const Document* older, std::optional<std::filesystem::path> path) {
     const std::size_t bytes = own_bytes(document, older);
-    entries.push_back({document, label, bytes});
+    entries.push_back({document, label, bytes, std::move(path)});
     bytes_ += bytes;
 }
 

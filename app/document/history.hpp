@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -22,10 +23,13 @@ class History {
     /// Remembers `before`, the document as it was before the command `label` changed it, and forgets what
     /// could be redone. Further pushes of the same nonzero gesture add nothing, until an undo or redo comes
     /// between.
-    void push(const Document& before, const std::string& label, Gesture gesture);
-    /// Gives the document to go back to (or forward to) from `current`; nothing at the end.
-    std::optional<Document> undo(const Document& current);
-    std::optional<Document> redo(const Document& current);
+    /// `path` is the file that the scene had before, where the command changed that as well.
+    void push(const Document& before, const std::string& label, Gesture gesture,
+              std::optional<std::filesystem::path> path = std::nullopt);
+    /// Gives the document to go back to (or forward to) from `current`; nothing at the end. `path`, if given, is the
+    /// scene's file now, and becomes what it was.
+    std::optional<Document> undo(const Document& current, std::filesystem::path* path = nullptr);
+    std::optional<Document> redo(const Document& current, std::filesystem::path* path = nullptr);
     void clear();
 
     bool can_undo() const { return !past_.empty(); }
@@ -34,6 +38,8 @@ class History {
     std::string undo_label() const { return past_.empty() ? std::string() : past_.back().label; }
     std::string redo_label() const { return future_.empty() ? std::string() : future_.back().label; }
     std::size_t size() const { return past_.size(); }
+    /// Whether this gesture has an entry that its next command would join.
+    bool is_open(Gesture gesture) const { return gesture != 0 && gesture == open_gesture_; }
     /// Memory that the entries hold on to, what they share counted once.
     std::size_t bytes() const { return bytes_; }
 
@@ -42,11 +48,13 @@ class History {
         Document document;
         std::string label;
         std::size_t bytes = 0;  ///< of what it does not share with the document before it in time
+        std::optional<std::filesystem::path> path{};
     };
     using Entries = std::deque<Entry>;
 
     static std::size_t own_bytes(const Document& document, const Document* older);
-    void append(Entries& entries, const Document& document, const std::string& label, const Document* older);
+    void append(Entries& entries, const Document& document, const std::string& label, const Document* older,
+                std::optional<std::filesystem::path> path);
     std::optional<Entry> take(Entries& entries);
     void drop(Entries& entries);
     void drop_oldest();

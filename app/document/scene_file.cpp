@@ -1,6 +1,6 @@
 #include "app/document/scene_file.hpp"
 
-#include <numbers>
+#include <glm/common.hpp>
 #include <stdexcept>
 #include <utility>
 
@@ -8,10 +8,6 @@
 
 namespace tendril::app {
 namespace {
-
-constexpr float quarter_turn = static_cast<float>(std::numbers::pi / 2);
-constexpr float narrowest_view = 0.01f, widest_view = 3.0f;  // radians
-constexpr float nearest_eye = 1e-4f, farthest_eye = 1e9f;    // metres
 
 const Json* optional_member(const Json& object, const char* key) {
     const auto found = object.find(key);
@@ -81,12 +77,13 @@ CameraPose load_camera(const Json& json, const std::string& where) {
                                      degrees(high).dump() + " degrees, found " + json_summary(*found));
     };
     if (const Json* found = optional_member(json, "target"))
-        pose.target = json_point(*found, place("target"));
+        pose.target = glm::clamp(json_point(*found, place("target")), -camera_range::target, camera_range::target);
     angle("yaw_deg", pose.yaw, -1e9f, 1e9f);
-    angle("pitch_deg", pose.pitch, -quarter_turn, quarter_turn);
+    angle("pitch_deg", pose.pitch, -camera_range::pitch, camera_range::pitch);
     if (const Json* found = optional_member(json, "distance"))
-        pose.distance = json_number(*found, place("distance"), nearest_eye, farthest_eye);
-    angle("field_of_view_deg", pose.field_of_view, narrowest_view, widest_view);
+        pose.distance = json_number(*found, place("distance"), static_cast<float>(camera_range::nearest),
+                                    static_cast<float>(camera_range::farthest));
+    angle("field_of_view_deg", pose.field_of_view, camera_range::narrowest, camera_range::widest);
     if (const Json* found = optional_member(json, "orthographic"))
         pose.orthographic = json_bool(*found, place("orthographic"));
     return pose;
@@ -120,11 +117,13 @@ void load_scene(Workspace& workspace, const Json& scene) {
     workspace.lab = std::move(lab);
     workspace.camera = pose;
     workspace.clock.tick = 0;
-    workspace.history.clear();
 }
 
 void save_scene_file(Workspace& workspace, const std::filesystem::path& path) {
-    write_file_atomically(path, json_to_text(save_scene(workspace)));
+    const std::string text = json_to_text(save_scene(workspace));
+    if (text.size() > max_file_bytes)
+        throw std::runtime_error("the scene would be too large to open again: " + std::to_string(text.size()) + " bytes");
+    write_file_atomically(path, text);
     workspace.path = path;
     workspace.saved = workspace.document;
 }

@@ -19,7 +19,7 @@ inline constexpr double tick_seconds = 1.0 / 60.0;
 struct Clock {
     bool playing = true;
     std::uint64_t tick = 0;  ///< simulated ticks so far
-    bool step_due = false;   ///< take one tick though paused
+    int steps_due = 0;       ///< ticks to take at once, though paused
 };
 
 enum class ToastKind { Info, Refusal };

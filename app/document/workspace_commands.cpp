@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "app/document/autosave.hpp"
 #include "app/document/command.hpp"
 #include "app/document/scene_file.hpp"
@@ -7,7 +9,7 @@ namespace {
 
 void step_through(Workspace& workspace, bool back) {
     auto document =
-        back ? workspace.history.undo(workspace.document) : workspace.history.redo(workspace.document);
+        back ? workspace.history.undo(workspace.document, &workspace.path) : workspace.history.redo(workspace.document, &workspace.path);
     if (!document) throw Refused(back ? "nothing to undo" : "nothing to redo");
     workspace.document = std::move(*document);
 }
@@ -39,9 +41,12 @@ void add_scene_commands(CommandTable& table) {
                }});
     table.add({.name = "scene.open",
                .arguments = {{.name = "path", .type = ArgumentType::Text, .help = "the scene file"}},
-               .help = "Opens a scene file",
-               .effect = Effect::Replace,
-               .apply = [](Workspace& w, const Arguments& a) { load_scene_file(w, a.text("path")); }});
+               .help = "Opens a scene file; undo brings the old scene back",
+               .effect = Effect::Edit,
+               .apply = [](Workspace& w, const Arguments& a) {
+                   load_scene_file(w, a.text("path"));
+                   w.ui.file_dialog = UiState::FileDialog::None;
+               }});
     table.add({.name = "scene.save",
                .arguments = {{.name = "path",
                               .type = ArgumentType::Text,
@@ -54,15 +59,18 @@ void add_scene_commands(CommandTable& table) {
                        a.has("path") ? std::filesystem::path(a.text("path")) : w.path;
                    if (path.empty()) throw Refused("path is missing; the scene has no file yet");
                    save_scene_file(w, path);
+                   w.ui.file_dialog = UiState::FileDialog::None;
                    w.toast("Saved " + path.filename().string());
                }});
 }
 
-/// The path argument, if it is one of those that are offered; it is offered no longer.
-std::filesystem::path taken_offer(Workspace& workspace, const Arguments& given) {
-    auto& offers = workspace.ui.recoverable;
+/// The path argument, if it is one of those that are offered.
+std::filesystem::path offered(const Workspace& workspace, const Arguments& given) {
+    const auto& offers = workspace.ui.recoverable;
     const std::filesystem::path path = given.text("path");
-    if (std::erase(offers, path) == 0) throw Refused("there is nothing to recover at " + path.string());
+    if (std::find(offers.begin(), offers.end(), path) == offers.end()) {
+        throw Refused("there is nothing to recover at " + path.string());
+    }
     return path;
 }
 
@@ -71,11 +79,12 @@ void add_recovery_commands(CommandTable& table) {
     table.add({.name = "scene.recover",
                .arguments = {path},
                .help = "Takes up work that a crash left unsaved",
-               .effect = Effect::Replace,
+               .effect = Effect::Edit,
                .apply = [](Workspace& w, const Arguments& a) {
-                   const std::filesystem::path file = taken_offer(w, a);
+                   const std::filesystem::path file = offered(w, a);
                    Autosave::recover(w, file);
                    Autosave::adopt(file);
+                   std::erase(w.ui.recoverable, file);
                    w.toast("Recovered. It is not saved yet.");
                }});
     table.add({.name = "scene.discard",
@@ -83,9 +92,15 @@ void add_recovery_commands(CommandTable& table) {
                .help = "Deletes what a crash left unsaved",
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments& a) {
-                   std::error_code ignored;
-                   std::filesystem::remove(taken_offer(w, a), ignored);
+                   const std::filesystem::path file = offered(w, a);
+                   std::filesystem::remove(file);
+                   std::erase(w.ui.recoverable, file);
                }});
+    table.add({.name = "scene.recover_later",
+               .arguments = {},
+               .help = "Leaves what a crash left for the next start",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments&) { w.ui.recoverable.clear(); }});
 }
 
 void add_dialog_commands(CommandTable& table) {
@@ -132,7 +147,7 @@ void add_time_commands(CommandTable& table) {
         [](Workspace& w) { w.clock.playing = !w.clock.playing; });
     add("time.step", "Pauses, and takes one tick of 1/60 s", [](Workspace& w) {
         w.clock.playing = false;
-        w.clock.step_due = true;
+        ++w.clock.steps_due;
     });
 }
 

@@ -1,5 +1,6 @@
 #include "app/labs/camera_commands.hpp"
 
+#include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
 
 namespace tendril::app {
@@ -7,7 +8,9 @@ namespace {
 
 void set_pose(Workspace& workspace, const Arguments& given) {
     CameraPose& pose = workspace.camera;
-    if (given.has("target")) pose.target = given.point("target");
+    if (given.has("target")) {
+        pose.target = glm::clamp(given.point("target"), -camera_range::target, camera_range::target);
+    }
     if (given.has("yaw_deg")) pose.yaw = glm::radians(given.number("yaw_deg"));
     if (given.has("pitch_deg")) pose.pitch = glm::radians(given.number("pitch_deg"));
     if (given.has("distance")) pose.distance = given.number("distance");
@@ -26,9 +29,9 @@ void add_camera_commands(CommandTable& table, const Labs& labs) {
                .arguments = {{.name = "target", .type = ArgumentType::Point, .required = false,
                               .help = "what it turns about"},
                              angle("yaw_deg", -1e6, 1e6),
-                             angle("pitch_deg", -90, 90),
-                             {.name = "distance", .required = false, .help = "metres", .low = 1e-3, .high = 1e7},
-                             angle("field_of_view_deg", 1, 150),
+                             angle("pitch_deg", -90.0, 90.0),
+                             {.name = "distance", .required = false, .help = "metres", .low = camera_range::nearest, .high = camera_range::farthest},
+                             angle("field_of_view_deg", glm::degrees(camera_range::narrowest), glm::degrees(camera_range::widest)),
                              {.name = "orthographic", .type = ArgumentType::Boolean, .required = false,
                               .help = "without perspective"}},
                .help = "Places the camera; what is left out stays",

@@ -1,4 +1,4 @@
-// The one interface between the frame and a lab. A lab keeps no state of its own: what it shows is in the workspace,
+// The one interface between the frame and a lab. A lab keeps nothing of its own: what it shows is in the workspace,
 // what it changes it changes by commands, so undo, scripts and recordings hold for every lab alike.
 #pragma once
 
@@ -22,6 +22,7 @@ struct View {
     const Palette& palette;
     PickId hovered = no_pick;
     PickId dragged = no_pick;
+    float scale = 1.0f;  ///< of everything measured in pixels
 };
 
 /// A place in the scene that a person can take hold of.

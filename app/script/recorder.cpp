@@ -58,12 +58,16 @@ Json event_line(const Event& event) {
 }
 
 Recorder::Recorder(const RecordingStart& start) {
-    line(Json{{"recording", recording_version},
+    Json first{{"recording", recording_version},
               {"version", start.version},
               {"size", Json::array({start.size.x, start.size.y})},
               {"lab", start.lab},
               {"scene", start.scene},
-              {"settings", start.settings}});
+              {"settings", start.settings}};
+    if (!start.path.empty()) first["path"] = start.path;
+    if (start.modified) first["modified"] = true;
+    if (start.scale != 1.0f) first["scale"] = number(start.scale);
+    line(first);
 }
 
 void Recorder::event(const Event& event) {

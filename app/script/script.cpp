@@ -163,7 +163,7 @@ RecordingStart recording_start(const Json& line) {
         fail("recording: version " + version.dump() + " is newer than this program, which reads " +
              std::to_string(recording_version));
     json_integer(version, "recording", 1, recording_version);
-    check_members(line, {"recording", "version", "size", "lab", "scene", "settings"});
+    check_members(line, {"recording", "version", "size", "lab", "scene", "settings", "path", "modified", "scale"});
     RecordingStart start{.version = json_text(json_member(line, "version", ""), "version"),
                          .size = window_size(json_member(line, "size", ""), "size"),
                          .lab = json_text(json_member(line, "lab", ""), "lab"),
@@ -172,6 +172,9 @@ RecordingStart recording_start(const Json& line) {
     if (!start.scene.is_object()) fail("scene: expected an object, found " + json_summary(start.scene));
     if (!start.settings.is_object())
         fail("settings: expected an object, found " + json_summary(start.settings));
+    if (line.contains("path")) start.path = json_text(line["path"], "path");
+    if (line.contains("modified")) start.modified = json_bool(line["modified"], "modified");
+    if (line.contains("scale")) start.scale = json_number(line["scale"], "scale", 0.25f, 8.0f);
     return start;
 }
 

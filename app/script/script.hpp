@@ -56,6 +56,9 @@ struct RecordingStart {
     std::string lab;
     Json scene;
     Json settings;
+    std::string path{};     ///< the scene's file, empty while it had none
+    bool modified = false;  ///< it had changes that were not saved
+    float scale = 1.0f;     ///< the window's own wish for the size of text and widgets
 };
 
 struct Script {

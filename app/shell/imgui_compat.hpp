@@ -3,6 +3,8 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "app/shell/input.hpp"
 
 namespace tendril::app {
@@ -29,8 +31,9 @@ inline void imgui_setup_keys() {
 #endif
 }
 
-/// Tells ImGui what is held; to be called before every NewFrame, so that nothing but our own input counts.
-inline void imgui_feed(const Input& input) {
+/// Tells ImGui what is held; to be called before every NewFrame, so that nothing but our own input counts. `typing`: this
+/// tick brings text, which ImGui would take for a shortcut while Ctrl is held (as it is when something is pasted).
+inline void imgui_feed(const Input& input, bool typing) {
     ImGuiIO& io = ImGui::GetIO();
     const bool buttons[] = {input.button(MouseButton::Left), input.button(MouseButton::Right),
                             input.button(MouseButton::Middle)};
@@ -38,7 +41,7 @@ inline void imgui_feed(const Input& input) {
     io.MousePos = ImVec2(input.mouse().x, input.mouse().y);
     for (int i = 0; i < 3; ++i) io.MouseDown[i] = buttons[i];
     for (std::size_t i = 0; i < static_cast<std::size_t>(Key::Count); ++i) io.KeysDown[i] = input.keys()[i];
-    io.KeyCtrl = input.ctrl();
+    io.KeyCtrl = input.ctrl() && !typing;
     io.KeyShift = input.shift();
     io.KeyAlt = input.alt();
     io.KeySuper = input.held(Key::Super);
@@ -47,13 +50,14 @@ inline void imgui_feed(const Input& input) {
     io.AddMousePosEvent(input.mouse().x, input.mouse().y);
     for (int i = 0; i < 3; ++i) io.AddMouseButtonEvent(i, buttons[i]);
     for (const auto& pair : imgui_keys) io.AddKeyEvent(pair.imgui, input.held(pair.key));
-    io.AddKeyEvent(ImGuiMod_Ctrl, input.ctrl());
+    io.AddKeyEvent(ImGuiMod_Ctrl, input.ctrl() && !typing);
     io.AddKeyEvent(ImGuiMod_Shift, input.shift());
     io.AddKeyEvent(ImGuiMod_Alt, input.alt());
 #endif
 }
 
 inline void imgui_feed_wheel(float by) {
+    by = std::clamp(by, -100.0f, 100.0f);  // a list scrolled by more loses itself in rounding
 #if IMGUI_VERSION_NUM < 18700
     ImGui::GetIO().MouseWheel += by;
 #else

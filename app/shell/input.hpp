@@ -11,8 +11,10 @@ namespace tendril::app {
 
 class Input {
   public:
-    /// Takes one event, or none: what a KeyTap pressed is let go again at the next call.
+    /// Takes one event, or none.
     void take(const Event* event);
+    /// Lets go what a KeyTap pressed; to be called within its tick, once it has been seen.
+    void end_tap();
 
     glm::vec2 mouse() const { return mouse_; }
     bool button(MouseButton b) const { return buttons_[static_cast<std::size_t>(b)]; }
@@ -22,16 +24,17 @@ class Input {
     bool alt() const { return held(Key::Alt); }
     /// The chord that this tick's event pressed; Key::Unknown if none.
     Chord pressed() const { return pressed_; }
+    /// The key was down already: its owner holds it.
+    bool repeated() const { return repeated_; }
     const std::bitset<static_cast<std::size_t>(Key::Count)>& keys() const { return keys_; }
 
   private:
     void hold(Key key, bool down) { keys_[static_cast<std::size_t>(key)] = down; }
-    void tap(const Chord& chord, bool down);
-
     glm::vec2 mouse_{-1.0f};
     std::array<bool, 3> buttons_{};
     std::bitset<static_cast<std::size_t>(Key::Count)> keys_;
-    Chord tapped_, pressed_;
+    Chord pressed_;
+    bool tapped_ = false, repeated_ = false;
     std::bitset<static_cast<std::size_t>(Key::Count)> before_tap_;
 };
 

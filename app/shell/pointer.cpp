@@ -30,8 +30,7 @@ std::optional<glm::vec3> on_line(const Ray& ray, glm::vec3 through, glm::vec3 ax
     return through + t * axis;
 }
 
-}  // namespace
-
+/// The command that puts the camera there.
 void emit_camera(Emit& emit, const CameraPose& from, const CameraPose& to) {
     Json arguments = Json::object();
     if (to.target != from.target) arguments["target"] = point(to.target);
@@ -41,11 +40,13 @@ void emit_camera(Emit& emit, const CameraPose& from, const CameraPose& to) {
     if (!arguments.empty()) emit.continuously("camera.set", std::move(arguments));
 }
 
+}  // namespace
+
 void Pointer::take(const Event* event, const Input& input, const Scene& scene, Emit& emit) {
     if (event != nullptr) {
         if (const auto* button = std::get_if<MousePress>(event)) {
             if (button->down && doing_ == Doing::Nothing && !scene.over_panel) press(*button, input, scene);
-            if (!button->down && button->button == button_) let_go(*button, scene, emit);
+            if (!button->down && button->button == button_) let_go(scene, emit);
         } else if (std::holds_alternative<MouseMove>(*event)) {
             move(input, scene, emit);
         } else if (const auto* wheel = std::get_if<MouseWheel>(event)) {
@@ -61,7 +62,7 @@ void Pointer::take(const Event* event, const Input& input, const Scene& scene, E
     last_ = input.mouse();
     if (doing_ == Doing::Nothing) {
         const bool inside = !scene.over_panel && scene.camera.viewport().contains(input.mouse());
-        hovered_ = inside ? pick(scene.drawn, scene.camera, input.mouse(), slack) : no_pick;
+        hovered_ = inside ? pick(scene.drawn, scene.camera, input.mouse(), slack * scene.scale) : no_pick;
     }
 }
 
@@ -81,14 +82,14 @@ void Pointer::press(const MousePress& press, const Input& input, const Scene& sc
     }
     if (press.button != MouseButton::Left) return;
     doing_ = Doing::Press;
-    caught_ = hovered_ = pick(scene.drawn, scene.camera, input.mouse(), slack);
+    caught_ = hovered_ = pick(scene.drawn, scene.camera, input.mouse(), slack * scene.scale);
     if (caught_ == no_pick) return;
     caught_position_ = scene.lab.position_of(scene.workspace, caught_);
     const auto pixel = scene.camera.project(caught_position_);
     offset_ = pixel ? *pixel - caught_at_ : glm::vec2(0.0f);
 }
 
-void Pointer::let_go(const MousePress&, const Scene& scene, Emit& emit) {
+void Pointer::let_go(const Scene& scene, Emit& emit) {
     if (doing_ == Doing::Press) scene.lab.click(scene.workspace, caught_, emit);
     release();
 }
@@ -96,13 +97,15 @@ void Pointer::let_go(const MousePress&, const Scene& scene, Emit& emit) {
 void Pointer::move(const Input& input, const Scene& scene, Emit& emit) {
     const glm::vec2 by = input.mouse() - last_;
     switch (doing_) {
-        case Doing::Nothing: break;
+        case Doing::Nothing:
+        case Doing::Stray: break;
         case Doing::Orbit: emit_camera(emit, scene.workspace.camera, orbited(scene.workspace.camera, by)); break;
         case Doing::Pan: emit_camera(emit, scene.workspace.camera, panned(scene.camera, by)); break;
         case Doing::Press:
-            if (caught_ == no_pick || glm::distance(input.mouse(), caught_at_) < drag_threshold) break;
-            doing_ = Doing::Drag;
-            [[fallthrough]];
+            if (glm::distance(input.mouse(), caught_at_) < drag_threshold * scene.scale) break;
+            doing_ = caught_ == no_pick ? Doing::Stray : Doing::Drag;
+            if (doing_ == Doing::Drag) drag(input, scene, emit);
+            break;
         case Doing::Drag: drag(input, scene, emit); break;
     }
 }

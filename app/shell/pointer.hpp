@@ -21,6 +21,7 @@ class Pointer {
         const Camera& camera;
         const DrawList& drawn;   ///< the last picture: what one sees is what one picks
         bool over_panel = false;  ///< the mouse is meant for a panel
+        float scale = 1.0f;       ///< of what is measured in pixels
     };
 
     /// Takes this tick's event. Emits camera.set, the lab's drag and click commands, and a document is changed by them
@@ -37,10 +38,10 @@ class Pointer {
     Cursor cursor() const;
 
   private:
-    enum class Doing { Nothing, Press, Drag, Orbit, Pan };
+    enum class Doing { Nothing, Press, Stray, Drag, Orbit, Pan };  ///< Stray: a drag that caught nothing
 
     void press(const MousePress& press, const Input& input, const Scene& scene);
-    void let_go(const MousePress& press, const Scene& scene, Emit& emit);
+    void let_go(const Scene& scene, Emit& emit);
     void move(const Input& input, const Scene& scene, Emit& emit);
     void drag(const Input& input, const Scene& scene, Emit& emit);
     std::optional<glm::vec3> dragged_to(const Input& input, const Camera& camera) const;
@@ -54,8 +55,5 @@ class Pointer {
     glm::vec2 offset_{0.0f};          ///< from the mouse to the handle's pixel when caught
     glm::vec3 caught_position_{0.0f};  ///< the handle when caught
 };
-
-/// The command that puts the camera there.
-void emit_camera(Emit& emit, const CameraPose& from, const CameraPose& to);
 
 }  // namespace tendril::app

@@ -7,7 +7,9 @@ namespace {
 
 Shortcut row(const char* chord, const char* command, Json arguments, const char* title, Section section,
              bool in_menu = true, bool while_typing = false) {
-    return {*chord_from_name(chord), command, std::move(arguments), title, section, in_menu, while_typing};
+    const std::string_view name = command;
+    const bool repeats = name == "undo" || name == "redo" || name == "time.step";
+    return {*chord_from_name(chord), command, std::move(arguments), title, section, in_menu, while_typing, repeats};
 }
 
 constexpr MouseBinding mouse_bindings[] = {
@@ -98,6 +100,14 @@ std::optional<MouseAction> mouse_action(MouseButton button, bool shift, bool alt
     return std::nullopt;
 }
 
+std::string all_keys_for(const Shortcut& wanted) {
+    std::string keys;
+    for (const auto& shortcut : shortcuts()) {
+        if (shortcut.title == wanted.title) keys += (keys.empty() ? "" : ", ") + chord_label(shortcut.chord);
+    }
+    return keys;
+}
+
 const std::vector<MouseHelp>& mouse_help() {
     static const std::vector<MouseHelp> list{
         {"Left drag on a handle", "moves it, in the plane of the view"},
@@ -118,11 +128,7 @@ std::string shortcuts_markdown() {
     for (const auto& shortcut : shortcuts()) {
         if (std::find(done.begin(), done.end(), shortcut.title) != done.end()) continue;
         done.push_back(shortcut.title);
-        std::string keys;
-        for (const auto& other : shortcuts()) {
-            if (other.title == shortcut.title) keys += (keys.empty() ? "" : ", ") + chord_label(other.chord);
-        }
-        text += "| " + keys + " | " + shortcut.title + " |\n";
+        text += "| " + all_keys_for(shortcut) + " | " + shortcut.title + " |\n";
     }
     text += "\n| mouse | what it does |\n| --- | --- |\n";
     for (const auto& help : mouse_help()) text += "| " + help.gesture + " | " + help.effect + " |\n";

@@ -23,6 +23,7 @@ struct Shortcut {
     Section section = Section::View;
     bool in_menu = true;
     bool while_typing = false;  ///< works although a text field has the keyboard
+    bool repeats = false;       ///< goes on while the key is held
 };
 
 /// A row with the same command as an earlier one is another key for it.
@@ -40,6 +41,9 @@ struct MouseBinding {
     MouseAction action;
 };
 std::optional<MouseAction> mouse_action(MouseButton button, bool shift, bool alt);
+
+/// "Ctrl+Shift+Z, Ctrl+Y": every key that does the same.
+std::string all_keys_for(const Shortcut& wanted);
 
 /// What the mouse does, as the help and the README list it.
 struct MouseHelp {

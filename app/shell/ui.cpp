@@ -41,7 +41,6 @@ Ui::Ui() {
     io.LogFilename = nullptr;
     io.ConfigInputTextCursorBlink = false;
     io.ConfigWindowsMoveFromTitleBarOnly = true;
-    io.DeltaTime = static_cast<float>(tick_seconds);
     imgui_setup_keys();
     if (!ImGui_ImplOpenGL3_Init("#version 330")) throw std::runtime_error("Dear ImGui cannot use this GL context");
 }
@@ -66,7 +65,8 @@ void Ui::load_fonts(float scale, float pixel_ratio) {
 #endif
 }
 
-void Ui::begin(const Surface& surface, Theme theme, const Input& input, const Event* event) {
+void Ui::begin(const Surface& surface, Theme theme, const Input& input, const Event* event,
+               bool time_passes) {
     ImGuiIO& io = ImGui::GetIO();
     const glm::vec2 size = glm::max(glm::vec2(surface.size), glm::vec2(1.0f));
     const glm::vec2 ratio = glm::vec2(surface.framebuffer_size) / size;
@@ -79,7 +79,8 @@ void Ui::begin(const Surface& surface, Theme theme, const Input& input, const Ev
     font_ratio_ = ratio.x;
     theme_ = theme;
 
-    imgui_feed(input);
+    io.DeltaTime = time_passes ? static_cast<float>(tick_seconds) : 1e-9f;  // zero is not allowed
+    imgui_feed(input, event != nullptr && std::holds_alternative<TextInput>(*event));
     if (event != nullptr) {
         if (const auto* wheel = std::get_if<MouseWheel>(event)) imgui_feed_wheel(wheel->by);
         if (const auto* text = std::get_if<TextInput>(event)) io.AddInputCharactersUTF8(text->utf8.c_str());

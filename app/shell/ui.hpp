@@ -23,8 +23,8 @@ class Ui {
         float scale = 1.0f;              ///< of text and widgets, in window coordinates
     };
 
-    /// Starts a frame that sees `event` (or none).
-    void begin(const Surface& surface, Theme theme, const Input& input, const Event* event);
+    /// Starts a frame that sees `event` (or none). Where no time passes, widgets do not notice it either.
+    void begin(const Surface& surface, Theme theme, const Input& input, const Event* event, bool time_passes);
     /// Ends it; draw() may follow, now or later.
     void end();
     void draw();

@@ -8,9 +8,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr float nearest = 1e-3f;
-constexpr float farthest = 1e7f;
-constexpr float quarter_turn = glm::half_pi<float>();
+constexpr float quarter_turn = camera_range::pitch;
 
 float bounded(float value, float low, float high, float otherwise) {
     return std::isfinite(value) ? std::clamp(value, low, high) : otherwise;
@@ -18,11 +16,12 @@ float bounded(float value, float low, float high, float otherwise) {
 
 /// The nearest pose that can be looked from, so that no scene file and no gesture can break the picture.
 CameraPose in_range(CameraPose pose) {
-    for (int i = 0; i < 3; ++i) pose.target[i] = bounded(pose.target[i], -farthest, farthest, 0.0f);
+    for (int i = 0; i < 3; ++i) pose.target[i] = bounded(pose.target[i], -camera_range::target, camera_range::target, 0.0f);
     pose.yaw = std::isfinite(pose.yaw) ? std::remainder(pose.yaw, glm::two_pi<float>()) : 0.0f;
     pose.pitch = bounded(pose.pitch, -quarter_turn, quarter_turn, 0.0f);
-    pose.distance = bounded(pose.distance, nearest, farthest, 10.0f);
-    pose.field_of_view = bounded(pose.field_of_view, 0.05f, 2.6f, 0.70f);
+    pose.distance = bounded(pose.distance, static_cast<float>(camera_range::nearest),
+                            static_cast<float>(camera_range::farthest), 10.0f);
+    pose.field_of_view = bounded(pose.field_of_view, camera_range::narrowest, camera_range::widest, 0.70f);
     return pose;
 }
 

@@ -5,16 +5,10 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/labs/chain/commands.hpp"
-#include "app/labs/chain/presets.hpp"
 
 namespace tendril::app {
 
-std::shared_ptr<Part> ChainLab::blank() const {
-    auto part = std::make_shared<ChainPart>();
-    part->chain = make_preset("start", 8, 1);
-    part->target = part->chain.position(part->chain.size() - 1);
-    return part;
-}
+std::shared_ptr<Part> ChainLab::blank() const { return std::make_shared<ChainPart>(first_chain()); }
 
 CameraPose ChainLab::first_view() const {
     return {.target = {3.5f, 0.7f, 0.0f}, .yaw = glm::radians(-20.0f), .pitch = glm::radians(20.0f), .distance = 12.5f};
@@ -27,9 +21,17 @@ bool ChainLab::moving(const Workspace& workspace) const {
 }
 
 void ChainLab::step(Workspace& workspace) const {
+    const Document before = workspace.document;
     auto& part = workspace.document.edit<ChainPart>(chain_lab);
-    part.motion.ticks = (part.motion.ticks + 1) % ticks_per_round(part.motion);
-    reach_for(part, motion_point(part.motion, part.motion.ticks));
+    try {
+        part.motion.ticks = (part.motion.ticks + 1) % ticks_per_round(part.motion);
+        reach_for(part, motion_point(part.motion, part.motion.ticks));
+        check_range(part);
+    } catch (const std::logic_error& error) {  // a chain dragged to the end of the world stops there
+        workspace.document = before;
+        workspace.document.edit<ChainPart>(chain_lab).motion.path = Motion::Path::Still;
+        workspace.toast(error.what(), ToastKind::Refusal);
+    }
 }
 
 std::vector<Handle> ChainLab::handles(const Workspace& workspace) const {

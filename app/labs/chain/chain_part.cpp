@@ -4,7 +4,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
+#include <glm/vector_relational.hpp>
 #include <stdexcept>
+
+#include "app/labs/chain/presets.hpp"
 
 namespace tendril::app {
 namespace {
@@ -65,6 +68,30 @@ glm::vec3 motion_point(const Motion& motion, std::uint32_t ticks) {
         case Motion::Path::Sweep: return motion.centre + motion.radius * glm::vec3(s, 0.0f, 0.0f);
     }
     return motion.centre;
+}
+
+ChainPart first_chain() {
+    ChainPart part;
+    part.chain = make_preset("start", 8, 1);
+    part.target = part.chain.position(part.chain.size() - 1);
+    return part;
+}
+
+bool same(const ChainPart& a, const ChainPart& b) {
+    return a.mode == b.mode && a.index == b.index && a.iterations == b.iterations && a.tolerance == b.tolerance &&
+           a.target == b.target && a.selected == b.selected && a.motion == b.motion && a.chain == b.chain;
+}
+
+void check_range(const ChainPart& part) {
+    const auto outside = [](glm::vec3 p) { return glm::any(glm::greaterThan(glm::abs(p), glm::vec3(max_magnitude))); };
+    for (const Segment& segment : part.chain.segments()) {
+        if (outside(segment.position)) throw std::invalid_argument("the chain would reach farther than 1e9 m");
+    }
+    if (part.motion.path == Motion::Path::Still) return;
+    const glm::vec3 span(part.motion.radius);
+    if (outside(part.motion.centre - span) || outside(part.motion.centre + span)) {
+        throw std::invalid_argument("the target's path would reach farther than 1e9 m");
+    }
 }
 
 void reach_for(ChainPart& part, glm::vec3 target) {
@@ -165,6 +192,7 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
         part->index = static_cast<std::size_t>(
             json_integer(json_member(json, "index", where), where + ".index", 0, last));
         const Json& chosen = json_member(json, "selected", where);
+        check_range(*part);
         if (!chosen.is_null() && !part->chain.empty()) {
             part->selected = static_cast<std::size_t>(json_integer(chosen, where + ".selected", 0, last));
         }

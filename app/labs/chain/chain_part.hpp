@@ -12,7 +12,7 @@
 namespace tendril::app {
 
 inline constexpr const char* chain_lab = "chain";
-inline constexpr std::size_t max_segments = 1'000'000;
+inline constexpr std::size_t max_segments = 500'000;  ///< a scene of more would be too large a file
 inline constexpr int max_iterations = 10'000;
 
 /// A path that the target follows by itself, so that time means something here: a student watches what a mode makes of
@@ -46,6 +46,9 @@ struct ChainPart final : Part {
     std::size_t bytes() const override { return sizeof(*this) + chain.size() * sizeof(Segment); }
 };
 
+/// What the lab starts with: eight segments of a metre along +X, the target on the tail.
+ChainPart first_chain();
+
 /// "forward", "with_index": the mode as commands and files name it, and as people read it.
 const char* mode_name(Mode mode);
 const char* mode_title(Mode mode);
@@ -59,6 +62,13 @@ const char* motion_name(Motion::Path path);
 Motion::Path motion_from_name(const std::string& name);
 inline constexpr std::array all_motions{Motion::Path::Still, Motion::Path::Circle, Motion::Path::FigureEight,
                                         Motion::Path::Sweep};
+
+/// Whether the two hold the same.
+bool same(const ChainPart& a, const ChainPart& b);
+
+/// Throws std::invalid_argument where a point has left the range that a scene file can hold: a saved chain must always
+/// open again.
+void check_range(const ChainPart& part);
 
 /// Moves the target and applies the mode once.
 void reach_for(ChainPart& part, glm::vec3 target);

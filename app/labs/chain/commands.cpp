@@ -30,7 +30,12 @@ Command chain_command(const char* name, std::vector<Argument> arguments, const c
             .help = help,
             .effect = effect,
             .apply = [change](Workspace& workspace, const Arguments& given) {
-                change(workspace.document.edit<ChainPart>(chain_lab), given);
+                const Document before = workspace.document;
+                ChainPart& part = workspace.document.edit<ChainPart>(chain_lab);
+                change(part, given);
+                check_range(part);
+                // What changes nothing leaves no step to undo.
+                if (same(part, before.get<ChainPart>(chain_lab))) workspace.document = before;
             }};
 }
 
@@ -66,13 +71,16 @@ void insert(ChainPart& part, const Arguments& given) {
     } else {
         part.chain.insert(index, given.number("length"));
     }
-    if (part.selected && *part.selected >= index) ++*part.selected;  // the selection stays with its segment
+    // What points at a segment goes on pointing at it.
+    if (part.selected && *part.selected >= index) ++*part.selected;
+    if (part.index >= index) ++part.index;
 }
 
 void remove(ChainPart& part, const Arguments& given) {
     const std::size_t index = index_of(given);
     part.chain.remove(index);
     if (part.selected && *part.selected > index) --*part.selected;
+    if (part.index > index) --part.index;
     if (part.chain.empty()) {
         part.selected.reset();
         part.index = 0;
@@ -119,6 +127,10 @@ void clear(ChainPart& part, const Arguments& given) {
     part.selected.reset();
     part.index = 0;
     part.motion.path = Motion::Path::Still;
+}
+
+void reset(ChainPart& part, const Arguments&) {
+    part = first_chain();
 }
 
 void take_preset(ChainPart& part, const Arguments& given) {
@@ -170,6 +182,7 @@ void add_shape_commands(CommandTable& table) {
                             {index_argument(true, "the new segment's"), length_argument(), position_argument()},
                             "Inserts a segment before another", insert));
     table.add(chain_command("chain.remove", {index_argument(true, "which segment")}, "Removes a segment", remove));
+    table.add(chain_command("chain.reset", {}, "Everything in this lab as at the first start", reset));
     table.add(chain_command("chain.set_length", {index_argument(true, "which segment"), length_argument()},
                             "Sets a segment's length and lays the chain anew", [](ChainPart& part, const Arguments& a) {
                                 part.chain.set_length(index_of(a), a.number("length"));
@@ -211,7 +224,7 @@ void add_reach_commands(CommandTable& table) {
          {.name = "period", .required = false, .help = "seconds a round", .low = 0.1, .high = 600}},
         "Lets the target follow a path while time runs", set_motion));
     table.add(chain_command("chain.seek", {{.name = "tick", .type = ArgumentType::Integer, .help = "of the round", .low = 0}},
-                            "Takes the moving target to a tick of its round", seek, Effect::Look));
+                            "Takes the moving target to a tick of its round", seek));
 }
 
 }  // namespace

@@ -84,8 +84,28 @@ TEST(Autosave, takes_its_file_away_once_the_work_is_saved_and_at_the_end) {
         change(workspace, "two");
         autosave.update(workspace, start + 2s);
         EXPECT_EQ(folder.names().size(), 2u);
+        autosave.end(workspace, false);
     }
     EXPECT_EQ(folder.names(), std::vector<std::string>{"scene.json"});
+}
+
+TEST(Autosave, keeps_unsaved_work_that_was_ended_from_outside) {
+    const TempFolder folder;
+    Workspace workspace = test::make_workspace();
+    std::filesystem::path file;
+    {
+        Autosave autosave(folder.path());
+        change(workspace, "one");
+        autosave.update(workspace, start);
+        autosave.end(workspace, true);  // within the 30 s
+        file = autosave.file();
+        EXPECT_EQ(saved_title(file), "one");
+    }
+    EXPECT_TRUE(std::filesystem::exists(file)) << "an exception ends no autosave either";
+    Autosave autosave(folder.path());
+    workspace.saved = workspace.document;
+    autosave.end(workspace, true);
+    EXPECT_FALSE(std::filesystem::exists(file)) << "there is nothing to keep";
 }
 
 TEST(Autosave, makes_its_folder_and_tells_once_when_it_cannot) {

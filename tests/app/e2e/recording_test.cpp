@@ -24,17 +24,13 @@ class Recording : public testing::Test {
         return {read(path(".json")), read(path(".png")), read(path(".jsonl"))};
     }
     /// Records the script, plays the recording twice, and expects the same from all three.
-    /// The scene's file, and whether it has unsaved changes, are no part of a recording but stand in the
-    /// status line: a picture that differs there differs from the recorded one.
-    enum class Title { Same, Lost };
-    Left record_and_replay(const ScriptText& script, Title title = Title::Same,
-                           std::vector<std::string> more = {}) {
+    Left record_and_replay(const ScriptText& script, std::vector<std::string> more = {}) {
         write(folder_ / "script.jsonl", script.text());
         const Left recorded = run((folder_ / "script.jsonl").string(), "recorded", more);
         const Left first = run((folder_ / "recorded.jsonl").string(), "first");
         const Left second = run((folder_ / "first.jsonl").string(), "second");
         EXPECT_EQ(recorded.state, first.state);
-        EXPECT_TRUE(title == Title::Lost || recorded.picture == first.picture);
+        EXPECT_TRUE(recorded.picture == first.picture);
         // A replay records itself, so the second is a recording of a recording.
         EXPECT_EQ(first.state, second.state);
         EXPECT_TRUE(first.picture == second.picture);
@@ -54,7 +50,7 @@ const Json& start() {
 }
 
 TEST_F(Recording, begins_with_what_it_started_from) {
-    const Left left = record_and_replay(ScriptText().wait(3), Title::Lost);
+    const Left left = record_and_replay(ScriptText().wait(3));
     const Json first = app::parse_json(left.recording.substr(0, left.recording.find('\n')));
     EXPECT_EQ(first["recording"], 1);
     EXPECT_EQ(first["size"], Json::array({1280, 720}));
@@ -141,7 +137,7 @@ TEST_F(Recording, starts_from_the_scene_size_and_lab_it_was_made_with) {
         .command("chain.target", {{"to", {0.5, 1, 0}}})
         .wait(2);
     const Left left = record_and_replay(
-        script, Title::Lost, {"--size", "900x600", "--lab", "chain", (folder_ / "tentacle.json").string()});
+        script, {"--size", "900x600", "--lab", "chain", (folder_ / "tentacle.json").string()});
     EXPECT_EQ(state_of(left)["segments"].size(), 24u);
     const Json start_line = app::parse_json(left.recording.substr(0, left.recording.find('\n')));
     EXPECT_EQ(start_line["size"], Json::array({900, 600}));

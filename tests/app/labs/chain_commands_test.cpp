@@ -138,7 +138,7 @@ TEST_F(ChainCommands, RefusalsSayWhyInOneLine) {
     refused("chain.mode", {{"mode", "fixed"}, {"iterations", 0}});
     refused("chain.preset", {{"name", "octopus"}});
     refused("chain.preset", {{"name", "coil"}, {"count", 0}});
-    refused("chain.preset", {{"name", "coil"}, {"count", 1000001}});
+    refused("chain.preset", {{"name", "coil"}, {"count", 500001}});
     refused("chain.seek", {{"tick", 3}});
     refused("undo", Json::object());
     EXPECT_THROW(run("chain.fly"), UnknownCommand);
@@ -208,6 +208,63 @@ TEST_F(ChainCommands, AMovingTargetStartsWhereItIsAndPullsTheChain) {
     EXPECT_EQ(part().motion.ticks, 30u);
     run("chain.motion", {{"path", "still"}});
     EXPECT_FALSE(lab.moving(workspace));
+}
+
+TEST_F(ChainCommands, WhatChangesNothingLeavesNoStep) {
+    run("chain.mode", {{"mode", "backward"}});
+    run("chain.set_length", {{"index", 3}, {"length", 1}});
+    EXPECT_EQ(workspace.history.size(), 0u);
+    EXPECT_FALSE(workspace.modified());
+    run("chain.select", {{"index", 3}});
+    EXPECT_FALSE(workspace.modified()) << "choosing something is nothing that wants saving";
+    run("chain.motion", {{"path", "circle"}});
+    run("chain.seek", {{"tick", 40}}, 5);
+    run("chain.seek", {{"tick", 41}}, 5);
+    EXPECT_EQ(workspace.history.size(), 2u);
+}
+
+TEST_F(ChainCommands, TheIndexFollowsItsSegment) {
+    run("chain.mode", {{"mode", "with_index"}, {"index", 3}});
+    run("chain.insert", {{"index", 1}, {"length", 1}});
+    EXPECT_EQ(part().index, 4u);
+    run("chain.remove", {{"index", 0}});
+    EXPECT_EQ(part().index, 3u);
+    run("chain.remove", {{"index", 6}});
+    EXPECT_EQ(part().index, 3u);
+}
+
+TEST_F(ChainCommands, NothingLeavesTheRangeThatAFileCanHold) {
+    run("chain.add", {{"length", 1e9}});
+    refused("chain.add", {{"length", 1e9}});
+    run("chain.reset");
+    run("chain.target", {{"to", {1e9, 0, 0}}});
+    refused("chain.motion", {{"path", "sweep"}, {"radius", 10000}});
+    run("chain.motion", {{"path", "sweep"}, {"radius", 0}});
+    for (int i = 0; i < 300; ++i) labs.find("chain")->step(workspace);
+    const Json scene = save_scene(workspace);
+    run("chain.clear");
+    load_scene(workspace, parse_json(scene.dump()));
+    EXPECT_EQ(save_scene(workspace), scene);
+}
+
+TEST_F(ChainCommands, ResetIsOfThisLabAndKeepsTheFile) {
+    workspace.path = "walk.json";
+    run("chain.preset", {{"name", "coil"}});
+    run("chain.reset");
+    EXPECT_EQ(part().chain.size(), 8u);
+    EXPECT_EQ(workspace.path, "walk.json");
+}
+
+TEST_F(ChainCommands, UndoOfANewSceneBringsItsFileBackToo) {
+    workspace.path = "walk.json";
+    run("chain.add", {{"length", 1}});
+    run("scene.new");
+    EXPECT_TRUE(workspace.path.empty());
+    run("undo");
+    EXPECT_EQ(workspace.path, "walk.json");
+    EXPECT_EQ(part().chain.size(), 9u);
+    run("redo");
+    EXPECT_TRUE(workspace.path.empty());
 }
 
 }  // namespace

@@ -34,6 +34,22 @@ TEST(Recorder, begins_with_what_it_started_from) {
     EXPECT_EQ(script.start->settings, start.settings);
 }
 
+TEST(Recorder, says_which_file_and_which_scale_it_started_from_where_there_is_any) {
+    RecordingStart beginning{.version = "0.1.0",
+                         .size = {800, 600},
+                         .lab = "chain",
+                         .scene = Json::object(),
+                         .settings = Json::object(),
+                         .path = "walk.json",
+                         .modified = true,
+                         .scale = 2.0f};
+    const Script script = parse_script(Recorder(beginning).text(), CommandTable());
+    ASSERT_TRUE(script.start);
+    EXPECT_EQ(script.start->path, "walk.json");
+    EXPECT_TRUE(script.start->modified);
+    EXPECT_EQ(script.start->scale, 2.0f);
+}
+
 TEST(Recorder, writes_events_commands_and_the_ticks_between) {
     Recorder recorder(start);
     recorder.idle_tick();

@@ -62,7 +62,9 @@ TEST(LayoutOfTheWindow, PartsTileItWithoutOverlapAtEverySize) {
         if (area > 0.0f && layout.status.min.y > layout.top.max.y) {
             EXPECT_NEAR(covered / area, 1.0f, 1e-3f);
         }
-        EXPECT_GE(layout.view.size().x, 0.3f * window.x);
+        if (window.x >= 200.0f) {
+            EXPECT_GE(layout.view.size().x, 0.3f * window.x);
+        }
         EXPECT_EQ(layout.status.max, window);
     }
 }
@@ -76,13 +78,16 @@ TEST(InputState, HeldKeysAreModifiersAndATapLetsGo) {
     input.take(&tap);
     EXPECT_EQ(input.pressed(), (Chord{Key::Z, true, false, false}));
     EXPECT_TRUE(input.ctrl());
-    input.take(nullptr);
+    input.end_tap();
     EXPECT_FALSE(input.ctrl());
     EXPECT_FALSE(input.held(Key::Z));
     EXPECT_TRUE(input.held(Key::X));
     input.take(&up);
     EXPECT_FALSE(input.held(Key::X));
     input.take(&down);
+    EXPECT_FALSE(input.repeated());
+    input.take(&down);
+    EXPECT_TRUE(input.repeated());
     const Event away = Focus{false};
     input.take(&away);
     EXPECT_FALSE(input.held(Key::X)) << "what is let go elsewhere is never told";

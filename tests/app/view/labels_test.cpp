@@ -3,6 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include <glm/common.hpp>
+
+#include <glm/geometric.hpp>
+
 #include <chrono>
 #include <cmath>
 #include <random>
@@ -50,7 +56,26 @@ TEST(Labels, KeepTheirPointFree) {
     const std::vector<LabelRequest> requests{{.at = {500, 300}, .size = {40, 14}, .clearance = 12}};
     const auto placed = place_labels(requests, viewport);
     ASSERT_EQ(placed.size(), 1u);
-    EXPECT_GE(placed[0].box.min.x, 511.0f) << "to the right, where there is room";
+    const Rect& box = placed[0].box;
+    EXPECT_GT(box.min.x, 500.0f) << "to the right, where there is room";
+    const glm::vec2 nearest = glm::clamp(glm::vec2(500, 300), box.min, box.max);
+    EXPECT_GE(glm::distance(nearest, glm::vec2(500, 300)), 11.0f);
+}
+
+TEST(Labels, KeepOffObstaclesWhileThereIsAnotherPlace) {
+    const std::vector<LabelRequest> requests{{.at = {500, 300}, .size = {40, 14}, .clearance = 12}};
+    std::vector<Rect> obstacles;
+    const auto blocked = [&] {
+        const auto placed = place_labels(requests, viewport, 2.0f, obstacles);
+        EXPECT_EQ(placed.size(), 1u) << "rather over something than not at all";
+        const bool covers = std::any_of(obstacles.begin(), obstacles.end(),
+                                        [&](const Rect& o) { return overlap(placed[0].box, o); });
+        obstacles.push_back(placed[0].box);
+        return covers;
+    };
+    for (int side = 0; side < 3; ++side) EXPECT_FALSE(blocked()) << side;
+    obstacles = {{{0, 0}, {2000, 2000}}};
+    EXPECT_TRUE(blocked());
 }
 
 TEST(Labels, TheHigherRankStays) {

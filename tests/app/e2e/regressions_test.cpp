@@ -1,0 +1,78 @@
+// Things that once went wrong, each from the outside: what a person or a script did, and what must come of
+// it.
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+TEST(OnceWrong, escape_in_a_drag_that_did_nothing_undoes_nothing_else) {
+    // Along Z, seen from the front, a drag goes nowhere.
+    ScriptText script;
+    script.command("chain.target", {{"to", app::Json::array({5, 3, 0})}})
+        .command("camera.view", {{"name", "front"}});
+    script.command("camera.orthographic").command("camera.frame", {{"what", "all"}});
+    const app::Json before = state_after(ScriptText(script));
+    const glm::vec2 at = handle(before, "target");
+    script.move(at).hold("z").down().move(at + glm::vec2(12, 0)).key("escape").up();
+    EXPECT_EQ(state_after(script)["target"], before["target"]);
+}
+
+TEST(OnceWrong, escape_lets_go_of_a_drag_as_if_it_had_not_been) {
+    const app::Json before = state_after(ScriptText().wait(1));
+    const glm::vec2 at = handle(before, "target");
+    const app::Json after =
+        state_after(ScriptText().move(at).down().move(at + glm::vec2(-60, -40)).key("escape").up());
+    EXPECT_EQ(after["segments"], before["segments"]);
+}
+
+TEST(OnceWrong, a_step_of_time_is_taken_at_once) {
+    ScriptText script;
+    script.command("time.step").line({{"expect", "time.tick"}, {"equals", 1}});
+    script.command("time.step").command("time.step").line({{"expect", "time.tick"}, {"equals", 3}});
+    state_after(script);
+}
+
+TEST(OnceWrong, a_key_that_is_held_does_not_turn_things_on_and_off) {
+    ScriptText script;
+    for (int i = 0; i < 3; ++i) script.hold("space");
+    script.release("space");
+    script.line({{"expect", "time.playing"}, {"equals", false}});
+    state_after(script);
+}
+
+TEST(OnceWrong, equal_taps_each_count) {
+    ScriptText script;
+    script.key("ctrl+k").text("chain.add length=12345");
+    for (int i = 0; i < 4; ++i) script.key("backspace");
+    script.key("enter").wait(1).line({{"expect", "segments.8.length"}, {"equals", 1}});
+    state_after(script);
+}
+
+TEST(OnceWrong, a_left_drag_over_nothing_leaves_the_selection) {
+    ScriptText script;
+    script.command("chain.select", {{"index", 2}}).drag({{640, 150}, {420, 200}});
+    script.line({{"expect", "selected"}, {"equals", 2}});
+    script.click({640, 150}).line({{"expect", "selected"}, {"equals", nullptr}});
+    state_after(script);
+}
+
+TEST(OnceWrong, opening_a_scene_can_be_undone) {
+    const TempFolder folder;
+    const std::string path = (folder / "scene.json").string();
+    ScriptText script;
+    script.command("scene.save", {{"path", path}}).command("chain.add", {{"length", 2}});
+    script.line({{"drop", app::Json::array({path})}})
+        .command("undo")
+        .line({{"expect", "segments.8.length"}, {"equals", 2}});
+    state_after(script);
+}
+
+TEST(OnceWrong, a_target_that_moves_to_the_end_of_the_world_ends_nothing) {
+    ScriptText script;
+    script.command("chain.target", {{"to", app::Json::array({1e9, 0, 0})}});
+    script.command("chain.motion", {{"path", "sweep"}, {"radius", 10000}}, true).wait(100);
+    state_after(script);
+}
+
+}  // namespace
+}  // namespace tendril::test
