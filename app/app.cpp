@@ -172,7 +172,7 @@ void App::run(const RunCommand& command) {
     }
     settling_ = settling_ticks;
     while (workspace_.clock.steps_due > 0) step_lab();
-    compose(nullptr, Pass::Settle);  // so that the next event finds what is now there
+    for (int i = 0; i < 2; ++i) compose(nullptr, Pass::Settle);  // the next event finds what is now there, and ready
 }
 
 void App::step_lab() {

@@ -67,7 +67,13 @@ bool integer_field(const char* name, int& value, int low, int high) {
 
 bool integer_slider(const char* name, int& value, int low, int high) {
     const std::string id = begin_row(name);
-    return ImGui::SliderInt(id.c_str(), &value, low, high, "%d", ImGuiSliderFlags_AlwaysClamp);
+    // The number stands beside the slider, where its knob does not hide it.
+    const float room = ImGui::CalcTextSize(std::to_string(high).c_str()).x + ImGui::GetStyle().ItemInnerSpacing.x;
+    ImGui::SetNextItemWidth(-room);
+    const bool changed = ImGui::SliderInt(id.c_str(), &value, low, high, "", ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
+    ImGui::Text("%d", value);
+    return changed;
 }
 
 bool point_field(const char* name, glm::vec3& value, float speed) {
