@@ -21,10 +21,14 @@ constexpr int double_click_ticks = 20;
 Cursor wanted_cursor(const Ui& ui, const Pointer& pointer) {
     if (!ui.wants_mouse()) return pointer.cursor();
     switch (ImGui::GetMouseCursor()) {
-        case ImGuiMouseCursor_TextInput: return Cursor::Text;
-        case ImGuiMouseCursor_ResizeEW: return Cursor::ResizeColumn;
-        case ImGuiMouseCursor_Hand: return Cursor::Hand;
-        default: return Cursor::Arrow;
+        case ImGuiMouseCursor_TextInput:
+            return Cursor::Text;
+        case ImGuiMouseCursor_ResizeEW:
+            return Cursor::ResizeColumn;
+        case ImGuiMouseCursor_Hand:
+            return Cursor::Hand;
+        default:
+            return Cursor::Arrow;
     }
 }
 
@@ -48,7 +52,8 @@ App::App(Window& window, bool complain)
 
 void App::start_from(const RecordingStart& start) {
     load_scene(workspace_, start.scene);
-    if (labs_.find(start.lab) == nullptr) throw std::runtime_error("lab: there is no lab \"" + start.lab + "\"");
+    if (labs_.find(start.lab) == nullptr)
+        throw std::runtime_error("lab: there is no lab \"" + start.lab + "\"");
     workspace_.lab = start.lab;
     std::vector<std::string> complaints;
     workspace_.settings = load_settings(start.settings, complaints);
@@ -78,7 +83,8 @@ void App::tick(const Event* event) {
     input_.take(event);
     compose(event, Pass::Tick);
     input_.end_tap();
-    // What an event opened takes a second pass before it can have the keyboard: so the next event finds it ready.
+    // What an event opened takes a second pass before it can have the keyboard: so the next event finds it
+    // ready.
     if (event != nullptr && !std::holds_alternative<MouseMove>(*event)) compose(nullptr, Pass::Settle);
     const bool pressed = event != nullptr && std::holds_alternative<MousePress>(*event);
     settling_ = pressed ? double_click_ticks : std::max(event != nullptr ? settling_ticks : 0, settling_ - 1);
@@ -96,15 +102,19 @@ void App::compose(const Event* event, Pass pass) {
     if (in_tick) {
         take_shortcut(emit);
         const Camera camera(workspace_.camera, layout_.view);
-        pointer_.take(event, input_, {workspace_, lab(), camera, drawn_, ui_.wants_mouse(), layout_.scale}, emit);
+        pointer_.take(event, input_, {workspace_, lab(), camera, drawn_, ui_.wants_mouse(), layout_.scale},
+                      emit);
         run_emitted(emit);
     }
 
-    std::string hint = lab().hint(workspace_, pointer_.dragged() != no_pick ? pointer_.dragged() : pointer_.hovered());
-    if (const std::string bound = pointer_.constraint(input_); pointer_.dragged() != no_pick && !bound.empty()) {
+    std::string hint =
+        lab().hint(workspace_, pointer_.dragged() != no_pick ? pointer_.dragged() : pointer_.hovered());
+    if (const std::string bound = pointer_.constraint(input_);
+        pointer_.dragged() != no_pick && !bound.empty()) {
         hint = "Moving " + bound + ".";
     }
-    if (hint.empty()) hint = "Right-drag turns the view, middle-drag shifts it, the wheel zooms. ? shows every key.";
+    if (hint.empty())
+        hint = "Right-drag turns the view, middle-drag shifts it, the wheel zooms. ? shows every key.";
     shell_.frame({workspace_, labs_, lab(), commands_, layout_, hint}, emit);
     if (pass == Pass::Picture) emit.take();
     run_emitted(emit);
@@ -112,8 +122,8 @@ void App::compose(const Event* event, Pass pass) {
 
     const Camera camera(workspace_.camera, layout_.view);
     drawn_.clear();
-    lab().draw({workspace_, camera, palette(workspace_.settings.theme), pointer_.hovered(), pointer_.dragged(),
-                layout_.scale},
+    lab().draw({workspace_, camera, palette(workspace_.settings.theme), pointer_.hovered(),
+                pointer_.dragged(), layout_.scale},
                drawn_);
     show_labels(drawn_, camera, palette(workspace_.settings.theme), layout_.scale);
     ui_.end();
@@ -172,7 +182,8 @@ void App::run(const RunCommand& command) {
     }
     settling_ = settling_ticks;
     while (workspace_.clock.steps_due > 0) step_lab();
-    for (int i = 0; i < 2; ++i) compose(nullptr, Pass::Settle);  // the next event finds what is now there, and ready
+    for (int i = 0; i < 2; ++i)
+        compose(nullptr, Pass::Settle);  // the next event finds what is now there, and ready
 }
 
 void App::step_lab() {
@@ -201,10 +212,11 @@ void App::update_window() {
 void App::draw() {
     const glm::ivec2 pixels = window_.framebuffer_size();
     const Camera camera(workspace_.camera, layout_.view);
-    renderer_.draw(drawn_, camera, palette(workspace_.settings.theme),
-                   {.framebuffer = window_.framebuffer(),
-                    .framebuffer_size = pixels,
-                    .pixel_ratio = static_cast<float>(pixels.x) / static_cast<float>(std::max(1, window_.size().x))});
+    renderer_.draw(
+        drawn_, camera, palette(workspace_.settings.theme),
+        {.framebuffer = window_.framebuffer(),
+         .framebuffer_size = pixels,
+         .pixel_ratio = static_cast<float>(pixels.x) / static_cast<float>(std::max(1, window_.size().x))});
     ui_.draw();
 }
 
@@ -214,9 +226,13 @@ Image App::screenshot() {
     return read_framebuffer(window_.framebuffer(), window_.framebuffer_size());
 }
 
-void App::write_screenshot(const std::string& path) { write_png(path, screenshot()); }
+void App::write_screenshot(const std::string& path) {
+    write_png(path, screenshot());
+}
 
-void App::write_state(const std::string& path) { write_file_atomically(path, state().dump(2) + "\n"); }
+void App::write_state(const std::string& path) {
+    write_file_atomically(path, state().dump(2) + "\n");
+}
 
 Json App::state() {
     const Camera camera(workspace_.camera, layout_.view);
@@ -232,7 +248,9 @@ Json App::state() {
     return state;
 }
 
-bool App::busy() const { return pointer_.busy() || ImGui::IsAnyItemActive(); }
+bool App::busy() const {
+    return pointer_.busy() || ImGui::IsAnyItemActive();
+}
 
 bool App::restless() const {
     const bool moving = workspace_.clock.playing && lab().moving(workspace_);

@@ -1,8 +1,8 @@
-// The frame: events in, commands out, document changed, lab stepped, picture drawn. The real window and the one off
-// screen run this very same code; only where events come from and where pixels go differs.
+// The frame: events in, commands out, document changed, lab stepped, picture drawn. The real window and the
+// one off screen run this very same code; only where events come from and where pixels go differs.
 //
-// Time runs in ticks of 1/60 s. A tick takes at most one event, so a recording, which is a list of events and of empty
-// ticks, plays back exactly.
+// Time runs in ticks of 1/60 s. A tick takes at most one event, so a recording, which is a list of events and
+// of empty ticks, plays back exactly.
 #pragma once
 
 #include <memory>
@@ -58,8 +58,8 @@ class App final : public Stage {
   private:
     const Lab& lab() const { return *labs_.find(workspace_.lab); }
     float ui_scale() const { return base_scale_ * workspace_.settings.text_scale; }
-    /// A pass of the user interface. A tick takes an event and lets time pass. What an event opened settles in a second
-    /// pass. A picture is drawn of what is there, and changes nothing.
+    /// A pass of the user interface. A tick takes an event and lets time pass. What an event opened settles
+    /// in a second pass. A picture is drawn of what is there, and changes nothing.
     enum class Pass { Tick, Settle, Picture };
     /// Runs the user interface and builds the picture, once.
     void compose(const Event* event, Pass pass);
@@ -83,7 +83,7 @@ class App final : public Stage {
     DrawList drawn_;
     Layout layout_;
     std::optional<Recorder> recorder_;
-    glm::ivec2 size_{0};       ///< the window's; changed by events alone, so that a recording has every change
+    glm::ivec2 size_{0};  ///< the window's; changed by events alone, so that a recording has every change
     float base_scale_ = 1.0f;  ///< the window's wish for the size of text and widgets
     Gesture gesture_ = 1;
     int settling_ = 0;  ///< ticks in which the panels may still change after the last event

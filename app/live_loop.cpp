@@ -8,17 +8,22 @@
 namespace tendril::app {
 namespace {
 
-constexpr double most_credit = 0.25;     ///< after a long stall time is dropped rather than raced through
-constexpr double least_credit = -0.05;   ///< a burst of events may run this far ahead
-constexpr double longest_sleep = 1.0;    ///< so that a signal or an autosave never waits longer
+constexpr double most_credit = 0.25;    ///< after a long stall time is dropped rather than raced through
+constexpr double least_credit = -0.05;  ///< a burst of events may run this far ahead
+constexpr double longest_sleep = 1.0;   ///< so that a signal or an autosave never waits longer
 
-std::filesystem::path settings_file() { return config_folder() / "settings.json"; }
+std::filesystem::path settings_file() {
+    return config_folder() / "settings.json";
+}
 
-bool is_move(const Event& event) { return std::holds_alternative<MouseMove>(event); }
+bool is_move(const Event& event) {
+    return std::holds_alternative<MouseMove>(event);
+}
 
 }  // namespace
 
-LiveLoop::LiveLoop(App& app, Window& window, const Options& options) : app_(app), window_(window), options_(options) {
+LiveLoop::LiveLoop(App& app, Window& window, const Options& options)
+    : app_(app), window_(window), options_(options) {
     if (!options_.config || config_folder().empty()) {
         options_.config = false;
         return;
@@ -32,7 +37,8 @@ LiveLoop::LiveLoop(App& app, Window& window, const Options& options) : app_(app)
             complaints.push_back(unreadable.what());
         }
     }
-    for (const std::string& complaint : complaints) app_.workspace().toast("Settings: " + complaint, ToastKind::Refusal);
+    for (const std::string& complaint : complaints)
+        app_.workspace().toast("Settings: " + complaint, ToastKind::Refusal);
     kept_ = app_.workspace().settings;
     app_.workspace().ui.recoverable = Autosave::left_behind(config_folder());
     autosave_.emplace(config_folder());
@@ -96,7 +102,8 @@ void LiveLoop::tick(Player& player) {
 
 bool LiveLoop::take_ticks(Player& player) {
     bool ticked = false;
-    // What was clicked and typed is taken at once; moves, which come a thousand a second, wait for their tick.
+    // What was clicked and typed is taken at once; moves, which come a thousand a second, wait for their
+    // tick.
     while (!queue_.empty() && !(is_move(queue_.front()) && queue_.size() == 1) && credit_ > least_credit) {
         tick(player);
         ticked = true;
@@ -109,7 +116,8 @@ bool LiveLoop::take_ticks(Player& player) {
 }
 
 void LiveLoop::turn(std::vector<Event> events, double elapsed, Player& player) {
-    // While nothing moves no time runs up, or the first event after a rest would be followed by a rush of ticks.
+    // While nothing moves no time runs up, or the first event after a rest would be followed by a rush of
+    // ticks.
     const bool resting = queue_.empty() && player.done() && !app_.restless();
     credit_ = resting ? tick_seconds : std::min(credit_ + elapsed, most_credit);
     sample(std::move(events));

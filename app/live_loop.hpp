@@ -1,5 +1,5 @@
-// The loop of a real window: samples events, takes due ticks, draws only when something may have changed, and looks
-// after settings and autosave.
+// The loop of a real window: samples events, takes due ticks, draws only when something may have changed, and
+// looks after settings and autosave.
 #pragma once
 
 #include <atomic>
@@ -24,8 +24,8 @@ class LiveLoop {
     /// Pictures drawn so far: an idle window adds none.
     int frames_drawn() const { return frames_drawn_; }
 
-    /// Takes what `events` brought and the ticks that are due `elapsed` seconds after the last call, and draws if that
-    /// changed anything. What run() does again and again, for tests that have no window system.
+    /// Takes what `events` brought and the ticks that are due `elapsed` seconds after the last call, and
+    /// draws if that changed anything. What run() does again and again, for tests that have no window system.
     void turn(std::vector<Event> events, double elapsed, Player& player);
     /// How long run() may sleep before something is due.
     double patience(const Player& player) const;

@@ -17,7 +17,8 @@ using namespace tendril::app;
 glm::ivec2 read_size(const std::string& text) {
     int width = 0, height = 0, used = 0;
     const int read = std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &used);
-    if (read != 2 || used != static_cast<int>(text.size()) || width < 1 || height < 1 || width > 16384 || height > 16384) {
+    if (read != 2 || used != static_cast<int>(text.size()) || width < 1 || height < 1 || width > 16384 ||
+        height > 16384) {
         throw CLI::ValidationError("--size: must be WIDTHxHEIGHT, each 1 to 16384, got \"" + text + "\"");
     }
     return {width, height};
@@ -32,8 +33,9 @@ void list_commands() {
         for (const Argument& argument : command.arguments) {
             std::string choices;
             for (const auto& choice : argument.choices) choices += (choices.empty() ? ": " : ", ") + choice;
-            std::printf("    %-18s %s%s; %s%s\n", argument.name.c_str(), types[static_cast<int>(argument.type)],
-                        argument.required ? "" : ", optional", argument.help.c_str(), choices.c_str());
+            std::printf("    %-18s %s%s; %s%s\n", argument.name.c_str(),
+                        types[static_cast<int>(argument.type)], argument.required ? "" : ", optional",
+                        argument.help.c_str(), choices.c_str());
         }
     }
 }

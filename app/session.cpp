@@ -18,14 +18,17 @@ std::atomic<bool> ending{false};  // what a signal handler may touch
 
 constexpr glm::ivec2 headless_size{1280, 720}, window_size{1440, 900};
 
-void complain(const std::string& what) { std::fprintf(stderr, "tendril: %s\n", single_line(what).c_str()); }
+void complain(const std::string& what) {
+    std::fprintf(stderr, "tendril: %s\n", single_line(what).c_str());
+}
 
 std::unique_ptr<Window> make_window(const SessionOptions& options, glm::ivec2 size) {
     if (!options.headless) {
         try {
             return open_window(Backend::Glfw, size);
         } catch (const std::runtime_error& error) {
-            throw std::runtime_error(std::string(error.what()) + "; --headless --screenshot FILE draws without a window");
+            throw std::runtime_error(std::string(error.what()) +
+                                     "; --headless --screenshot FILE draws without a window");
         }
     }
     return options.backend ? open_window(*options.backend, size) : open_offscreen(size);

@@ -23,8 +23,8 @@ struct SessionOptions {
     bool config = true;
 };
 
-/// 0 when it ran; 1 when a script's expectation failed or a command of it was refused; 2 when something could not be
-/// read, written, known or opened. What is wrong goes to stderr, in one line.
+/// 0 when it ran; 1 when a script's expectation failed or a command of it was refused; 2 when something could
+/// not be read, written, known or opened. What is wrong goes to stderr, in one line.
 int run_session(const SessionOptions& options);
 
 /// Lets SIGINT and SIGTERM end the session as Ctrl+Q does: cleanly, and with everything written.

@@ -21,8 +21,8 @@ class Autosave {
     /// Writes the scene when it has unsaved changes that are not yet in the file, and `interval` has passed
     /// since the first of them. A failure to write is told once, in a toast.
     void update(Workspace& workspace, Clock::time_point now);
-    /// A clean end: removes this program's file, or, where unsaved work is to be kept, brings it up to date and leaves it
-    /// to be offered at the next start. A program that ends without this call leaves it too.
+    /// A clean end: removes this program's file, or, where unsaved work is to be kept, brings it up to date
+    /// and leaves it to be offered at the next start. A program that ends without this call leaves it too.
     void end(Workspace& workspace, bool keep_unsaved);
     std::filesystem::path file() const;
 

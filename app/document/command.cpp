@@ -97,8 +97,8 @@ void check_arguments(const Command& command, const Json& given) {
     }
 }
 
-/// "chain.remove: index 9 is out of range": the library's messages begin with its own name for the operation, which the
-/// command's name already says.
+/// "chain.remove: index 9 is out of range": the library's messages begin with its own name for the operation,
+/// which the command's name already says.
 std::string refusal_text(const std::string& command, std::string what) {
     const std::string operation = command.substr(command.rfind('.') + 1) + ": ";
     if (what.starts_with(operation)) what.erase(0, operation.size());

@@ -1,6 +1,6 @@
 // The one vocabulary of change. Every change to the document is a named command with JSON arguments, whoever
-// makes it: a drag, a panel, a shortcut, a script, a test. One table holds each command's name, arguments, help
-// and effect; the palette, --list-commands and the checks of arguments all come from it.
+// makes it: a drag, a panel, a shortcut, a script, a test. One table holds each command's name, arguments,
+// help and effect; the palette, --list-commands and the checks of arguments all come from it.
 #pragma once
 
 #include <functional>
@@ -33,12 +33,12 @@ struct Argument {
     ArgumentType type = ArgumentType::Number;
     bool required = true;
     std::string help{};
-    double low = -1e9, high = 1e9;     ///< for numbers and integers
+    double low = -1e9, high = 1e9;       ///< for numbers and integers
     std::vector<std::string> choices{};  ///< for texts; empty: any
 };
 
-/// Arguments that have been checked against their command: present where required, of the right type, finite and in
-/// range.
+/// Arguments that have been checked against their command: present where required, of the right type, finite
+/// and in range.
 class Arguments {
   public:
     explicit Arguments(const Json& json) : json_(json) {}
@@ -75,8 +75,8 @@ class CommandTable {
     const Command* find(std::string_view name) const;
     const std::vector<Command>& all() const { return commands_; }
 
-    /// Checks and applies. Throws Refused (or UnknownCommand), with the workspace unchanged. `gesture` merges the
-    /// undo entries of one drag.
+    /// Checks and applies. Throws Refused (or UnknownCommand), with the workspace unchanged. `gesture` merges
+    /// the undo entries of one drag.
     void run(Workspace& workspace, std::string_view name, const Json& arguments, Gesture gesture = 0) const;
 
   private:

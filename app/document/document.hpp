@@ -19,7 +19,8 @@ class Part {
     virtual ~Part() = default;
     virtual std::shared_ptr<Part> clone() const = 0;
     virtual Json save() const = 0;
-    /// A new part from what save() gave, bit for bit. Throws std::runtime_error naming `where` and what is wrong.
+    /// A new part from what save() gave, bit for bit. Throws std::runtime_error naming `where` and what is
+    /// wrong.
     virtual std::shared_ptr<Part> load(const Json& json, const std::string& where) const = 0;
     /// Rough size in memory, for the history's bound.
     virtual std::size_t bytes() const = 0;

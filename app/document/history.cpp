@@ -30,7 +30,8 @@ std::optional<Document> History::redo(const Document& current, std::filesystem::
     auto entry = take(future_);
     if (!entry) return std::nullopt;
     if (entry->path && path != nullptr) std::swap(*entry->path, *path);
-    append(past_, current, entry->label, past_.empty() ? nullptr : &past_.back().document, std::move(entry->path));
+    append(past_, current, entry->label, past_.empty() ? nullptr : &past_.back().document,
+           std::move(entry->path));
     trim();
     return std::move(entry->document);
 }

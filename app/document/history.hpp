@@ -26,8 +26,8 @@ class History {
     /// `path` is the file that the scene had before, where the command changed that as well.
     void push(const Document& before, const std::string& label, Gesture gesture,
               std::optional<std::filesystem::path> path = std::nullopt);
-    /// Gives the document to go back to (or forward to) from `current`; nothing at the end. `path`, if given, is the
-    /// scene's file now, and becomes what it was.
+    /// Gives the document to go back to (or forward to) from `current`; nothing at the end. `path`, if given,
+    /// is the scene's file now, and becomes what it was.
     std::optional<Document> undo(const Document& current, std::filesystem::path* path = nullptr);
     std::optional<Document> redo(const Document& current, std::filesystem::path* path = nullptr);
     void clear();

@@ -77,7 +77,8 @@ CameraPose load_camera(const Json& json, const std::string& where) {
                                      degrees(high).dump() + " degrees, found " + json_summary(*found));
     };
     if (const Json* found = optional_member(json, "target"))
-        pose.target = glm::clamp(json_point(*found, place("target")), -camera_range::target, camera_range::target);
+        pose.target =
+            glm::clamp(json_point(*found, place("target")), -camera_range::target, camera_range::target);
     angle("yaw_deg", pose.yaw, -1e9f, 1e9f);
     angle("pitch_deg", pose.pitch, -camera_range::pitch, camera_range::pitch);
     if (const Json* found = optional_member(json, "distance"))
@@ -122,7 +123,8 @@ void load_scene(Workspace& workspace, const Json& scene) {
 void save_scene_file(Workspace& workspace, const std::filesystem::path& path) {
     const std::string text = json_to_text(save_scene(workspace));
     if (text.size() > max_file_bytes)
-        throw std::runtime_error("the scene would be too large to open again: " + std::to_string(text.size()) + " bytes");
+        throw std::runtime_error(
+            "the scene would be too large to open again: " + std::to_string(text.size()) + " bytes");
     write_file_atomically(path, text);
     workspace.path = path;
     workspace.saved = workspace.document;

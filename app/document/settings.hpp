@@ -21,15 +21,15 @@ struct Settings {
     float text_scale = 1.0f;  ///< on top of the window's own scale; 0.5 to 3
     bool left_open = true;
     bool right_open = true;
-    float left_width = 272.0f;   ///< unscaled window coordinates; 180 to 520
+    float left_width = 272.0f;  ///< unscaled window coordinates; 180 to 520
     float right_width = 272.0f;
     bool hint_seen = false;  ///< the first drag has happened
     bool operator==(const Settings&) const = default;
 };
 
 Json save_settings(const Settings& settings);
-/// Unknown names are ignored and a value that does not fit keeps its default, so that an old or edited file never
-/// stops the program; each such value is named in `complaints`.
+/// Unknown names are ignored and a value that does not fit keeps its default, so that an old or edited file
+/// never stops the program; each such value is named in `complaints`.
 Settings load_settings(const Json& json, std::vector<std::string>& complaints);
 
 /// $XDG_CONFIG_HOME/tendril, else ~/.config/tendril, else %APPDATA%\tendril; empty where none is known.

@@ -38,14 +38,14 @@ struct UiState {
     enum class FileDialog { None, Open, SaveAs } file_dialog = FileDialog::None;
     std::vector<Toast> toasts;
     std::vector<std::filesystem::path> recoverable;  ///< what a crash left, until it is answered
-    glm::vec2 view_size{1000.0f, 700.0f};  ///< the 3D view, in window coordinates
+    glm::vec2 view_size{1000.0f, 700.0f};            ///< the 3D view, in window coordinates
     bool quit = false;
 };
 
 struct Workspace {
     Document document;
-    Document blank;       ///< what scene.new starts from
-    std::string lab;      ///< the lab that is open
+    Document blank;         ///< what scene.new starts from
+    std::string lab;        ///< the lab that is open
     CameraPose first_view;  ///< what scene.new looks from
     CameraPose camera;
     Clock clock;

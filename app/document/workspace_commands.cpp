@@ -8,8 +8,8 @@ namespace tendril::app {
 namespace {
 
 void step_through(Workspace& workspace, bool back) {
-    auto document =
-        back ? workspace.history.undo(workspace.document, &workspace.path) : workspace.history.redo(workspace.document, &workspace.path);
+    auto document = back ? workspace.history.undo(workspace.document, &workspace.path)
+                         : workspace.history.redo(workspace.document, &workspace.path);
     if (!document) throw Refused(back ? "nothing to undo" : "nothing to redo");
     workspace.document = std::move(*document);
 }
@@ -104,13 +104,16 @@ void add_recovery_commands(CommandTable& table) {
 }
 
 void add_dialog_commands(CommandTable& table) {
-    table.add({.name = "scene.open_dialog",
-               .arguments = {},
-               .help = "Asks which scene to open",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments&) { w.ui.file_dialog = UiState::FileDialog::Open; }});
+    table.add(
+        {.name = "scene.open_dialog",
+         .arguments = {},
+         .help = "Asks which scene to open",
+         .effect = Effect::Look,
+         .apply = [](Workspace& w, const Arguments&) { w.ui.file_dialog = UiState::FileDialog::Open; }});
     table.add({.name = "scene.save_dialog",
-               .arguments = {{.name = "ask", .type = ArgumentType::Boolean, .required = false,
+               .arguments = {{.name = "ask",
+                              .type = ArgumentType::Boolean,
+                              .required = false,
                               .help = "for a new name, although the scene has one"}},
                .help = "Saves the scene; asks where to if it has no file yet",
                .effect = Effect::Look,
@@ -186,12 +189,16 @@ void add_window_commands(CommandTable& table) {
              if (a.has("right")) s.right_open = a.boolean("right");
          }});
     table.add({.name = "view.panel_width",
-               .arguments = {{.name = "side", .type = ArgumentType::Text, .help = "which panel", .choices = {"left", "right"}},
+               .arguments = {{.name = "side",
+                              .type = ArgumentType::Text,
+                              .help = "which panel",
+                              .choices = {"left", "right"}},
                              {.name = "width", .help = "unscaled pixels", .low = 180, .high = 520}},
                .help = "Makes a side panel wider or narrower",
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments& a) {
-                   (a.text("side") == "left" ? w.settings.left_width : w.settings.right_width) = a.number("width");
+                   (a.text("side") == "left" ? w.settings.left_width : w.settings.right_width) =
+                       a.number("width");
                }});
     table.add({.name = "view.theme",
                .arguments = {{.name = "name",
@@ -262,8 +269,7 @@ void add_workspace_commands(CommandTable& table) {
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments& a) {
                    const std::string name = a.text("name");
-                   if (!w.document.parts().contains(name))
-                       throw Refused("there is no lab \"" + name + "\"");
+                   if (!w.document.parts().contains(name)) throw Refused("there is no lab \"" + name + "\"");
                    w.lab = name;
                }});
 }

@@ -26,19 +26,30 @@ Argument angle(const char* name, double low, double high) {
 
 void add_camera_commands(CommandTable& table, const Labs& labs) {
     table.add({.name = "camera.set",
-               .arguments = {{.name = "target", .type = ArgumentType::Point, .required = false,
+               .arguments = {{.name = "target",
+                              .type = ArgumentType::Point,
+                              .required = false,
                               .help = "what it turns about"},
                              angle("yaw_deg", -1e6, 1e6),
                              angle("pitch_deg", -90.0, 90.0),
-                             {.name = "distance", .required = false, .help = "metres", .low = camera_range::nearest, .high = camera_range::farthest},
-                             angle("field_of_view_deg", glm::degrees(camera_range::narrowest), glm::degrees(camera_range::widest)),
-                             {.name = "orthographic", .type = ArgumentType::Boolean, .required = false,
+                             {.name = "distance",
+                              .required = false,
+                              .help = "metres",
+                              .low = camera_range::nearest,
+                              .high = camera_range::farthest},
+                             angle("field_of_view_deg", glm::degrees(camera_range::narrowest),
+                                   glm::degrees(camera_range::widest)),
+                             {.name = "orthographic",
+                              .type = ArgumentType::Boolean,
+                              .required = false,
                               .help = "without perspective"}},
                .help = "Places the camera; what is left out stays",
                .effect = Effect::Look,
                .apply = set_pose});
     table.add({.name = "camera.frame",
-               .arguments = {{.name = "what", .type = ArgumentType::Text, .help = "what to bring into view",
+               .arguments = {{.name = "what",
+                              .type = ArgumentType::Text,
+                              .help = "what to bring into view",
                               .choices = {"all", "selection"}}},
                .help = "Brings everything, or the selection, into view",
                .effect = Effect::Look,
@@ -47,7 +58,9 @@ void add_camera_commands(CommandTable& table, const Labs& labs) {
                    w.camera = framed(w.camera, {{0.0f, 0.0f}, w.ui.view_size}, bounds.centre, bounds.radius);
                }});
     table.add({.name = "camera.view",
-               .arguments = {{.name = "name", .type = ArgumentType::Text, .help = "where from",
+               .arguments = {{.name = "name",
+                              .type = ArgumentType::Text,
+                              .help = "where from",
                               .choices = {"front", "side", "top"}}},
                .help = "Looks from the front, the side or the top",
                .effect = Effect::Look,
@@ -57,11 +70,12 @@ void add_camera_commands(CommandTable& table, const Labs& labs) {
                                                   : name == "side" ? FixedView::Side
                                                                    : FixedView::Top);
                }});
-    table.add({.name = "camera.orthographic",
-               .arguments = {},
-               .help = "Turns perspective off, or on again",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments&) { w.camera.orthographic = !w.camera.orthographic; }});
+    table.add(
+        {.name = "camera.orthographic",
+         .arguments = {},
+         .help = "Turns perspective off, or on again",
+         .effect = Effect::Look,
+         .apply = [](Workspace& w, const Arguments&) { w.camera.orthographic = !w.camera.orthographic; }});
 }
 
 }  // namespace tendril::app

@@ -1,5 +1,6 @@
-// The one interface between the frame and a lab. A lab keeps nothing of its own: what it shows is in the workspace,
-// what it changes it changes by commands, so undo, scripts and recordings hold for every lab alike.
+// The one interface between the frame and a lab. A lab keeps nothing of its own: what it shows is in the
+// workspace, what it changes it changes by commands, so undo, scripts and recordings hold for every lab
+// alike.
 #pragma once
 
 #include <glm/vec3.hpp>

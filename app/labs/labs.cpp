@@ -12,7 +12,8 @@ Labs::Labs() {
 }
 
 const Lab* Labs::find(std::string_view name) const {
-    const auto found = std::find_if(labs_.begin(), labs_.end(), [&](const auto& lab) { return lab->name() == name; });
+    const auto found =
+        std::find_if(labs_.begin(), labs_.end(), [&](const auto& lab) { return lab->name() == name; });
     return found == labs_.end() ? nullptr : found->get();
 }
 

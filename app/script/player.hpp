@@ -22,7 +22,8 @@ class Stage {
     virtual Json state() = 0;
 };
 
-/// An expectation that failed, a refusal, or an acceptance where a refusal was expected: "line 7: <what was found>".
+/// An expectation that failed, a refusal, or an acceptance where a refusal was expected: "line 7: <what was
+/// found>".
 class ScriptFailure : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
@@ -32,8 +33,8 @@ class Player {
   public:
     explicit Player(Script script) : script_(std::move(script)) {}
 
-    /// Runs on until one tick has passed or the script has ended. Throws ScriptFailure, after which the script is over,
-    /// and what the stage throws where it cannot write.
+    /// Runs on until one tick has passed or the script has ended. Throws ScriptFailure, after which the
+    /// script is over, and what the stage throws where it cannot write.
     void advance(Stage& stage);
     bool done() const { return waiting_ == 0 && next_ >= script_.lines.size(); }
 

@@ -59,11 +59,11 @@ Json event_line(const Event& event) {
 
 Recorder::Recorder(const RecordingStart& start) {
     Json first{{"recording", recording_version},
-              {"version", start.version},
-              {"size", Json::array({start.size.x, start.size.y})},
-              {"lab", start.lab},
-              {"scene", start.scene},
-              {"settings", start.settings}};
+               {"version", start.version},
+               {"size", Json::array({start.size.x, start.size.y})},
+               {"lab", start.lab},
+               {"scene", start.scene},
+               {"settings", start.settings}};
     if (!start.path.empty()) first["path"] = start.path;
     if (start.modified) first["modified"] = true;
     if (start.scale != 1.0f) first["scale"] = number(start.scale);

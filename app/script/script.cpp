@@ -163,7 +163,8 @@ RecordingStart recording_start(const Json& line) {
         fail("recording: version " + version.dump() + " is newer than this program, which reads " +
              std::to_string(recording_version));
     json_integer(version, "recording", 1, recording_version);
-    check_members(line, {"recording", "version", "size", "lab", "scene", "settings", "path", "modified", "scale"});
+    check_members(line,
+                  {"recording", "version", "size", "lab", "scene", "settings", "path", "modified", "scale"});
     RecordingStart start{.version = json_text(json_member(line, "version", ""), "version"),
                          .size = window_size(json_member(line, "size", ""), "size"),
                          .lab = json_text(json_member(line, "lab", ""), "lab"),

@@ -15,13 +15,27 @@ struct ImGuiKeyPair {
 };
 
 inline constexpr ImGuiKeyPair imgui_keys[] = {
-    {ImGuiKey_Tab, Key::Tab},           {ImGuiKey_LeftArrow, Key::Left},  {ImGuiKey_RightArrow, Key::Right},
-    {ImGuiKey_UpArrow, Key::Up},        {ImGuiKey_DownArrow, Key::Down},  {ImGuiKey_PageUp, Key::PageUp},
-    {ImGuiKey_PageDown, Key::PageDown}, {ImGuiKey_Home, Key::Home},       {ImGuiKey_End, Key::End},
-    {ImGuiKey_Insert, Key::Insert},     {ImGuiKey_Delete, Key::Delete},   {ImGuiKey_Backspace, Key::Backspace},
-    {ImGuiKey_Space, Key::Space},       {ImGuiKey_Enter, Key::Enter},     {ImGuiKey_Escape, Key::Escape},
-    {ImGuiKey_A, Key::A},               {ImGuiKey_C, Key::C},             {ImGuiKey_V, Key::V},
-    {ImGuiKey_X, Key::X},               {ImGuiKey_Y, Key::Y},             {ImGuiKey_Z, Key::Z},
+    {ImGuiKey_Tab, Key::Tab},
+    {ImGuiKey_LeftArrow, Key::Left},
+    {ImGuiKey_RightArrow, Key::Right},
+    {ImGuiKey_UpArrow, Key::Up},
+    {ImGuiKey_DownArrow, Key::Down},
+    {ImGuiKey_PageUp, Key::PageUp},
+    {ImGuiKey_PageDown, Key::PageDown},
+    {ImGuiKey_Home, Key::Home},
+    {ImGuiKey_End, Key::End},
+    {ImGuiKey_Insert, Key::Insert},
+    {ImGuiKey_Delete, Key::Delete},
+    {ImGuiKey_Backspace, Key::Backspace},
+    {ImGuiKey_Space, Key::Space},
+    {ImGuiKey_Enter, Key::Enter},
+    {ImGuiKey_Escape, Key::Escape},
+    {ImGuiKey_A, Key::A},
+    {ImGuiKey_C, Key::C},
+    {ImGuiKey_V, Key::V},
+    {ImGuiKey_X, Key::X},
+    {ImGuiKey_Y, Key::Y},
+    {ImGuiKey_Z, Key::Z},
 };
 
 /// Once, after the context is made.
@@ -31,8 +45,9 @@ inline void imgui_setup_keys() {
 #endif
 }
 
-/// Tells ImGui what is held; to be called before every NewFrame, so that nothing but our own input counts. `typing`: this
-/// tick brings text, which ImGui would take for a shortcut while Ctrl is held (as it is when something is pasted).
+/// Tells ImGui what is held; to be called before every NewFrame, so that nothing but our own input counts.
+/// `typing`: this tick brings text, which ImGui would take for a shortcut while Ctrl is held (as it is when
+/// something is pasted).
 inline void imgui_feed(const Input& input, bool typing) {
     ImGuiIO& io = ImGui::GetIO();
     const bool buttons[] = {input.button(MouseButton::Left), input.button(MouseButton::Right),

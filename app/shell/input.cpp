@@ -28,7 +28,8 @@ void Input::take(const Event* event) {
         before_tap_ = keys_;
         tapped_ = true;
         const Chord& chord = key_tap->chord;
-        for (const auto& [modifier, down] : {std::pair(Key::Ctrl, chord.ctrl), {Key::Shift, chord.shift}, {Key::Alt, chord.alt}}) {
+        for (const auto& [modifier, down] :
+             {std::pair(Key::Ctrl, chord.ctrl), {Key::Shift, chord.shift}, {Key::Alt, chord.alt}}) {
             if (down) hold(modifier, true);
         }
         hold(chord.key, true);

@@ -15,7 +15,8 @@ std::vector<Rect> balls_of(const DrawList& drawn, const Camera& camera) {
     std::vector<Rect> boxes;
     for (const Stroke& stroke : drawn.strokes) {
         if (stroke.a != stroke.b || stroke.unit != Unit::Pixels || stroke.shade != Shade::Lit) continue;
-        if (const auto at = camera.project(stroke.a)) boxes.push_back({*at - stroke.radius_a, *at + stroke.radius_a});
+        if (const auto at = camera.project(stroke.a))
+            boxes.push_back({*at - stroke.radius_a, *at + stroke.radius_a});
     }
     return boxes;
 }
@@ -45,8 +46,10 @@ void show_labels(const DrawList& drawn, const Camera& camera, const Palette& pal
         const Label& label = *asked[placed.request];
         const Rect& box = placed.box;
         // A plate keeps the text legible over whatever lies behind it.
-        list->AddRectFilled({box.min.x, box.min.y}, {box.max.x, box.max.y}, imgui_u32(palette.bar, 0.62f), 3.0f * scale);
-        list->AddText({box.min.x + padding.x, box.min.y + padding.y}, imgui_u32(label.colour), label.text.c_str());
+        list->AddRectFilled({box.min.x, box.min.y}, {box.max.x, box.max.y}, imgui_u32(palette.bar, 0.62f),
+                            3.0f * scale);
+        list->AddText({box.min.x + padding.x, box.min.y + padding.y}, imgui_u32(label.colour),
+                      label.text.c_str());
     }
     ImGui::PopFont();
 }

@@ -13,8 +13,8 @@ struct Layout {
     float scale = 1.0f;
 };
 
-/// Everything in window coordinates. In a narrow window the panels give way before the view does; of a folded panel a
-/// slim strip stays, to bring it back with.
+/// Everything in window coordinates. In a narrow window the panels give way before the view does; of a folded
+/// panel a slim strip stays, to bring it back with.
 Layout lay_out(glm::vec2 window, float scale, const Settings& settings, bool has_timeline);
 
 }  // namespace tendril::app

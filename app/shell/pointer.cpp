@@ -35,7 +35,8 @@ void emit_camera(Emit& emit, const CameraPose& from, const CameraPose& to) {
     Json arguments = Json::object();
     if (to.target != from.target) arguments["target"] = point(to.target);
     if (to.yaw != from.yaw) arguments["yaw_deg"] = number(glm::degrees(to.yaw));
-    if (to.pitch != from.pitch) arguments["pitch_deg"] = number(std::clamp(glm::degrees(to.pitch), -90.0f, 90.0f));
+    if (to.pitch != from.pitch)
+        arguments["pitch_deg"] = number(std::clamp(glm::degrees(to.pitch), -90.0f, 90.0f));
     if (to.distance != from.distance) arguments["distance"] = number(to.distance);
     if (!arguments.empty()) emit.continuously("camera.set", std::move(arguments));
 }
@@ -98,15 +99,22 @@ void Pointer::move(const Input& input, const Scene& scene, Emit& emit) {
     const glm::vec2 by = input.mouse() - last_;
     switch (doing_) {
         case Doing::Nothing:
-        case Doing::Stray: break;
-        case Doing::Orbit: emit_camera(emit, scene.workspace.camera, orbited(scene.workspace.camera, by)); break;
-        case Doing::Pan: emit_camera(emit, scene.workspace.camera, panned(scene.camera, by)); break;
+        case Doing::Stray:
+            break;
+        case Doing::Orbit:
+            emit_camera(emit, scene.workspace.camera, orbited(scene.workspace.camera, by));
+            break;
+        case Doing::Pan:
+            emit_camera(emit, scene.workspace.camera, panned(scene.camera, by));
+            break;
         case Doing::Press:
             if (glm::distance(input.mouse(), caught_at_) < drag_threshold * scene.scale) break;
             doing_ = caught_ == no_pick ? Doing::Stray : Doing::Drag;
             if (doing_ == Doing::Drag) drag(input, scene, emit);
             break;
-        case Doing::Drag: drag(input, scene, emit); break;
+        case Doing::Drag:
+            drag(input, scene, emit);
+            break;
     }
 }
 
@@ -124,7 +132,8 @@ std::optional<glm::vec3> Pointer::dragged_to(const Input& input, const Camera& c
     } else {
         to = camera.on_plane(pixel, caught_position_, camera.forward());
     }
-    // Near the horizon of a plane, or along an axis seen end on, a pixel means kilometres: stay where it makes sense.
+    // Near the horizon of a plane, or along an axis seen end on, a pixel means kilometres: stay where it
+    // makes sense.
     const float farthest = 50.0f * (camera.pose().distance + glm::distance(caught_position_, camera.eye()));
     if (to && glm::distance(*to, caught_position_) > farthest) return std::nullopt;
     return to;

@@ -1,5 +1,5 @@
-// The mouse in the 3D view: hover, click, drag a handle, turn and shift the camera. It changes nothing itself: it emits
-// commands.
+// The mouse in the 3D view: hover, click, drag a handle, turn and shift the camera. It changes nothing
+// itself: it emits commands.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -19,13 +19,13 @@ class Pointer {
         const Workspace& workspace;
         const Lab& lab;
         const Camera& camera;
-        const DrawList& drawn;   ///< the last picture: what one sees is what one picks
+        const DrawList& drawn;    ///< the last picture: what one sees is what one picks
         bool over_panel = false;  ///< the mouse is meant for a panel
         float scale = 1.0f;       ///< of what is measured in pixels
     };
 
-    /// Takes this tick's event. Emits camera.set, the lab's drag and click commands, and a document is changed by them
-    /// afterwards.
+    /// Takes this tick's event. Emits camera.set, the lab's drag and click commands, and a document is
+    /// changed by them afterwards.
     void take(const Event* event, const Input& input, const Scene& scene, Emit& emit);
     /// Ends whatever is going on, without a click.
     void release();
@@ -50,9 +50,9 @@ class Pointer {
     MouseButton button_ = MouseButton::Left;
     PickId hovered_ = no_pick;
     PickId caught_ = no_pick;
-    glm::vec2 caught_at_{0.0f};       ///< where the button went down
-    glm::vec2 last_{0.0f};            ///< the mouse a tick ago
-    glm::vec2 offset_{0.0f};          ///< from the mouse to the handle's pixel when caught
+    glm::vec2 caught_at_{0.0f};        ///< where the button went down
+    glm::vec2 last_{0.0f};             ///< the mouse a tick ago
+    glm::vec2 offset_{0.0f};           ///< from the mouse to the handle's pixel when caught
     glm::vec3 caught_position_{0.0f};  ///< the handle when caught
 };
 

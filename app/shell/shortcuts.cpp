@@ -9,7 +9,14 @@ Shortcut row(const char* chord, const char* command, Json arguments, const char*
              bool in_menu = true, bool while_typing = false) {
     const std::string_view name = command;
     const bool repeats = name == "undo" || name == "redo" || name == "time.step";
-    return {*chord_from_name(chord), command, std::move(arguments), title, section, in_menu, while_typing, repeats};
+    return {*chord_from_name(chord),
+            command,
+            std::move(arguments),
+            title,
+            section,
+            in_menu,
+            while_typing,
+            repeats};
 }
 
 constexpr MouseBinding mouse_bindings[] = {
@@ -40,11 +47,16 @@ std::string gestures_of(MouseAction action) {
 
 const char* section_title(Section section) {
     switch (section) {
-        case Section::Scene: return "Scene";
-        case Section::Edit: return "Edit";
-        case Section::View: return "View";
-        case Section::Time: return "Time";
-        case Section::Help: return "Help";
+        case Section::Scene:
+            return "Scene";
+        case Section::Edit:
+            return "Edit";
+        case Section::View:
+            return "View";
+        case Section::Time:
+            return "Time";
+        case Section::Help:
+            return "Help";
     }
     return "";
 }

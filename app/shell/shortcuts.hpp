@@ -1,5 +1,5 @@
-// The one table of keys and of what the mouse does. The handlers, the menu, the help overlay, the tooltips and the
-// README's list all come from it.
+// The one table of keys and of what the mouse does. The handlers, the menu, the help overlay, the tooltips
+// and the README's list all come from it.
 #pragma once
 
 #include <optional>

@@ -9,8 +9,12 @@
 
 namespace tendril::app {
 
-inline ImVec4 imgui_colour(glm::vec3 c, float alpha = 1.0f) { return {c.r, c.g, c.b, alpha}; }
-inline ImU32 imgui_u32(glm::vec3 c, float alpha = 1.0f) { return ImGui::ColorConvertFloat4ToU32(imgui_colour(c, alpha)); }
+inline ImVec4 imgui_colour(glm::vec3 c, float alpha = 1.0f) {
+    return {c.r, c.g, c.b, alpha};
+}
+inline ImU32 imgui_u32(glm::vec3 c, float alpha = 1.0f) {
+    return ImGui::ColorConvertFloat4ToU32(imgui_colour(c, alpha));
+}
 
 void apply_theme(Theme theme, float scale);
 

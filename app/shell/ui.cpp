@@ -1,7 +1,7 @@
 #include "app/shell/ui.hpp"
 
-#include <imgui.h>
 #include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
 
 #include <glm/common.hpp>
 #include <stdexcept>
@@ -17,8 +17,8 @@ namespace {
 constexpr float base_text = 15.0f;  ///< pixels at scale 1
 
 // Latin, Greek for maths, and the punctuation that the texts use.
-constexpr ImWchar glyphs[] = {0x0020, 0x024F, 0x0370, 0x03FF, 0x2010, 0x205E, 0x20A0, 0x20BF, 0x2190, 0x2193,
-                              0x2200, 0x2265, 0};
+constexpr ImWchar glyphs[] = {0x0020, 0x024F, 0x0370, 0x03FF, 0x2010, 0x205E, 0x20A0,
+                              0x20BF, 0x2190, 0x2193, 0x2200, 0x2265, 0};
 
 void add_font(std::span<const std::byte> file, float pixels) {
     ImFontConfig config;
@@ -42,7 +42,8 @@ Ui::Ui() {
     io.ConfigInputTextCursorBlink = false;
     io.ConfigWindowsMoveFromTitleBarOnly = true;
     imgui_setup_keys();
-    if (!ImGui_ImplOpenGL3_Init("#version 330")) throw std::runtime_error("Dear ImGui cannot use this GL context");
+    if (!ImGui_ImplOpenGL3_Init("#version 330"))
+        throw std::runtime_error("Dear ImGui cannot use this GL context");
 }
 
 Ui::~Ui() {
@@ -74,7 +75,8 @@ void Ui::begin(const Surface& surface, Theme theme, const Input& input, const Ev
     io.DisplayFramebufferScale = {ratio.x, ratio.y};
 
     if (surface.scale != font_scale_ || ratio.x != font_ratio_) load_fonts(surface.scale, ratio.x);
-    if (surface.scale != font_scale_ || theme != theme_ || font_ratio_ == 0.0f) apply_theme(theme, surface.scale);
+    if (surface.scale != font_scale_ || theme != theme_ || font_ratio_ == 0.0f)
+        apply_theme(theme, surface.scale);
     font_scale_ = surface.scale;
     font_ratio_ = ratio.x;
     theme_ = theme;
@@ -89,11 +91,19 @@ void Ui::begin(const Surface& surface, Theme theme, const Input& input, const Ev
     ImGui::NewFrame();
 }
 
-void Ui::end() { ImGui::Render(); }
+void Ui::end() {
+    ImGui::Render();
+}
 
-void Ui::draw() { ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData()); }
+void Ui::draw() {
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
 
-bool Ui::wants_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
-bool Ui::wants_text() const { return ImGui::GetIO().WantTextInput; }
+bool Ui::wants_mouse() const {
+    return ImGui::GetIO().WantCaptureMouse;
+}
+bool Ui::wants_text() const {
+    return ImGui::GetIO().WantTextInput;
+}
 
 }  // namespace tendril::app

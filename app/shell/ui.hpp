@@ -1,5 +1,5 @@
-// Dear ImGui, set up once: context, fonts, backend, and our input as its only input. No ini file, a fixed time step, no
-// blinking cursor: so the same events give the same pixels.
+// Dear ImGui, set up once: context, fonts, backend, and our input as its only input. No ini file, a fixed
+// time step, no blinking cursor: so the same events give the same pixels.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -16,7 +16,8 @@ float bounded(float value, float low, float high, float otherwise) {
 
 /// The nearest pose that can be looked from, so that no scene file and no gesture can break the picture.
 CameraPose in_range(CameraPose pose) {
-    for (int i = 0; i < 3; ++i) pose.target[i] = bounded(pose.target[i], -camera_range::target, camera_range::target, 0.0f);
+    for (int i = 0; i < 3; ++i)
+        pose.target[i] = bounded(pose.target[i], -camera_range::target, camera_range::target, 0.0f);
     pose.yaw = std::isfinite(pose.yaw) ? std::remainder(pose.yaw, glm::two_pi<float>()) : 0.0f;
     pose.pitch = bounded(pose.pitch, -quarter_turn, quarter_turn, 0.0f);
     pose.distance = bounded(pose.distance, static_cast<float>(camera_range::nearest),
@@ -35,8 +36,8 @@ Rect in_range(const Rect& viewport) {
     return {low, glm::max(pixels(viewport.max), low + 1.0f)};
 }
 
-/// Tangent of half the vertical field. In a view narrower than this the field's width is kept instead of its height, so
-/// that what fits a wide window still fits when panels or large text make the view narrow.
+/// Tangent of half the vertical field. In a view narrower than this the field's width is kept instead of its
+/// height, so that what fits a wide window still fits when panels or large text make the view narrow.
 float half_field(const CameraPose& pose, float aspect) {
     constexpr float narrow = 1.25f, widest = 4.0f;
     return std::tan(0.5f * pose.field_of_view) * std::clamp(narrow / aspect, 1.0f, widest);

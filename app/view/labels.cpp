@@ -10,8 +10,8 @@
 namespace tendril::app {
 namespace {
 
-/// Which way from its point a label lies. Slantwise first, for what runs through a point mostly runs along or up; to the
-/// right before the left, as people read on from there, and above before below.
+/// Which way from its point a label lies. Slantwise first, for what runs through a point mostly runs along or
+/// up; to the right before the left, as people read on from there, and above before below.
 constexpr std::array<glm::vec2, 8> sides{{
     {0.7f, -0.7f},
     {0.7f, 0.7f},

@@ -29,9 +29,10 @@ struct PlacedLabel {
     Rect box;                 ///< where the text goes
 };
 
-/// The labels that fit, in the order in which they were placed. `gap` pixels stay free between two labels. A place that
-/// covers none of the `obstacles` is preferred; where there is none, a label covers one rather than be left out.
-/// Requests that are not finite, are empty, or whose point lies outside the viewport are left out.
+/// The labels that fit, in the order in which they were placed. `gap` pixels stay free between two labels. A
+/// place that covers none of the `obstacles` is preferred; where there is none, a label covers one rather
+/// than be left out. Requests that are not finite, are empty, or whose point lies outside the viewport are
+/// left out.
 std::vector<PlacedLabel> place_labels(std::span<const LabelRequest> requests, const Rect& viewport,
                                       float gap = 2.0f, std::span<const Rect> obstacles = {});
 

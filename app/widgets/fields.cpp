@@ -68,7 +68,8 @@ bool integer_field(const char* name, int& value, int low, int high) {
 bool integer_slider(const char* name, int& value, int low, int high) {
     const std::string id = begin_row(name);
     // The number stands beside the slider, where its knob does not hide it.
-    const float room = ImGui::CalcTextSize(std::to_string(high).c_str()).x + ImGui::GetStyle().ItemInnerSpacing.x;
+    const float room =
+        ImGui::CalcTextSize(std::to_string(high).c_str()).x + ImGui::GetStyle().ItemInnerSpacing.x;
     ImGui::SetNextItemWidth(-room);
     const bool changed = ImGui::SliderInt(id.c_str(), &value, low, high, "", ImGuiSliderFlags_AlwaysClamp);
     ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);

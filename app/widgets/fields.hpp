@@ -1,6 +1,6 @@
-// The rows of a panel: a dim name on the left, a field on the right (below, where there is no room beside it); numbers
-// of fixed width, with their units.
-// Each field returns true in a frame in which a person changed its value. The names are ids too: unique in a panel.
+// The rows of a panel: a dim name on the left, a field on the right (below, where there is no room beside
+// it); numbers of fixed width, with their units. Each field returns true in a frame in which a person changed
+// its value. The names are ids too: unique in a panel.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -7,8 +7,14 @@ namespace tendril::app {
 
 enum class Font { Text, Heading, Small };
 
-inline ImFont* font(Font which) { return ImGui::GetIO().Fonts->Fonts[static_cast<int>(which)]; }
-inline ImFont* small_font() { return font(Font::Small); }
-inline ImFont* heading_font() { return font(Font::Heading); }
+inline ImFont* font(Font which) {
+    return ImGui::GetIO().Fonts->Fonts[static_cast<int>(which)];
+}
+inline ImFont* small_font() {
+    return font(Font::Small);
+}
+inline ImFont* heading_font() {
+    return font(Font::Heading);
+}
 
 }  // namespace tendril::app

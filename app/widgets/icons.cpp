@@ -15,7 +15,9 @@ struct Pen {
     float width;
 
     ImVec2 at(float x, float y) const { return {centre.x + x * half, centre.y + y * half}; }
-    void line(float x0, float y0, float x1, float y1) const { list->AddLine(at(x0, y0), at(x1, y1), colour, width); }
+    void line(float x0, float y0, float x1, float y1) const {
+        list->AddLine(at(x0, y0), at(x1, y1), colour, width);
+    }
     void arc(float x, float y, float radius, float from, float to) const {
         list->PathArcTo(at(x, y), radius * half, from, to, 24);
         list->PathStroke(colour, 0, width);
@@ -64,9 +66,15 @@ void draw_icon(ImDrawList* list, Icon icon, ImVec2 centre, float size, ImU32 col
         case Icon::Menu:
             for (const float y : {-0.5f, 0.0f, 0.5f}) pen.line(-0.7f, y, 0.7f, y);
             break;
-        case Icon::Undo: hooked_arrow(pen, -1.0f); break;
-        case Icon::Redo: hooked_arrow(pen, 1.0f); break;
-        case Icon::Play: pen.triangle(pen.at(-0.5f, -0.7f), pen.at(0.75f, 0.0f), pen.at(-0.5f, 0.7f)); break;
+        case Icon::Undo:
+            hooked_arrow(pen, -1.0f);
+            break;
+        case Icon::Redo:
+            hooked_arrow(pen, 1.0f);
+            break;
+        case Icon::Play:
+            pen.triangle(pen.at(-0.5f, -0.7f), pen.at(0.75f, 0.0f), pen.at(-0.5f, 0.7f));
+            break;
         case Icon::Pause:
             list->AddRectFilled(pen.at(-0.55f, -0.65f), pen.at(-0.15f, 0.65f), colour, 1.0f);
             list->AddRectFilled(pen.at(0.15f, -0.65f), pen.at(0.55f, 0.65f), colour, 1.0f);
@@ -75,8 +83,12 @@ void draw_icon(ImDrawList* list, Icon icon, ImVec2 centre, float size, ImU32 col
             pen.triangle(pen.at(-0.6f, -0.6f), pen.at(0.35f, 0.0f), pen.at(-0.6f, 0.6f));
             list->AddRectFilled(pen.at(0.4f, -0.6f), pen.at(0.65f, 0.6f), colour, 1.0f);
             break;
-        case Icon::Help: question(pen); break;
-        case Icon::Gear: gear(pen); break;
+        case Icon::Help:
+            question(pen);
+            break;
+        case Icon::Gear:
+            gear(pen);
+            break;
         case Icon::ChevronLeft:
             pen.line(0.25f, -0.5f, -0.25f, 0.0f);
             pen.line(-0.25f, 0.0f, 0.25f, 0.5f);
@@ -96,13 +108,15 @@ bool icon_button(const char* id, Icon icon, const char* tooltip, bool enabled, b
     const bool hovered = ImGui::IsItemHovered();
     ImDrawList* list = ImGui::GetWindowDrawList();
     if (hovered || active) {
-        const ImU32 fill = ImGui::GetColorU32(ImGui::IsItemActive() ? ImGuiCol_ButtonActive : ImGuiCol_ButtonHovered);
+        const ImU32 fill =
+            ImGui::GetColorU32(ImGui::IsItemActive() ? ImGuiCol_ButtonActive : ImGuiCol_ButtonHovered);
         list->AddRectFilled(at, {at.x + side, at.y + side}, fill, ImGui::GetStyle().FrameRounding);
     }
     draw_icon(list, icon, {at.x + 0.5f * side, at.y + 0.5f * side}, 0.56f * side,
               ImGui::GetColorU32(active ? ImGuiCol_CheckMark : ImGuiCol_Text));
     ImGui::EndDisabled();
-    if (tooltip != nullptr && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", tooltip);
+    if (tooltip != nullptr && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+        ImGui::SetTooltip("%s", tooltip);
     return pressed;
 }
 

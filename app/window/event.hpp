@@ -27,8 +27,9 @@ struct MousePress {
 struct MouseWheel {
     float by = 0.0f;
 };
-/// A key went down (repeats come as further downs) or up. Keys are named by what the keyboard's layout writes on them.
-/// Question comes down and up at once, wherever it is typed, after the key (with Shift or without) that typed it.
+/// A key went down (repeats come as further downs) or up. Keys are named by what the keyboard's layout writes
+/// on them. Question comes down and up at once, wherever it is typed, after the key (with Shift or without)
+/// that typed it.
 struct KeyChange {
     Key key = Key::Unknown;
     bool down = true;

@@ -1,8 +1,8 @@
 // What a frame of the Chain lab costs off screen, and how long the program takes to its first picture.
 //
-// A frame is what the window does when the mouse moves in mid-drag: one tick (input, commands, chain, panels, draw list)
-// and one picture, at 1280x720. Counters: frames a second, GL draw calls, and the cost relative to ten segments, which is
-// measured in the same run.
+// A frame is what the window does when the mouse moves in mid-drag: one tick (input, commands, chain, panels,
+// draw list) and one picture, at 1280x720. Counters: frames a second, GL draw calls, and the cost relative to
+// ten segments, which is measured in the same run.
 #include <benchmark/benchmark.h>
 #include <glad/gl.h>
 
@@ -56,11 +56,13 @@ void drag_frame(benchmark::State& state) {
     DraggedCoil coil(static_cast<int>(state.range(0)));
     coil.frame();
     for (auto _ : state) coil.frame();
-    state.counters["fps"] = benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+    state.counters["fps"] =
+        benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
     state.counters["draw_calls"] = coil.app.draw_calls();
     // an inverted rate of seconds a frame over the baseline's: times as long as a frame of ten segments
-    state.counters["times_ten"] = benchmark::Counter(static_cast<double>(state.iterations()) * baseline,
-                                                     benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters["times_ten"] =
+        benchmark::Counter(static_cast<double>(state.iterations()) * baseline,
+                           benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(drag_frame)->Arg(10)->Arg(1000)->Arg(10000)->Unit(benchmark::kMillisecond)->UseRealTime();
 

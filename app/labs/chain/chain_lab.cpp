@@ -8,13 +8,20 @@
 
 namespace tendril::app {
 
-std::shared_ptr<Part> ChainLab::blank() const { return std::make_shared<ChainPart>(first_chain()); }
-
-CameraPose ChainLab::first_view() const {
-    return {.target = {3.5f, 0.7f, 0.0f}, .yaw = glm::radians(-20.0f), .pitch = glm::radians(20.0f), .distance = 12.5f};
+std::shared_ptr<Part> ChainLab::blank() const {
+    return std::make_shared<ChainPart>(first_chain());
 }
 
-void ChainLab::add_commands(CommandTable& table) const { add_chain_commands(table); }
+CameraPose ChainLab::first_view() const {
+    return {.target = {3.5f, 0.7f, 0.0f},
+            .yaw = glm::radians(-20.0f),
+            .pitch = glm::radians(20.0f),
+            .distance = 12.5f};
+}
+
+void ChainLab::add_commands(CommandTable& table) const {
+    add_chain_commands(table);
+}
 
 bool ChainLab::moving(const Workspace& workspace) const {
     return chain_part(workspace).motion.path != Motion::Path::Still;
@@ -77,7 +84,8 @@ std::string ChainLab::hint(const Workspace& workspace, PickId pick) const {
     const ChainPart& part = chain_part(workspace);
     if (pick == no_pick) return {};
     if (pick == target_pick) {
-        return std::string("Target: drag to reach for it (") + mode_title(part.mode) + "). Hold X, Y or Z for one axis, "
+        return std::string("Target: drag to reach for it (") + mode_title(part.mode) +
+               "). Hold X, Y or Z for one axis, "
                "Shift for the ground plane.";
     }
     const std::size_t index = picked_segment(pick);
@@ -88,7 +96,8 @@ std::string ChainLab::hint(const Workspace& workspace, PickId pick) const {
 Bounds ChainLab::bounds(const Workspace& workspace, bool selection_only) const {
     const ChainPart& part = chain_part(workspace);
     if (selection_only && part.selected) {
-        return {part.chain.position(*part.selected), std::max(1.5f * part.chain.length(*part.selected), 0.5f)};
+        return {part.chain.position(*part.selected),
+                std::max(1.5f * part.chain.length(*part.selected), 0.5f)};
     }
     glm::vec3 low = part.target, high = part.target;
     for (const Segment& segment : part.chain.segments()) {
@@ -102,7 +111,8 @@ Json ChainLab::state(const Workspace& workspace) const {
     const ChainPart& part = chain_part(workspace);
     const auto segments = part.chain.segments();
     const auto end = [&](bool tail) {
-        return segments.empty() ? Json(nullptr) : point(tail ? segments.back().position : segments.front().position);
+        return segments.empty() ? Json(nullptr)
+                                : point(tail ? segments.back().position : segments.front().position);
     };
     Json list = Json::array();
     for (const Segment& segment : segments) {

@@ -7,8 +7,12 @@
 namespace tendril::app {
 
 inline constexpr PickId target_pick = 0;
-inline PickId segment_pick(std::size_t index) { return static_cast<PickId>(index) + 1; }
-inline std::size_t picked_segment(PickId pick) { return static_cast<std::size_t>(pick) - 1; }
+inline PickId segment_pick(std::size_t index) {
+    return static_cast<PickId>(index) + 1;
+}
+inline std::size_t picked_segment(PickId pick) {
+    return static_cast<std::size_t>(pick) - 1;
+}
 
 class ChainLab final : public Lab {
   public:

@@ -26,16 +26,23 @@ constexpr ModeText mode_texts[] = {
 };
 
 const ModeText& text_of(Mode mode) {
-    return *std::find_if(std::begin(mode_texts), std::end(mode_texts), [&](const auto& t) { return t.mode == mode; });
+    return *std::find_if(std::begin(mode_texts), std::end(mode_texts),
+                         [&](const auto& t) { return t.mode == mode; });
 }
 
 constexpr const char* motion_names[] = {"still", "circle", "figure_eight", "sweep"};
 
 }  // namespace
 
-const char* mode_name(Mode mode) { return text_of(mode).name; }
-const char* mode_title(Mode mode) { return text_of(mode).title; }
-const char* mode_help(Mode mode) { return text_of(mode).help; }
+const char* mode_name(Mode mode) {
+    return text_of(mode).name;
+}
+const char* mode_title(Mode mode) {
+    return text_of(mode).title;
+}
+const char* mode_help(Mode mode) {
+    return text_of(mode).help;
+}
 
 Mode mode_from_name(const std::string& name) {
     for (const auto& text : mode_texts) {
@@ -44,7 +51,9 @@ Mode mode_from_name(const std::string& name) {
     throw std::invalid_argument("unknown mode \"" + name + "\"");
 }
 
-const char* motion_name(Motion::Path path) { return motion_names[static_cast<std::size_t>(path)]; }
+const char* motion_name(Motion::Path path) {
+    return motion_names[static_cast<std::size_t>(path)];
+}
 
 Motion::Path motion_from_name(const std::string& name) {
     for (const Motion::Path path : all_motions) {
@@ -62,10 +71,14 @@ glm::vec3 motion_point(const Motion& motion, std::uint32_t ticks) {
     const float angle = glm::two_pi<float>() * static_cast<float>(ticks % round) / static_cast<float>(round);
     const float c = std::cos(angle), s = std::sin(angle);
     switch (motion.path) {
-        case Motion::Path::Still: break;
-        case Motion::Path::Circle: return motion.centre + motion.radius * glm::vec3(c, s, 0.0f);
-        case Motion::Path::FigureEight: return motion.centre + motion.radius * glm::vec3(c, s * c, 0.5f * s);
-        case Motion::Path::Sweep: return motion.centre + motion.radius * glm::vec3(s, 0.0f, 0.0f);
+        case Motion::Path::Still:
+            break;
+        case Motion::Path::Circle:
+            return motion.centre + motion.radius * glm::vec3(c, s, 0.0f);
+        case Motion::Path::FigureEight:
+            return motion.centre + motion.radius * glm::vec3(c, s * c, 0.5f * s);
+        case Motion::Path::Sweep:
+            return motion.centre + motion.radius * glm::vec3(s, 0.0f, 0.0f);
     }
     return motion.centre;
 }
@@ -78,14 +91,18 @@ ChainPart first_chain() {
 }
 
 bool same(const ChainPart& a, const ChainPart& b) {
-    return a.mode == b.mode && a.index == b.index && a.iterations == b.iterations && a.tolerance == b.tolerance &&
-           a.target == b.target && a.selected == b.selected && a.motion == b.motion && a.chain == b.chain;
+    return a.mode == b.mode && a.index == b.index && a.iterations == b.iterations &&
+           a.tolerance == b.tolerance && a.target == b.target && a.selected == b.selected &&
+           a.motion == b.motion && a.chain == b.chain;
 }
 
 void check_range(const ChainPart& part) {
-    const auto outside = [](glm::vec3 p) { return glm::any(glm::greaterThan(glm::abs(p), glm::vec3(max_magnitude))); };
+    const auto outside = [](glm::vec3 p) {
+        return glm::any(glm::greaterThan(glm::abs(p), glm::vec3(max_magnitude)));
+    };
     for (const Segment& segment : part.chain.segments()) {
-        if (outside(segment.position)) throw std::invalid_argument("the chain would reach farther than 1e9 m");
+        if (outside(segment.position))
+            throw std::invalid_argument("the chain would reach farther than 1e9 m");
     }
     if (part.motion.path == Motion::Path::Still) return;
     const glm::vec3 span(part.motion.radius);
@@ -97,9 +114,15 @@ void check_range(const ChainPart& part) {
 void reach_for(ChainPart& part, glm::vec3 target) {
     const int iterations = part.iterations[static_cast<std::size_t>(part.mode)];
     switch (part.mode) {
-        case Mode::Forward: part.chain.forward(target); break;
-        case Mode::Backward: part.chain.backward(target); break;
-        case Mode::Fixed: part.chain.fixed(target, {.iterations = iterations, .tolerance = part.tolerance}); break;
+        case Mode::Forward:
+            part.chain.forward(target);
+            break;
+        case Mode::Backward:
+            part.chain.backward(target);
+            break;
+        case Mode::Fixed:
+            part.chain.fixed(target, {.iterations = iterations, .tolerance = part.tolerance});
+            break;
         case Mode::WithIndex:
             if (!part.chain.empty()) part.chain.with_index(part.index, target);
             break;
@@ -110,7 +133,8 @@ void reach_for(ChainPart& part, glm::vec3 target) {
 float length_error(const Chain& chain, std::size_t index) {
     if (index == 0) return 0.0f;
     const auto segments = chain.segments();
-    return std::abs(glm::distance(segments[index].position, segments[index - 1].position) - segments[index].length);
+    return std::abs(glm::distance(segments[index].position, segments[index - 1].position) -
+                    segments[index].length);
 }
 
 Json ChainPart::save() const {
@@ -119,7 +143,8 @@ Json ChainPart::save() const {
         segments.push_back({{"position", point(segment.position)}, {"length", number(segment.length)}});
     }
     Json json{{"mode", mode_name(mode)}, {"index", index}};
-    for (const Mode each : all_modes) json["iterations"][mode_name(each)] = iterations[static_cast<std::size_t>(each)];
+    for (const Mode each : all_modes)
+        json["iterations"][mode_name(each)] = iterations[static_cast<std::size_t>(each)];
     json["tolerance"] = number(tolerance);
     json["target"] = point(target);
     json["selected"] = selected ? Json(*selected) : Json(nullptr);
@@ -148,7 +173,8 @@ std::vector<Segment> load_segments(const Json& json, const std::string& where) {
         segments.push_back({json_point(json_member(json[i], "position", here), here + ".position"),
                             json_number(json_member(json[i], "length", here), here + ".length")});
         if (segments.back().length < 0.0f) {
-            throw std::runtime_error(here + ".length must be at least 0, got " + number(segments.back().length).dump());
+            throw std::runtime_error(here + ".length must be at least 0, got " +
+                                     number(segments.back().length).dump());
         }
     }
     return segments;
@@ -160,8 +186,10 @@ Motion load_motion(const Json& json, const std::string& where) {
     motion.centre = json_point(json_member(json, "centre", where), where + ".centre");
     motion.radius = json_number(json_member(json, "radius", where), where + ".radius");
     motion.period = json_number(json_member(json, "period", where), where + ".period");
-    if (motion.radius < 0.0f || motion.radius > 1e4f) throw std::runtime_error(where + ".radius must be 0 to 1e4");
-    if (motion.period < 0.1f || motion.period > 600.0f) throw std::runtime_error(where + ".period must be 0.1 to 600");
+    if (motion.radius < 0.0f || motion.radius > 1e4f)
+        throw std::runtime_error(where + ".radius must be 0 to 1e4");
+    if (motion.period < 0.1f || motion.period > 600.0f)
+        throw std::runtime_error(where + ".period must be 0.1 to 600");
     const int most = static_cast<int>(ticks_per_round(motion)) - 1;
     motion.ticks = static_cast<std::uint32_t>(
         json_integer(json_member(json, "ticks", where), where + ".ticks", 0, most));
@@ -177,8 +205,8 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
         const Json& repeats = json_member(json, "iterations", where);
         for (const Mode each : all_modes) {
             const std::string here = where + ".iterations";
-            part->iterations[static_cast<std::size_t>(each)] =
-                json_integer(json_member(repeats, mode_name(each), here), here + "." + mode_name(each), 1, max_iterations);
+            part->iterations[static_cast<std::size_t>(each)] = json_integer(
+                json_member(repeats, mode_name(each), here), here + "." + mode_name(each), 1, max_iterations);
         }
         part->tolerance = json_number(json_member(json, "tolerance", where), where + ".tolerance");
         if (part->tolerance < 0.0f) throw std::runtime_error(where + ".tolerance must be at least 0");

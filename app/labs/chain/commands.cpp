@@ -11,14 +11,22 @@ namespace {
 constexpr double most_index = static_cast<double>(max_segments) - 1;
 
 Argument index_argument(bool required, const char* help) {
-    return {.name = "index", .type = ArgumentType::Integer, .required = required, .help = help, .low = 0,
+    return {.name = "index",
+            .type = ArgumentType::Integer,
+            .required = required,
+            .help = help,
+            .low = 0,
             .high = most_index};
 }
 
-Argument length_argument() { return {.name = "length", .help = "metres", .low = 0}; }
+Argument length_argument() {
+    return {.name = "length", .help = "metres", .low = 0};
+}
 
 Argument position_argument() {
-    return {.name = "position", .type = ArgumentType::Point, .required = false,
+    return {.name = "position",
+            .type = ArgumentType::Point,
+            .required = false,
             .help = "where it is given, before its length is kept; straight on when left out"};
 }
 
@@ -39,7 +47,9 @@ Command chain_command(const char* name, std::vector<Argument> arguments, const c
             }};
 }
 
-std::size_t index_of(const Arguments& given) { return static_cast<std::size_t>(given.integer("index")); }
+std::size_t index_of(const Arguments& given) {
+    return static_cast<std::size_t>(given.integer("index"));
+}
 
 void check_index(const ChainPart& part, std::size_t index) {
     if (index >= part.chain.size()) {
@@ -135,8 +145,10 @@ void reset(ChainPart& part, const Arguments&) {
 
 void take_preset(ChainPart& part, const Arguments& given) {
     const std::string name = given.text("name");
-    const auto preset = std::find_if(presets().begin(), presets().end(), [&](const Preset& p) { return p.name == name; });
-    const std::size_t count = given.has("count") ? static_cast<std::size_t>(given.integer("count")) : preset->count;
+    const auto preset =
+        std::find_if(presets().begin(), presets().end(), [&](const Preset& p) { return p.name == name; });
+    const std::size_t count =
+        given.has("count") ? static_cast<std::size_t>(given.integer("count")) : preset->count;
     const std::uint32_t seed = given.has("seed") ? static_cast<std::uint32_t>(given.integer("seed")) : 1u;
     part.chain = make_preset(name, count, seed);
     part.target = part.chain.position(part.chain.size() - 1);
@@ -171,27 +183,35 @@ std::vector<std::string> names(const auto& list, auto name_of) {
 }
 
 void add_shape_commands(CommandTable& table) {
-    table.add(chain_command(
-        "chain.clear",
-        {{.name = "default_direction", .type = ArgumentType::Point, .required = false,
-          .help = "unit vector along which a chain without a direction is laid"}},
-        "Takes every segment away", clear));
+    table.add(chain_command("chain.clear",
+                            {{.name = "default_direction",
+                              .type = ArgumentType::Point,
+                              .required = false,
+                              .help = "unit vector along which a chain without a direction is laid"}},
+                            "Takes every segment away", clear));
     table.add(chain_command("chain.add", {length_argument(), position_argument()},
                             "Appends a segment at the tail", add));
-    table.add(chain_command("chain.insert",
-                            {index_argument(true, "the new segment's"), length_argument(), position_argument()},
-                            "Inserts a segment before another", insert));
-    table.add(chain_command("chain.remove", {index_argument(true, "which segment")}, "Removes a segment", remove));
+    table.add(chain_command(
+        "chain.insert", {index_argument(true, "the new segment's"), length_argument(), position_argument()},
+        "Inserts a segment before another", insert));
+    table.add(
+        chain_command("chain.remove", {index_argument(true, "which segment")}, "Removes a segment", remove));
     table.add(chain_command("chain.reset", {}, "Everything in this lab as at the first start", reset));
-    table.add(chain_command("chain.set_length", {index_argument(true, "which segment"), length_argument()},
-                            "Sets a segment's length and lays the chain anew", [](ChainPart& part, const Arguments& a) {
-                                part.chain.set_length(index_of(a), a.number("length"));
-                            }));
+    table.add(chain_command(
+        "chain.set_length", {index_argument(true, "which segment"), length_argument()},
+        "Sets a segment's length and lays the chain anew",
+        [](ChainPart& part, const Arguments& a) { part.chain.set_length(index_of(a), a.number("length")); }));
     table.add(chain_command(
         "chain.preset",
-        {{.name = "name", .type = ArgumentType::Text, .help = "which chain",
+        {{.name = "name",
+          .type = ArgumentType::Text,
+          .help = "which chain",
           .choices = names(presets(), [](const Preset& p) { return p.name; })},
-         {.name = "count", .type = ArgumentType::Integer, .required = false, .help = "segments", .low = 1,
+         {.name = "count",
+          .type = ArgumentType::Integer,
+          .required = false,
+          .help = "segments",
+          .low = 1,
           .high = static_cast<double>(max_segments)},
          {.name = "seed", .type = ArgumentType::Integer, .required = false, .help = "for random", .low = 0}},
         "Begins with a ready-made chain, the target on its tail", take_preset));
@@ -200,10 +220,16 @@ void add_shape_commands(CommandTable& table) {
 void add_reach_commands(CommandTable& table) {
     table.add(chain_command(
         "chain.mode",
-        {{.name = "mode", .type = ArgumentType::Text, .help = "how the chain reaches",
+        {{.name = "mode",
+          .type = ArgumentType::Text,
+          .help = "how the chain reaches",
           .choices = names(all_modes, mode_name)},
          index_argument(false, "which segment with_index pulls"),
-         {.name = "iterations", .type = ArgumentType::Integer, .required = false, .help = "repeats of fixed", .low = 1,
+         {.name = "iterations",
+          .type = ArgumentType::Integer,
+          .required = false,
+          .help = "repeats of fixed",
+          .low = 1,
           .high = max_iterations},
          {.name = "tolerance", .required = false, .help = "metres at which fixed stops repeating", .low = 0}},
         "Sets how the chain reaches; it moves when the target next does", set_mode));
@@ -218,13 +244,16 @@ void add_reach_commands(CommandTable& table) {
                             "Selects a segment", select, Effect::Look));
     table.add(chain_command(
         "chain.motion",
-        {{.name = "path", .type = ArgumentType::Text, .help = "what the target follows by itself",
+        {{.name = "path",
+          .type = ArgumentType::Text,
+          .help = "what the target follows by itself",
           .choices = names(all_motions, motion_name)},
          {.name = "radius", .required = false, .help = "metres", .low = 0, .high = 1e4},
          {.name = "period", .required = false, .help = "seconds a round", .low = 0.1, .high = 600}},
         "Lets the target follow a path while time runs", set_motion));
-    table.add(chain_command("chain.seek", {{.name = "tick", .type = ArgumentType::Integer, .help = "of the round", .low = 0}},
-                            "Takes the moving target to a tick of its round", seek));
+    table.add(chain_command(
+        "chain.seek", {{.name = "tick", .type = ArgumentType::Integer, .help = "of the round", .low = 0}},
+        "Takes the moving target to a tick of its round", seek));
 }
 
 }  // namespace

@@ -39,7 +39,8 @@ Segments tentacle(std::size_t count) {
     return laid({0, 0, 0}, count, [=](std::size_t i) {
         const float t = part_of(i, count);
         const float lean = 1.1f * std::sin(6.0f * t) * (0.3f + 0.7f * t);
-        return scale * (1.5f - 0.9f * t) * glm::vec3(std::sin(lean), std::cos(lean), 0.35f * std::sin(4.0f * t));
+        return scale * (1.5f - 0.9f * t) *
+               glm::vec3(std::sin(lean), std::cos(lean), 0.35f * std::sin(4.0f * t));
     });
 }
 
@@ -47,11 +48,16 @@ Segments tentacle(std::size_t count) {
 Segments arm(std::size_t count) {
     return laid({0, 3, 0}, count, [](std::size_t i) {
         switch (i) {
-            case 0: return glm::vec3(1.0f, 0.0f, 0.0f);
-            case 1: return glm::vec3(0.9f, -2.8f, 0.0f);
-            case 2: return glm::vec3(2.2f, 1.1f, 0.6f);
-            case 3: return glm::vec3(0.7f, 0.35f, 0.0f);
-            default: return glm::vec3(0.32f, -0.06f, 0.0f);
+            case 0:
+                return glm::vec3(1.0f, 0.0f, 0.0f);
+            case 1:
+                return glm::vec3(0.9f, -2.8f, 0.0f);
+            case 2:
+                return glm::vec3(2.2f, 1.1f, 0.6f);
+            case 3:
+                return glm::vec3(0.7f, 0.35f, 0.0f);
+            default:
+                return glm::vec3(0.32f, -0.06f, 0.0f);
         }
     });
 }
@@ -89,9 +95,9 @@ Segments random_walk(std::size_t count, std::uint32_t seed) {
 }  // namespace
 
 const std::vector<Preset>& presets() {
-    static const std::vector<Preset> list{{"start", "Start", 8},   {"arm", "Arm", 7},
+    static const std::vector<Preset> list{{"start", "Start", 8},        {"arm", "Arm", 7},
                                           {"tentacle", "Tentacle", 24}, {"snake", "Snake", 40},
-                                          {"coil", "Coil", 120},     {"random", "Random", 16}};
+                                          {"coil", "Coil", 120},        {"random", "Random", 16}};
     return list;
 }
 

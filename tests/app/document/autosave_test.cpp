@@ -157,7 +157,7 @@ TEST(Autosave, of_a_program_that_was_killed_is_found_and_recovered) {
     const pid_t victim = ::fork();
     if (victim == 0) {
         Workspace workspace = test::make_workspace();
-        workspace.path = "/work/scene.json";
+        workspace.path = "/elsewhere/scene.json";
         change(workspace, "precious");
         Autosave autosave(folder.path(), 0s);
         autosave.update(workspace, start);
@@ -170,7 +170,7 @@ TEST(Autosave, of_a_program_that_was_killed_is_found_and_recovered) {
     Workspace workspace = test::make_workspace();
     Autosave::recover(workspace, files[0]);
     EXPECT_EQ(workspace.document.get<TestPart>("arm").title, "precious");
-    EXPECT_EQ(workspace.path, "/work/scene.json");
+    EXPECT_EQ(workspace.path, "/elsewhere/scene.json");
     EXPECT_TRUE(workspace.modified());
     EXPECT_TRUE(std::filesystem::exists(files[0]));
 }

@@ -1,5 +1,7 @@
 // Things that once went wrong, each from the outside: what a person or a script did, and what must come of
 // it.
+#include <sstream>
+
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {
@@ -72,6 +74,19 @@ TEST(OnceWrong, a_target_that_moves_to_the_end_of_the_world_ends_nothing) {
     script.command("chain.target", {{"to", app::Json::array({1e9, 0, 0})}});
     script.command("chain.motion", {{"path", "sweep"}, {"radius", 10000}}, true).wait(100);
     state_after(script);
+}
+
+TEST(OnceWrong, the_script_in_the_readme_runs) {
+    const TempFolder folder;
+    std::istringstream readme(read(std::filesystem::path(TENDRIL_SOURCE_DIR) / "README.md"));
+    std::string script;
+    for (std::string line; std::getline(readme, line);) {
+        if (line.starts_with("    {\"") && line.find("screenshot") == std::string::npos)
+            script += line + "\n";
+    }
+    write(folder / "readme.jsonl", script);
+    EXPECT_GT(script.size(), 200u);
+    EXPECT_TRUE(succeeded(run_program({"--headless", "--script", (folder / "readme.jsonl").string()})));
 }
 
 }  // namespace

@@ -112,13 +112,15 @@ TEST_F(ChainCommands, PullTakesTheTargetAlongAndLeavesTheMode) {
 }
 
 TEST_F(ChainCommands, RefusalsSayWhyInOneLine) {
-    EXPECT_EQ(refused("chain.remove", {{"index", 8}}), "chain.remove: index 8 is out of range, the chain has 8 segments");
+    EXPECT_EQ(refused("chain.remove", {{"index", 8}}),
+              "chain.remove: index 8 is out of range, the chain has 8 segments");
     EXPECT_EQ(refused("chain.add", Json::object()), "chain.add: length is missing (a number)");
     EXPECT_EQ(refused("chain.add", {{"length", -1}}), "chain.add: length must be at least 0.0, got -1");
     EXPECT_EQ(refused("chain.add", {{"length", "long"}}), "chain.add: length must be a number, got \"long\"");
     EXPECT_EQ(refused("chain.add", {{"lenght", 1}, {"length", 1}}).substr(0, 44),
               "chain.add: unknown argument \"lenght\"; it tak");
-    EXPECT_EQ(refused("chain.mode", {{"mode", "sideways"}}).substr(0, 36), "chain.mode: mode must be one of forw");
+    EXPECT_EQ(refused("chain.mode", {{"mode", "sideways"}}).substr(0, 36),
+              "chain.mode: mode must be one of forw");
     const double nan = std::nan(""), inf = HUGE_VAL;
     for (const double bad : {nan, inf, -inf, 1e10, -1e10}) {
         refused("chain.add", {{"length", bad}});
@@ -127,7 +129,8 @@ TEST_F(ChainCommands, RefusalsSayWhyInOneLine) {
         refused("chain.set_length", {{"index", 1}, {"length", bad}});
         refused("chain.remove", {{"index", bad}});
     }
-    for (const Json& bad : {Json(1.5), Json(-1), Json("0"), Json(nullptr), Json::array(), Json(true), Json(8)}) {
+    for (const Json& bad :
+         {Json(1.5), Json(-1), Json("0"), Json(nullptr), Json::array(), Json(true), Json(8)}) {
         refused("chain.remove", {{"index", bad}});
         refused("chain.insert", {{"index", bad}, {"length", 1}});
         refused("chain.select", {{"index", bad}});
@@ -168,7 +171,8 @@ TEST_F(ChainCommands, PresetsAreSoundAtEverySize) {
             for (std::size_t i = 0; i < chain.size(); ++i) {
                 EXPECT_TRUE(std::isfinite(glm::length(chain.position(i))));
                 EXPECT_GT(chain.length(i), 0.0f);
-                EXPECT_LE(length_error(chain, i), 1e-4f * std::max(1.0f, chain.length(i))) << name << " " << i;
+                EXPECT_LE(length_error(chain, i), 1e-4f * std::max(1.0f, chain.length(i)))
+                    << name << " " << i;
             }
         }
     }

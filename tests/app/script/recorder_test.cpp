@@ -36,13 +36,13 @@ TEST(Recorder, begins_with_what_it_started_from) {
 
 TEST(Recorder, says_which_file_and_which_scale_it_started_from_where_there_is_any) {
     RecordingStart beginning{.version = "0.1.0",
-                         .size = {800, 600},
-                         .lab = "chain",
-                         .scene = Json::object(),
-                         .settings = Json::object(),
-                         .path = "walk.json",
-                         .modified = true,
-                         .scale = 2.0f};
+                             .size = {800, 600},
+                             .lab = "chain",
+                             .scene = Json::object(),
+                             .settings = Json::object(),
+                             .path = "walk.json",
+                             .modified = true,
+                             .scale = 2.0f};
     const Script script = parse_script(Recorder(beginning).text(), CommandTable());
     ASSERT_TRUE(script.start);
     EXPECT_EQ(script.start->path, "walk.json");

@@ -51,7 +51,8 @@ TEST(LayoutOfTheWindow, PartsTileItWithoutOverlapAtEverySize) {
         settings.right_open = pick(0, 1) == 1;
         settings.left_width = static_cast<float>(pick(180, 520));
         settings.right_width = static_cast<float>(pick(180, 520));
-        const Layout layout = lay_out(window, static_cast<float>(pick(5, 30)) / 10.0f, settings, pick(0, 1) == 1);
+        const Layout layout =
+            lay_out(window, static_cast<float>(pick(5, 30)) / 10.0f, settings, pick(0, 1) == 1);
         const float area = window.x * (window.y - layout.top.size().y - layout.status.size().y);
         float covered = 0.0f;
         for (const Rect& rect : {layout.left, layout.right, layout.view, layout.timeline}) {
@@ -94,9 +95,11 @@ TEST(InputState, HeldKeysAreModifiersAndATapLetsGo) {
 }
 
 TEST(CommandPaletteLine, IsReadAsItWouldStandInAScript) {
-    const TypedCommand typed = read_typed_command("chain.add length=1.5 position=[0, 1, 0] note=\"a b\" name=coil");
+    const TypedCommand typed =
+        read_typed_command("chain.add length=1.5 position=[0, 1, 0] note=\"a b\" name=coil");
     EXPECT_EQ(typed.name, "chain.add");
-    EXPECT_EQ(typed.arguments, (Json{{"length", 1.5}, {"position", {0, 1, 0}}, {"note", "a b"}, {"name", "coil"}}));
+    EXPECT_EQ(typed.arguments,
+              (Json{{"length", 1.5}, {"position", {0, 1, 0}}, {"note", "a b"}, {"name", "coil"}}));
     EXPECT_THROW(read_typed_command("chain.add 1.5"), std::runtime_error);
     EXPECT_THROW(read_typed_command("   "), std::runtime_error);
     EXPECT_THROW(read_typed_command("chain.add =3"), std::runtime_error);
