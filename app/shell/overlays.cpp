@@ -117,7 +117,7 @@ void show_recovery(const ShellFrame& frame, Emit& emit) {
     const auto& offers = frame.workspace.ui.recoverable;
     if (offers.empty()) return;
     const float scale = frame.layout.scale;
-    if (!begin_sheet("Unsaved work", frame.screen(), {460.0f * scale, 190.0f * scale}))
+    if (!begin_sheet("Unsaved work", frame.screen(), {460.0f * scale, 165.0f * scale}))
         emit("scene.recover_later");
     note("Tendril ended before this work was saved:");
     ImGui::TextWrapped("%s", offers.front().string().c_str());

@@ -129,6 +129,7 @@ std::optional<glm::vec3> Pointer::dragged_to(const Input& input, const Camera& c
         to = on_line(camera.ray(pixel), caught_position_, *axis);
     } else if (input.shift()) {
         to = camera.on_plane(pixel, caught_position_, {0, 1, 0});
+        if (to) to->y = caught_position_.y;  // in the plane exactly, not but for rounding
     } else {
         to = camera.on_plane(pixel, caught_position_, camera.forward());
     }
