@@ -154,6 +154,26 @@ void add_time_commands(CommandTable& table) {
     });
 }
 
+/// A setting that is one of two: the one that is named, or the other one when none is.
+template <class Choice>
+Command either(const char* name, const char* argument, std::vector<std::string> choices, const char* help,
+               Choice Settings::*setting) {
+    const std::string second = choices[1];
+    return {.name = name,
+            .arguments = {{.name = argument,
+                           .type = ArgumentType::Text,
+                           .required = false,
+                           .help = "the other one when left out",
+                           .choices = std::move(choices)}},
+            .help = help,
+            .effect = Effect::Look,
+            .apply = [argument, second, setting](Workspace& w, const Arguments& a) {
+                Choice& value = w.settings.*setting;
+                const bool to_second = a.has(argument) ? a.text(argument) == second : value == Choice{0};
+                value = to_second ? Choice{1} : Choice{0};
+            }};
+}
+
 void add_window_commands(CommandTable& table) {
     const auto toggle = [&](const char* name, const char* help, auto member) {
         table.add({.name = name,
@@ -200,47 +220,11 @@ void add_window_commands(CommandTable& table) {
                    (a.text("side") == "left" ? w.settings.left_width : w.settings.right_width) =
                        a.number("width");
                }});
-    table.add({.name = "view.theme",
-               .arguments = {{.name = "name",
-                              .type = ArgumentType::Text,
-                              .required = false,
-                              .help = "the other one when left out",
-                              .choices = {"dark", "light"}}},
-               .help = "Dark or light",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments& a) {
-                   const bool light =
-                       a.has("name") ? a.text("name") == "light" : w.settings.theme == Theme::Dark;
-                   w.settings.theme = light ? Theme::Light : Theme::Dark;
-               }});
-    table.add({.name = "view.segments",
-               .arguments = {{.name = "style",
-                              .type = ArgumentType::Text,
-                              .required = false,
-                              .help = "the other one when left out",
-                              .choices = {"spheres", "bones"}}},
-               .help = "Draws segments as lines and spheres, or as tapered bones",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments& a) {
-                   SegmentStyle& style = w.settings.segments;
-                   const bool bones =
-                       a.has("style") ? a.text("style") == "bones" : style == SegmentStyle::LinesAndSpheres;
-                   style = bones ? SegmentStyle::Bones : SegmentStyle::LinesAndSpheres;
-               }});
-    table.add({.name = "view.labels",
-               .arguments = {{.name = "show",
-                              .type = ArgumentType::Text,
-                              .required = false,
-                              .help = "the other one when left out",
-                              .choices = {"hover", "always"}}},
-               .help = "Shows labels on hover, or always",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments& a) {
-                   LabelMode& labels = w.settings.labels;
-                   const bool always =
-                       a.has("show") ? a.text("show") == "always" : labels == LabelMode::Hover;
-                   labels = always ? LabelMode::Always : LabelMode::Hover;
-               }});
+    table.add(either("view.theme", "name", {"dark", "light"}, "Dark or light", &Settings::theme));
+    table.add(either("view.segments", "style", {"spheres", "bones"},
+                     "Draws segments as lines and spheres, or as tapered bones", &Settings::segments));
+    table.add(either("view.labels", "show", {"hover", "always"}, "Shows labels on hover, or always",
+                     &Settings::labels));
     table.add(
         {.name = "view.text_scale",
          .arguments = {{.name = "scale", .help = "1 is the system's own size", .low = 0.5, .high = 3.0}},

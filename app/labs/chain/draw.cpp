@@ -50,6 +50,18 @@ class Drawing {
         return p.joint;
     }
 
+    /// Metres, at the thick end of the bone that leads to joint i.
+    float bone_radius(std::size_t i) const { return std::min(0.13f * length(i), 0.16f); }
+
+    /// Pixels. A bone shows by itself where its joint is, so the ball may be small, but not smaller than the
+    /// bone.
+    float joint_radius(std::size_t i) const {
+        if (!bones_) return ball_;
+        const float bone =
+            i + 1 < part_.chain.size() ? bone_radius(i + 1) / view_.camera.metres_per_pixel(at(i)) : 0.0f;
+        return std::max(0.75f * ball_, bone);
+    }
+
     /// From joint i - 1 to joint i.
     void link(std::size_t i) {
         Stroke& stroke = [&]() -> Stroke& {
@@ -57,7 +69,7 @@ class Drawing {
                 const float width = std::clamp(0.45f * ball_, px(1.5f), px(3.0f));
                 return list_.line(at(i - 1), at(i), width, glm::vec4(view_.palette.link, 1.0f));
             }
-            const float thick = std::min(0.13f * length(i), 0.16f);
+            const float thick = bone_radius(i);
             return list_.bone(at(i - 1), at(i), thick, 0.35f * thick, glm::vec4(view_.palette.joint, 1.0f));
         }();
         stroke.shadow = true;
@@ -68,8 +80,7 @@ class Drawing {
         const PickId pick = segment_pick(i);
         const bool hovered = view_.hovered == pick || view_.dragged == pick;
         const bool end = i == 0 || i + 1 == part_.chain.size();
-        const float plain = bones_ ? 0.75f * ball_ : ball_;  // a bone shows where its joint is
-        const float grown = plain * (end ? 1.25f : 1.0f) + (hovered ? px(1.5f) : 0.0f);
+        const float grown = joint_radius(i) * (end ? 1.25f : 1.0f) + (hovered ? px(1.5f) : 0.0f);
         Stroke& ball = list_.sphere(at(i), grown, Unit::Pixels, glm::vec4(joint_colour(i), 1.0f));
         ball.shadow = true;
         ball.pick = pick;
