@@ -72,4 +72,17 @@ Chain Chain::from_segments(std::vector<Segment> segments, glm::vec3 default_dire
     return chain;
 }
 
+void Chain::set_positions(std::span<const glm::vec3> positions) {
+    if (positions.size() != size()) {
+        detail::refuse("set_positions", "positions", "as many as segments (" + std::to_string(size()) + ")",
+                       std::to_string(positions.size()));
+    }
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        if (detail::is_point(positions[i])) continue;
+        detail::require_point("set_positions", "positions[" + std::to_string(i) + "]", positions[i]);
+    }
+    for (std::size_t i = 0; i < positions.size(); ++i) segments_[i].position = positions[i];
+    relay_from(segments_, first_loose(segments_), default_direction_);
+}
+
 }  // namespace tendril

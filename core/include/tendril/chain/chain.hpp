@@ -125,6 +125,10 @@ class Chain {
     /// holds, so this moves nothing by more than rounding, but for links shorter than 0.35 mm: they turn to
     /// default_direction, as in any pull.
     void recalculate() noexcept;
+    /// Takes a pose that was worked out elsewhere, one position a segment, as from_segments takes it: kept
+    /// bit for bit up to the first that is not at its length. Throws std::invalid_argument for a bad
+    /// coordinate or another number than size(); allocates nothing.
+    void set_positions(std::span<const glm::vec3> positions);
 
     // ---- The four modes. Each does nothing to an empty chain; targets are in metres.
     // ---- A bad target is std::invalid_argument. The pinned point is bitwise what it was pinned to.

@@ -1,0 +1,25 @@
+// A limit that holds, explained: "elbow (hinge) stops at 145 degrees; the target needs 162".
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "tendril/ik/limit.hpp"
+
+namespace tendril::ik {
+
+/// Which of a limit's numbers.
+enum class Bound : std::uint8_t { Min, Max, Up, Down, Left, Right, TwistMin, TwistMax };
+/// "twist_max"
+const char* name(Bound bound) noexcept;
+
+struct Hold {
+    std::size_t joint = 0;  ///< the bone's first joint, as limits are counted
+    JointKind kind = JointKind::Free;
+    Bound bound = Bound::Max;
+    float limit = 0.0f;   ///< radians: where the joint stops, signed as the bound is
+    float needed = 0.0f;  ///< radians: the angle that the target needs, if this joint alone were free
+    bool enough = false;  ///< whether freeing this joint alone lets the tip reach the target
+};
+
+}  // namespace tendril::ik

@@ -1,0 +1,46 @@
+// What feeds the microscope: every elementary step of a solve, as it happens. Without an observer none of
+// this costs anything: the solvers are compiled once with and once without it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+namespace tendril::ik {
+
+enum class Phase : std::uint8_t {
+    Prepare,   ///< before the first iteration: laid to its lengths, snapped back, kicked off the line
+    FromTip,   ///< FABRIK: the pull that starts with the tip on the target
+    FromRoot,  ///< FABRIK: the pull that starts with the root on its place
+    Spread,    ///< accelerated FABRIK: the bend is taken out until the span fits
+    Turn,      ///< CCD: everything beyond one joint turns about it
+    Gradient,  ///< Jacobian solvers: all joints turn a little at once
+    Pole,      ///< the bend turns to face the pole
+    Limit,     ///< a joint is brought back into its limit
+    Analytic   ///< two-bone: the answer
+};
+/// "from_tip"
+const char* name(Phase phase) noexcept;
+
+inline constexpr std::size_t no_joint = static_cast<std::size_t>(-1);
+
+/// One joint goes from one place to another. Steps with the same iteration, phase and `order` happen at once.
+struct Step {
+    int iteration = 0;  ///< from 1; 0 before the first
+    Phase phase = Phase::Prepare;
+    int order = 0;                     ///< counts the elementary steps of the solve from 0
+    std::size_t joint = 0;             ///< which one moves
+    std::size_t neighbour = no_joint;  ///< at whose distance it is laid, or about which it turns
+    glm::vec3 from{0.0f}, to{0.0f};    ///< metres
+};
+
+class Observer {
+  public:
+    virtual ~Observer() = default;
+    /// Must not throw; may allocate.
+    virtual void step(const Step& step) noexcept = 0;
+    /// After each iteration, and with iteration 0 before the first.
+    virtual void iteration_done(int iteration, float residual) noexcept = 0;
+};
+
+}  // namespace tendril::ik

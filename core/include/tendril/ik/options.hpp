@@ -1,0 +1,76 @@
+// What a solver is told and what it answers.
+//
+// Every number is checked before anything moves. A number that is not finite, is over max_magnitude or out of
+// its range, or a list of the wrong size, gives Status::InvalidInput and leaves the joints bit for bit as
+// they were; nothing here throws.
+#pragma once
+
+#include <cstdint>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+
+#include "tendril/ik/limit.hpp"
+
+namespace tendril::ik {
+
+/// How a solve ended.
+enum class Status : std::uint8_t {
+    Converged,       ///< the tip is within tolerance of the target
+    Stretched,       ///< the target is out of reach; the chain lies straight towards it
+    TooClose,        ///< the target is nearer than the longest bone lets the tip fold
+    Limited,         ///< the joint limits keep the tip away
+    Stalled,         ///< further iterations would change nothing
+    IterationLimit,  ///< still on its way when the iterations were used up
+    InvalidInput     ///< a number that is not finite or out of range: nothing was moved
+};
+/// "Converged"
+const char* name(Status status) noexcept;
+
+/// How a chain is turned to face its pole.
+enum class PoleTurn : std::uint8_t {
+    WholeChain,  ///< all joints at once about the line from root to tip: smooth
+    EachJoint    ///< every middle joint about the line between its neighbours
+};
+
+struct Options {
+    /// Metres, 0 to max_magnitude; 1e-3 of the reach where left out.
+    std::optional<float> tolerance;
+    /// 1 to 1 000 000.
+    int max_iterations = 100;
+    /// Goes on to max_iterations whatever was reached; for measuring, and for comparing solvers.
+    bool every_iteration = false;
+    /// One for each bone, at the joint that it starts from; or none at all.
+    std::span<const Limit> limits;
+    /// The bend faces this point, metres.
+    std::optional<glm::vec3> pole;
+    PoleTurn pole_turn = PoleTurn::WholeChain;
+    /// 0 to 1: before iterating, each joint is blended this far towards its rest direction from the one
+    /// before.
+    float snap_back = 0.0f;
+    /// Unit quaternion: the turn that the last bone has from its rest direction when all is done.
+    std::optional<glm::quat> tip_orientation;
+    /// Part of the reach, 0 to 1: in this zone before full reach the chain eases off instead of snapping
+    /// straight, and so stays a little short of the target.
+    float soft_zone = 0.0f;
+    /// Damping of the two damped solvers as part of the reach, over 0 to 10.
+    float damping = 0.1f;
+    /// Two-bone only: the part of the reach from which on the bones lengthen, over 0 to 1, and up to how many
+    /// times their length, 1 to 100. With 1 they never do.
+    float start_stretch_ratio = 1.0f;
+    float max_stretch_scale = 1.0f;
+    /// Two-bone only: the bend is turned by this about the line from root to tip, radians.
+    float twist = 0.0f;
+    /// Where given, element i receives the residual after iteration i + 1, as far as it has room. Metres.
+    std::span<float> residuals;
+};
+
+struct Report {
+    Status status = Status::Converged;
+    int iterations = 0;
+    float residual = 0.0f;  ///< metres from the tip to the target
+    bool operator==(const Report&) const = default;
+};
+
+}  // namespace tendril::ik

@@ -1,0 +1,44 @@
+// What things are called in commands, files and messages.
+#include <cstddef>
+
+#include "tendril/ik/solver.hpp"
+
+namespace tendril::ik {
+
+const char* name(Method method) noexcept {
+    constexpr const char* names[] = {"fabrik", "fabrik_plain", "ccd",     "jacobian_transpose",
+                                     "dls",    "svd_dls",      "two_bone"};
+    return names[static_cast<std::size_t>(method)];
+}
+
+std::optional<Method> method_named(std::string_view text) noexcept {
+    for (const Method method : all_methods) {
+        if (text == name(method)) return method;
+    }
+    return std::nullopt;
+}
+
+const char* name(Status status) noexcept {
+    constexpr const char* names[] = {"Converged", "Stretched",      "TooClose",    "Limited",
+                                     "Stalled",   "IterationLimit", "InvalidInput"};
+    return names[static_cast<std::size_t>(status)];
+}
+
+const char* name(JointKind kind) noexcept {
+    constexpr const char* names[] = {"free",   "suture", "hinge",          "gliding",
+                                     "saddle", "pivot",  "ball_and_socket"};
+    return names[static_cast<std::size_t>(kind)];
+}
+
+const char* name(Bound bound) noexcept {
+    constexpr const char* names[] = {"min", "max", "up", "down", "left", "right", "twist_min", "twist_max"};
+    return names[static_cast<std::size_t>(bound)];
+}
+
+const char* name(Phase phase) noexcept {
+    constexpr const char* names[] = {"prepare",  "from_tip", "from_root", "spread",  "turn",
+                                     "gradient", "pole",     "limit",     "analytic"};
+    return names[static_cast<std::size_t>(phase)];
+}
+
+}  // namespace tendril::ik

@@ -1,0 +1,140 @@
+// The loop around every method.
+#include "tendril/ik/solver.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "chain/checks.hpp"
+#include "ik/fabrik.hpp"
+#include "ik/problem.hpp"
+#include "ik/rotation.hpp"
+
+namespace tendril::ik {
+
+using namespace detail;
+
+struct Solver::Parts {
+    detail::Workspace room;
+};
+
+namespace {
+
+std::vector<float> lengths_of(const Chain& chain) {
+    std::vector<float> lengths;
+    for (std::size_t i = 1; i < chain.size(); ++i) lengths.push_back(chain.length(i));
+    return lengths;
+}
+
+void require_direction(std::size_t index, const glm::vec3& direction) {
+    const std::string argument = "rest_directions[" + std::to_string(index) + "]";
+    tendril::detail::require_point("Solver", argument, direction);
+    const float size = length(direction);
+    if (std::abs(size - 1.0f) > 1e-3f) {
+        tendril::detail::refuse("Solver", argument, "a unit vector",
+                                "one of length " + tendril::detail::text(size));
+    }
+}
+
+template <class Watch>
+void iterate(Method, Problem& problem, Watch watch) noexcept {
+    fabrik_iteration(problem, watch);
+}
+
+template <class Watch>
+Report run(Method method, Problem& problem, Watch watch) noexcept {
+    Report report;
+    report.residual = distance(problem.joints.back(), problem.target);
+    watch.iteration_done(0, report.residual);
+    while (report.iterations < problem.options.max_iterations) {
+        if (report.residual <= problem.tolerance && !problem.options.every_iteration) break;
+        problem.iteration = ++report.iterations;
+        iterate(method, problem, watch);
+        report.residual = distance(problem.joints.back(), problem.target);
+        const auto done = static_cast<std::size_t>(report.iterations);
+        if (done <= problem.options.residuals.size()) problem.options.residuals[done - 1] = report.residual;
+        watch.iteration_done(report.iterations, report.residual);
+    }
+    report.status = report.residual <= problem.tolerance ? Status::Converged : Status::IterationLimit;
+    return report;
+}
+
+}  // namespace
+
+Solver::Solver(std::span<const float> lengths, std::span<const glm::vec3> rest_directions)
+    : parts_(std::make_unique<Parts>()) {
+    Workspace& room = parts_->room;
+    double reach = 0.0;
+    for (std::size_t i = 0; i < lengths.size(); ++i) {
+        tendril::detail::require_length("Solver", "lengths[" + std::to_string(i) + "]", lengths[i]);
+        reach += static_cast<double>(lengths[i]);
+        room.longest = std::max(room.longest, lengths[i]);
+    }
+    if (!rest_directions.empty() && rest_directions.size() != lengths.size()) {
+        tendril::detail::refuse("Solver", "rest_directions", "as many as lengths or none",
+                                std::to_string(rest_directions.size()));
+    }
+    for (std::size_t i = 0; i < rest_directions.size(); ++i) require_direction(i, rest_directions[i]);
+    room.reach = static_cast<float>(reach);
+    room.lengths.assign(lengths.begin(), lengths.end());
+    room.rest_directions.assign(rest_directions.begin(), rest_directions.end());
+    room.rest_directions.resize(lengths.size(), glm::vec3(1.0f, 0.0f, 0.0f));
+    room.rotations.assign(lengths.size(), glm::quat(1.0f, 0.0f, 0.0f, 0.0f));
+    room.best.resize(lengths.size() + 1);
+    room.old.resize(lengths.size() + 1);
+    room.joints.resize(lengths.size() + 1);
+}
+
+Solver::Solver(const Chain& chain)
+    : Solver(lengths_of(chain),
+             std::vector<glm::vec3>(chain.empty() ? 0 : chain.size() - 1, chain.default_direction())) {}
+
+Solver::~Solver() = default;
+Solver::Solver(Solver&&) noexcept = default;
+Solver& Solver::operator=(Solver&&) noexcept = default;
+
+std::size_t Solver::bones() const noexcept {
+    return parts_->room.lengths.size();
+}
+
+float Solver::reach() const noexcept {
+    return parts_->room.reach;
+}
+
+Report Solver::solve(Method method, std::span<glm::vec3> joints, glm::vec3 target, const Options& options,
+                     Observer* observer) noexcept {
+    if (joints.size() != bones() + 1) return {Status::InvalidInput, 0, 0.0f};
+    Problem problem{joints, target, options.tolerance.value_or(1e-3f * reach()), options, parts_->room};
+    int order = 0;
+    return observer ? run(method, problem, Watched(*observer, order)) : run(method, problem, Unwatched());
+}
+
+Report Solver::solve(Method method, Chain& chain, glm::vec3 target, const Options& options,
+                     Observer* observer) noexcept {
+    if (chain.size() != bones() + 1) return {Status::InvalidInput, 0, 0.0f};
+    std::vector<glm::vec3>& joints = parts_->room.joints;
+    for (std::size_t i = 0; i < joints.size(); ++i) joints[i] = chain.segments()[i].position;
+    const Report report = solve(method, joints, target, options, observer);
+    if (report.status != Status::InvalidInput) chain.set_positions(joints);
+    return report;
+}
+
+std::span<const glm::quat> Solver::rotations() const noexcept {
+    return parts_->room.rotations;
+}
+
+bool Solver::set_rotations(std::span<const glm::quat> rotations) noexcept {
+    if (rotations.size() != bones()) return false;
+    const auto is_unit = [](const glm::quat& q) {
+        return std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0f) <= 1e-3f;
+    };
+    if (!std::all_of(rotations.begin(), rotations.end(), is_unit)) return false;
+    std::copy(rotations.begin(), rotations.end(), parts_->room.rotations.begin());
+    return true;
+}
+
+void Solver::forget_rotations() noexcept {
+    std::fill(parts_->room.rotations.begin(), parts_->room.rotations.end(), glm::quat(1, 0, 0, 0));
+}
+
+}  // namespace tendril::ik
