@@ -1,4 +1,4 @@
-// The loop around every method.
+// What a solver holds, and its door: what is checked before a solve. The solve itself is in loop.cpp.
 #include "tendril/ik/solver.hpp"
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "chain/checks.hpp"
-#include "ik/fabrik.hpp"
+#include "ik/loop.hpp"
 #include "ik/problem.hpp"
 #include "ik/rotation.hpp"
 
@@ -34,29 +34,6 @@ void require_direction(std::size_t index, const glm::vec3& direction) {
         tendril::detail::refuse("Solver", argument, "a unit vector",
                                 "one of length " + tendril::detail::text(size));
     }
-}
-
-template <class Watch>
-void iterate(Method, Problem& problem, Watch watch) noexcept {
-    fabrik_iteration(problem, watch);
-}
-
-template <class Watch>
-Report run(Method method, Problem& problem, Watch watch) noexcept {
-    Report report;
-    report.residual = distance(problem.joints.back(), problem.target);
-    watch.iteration_done(0, report.residual);
-    while (report.iterations < problem.options.max_iterations) {
-        if (report.residual <= problem.tolerance && !problem.options.every_iteration) break;
-        problem.iteration = ++report.iterations;
-        iterate(method, problem, watch);
-        report.residual = distance(problem.joints.back(), problem.target);
-        const auto done = static_cast<std::size_t>(report.iterations);
-        if (done <= problem.options.residuals.size()) problem.options.residuals[done - 1] = report.residual;
-        watch.iteration_done(report.iterations, report.residual);
-    }
-    report.status = report.residual <= problem.tolerance ? Status::Converged : Status::IterationLimit;
-    return report;
 }
 
 }  // namespace
