@@ -23,6 +23,7 @@ struct Workspace {
     std::vector<glm::quat> rotations;        ///< n, in the world, from rest
     std::vector<glm::vec3> best;             ///< n + 1: the nearest to the target that the loop has seen
     std::vector<glm::vec3> old;              ///< n + 1: for a method's own use
+    std::vector<glm::quat> turns;            ///< n: the same
     std::vector<glm::vec3> joints;           ///< n + 1: those of a Chain while it is solved
     float reach = 0.0f;
     float longest = 0.0f;

@@ -59,6 +59,7 @@ Solver::Solver(std::span<const float> lengths, std::span<const glm::vec3> rest_d
     room.rotations.assign(lengths.size(), glm::quat(1.0f, 0.0f, 0.0f, 0.0f));
     room.best.resize(lengths.size() + 1);
     room.old.resize(lengths.size() + 1);
+    room.turns.resize(lengths.size());
     room.joints.resize(lengths.size() + 1);
 }
 
