@@ -44,6 +44,7 @@ void ChainLab::step(Workspace& workspace) const {
 std::vector<Handle> ChainLab::handles(const Workspace& workspace) const {
     const ChainPart& part = chain_part(workspace);
     std::vector<Handle> handles{{"target", part.target}};
+    if (part.mode == ChainMode::Reach && part.reach.pole) handles.push_back({"pole", *part.reach.pole});
     for (std::size_t i = 0; i < part.chain.size(); ++i) {
         handles.push_back({"segment." + std::to_string(i), part.chain.segments()[i].position});
     }
@@ -52,16 +53,21 @@ std::vector<Handle> ChainLab::handles(const Workspace& workspace) const {
 
 glm::vec3 ChainLab::position_of(const Workspace& workspace, PickId pick) const {
     const ChainPart& part = chain_part(workspace);
+    if (pick == pole_pick) return part.reach.pole.value_or(part.target);
     if (pick == target_pick || part.chain.empty()) return part.target;
     return part.chain.position(std::min(picked_segment(pick), part.chain.size() - 1));
 }
 
 void ChainLab::drag(const Workspace& workspace, PickId pick, glm::vec3 to, Emit& emit) const {
     const ChainPart& part = chain_part(workspace);
-    if (part.motion.path != Motion::Path::Still) emit.continuously("chain.motion", {{"path", "still"}});
+    const bool moves_target = pick != pole_pick;
+    if (moves_target && part.motion.path != Motion::Path::Still)
+        emit.continuously("chain.motion", {{"path", "still"}});
     if (pick == target_pick) {
         emit.continuously("chain.target", {{"to", point(to)}});
-    } else {
+    } else if (pick == pole_pick) {
+        emit.continuously("chain.pole", {{"to", point(to)}});
+    } else if (!part.study.open()) {
         emit.continuously("chain.pull", {{"index", picked_segment(pick)}, {"to", point(to)}});
     }
 }
@@ -71,11 +77,11 @@ void ChainLab::click(const Workspace& workspace, PickId pick, Emit& emit) const 
         if (chain_part(workspace).selected) emit("chain.select");
         return;
     }
-    if (pick == target_pick) return;
+    if (pick == target_pick || pick == pole_pick) return;
     const std::size_t index = picked_segment(pick);
     emit("chain.select", {{"index", index}});
     const ChainPart& part = chain_part(workspace);
-    if (part.mode == Mode::WithIndex && part.index != index) {
+    if (part.mode == ChainMode::WithIndex && part.index != index) {
         emit("chain.mode", {{"mode", mode_name(part.mode)}, {"index", index}});
     }
 }
@@ -88,9 +94,12 @@ std::string ChainLab::hint(const Workspace& workspace, PickId pick) const {
                "). Hold X, Y or Z for one axis, "
                "Shift for the ground plane.";
     }
+    if (pick == pole_pick)
+        return "Pole: the bend faces it. Drag to turn the chain about its line to the target.";
     const std::size_t index = picked_segment(pick);
     const char* role = index == 0 ? " (head)" : index + 1 == part.chain.size() ? " (tail)" : "";
-    return "Segment " + std::to_string(index) + role + ": click selects it, drag pulls it.";
+    const char* drag = part.study.open() ? "." : ", drag pulls it.";
+    return "Segment " + std::to_string(index) + role + ": click selects it" + drag;
 }
 
 Bounds ChainLab::bounds(const Workspace& workspace, bool selection_only) const {
@@ -107,29 +116,8 @@ Bounds ChainLab::bounds(const Workspace& workspace, bool selection_only) const {
     return {0.5f * (low + high), std::max(0.5f * glm::distance(low, high), 0.5f)};
 }
 
-Json ChainLab::state(const Workspace& workspace) const {
-    const ChainPart& part = chain_part(workspace);
-    const auto segments = part.chain.segments();
-    const auto end = [&](bool tail) {
-        return segments.empty() ? Json(nullptr)
-                                : point(tail ? segments.back().position : segments.front().position);
-    };
-    Json list = Json::array();
-    for (const Segment& segment : segments) {
-        list.push_back({{"position", point(segment.position)}, {"length", number(segment.length)}});
-    }
-    return {{"lab", chain_lab},
-            {"mode", mode_name(part.mode)},
-            {"index", part.index},
-            {"iterations", part.iterations[static_cast<std::size_t>(part.mode)]},
-            {"tolerance", number(part.tolerance)},
-            {"target", point(part.target)},
-            {"head", end(false)},
-            {"tail", end(true)},
-            {"selected", part.selected ? Json(*part.selected) : Json(nullptr)},
-            {"reach", number(part.chain.reach())},
-            {"motion", motion_name(part.motion.path)},
-            {"segments", std::move(list)}};
+bool ChainLab::has_timeline(const Workspace& workspace) const {
+    return moving(workspace) || chain_part(workspace).study.kind == Study::Kind::Microscope;
 }
 
 }  // namespace tendril::app

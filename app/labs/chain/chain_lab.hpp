@@ -1,4 +1,4 @@
-// The Chain lab: drag the target and see a chain follow, in four modes.
+// The Chain lab: drag the target and see a chain follow, in five modes.
 #pragma once
 
 #include "app/labs/chain/chain_part.hpp"
@@ -7,6 +7,7 @@
 namespace tendril::app {
 
 inline constexpr PickId target_pick = 0;
+inline constexpr PickId pole_pick = static_cast<PickId>(max_segments) + 1;
 inline PickId segment_pick(std::size_t index) {
     return static_cast<PickId>(index) + 1;
 }
@@ -35,7 +36,7 @@ class ChainLab final : public Lab {
     Bounds bounds(const Workspace& workspace, bool selection_only) const override;
     void panel(const Workspace& workspace, Emit& emit) const override;
     void inspector(const Workspace& workspace, Emit& emit) const override;
-    bool has_timeline(const Workspace& workspace) const override { return moving(workspace); }
+    bool has_timeline(const Workspace& workspace) const override;
     void timeline(const Workspace& workspace, Emit& emit) const override;
     Json state(const Workspace& workspace) const override;
 };

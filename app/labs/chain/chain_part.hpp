@@ -3,17 +3,24 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <tendril/chain/chain.hpp>
 
 #include "app/document/document.hpp"
+#include "app/labs/chain/reach.hpp"
+#include "app/labs/chain/study.hpp"
 
 namespace tendril::app {
 
 inline constexpr const char* chain_lab = "chain";
 inline constexpr std::size_t max_segments = 500'000;  ///< a scene of more would be too large a file
 inline constexpr int max_iterations = 10'000;
+inline constexpr float least_damping = 1e-4f, most_damping = 10.0f;
+
+/// How the chain follows its target: the library's four modes, and Reach, which pins the head and iterates.
+enum class ChainMode { Forward, Backward, Fixed, WithIndex, Reach };
 
 /// A path that the target follows by itself, so that time means something here: a student watches what a mode
 /// makes of a steady movement, and can pause and step it.
@@ -33,31 +40,38 @@ std::uint32_t ticks_per_round(const Motion& motion);
 
 struct ChainPart final : Part {
     Chain chain;
-    Mode mode = Mode::Backward;
+    ChainMode mode = ChainMode::Backward;
     std::size_t index = 0;                      ///< which segment WithIndex pulls
-    std::array<int, 4> iterations{1, 1, 1, 1};  ///< each mode's own; Fixed is the one that repeats
-    float tolerance = 1e-4f;                    ///< metres
+    std::array<int, 4> iterations{1, 1, 1, 1};  ///< each pull mode's own; Fixed is the one that repeats
+    float tolerance = 1e-4f;                    ///< metres, of Fixed
     glm::vec3 target{0.0f};
     std::optional<std::size_t> selected;
     Motion motion;
+    ReachSettings reach;
+    std::optional<ReachResult> result;  ///< of the last solve; none once the chain was moved otherwise
+    Study study;
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<ChainPart>(*this); }
     Json save() const override;
     std::shared_ptr<Part> load(const Json& json, const std::string& where) const override;
-    std::size_t bytes() const override { return sizeof(*this) + chain.size() * sizeof(Segment); }
+    std::size_t bytes() const override;
 };
 
 /// What the lab starts with: eight segments of a metre along +X, the target on the tail.
 ChainPart first_chain();
 
 /// "forward", "with_index": the mode as commands and files name it, and as people read it.
-const char* mode_name(Mode mode);
-const char* mode_title(Mode mode);
-const char* mode_help(Mode mode);
+const char* mode_name(ChainMode mode);
+const char* mode_title(ChainMode mode);
+const char* mode_help(ChainMode mode);
 /// Every mode, in the order of the panel.
-inline constexpr std::array all_modes{Mode::Forward, Mode::Backward, Mode::Fixed, Mode::WithIndex};
+inline constexpr std::array all_modes{ChainMode::Forward, ChainMode::Backward, ChainMode::Fixed,
+                                      ChainMode::WithIndex, ChainMode::Reach};
 /// Throws std::invalid_argument for an unknown name.
-Mode mode_from_name(const std::string& name);
+ChainMode mode_from_name(const std::string& name);
+/// Each mode has its own number of iterations.
+int& iterations_of(ChainPart& part, ChainMode mode);
+int iterations_of(const ChainPart& part, ChainMode mode);
 
 const char* motion_name(Motion::Path path);
 Motion::Path motion_from_name(const std::string& name);
@@ -71,7 +85,8 @@ bool same(const ChainPart& a, const ChainPart& b);
 /// must always open again.
 void check_range(const ChainPart& part);
 
-/// Moves the target and applies the mode once.
+/// Moves the target and applies the mode once. While something is studied, Reach solves from where that
+/// began.
 void reach_for(ChainPart& part, glm::vec3 target);
 
 /// How far link `index` is from its length, in metres; 0 for the head.

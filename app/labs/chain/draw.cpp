@@ -92,7 +92,7 @@ class Drawing {
             list_.ring(at(i), grown + px(3.0f), px(1.5f), glm::vec4(view_.palette.text, 0.55f)).layer =
                 Layer::Overlay;
         }
-        if (part_.mode == Mode::WithIndex && part_.index == i) {
+        if (part_.mode == ChainMode::WithIndex && part_.index == i) {
             list_.ring(at(i), grown + px(8.0f), px(1.5f), glm::vec4(view_.palette.target, 0.8f)).layer =
                 Layer::Overlay;
         }

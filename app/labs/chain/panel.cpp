@@ -17,7 +17,7 @@ float& next_length() {
 
 void mode_rows(const ChainPart& part, Emit& emit) {
     section("Mode");
-    for (const Mode mode : all_modes) {
+    for (const ChainMode mode : all_modes) {
         if (option_button(mode_title(mode), part.mode == mode))
             emit("chain.mode", {{"mode", mode_name(mode)}});
     }
@@ -26,12 +26,12 @@ void mode_rows(const ChainPart& part, Emit& emit) {
     const auto with = [&](const char* name, Json value) {
         emit.continuously("chain.mode", {{"mode", mode_name(part.mode)}, {name, std::move(value)}});
     };
-    if (part.mode == Mode::WithIndex && !part.chain.empty()) {
+    if (part.mode == ChainMode::WithIndex && !part.chain.empty()) {
         int index = static_cast<int>(part.index);
         if (integer_slider("index", index, 0, static_cast<int>(part.chain.size()) - 1)) with("index", index);
     }
-    if (part.mode == Mode::Fixed) {
-        int iterations = part.iterations[static_cast<std::size_t>(part.mode)];
+    if (part.mode == ChainMode::Fixed) {
+        int iterations = iterations_of(part, part.mode);
         if (integer_field("iterations", iterations, 1, max_iterations)) with("iterations", iterations);
         float tolerance = part.tolerance;
         if (number_field("tolerance", tolerance, 0.0005f, 0.0f, 10.0f, "%.4f m"))

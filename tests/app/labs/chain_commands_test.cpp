@@ -43,7 +43,7 @@ TEST_F(ChainCommands, StartIsEightMetresAlongXWithTheTargetOnTheTail) {
         EXPECT_EQ(part().chain.position(i), glm::vec3(static_cast<float>(i), 0, 0));
         EXPECT_EQ(part().chain.length(i), 1.0f);
     }
-    EXPECT_EQ(part().mode, Mode::Backward);
+    EXPECT_EQ(part().mode, ChainMode::Backward);
     EXPECT_EQ(part().target, glm::vec3(7, 0, 0));
 }
 
@@ -108,7 +108,7 @@ TEST_F(ChainCommands, PullTakesTheTargetAlongAndLeavesTheMode) {
     run("chain.pull", {{"index", 2}, {"to", {2, 3, 0}}});
     EXPECT_EQ(part().chain.position(2), glm::vec3(2, 3, 0));
     EXPECT_EQ(part().target, glm::vec3(2, 3, 0));
-    EXPECT_EQ(part().mode, Mode::Backward);
+    EXPECT_EQ(part().mode, ChainMode::Backward);
 }
 
 TEST_F(ChainCommands, RefusalsSayWhyInOneLine) {

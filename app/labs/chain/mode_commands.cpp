@@ -1,0 +1,107 @@
+// How the chain follows, and where to.
+#include "app/labs/chain/command_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+void set_mode(ChainPart& part, const Arguments& given) {
+    part.mode = mode_from_name(given.text("mode"));
+    if (part.mode != ChainMode::Reach) part.study.close();
+    if (given.has("index")) {
+        const std::size_t index = index_of(given);
+        check_index(part, index);
+        part.index = index;
+    }
+    if (given.has("iterations")) {
+        iterations_of(part, part.mode) = given.integer("iterations");
+    }
+    if (!given.has("tolerance")) return;
+    if (part.mode == ChainMode::Reach) {
+        part.reach.tolerance = given.number("tolerance");
+    } else {
+        part.tolerance = given.number("tolerance");
+    }
+}
+
+void pull(ChainPart& part, const Arguments& given) {
+    const glm::vec3 to = given.point("to");
+    part.chain.with_index(index_of(given), to);
+    part.target = to;
+    part.result.reset();
+    const Study::Kind kind = part.study.kind;
+    if (part.study.open()) part.study.begin(kind, Study::From::Here, part.chain, part.reach);
+}
+
+void select(ChainPart& part, const Arguments& given) {
+    if (!given.has("index")) {
+        part.selected.reset();
+        return;
+    }
+    const std::size_t index = index_of(given);
+    check_index(part, index);
+    part.selected = index;
+}
+
+/// The path starts under the target, so setting it going never makes the target jump.
+void set_motion(ChainPart& part, const Arguments& given) {
+    Motion motion = part.motion;
+    motion.path = motion_from_name(given.text("path"));
+    if (given.has("radius")) motion.radius = given.number("radius");
+    if (given.has("period")) motion.period = given.number("period");
+    motion.ticks = 0;
+    motion.centre = glm::vec3(0.0f);
+    motion.centre = part.target - motion_point(motion, 0);
+    part.motion = motion;
+}
+
+/// Time goes to a tick of the round: the target jumps there, and the mode is applied once.
+void seek(ChainPart& part, const Arguments& given) {
+    if (part.motion.path == Motion::Path::Still) throw Refused("the target follows no path");
+    part.motion.ticks = static_cast<std::uint32_t>(given.integer("tick")) % ticks_per_round(part.motion);
+    reach_for(part, motion_point(part.motion, part.motion.ticks));
+}
+
+}  // namespace
+
+void add_mode_commands(CommandTable& table) {
+    table.add(chain_command("chain.mode",
+                            {{.name = "mode",
+                              .type = ArgumentType::Text,
+                              .help = "how the chain reaches",
+                              .choices = names(all_modes, mode_name)},
+                             index_argument(false, "which segment with_index pulls"),
+                             {.name = "iterations",
+                              .type = ArgumentType::Integer,
+                              .required = false,
+                              .help = "repeats of fixed, or of reach at most",
+                              .low = 1,
+                              .high = max_iterations},
+                             {.name = "tolerance",
+                              .required = false,
+                              .help = "metres at which fixed or reach stops repeating",
+                              .low = 0}},
+                            "Sets how the chain reaches; it moves when the target next does", set_mode));
+    table.add(chain_command("chain.target", {{.name = "to", .type = ArgumentType::Point, .help = "metres"}},
+                            "Moves the target and applies the mode once",
+                            [](ChainPart& part, const Arguments& a) { reach_for(part, a.point("to")); }));
+    table.add(chain_command("chain.pull",
+                            {index_argument(true, "which segment"),
+                             {.name = "to", .type = ArgumentType::Point, .help = "metres"}},
+                            "Pulls one segment, and the target with it; the mode stays as it is", pull));
+    table.add(chain_command("chain.select", {index_argument(false, "which segment; none when left out")},
+                            "Selects a segment", select, Effect::Look));
+    table.add(chain_command(
+        "chain.motion",
+        {{.name = "path",
+          .type = ArgumentType::Text,
+          .help = "what the target follows by itself",
+          .choices = names(all_motions, motion_name)},
+         {.name = "radius", .required = false, .help = "metres", .low = 0, .high = 1e4},
+         {.name = "period", .required = false, .help = "seconds a round", .low = 0.1, .high = 600}},
+        "Lets the target follow a path while time runs", set_motion));
+    table.add(chain_command(
+        "chain.seek", {{.name = "tick", .type = ArgumentType::Integer, .help = "of the round", .low = 0}},
+        "Takes the moving target to a tick of its round", seek));
+}
+
+}  // namespace tendril::app

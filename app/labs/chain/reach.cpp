@@ -1,0 +1,90 @@
+#include "app/labs/chain/reach.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <stdexcept>
+
+namespace tendril::app {
+
+float reach_tolerance(const ReachSettings& settings, float reach) {
+    return settings.tolerance.value_or(1e-3f * reach);
+}
+
+ik::Options solver_options(const ReachSettings& settings, float reach) {
+    ik::Options options;
+    options.tolerance = reach_tolerance(settings, reach);
+    options.max_iterations = settings.iterations;
+    options.limits = settings.limits;
+    options.pole = settings.pole;
+    options.pole_turn = settings.pole_turn;
+    options.snap_back = settings.snap_back;
+    options.soft_zone = settings.soft_zone;
+    options.damping = settings.damping;
+    options.twist = glm::radians(settings.twist_deg);
+    return options;
+}
+
+ik::Solver make_solver(const Chain& chain, const ReachSettings& settings) {
+    ik::Solver solver(chain);
+    solver.set_rotations(settings.rotations);
+    return solver;
+}
+
+std::optional<ReachResult> solve_reach(Chain& chain, ReachSettings& settings, glm::vec3 target) {
+    if (chain.size() < 2) return std::nullopt;
+    if (settings.method == ik::Method::TwoBone && chain.size() != 3) {
+        throw std::invalid_argument("two_bone takes a chain of three segments (two bones); this one has " +
+                                    std::to_string(chain.size()));
+    }
+    ik::Solver solver = make_solver(chain, settings);
+    const ik::Options options = solver_options(settings, solver.reach());
+    ReachResult result{settings.method, solver.solve(settings.method, chain, target, options), {}};
+    if (result.report.status == ik::Status::InvalidInput) {
+        throw std::invalid_argument("the solver does not take this target, pole or limit");
+    }
+    if (settings.limits.empty()) return result;
+    if (result.report.status == ik::Status::Limited && solver.bones() <= max_explained_bones) {
+        std::vector<glm::vec3> joints;
+        for (const Segment& segment : chain.segments()) joints.push_back(segment.position);
+        result.hold = solver.explain(settings.method, joints, target, options);
+    }
+    settings.rotations.assign(solver.rotations().begin(), solver.rotations().end());
+    return result;
+}
+
+void bone_inserted(ReachSettings& settings, std::size_t index, std::size_t segments_now) {
+    settings.rotations.clear();  // how bones are twisted is found anew
+    if (settings.limits.empty() || segments_now < 2) return;
+    const auto at = static_cast<std::ptrdiff_t>(std::min(index, settings.limits.size()));
+    settings.limits.insert(settings.limits.begin() + at, ik::Limit{});
+    settings.limits.resize(segments_now - 1);
+}
+
+void bone_removed(ReachSettings& settings, std::size_t index, std::size_t segments_now) {
+    settings.rotations.clear();
+    if (settings.limits.empty()) return;
+    const auto at = static_cast<std::ptrdiff_t>(std::min(index, settings.limits.size() - 1));
+    settings.limits.erase(settings.limits.begin() + at);
+    settings.limits.resize(segments_now < 2 ? 0 : segments_now - 1);
+}
+
+void forget_limits(ReachSettings& settings) {
+    settings.limits.clear();
+    settings.rotations.clear();
+}
+
+ik::Limit limit_of(const ReachSettings& settings, std::size_t joint) {
+    return joint < settings.limits.size() ? settings.limits[joint] : ik::Limit{};
+}
+
+void set_limit(ReachSettings& settings, std::size_t joint, const ik::Limit& limit, std::size_t bones) {
+    if (const char* why = ik::fault(limit)) throw std::invalid_argument(why);
+    if (settings.limits.empty()) settings.limits.resize(bones);
+    settings.limits[joint] = limit;
+    const bool all_free = std::all_of(settings.limits.begin(), settings.limits.end(),
+                                      [](const auto& each) { return each.kind == ik::JointKind::Free; });
+    if (all_free) forget_limits(settings);
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,85 @@
+// Reach mode: the head stays and the tail solves for the target. What a person chooses for it, and what came
+// of it.
+#pragma once
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <tendril/chain/chain.hpp>
+#include <tendril/ik/solver.hpp>
+#include <vector>
+
+#include "app/document/json.hpp"
+
+namespace tendril::app {
+
+inline constexpr std::size_t max_explained_bones = 64;  ///< explaining frees them one by one
+
+struct ReachSettings {
+    ik::Method method = ik::Method::Fabrik;
+    int iterations = 100;
+    std::optional<float> tolerance;  ///< metres; 1e-3 of the reach where there is none
+    float snap_back = 0.0f;          ///< 0 to 1
+    float soft_zone = 0.0f;          ///< part of the reach
+    float damping = 0.1f;            ///< part of the reach
+    float twist_deg = 0.0f;          ///< two-bone
+    std::optional<glm::vec3> pole;   ///< metres
+    ik::PoleTurn pole_turn = ik::PoleTurn::WholeChain;
+    std::vector<ik::Limit> limits;     ///< one a bone, at the joint that it starts from; or none at all
+    std::vector<glm::quat> rotations;  ///< one a bone, as the last solve with limits left them; or none
+
+    bool operator==(const ReachSettings&) const = default;
+};
+
+/// What the last solve said; not saved, for the chain may have been moved since.
+struct ReachResult {
+    ik::Method method = ik::Method::Fabrik;
+    ik::Report report;
+    std::optional<ik::Hold> hold;  ///< the joint that holds the chain back, where one does
+    bool operator==(const ReachResult&) const = default;
+};
+
+/// As the solver takes them, with `reach` the chain's; points into `settings`.
+ik::Options solver_options(const ReachSettings& settings, float reach);
+/// Metres.
+float reach_tolerance(const ReachSettings& settings, float reach);
+/// A solver for this chain, its bones turned as the settings have them.
+ik::Solver make_solver(const Chain& chain, const ReachSettings& settings);
+
+/// Solves from where the chain is. Nothing for a chain of fewer than two segments. Throws
+/// std::invalid_argument where the solver refuses: two_bone and a chain that has not two bones.
+std::optional<ReachResult> solve_reach(Chain& chain, ReachSettings& settings, glm::vec3 target);
+
+/// Bones are counted anew: a segment came before `index`, or went from there.
+void bone_inserted(ReachSettings& settings, std::size_t index, std::size_t segments_now);
+void bone_removed(ReachSettings& settings, std::size_t index, std::size_t segments_now);
+void forget_limits(ReachSettings& settings);
+/// The limit of a joint; free where none is set.
+ik::Limit limit_of(const ReachSettings& settings, std::size_t joint);
+/// Throws std::invalid_argument for a limit with a fault. `bones`: of the chain.
+void set_limit(ReachSettings& settings, std::size_t joint, const ik::Limit& limit, std::size_t bones);
+
+/// "joint 2 (hinge) stops at 145 degrees; the target needs 162".
+std::string hold_text(const ik::Hold& hold);
+const char* solver_title(ik::Method method);
+const char* solver_help(ik::Method method);
+/// What a status means, in a sentence.
+const char* status_help(ik::Status status);
+const char* kind_title(ik::JointKind kind);
+const char* pole_turn_name(ik::PoleTurn turn);
+ik::PoleTurn pole_turn_from_name(const std::string& name);
+inline constexpr std::array all_pole_turns{ik::PoleTurn::WholeChain, ik::PoleTurn::EachJoint};
+inline constexpr std::array all_joint_kinds{
+    ik::JointKind::Free,   ik::JointKind::Suture, ik::JointKind::Hinge,        ik::JointKind::Gliding,
+    ik::JointKind::Saddle, ik::JointKind::Pivot,  ik::JointKind::BallAndSocket};
+
+/// As "rotations", where there are any.
+void save_rotations(Json& json, const std::vector<glm::quat>& rotations);
+std::vector<glm::quat> load_rotations(const Json& json, const std::string& where, std::size_t bones);
+Json save_reach(const ReachSettings& settings);
+/// Throws std::runtime_error naming the place. `bones`: of the chain that it belongs to.
+ReachSettings load_reach(const Json& json, const std::string& where, std::size_t bones);
+
+}  // namespace tendril::app

@@ -1,0 +1,117 @@
+// Reach mode: the solver, its limits and its pole.
+#include <stdexcept>
+
+#include "app/io/solver_json.hpp"
+#include "app/labs/chain/command_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// Lets the chain reach anew for the target that it has, where it does reach.
+void reach_again(ChainPart& part) {
+    if (part.mode == ChainMode::Reach) reach_for(part, part.target);
+}
+
+void set_solver(ChainPart& part, const Arguments& given) {
+    ReachSettings& reach = part.reach;
+    if (given.has("name")) {
+        reach.method = *ik::method_named(given.text("name"));
+        if (reach.method == ik::Method::TwoBone && part.chain.size() != 3) {
+            throw Refused("two_bone takes a chain of three segments (two bones); this one has " +
+                          std::to_string(part.chain.size()));
+        }
+    }
+    if (given.has("iterations")) reach.iterations = given.integer("iterations");
+    if (given.has("tolerance")) reach.tolerance = given.number("tolerance");
+    if (given.has("default_tolerance") && given.boolean("default_tolerance")) reach.tolerance.reset();
+    if (given.has("snap_back")) reach.snap_back = given.number("snap_back");
+    if (given.has("soft_zone")) reach.soft_zone = given.number("soft_zone");
+    if (given.has("damping")) reach.damping = given.number("damping");
+    if (given.has("twist_deg")) reach.twist_deg = given.number("twist_deg");
+    if (given.has("pole_turn")) reach.pole_turn = pole_turn_from_name(given.text("pole_turn"));
+    if (part.study.open()) reach_again(part);
+}
+
+void set_pole(ChainPart& part, const Arguments& given) {
+    const bool off = given.has("off") && given.boolean("off");
+    if (given.has("to") && off) throw Refused("to and off exclude each other");
+    if (!given.has("to") && !off) throw Refused("needs to, or off: true");
+    part.reach.pole.reset();
+    if (given.has("to")) part.reach.pole = given.point("to");
+    reach_again(part);
+}
+
+constexpr const char* angle_names[] = {"min_deg",  "max_deg",   "up_deg",        "down_deg",
+                                       "left_deg", "right_deg", "twist_min_deg", "twist_max_deg"};
+
+void set_joint_limit(ChainPart& part, const Arguments& given) {
+    const std::size_t index = index_of(given);
+    check_index(part, index);
+    const std::size_t bones = part.chain.size() - 1;
+    if (index >= bones) {
+        throw Refused("index " + std::to_string(index) + " is the tail: no bone starts there to be limited");
+    }
+    // A limit of the same kind keeps what is not told; another kind begins with its own angles.
+    const ik::Limit now = limit_of(part.reach, index);
+    const std::string kind = given.has("kind") ? given.text("kind") : ik::name(now.kind);
+    Json json = kind == ik::name(now.kind) ? limit_json(now) : Json{{"kind", kind}};
+    if (given.has("axis")) json["axis"] = point(given.point("axis"));
+    for (const char* angle : angle_names) {
+        if (given.has(angle)) json[angle] = number(given.number(angle));
+    }
+    set_limit(part.reach, index, limit_from_json(json, "limit"), bones);
+    reach_again(part);
+}
+
+std::vector<Argument> limit_arguments() {
+    std::vector<Argument> arguments{
+        index_argument(true, "the joint's; its bone leads on to the next one"),
+        choice_argument("kind", false, "what joint it is; kept when left out",
+                        names(all_joint_kinds, [](ik::JointKind k) { return ik::name(k); })),
+        {.name = "axis",
+         .type = ArgumentType::Point,
+         .required = false,
+         .help = "what it turns about upwards, in the axes of the world with the chain in line"}};
+    for (const char* name : angle_names) {
+        const std::string text = name;
+        const bool cone = text == "up_deg" || text == "down_deg" || text == "left_deg" || text == "right_deg";
+        const bool hinge = text == "min_deg" || text == "max_deg";
+        const char* help = hinge  ? "degrees about the axis; hinges"
+                           : cone ? "half-angle of the cone, degrees; all but hinges"
+                                  : "degrees about the bone; all but hinges";
+        arguments.push_back(number_argument(name, help, cone ? 0.0 : -180.0, 180.0));
+    }
+    return arguments;
+}
+
+}  // namespace
+
+void add_reach_commands(CommandTable& table) {
+    table.add(chain_command(
+        "chain.solver",
+        {choice_argument("name", false, "kept when left out, as all the others are",
+                         names(ik::all_methods, [](ik::Method m) { return ik::name(m); })),
+         integer_argument("iterations", "at most", 1, max_iterations),
+         number_argument("tolerance", "metres from tip to target at which it stops", 0, 1e9),
+         switch_argument("default_tolerance", "true: 1e-3 of the reach"),
+         number_argument("snap_back", "how far joints go back to rest before iterating", 0, 1),
+         number_argument("soft_zone", "part of the reach in which the chain eases off", 0, 1),
+         number_argument("damping", "of dls and svd_dls, part of the reach",
+                         static_cast<double>(least_damping), static_cast<double>(most_damping)),
+         number_argument("twist_deg", "two_bone: turns the bend about the line to the target", -180, 180),
+         choice_argument("pole_turn", false, "all joints at once, or each between its neighbours",
+                         names(all_pole_turns, pole_turn_name))},
+        "Sets what solves in mode reach; the chain moves when the target next does", set_solver));
+    table.add(chain_command("chain.limit", limit_arguments(),
+                            "Limits how far a joint turns in mode reach; kind free takes the limit away",
+                            set_joint_limit));
+    table.add(chain_command("chain.pole",
+                            {{.name = "to",
+                              .type = ArgumentType::Point,
+                              .required = false,
+                              .help = "metres; the bend faces this point"},
+                             switch_argument("off", "true: no pole")},
+                            "Sets the point that the bend faces in mode reach", set_pole));
+}
+
+}  // namespace tendril::app

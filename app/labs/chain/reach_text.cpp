@@ -1,0 +1,98 @@
+// Reach mode in words.
+#include <cmath>
+#include <cstdio>
+#include <glm/trigonometric.hpp>
+#include <stdexcept>
+
+#include "app/labs/chain/reach.hpp"
+
+namespace tendril::app {
+namespace {
+
+struct SolverText {
+    const char* title;
+    const char* help;
+};
+
+const SolverText& text_of(ik::Method method) {
+    static constexpr SolverText texts[] = {
+        {"FABRIK", "Pulls from the tip and from the root in turn, and takes the bend out near full reach."},
+        {"FABRIK, plain", "As published in 2011. Crawls near full reach and stalls on a straight line."},
+        {"CCD", "Turns one joint after another so that the tip looks at the target."},
+        {"Jacobian transpose", "Turns all joints along the gradient, by the best step."},
+        {"Damped least squares", "Turns all joints by the damped inverse of the Jacobian."},
+        {"SVD damped least squares", "The same, damped only where a singular value is small."},
+        {"Two-bone", "The law of cosines. For chains of two bones."},
+    };
+    return texts[static_cast<std::size_t>(method)];
+}
+
+const char* bound_phrase(ik::Bound bound) {
+    static constexpr const char* phrases[] = {"stops at",
+                                              "stops at",
+                                              "stops upwards at",
+                                              "stops downwards at",
+                                              "stops to the left at",
+                                              "stops to the right at",
+                                              "stops twisting at",
+                                              "stops twisting at"};
+    return phrases[static_cast<std::size_t>(bound)];
+}
+
+/// Whole degrees, or tenths where the two would look the same.
+std::string degree_pair(const char* phrase, float limit, float needed) {
+    const double a = glm::degrees(static_cast<double>(limit)), b = glm::degrees(static_cast<double>(needed));
+    const int digits = std::lround(a) == std::lround(b) ? 1 : 0;
+    char text[160];
+    std::snprintf(text, sizeof text, "%s %.*f degrees; the target needs %.*f", phrase, digits, a + 0.0,
+                  digits, b + 0.0);
+    return text;
+}
+
+}  // namespace
+
+const char* solver_title(ik::Method method) {
+    return text_of(method).title;
+}
+const char* solver_help(ik::Method method) {
+    return text_of(method).help;
+}
+
+const char* status_help(ik::Status status) {
+    static constexpr const char* texts[] = {
+        "The tip is on the target.",
+        "The target is out of reach: the chain lies straight towards it.",
+        "The target is nearer than the longest bone lets the tip fold.",
+        "The joint limits keep the tip away.",
+        "More iterations would change nothing.",
+        "Still on its way when the iterations were used up.",
+        "Nothing was moved: a number is not valid.",
+    };
+    return texts[static_cast<std::size_t>(status)];
+}
+
+const char* kind_title(ik::JointKind kind) {
+    static constexpr const char* titles[] = {"free",   "suture", "hinge",          "gliding",
+                                             "saddle", "pivot",  "ball and socket"};
+    return titles[static_cast<std::size_t>(kind)];
+}
+
+std::string hold_text(const ik::Hold& hold) {
+    std::string text = "joint " + std::to_string(hold.joint) + " (" + kind_title(hold.kind) + ") ";
+    text += degree_pair(bound_phrase(hold.bound), hold.limit, hold.needed);
+    if (!hold.enough) text += " and more of the others";
+    return text;
+}
+
+const char* pole_turn_name(ik::PoleTurn turn) {
+    return turn == ik::PoleTurn::WholeChain ? "whole_chain" : "each_joint";
+}
+
+ik::PoleTurn pole_turn_from_name(const std::string& name) {
+    for (const ik::PoleTurn turn : all_pole_turns) {
+        if (name == pole_turn_name(turn)) return turn;
+    }
+    throw std::invalid_argument("unknown pole turn \"" + name + "\"");
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,147 @@
+// The chain itself: its segments, and chains to begin with.
+#include <algorithm>
+
+#include "app/labs/chain/command_support.hpp"
+#include "app/labs/chain/presets.hpp"
+
+namespace tendril::app {
+namespace {
+
+Argument length_argument() {
+    return {.name = "length", .help = "metres", .low = 0};
+}
+
+Argument position_argument() {
+    return {.name = "position",
+            .type = ArgumentType::Point,
+            .required = false,
+            .help = "where it is given, before its length is kept; straight on when left out"};
+}
+
+void check_room(const ChainPart& part) {
+    if (part.chain.size() >= max_segments) {
+        throw Refused("the chain is full: it has " + std::to_string(max_segments) + " segments");
+    }
+}
+
+/// What was said of the chain as it was holds no longer.
+void shape_changed(ChainPart& part) {
+    part.result.reset();
+    part.study.close();
+}
+
+void set_length(ChainPart& part, const Arguments& given) {
+    part.chain.set_length(index_of(given), given.number("length"));
+    part.result.reset();
+}
+
+void add(ChainPart& part, const Arguments& given) {
+    check_room(part);
+    if (given.has("position")) {
+        part.chain.add(Segment{given.point("position"), given.number("length")});
+    } else {
+        part.chain.add(given.number("length"));
+    }
+    shape_changed(part);
+    bone_inserted(part.reach, part.chain.size() - 1, part.chain.size());
+}
+
+void insert(ChainPart& part, const Arguments& given) {
+    check_room(part);
+    const std::size_t index = index_of(given);
+    if (given.has("position")) {
+        part.chain.insert(index, Segment{given.point("position"), given.number("length")});
+    } else {
+        part.chain.insert(index, given.number("length"));
+    }
+    // What points at a segment goes on pointing at it.
+    if (part.selected && *part.selected >= index) ++*part.selected;
+    if (part.index >= index) ++part.index;
+    shape_changed(part);
+    bone_inserted(part.reach, index, part.chain.size());
+}
+
+void remove(ChainPart& part, const Arguments& given) {
+    const std::size_t index = index_of(given);
+    part.chain.remove(index);
+    shape_changed(part);
+    bone_removed(part.reach, index, part.chain.size());
+    if (part.selected && *part.selected > index) --*part.selected;
+    if (part.index > index) --part.index;
+    if (part.chain.empty()) {
+        part.selected.reset();
+        part.index = 0;
+        return;
+    }
+    const std::size_t last = part.chain.size() - 1;
+    if (part.selected) part.selected = std::min(*part.selected, last);
+    part.index = std::min(part.index, last);
+}
+
+void clear(ChainPart& part, const Arguments& given) {
+    Chain empty;
+    if (given.has("default_direction")) empty.set_default_direction(given.point("default_direction"));
+    part.chain = empty;
+    part.selected.reset();
+    part.index = 0;
+    part.motion.path = Motion::Path::Still;
+    forget_limits(part.reach);
+    shape_changed(part);
+}
+
+void reset(ChainPart& part, const Arguments&) {
+    part = first_chain();
+}
+
+void take_preset(ChainPart& part, const Arguments& given) {
+    const std::string name = given.text("name");
+    const auto preset =
+        std::find_if(presets().begin(), presets().end(), [&](const Preset& p) { return p.name == name; });
+    const std::size_t count =
+        given.has("count") ? static_cast<std::size_t>(given.integer("count")) : preset->count;
+    const std::uint32_t seed = given.has("seed") ? static_cast<std::uint32_t>(given.integer("seed")) : 1u;
+    part.chain = make_preset(name, count, seed);
+    part.target = part.chain.position(part.chain.size() - 1);
+    part.index = std::min(part.index, part.chain.size() - 1);
+    part.selected.reset();
+    part.motion.path = Motion::Path::Still;
+    forget_limits(part.reach);
+    shape_changed(part);
+}
+
+}  // namespace
+
+void add_shape_commands(CommandTable& table) {
+    table.add(chain_command("chain.clear",
+                            {{.name = "default_direction",
+                              .type = ArgumentType::Point,
+                              .required = false,
+                              .help = "unit vector along which a chain without a direction is laid"}},
+                            "Takes every segment away", clear));
+    table.add(chain_command("chain.add", {length_argument(), position_argument()},
+                            "Appends a segment at the tail", add));
+    table.add(chain_command(
+        "chain.insert", {index_argument(true, "the new segment's"), length_argument(), position_argument()},
+        "Inserts a segment before another", insert));
+    table.add(
+        chain_command("chain.remove", {index_argument(true, "which segment")}, "Removes a segment", remove));
+    table.add(chain_command("chain.reset", {}, "Everything in this lab as at the first start", reset));
+    table.add(chain_command("chain.set_length", {index_argument(true, "which segment"), length_argument()},
+                            "Sets a segment's length and lays the chain anew", set_length));
+    table.add(chain_command(
+        "chain.preset",
+        {{.name = "name",
+          .type = ArgumentType::Text,
+          .help = "which chain",
+          .choices = names(presets(), [](const Preset& p) { return p.name; })},
+         {.name = "count",
+          .type = ArgumentType::Integer,
+          .required = false,
+          .help = "segments",
+          .low = 1,
+          .high = static_cast<double>(max_segments)},
+         {.name = "seed", .type = ArgumentType::Integer, .required = false, .help = "for random", .low = 0}},
+        "Begins with a ready-made chain, the target on its tail", take_preset));
+}
+
+}  // namespace tendril::app

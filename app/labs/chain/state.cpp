@@ -1,0 +1,84 @@
+// What --state writes of the Chain lab.
+#include "app/io/solver_json.hpp"
+#include "app/labs/chain/chain_lab.hpp"
+
+namespace tendril::app {
+namespace {
+
+Json reach_state(const ChainPart& part) {
+    Json json = save_reach(part.reach);
+    json.erase("rotations");
+    json["report"] = nullptr;
+    json["hold"] = nullptr;
+    json["explanation"] = nullptr;
+    if (!part.result) return json;
+    json["report"] = report_json(part.result->method, part.result->report);
+    if (part.result->hold) {
+        json["hold"] = hold_json(*part.result->hold);
+        json["explanation"] = hold_text(*part.result->hold);
+    }
+    return json;
+}
+
+Json microscope_state(const Study& study) {
+    const Trace& trace = *study.trace;
+    Json json{{"step", study.step}, {"steps", trace.frames()}, {"iteration", trace.iteration(study.step)}};
+    json["report"] = report_json(trace.method, trace.report);
+    json["moves"] = Json::array();
+    for (const ik::Step& step : trace.frame(study.step)) {
+        const bool alone = step.neighbour == ik::no_joint;
+        json["moves"].push_back({{"phase", ik::name(step.phase)},
+                                 {"joint", step.joint},
+                                 {"neighbour", alone ? Json(nullptr) : Json(step.neighbour)},
+                                 {"from", point(step.from)},
+                                 {"to", point(step.to)}});
+    }
+    for (const glm::vec3& joint : trace.pose(study.step)) json["positions"].push_back(point(joint));
+    for (const float residual : trace.residuals) json["residuals"].push_back(number(residual));
+    return json;
+}
+
+Json race_state(const Race& race) {
+    Json json = Json::array();
+    for (const Racer& racer : race.racers) {
+        Json each = report_json(racer.method, racer.report);
+        for (const glm::vec3& joint : racer.joints) each["positions"].push_back(point(joint));
+        json.push_back(std::move(each));
+    }
+    return json;
+}
+
+}  // namespace
+
+Json ChainLab::state(const Workspace& workspace) const {
+    const ChainPart& part = chain_part(workspace);
+    const auto segments = part.chain.segments();
+    const auto end = [&](bool tail) {
+        return segments.empty() ? Json(nullptr)
+                                : point(tail ? segments.back().position : segments.front().position);
+    };
+    Json list = Json::array();
+    for (const Segment& segment : segments) {
+        list.push_back({{"position", point(segment.position)}, {"length", number(segment.length)}});
+    }
+    const float tolerance =
+        part.mode == ChainMode::Reach ? reach_tolerance(part.reach, part.chain.reach()) : part.tolerance;
+    Json json{{"lab", chain_lab},
+              {"mode", mode_name(part.mode)},
+              {"index", part.index},
+              {"iterations", iterations_of(part, part.mode)},
+              {"tolerance", number(tolerance)},
+              {"target", point(part.target)},
+              {"head", end(false)},
+              {"tail", end(true)},
+              {"selected", part.selected ? Json(*part.selected) : Json(nullptr)},
+              {"reach", number(part.chain.reach())},
+              {"motion", motion_name(part.motion.path)},
+              {"segments", std::move(list)}};
+    if (part.mode == ChainMode::Reach) json["reach"] = reach_state(part);
+    if (part.study.trace) json["microscope"] = microscope_state(part.study);
+    if (part.study.race) json["race"] = race_state(*part.study.race);
+    return json;
+}
+
+}  // namespace tendril::app

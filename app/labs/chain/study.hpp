@@ -1,0 +1,58 @@
+// Looking into a solve. While the microscope or the race is open, every solve begins at the same start, so
+// that moving the target shows another way from the same place.
+#pragma once
+
+#include <cstddef>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <tendril/chain/chain.hpp>
+#include <vector>
+
+#include "app/document/json.hpp"
+#include "app/labs/chain/race.hpp"
+#include "app/labs/chain/reach.hpp"
+#include "app/labs/chain/trace.hpp"
+
+namespace tendril::app {
+
+inline constexpr std::size_t max_studied_segments = 512;  ///< more would drown a picture and take too long
+
+struct Study {
+    enum class Kind { None, Microscope, Race } kind = Kind::None;
+    std::vector<glm::vec3> start;            ///< where each solve begins, one a segment
+    std::vector<glm::quat> start_rotations;  ///< and how the bones are turned, as in ReachSettings
+    std::size_t step = 0;  ///< microscope: how many elementary steps are shown, 0 to all of them
+    Racers racers{true, true, true, false, true, false, false};  ///< by ik::Method
+    bool side_by_side = false;
+
+    /// Where the last solve began, for a study that is opened after it; not saved, nothing for long chains.
+    std::vector<glm::vec3> last_start;
+    std::vector<glm::quat> last_rotations;
+    /// Worked out from all the above; neither saved nor compared.
+    std::shared_ptr<const Trace> trace;
+    std::shared_ptr<const Race> race;
+
+    bool operator==(const Study& other) const;
+
+    bool open() const { return kind != Kind::None; }
+    /// What each solve starts from: where the last one did, where the chain is now, or all in line.
+    enum class From { Last, Here, Straight };
+    /// Throws std::invalid_argument for a chain that is too short or long. One study follows another from the
+    /// same start, unless told otherwise.
+    void begin(Kind as, std::optional<From> from, const Chain& chain, const ReachSettings& settings);
+    /// A solve is about to begin.
+    void note_start(const Chain& chain, const ReachSettings& settings);
+    void close();
+    /// Puts the chain back to the start; nothing while nothing is studied.
+    void rewind(Chain& chain, ReachSettings& settings) const;
+    /// Works out trace or race anew.
+    void refresh(const Chain& chain, const ReachSettings& settings, glm::vec3 target);
+    std::size_t bytes() const;
+};
+
+Json save_study(const Study& study);
+Study load_study(const Json& json, const std::string& where, const Chain& chain);
+
+}  // namespace tendril::app

@@ -1,0 +1,146 @@
+// Looking into a solve: microscope.* and race.*.
+#include <algorithm>
+#include <stdexcept>
+
+#include "app/document/atomic_file.hpp"
+#include "app/labs/chain/command_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr const char* starts[] = {"last", "here", "straight"};
+std::optional<Study::From> start_of(const Arguments& given) {
+    if (!given.has("start")) return std::nullopt;
+    const auto found = std::find(std::begin(starts), std::end(starts), given.text("start"));
+    return static_cast<Study::From>(found - std::begin(starts));
+}
+
+Argument start_argument() {
+    return choice_argument("start", false,
+                           "what each solve starts from: what the last one did, here, or all in line",
+                           {std::begin(starts), std::end(starts)});
+}
+
+/// A study is of mode reach; the chain shows what a solve from the start comes to.
+void open(ChainPart& part, const Arguments& given, Study::Kind kind) {
+    if (part.motion.path != Motion::Path::Still) part.motion.path = Motion::Path::Still;
+    part.study.begin(kind, start_of(given), part.chain, part.reach);
+    part.mode = ChainMode::Reach;
+    reach_for(part, part.target);
+}
+
+void open_microscope(ChainPart& part, const Arguments& given) {
+    open(part, given, Study::Kind::Microscope);
+}
+
+void check_microscope(const ChainPart& part) {
+    if (part.study.kind != Study::Kind::Microscope) throw Refused("the microscope is not open");
+}
+void check_race(const ChainPart& part) {
+    if (part.study.kind != Study::Kind::Race) throw Refused("no race is open");
+}
+
+void seek(ChainPart& part, const Arguments& given) {
+    check_microscope(part);
+    part.study.step = static_cast<std::size_t>(given.integer("step"));
+    if (part.study.step > part.study.trace->frames()) {
+        throw Refused("step must be 0 to " + std::to_string(part.study.trace->frames()) + ", got " +
+                      std::to_string(part.study.step));
+    }
+}
+
+void step(ChainPart& part, const Arguments& given) {
+    check_microscope(part);
+    const Trace& trace = *part.study.trace;
+    const auto shown = static_cast<long>(part.study.step);
+    const auto last = static_cast<long>(trace.frames());
+    long to = shown;
+    if (given.has("by") || !given.has("iterations")) to += given.has("by") ? given.integer("by") : 1;
+    if (given.has("iterations")) {
+        const int iteration = trace.iteration(static_cast<std::size_t>(std::clamp(to, 0L, last)));
+        to = static_cast<long>(trace.end_of_iteration(std::max(0, iteration + given.integer("iterations"))));
+    }
+    part.study.step = static_cast<std::size_t>(std::clamp(to, 0L, last));
+}
+
+void close_microscope(ChainPart& part, const Arguments&) {
+    check_microscope(part);
+    part.study.close();
+}
+void close_race(ChainPart& part, const Arguments&) {
+    check_race(part);
+    part.study.close();
+}
+
+void open_race(ChainPart& part, const Arguments& given) {
+    open(part, given, Study::Kind::Race);
+}
+
+void choose_racer(ChainPart& part, const Arguments& given) {
+    check_race(part);
+    const ik::Method method = *ik::method_named(given.text("name"));
+    part.study.racers[static_cast<std::size_t>(method)] = given.boolean("on");
+}
+
+void lay_out_race(ChainPart& part, const Arguments& given) {
+    check_race(part);
+    part.study.side_by_side = given.boolean("on");
+}
+
+void add_microscope_commands(CommandTable& table) {
+    table.add(chain_command("microscope.open", {start_argument()},
+                            "Looks inside a solve, step by step, from a start that stays", open_microscope,
+                            Effect::Look));
+    table.add(chain_command("microscope.seek",
+                            {{.name = "step",
+                              .type = ArgumentType::Integer,
+                              .help = "how many steps are shown",
+                              .low = 0,
+                              .high = max_trace_steps}},
+                            "Goes to a step of the solve", seek, Effect::Look));
+    table.add(chain_command(
+        "microscope.step",
+        {integer_argument("by", "steps on, or back; 1 when left out", -max_trace_steps, max_trace_steps),
+         integer_argument("iterations", "to the end of an iteration this much on or back", -max_iterations,
+                          max_iterations)},
+        "Goes some steps on or back", step, Effect::Look));
+    table.add(chain_command("microscope.close", {}, "Leaves the chain as the solve left it", close_microscope,
+                            Effect::Look));
+}
+
+/// Does not change the chain: writes what the race found.
+Command race_save() {
+    return {.name = "race.save",
+            .arguments = {{.name = "path", .type = ArgumentType::Text, .help = "a CSV file to write"}},
+            .help = "Writes every solver's residual at each iteration as CSV",
+            .effect = Effect::Look,
+            .apply = [](Workspace& workspace, const Arguments& given) {
+                const ChainPart& part = workspace.document.get<ChainPart>(chain_lab);
+                check_race(part);
+                write_file_atomically(given.text("path"), race_csv(*part.study.race));
+                workspace.toast("Written: " + given.text("path"));
+            }};
+}
+
+}  // namespace
+
+void add_study_commands(CommandTable& table) {
+    add_microscope_commands(table);
+    table.add(chain_command("race.open", {start_argument()},
+                            "Runs several solvers from the same start to the same target", open_race,
+                            Effect::Look));
+    table.add(
+        chain_command("race.solver",
+                      {choice_argument("name", true, "who",
+                                       names(ik::all_methods, [](ik::Method m) { return ik::name(m); })),
+                       {.name = "on", .type = ArgumentType::Boolean, .help = "takes part, or not"}},
+                      "Lets a solver take part in the race", choose_racer, Effect::Look));
+    table.add(chain_command("race.side_by_side",
+                            {{.name = "on", .type = ArgumentType::Boolean, .help = "or overlaid"}},
+                            "Shows the chains of the race beside each other", lay_out_race, Effect::Look));
+    table.add(race_save());
+    table.add(chain_command("race.close", {}, "Leaves the chain as the chosen solver left it", close_race,
+                            Effect::Look));
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,67 @@
+#include "app/labs/chain/trace.hpp"
+
+namespace tendril::app {
+namespace {
+
+class Recorder final : public ik::Observer {
+  public:
+    explicit Recorder(Trace& trace) : trace_(trace) {}
+    void step(const ik::Step& step) noexcept override {
+        if (trace_.steps.size() >= static_cast<std::size_t>(max_trace_steps)) {
+            trace_.cut = true;
+            return;
+        }
+        if (trace_.steps.empty() || trace_.steps.back().order != step.order) {
+            trace_.frame_begins.push_back(trace_.steps.size());
+        }
+        trace_.steps.push_back(step);
+    }
+    void iteration_done(int, float residual) noexcept override {
+        if (!trace_.cut) trace_.residuals.push_back(residual);
+    }
+
+  private:
+    Trace& trace_;
+};
+
+}  // namespace
+
+std::span<const ik::Step> Trace::frame(std::size_t frame) const {
+    if (frame == 0 || frame > frames()) return {};
+    const std::size_t begin = frame_begins[frame - 1];
+    const std::size_t end = frame < frames() ? frame_begins[frame] : steps.size();
+    return std::span(steps).subspan(begin, end - begin);
+}
+
+std::vector<glm::vec3> Trace::pose(std::size_t frame) const {
+    std::vector<glm::vec3> joints = start;
+    const std::size_t end = frame < frames() ? frame_begins[frame] : steps.size();
+    for (std::size_t i = 0; i < end; ++i) joints[steps[i].joint] = steps[i].to;
+    return joints;
+}
+
+int Trace::iteration(std::size_t frame) const {
+    const auto steps_of = this->frame(frame);
+    return steps_of.empty() ? 0 : steps_of.front().iteration;
+}
+
+std::size_t Trace::end_of_iteration(int iteration) const {
+    std::size_t last = 0;
+    for (std::size_t i = 0; i < frames(); ++i) {
+        if (steps[frame_begins[i]].iteration <= iteration) last = i + 1;
+    }
+    return last;
+}
+
+Trace record_trace(Chain chain, ReachSettings settings, glm::vec3 target) {
+    Trace trace;
+    trace.method = settings.method;
+    for (const Segment& segment : chain.segments()) trace.start.push_back(segment.position);
+    Recorder recorder(trace);
+    ik::Solver solver = make_solver(chain, settings);
+    trace.report =
+        solver.solve(settings.method, chain, target, solver_options(settings, solver.reach()), &recorder);
+    return trace;
+}
+
+}  // namespace tendril::app
