@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "ik/ccd.hpp"
 #include "ik/fabrik.hpp"
+#include "ik/jacobian.hpp"
 #include "ik/rotation.hpp"
 
 namespace tendril::ik::detail {
@@ -17,9 +19,13 @@ bool iterate(Method method, Problem& problem, Watch watch) noexcept {
         case Method::FabrikPlain:
             return fabrik_iteration(problem, watch), true;
         case Method::Ccd:
+            return ccd_iteration(problem, watch), true;
         case Method::JacobianTranspose:
+            return jacobian_transpose_iteration(problem, watch), true;
         case Method::Dls:
+            return dls_iteration(problem, watch), true;
         case Method::SvdDls:
+            return svd_dls_iteration(problem, watch), true;
         case Method::TwoBone:
             return false;
     }
