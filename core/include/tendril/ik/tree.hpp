@@ -1,0 +1,109 @@
+// Inverse kinematics of a tree of chains: one root, several effectors, joints that branches share.
+//
+// A torso with two arms and a head, a spider, a hand: the joints are given as a list in which every joint
+// names the one that it hangs on, and any number of them, inner ones too, may be told where to go.
+//
+// Method: FABRIK for several end effectors. A pull from the effectors inward gives every joint a place that
+// each of its branches proposes; where branches meet, the proposals are averaged, each by the weight of all
+// effectors on its branch. A pull from the root outward then gives every bone its length again. A. Aristidou,
+// J. Lasenby, "FABRIK: A fast, iterative solver for the Inverse Kinematics problem", Graphical Models 73(5),
+// 2011, section on multiple end effectors; A. Aristidou, Y. Chrysanthou, J. Lasenby, "Extending FABRIK with
+// model constraints", Computer Animation and Virtual Worlds 27(1), 2016.
+//
+// From the third iteration on a damped Gauss-Newton step follows each pair of pulls, and is kept where it
+// brings the effectors nearer: of all moves that keep the lengths and bring the effectors to their targets,
+// each to first order, the one that moves the joints least (Levenberg 1944, Marquardt 1963). On a tree its
+// equations are solved from the leaves inward without fill-in (as D. Baraff, "Linear-time dynamics using
+// Lagrange multipliers", SIGGRAPH 1996, does for forces). Pulls alone crawl where branches must agree.
+//
+// Cost: an iteration is O(joints on the way from the root to an effector), however many effectors there are.
+// Solving allocates nothing, throws nothing and gives the same bits for the same call, in whatever order the
+// effectors are listed.
+//
+// Branches without an effector take no part: each goes along, rigid, with the bone that it hangs on, turned
+// by the least rotation of that bone. What hangs on the root itself, or on a joint that stays, stays where it
+// is.
+//
+// Bones keep their lengths as in chain.hpp.
+#pragma once
+
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "tendril/ik/observer.hpp"
+#include "tendril/ik/options.hpp"
+
+namespace tendril::ik {
+
+struct TreeJoint {
+    std::size_t parent = no_joint;  ///< comes before this joint in the list; the root, the first, has none
+    float length = 0.0f;            ///< metres to the parent, 0 to 1e9; the root's ties nothing
+};
+
+/// A joint that is told where to go.
+struct Effector {
+    std::size_t joint = 0;
+    glm::vec3 target{0.0f};  ///< metres, at most max_magnitude
+    /// 0 to max_magnitude; 0 is ignored. Only the weights' ratios count, and only where the effectors cannot
+    /// all be at their targets: then the sum of weight times squared distance is made small. A weight under
+    /// 1e-6 of the heaviest counts as that.
+    float weight = 1.0f;
+};
+
+struct TreeOptions {
+    /// Metres, 0 to max_magnitude; 1e-3 of the reach where left out.
+    std::optional<float> tolerance;
+    /// 1 to 1 000 000.
+    int max_iterations = 100;
+    /// Goes on to max_iterations whatever was reached; for measuring. Not where a single effector is out of
+    /// reach: then there is nothing to iterate.
+    bool every_iteration = false;
+    /// The two pulls alone, as published, for study: slower, and a straight branch stays on its line.
+    bool plain = false;
+    /// Where given, element i receives the worst residual after iteration i + 1, as far as it has room.
+    std::span<float> residuals;
+    /// Where given, element i receives the metres from effector i's joint to its target when all is done, as
+    /// far as it has room; also for those that weigh nothing.
+    std::span<float> effector_residuals;
+};
+
+struct TreeReport {
+    /// Converged: every effector is within tolerance. Otherwise Stretched where the way from the root to one
+    /// of them is shorter than to its target by more than the tolerance, or TooClose where it cannot fold
+    /// that far; then Stalled (the effectors disagree, as a rule) or IterationLimit.
+    Status status = Status::Converged;
+    int iterations = 0;
+    float residual = 0.0f;  ///< metres, the worst of the effectors that weigh something
+    bool operator==(const TreeReport&) const = default;
+};
+
+class Tree {
+  public:
+    /// Throws std::invalid_argument for an empty list, a first joint that has a parent, another that has none
+    /// or one that does not come before it, or a length out of its range.
+    explicit Tree(std::span<const TreeJoint> joints);
+    ~Tree();
+    Tree(Tree&&) noexcept;
+    Tree& operator=(Tree&&) noexcept;
+
+    std::size_t size() const noexcept;
+    /// The longest way from the root to a joint, metres.
+    float reach() const noexcept;
+
+    /// Moves the joints (size() of them, metres), all but the root, so that the effectors' come to their
+    /// targets. What it starts from is laid to the bones' lengths first, if it was not. A target that its
+    /// effector cannot reach counts as the nearest point that it can: how far off it lies adds nothing to its
+    /// weight. InvalidInput, and nothing is moved, where a joint's index or a number is out of its range, or
+    /// two effectors that weigh something sit on one joint.
+    TreeReport solve(std::span<glm::vec3> joints, std::span<const Effector> effectors,
+                     const TreeOptions& options = {}) noexcept;
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace tendril::ik
