@@ -3,14 +3,15 @@
 #include <new>
 
 #include "chain_support.hpp"
+#include "memory.hpp"
 
-namespace {
+namespace tendril::test {
 bool memory_is_out = false;
 }
 
-// The whole test program allocates through these; they fail only between the two marks below.
+// The whole test program allocates through these; they fail only inside without_memory.
 void* operator new(std::size_t size) {
-    if (!memory_is_out) {
+    if (!tendril::test::memory_is_out) {
         if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
     }
     throw std::bad_alloc();
@@ -24,18 +25,6 @@ void operator delete(void* memory, std::size_t) noexcept {
 
 namespace tendril::test {
 namespace {
-
-template <class Call>
-void without_memory(Call call) {
-    memory_is_out = true;
-    try {
-        call();
-    } catch (...) {
-        memory_is_out = false;
-        throw;
-    }
-    memory_is_out = false;
-}
 
 TEST(ChainMemory, AFailedEditChangesNothing) {
     Chain chain = Chain::from_segments({{{0, 0, 0}, 1}, {{1, 0, 0}, 1}, {{2, 0, 0}, 1}});  // no room to spare
