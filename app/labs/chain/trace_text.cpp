@@ -49,8 +49,8 @@ std::string describe_frame(const Trace& trace, std::size_t frame) {
         case ik::Phase::FromRoot:
             return pull(trace, frame, first);
         case ik::Phase::Spread:
-            return "The bend is taken out until the chain spans the distance, then all turns onto the target "
-                   "(" +
+            return "The bend is made less or more until the chain spans the distance, then all turns onto "
+                   "the target (" +
                    joints + ").";
         case ik::Phase::Turn:
             return "Everything beyond turns" + about + ", so that the tip looks at the target (" + joints +
@@ -62,7 +62,9 @@ std::string describe_frame(const Trace& trace, std::size_t frame) {
         case ik::Phase::Limit:
             return "Limits: " + joints + (steps.size() == 1 ? " is" : " are") + " brought back within.";
         case ik::Phase::Analytic:
-            return "The law of cosines says where the bones go (" + joints + ").";
+            return "The answer at once, without iterating (" + joints + ").";
+        case ik::Phase::Keep:
+            return "The nearest pose that was met comes back, for the last was worse (" + joints + ").";
     }
     return {};
 }

@@ -1,6 +1,7 @@
 #include "ik/fabrik.hpp"
 
 #include "ik/rotation.hpp"
+#include "ik/spread.hpp"
 
 namespace tendril::ik::detail {
 namespace {
@@ -48,7 +49,15 @@ void fabrik_iteration(Problem& problem, Watch watch) noexcept {
     pull_from_root(problem, root, watch);
 }
 
+template <class Watch>
+void fast_fabrik_iteration(Problem& problem, Watch watch) noexcept {
+    fabrik_iteration(problem, watch);
+    if (!(distance(problem.joints.back(), problem.target) <= problem.tolerance)) spread(problem, watch);
+}
+
 template void fabrik_iteration(Problem&, Unwatched) noexcept;
 template void fabrik_iteration(Problem&, Watched) noexcept;
+template void fast_fabrik_iteration(Problem&, Unwatched) noexcept;
+template void fast_fabrik_iteration(Problem&, Watched) noexcept;
 
 }  // namespace tendril::ik::detail

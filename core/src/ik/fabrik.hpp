@@ -1,4 +1,5 @@
-// FABRIK: one iteration is a pull from the tip, then one from the root. Not installed.
+// FABRIK: one iteration is a pull from the tip, then one from the root. The accelerated one adds a step that
+// fits the span from root to tip (spread.hpp). Not installed.
 #pragma once
 
 #include "ik/problem.hpp"
@@ -7,5 +8,8 @@ namespace tendril::ik::detail {
 
 template <class Watch>
 void fabrik_iteration(Problem& problem, Watch watch) noexcept;
+
+template <class Watch>
+void fast_fabrik_iteration(Problem& problem, Watch watch) noexcept;
 
 }  // namespace tendril::ik::detail

@@ -6,58 +6,164 @@
 #include "ik/ccd.hpp"
 #include "ik/fabrik.hpp"
 #include "ik/jacobian.hpp"
+#include "ik/kick.hpp"
+#include "ik/prepare.hpp"
+#include "ik/reachability.hpp"
 #include "ik/rotation.hpp"
+#include "ik/soft_reach.hpp"
 
 namespace tendril::ik::detail {
 namespace {
 
-/// One iteration of a method; false for those that are not there yet.
+constexpr int patience = 10;    ///< iterations without a nearer tip until a solve has stalled
+constexpr int most_shakes = 3;  ///< how often a stalled chain is shaken before that is believed
+
 template <class Watch>
-bool iterate(Method method, Problem& problem, Watch watch) noexcept {
+void iterate(Method method, Problem& problem, Watch watch) noexcept {
     switch (method) {
         case Method::Fabrik:
+            return fast_fabrik_iteration(problem, watch);
         case Method::FabrikPlain:
-            return fabrik_iteration(problem, watch), true;
+            return fabrik_iteration(problem, watch);
         case Method::Ccd:
-            return ccd_iteration(problem, watch), true;
+            return ccd_iteration(problem, watch);
         case Method::JacobianTranspose:
-            return jacobian_transpose_iteration(problem, watch), true;
+            return jacobian_transpose_iteration(problem, watch);
         case Method::Dls:
-            return dls_iteration(problem, watch), true;
+            return dls_iteration(problem, watch);
         case Method::SvdDls:
-            return svd_dls_iteration(problem, watch), true;
+            return svd_dls_iteration(problem, watch);
         case Method::TwoBone:
-            return false;
+            return;  // does not iterate
     }
-    return false;
+}
+
+/// How near the tip has been, and whether it still comes nearer.
+struct Progress {
+    float best;     ///< of the whole solve: the residual of room.best
+    float nearest;  ///< since the chain was last bent by hand
+    int idle = 0;   ///< iterations since `nearest` was last beaten
+    int shakes = 0;
+
+    bool stalled() const noexcept { return idle >= patience; }
+    void start_again(float residual) noexcept { nearest = residual, idle = 0; }
+};
+
+void save(Problem& problem) noexcept {
+    std::copy(problem.joints.begin(), problem.joints.end(), problem.room.best.begin());
 }
 
 template <class Watch>
-Report iterations(Method method, Problem& problem, Watch watch) noexcept {
-    Report report;
-    report.residual = distance(problem.joints.back(), problem.target);
-    watch.iteration_done(0, report.residual);
-    while (report.iterations < problem.options.max_iterations) {
-        if (report.residual <= problem.tolerance && !problem.options.every_iteration) break;
-        problem.iteration = ++report.iterations;
-        if (!iterate(method, problem, watch)) return {Status::InvalidInput, 0, 0.0f};
-        report.residual = distance(problem.joints.back(), problem.target);
-        const auto done = static_cast<std::size_t>(report.iterations);
-        if (done <= problem.options.residuals.size()) problem.options.residuals[done - 1] = report.residual;
-        watch.iteration_done(report.iterations, report.residual);
+void restore(Problem& problem, Watch watch) noexcept {
+    for (std::size_t i = 1; i < problem.joints.size(); ++i) {
+        watch.moved(problem.iteration, Phase::Keep, i, no_joint, problem.joints[i], problem.room.best[i]);
+        problem.joints[i] = problem.room.best[i];
     }
-    report.status = report.residual <= problem.tolerance ? Status::Converged : Status::IterationLimit;
-    return report;
+    watch.next_step();
+}
+
+float residual_of(const Problem& problem) noexcept {
+    return distance(problem.joints.back(), problem.target);
+}
+
+/// `goal` is the target that was asked for; where the reach is soft the chain follows another.
+template <class Watch>
+void tell(const Problem& problem, const glm::vec3& goal, float residual, Watch watch) noexcept {
+    const std::span<float> told = problem.options.residuals;
+    const auto iteration = static_cast<std::size_t>(problem.iteration);
+    if (!Watch::watching && iteration > told.size()) return;
+    if (goal != problem.target) residual = distance(problem.joints.back(), goal);
+    if (iteration >= 1 && iteration <= told.size()) told[iteration - 1] = residual;
+    watch.iteration_done(problem.iteration, residual);
+}
+
+template <class Watch>
+Progress prepare(Method method, Problem& problem, Watch watch) noexcept {
+    Progress progress{residual_of(problem), 0.0f};
+    save(problem);
+    snap_back(problem, watch);
+    const bool there = residual_of(problem) <= problem.tolerance;
+    if (!there && method != Method::FabrikPlain && is_on_one_line(problem)) kick_off_the_line(problem, watch);
+    progress.start_again(residual_of(problem));
+    return progress;
+}
+
+void note(Problem& problem, float residual, Progress& progress) noexcept {
+    if (residual < progress.best) {
+        progress.best = residual;
+        if (residual > problem.tolerance) save(problem);
+    }
+    if (residual < progress.nearest) {
+        progress.start_again(residual);
+    } else {
+        ++progress.idle;
+    }
+}
+
+template <class Watch>
+Report iterations(Method method, Problem& problem, const glm::vec3& goal, Watch watch) noexcept {
+    const Options& options = problem.options;
+    Progress progress = prepare(method, problem, watch);
+    float residual = progress.nearest;
+    tell(problem, goal, residual, watch);
+    while (problem.iteration < options.max_iterations) {
+        if (!options.every_iteration) {
+            if (residual <= problem.tolerance) break;
+            if (progress.stalled()) {
+                if (method == Method::FabrikPlain || progress.shakes == most_shakes) break;
+                shake(problem, progress.shakes++, watch);
+                progress.start_again(residual_of(problem));
+            }
+        }
+        ++problem.iteration;
+        iterate(method, problem, watch);
+        residual = residual_of(problem);
+        tell(problem, goal, residual, watch);
+        note(problem, residual, progress);
+    }
+    if (residual > problem.tolerance && progress.best < residual) {
+        restore(problem, watch);
+        residual = progress.best;
+    }
+    const Status status = residual <= problem.tolerance ? Status::Converged
+                          : progress.stalled()          ? Status::Stalled
+                                                        : Status::IterationLimit;
+    return {status, problem.iteration, residual};
+}
+
+template <class Watch>
+Report solve_reached(Method method, Problem& problem, const glm::vec3& goal, Watch watch) noexcept {
+    if (const auto answer = answer_beyond_reach(problem, watch)) {
+        tell(problem, goal, answer->residual, watch);
+        return *answer;
+    }
+    // The pole: face_pole turns the chain about its line, so the residual stays.
+    return iterations(method, problem, goal, watch);
+}
+
+/// Where the chain goes if the reach is soft.
+glm::vec3 eased_target(const Problem& problem) noexcept {
+    const float zone = problem.options.soft_zone, reach = problem.room.reach;
+    const float far = exact_distance(problem.root(), problem.target);
+    const float eased = eased_distance(far, reach, 2.0f * problem.room.longest - reach, zone);
+    if (zone == 0.0f || eased >= far) return problem.target;
+    return moved(problem.root(), minus(problem.target, problem.root()), eased / far);
 }
 
 }  // namespace
 
 template <class Watch>
 Report run(Method method, Problem& problem, Watch watch) noexcept {
-    // Two bones: two_bone_solve does all by itself.
-    // Limits: run_limited has a loop of its own, for each method.
-    const Report report = iterations(method, problem, watch);
-    // The pole: face_pole turns the chain about its line, so the residual stays.
+    lay_to_lengths(problem, watch);
+    const glm::vec3 goal = problem.target;
+    problem.target = eased_target(problem);
+    Report report = solve_reached(method, problem, goal, watch);
+    if (problem.target != goal) {
+        report.residual = exact_distance(problem.joints.back(), goal);
+        const bool short_of_it = report.residual > problem.tolerance;
+        if (report.status == Status::Converged && short_of_it) report.status = Status::Stretched;
+        problem.target = goal;
+    }
     return report;
 }
 

@@ -36,8 +36,8 @@ const char* name(Bound bound) noexcept {
 }
 
 const char* name(Phase phase) noexcept {
-    constexpr const char* names[] = {"prepare",  "from_tip", "from_root", "spread",  "turn",
-                                     "gradient", "pole",     "limit",     "analytic"};
+    constexpr const char* names[] = {"prepare",  "from_tip", "from_root", "spread",   "turn",
+                                     "gradient", "pole",     "limit",     "analytic", "keep"};
     return names[static_cast<std::size_t>(phase)];
 }
 

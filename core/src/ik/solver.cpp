@@ -9,6 +9,7 @@
 #include "ik/loop.hpp"
 #include "ik/problem.hpp"
 #include "ik/rotation.hpp"
+#include "ik/validate.hpp"
 
 namespace tendril::ik {
 
@@ -81,7 +82,9 @@ float Solver::reach() const noexcept {
 
 Report Solver::solve(Method method, std::span<glm::vec3> joints, glm::vec3 target, const Options& options,
                      Observer* observer) noexcept {
-    if (joints.size() != bones() + 1) return {Status::InvalidInput, 0, 0.0f};
+    const Report refused{Status::InvalidInput, 0, 0.0f};
+    if (joints.size() != bones() + 1 || !takes(method, bones())) return refused;
+    if (!are_points(joints) || !are_points({&target, 1}) || !are_valid(options, bones())) return refused;
     Problem problem{joints, target, options.tolerance.value_or(1e-3f * reach()), options, parts_->room};
     int order = 0;
     return observer ? run(method, problem, Watched(*observer, order)) : run(method, problem, Unwatched());
@@ -89,11 +92,17 @@ Report Solver::solve(Method method, std::span<glm::vec3> joints, glm::vec3 targe
 
 Report Solver::solve(Method method, Chain& chain, glm::vec3 target, const Options& options,
                      Observer* observer) noexcept {
-    if (chain.size() != bones() + 1) return {Status::InvalidInput, 0, 0.0f};
+    const Report refused{Status::InvalidInput, 0, 0.0f};
+    if (chain.size() != bones() + 1) return refused;
     std::vector<glm::vec3>& joints = parts_->room.joints;
     for (std::size_t i = 0; i < joints.size(); ++i) joints[i] = chain.segments()[i].position;
-    const Report report = solve(method, joints, target, options, observer);
-    if (report.status != Status::InvalidInput) chain.set_positions(joints);
+    Options kept = options;
+    // Checked first, so that what is wrong with it is not hidden.
+    if (are_valid(options, bones())) kept.max_stretch_scale = 1.0f;
+    const Report report = solve(method, joints, target, kept, observer);
+    if (report.status == Status::InvalidInput) return report;
+    if (!are_points(joints)) return refused;  // a chain takes no joint that far out
+    chain.set_positions(joints);
     return report;
 }
 
@@ -103,9 +112,6 @@ std::span<const glm::quat> Solver::rotations() const noexcept {
 
 bool Solver::set_rotations(std::span<const glm::quat> rotations) noexcept {
     if (rotations.size() != bones()) return false;
-    const auto is_unit = [](const glm::quat& q) {
-        return std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0f) <= 1e-3f;
-    };
     if (!std::all_of(rotations.begin(), rotations.end(), is_unit)) return false;
     std::copy(rotations.begin(), rotations.end(), parts_->room.rotations.begin());
     return true;

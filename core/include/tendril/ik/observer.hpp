@@ -9,15 +9,16 @@
 namespace tendril::ik {
 
 enum class Phase : std::uint8_t {
-    Prepare,   ///< before the first iteration: laid to its lengths, snapped back, kicked off the line
+    Prepare,   ///< laid to its lengths, snapped back, kicked off the line or out of where it had stalled
     FromTip,   ///< FABRIK: the pull that starts with the tip on the target
     FromRoot,  ///< FABRIK: the pull that starts with the root on its place
-    Spread,    ///< accelerated FABRIK: the bend is taken out until the span fits
+    Spread,    ///< accelerated FABRIK: the bend is made less or more until the span fits
     Turn,      ///< CCD: everything beyond one joint turns about it
     Gradient,  ///< Jacobian solvers: all joints turn a little at once
     Pole,      ///< the bend turns to face the pole
     Limit,     ///< a joint is brought back into its limit
-    Analytic   ///< two-bone: the answer
+    Analytic,  ///< the answer at once: two bones, a target out of reach or too close
+    Keep       ///< the nearest pose that was met comes back, for the last one was worse
 };
 /// "from_tip"
 const char* name(Phase phase) noexcept;

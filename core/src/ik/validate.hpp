@@ -1,0 +1,23 @@
+// Whether a solve may begin. Not installed.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "tendril/ik/solver.hpp"
+
+namespace tendril::ik::detail {
+
+/// Every coordinate a number and at most max_magnitude.
+bool are_points(std::span<const glm::vec3> points) noexcept;
+
+/// Unit to 1e-3.
+bool is_unit(const glm::quat& rotation) noexcept;
+
+/// Every option in the range that options.hpp gives, for a chain of so many bones.
+bool are_valid(const Options& options, std::size_t bones) noexcept;
+
+/// A method that there is, and that takes so many bones.
+bool takes(Method method, std::size_t bones) noexcept;
+
+}  // namespace tendril::ik::detail
