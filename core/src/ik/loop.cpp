@@ -7,6 +7,7 @@
 #include "ik/fabrik.hpp"
 #include "ik/jacobian.hpp"
 #include "ik/kick.hpp"
+#include "ik/limited.hpp"
 #include "ik/prepare.hpp"
 #include "ik/reachability.hpp"
 #include "ik/rotation.hpp"
@@ -133,6 +134,7 @@ Report iterations(Method method, Problem& problem, const glm::vec3& goal, Watch 
 
 template <class Watch>
 Report solve_reached(Method method, Problem& problem, const glm::vec3& goal, Watch watch) noexcept {
+    if (!problem.options.limits.empty()) return run_limited(method, problem, watch);
     if (const auto answer = answer_beyond_reach(problem, watch)) {
         tell(problem, goal, answer->residual, watch);
         return *answer;

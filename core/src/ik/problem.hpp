@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "ik/limited_room.hpp"
 #include "tendril/ik/observer.hpp"
 #include "tendril/ik/options.hpp"
 
@@ -25,6 +26,7 @@ struct Workspace {
     std::vector<glm::vec3> old;              ///< n + 1: for a method's own use
     std::vector<glm::quat> turns;            ///< n: the same
     std::vector<glm::vec3> joints;           ///< n + 1: those of a Chain while it is solved
+    LimitedRoom limited;                     ///< for solves with limits
     float reach = 0.0f;
     float longest = 0.0f;
 };

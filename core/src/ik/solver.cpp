@@ -62,6 +62,7 @@ Solver::Solver(std::span<const float> lengths, std::span<const glm::vec3> rest_d
     room.old.resize(lengths.size() + 1);
     room.turns.resize(lengths.size());
     room.joints.resize(lengths.size() + 1);
+    room.limited.resize(lengths.size());
 }
 
 Solver::Solver(const Chain& chain)

@@ -52,6 +52,9 @@ struct Limit {
 /// What is wrong with a limit in words ("min must be at most max, got 2 and 1"); null when nothing is. The
 /// text is a constant: "the hinge's axis has no length".
 const char* fault(const Limit& limit) noexcept;
+/// The same, and for a joint whose bone lies along `rest_direction` at rest: "the hinge's axis lies along the
+/// bone".
+const char* fault(const Limit& limit, glm::vec3 rest_direction) noexcept;
 
 /// A joint's turn in the axes of its limit; radians.
 struct JointAngles {

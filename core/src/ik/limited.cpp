@@ -1,0 +1,156 @@
+// The loop around solves with limits.
+#include "ik/limited.hpp"
+
+#include <algorithm>
+
+#include "ik/limited_methods.hpp"
+#include "ik/limited_pose.hpp"
+#include "ik/limited_search.hpp"
+
+namespace tendril::ik::detail {
+namespace {
+
+constexpr float orientation_tolerance = 1e-3f;  ///< radians
+constexpr float straight_tolerance = 1e-4f;     ///< of the reach
+
+/// Out of reach, too near for the longest bone, or neither; and what no pose can better.
+struct Reachable {
+    Status status = Status::Converged;
+    float residual = 0.0f;
+};
+
+Reachable reachable(const Problem& problem) noexcept {
+    const float away = distance(problem.root(), problem.target), reach = problem.room.reach;
+    const float nearest = 2.0f * problem.room.longest - reach;
+    if (away > reach) return {Status::Stretched, away - reach};
+    if (away < nearest) return {Status::TooClose, nearest - away};
+    return {};
+}
+
+bool is_turned(const Problem& problem) noexcept {
+    if (!problem.options.tip_orientation) return true;
+    const glm::vec3 turn = orientation_error(problem, problem.room.rotations);
+    return length(turn) <= orientation_tolerance * 0.25f * problem.room.reach;
+}
+
+/// The tip is where it should be, or as near as any pose brings it.
+bool arrived(const Problem& problem, const Reachable& can) noexcept {
+    const float residual = distance(problem.joints.back(), problem.target);
+    const float more = can.status == Status::Converged ? 0.0f : straight_tolerance * problem.room.reach;
+    return residual <= std::max(problem.tolerance, can.residual + more) && is_turned(problem);
+}
+
+/// Lays the chain straight towards the target, or folded back along its longest bone, where the limits let it
+/// lie so. Whether they do.
+template <class Watch>
+bool lie_on_line(Problem& problem, const Reachable& can, Watch watch) noexcept {
+    if (can.status == Status::Converged || problem.options.tip_orientation) return false;
+    LimitedPose& pose = problem.room.limited.trial;
+    save(problem, pose);
+    const glm::vec3 rest = bone_direction(problem, pose.rotations[0], 0);
+    const glm::vec3 ahead = tendril::detail::direction(problem.root(), problem.target, rest);
+    bool pointed = false;  // whether a longest bone has been met: the one that points ahead
+    for (std::size_t i = 0; i < problem.bones(); ++i) {
+        const bool longest = !pointed && problem.lengths()[i] == problem.room.longest;
+        pointed = pointed || longest;
+        const bool forward = can.status == Status::Stretched || longest;
+        pose.rotations[i] = carried(problem, pose.rotations[i], i, times(ahead, forward ? 1.0f : -1.0f));
+        const glm::quat parent = parent_of(pose.rotations, i);
+        glm::quat turn = compose(conjugate(parent), pose.rotations[i]);
+        if (bring_within(problem.room.limited.limits[i], turn))
+            pose.rotations[i] = unit(compose(parent, turn));
+    }
+    lay(problem, pose);
+    const float residual = distance(pose.joints[problem.bones()], problem.target);
+    if (residual > can.residual + straight_tolerance * problem.room.reach) return false;
+    assume(problem, pose, Phase::Analytic, watch);
+    return true;
+}
+
+/// Whether any joint stands at its limit.
+bool touches(const Problem& problem) noexcept {
+    const LimitedRoom& room = problem.room.limited;
+    for (std::size_t i = 0; i < problem.bones(); ++i) {
+        const LimitedJoint& joint = room.limits[i];
+        const glm::quat parent = parent_of(problem.room.rotations, i);
+        const glm::quat turn = compose(conjugate(parent), problem.room.rotations[i]);
+        if (is_at_limit(joint, angles_of(joint, turn))) return true;
+    }
+    return false;
+}
+
+/// For the methods that have no second try: they stall when the best has hardly become better for long.
+class Progress {
+  public:
+    explicit Progress(float error) noexcept : mark_(error) {}
+    void note(float best) noexcept {
+        since_ = best < 0.999f * mark_ ? 0 : since_ + 1;
+        if (since_ == 0) mark_ = best;
+    }
+    bool stalled() const noexcept { return since_ >= 20; }
+
+  private:
+    float mark_;
+    int since_ = 0;
+};
+
+Status status_of(const Problem& problem, const Reachable& can, bool stalled) noexcept {
+    if (arrived(problem, can)) return can.status;
+    if (!stalled) return Status::IterationLimit;
+    return touches(problem) ? Status::Limited : Status::Stalled;
+}
+
+}  // namespace
+
+template <class Watch>
+Report run_limited(Method method, Problem& problem, Watch watch) noexcept {
+    Report report;
+    const auto residual = [&] { return distance(problem.joints.back(), problem.target); };
+    if (problem.bones() == 0 || !(problem.room.reach > 0.0f)) {
+        report.residual = residual();
+        if (report.residual > problem.tolerance) report.status = Status::Stretched;
+        return report;
+    }
+    enter(problem, watch);
+    const Reachable can = reachable(problem);
+    lie_on_line(problem, can, watch);
+    watch.iteration_done(0, residual());
+
+    LimitedPose& nearest = problem.room.limited.nearest;
+    float best = error_of(problem);
+    save(problem, nearest);
+    LimitedSearch search(best);
+    Progress progress(best);
+    const bool searching = method == Method::Fabrik;
+    const auto stalled = [&] { return searching ? search.stalled() : progress.stalled(); };
+    const auto over = [&] {
+        return arrived(problem, can) || (searching ? search.exhausted() : progress.stalled());
+    };
+    while (report.iterations < problem.options.max_iterations) {
+        if (!problem.options.every_iteration && over()) break;
+        problem.iteration = ++report.iterations;
+        if (searching) {
+            search.iterate(problem, watch);
+        } else {
+            limited_iteration(method, problem, watch);
+        }
+        const float error = error_of(problem);
+        if (searching ? search.takes(error, best, arrived(problem, can)) : error < best) {
+            best = error;
+            save(problem, nearest);
+        }
+        progress.note(best);
+        const auto done = static_cast<std::size_t>(report.iterations);
+        if (done <= problem.options.residuals.size()) problem.options.residuals[done - 1] = residual();
+        watch.iteration_done(report.iterations, residual());
+    }
+    if (error_of(problem) != best) assume(problem, nearest, Phase::Limit, watch);
+    report.residual = residual();
+    report.status = status_of(problem, can, stalled());
+    return report;
+}
+
+template Report run_limited(Method, Problem&, Unwatched) noexcept;
+template Report run_limited(Method, Problem&, Watched) noexcept;
+
+}  // namespace tendril::ik::detail

@@ -1,0 +1,86 @@
+#include "ik/limited_pose.hpp"
+
+#include <algorithm>
+
+namespace tendril::ik::detail {
+
+glm::vec3 rotation_vector(const glm::quat& rotation) noexcept {
+    const glm::vec3 vector{rotation.x, rotation.y, rotation.z};
+    const float sine = length(vector);
+    if (sine < 1e-6f) return times(vector, rotation.w < 0.0f ? -2.0f : 2.0f);
+    const float angle =
+        rotation.w < 0.0f ? -2.0f * std::atan2(sine, -rotation.w) : 2.0f * std::atan2(sine, rotation.w);
+    return times(vector, angle / sine);
+}
+
+glm::vec3 orientation_error(const Problem& problem, const std::vector<glm::quat>& rotations) noexcept {
+    const glm::quat& last = rotations[problem.bones() - 1];
+    const glm::quat left = compose(unit(*problem.options.tip_orientation), conjugate(last));
+    return times(rotation_vector(left), 0.25f * problem.room.reach);
+}
+
+namespace {
+
+float error_of(const Problem& problem, const glm::vec3& tip,
+               const std::vector<glm::quat>& rotations) noexcept {
+    const float squared = squared_distance(tip, problem.target);
+    if (!problem.options.tip_orientation) return std::sqrt(squared);
+    const glm::vec3 turn = orientation_error(problem, rotations);
+    return std::sqrt(squared + dot(turn, turn));
+}
+
+}  // namespace
+
+float error_of(const Problem& problem, const LimitedPose& pose) noexcept {
+    return error_of(problem, pose.joints[problem.bones()], pose.rotations);
+}
+
+float error_of(const Problem& problem) noexcept {
+    return error_of(problem, problem.joints.back(), problem.room.rotations);
+}
+
+void lay(const Problem& problem, LimitedPose& pose) noexcept {
+    pose.joints[0] = problem.root();
+    for (std::size_t i = 0; i < problem.bones(); ++i) {
+        const glm::vec3 direction = bone_direction(problem, pose.rotations[i], i);
+        pose.joints[i + 1] = moved(pose.joints[i], direction, problem.lengths()[i]);
+    }
+}
+
+void save(const Problem& problem, LimitedPose& pose) noexcept {
+    std::copy(problem.joints.begin(), problem.joints.end(), pose.joints.begin());
+    std::copy_n(problem.room.rotations.begin(), problem.bones(), pose.rotations.begin());
+}
+
+template <class Watch>
+void enter(Problem& problem, Watch watch) noexcept {
+    Workspace& room = problem.room;
+    LimitedPose& pose = room.limited.trial;
+    save(problem, pose);
+    bool same = true;  // so far nothing had to move
+    for (std::size_t i = 0; i < problem.bones(); ++i) {
+        room.limited.limits[i] = limited_joint(problem.options.limits[i], room.rest_directions[i]);
+        const glm::vec3 before = bone_direction(problem, pose.rotations[i], i);
+        const glm::vec3 along = tendril::detail::direction(problem.joints[i], problem.joints[i + 1], before);
+        // A rotation that agrees to rounding stays as it is, or each solve would shake it a little.
+        if (squared_distance(before, along) > 1e-10f) {
+            pose.rotations[i] = carried(problem, pose.rotations[i], i, along);
+        }
+        const glm::quat parent = parent_of(pose.rotations, i);
+        glm::quat turn = compose(conjugate(parent), pose.rotations[i]);
+        if (bring_within(room.limited.limits[i], turn)) {
+            pose.rotations[i] = unit(compose(parent, turn));
+            same = false;
+        }
+        if (!same) {
+            const glm::vec3 direction = bone_direction(problem, pose.rotations[i], i);
+            pose.joints[i + 1] = moved(pose.joints[i], direction, problem.lengths()[i]);
+        }
+    }
+    assume(problem, pose, Phase::Limit, watch);
+}
+
+template void enter(Problem&, Unwatched) noexcept;
+template void enter(Problem&, Watched) noexcept;
+
+}  // namespace tendril::ik::detail

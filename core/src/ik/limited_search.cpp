@@ -1,0 +1,138 @@
+#include "ik/limited_search.hpp"
+
+#include <cstdint>
+
+#include "ik/limited_pulls.hpp"
+#include "ik/limited_step.hpp"
+
+namespace tendril::ik::detail {
+namespace {
+
+constexpr float first_damping = 1e-3f, least_damping = 1e-8f, most_damping = 1.0f;
+constexpr int slow_iterations = 3;
+constexpr float slow = 0.98f;   ///< less progress than to this part of the error is little
+constexpr int most_tries = 40;  ///< poses to start from again
+constexpr int near_tries = 3;   ///< of these, how many lie near the best so far
+constexpr int drawn = 4;        ///< poses from which the nearest is taken
+constexpr float clearly = 0.9f;
+
+/// SplitMix64 (Steele, Lea, Flood 2014), from 0 to under 1.
+float chance(std::uint64_t& state) noexcept {
+    std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    z ^= z >> 31;
+    return static_cast<float>(z >> 40) * (1.0f / 16777216.0f);
+}
+
+float between(float a, float b, float part) noexcept {
+    return a + (b - a) * part;
+}
+
+JointAngles drawn_angles(const LimitedJoint& joint, std::uint64_t& state) noexcept {
+    const float a = chance(state), b = chance(state), c = chance(state);
+    if (joint.hinge()) return {between(joint.min, joint.max, a), 0.0f, 0.0f};
+    if (joint.free()) return {between(-2.0f, 2.0f, a), between(-2.0f, 2.0f, b), between(-2.0f, 2.0f, c)};
+    return within(joint, {between(-joint.down, joint.up, a), between(-joint.right, joint.left, b),
+                          between(joint.twist_min, joint.twist_max, c)});
+}
+
+/// Part of the way from how a joint stands to other angles.
+JointAngles towards(const LimitedJoint& joint, const glm::quat& turn, const JointAngles& other,
+                    float part) noexcept {
+    const JointAngles now = angles_of(joint, turn);
+    return within(joint, {between(now.up, other.up, part), between(now.left, other.left, part),
+                          between(now.twist, other.twist, part)});
+}
+
+/// Some pose within the limits, into room.trial; `part` of the way from the nearest one so far.
+void draw(const Problem& problem, std::uint64_t& state, float part) noexcept {
+    LimitedRoom& room = problem.room.limited;
+    for (std::size_t i = 0; i < problem.bones(); ++i) {
+        const LimitedJoint& joint = room.limits[i];
+        JointAngles angles = drawn_angles(joint, state);
+        if (part < 1.0f) {
+            const glm::quat parent = parent_of(room.nearest.rotations, i);
+            angles = towards(joint, compose(conjugate(parent), room.nearest.rotations[i]), angles, part);
+        }
+        const glm::quat parent = parent_of(room.trial.rotations, i);
+        room.trial.rotations[i] = unit(compose(parent, turn_of(joint, angles)));
+    }
+    lay(problem, room.trial);
+}
+
+/// One try within limits by least squares, with more and more damping; whether it came nearer.
+template <class Watch>
+bool descend(Problem& problem, float& damping, float& error, Watch watch) noexcept {
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        limited_step(problem, Descent::Damped, damping);
+        const float then = error_of(problem, problem.room.limited.trial);
+        if (then < error) {
+            assume(problem, problem.room.limited.trial, Phase::Gradient, watch);
+            error = then;
+            damping = std::max(0.3f * damping, least_damping);
+            return true;
+        }
+        damping = std::min(5.0f * damping, most_damping);
+    }
+    return false;
+}
+
+}  // namespace
+
+bool LimitedSearch::stalls() const noexcept {
+    return slow_ >= slow_iterations;
+}
+
+bool LimitedSearch::exhausted() const noexcept {
+    return stalls() && tries_ >= most_tries;
+}
+
+bool LimitedSearch::takes(float error, float nearest, bool arrived) const noexcept {
+    return error < nearest && (tries_ == 0 || arrived || error < clearly * home_);
+}
+
+template <class Watch>
+void LimitedSearch::try_elsewhere(Problem& problem, Watch watch) noexcept {
+    LimitedRoom& room = problem.room.limited;
+    if (tries_ == 0) home_ = error_of(problem, room.nearest);
+    ++tries_;
+    std::uint64_t state = static_cast<std::uint64_t>(tries_) * 7919u;
+    const float part = tries_ <= near_tries ? 0.25f * static_cast<float>(tries_) : 1.0f;
+    float best = 0.0f;
+    for (int i = 0; i < drawn; ++i) {
+        draw(problem, state, part);
+        const float error = error_of(problem, room.trial);
+        if (i > 0 && error >= best) continue;
+        best = error;
+        std::swap(room.trial, room.before);
+    }
+    assume(problem, room.before, Phase::Prepare, watch);
+    damping_ = first_damping;
+    slow_ = 0;
+    last_ = best;
+}
+
+template <class Watch>
+void LimitedSearch::iterate(Problem& problem, Watch watch) noexcept {
+    if (stalls() && tries_ < most_tries) return try_elsewhere(problem, watch);
+    LimitedRoom& room = problem.room.limited;
+    const float start = error_of(problem);
+    save(problem, room.before);
+    limited_pulls(problem, watch);
+    float error = error_of(problem);
+    if (error > 0.5f * start) {
+        if (error > start) {
+            assume(problem, room.before, Phase::Limit, watch);
+            error = start;
+        }
+        descend(problem, damping_, error, watch);
+    }
+    slow_ = error > slow * last_ ? slow_ + 1 : 0;
+    last_ = error;
+}
+
+template void LimitedSearch::iterate(Problem&, Unwatched) noexcept;
+template void LimitedSearch::iterate(Problem&, Watched) noexcept;
+
+}  // namespace tendril::ik::detail
