@@ -5,6 +5,9 @@
 #include <string>
 #include <tendril/version.hpp>
 
+#include "app/batch/solve.hpp"
+#include "app/document/text.hpp"
+#include "app/io/solver_json.hpp"
 #include "app/labs/labs.hpp"
 #include "app/session.hpp"
 #include "app/shell/shortcuts.hpp"
@@ -44,22 +47,26 @@ void list_labs() {
     for (const Labs labs; const auto& lab : labs.all()) std::printf("%s\n", lab->name().c_str());
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    CLI::App line("Tendril: see, tune and carry away procedural animation.", "tendril");
+/// What the program is asked to do with a window, or a picture in its stead.
+struct SessionLine {
     SessionOptions options;
     std::string size;
-    bool no_config = false, labs = false, commands = false, shortcut_list = false;
-    const std::map<std::string, Backend> backends{
-        {"glfw", Backend::Glfw}, {"osmesa", Backend::OsMesa}, {"egl", Backend::Egl}};
+    bool no_config = false, labs = false, commands = false, shortcuts = false;
 
+    void add_to(CLI::App& line);
+    void check();
+    int run();
+};
+
+void SessionLine::add_to(CLI::App& line) {
+    static const std::map<std::string, Backend> backends{
+        {"glfw", Backend::Glfw}, {"osmesa", Backend::OsMesa}, {"egl", Backend::Egl}};
     line.add_option("SCENE", options.scene, "A scene file to open");
     line.add_option("--lab", options.lab, "Open this lab")->option_text("NAME");
     line.add_option("--size", size, "Size of the window, or of the picture")->option_text("WxH");
     line.add_flag("--headless", options.headless, "Without a window or a display");
     line.add_option_function<std::string>(
-            "--backend", [&](const std::string& name) { options.backend = backends.at(name); },
+            "--backend", [this](const std::string& name) { options.backend = backends.at(name); },
             "What draws: a window, or one of the two that need no display")
         ->check(CLI::IsMember({"glfw", "osmesa", "egl"}))
         ->option_text("glfw|osmesa|egl");
@@ -73,27 +80,98 @@ int main(int argc, char** argv) {
     line.add_flag("--no-config", no_config, "Neither read nor write settings");
     line.add_flag("--list-labs", labs, "Print the labs");
     line.add_flag("--list-commands", commands, "Print every command with its arguments");
-    line.add_flag("--list-shortcuts", shortcut_list, "Print keys and mouse, as the README has them");
+    line.add_flag("--list-shortcuts", shortcuts, "Print keys and mouse, as the README has them");
     line.set_version_flag("--version", std::string("tendril ") + tendril::version_string);
+}
 
-    try {
-        line.parse(argc, argv);
-        if (!size.empty()) options.size = read_size(size);
-        if (options.backend && *options.backend != Backend::Glfw) options.headless = true;
-        if (options.headless && options.backend == Backend::Glfw) {
-            throw CLI::ValidationError("--backend glfw opens a window, --headless wants none");
-        }
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return line.exit(error);
-        std::fprintf(stderr, "tendril: %s\n", error.what());
-        return 2;
+void SessionLine::check() {
+    if (!size.empty()) options.size = read_size(size);
+    if (options.backend && *options.backend != Backend::Glfw) options.headless = true;
+    if (options.headless && options.backend == Backend::Glfw) {
+        throw CLI::ValidationError("--backend glfw opens a window, --headless wants none");
     }
     options.config = !no_config;
+}
+
+int SessionLine::run() {
     if (labs) list_labs();
     if (commands) list_commands();
-    if (shortcut_list) std::fputs(shortcuts_markdown().c_str(), stdout);
-    if (labs || commands || shortcut_list) return 0;
-
+    if (shortcuts) std::fputs(shortcuts_markdown().c_str(), stdout);
+    if (labs || commands || shortcuts) return 0;
     end_session_on_signals();
     return run_session(options);
+}
+
+struct SolveLine {
+    SolveOptions options;
+    std::string solver = "fabrik";
+    bool csv = false, json = false;
+
+    CLI::App* add_to(CLI::App& line);
+    void check();
+};
+
+CLI::App* SolveLine::add_to(CLI::App& line) {
+    CLI::App* solve = line.add_subcommand("solve", "Solve the cases of a file and print the answers");
+    solve->add_option("CASES", options.cases, "A list of cases as JSON; see below")->required();
+    solve->add_option("--solver", solver, "Which one, or all; fabrik if left out")->option_text("NAME|all");
+    solve->add_option("--max-iterations", options.max_iterations, "1 to 1000000; 100 if left out")
+        ->check(CLI::Range(1, 1'000'000))
+        ->option_text("N");
+    solve->add_option("--tolerance", options.tolerance, "1e-3 of the reach if left out")
+        ->option_text("METRES");
+    const auto csv_flag = solve->add_flag("--csv", csv, "Print rows of comma-separated values");
+    solve->add_flag("--json", json, "Print one JSON array, with the positions of the joints")
+        ->excludes(csv_flag);
+    solve->footer("Solvers: " + method_names() + ".\n" + solve_help);
+    return solve;
+}
+
+void SolveLine::check() {
+    options.format = csv ? RowFormat::Csv : json ? RowFormat::Json : RowFormat::Table;
+    options.methods = methods_named(solver);
+    // Range would let what is no number at all through.
+    if (const auto& t = options.tolerance; t && !(*t >= 0.0f && *t <= tendril::max_magnitude))
+        throw CLI::ValidationError("--tolerance: must be 0 to 1e9 metres, got " + std::to_string(*t));
+}
+
+int complain(const std::string& what) {
+    std::fprintf(stderr, "tendril: %s\n", single_line(what).c_str());
+    return 2;
+}
+
+/// Options before a subcommand are for the window, which a subcommand does not open.
+void refuse_options_before(const CLI::App& line, const CLI::App& subcommand) {
+    for (const CLI::Option* option : line.get_options()) {
+        if (option->count() > 0) {
+            throw CLI::ValidationError(subcommand.get_name() + " does not take " + option->get_name() +
+                                       "; a scene file of that name is opened as ./" + subcommand.get_name());
+        }
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App line("Tendril: see, tune and carry away procedural animation.", "tendril");
+    SessionLine session;
+    SolveLine solve;
+    session.add_to(line);
+    CLI::App* const solve_line = solve.add_to(line);
+    try {
+        line.parse(argc, argv);
+        for (const CLI::App* subcommand : line.get_subcommands()) refuse_options_before(line, *subcommand);
+        session.check();
+        if (solve_line->parsed()) {
+            solve.check();
+            solve_cases(solve.options, end_session_on_signals());
+            return 0;
+        }
+        return session.run();
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return line.exit(error);
+        return complain(error.what());
+    } catch (const std::exception& error) {
+        return complain(error.what());
+    }
 }

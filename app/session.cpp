@@ -118,10 +118,11 @@ int run_session(const SessionOptions& options) {
     }
 }
 
-void end_session_on_signals() {
+const std::atomic<bool>& end_session_on_signals() {
     const auto end = [](int) { ending = true; };
     std::signal(SIGINT, end);
     std::signal(SIGTERM, end);
+    return ending;
 }
 
 }  // namespace tendril::app

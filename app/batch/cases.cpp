@@ -1,0 +1,120 @@
+#include "app/batch/cases.hpp"
+
+#include <cmath>
+
+#include "app/batch/list_reader.hpp"
+#include "app/io/solver_json.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr std::size_t most_bones = 500'000;
+
+std::string element(const std::string& where, std::size_t index) {
+    return where + "." + std::to_string(index);
+}
+
+/// A list of `count` values, or of 1 to most_bones where that is 0.
+const Json& check_list(const Json& json, std::size_t count, const char* what, const std::string& where) {
+    const bool fits = count == 0 ? !json.empty() && json.size() <= most_bones : json.size() == count;
+    if (json.is_array() && fits) return json;
+    const std::string number = count == 0 ? "1 to " + std::to_string(most_bones) : std::to_string(count);
+    const std::string found =
+        json.is_array() ? "a list of " + std::to_string(json.size()) : json_summary(json);
+    throw std::runtime_error(where + ": expected a list of " + number + " " + what + ", found " + found);
+}
+
+std::vector<float> read_lengths(const Json& json, const std::string& where) {
+    std::vector<float> lengths;
+    check_list(json, 0, "lengths", where);
+    lengths.reserve(json.size());
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        const std::string here = element(where, i);
+        lengths.push_back(json_number(json[i], here));
+        if (lengths.back() < 0.0f)
+            throw std::runtime_error(here + ": expected at least 0, found " + json_summary(json[i]));
+    }
+    return lengths;
+}
+
+std::vector<glm::vec3> read_joints(const Json& json, std::size_t bones, const std::string& where) {
+    std::vector<glm::vec3> joints;
+    check_list(json, bones + 1, "points, one more than lengths", where);
+    joints.reserve(json.size());
+    for (std::size_t i = 0; i < json.size(); ++i) joints.push_back(json_point(json[i], element(where, i)));
+    return joints;
+}
+
+std::vector<glm::vec3> along_x(const std::vector<float>& lengths) {
+    std::vector<glm::vec3> joints{glm::vec3(0.0f)};
+    joints.reserve(lengths.size() + 1);
+    for (const float length : lengths) joints.emplace_back(joints.back().x + length, 0.0f, 0.0f);
+    return joints;
+}
+
+/// Where each bone points in a pose; along +X where its joints coincide.
+std::vector<glm::vec3> directions(const std::vector<glm::vec3>& joints) {
+    std::vector<glm::vec3> found;
+    found.reserve(joints.size() - 1);
+    for (std::size_t i = 1; i < joints.size(); ++i) {
+        const double x = static_cast<double>(joints[i].x) - static_cast<double>(joints[i - 1].x);
+        const double y = static_cast<double>(joints[i].y) - static_cast<double>(joints[i - 1].y);
+        const double z = static_cast<double>(joints[i].z) - static_cast<double>(joints[i - 1].z);
+        const double size = std::hypot(x, y, z);
+        found.push_back(size > 0.0 ? glm::vec3(x / size, y / size, z / size) : glm::vec3(1.0f, 0.0f, 0.0f));
+    }
+    return found;
+}
+
+std::vector<ik::Limit> read_limits(const Json& json, std::size_t bones, const std::string& where) {
+    std::vector<ik::Limit> limits;
+    if (json.is_array() && json.empty()) return limits;
+    check_list(json, bones, "limits, one for each of lengths", where);
+    limits.reserve(json.size());
+    for (std::size_t i = 0; i < json.size(); ++i)
+        limits.push_back(json[i].is_null() ? ik::Limit{} : limit_from_json(json[i], element(where, i)));
+    return limits;
+}
+
+}  // namespace
+
+Case case_from_json(const Json& json, const std::string& where, std::size_t index) {
+    Case read;
+    read.lengths = read_lengths(json_member(json, "lengths", where), where + ".lengths");
+    read.target = json_point(json_member(json, "target", where), where + ".target");
+    const std::size_t bones = read.lengths.size();
+    const auto given = [&](const char* key, const auto& take) {
+        const auto found = json.find(key);
+        if (found != json.end()) take(*found, where + "." + key);
+        return found != json.end();
+    };
+    if (!given("name", [&](const Json& j, const std::string& at) { read.name = json_text(j, at); }))
+        read.name = std::to_string(index);
+    if (!given("start",
+               [&](const Json& j, const std::string& at) { read.start = read_joints(j, bones, at); }))
+        read.start = along_x(read.lengths);
+    given("rest", [&](const Json& j, const std::string& at) {
+        read.rest_directions = directions(read_joints(j, bones, at));
+    });
+    given("pole", [&](const Json& j, const std::string& at) { read.pole = json_point(j, at); });
+    given("limits", [&](const Json& j, const std::string& at) { read.limits = read_limits(j, bones, at); });
+    return read;
+}
+
+void read_cases(std::string_view text, const std::function<bool(const Case&, double)>& take) {
+    ListReader list(text, "cases");
+    Json json;
+    while (list.next(json)) {
+        Case read;
+        try {
+            read = case_from_json(json, list.place(), list.index());
+        } catch (const std::runtime_error& error) {
+            const std::string what = error.what();
+            const int line = list.line_of(what.substr(0, what.find(": ")));
+            throw std::runtime_error("line " + std::to_string(line) + ": " + what);
+        }
+        if (!take(read, list.progress())) return;
+    }
+}
+
+}  // namespace tendril::app

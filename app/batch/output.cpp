@@ -1,0 +1,71 @@
+#include "app/batch/output.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <stdexcept>
+#include <system_error>
+
+#include "app/document/text.hpp"
+
+namespace tendril::app {
+namespace {
+
+bool begins_character(char c) {
+    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+}
+
+/// The first `count` characters.
+std::string_view head(std::string_view text, std::size_t count) {
+    std::size_t at = 0;
+    for (; at < text.size(); ++at)
+        if (begins_character(text[at]) && count-- == 0) break;
+    return text.substr(0, at);
+}
+
+}  // namespace
+
+void Output::write(std::string_view text) {
+    constexpr std::size_t block = 1 << 16;
+    constexpr auto longest_wait = std::chrono::milliseconds(200);
+    waiting_ += text;
+    if (waiting_.size() >= block || std::chrono::steady_clock::now() - flushed_ > longest_wait) flush();
+}
+
+void Output::flush() {
+    progress_->clear();
+    const bool written = std::fwrite(waiting_.data(), 1, waiting_.size(), stdout) == waiting_.size() &&
+                         std::fflush(stdout) == 0;
+    if (!written && !failed_) {
+        failed_ = true;
+        throw std::runtime_error("cannot write the output: " + std::generic_category().message(errno));
+    }
+    waiting_.clear();
+    flushed_ = std::chrono::steady_clock::now();
+}
+
+void Output::finish() {
+    flush();
+}
+
+std::string csv_field(std::string_view text) {
+    const bool plain =
+        text.find_first_of(",\"\r\n") == text.npos && !text.starts_with(' ') && !text.ends_with(' ');
+    if (plain) return std::string(text);
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+    return quoted + '"';
+}
+
+std::size_t width_of(std::string_view text) {
+    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_character));
+}
+
+std::string column(std::string_view text, std::size_t width) {
+    std::string shown = single_line(std::string(text));
+    if (width_of(shown) > width) shown = std::string(head(shown, width - 3)) + "...";
+    shown.append(width - width_of(shown), ' ');
+    return shown;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,29 @@
+// How far a long run is, on stderr: rewritten in place on a terminal, a line every few seconds elsewhere, and
+// nothing at all for runs that are soon over.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace tendril::app {
+
+class Progress {
+  public:
+    Progress();
+    ~Progress() { clear(); }
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// "solving", 0 to 1. Cheap enough to be called for every case.
+    void show(const char* what, double done);
+    /// Takes the line off the terminal, before something else is written there.
+    void clear();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    bool terminal_;
+    bool shown_ = false;
+    Clock::time_point next_;
+};
+
+}  // namespace tendril::app

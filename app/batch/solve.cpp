@@ -1,0 +1,199 @@
+#include "app/batch/solve.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "app/batch/cases.hpp"
+#include "app/batch/output.hpp"
+#include "app/batch/progress.hpp"
+#include "app/io/solver_json.hpp"
+
+namespace tendril::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Row {
+    const Case& asked;
+    ik::Method method;
+    ik::Report report;
+    double microseconds;
+    const std::vector<glm::vec3>& joints;
+};
+
+/// To the nanosecond: a clock tells no more.
+Json microseconds_json(double value) {
+    return std::round(value * 1000.0) / 1000.0;
+}
+
+/// Writes rows; what a format needs before the first and after the last it writes too.
+class Rows {
+  public:
+    virtual ~Rows() = default;
+    virtual void begin(Output&) {}
+    virtual void add(Output& out, const Row& row) = 0;
+    virtual void end(Output&) {}
+};
+
+class JsonRows final : public Rows {
+  public:
+    void add(Output& out, const Row& row) override {
+        Json json{{"name", row.asked.name}};
+        json.update(report_json(row.method, row.report));
+        json["microseconds"] = microseconds_json(row.microseconds);
+        Json positions = Json::array();
+        for (const glm::vec3& joint : row.joints) positions.push_back(point(joint));
+        json["positions"] = std::move(positions);
+        out.write(any_ ? ",\n " : "[\n ");
+        out.write(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+        any_ = true;
+    }
+    void end(Output& out) override { out.write(any_ ? "\n]\n" : "[]\n"); }
+
+  private:
+    bool any_ = false;
+};
+
+class CsvRows final : public Rows {
+  public:
+    void begin(Output& out) override { out.write("name,solver,status,iterations,residual,microseconds\n"); }
+    void add(Output& out, const Row& row) override {
+        std::string line = csv_field(row.asked.name);
+        const Json report = report_json(row.method, row.report);
+        for (const char* key : {"solver", "status", "iterations", "residual"}) {
+            const Json& value = report[key];
+            line += ',' + (value.is_string() ? value.get<std::string>()
+                           : value.is_null() ? ""
+                                             : value.dump());
+        }
+        out.write(line + ',' + microseconds_json(row.microseconds).dump() + '\n');
+    }
+};
+
+class TableRows final : public Rows {
+  public:
+    explicit TableRows(std::size_t name_width) : name_width_(name_width) {}
+    void add(Output& out, const Row& row) override {
+        if (!headed_) {
+            out.write(column("name", name_width_) +
+                      "  solver              status          iterations    residual (m)   time (us)\n");
+            headed_ = true;
+        }
+        char rest[128];
+        std::snprintf(rest, sizeof rest, "  %-18s  %-14s  %10d  %14.6g  %10.2f\n", ik::name(row.method),
+                      ik::name(row.report.status), row.report.iterations,
+                      static_cast<double>(row.report.residual), row.microseconds);
+        out.write(column(row.asked.name, name_width_) + rest);
+    }
+
+  private:
+    std::size_t name_width_;
+    bool headed_ = false;
+};
+
+struct Survey {
+    std::size_t cases = 0;
+    std::size_t name_width = 4;  // of "name"
+};
+
+/// Reads all of it once, so that what is wrong anywhere is said before anything is done.
+Survey check(std::string_view text, Progress& progress, const std::atomic<bool>& ending) {
+    constexpr std::size_t widest = 40;
+    Survey survey;
+    read_cases(text, [&](const Case& read, double done) {
+        ++survey.cases;
+        survey.name_width = std::min(widest, std::max(survey.name_width, width_of(read.name)));
+        progress.show("checking the cases", done);
+        return !ending;
+    });
+    return survey;
+}
+
+Row solve(const Case& asked, ik::Method method, const SolveOptions& options, std::vector<glm::vec3>& joints) {
+    ik::Solver solver(asked.lengths, asked.rest_directions);
+    ik::Options told;
+    told.tolerance = options.tolerance;
+    told.max_iterations = options.max_iterations;
+    told.pole = asked.pole;
+    told.limits = asked.limits;
+    joints = asked.start;
+    const auto begin = Clock::now();
+    const ik::Report report = solver.solve(method, joints, asked.target, told);
+    const std::chrono::duration<double, std::micro> taken = Clock::now() - begin;
+    return {asked, method, report, taken.count(), joints};
+}
+
+std::unique_ptr<Rows> rows_of(RowFormat format, std::size_t name_width) {
+    if (format == RowFormat::Json) return std::make_unique<JsonRows>();
+    if (format == RowFormat::Csv) return std::make_unique<CsvRows>();
+    return std::make_unique<TableRows>(name_width);
+}
+
+}  // namespace
+
+std::vector<ik::Method> methods_named(const std::string& name) {
+    if (name == "all") return {ik::all_methods.begin(), ik::all_methods.end()};
+    if (const auto method = ik::method_named(name)) return {*method};
+    throw std::runtime_error("--solver: expected all or one of " + method_names() + ", found " +
+                             json_summary(Json(name)));
+}
+
+void solve_cases(const SolveOptions& options, const std::atomic<bool>& ending) {
+    const std::string text = read_text_file(options.cases);
+    Progress progress;
+    Survey survey;
+    try {
+        survey = check(text, progress, ending);
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(options.cases + ": " + error.what());
+    }
+
+    Output out(progress);
+    std::size_t done = 0;
+    std::vector<glm::vec3> joints;
+    const auto rows = rows_of(options.format, survey.name_width);
+    rows->begin(out);
+    const auto each = [&](const Case& asked, double) {
+        for (const ik::Method method : options.methods) {
+            if (ending) return false;
+            rows->add(out, solve(asked, method, options, joints));
+        }
+        progress.show("solving", static_cast<double>(++done) / static_cast<double>(survey.cases));
+        return true;
+    };
+    if (!ending) read_cases(text, each);
+    rows->end(out);
+    out.finish();
+    progress.clear();
+    if (ending) std::fprintf(stderr, "tendril: stopped after %zu cases\n", done);
+}
+
+const char* const solve_help =
+    "CASES is a JSON list of\n"
+    "  {\"name\": \"arm\", \"lengths\": [0.5, 0.4], \"target\": [0.3, 0.6, 0]}\n"
+    "with a length in metres for each bone, and where wanted\n"
+    "  \"start\"   a point for each joint, one more than lengths; straight along +X from the origin if left "
+    "out\n"
+    "  \"rest\"    the same for the pose that limits are measured from\n"
+    "  \"pole\"    the point that the bend faces\n"
+    "  \"limits\"  for each bone, null or one at the joint that it starts from:\n"
+    "            {\"kind\": \"hinge\", \"axis\": [0, 0, 1], \"min_deg\": 0, \"max_deg\": 145} or\n"
+    "            {\"kind\": \"ball_and_socket\", \"axis\": [0, 0, 1], \"up_deg\": 90, \"down_deg\": 40, "
+    "\"left_deg\": 60,\n"
+    "             \"right_deg\": 60, \"twist_min_deg\": -45, \"twist_max_deg\": 45}; so too gliding, saddle, "
+    "pivot,\n"
+    "            suture; free is none. What is left out is as that kind of joint usually has it.\n"
+    "Other keys are ignored. The whole file is checked first: a value of the wrong type or out of its range\n"
+    "(1e9 m, a negative length, a number of points that does not fit, min over max) is said with its line "
+    "and\n"
+    "place, and nothing is solved (exit code 2). So is a file of more than 64 MB. What a solver cannot "
+    "take,\n"
+    "such as five bones for two_bone, is its row's status InvalidInput. An empty list gives an empty "
+    "answer.\n"
+    "Ctrl+C ends the run with the rows done so far, whole and valid.\n"
+    "To open a scene file that is named solve, write ./solve.";
+
+}  // namespace tendril::app

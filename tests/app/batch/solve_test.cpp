@@ -1,0 +1,290 @@
+// `tendril solve`: the real program with good files and bad ones.
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "app/document/json.hpp"
+#include "tests/app/support/program.hpp"
+
+namespace tendril::test {
+namespace {
+
+using app::Json;
+using Strings = std::vector<std::string>;
+
+class Solve : public testing::Test {
+  protected:
+    Outcome run(const std::string& cases, const Strings& arguments = {}) {
+        write(folder_ / "cases.json", cases);
+        Strings all{"solve", path()};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        return run_program(all, {{"DISPLAY", {}}, {"WAYLAND_DISPLAY", {}}});
+    }
+    std::string path() const { return (folder_ / "cases.json").string(); }
+    TempFolder folder_;
+};
+
+const char* const two_cases = R"([
+ {"name": "near", "lengths": [1, 1, 1], "target": [1, 1.5, 0.5], "note": {"ignored": true}},
+ {"name": "a \"far\", one", "lengths": [1, 2], "target": [0, 0, 9],
+  "start": [[0, 0, 0], [0, 1, 0], [0, 3, 0]]}
+])";
+
+int lines_without(const std::string& text, const std::string& part) {
+    int found = 0;
+    std::size_t begin = 0;
+    for (std::size_t end; (end = text.find('\n', begin)) != text.npos; begin = end + 1)
+        found += text.substr(begin, end - begin).find(part) == std::string::npos;
+    return found;
+}
+
+TEST_F(Solve, prints_one_array_with_positions) {
+    const Outcome outcome = run(two_cases, {"--json"});
+    ASSERT_TRUE(succeeded(outcome));
+    const Json rows = app::parse_json(outcome.out);
+    ASSERT_EQ(rows.size(), 2u);
+    for (const Json& row : rows) {
+        Strings keys;
+        for (const auto& item : row.items()) keys.push_back(item.key());
+        EXPECT_EQ(keys, (Strings{"name", "solver", "status", "iterations", "residual", "microseconds",
+                                 "positions"}));
+        EXPECT_EQ(row["solver"], "fabrik");
+        EXPECT_GE(row["microseconds"].get<double>(), 0.0);
+    }
+    EXPECT_EQ(rows[0]["name"], "near");
+    EXPECT_EQ(rows[0]["status"], "Converged");
+    EXPECT_LE(rows[0]["residual"].get<double>(), 3e-3);
+    ASSERT_EQ(rows[0]["positions"].size(), 4u);
+    EXPECT_EQ(rows[0]["positions"][0], Json::array({0.0, 0.0, 0.0}));
+    const Json& tip = rows[0]["positions"][3];
+    const double off =
+        std::hypot(tip[0].get<double>() - 1.0, tip[1].get<double>() - 1.5, tip[2].get<double>() - 0.5);
+    EXPECT_NEAR(off, rows[0]["residual"].get<double>(), 1e-5);
+    EXPECT_EQ(rows[1]["name"], "a \"far\", one");
+    EXPECT_NEAR(rows[1]["residual"].get<double>(), 6.0, 1e-3);
+}
+
+TEST_F(Solve, prints_the_same_as_quoted_csv) {
+    const Outcome outcome = run(two_cases, {"--csv", "--solver", "fabrik_plain"});
+    ASSERT_TRUE(succeeded(outcome));
+    EXPECT_TRUE(
+        outcome.out.starts_with("name,solver,status,iterations,residual,microseconds\nnear,fabrik_plain,"
+                                "Converged,"))
+        << outcome.out;
+    EXPECT_TRUE(has(outcome.out, "\n\"a \"\"far\"\", one\",fabrik_plain,"));
+    EXPECT_EQ(count_lines(outcome.out), 3);
+}
+
+TEST_F(Solve, prints_a_table_where_nothing_is_asked) {
+    const std::string name = "wide \xc3\xa4 name\\nof two lines and a tail that no column holds";
+    std::string cases = two_cases;
+    cases.insert(cases.rfind(']'), R"(, {"name": ")" + name + R"(", "lengths": [1], "target": [1, 0, 0]})");
+    const Outcome outcome = run(cases);
+    ASSERT_TRUE(succeeded(outcome));
+    ASSERT_EQ(count_lines(outcome.out), 4);
+    EXPECT_TRUE(outcome.out.starts_with("name "));
+    // In every row the solver's column begins at the same character.
+    std::size_t begin = 0;
+    for (int line = 0; line < 4; ++line) {
+        const std::size_t end = outcome.out.find('\n', begin);
+        const std::string row = outcome.out.substr(begin, end - begin);
+        std::size_t at = row.find(line == 0 ? "solver" : "fabrik");
+        at -= static_cast<std::size_t>(std::count(row.begin(), row.end(), '\xa4'));
+        EXPECT_EQ(at, 42u) << row;
+        begin = end + 1;
+    }
+    EXPECT_TRUE(has(outcome.out, "..."));
+}
+
+TEST_F(Solve, all_solvers_answer_in_their_order_and_a_refusal_is_a_row) {
+    const Outcome outcome = run(two_cases, {"--json", "--solver", "all"});
+    ASSERT_TRUE(succeeded(outcome));
+    const Json rows = app::parse_json(outcome.out);
+    ASSERT_EQ(rows.size(), 14u);
+    const Strings names{"fabrik", "fabrik_plain", "ccd", "jacobian_transpose", "dls", "svd_dls", "two_bone"};
+    for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_EQ(rows[i]["solver"], names[i % 7]);
+    EXPECT_EQ(rows[6]["status"], "InvalidInput");  // three bones
+    EXPECT_EQ(rows[6]["positions"][3], Json::array({3.0, 0.0, 0.0}));
+}
+
+TEST_F(Solve, iterations_and_tolerance_are_as_told) {
+    const std::string rim = R"([{"name": "rim", "lengths": [1, 1, 1, 1, 1, 1], "target": [3, 5.1, 0]}])";
+    const auto row = [&](const Strings& arguments) {
+        Strings all{"--json", "--solver", "fabrik_plain"};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        return app::parse_json(run(rim, all).out).at(0);
+    };
+    EXPECT_EQ(row({"--max-iterations", "3"})["status"], "IterationLimit");
+    EXPECT_EQ(row({"--max-iterations", "3"})["iterations"], 3);
+    EXPECT_LE(row({"--max-iterations", "100000", "--tolerance", "0.00001"})["residual"], 1e-5);
+    EXPECT_LE(row({"--tolerance", "2"})["iterations"], 2);
+}
+
+TEST_F(Solve, an_empty_list_has_an_empty_answer) {
+    EXPECT_TRUE(succeeded(run("[]")));
+    EXPECT_EQ(run("[]").out, "");
+    EXPECT_EQ(run(" [ ]\n", {"--json"}).out, "[]\n");
+    EXPECT_EQ(run("[]", {"--csv"}).out, "name,solver,status,iterations,residual,microseconds\n");
+}
+
+struct BadFile {
+    const char* name;
+    std::string cases;
+    Strings told;
+};
+
+class BadCases : public testing::TestWithParam<BadFile> {};
+
+/// A sound case on line 2, then this one on line 3.
+std::string after_a_sound_one(const std::string& members) {
+    return std::string("[\n{\"name\": \"sound\", \"lengths\": [1], \"target\": [1, 0, 0]},\n{")
+        .append(members)
+        .append("}]");
+}
+
+TEST_P(BadCases, are_refused_whole_with_line_and_place) {
+    const TempFolder folder;
+    write(folder / "cases.json", GetParam().cases);
+    const Outcome outcome = run_program({"solve", (folder / "cases.json").string(), "--json"});
+    Strings told = GetParam().told;
+    told.push_back("cases.json: ");
+    EXPECT_TRUE(complained(outcome, 2, told));
+    EXPECT_EQ(outcome.out, "");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadCases,
+    testing::Values(
+        BadFile{"empty_file", "", {"line 1"}}, BadFile{"no_list", "{}", {"expected a list"}},
+        BadFile{"cut_off", "[{\"lengths\": [1", {"line 1"}},
+        BadFile{"nan", after_a_sound_one(R"("lengths": [NaN], "target": [0, 0, 0])"), {"line 3"}},
+        BadFile{
+            "infinity", after_a_sound_one(R"("lengths": [1], "target": [1e999, 0, 0])"), {"line 3", "1e999"}},
+        BadFile{"huge",
+                after_a_sound_one(R"("lengths": [1], "target": [0, -1e30, 0])"),
+                {"line 3: cases.1.target", "1e9", "-1e+30"}},
+        BadFile{"no_object", after_a_sound_one("}, 5, {"), {"cases.1"}},
+        BadFile{"no_lengths", after_a_sound_one(R"("target": [1, 0, 0])"), {"cases.1", "lengths", "missing"}},
+        BadFile{"no_target", after_a_sound_one(R"("lengths": [1])"), {"cases.1", "target", "missing"}},
+        BadFile{"length_is_text",
+                after_a_sound_one("\"target\": [1, 0, 0],\n\"lengths\": [1,\n\"x\"]"),
+                {"line 5: cases.1.lengths.1", "\"x\""}},
+        BadFile{"length_is_negative",
+                after_a_sound_one(R"("lengths": [-1], "target": [1, 0, 0])"),
+                {"cases.1.lengths.0", "-1"}},
+        BadFile{"no_bones", after_a_sound_one(R"("lengths": [], "target": [1, 0, 0])"), {"cases.1.lengths"}},
+        BadFile{"lengths_is_a_number",
+                after_a_sound_one(R"("lengths": 3, "target": [1, 0, 0])"),
+                {"cases.1.lengths", "3"}},
+        BadFile{"target_is_flat",
+                after_a_sound_one(R"("lengths": [1], "target": [1, 0])"),
+                {"cases.1.target", "[1,0]"}},
+        BadFile{"name_is_a_number",
+                after_a_sound_one(R"("lengths": [1], "target": [1, 0, 0], "name": 4)"),
+                {"cases.1.name", "4"}},
+        BadFile{"start_is_short",
+                after_a_sound_one(R"("lengths": [1, 1], "target": [1, 0, 0], "start": [[0, 0, 0]])"),
+                {"cases.1.start", "3"}},
+        BadFile{"pole_is_a_text",
+                after_a_sound_one(R"("lengths": [1], "target": [1, 0, 0], "pole": "up")"),
+                {"cases.1.pole", "\"up\""}},
+        BadFile{"limits_are_short",
+                after_a_sound_one(R"("lengths": [1, 1], "target": [1, 0, 0], "limits": [null])"),
+                {"cases.1.limits", "2"}},
+        BadFile{"limit_is_a_number",
+                after_a_sound_one(R"("lengths": [1], "target": [1, 0, 0], "limits": [145])"),
+                {"cases.1.limits.0", "145"}},
+        BadFile{"limit_min_over_max",
+                after_a_sound_one(R"("lengths": [1, 1], "target": [1, 0, 0],
+                    "limits": [null, {"kind": "hinge", "min_deg": 20, "max_deg": 10}])"),
+                {"line 4: cases.1.limits.1", "20", "10"}},
+        BadFile{"limit_axis_is_zero",
+                after_a_sound_one(R"("lengths": [1], "target": [1, 0, 0],
+                    "limits": [{"kind": "hinge", "axis": [0, 0, 0]}])"),
+                {"cases.1.limits.0.axis"}},
+        BadFile{"too_large", std::string((64u << 20) + 1, ' '), {"64 MB"}}),
+    [](const auto& file) { return file.param.name; });
+
+TEST_F(Solve, arguments_it_cannot_take_are_told_with_2) {
+    EXPECT_TRUE(complained(run("[]", {"--solver", "newton"}), 2,
+                           {"--solver", "newton", "fabrik, fabrik_plain, ccd", "two_bone", "all"}));
+    EXPECT_TRUE(complained(run("[]", {"--csv", "--json"}), 2, {"--csv", "--json"}));
+    EXPECT_TRUE(complained(run("[]", {"--max-iterations", "0"}), 2, {"--max-iterations"}));
+    for (const char* bad : {"-1", "nan", "inf", "1e30", "far"})
+        EXPECT_TRUE(complained(run("[]", {"--tolerance", bad}), 2, {"--tolerance"})) << bad;
+    EXPECT_TRUE(complained(run_program({"solve"}), 2, {"CASES"}));
+    EXPECT_TRUE(complained(run_program({"solve", "/no/such/file.json"}), 2, {"/no/such/file.json"}));
+    EXPECT_TRUE(complained(run_program({"--headless", "solve", path()}), 2, {"solve", "--headless"}));
+    EXPECT_TRUE(complained(run_program({"scene.json", "solve", path()}), 2, {"solve", "SCENE"}));
+    EXPECT_TRUE(has(run_program({"--help"}).out, "solve"));
+    EXPECT_TRUE(has(run_program({"solve", "--help"}).out, "min_deg"));
+}
+
+TEST_F(Solve, a_scene_of_that_name_opens_by_its_path) {
+    write(folder_ / "solve", "{}");
+    Process process(program_command({"--headless", "./solve"}), {}, folder_.path());
+    EXPECT_TRUE(complained(process.wait(), 2, {"./solve", "not a Tendril scene"}));
+}
+
+std::string many_cases(int count) {
+    std::string text = "[";
+    for (int i = 0; i < count; ++i) {
+        if (i > 0) text += ',';
+        text += R"({"lengths":[1],"target":[)";
+        text += std::to_string(i % 3);
+        text += ",1,0]}";
+    }
+    return text + "]";
+}
+
+TEST_F(Solve, a_million_cases_take_little_more_memory_than_their_text) {
+    const Outcome outcome = run(many_cases(1'000'000), {"--csv"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(lines_without(outcome.err, "tendril: "), 0) << outcome.err;  // progress and nothing else
+    EXPECT_EQ(count_lines(outcome.out), 1'000'001);
+    EXPECT_TRUE(has(outcome.out.substr(outcome.out.size() - 100), "\n999999,fabrik,"));
+    EXPECT_LT(outcome.peak_megabytes, 200 * sanitizer_factor);
+    EXPECT_LT(outcome.seconds, 60.0 * sanitizer_factor);
+}
+
+class SolveSignals : public testing::TestWithParam<std::pair<int, const char*>> {};
+
+TEST_P(SolveSignals, end_with_what_is_done_whole) {
+    const auto& [number, format] = GetParam();
+    const TempFolder folder;
+    // Slow enough to be caught in the middle: what is out of reach goes on through all of its iterations.
+    std::string cases = "[";
+    for (int i = 0; i < 20'000; ++i) {
+        if (i > 0) cases += ',';
+        cases += R"({"lengths":[1,1,1,1,1,1,1,1,1,1],"target":[6,7.995,0]})";
+    }
+    write(folder / "cases.json", cases + "]");
+    Process process(program_command({"solve", (folder / "cases.json").string(), format, "--solver",
+                                     "fabrik_plain", "--max-iterations", "1000000", "--tolerance", "0"}));
+    for (int i = 0; i < 6000 && process.running() && process.out().size() < 200; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    process.signal(number);
+    const Outcome outcome = process.wait(30.0);
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_TRUE(has(outcome.err, "tendril: stopped after "));
+    if (std::string(format) == "--json") {
+        const Json rows = app::parse_json(outcome.out);
+        EXPECT_GT(rows.size(), 0u);
+        EXPECT_LT(rows.size(), 20'000u);
+        for (const Json& row : rows) EXPECT_EQ(row["positions"].size(), 11u);
+    } else {
+        EXPECT_GT(count_lines(outcome.out), 1);
+        EXPECT_LT(count_lines(outcome.out), 20'000);
+        EXPECT_TRUE(outcome.out.ends_with('\n'));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SolveSignals,
+                         testing::Values(std::pair(SIGINT, "--json"), std::pair(SIGTERM, "--csv")),
+                         [](const auto& each) { return each.param.first == SIGINT ? "SIGINT" : "SIGTERM"; });
+
+}  // namespace
+}  // namespace tendril::test

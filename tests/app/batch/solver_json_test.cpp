@@ -1,0 +1,123 @@
+// Limits, reports and holds as JSON.
+#include "app/io/solver_json.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "tests/app/support/temp_folder.hpp"
+
+namespace tendril::app {
+namespace {
+
+using test::has;
+using test::message_of;
+
+ik::Limit read(const Json& json) {
+    return limit_from_json(json, "limits.2");
+}
+
+std::string refusal(const Json& json) {
+    return message_of([&] { read(json); });
+}
+
+TEST(SolverJson, a_hinge_and_a_ball_as_people_write_them) {
+    const ik::Limit hinge = read(Json::parse(R"({"kind":"hinge","axis":[0,1,0],"min_deg":0,"max_deg":145})"));
+    EXPECT_EQ(hinge.kind, ik::JointKind::Hinge);
+    EXPECT_EQ(hinge.axis, glm::vec3(0, 1, 0));
+    EXPECT_EQ(hinge.min, 0.0f);
+    EXPECT_FLOAT_EQ(hinge.max, 145.0f * std::numbers::pi_v<float> / 180.0f);
+    const ik::Limit ball = read(Json::parse(
+        R"({"kind":"ball_and_socket","up_deg":90,"down_deg":40,"left_deg":60,"right_deg":30,
+            "twist_min_deg":-45,"twist_max_deg":15,"axis":[0,0,2]})"));
+    EXPECT_FLOAT_EQ(ball.up, std::numbers::pi_v<float> / 2);
+    EXPECT_FLOAT_EQ(ball.right, std::numbers::pi_v<float> / 6);
+    EXPECT_FLOAT_EQ(ball.twist_min, -std::numbers::pi_v<float> / 4);
+    EXPECT_FLOAT_EQ(ball.twist_max, std::numbers::pi_v<float> / 12);
+}
+
+TEST(SolverJson, what_is_left_out_is_as_the_kind_usually_has_it) {
+    for (const char* kind : {"free", "suture", "hinge", "gliding", "saddle", "pivot", "ball_and_socket"}) {
+        const ik::Limit limit = read({{"kind", kind}});
+        EXPECT_EQ(limit, ik::Limit::of(limit.kind)) << kind;
+        EXPECT_STREQ(ik::name(limit.kind), kind);
+    }
+}
+
+TEST(SolverJson, fields_of_another_kind_are_not_looked_at) {
+    EXPECT_EQ(read({{"kind", "hinge"}, {"up_deg", "x"}, {"colour", 3}}), ik::Limit::of(ik::JointKind::Hinge));
+    EXPECT_EQ(read({{"kind", "free"}, {"axis", 0}}), ik::Limit::of(ik::JointKind::Free));
+}
+
+TEST(SolverJson, angles_come_back_bit_for_bit_however_often_they_are_saved) {
+    std::mt19937 random(7);
+    constexpr float pi = std::numbers::pi_v<float>;
+    std::uniform_real_distribution<float> any(-pi, pi), half(0.0f, pi);
+    for (int i = 0; i < 20'000; ++i) {
+        ik::Limit limit = ik::Limit::of(i % 2 == 0 ? ik::JointKind::Hinge : ik::JointKind::BallAndSocket);
+        float low = any(random), high = i % 100 == 0 ? pi : any(random);
+        if (low > high) std::swap(low, high);
+        (i % 2 == 0 ? limit.min : limit.twist_min) = low;
+        (i % 2 == 0 ? limit.max : limit.twist_max) = high;
+        if (i % 2 == 1) limit.up = half(random), limit.down = pi, limit.left = 0.0f;
+        limit.axis = {any(random), any(random), any(random)};
+        const std::string text = limit_json(limit).dump();
+        const ik::Limit again = read(parse_json(text));
+        ASSERT_EQ(again, limit) << text;
+        ASSERT_EQ(limit_json(again).dump(), text);
+    }
+}
+
+TEST(SolverJson, refusals_name_the_place_and_the_value) {
+    EXPECT_EQ(refusal({{"kind", "hinge"}, {"max_deg", "far"}}),
+              "limits.2.max_deg: expected a number, found \"far\"");
+    EXPECT_EQ(refusal({{"kind", "hinge"}, {"min_deg", 20}, {"max_deg", 10}}),
+              "limits.2: expected min_deg at most max_deg, found 20.0 and 10.0");
+    EXPECT_EQ(refusal({{"kind", "ball_and_socket"}, {"twist_min_deg", 2}, {"twist_max_deg", 1}}),
+              "limits.2: expected twist_min_deg at most twist_max_deg, found 2.0 and 1.0");
+    EXPECT_EQ(refusal({{"kind", "hinge"}, {"axis", {0, 0, 0}}}),
+              "limits.2.axis: expected an axis with a length, found [0,0,0]");
+    EXPECT_EQ(refusal({{"kind", "saddle"}, {"up_deg", -1}}),
+              "limits.2.up_deg: expected 0 to 180 degrees, found -1");
+    EXPECT_EQ(refusal({{"kind", "hinge"}, {"max_deg", 181}}),
+              "limits.2.max_deg: expected -180 to 180 degrees, found 181");
+    EXPECT_EQ(refusal(Json::object()), "limits.2: \"kind\" is missing");
+    EXPECT_TRUE(has(refusal({{"kind", "knee"}}), "limits.2.kind: expected one of free, suture, hinge"));
+    EXPECT_TRUE(has(refusal({{"kind", "knee"}}), "\"knee\""));
+    for (const Json& other : {Json(3), Json("hinge"), Json::array(), Json(nullptr)})
+        EXPECT_TRUE(has(refusal(other), "limits.2: expected an object"));
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    for (const double bad : {std::nan(""), inf, -inf, 1e30}) {
+        EXPECT_TRUE(has(refusal({{"kind", "hinge"}, {"min_deg", bad}}), "limits.2.min_deg: "));
+        EXPECT_TRUE(has(refusal({{"kind", "pivot"}, {"twist_max_deg", bad}}), "limits.2.twist_max_deg: "));
+        EXPECT_TRUE(has(refusal({{"kind", "hinge"}, {"axis", {0, bad, 0}}}), "limits.2.axis: "));
+    }
+}
+
+TEST(SolverJson, reports_and_holds_are_finite_whatever_they_hold) {
+    EXPECT_EQ(report_json(ik::Method::SvdDls, {ik::Status::Limited, 12, 0.25f}).dump(),
+              R"({"solver":"svd_dls","status":"Limited","iterations":12,"residual":0.25})");
+    EXPECT_TRUE(report_json(ik::Method::Dls, {ik::Status::InvalidInput, 0, NAN})["residual"].is_null());
+    const Json hold = hold_json({.joint = 1,
+                                 .kind = ik::JointKind::Hinge,
+                                 .bound = ik::Bound::Max,
+                                 .limit = std::numbers::pi_v<float> / 2,
+                                 .needed = std::numbers::pi_v<float>,
+                                 .enough = true});
+    EXPECT_EQ(
+        hold.dump(),
+        R"({"joint":1,"kind":"hinge","bound":"max","limit_deg":90.0,"needed_deg":180.0,"enough":true})");
+}
+
+TEST(SolverJson, an_unknown_solver_is_answered_with_all_names) {
+    EXPECT_EQ(method_from_name("ccd", "solver"), ik::Method::Ccd);
+    const std::string why = message_of([] { method_from_name("newton", "solver"); });
+    EXPECT_TRUE(has(why, "solver: expected one of " + method_names()));
+    EXPECT_TRUE(has(why, "\"newton\""));
+}
+
+}  // namespace
+}  // namespace tendril::app
