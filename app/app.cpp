@@ -203,6 +203,10 @@ void App::advance_time() {
 }
 
 void App::update_window() {
+    if (auto& copied = workspace_.ui.copied) {
+        window_.set_clipboard(*copied);
+        copied.reset();
+    }
     window_.set_cursor(wanted_cursor(ui_, pointer_));
     std::string title = "Tendril";
     if (!workspace_.path.empty()) title = workspace_.path.filename().string() + " - " + title;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,7 @@ struct UiState {
     std::vector<Toast> toasts;
     std::vector<std::filesystem::path> recoverable;  ///< what a crash left, until it is answered
     glm::vec2 view_size{1000.0f, 700.0f};            ///< the 3D view, in window coordinates
+    std::optional<std::string> copied;               ///< text on its way to the clipboard
     bool quit = false;
 };
 

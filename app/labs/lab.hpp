@@ -38,6 +38,13 @@ struct Bounds {
     float radius = 1.0f;
 };
 
+/// What a colour of the picture means here.
+struct LegendRow {
+    std::string name;
+    glm::vec3 colour{1.0f};
+    bool ring = false;
+};
+
 class Lab {
   public:
     virtual ~Lab() = default;
@@ -54,6 +61,8 @@ class Lab {
     virtual void step(Workspace& workspace) const = 0;
 
     virtual void draw(const View& view, DrawList& list) const = 0;
+
+    virtual std::vector<LegendRow> legend(const Workspace& workspace) const = 0;
 
     virtual std::vector<Handle> handles(const Workspace& workspace) const = 0;
     virtual glm::vec3 position_of(const Workspace& workspace, PickId pick) const = 0;

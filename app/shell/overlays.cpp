@@ -176,29 +176,22 @@ void show_first_hint(const ShellFrame& frame) {
 
 void show_legend(const ShellFrame& frame) {
     const Palette& colours = frame.colours();
-    const struct {
-        const char* name;
-        glm::vec3 colour;
-        bool ring;
-    } rows[] = {{"head", colours.head, false},
-                {"tail", colours.tail, false},
-                {"target", colours.target, false},
-                {"selection", colours.selection, true}};
+    const std::vector<LegendRow> rows = frame.lab.legend(frame.workspace);
     const Rect& view = frame.layout.view;
     const float scale = frame.layout.scale;
     if (view.size().y < 300.0f * scale || view.size().x < 260.0f * scale) return;  // the picture comes first
     ImGui::PushFont(small_font());
     const float line = 1.35f * ImGui::GetFontSize();
-    float y = view.max.y - 12.0f * scale - line * static_cast<float>(std::size(rows));
+    float y = view.max.y - 12.0f * scale - line * static_cast<float>(rows.size());
     ImDrawList* list = ImGui::GetBackgroundDrawList();
-    for (const auto& row : rows) {
+    for (const LegendRow& row : rows) {
         const ImVec2 centre{view.min.x + 18.0f * scale, y + 0.5f * ImGui::GetFontSize()};
         if (row.ring) {
             list->AddCircle(centre, 3.6f * scale, imgui_u32(row.colour), 20, 1.5f * scale);
         } else {
             list->AddCircleFilled(centre, 4.0f * scale, imgui_u32(row.colour), 20);
         }
-        list->AddText({centre.x + 12.0f * scale, y}, imgui_u32(colours.text_dim), row.name);
+        list->AddText({centre.x + 12.0f * scale, y}, imgui_u32(colours.text_dim), row.name.c_str());
         y += line;
     }
     ImGui::PopFont();

@@ -2,6 +2,7 @@
 // the hues are those of Okabe and Ito (2008), which colour-blind people tell apart.
 #pragma once
 
+#include <array>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
@@ -12,7 +13,9 @@ namespace tendril::app {
 /// sRGB, 0 to 1.
 struct Palette {
     // what things are
-    glm::vec3 target, head, tail, selection, limit, ghost;
+    glm::vec3 target, head, tail, selection, limit, ghost, pole;
+    // solvers of a race, in the order of ik::Method; told apart by lightness too
+    std::array<glm::vec3, 7> racers;
     // what is not special: joints and the links between them
     glm::vec3 joint, link;
     // axes

@@ -20,46 +20,93 @@ double mark_seconds(double seconds_per_pixel, double apart) {
     return step * 10.0;
 }
 
+/// The strip itself: where its line runs, and what the head says while it is dragged.
+class Strip {
+  public:
+    explicit Strip(const char* id) : list_(ImGui::GetWindowDrawList()) {
+        height_ = 1.9f * ImGui::GetTextLineHeight();
+        at_ = ImGui::GetCursorScreenPos();
+        width_ = std::max(40.0f, ImGui::GetContentRegionAvail().x);
+        ImGui::InvisibleButton(id, {width_, height_});
+        const float margin = 0.5f * ImGui::GetTextLineHeight();
+        from_ = at_.x + margin;
+        span_ = width_ - 2.0f * margin;
+        base_ = at_.y + height_ - 3.0f * unit();
+        list_->AddLine({from_, base_}, {from_ + span_, base_}, ImGui::GetColorU32(ImGuiCol_Border),
+                       2.0f * unit());
+    }
+
+    float span() const { return span_; }
+    static float unit() { return ImGui::GetFontSize() / 15.0f; }  ///< a pixel at the size that the text has
+
+    /// The share of the strip that a person dragged the head to; negative while nobody does.
+    float dragged() const {
+        if (!ImGui::IsItemActive()) return -1.0f;
+        return std::clamp((ImGui::GetIO().MousePos.x - from_) / span_, 0.0f, 1.0f);
+    }
+    void mark(float share, const char* text) {
+        const float x = from_ + span_ * share;
+        const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+        list_->AddLine({x, base_ - 5.0f * unit()}, {x, base_}, dim);
+        if (text == nullptr) return;
+        const float half = 0.5f * ImGui::CalcTextSize(text).x;
+        list_->AddText({std::clamp(x - half, at_.x, at_.x + width_ - 2.0f * half), at_.y}, dim, text);
+    }
+    void head(float share) {
+        const float x = from_ + span_ * share;
+        const ImU32 accent = ImGui::GetColorU32(ImGuiCol_CheckMark);
+        list_->AddLine({from_, base_}, {x, base_}, accent, 2.0f * unit());
+        const float radius = ImGui::IsItemHovered() || ImGui::IsItemActive() ? 6.0f : 5.0f;
+        list_->AddCircleFilled({x, base_ - unit()}, radius * unit(), accent, 20);
+    }
+
+  private:
+    ImDrawList* list_;
+    ImVec2 at_{};
+    float height_, width_, from_, span_, base_;
+};
+
 }  // namespace
 
 bool timeline(const char* id, int& tick, int ticks, double seconds) {
-    const float height = 1.9f * ImGui::GetTextLineHeight();
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float width = std::max(40.0f, ImGui::GetContentRegionAvail().x);
-    ImGui::InvisibleButton(id, {width, height});
-    const float margin = 0.5f * ImGui::GetTextLineHeight();
-    const float from = at.x + margin, span = width - 2.0f * margin;
-
-    bool moved = false;
-    if (ImGui::IsItemActive()) {
-        const float share = std::clamp((ImGui::GetIO().MousePos.x - from) / span, 0.0f, 1.0f);
-        const int wanted =
-            std::min(static_cast<int>(std::lround(share * static_cast<float>(ticks))), ticks - 1);
-        moved = wanted != tick;
-        tick = wanted;
+    Strip strip(id);
+    const int before = tick;
+    if (const float share = strip.dragged(); share >= 0.0f) {
+        tick = std::min(static_cast<int>(std::lround(share * static_cast<float>(ticks))), ticks - 1);
     }
-
-    ImDrawList* list = ImGui::GetWindowDrawList();
-    const float unit = ImGui::GetFontSize() / 15.0f;  // pixels, at the size that the text has
-    const float base = at.y + height - 3.0f * unit;
-    const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
-    list->AddLine({from, base}, {from + span, base}, ImGui::GetColorU32(ImGuiCol_Border), 2.0f * unit);
     const double whole = ticks * seconds;
-    const double step = mark_seconds(whole / static_cast<double>(span), 60.0 * static_cast<double>(unit));
+    const double step =
+        mark_seconds(whole / static_cast<double>(strip.span()), 60.0 * static_cast<double>(Strip::unit()));
     for (double t = 0.0; t <= whole + 1e-9; t += step) {
-        const float x = from + span * static_cast<float>(t / whole);
-        list->AddLine({x, base - 5.0f * unit}, {x, base}, dim);
         char text[16];
         std::snprintf(text, sizeof text, "%.3g s", t);
-        const float half = 0.5f * ImGui::CalcTextSize(text).x;
-        list->AddText({std::clamp(x - half, at.x, at.x + width - 2.0f * half), at.y}, dim, text);
+        strip.mark(static_cast<float>(t / whole), text);
     }
-    const float head = from + span * static_cast<float>(tick) / static_cast<float>(ticks);
-    const ImU32 accent = ImGui::GetColorU32(ImGuiCol_CheckMark);
-    list->AddLine({from, base}, {head, base}, accent, 2.0f * unit);
-    const float radius = ImGui::IsItemHovered() || ImGui::IsItemActive() ? 6.0f : 5.0f;
-    list->AddCircleFilled({head, base - unit}, radius * unit, accent, 20);
-    return moved;
+    strip.head(static_cast<float>(tick) / static_cast<float>(ticks));
+    return tick != before;
+}
+
+bool step_timeline(const char* id, int& step, const std::vector<int>& ends) {
+    Strip strip(id);
+    const int last = std::max(1, ends.empty() ? 0 : ends.back());
+    const int before = step;
+    if (const float share = strip.dragged(); share >= 0.0f) {
+        step = static_cast<int>(std::lround(share * static_cast<float>(last)));
+        if (ends.empty() || ends.back() == 0) step = 0;
+    }
+    // A mark where each iteration ends, as many with their numbers as there is room for.
+    float free_from = -1e9f;
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        const float share = static_cast<float>(ends[i]) / static_cast<float>(last);
+        char text[32];
+        std::snprintf(text, sizeof text, i == 0 ? "start" : "iteration %zu", i);
+        const float half = 0.5f * ImGui::CalcTextSize(text).x, x = share * strip.span();
+        const bool room = x - half > free_from && !(i > 0 && ends[i] == ends[i - 1]);
+        strip.mark(share, room ? text : nullptr);
+        if (room) free_from = x + half + 6.0f * Strip::unit();
+    }
+    strip.head(static_cast<float>(step) / static_cast<float>(last));
+    return step != before;
 }
 
 }  // namespace tendril::app

@@ -5,6 +5,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/labs/chain/commands.hpp"
+#include "app/labs/chain/draw.hpp"
 
 namespace tendril::app {
 
@@ -45,9 +46,9 @@ std::vector<Handle> ChainLab::handles(const Workspace& workspace) const {
     const ChainPart& part = chain_part(workspace);
     std::vector<Handle> handles{{"target", part.target}};
     if (part.mode == ChainMode::Reach && part.reach.pole) handles.push_back({"pole", *part.reach.pole});
-    for (std::size_t i = 0; i < part.chain.size(); ++i) {
-        handles.push_back({"segment." + std::to_string(i), part.chain.segments()[i].position});
-    }
+    const std::vector<glm::vec3> joints = shown_joints(part);
+    for (std::size_t i = 0; i < joints.size(); ++i)
+        handles.push_back({"segment." + std::to_string(i), joints[i]});
     return handles;
 }
 
@@ -55,7 +56,8 @@ glm::vec3 ChainLab::position_of(const Workspace& workspace, PickId pick) const {
     const ChainPart& part = chain_part(workspace);
     if (pick == pole_pick) return part.reach.pole.value_or(part.target);
     if (pick == target_pick || part.chain.empty()) return part.target;
-    return part.chain.position(std::min(picked_segment(pick), part.chain.size() - 1));
+    const std::size_t index = std::min(picked_segment(pick), part.chain.size() - 1);
+    return part.study.trace ? shown_joints(part)[index] : part.chain.position(index);
 }
 
 void ChainLab::drag(const Workspace& workspace, PickId pick, glm::vec3 to, Emit& emit) const {
@@ -113,7 +115,42 @@ Bounds ChainLab::bounds(const Workspace& workspace, bool selection_only) const {
         low = glm::min(low, segment.position);
         high = glm::max(high, segment.position);
     }
+    for (const glm::vec3& joint : part.study.start) low = glm::min(low, joint), high = glm::max(high, joint);
+    if (part.mode == ChainMode::Reach && part.reach.pole) {
+        low = glm::min(low, *part.reach.pole);
+        high = glm::max(high, *part.reach.pole);
+    }
+    if (part.study.race) {
+        const glm::vec3 lanes = race_lane(part.study) * static_cast<float>(part.study.race->racers.size());
+        high += glm::max(lanes - glm::abs(race_lane(part.study)), 0.0f);
+    }
     return {0.5f * (low + high), std::max(0.5f * glm::distance(low, high), 0.5f)};
+}
+
+std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
+    const Palette& colours = palette(workspace.settings.theme);
+    const ChainPart& part = chain_part(workspace);
+    std::vector<LegendRow> rows;
+    if (part.study.race) {
+        for (const Racer& racer : part.study.race->racers) {
+            rows.push_back(
+                {solver_title(racer.method), colours.racers[static_cast<std::size_t>(racer.method)]});
+        }
+        rows.push_back({"start", colours.ghost});
+        rows.push_back({"target", colours.target});
+        return rows;
+    }
+    rows = {{"head", colours.head},
+            {"tail", colours.tail},
+            {"target", colours.target},
+            {"selection", colours.selection, true}};
+    if (part.study.trace) rows.push_back({"this step", colours.accent, true});
+    if (part.study.trace) rows.push_back({"start, earlier iterations", colours.ghost});
+    if (part.mode != ChainMode::Reach) return rows;
+    if (part.reach.pole) rows.push_back({"pole", colours.pole});
+    if (!part.reach.limits.empty()) rows.push_back({"limit", colours.ghost, true});
+    if (!part.reach.limits.empty()) rows.push_back({"limit that holds", colours.limit, true});
+    return rows;
 }
 
 bool ChainLab::has_timeline(const Workspace& workspace) const {

@@ -27,6 +27,7 @@ class ChainLab final : public Lab {
     void step(Workspace& workspace) const override;
     void draw(const View& view, DrawList& list) const override;
 
+    std::vector<LegendRow> legend(const Workspace& workspace) const override;
     std::vector<Handle> handles(const Workspace& workspace) const override;
     glm::vec3 position_of(const Workspace& workspace, PickId pick) const override;
     void drag(const Workspace& workspace, PickId pick, glm::vec3 to, Emit& emit) const override;

@@ -75,6 +75,7 @@ void add_chain_commands(CommandTable& table) {
     add_mode_commands(table);
     add_reach_commands(table);
     add_study_commands(table);
+    add_copy_commands(table);
 }
 
 }  // namespace tendril::app

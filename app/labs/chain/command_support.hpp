@@ -33,5 +33,6 @@ void add_shape_commands(CommandTable& table);
 void add_mode_commands(CommandTable& table);
 void add_reach_commands(CommandTable& table);
 void add_study_commands(CommandTable& table);
+void add_copy_commands(CommandTable& table);
 
 }  // namespace tendril::app

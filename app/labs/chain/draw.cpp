@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/labs/chain/chain_lab.hpp"
+#include "app/labs/chain/draw.hpp"
 
 namespace tendril::app {
 namespace {
@@ -25,20 +26,31 @@ class Drawing {
         : view_(view),
           list_(list),
           part_(chain_part(view.workspace)),
+          shown_(shown_joints(part_)),
           ball_(joint_pixels(part_, view.camera, view.scale)),
           bones_(view.workspace.settings.segments == SegmentStyle::Bones) {}
 
     void run() {
         list_.strokes.reserve(2 * part_.chain.size() + 16);
-        for (std::size_t i = 1; i < part_.chain.size(); ++i) link(i);
-        for (std::size_t i = 0; i < part_.chain.size(); ++i) joint(i);
+        const bool racing = part_.study.race != nullptr;
+        if (racing) {
+            draw_race(view_, part_, list_);
+        } else {
+            for (std::size_t i = 1; i < part_.chain.size(); ++i) link(i);
+            for (std::size_t i = 0; i < part_.chain.size(); ++i) joint(i);
+        }
+        if (part_.study.trace) draw_microscope(view_, part_, list_);
+        if (part_.mode == ChainMode::Reach) {
+            draw_limits(view_, part_, list_);
+            draw_pole(view_, part_, list_);
+        }
         path();
         target();
         labels();
     }
 
   private:
-    glm::vec3 at(std::size_t i) const { return part_.chain.segments()[i].position; }
+    glm::vec3 at(std::size_t i) const { return shown_[i]; }
     float length(std::size_t i) const { return part_.chain.segments()[i].length; }
 
     float px(float pixels) const { return pixels * view_.scale; }
@@ -155,7 +167,8 @@ class Drawing {
             }
         } else {
             const PickId pick = view_.dragged != no_pick ? view_.dragged : view_.hovered;
-            if (pick != no_pick && pick != target_pick && picked_segment(pick) < part_.chain.size()) {
+            if (pick != no_pick && pick != target_pick && pick != pole_pick &&
+                picked_segment(pick) < part_.chain.size()) {
                 label(picked_segment(pick), 3);
             }
             if (part_.selected && segment_pick(*part_.selected) != pick) label(*part_.selected, 2);
@@ -165,6 +178,7 @@ class Drawing {
     const View& view_;
     DrawList& list_;
     const ChainPart& part_;
+    std::vector<glm::vec3> shown_;
     float ball_;
     bool bones_;
 };

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "app/labs/chain/chain_lab.hpp"
+#include "app/labs/chain/panels.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/text.hpp"
@@ -142,7 +142,12 @@ void segment_table(const ChainPart& part, Emit& emit) {
 
 void ChainLab::inspector(const Workspace& workspace, Emit& emit) const {
     const ChainPart& part = chain_part(workspace);
+    const Palette& colours = palette(workspace.settings.theme);
+    if (part.study.trace) microscope_rows(part, colours, emit);
+    if (part.study.race) race_rows(workspace, colours, emit);
+    if (part.mode == ChainMode::Reach) report_rows(part, colours);
     selection_rows(part, emit);
+    if (part.mode == ChainMode::Reach) limit_rows(part, emit);
     chain_rows(part);
     segment_table(part, emit);
 }

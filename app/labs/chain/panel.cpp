@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/labs/chain/chain_lab.hpp"
+#include "app/labs/chain/panels.hpp"
 #include "app/labs/chain/presets.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/timeline.hpp"
@@ -100,15 +100,25 @@ void preset_rows(Emit& emit) {
 void ChainLab::panel(const Workspace& workspace, Emit& emit) const {
     const ChainPart& part = chain_part(workspace);
     mode_rows(part, emit);
+    if (part.mode == ChainMode::Reach) solver_rows(part, emit);
     segment_rows(part, emit);
     target_rows(part, workspace.clock.playing, emit);
     preset_rows(emit);
+    study_rows(part, emit);
 }
 
 void ChainLab::timeline(const Workspace& workspace, Emit& emit) const {
-    const Motion& motion = chain_part(workspace).motion;
-    int tick = static_cast<int>(motion.ticks);
-    if (app::timeline("round", tick, static_cast<int>(ticks_per_round(motion)), tick_seconds)) {
+    const ChainPart& part = chain_part(workspace);
+    if (part.study.trace) {
+        const Trace& trace = *part.study.trace;
+        int shown = static_cast<int>(part.study.step);
+        if (step_timeline("solve", shown, iteration_ends(trace))) {
+            emit.continuously("microscope.seek", {{"step", shown}});
+        }
+        return;
+    }
+    int tick = static_cast<int>(part.motion.ticks);
+    if (app::timeline("round", tick, static_cast<int>(ticks_per_round(part.motion)), tick_seconds)) {
         emit.continuously("chain.seek", {{"tick", tick}});
     }
 }

@@ -52,13 +52,16 @@ void seek(ChainPart& part, const Arguments& given) {
 void step(ChainPart& part, const Arguments& given) {
     check_microscope(part);
     const Trace& trace = *part.study.trace;
-    const auto shown = static_cast<long>(part.study.step);
     const auto last = static_cast<long>(trace.frames());
-    long to = shown;
-    if (given.has("by") || !given.has("iterations")) to += given.has("by") ? given.integer("by") : 1;
+    long to = static_cast<long>(part.study.step);
     if (given.has("iterations")) {
-        const int iteration = trace.iteration(static_cast<std::size_t>(std::clamp(to, 0L, last)));
-        to = static_cast<long>(trace.end_of_iteration(std::max(0, iteration + given.integer("iterations"))));
+        int iteration = trace.iteration(part.study.step);
+        const bool within = part.study.step < trace.end_of_iteration(iteration);
+        if (within && given.integer("iterations") > 0)
+            --iteration;  // the first one on is the end of this one
+        to = static_cast<long>(trace.end_of_iteration(iteration + given.integer("iterations")));
+    } else {
+        to += given.has("by") ? given.integer("by") : 1;
     }
     part.study.step = static_cast<std::size_t>(std::clamp(to, 0L, last));
 }

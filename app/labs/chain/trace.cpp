@@ -1,5 +1,7 @@
 #include "app/labs/chain/trace.hpp"
 
+#include <algorithm>
+
 namespace tendril::app {
 namespace {
 
@@ -46,11 +48,19 @@ int Trace::iteration(std::size_t frame) const {
 }
 
 std::size_t Trace::end_of_iteration(int iteration) const {
-    std::size_t last = 0;
-    for (std::size_t i = 0; i < frames(); ++i) {
-        if (steps[frame_begins[i]].iteration <= iteration) last = i + 1;
+    const std::vector<int> ends = iteration_ends(*this);
+    const auto wanted = std::min(static_cast<std::size_t>(std::max(0, iteration)), ends.size() - 1);
+    return static_cast<std::size_t>(ends[wanted]);
+}
+
+std::vector<int> iteration_ends(const Trace& trace) {
+    std::vector<int> ends{0};
+    for (std::size_t frame = 1; frame <= trace.frames(); ++frame) {
+        const auto iteration = static_cast<std::size_t>(trace.iteration(frame));
+        if (iteration >= ends.size()) ends.resize(iteration + 1, ends.back());
+        ends.back() = static_cast<int>(frame);
     }
-    return last;
+    return ends;
 }
 
 Trace record_trace(Chain chain, ReachSettings settings, glm::vec3 target) {

@@ -34,6 +34,9 @@ struct Trace {
     std::size_t end_of_iteration(int iteration) const;
 };
 
+/// The last frame of what comes before the first iteration, and of each iteration.
+std::vector<int> iteration_ends(const Trace& trace);
+
 /// Solves a copy of the chain, and watches.
 Trace record_trace(Chain chain, ReachSettings settings, glm::vec3 target);
 

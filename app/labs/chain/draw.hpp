@@ -1,0 +1,26 @@
+// The pieces that the Chain lab's picture is put together from.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "app/labs/chain/chain_lab.hpp"
+
+namespace tendril::app {
+
+/// Where the joints are shown: where the chain is, or at the microscope's step.
+std::vector<glm::vec3> shown_joints(const ChainPart& part);
+
+/// The limits, from the numbers that the solver uses, and the angles that the joints have.
+void draw_limits(const View& view, const ChainPart& part, DrawList& list);
+/// The pole, and the line that it turns the chain about.
+void draw_pole(const View& view, const ChainPart& part, DrawList& list);
+/// What the step under the microscope does, over the poses that the iterations before it ended in.
+void draw_microscope(const View& view, const ChainPart& part, DrawList& list);
+/// The chains that the solvers of a race ended in.
+void draw_race(const View& view, const ChainPart& part, DrawList& list);
+
+/// How far apart the lanes of a race are that is shown side by side, metres; 0 overlaid.
+glm::vec3 race_lane(const Study& study);
+
+}  // namespace tendril::app

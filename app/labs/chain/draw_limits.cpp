@@ -1,0 +1,208 @@
+// Limits as they are: a cone where the bone may point, a fan for a hinge, a dial for twist.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "app/labs/chain/draw.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr std::size_t most_limits =
+    24;  ///< drawn; in longer chains those of the selected and the holding joint
+
+/// The least rotation from one unit vector to another.
+glm::quat least_rotation(glm::vec3 from, glm::vec3 to) {
+    const float w = 1.0f + glm::dot(from, to);
+    if (w < 1e-6f) {
+        const glm::vec3 side = std::abs(from.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+        const glm::vec3 axis = glm::normalize(glm::cross(from, side));
+        return {0.0f, axis.x, axis.y, axis.z};
+    }
+    const glm::vec3 axis = glm::cross(from, to);
+    return glm::normalize(glm::quat(w, axis.x, axis.y, axis.z));
+}
+
+/// How each bone is turned from rest: as the last solve left it, carried along to where the bone is now.
+std::vector<glm::quat> bone_turns(const ChainPart& part, const std::vector<glm::vec3>& joints) {
+    const glm::vec3 rest = part.chain.default_direction();
+    std::vector<glm::quat> turns = part.reach.rotations;
+    turns.resize(joints.size() - 1, glm::quat(1, 0, 0, 0));
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+        const glm::vec3 bone = joints[i + 1] - joints[i];
+        if (glm::length(bone) < 1e-6f) continue;
+        turns[i] = least_rotation(turns[i] * rest, glm::normalize(bone)) * turns[i];
+    }
+    return turns;
+}
+
+class LimitDrawing {
+  public:
+    LimitDrawing(const View& view, const ChainPart& part, DrawList& list)
+        : view_(view),
+          part_(part),
+          list_(list),
+          joints_(shown_joints(part)),
+          turns_(bone_turns(part, joints_)) {}
+
+    void run() {
+        const std::size_t bones = joints_.size() - 1;
+        for (std::size_t i = 0; i < bones; ++i) {
+            const bool shown = bones <= most_limits || holds(i) || part_.selected == i;
+            if (shown && limit_of(part_.reach, i).kind != ik::JointKind::Free) joint(i);
+        }
+    }
+
+  private:
+    float px(float pixels) const { return pixels * view_.scale; }
+    bool holds(std::size_t i) const {
+        return part_.result && part_.result->hold && part_.result->hold->joint == i;
+    }
+
+    void joint(std::size_t i) {
+        limit_ = limit_of(part_.reach, i);
+        centre_ = joints_[i];
+        const float bone = part_.chain.segments()[i + 1].length;
+        const float pixels = 90.0f * view_.scale * view_.camera.metres_per_pixel(centre_);
+        radius_ = std::min(0.75f * bone, pixels);
+        rest_ = part_.chain.default_direction();
+        parent_ = i == 0 ? glm::quat(1, 0, 0, 0) : turns_[i - 1];
+        axis_ = limit_.axis - rest_ * glm::dot(limit_.axis, rest_);
+        axis_ = glm::length(axis_) > 1e-6f ? glm::normalize(axis_) : glm::vec3(0, 0, 1);
+        left_axis_ = glm::cross(axis_, rest_);
+        const bool held = holds(i);
+        const bool lit = held || part_.selected == i;
+        colour_ = held ? view_.palette.limit : lit ? view_.palette.selection : view_.palette.ghost;
+        strength_ = lit ? 1.0f : 0.75f;
+        const glm::quat turn = glm::conjugate(parent_) * turns_[i];
+        angles_ = ik::measure(limit_, rest_, turn);
+        limit_.kind == ik::JointKind::Hinge ? fan() : cone();
+        if (limit_.kind != ik::JointKind::Hinge) dial(glm::normalize(turns_[i] * rest_));
+        line(centre_, centre_ + radius_ * direction(0.0f, 0.0f), 1.0f, 0.35f);  // where it points at rest
+        if (held) {
+            list_.ring(centre_, px(13.0f), px(3.0f), glm::vec4(view_.palette.limit, 1.0f)).layer =
+                Layer::Overlay;
+        }
+    }
+
+    /// Where the bone points after a swing of so much up and left.
+    glm::vec3 direction(float up, float left) const {
+        const glm::vec3 swing = axis_ * up + left_axis_ * left;
+        const float angle = glm::length(swing);
+        const glm::quat turn = angle < 1e-7f ? glm::quat(1, 0, 0, 0) : glm::angleAxis(angle, swing / angle);
+        return parent_ * (turn * rest_);
+    }
+
+    void line(glm::vec3 a, glm::vec3 b, float width, float alpha) {
+        list_.line(a, b, px(width), glm::vec4(colour_, alpha * strength_));
+    }
+
+    /// A hinge's range as an arc with its two ends, and where the bone is in it.
+    void fan() {
+        constexpr int pieces = 40;
+        glm::vec3 from = centre_ + radius_ * direction(limit_.min, 0.0f);
+        line(centre_, from, 2.0f, 0.9f);
+        for (int i = 1; i <= pieces; ++i) {
+            const float share = static_cast<float>(i) / pieces;
+            const glm::vec3 to =
+                centre_ + radius_ * direction(limit_.min + (limit_.max - limit_.min) * share, 0.0f);
+            line(from, to, 2.0f, 0.9f);
+            if (i % 4 == 0 && i < pieces) line(centre_ + 0.9f * (to - centre_), to, 1.0f, 0.6f);
+            from = to;
+        }
+        line(centre_, from, 2.0f, 0.9f);
+        needle(angles_.up, 0.0f);
+    }
+
+    /// The rim of the cone, with spokes.
+    void cone() {
+        constexpr int pieces = 64;
+        glm::vec3 from{};
+        for (int i = 0; i <= pieces; ++i) {
+            const float phi = glm::two_pi<float>() * static_cast<float>(i) / pieces;
+            const float up = std::sin(phi), left = std::cos(phi);
+            const glm::vec3 to =
+                centre_ + radius_ * direction(up * (up > 0.0f ? limit_.up : limit_.down),
+                                              left * (left > 0.0f ? limit_.left : limit_.right));
+            if (i > 0) line(from, to, 2.0f, 0.9f);
+            if (i % 8 == 0) line(centre_, to, 1.0f, 0.4f);
+            from = to;
+        }
+        needle(angles_.up, angles_.left);
+    }
+
+    void needle(float up, float left) {
+        list_.sphere(centre_ + radius_ * direction(up, left), px(3.5f), Unit::Pixels,
+                     glm::vec4(colour_, 1.0f));
+    }
+
+    /// Twist, as an arc about the bone with a needle.
+    void dial(glm::vec3 bone) {
+        if (limit_.twist_max <= limit_.twist_min) return;
+        constexpr int pieces = 32;
+        const glm::vec3 middle = centre_ + 0.5f * radius_ * bone;
+        const float size = 0.22f * radius_;
+        const glm::quat swing = least_rotation(parent_ * rest_, bone) * parent_;
+        const auto at = [&](float twist) {
+            return middle + size * (glm::angleAxis(twist, bone) * (swing * left_axis_));
+        };
+        glm::vec3 from = at(limit_.twist_min);
+        line(middle, from, 1.5f, 0.8f);
+        for (int i = 1; i <= pieces; ++i) {
+            const float share = static_cast<float>(i) / pieces;
+            const glm::vec3 to = at(limit_.twist_min + (limit_.twist_max - limit_.twist_min) * share);
+            line(from, to, 1.5f, 0.8f);
+            from = to;
+        }
+        line(middle, from, 1.5f, 0.8f);
+        list_.line(middle, at(angles_.twist), px(2.0f), glm::vec4(view_.palette.text, 0.9f));
+    }
+
+    const View& view_;
+    const ChainPart& part_;
+    DrawList& list_;
+    std::vector<glm::vec3> joints_;
+    std::vector<glm::quat> turns_;
+    // of the joint that is being drawn
+    ik::Limit limit_;
+    ik::JointAngles angles_;
+    glm::vec3 centre_{}, rest_{}, axis_{}, left_axis_{}, colour_{};
+    glm::quat parent_{1, 0, 0, 0};
+    float radius_ = 0.0f, strength_ = 1.0f;
+};
+
+}  // namespace
+
+void draw_limits(const View& view, const ChainPart& part, DrawList& list) {
+    if (part.reach.limits.empty() || part.chain.size() < 2) return;
+    LimitDrawing(view, part, list).run();
+}
+
+void draw_pole(const View& view, const ChainPart& part, DrawList& list) {
+    if (!part.reach.pole) return;
+    const glm::vec3 at = *part.reach.pole;
+    const bool hovered = view.hovered == pole_pick || view.dragged == pole_pick;
+    if (!part.chain.empty()) {
+        const glm::vec3 root = part.chain.position(0), along = part.target - root;
+        const float square = glm::dot(along, along);
+        const float share =
+            square < 1e-9f ? 0.0f : std::clamp(glm::dot(at - root, along) / square, 0.0f, 1.0f);
+        list.line(root, part.target, view.scale, glm::vec4(view.palette.pole, 0.35f));
+        list.line(at, root + along * share, 1.5f * view.scale, glm::vec4(view.palette.pole, 0.5f));
+    }
+    Stroke& ball = list.sphere(at, (hovered ? 9.5f : 8.0f) * view.scale, Unit::Pixels,
+                               glm::vec4(view.palette.pole, 1.0f));
+    ball.shadow = true;
+    ball.layer = Layer::Overlay;
+    ball.pick = pole_pick;
+    ball.rank = 2;
+    list.labels.push_back({.at = at,
+                           .clearance = 12.0f * view.scale,
+                           .text = "pole",
+                           .colour = view.palette.text_dim,
+                           .rank = 1});
+}
+
+}  // namespace tendril::app

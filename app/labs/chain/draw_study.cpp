@@ -1,0 +1,179 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+
+#include "app/labs/chain/draw.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr int most_ghosts = 6;
+constexpr int circle_pieces = 64;
+
+class StudyDrawing {
+  public:
+    StudyDrawing(const View& view, const ChainPart& part, DrawList& list)
+        : view_(view), part_(part), list_(list) {}
+
+    void microscope() {
+        const Trace& trace = *part_.study.trace;
+        const std::size_t step = part_.study.step;
+        ghosts(trace, step);
+        const auto moves = trace.frame(step);
+        if (moves.empty()) return;
+        const std::vector<glm::vec3> pose = trace.pose(step);
+        const bool alone = moves.size() == 1;
+        for (const ik::Step& move : moves) moved(move, alone);
+        if (!alone || moves.front().neighbour == ik::no_joint) return;
+        const ik::Step& move = moves.front();
+        const glm::vec3 centre = pose[move.neighbour];
+        slide(centre, move);
+        sphere(centre, glm::distance(centre, move.to));
+        label(centre, std::to_string(move.neighbour));
+    }
+
+    void race() {
+        const Race& race = *part_.study.race;
+        const glm::vec3 lane = race_lane(part_.study);
+        polyline(part_.study.start, ghost(0.45f), 1.5f, {});
+        for (std::size_t i = 0; i < race.racers.size(); ++i) {
+            const glm::vec3 apart = lane * static_cast<float>(i);
+            if (i > 0 && lane != glm::vec3(0.0f)) target_again(apart);
+            racer(race.racers[i], apart);
+        }
+    }
+
+  private:
+    float px(float pixels) const { return pixels * view_.scale; }
+    glm::vec4 ghost(float alpha) const { return glm::vec4(view_.palette.ghost, alpha); }
+
+    void label(glm::vec3 at, std::string text) {
+        list_.labels.push_back({.at = at,
+                                .clearance = px(12.0f),
+                                .text = std::move(text),
+                                .colour = view_.palette.text,
+                                .rank = 3});
+    }
+
+    void polyline(const std::vector<glm::vec3>& joints, glm::vec4 colour, float width, glm::vec3 apart) {
+        for (std::size_t i = 1; i < joints.size(); ++i) {
+            list_.line(joints[i - 1] + apart, joints[i] + apart, px(width), colour);
+        }
+    }
+
+    /// The start, and where the last iterations ended, the older the fainter.
+    void ghosts(const Trace& trace, std::size_t step) {
+        polyline(trace.start, ghost(0.35f), 1.5f, {});
+        const int now = trace.iteration(step);
+        for (int i = std::max(1, now - most_ghosts); i < now; ++i) {
+            const float age = static_cast<float>(now - i) / static_cast<float>(most_ghosts + 1);
+            const std::vector<glm::vec3> pose = trace.pose(trace.end_of_iteration(i));
+            polyline(pose, ghost(0.75f * (1.0f - age)), 1.5f, {});
+            for (const glm::vec3& joint : pose) {
+                list_.sphere(joint, px(2.5f), Unit::Pixels, ghost(0.75f * (1.0f - age)));
+            }
+        }
+    }
+
+    void moved(const ik::Step& move, bool alone) {
+        const glm::vec4 accent(view_.palette.accent, 1.0f);
+        list_.sphere(move.from, px(5.0f), Unit::Pixels, ghost(0.9f));
+        if (glm::distance(move.from, move.to) > 1e-5f) list_.line(move.from, move.to, px(3.0f), accent);
+        list_.ring(move.to, px(12.0f), px(2.0f), accent).layer = Layer::Overlay;
+        if (alone) label(move.to, std::to_string(move.joint));
+    }
+
+    /// The line on which the joint slides: from its neighbour through where it was.
+    void slide(glm::vec3 neighbour, const ik::Step& move) {
+        const glm::vec3 towards = move.from - neighbour;
+        const float away = glm::length(towards), bone = glm::distance(neighbour, move.to);
+        if (away < 1e-5f) return;
+        const glm::vec3 end = neighbour + towards / away * (1.25f * std::max(away, bone));
+        dashes(neighbour, end, glm::vec4(view_.palette.accent, 0.8f));
+    }
+
+    void dashes(glm::vec3 from, glm::vec3 to, glm::vec4 colour) {
+        constexpr int pieces = 24;
+        for (int i = 0; i < pieces; ++i) {
+            const float a = static_cast<float>(i) / pieces, b = a + 0.5f / pieces;
+            list_.line(from + (to - from) * a, from + (to - from) * b, px(1.5f), colour);
+        }
+    }
+
+    /// Three circles of a sphere: those in the planes of the axes.
+    void sphere(glm::vec3 centre, float radius) {
+        const glm::vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+        for (int plane = 0; plane < 3; ++plane) {
+            const glm::vec3 u = axes[plane], v = axes[(plane + 1) % 3];
+            glm::vec3 from = centre + radius * u;
+            for (int i = 1; i <= circle_pieces; ++i) {
+                const float angle = glm::two_pi<float>() * static_cast<float>(i) / circle_pieces;
+                const glm::vec3 to = centre + radius * (std::cos(angle) * u + std::sin(angle) * v);
+                list_.line(from, to, px(1.0f), glm::vec4(view_.palette.accent, 0.45f));
+                from = to;
+            }
+        }
+    }
+
+    void racer(const Racer& racer, glm::vec3 apart) {
+        const glm::vec4 colour(view_.palette.racers[static_cast<std::size_t>(racer.method)], 1.0f);
+        if (apart != glm::vec3(0.0f)) polyline(part_.study.start, ghost(0.45f), 1.5f, apart);
+        for (std::size_t i = 0; i < racer.joints.size(); ++i) {
+            if (i > 0) {
+                list_.line(racer.joints[i - 1] + apart, racer.joints[i] + apart, px(3.0f), colour).shadow =
+                    true;
+            }
+            list_
+                .sphere(racer.joints[i] + apart, px(i == 0 ? 7.0f : 5.0f), Unit::Pixels,
+                        i == 0 ? glm::vec4(view_.palette.head, 1.0f) : colour)
+                .shadow = true;
+        }
+        if (racer.joints.empty()) return;
+        char text[96];
+        std::snprintf(text, sizeof text, "%s: %d", solver_title(racer.method), racer.report.iterations);
+        // Overlaid, the tips lie on the target: there the panel tells them apart.
+        if (part_.study.side_by_side) label(racer.joints.back() + apart, text);
+    }
+
+    void target_again(glm::vec3 apart) {
+        list_.ring(part_.target + apart, px(14.0f), px(1.5f), glm::vec4(view_.palette.target, 0.8f)).layer =
+            Layer::Overlay;
+    }
+
+    const View& view_;
+    const ChainPart& part_;
+    DrawList& list_;
+};
+
+}  // namespace
+
+std::vector<glm::vec3> shown_joints(const ChainPart& part) {
+    if (part.study.trace) return part.study.trace->pose(part.study.step);
+    std::vector<glm::vec3> joints;
+    joints.reserve(part.chain.size());
+    for (const Segment& segment : part.chain.segments()) joints.push_back(segment.position);
+    return joints;
+}
+
+glm::vec3 race_lane(const Study& study) {
+    if (!study.side_by_side || !study.race) return glm::vec3(0.0f);
+    float low = 1e30f, high = -1e30f;
+    const auto take = [&](const std::vector<glm::vec3>& joints) {
+        for (const glm::vec3& joint : joints) low = std::min(low, joint.x), high = std::max(high, joint.x);
+    };
+    take(study.start);
+    for (const Racer& racer : study.race->racers) take(racer.joints);
+    return {1.1f * (high - low) + 0.5f, 0.0f, 0.0f};
+}
+
+void draw_microscope(const View& view, const ChainPart& part, DrawList& list) {
+    StudyDrawing(view, part, list).microscope();
+}
+
+void draw_race(const View& view, const ChainPart& part, DrawList& list) {
+    StudyDrawing(view, part, list).race();
+}
+
+}  // namespace tendril::app

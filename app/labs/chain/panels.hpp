@@ -1,0 +1,21 @@
+// The pieces that the Chain lab's panel and inspector are put together from.
+#pragma once
+
+#include "app/labs/chain/chain_lab.hpp"
+
+namespace tendril::app {
+
+/// The panel: what solves, and its options.
+void solver_rows(const ChainPart& part, Emit& emit);
+/// The panel: microscope, race, and what to carry away.
+void study_rows(const ChainPart& part, Emit& emit);
+/// The inspector: how the last solve went.
+void report_rows(const ChainPart& part, const Palette& palette);
+/// The inspector: the limit of the selected joint.
+void limit_rows(const ChainPart& part, Emit& emit);
+/// The inspector: the step that the microscope shows.
+void microscope_rows(const ChainPart& part, const Palette& palette, Emit& emit);
+/// The inspector: who takes part in the race, and how they do.
+void race_rows(const Workspace& workspace, const Palette& palette, Emit& emit);
+
+}  // namespace tendril::app

@@ -1,0 +1,96 @@
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <glm/trigonometric.hpp>
+
+#include "app/io/solver_json.hpp"
+#include "app/labs/chain/panels.hpp"
+#include "app/widgets/fields.hpp"
+
+namespace tendril::app {
+namespace {
+
+void coloured_note(const std::string& text, glm::vec3 colour) {
+    ImGui::PushStyleColor(ImGuiCol_Text, {colour.r, colour.g, colour.b, 1.0f});
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted(text.c_str(), text.c_str() + text.size());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+}
+
+struct AngleRow {
+    const char* title;
+    const char* key;
+    float low;  ///< degrees; the highest is 180
+};
+
+std::vector<AngleRow> angle_rows(ik::JointKind kind) {
+    if (kind == ik::JointKind::Free) return {};
+    if (kind == ik::JointKind::Hinge)
+        return {{"least", "min_deg", -180.0f}, {"greatest", "max_deg", -180.0f}};
+    std::vector<AngleRow> rows{{"up", "up_deg", 0.0f},
+                               {"down", "down_deg", 0.0f},
+                               {"left", "left_deg", 0.0f},
+                               {"right", "right_deg", 0.0f}};
+    rows.push_back({"twist from", "twist_min_deg", -180.0f});
+    rows.push_back({"twist to", "twist_max_deg", -180.0f});
+    return rows;
+}
+
+}  // namespace
+
+void report_rows(const ChainPart& part, const Palette& palette) {
+    section("Reach");
+    if (!part.result) {
+        note("Drag the target to solve for it.");
+        return;
+    }
+    const ReachResult& result = *part.result;
+    reading("status", "%s", ik::name(result.report.status));
+    reading("iterations", "%d", result.report.iterations);
+    reading("tip to target", "%.4f m", static_cast<double>(result.report.residual));
+    note(status_help(result.report.status));
+    if (result.hold) coloured_note(hold_text(*result.hold) + ".", palette.limit);
+}
+
+void limit_rows(const ChainPart& part, Emit& emit) {
+    if (!part.selected || *part.selected + 1 >= part.chain.size()) return;
+    const std::size_t joint = *part.selected;
+    section("Limit of this joint");
+    const ik::Limit limit = limit_of(part.reach, joint);
+    std::array<const char*, all_joint_kinds.size()> titles{};
+    std::transform(all_joint_kinds.begin(), all_joint_kinds.end(), titles.begin(), kind_title);
+    int kind = static_cast<int>(limit.kind);
+    if (choice_field("kind", kind, titles.data(), static_cast<int>(titles.size()))) {
+        emit("chain.limit",
+             {{"index", joint}, {"kind", ik::name(all_joint_kinds[static_cast<std::size_t>(kind)])}});
+    }
+    if (limit.kind == ik::JointKind::Free) {
+        note("Turns freely.");
+        return;
+    }
+    const Json json = limit_json(limit);
+    for (const AngleRow& row : angle_rows(limit.kind)) {
+        if (!json.contains(row.key)) continue;
+        float angle = json.at(row.key).get<float>();
+        if (number_field(row.title, angle, 0.5f, row.low, 180.0f, "%.1f deg")) {
+            emit.continuously("chain.limit", {{"index", joint}, {row.key, number(angle)}});
+        }
+    }
+    static constexpr const char* axes[] = {"X", "Y", "Z", "another"};
+    int axis = 3;
+    for (int i = 0; i < 3; ++i) {
+        glm::vec3 unit(0.0f);
+        unit[i] = 1.0f;
+        if (limit.axis == unit) axis = i;
+    }
+    if (choice_field("axis", axis, axes, axis == 3 ? 4 : 3) && axis < 3) {
+        glm::vec3 unit(0.0f);
+        unit[axis] = 1.0f;
+        emit("chain.limit", {{"index", joint}, {"axis", point(unit)}});
+    }
+    note("What it turns about upwards; angles are counted from the chain in line.");
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,81 @@
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "app/labs/chain/panels.hpp"
+#include "app/widgets/fields.hpp"
+
+namespace tendril::app {
+namespace {
+
+void with(Emit& emit, const char* name, Json value) {
+    emit.continuously("chain.solver", {{name, std::move(value)}});
+}
+
+void stop_rows(const ReachSettings& reach, float length, Emit& emit) {
+    int iterations = reach.iterations;
+    if (integer_field("iterations", iterations, 1, max_iterations)) with(emit, "iterations", iterations);
+    float tolerance = reach_tolerance(reach, length);
+    if (number_field("tolerance", tolerance, 0.0002f, 0.0f, 10.0f, "%.4f m"))
+        with(emit, "tolerance", number(tolerance));
+    if (reach.tolerance && row_button("Default tolerance", 1, true, "A thousandth of the reach"))
+        emit("chain.solver", {{"default_tolerance", true}});
+}
+
+void option_rows(const ReachSettings& reach, Emit& emit) {
+    float snap_back = reach.snap_back, soft = reach.soft_zone;
+    if (number_field("snap back", snap_back, 0.005f, 0.0f, 1.0f, "%.2f"))
+        with(emit, "snap_back", number(snap_back));
+    if (number_field("soft zone", soft, 0.002f, 0.0f, 1.0f, "%.3f of reach"))
+        with(emit, "soft_zone", number(soft));
+    if (reach.method == ik::Method::Dls || reach.method == ik::Method::SvdDls) {
+        float damping = reach.damping;
+        if (number_field("damping", damping, 0.001f, least_damping, most_damping, "%.3f of reach"))
+            with(emit, "damping", number(damping));
+    }
+    if (reach.method == ik::Method::TwoBone) {
+        float twist = reach.twist_deg;
+        if (number_field("twist", twist, 0.5f, -180.0f, 180.0f, "%.0f deg"))
+            with(emit, "twist_deg", number(twist));
+    }
+}
+
+/// A pole begins above the middle of the line from head to target, clear of the chain.
+glm::vec3 first_pole(const ChainPart& part) {
+    const glm::vec3 middle = 0.5f * (part.chain.segments().front().position + part.target);
+    return middle + glm::vec3(0.0f, 0.6f * std::max(1.0f, part.chain.reach() * 0.5f), 0.0f);
+}
+
+void pole_rows(const ChainPart& part, Emit& emit) {
+    if (part.chain.empty()) return;
+    bool on = part.reach.pole.has_value();
+    if (ImGui::Checkbox("Pole: the bend faces it", &on)) {
+        emit("chain.pole", on ? Json{{"to", point(first_pole(part))}} : Json{{"off", true}});
+    }
+    if (!part.reach.pole) return;
+    glm::vec3 pole = *part.reach.pole;
+    if (point_field("pole", pole, 0.01f)) emit.continuously("chain.pole", {{"to", point(pole)}});
+    static constexpr const char* titles[] = {"whole chain", "each joint"};
+    int turn = static_cast<int>(part.reach.pole_turn);
+    if (choice_field("turns", turn, titles, static_cast<int>(std::size(titles)))) {
+        emit("chain.solver", {{"pole_turn", pole_turn_name(all_pole_turns[static_cast<std::size_t>(turn)])}});
+    }
+}
+
+}  // namespace
+
+void solver_rows(const ChainPart& part, Emit& emit) {
+    section("Solver");
+    std::array<const char*, ik::all_methods.size()> titles{};
+    std::transform(ik::all_methods.begin(), ik::all_methods.end(), titles.begin(), solver_title);
+    int method = static_cast<int>(part.reach.method);
+    if (choice_field("solver", method, titles.data(), static_cast<int>(titles.size()))) {
+        emit("chain.solver", {{"name", ik::name(ik::all_methods[static_cast<std::size_t>(method)])}});
+    }
+    note(solver_help(part.reach.method));
+    stop_rows(part.reach, part.chain.reach(), emit);
+    option_rows(part.reach, emit);
+    pole_rows(part, emit);
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,138 @@
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/labs/chain/panels.hpp"
+#include "app/widgets/fields.hpp"
+#include "app/widgets/plot.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr float plot_lines = 13.0f;
+
+std::vector<glm::vec2> by_iteration(const std::vector<float>& residuals) {
+    std::vector<glm::vec2> points;
+    for (const float residual : residuals) points.push_back({static_cast<float>(points.size()), residual});
+    return points;
+}
+
+/// Where the y axis of a plot of residuals begins: two decades under the tolerance shows what matters.
+float least_residual(float tolerance) {
+    return std::max(1e-7f, 1e-2f * tolerance);
+}
+
+void start_buttons(const char* command, Emit& emit) {
+    if (row_button("Start here", 2, true, "Each solve starts from the pose that the chain has now"))
+        emit(command, {{"start", "here"}});
+    if (row_button("Start straight", 2, true, "Each solve starts from the chain laid in line"))
+        emit(command, {{"start", "straight"}});
+}
+
+/// Whether time is on the x axis: a wish of the panel, no part of the document.
+bool& against_time() {
+    return *ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("against time"), false);
+}
+
+void racer_row(const Study& study, ik::Method method, bool time, const Palette& palette, Emit& emit) {
+    const auto index = static_cast<std::size_t>(method);
+    bool on = study.racers[index];
+    colour_mark(palette.racers[index]);
+    if (ImGui::Checkbox(solver_title(method), &on))
+        emit("race.solver", {{"name", ik::name(method)}, {"on", on}});
+    const auto& racers = study.race->racers;
+    const auto racer =
+        std::find_if(racers.begin(), racers.end(), [&](const Racer& r) { return r.method == method; });
+    if (racer == racers.end()) return;
+    char text[96];
+    if (time) {
+        std::snprintf(text, sizeof text, "%d in %.1f us", racer->report.iterations, racer->microseconds);
+    } else {
+        std::snprintf(text, sizeof text, "%d, %.1e m", racer->report.iterations,
+                      static_cast<double>(racer->report.residual));
+    }
+    reading(ik::name(racer->report.status), "%s", text);
+}
+
+void race_plot(const Race& race, bool time, const Palette& palette) {
+    std::vector<Curve> curves;
+    for (const Racer& racer : race.racers) {
+        Curve curve{solver_title(racer.method), palette.racers[static_cast<std::size_t>(racer.method)],
+                    by_iteration(racer.residuals)};
+        const float last = std::max(1.0f, static_cast<float>(racer.residuals.size() - 1));
+        if (time) {
+            for (glm::vec2& p : curve.points) p.x *= static_cast<float>(racer.microseconds) / last;
+        }
+        curves.push_back(std::move(curve));
+    }
+    log_plot("race plot", curves,
+             {.x = time ? "microseconds" : "iterations",
+              .y = "tip to target, m",
+              .least_y = least_residual(race.tolerance),
+              .level = race.tolerance},
+             plot_lines);
+}
+
+}  // namespace
+
+void study_rows(const ChainPart& part, Emit& emit) {
+    section("Look inside");
+    const bool solvable = part.chain.size() > 1 && part.chain.size() <= max_studied_segments;
+    const bool magnified = part.study.kind == Study::Kind::Microscope;
+    const bool racing = part.study.kind == Study::Kind::Race;
+    if (row_button(magnified ? "Close microscope" : "Microscope", 2, solvable,
+                   "Every step of one solve, and the pose after it"))
+        emit(magnified ? "microscope.close" : "microscope.open");
+    if (row_button(racing ? "Close race" : "Race", 2, solvable, "Several solvers, from the same start"))
+        emit(racing ? "race.close" : "race.open");
+    section("Carry away");
+    if (row_button("Copy as C++", 2, true, "This chain, mode and solver as a program against the library"))
+        emit("chain.copy", {{"as", "cpp"}});
+    if (row_button("Copy as JSON", 2, true, "The scene as text")) emit("chain.copy", {{"as", "json"}});
+}
+
+void microscope_rows(const ChainPart& part, const Palette& palette, Emit& emit) {
+    section("Microscope");
+    const Trace& trace = *part.study.trace;
+    const std::size_t step = part.study.step;
+    reading("step", "%zu of %zu", step, trace.frames());
+    reading("iteration", "%d of %d", trace.iteration(step), trace.report.iterations);
+    note(describe_frame(trace, step));
+    if (trace.cut) note("The solve was longer: this is where the record ends.");
+    if (row_button("|<", 4, step > 0, "Back by an iteration")) emit("microscope.step", {{"iterations", -1}});
+    if (row_button("<", 4, step > 0, "Back by a step")) emit("microscope.step", {{"by", -1}});
+    if (row_button(">", 4, step < trace.frames(), "On by a step")) emit("microscope.step", {{"by", 1}});
+    if (row_button(">|", 4, step < trace.frames(), "On by an iteration"))
+        emit("microscope.step", {{"iterations", 1}});
+    start_buttons("microscope.open", emit);
+    const Curve curve{solver_title(trace.method), palette.accent, by_iteration(trace.residuals)};
+    const float tolerance = reach_tolerance(part.reach, part.chain.reach());
+    log_plot("error", {&curve, 1},
+             {.x = "iterations",
+              .y = "tip to target, m",
+              .least_y = least_residual(tolerance),
+              .level = tolerance,
+              .at_x = static_cast<float>(trace.iteration(step))},
+             plot_lines);
+}
+
+void race_rows(const Workspace& workspace, const Palette& palette, Emit& emit) {
+    section("Race");
+    const ChainPart& part = chain_part(workspace);
+    const Study& study = part.study;
+    bool& time = against_time();
+    for (const ik::Method method : ik::all_methods) {
+        if (method == ik::Method::TwoBone && part.chain.size() != 3) continue;
+        racer_row(study, method, time, palette, emit);
+    }
+    race_plot(*study.race, time, palette);
+    ImGui::Checkbox("Against time, measured here and now", &time);
+    bool apart = study.side_by_side;
+    if (ImGui::Checkbox("Side by side", &apart)) emit("race.side_by_side", {{"on", apart}});
+    start_buttons("race.open", emit);
+    if (row_button("Copy numbers as CSV", 1, true, "Every solver's residual at each iteration"))
+        emit("race.copy");
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,158 @@
+#include "app/widgets/plot.hpp"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "app/widgets/fonts.hpp"
+
+namespace tendril::app {
+namespace {
+
+ImU32 colour_of(glm::vec3 c, float alpha = 1.0f) {
+    return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, alpha});
+}
+
+/// The smallest of 1, 2, 5, 10, ... that makes at most `most` steps of `range`.
+float tick_step(float range, int most) {
+    float step = std::pow(10.0f, std::floor(std::log10(std::max(range / static_cast<float>(most), 1e-6f))));
+    for (const float factor : {1.0f, 2.0f, 5.0f, 10.0f}) {
+        if (range / (step * factor) <= static_cast<float>(most)) return step * factor;
+    }
+    return step * 10.0f;
+}
+
+class Plot {
+  public:
+    Plot(std::span<const Curve> curves, const PlotAxes& axes, ImVec2 at, ImVec2 size)
+        : curves_(curves), axes_(axes), list_(ImGui::GetWindowDrawList()) {
+        float most_y = axes.level;
+        for (const Curve& curve : curves) {
+            for (const glm::vec2 p : curve.points) {
+                most_x_ = std::max(most_x_, p.x);
+                most_y = std::max(most_y, p.y);
+            }
+        }
+        low_ = std::floor(std::log10(axes.least_y));
+        high_ = std::max(low_ + 1.0f, std::ceil(std::log10(std::max(most_y, axes.least_y)) - 1e-4f));
+        const float text = ImGui::GetFontSize();
+        from_ = {at.x + ImGui::CalcTextSize("1e-6").x + 0.4f * text, at.y + 1.2f * text};
+        to_ = {at.x + size.x - 0.6f * text, at.y + size.y - 2.4f * text};
+    }
+
+    void draw() {
+        list_->AddRectFilled(from_, to_, ImGui::GetColorU32(ImGuiCol_FrameBg, 0.5f));
+        grid();
+        list_->PushClipRect({from_.x, from_.y - 1.0f}, {to_.x + 1.0f, to_.y + 1.0f}, true);
+        if (axes_.level > 0.0f) dashed(y(axes_.level));
+        if (axes_.at_x >= 0.0f) {
+            list_->AddLine({x(axes_.at_x), from_.y}, {x(axes_.at_x), to_.y}, dim(), 1.5f);
+        }
+        for (const Curve& curve : curves_) line(curve);
+        list_->PopClipRect();
+    }
+
+    /// What the nearest point to the mouse says.
+    void tell(ImVec2 mouse) const {
+        const Curve* nearest = nullptr;
+        glm::vec2 point{0.0f};
+        float least = 1e9f;
+        for (const Curve& curve : curves_) {
+            for (const glm::vec2 p : curve.points) {
+                const float away = std::hypot(x(p.x) - mouse.x, y(p.y) - mouse.y);
+                if (away < least) least = away, nearest = &curve, point = p;
+            }
+        }
+        if (nearest == nullptr) return;
+        list_->AddCircle({x(point.x), y(point.y)}, 0.3f * ImGui::GetFontSize(), colour_of(nearest->colour));
+        ImGui::SetTooltip("%s\n%s %.4g\n%s %.4g", nearest->name.c_str(), axes_.x,
+                          static_cast<double>(point.x), axes_.y, static_cast<double>(point.y));
+    }
+
+  private:
+    float x(float value) const { return from_.x + (to_.x - from_.x) * value / std::max(most_x_, 1e-9f); }
+    float y(float value) const {
+        const float power = std::log10(std::max(value, axes_.least_y));
+        return to_.y + (from_.y - to_.y) * (power - low_) / (high_ - low_);
+    }
+    static ImU32 dim() { return ImGui::GetColorU32(ImGuiCol_TextDisabled); }
+
+    void grid() {
+        const ImU32 line = ImGui::GetColorU32(ImGuiCol_Border, 0.7f);
+        char text[24];
+        const float decades = tick_step(high_ - low_, 6);
+        for (float power = low_; power <= high_ + 0.01f; power += std::max(1.0f, std::round(decades))) {
+            const float at = to_.y + (from_.y - to_.y) * (power - low_) / (high_ - low_);
+            list_->AddLine({from_.x, at}, {to_.x, at}, line);
+            std::snprintf(text, sizeof text, "1e%d", static_cast<int>(power));
+            const ImVec2 size = ImGui::CalcTextSize(text);
+            list_->AddText({from_.x - size.x - 4.0f, at - 0.5f * size.y}, dim(), text);
+        }
+        const float step = tick_step(most_x_, 5);
+        for (float value = 0.0f; value <= most_x_ * 1.0001f; value += step) {
+            list_->AddLine({x(value), from_.y}, {x(value), to_.y}, line);
+            std::snprintf(text, sizeof text, "%.4g", static_cast<double>(value));
+            const float half = 0.5f * ImGui::CalcTextSize(text).x;
+            list_->AddText(
+                {std::min(x(value) - half, to_.x - 2.0f * half + 0.5f * ImGui::GetFontSize()), to_.y + 2.0f},
+                dim(), text);
+        }
+        const float text_height = ImGui::GetFontSize();
+        list_->AddText({from_.x, from_.y - 1.15f * text_height}, dim(), axes_.y);
+        const float width = ImGui::CalcTextSize(axes_.x).x;
+        list_->AddText({to_.x - width, to_.y + 2.0f + 1.1f * text_height}, dim(), axes_.x);
+    }
+
+    void dashed(float at) {
+        const float dash = 0.3f * ImGui::GetFontSize();
+        for (float from = from_.x; from < to_.x; from += 2.0f * dash) {
+            list_->AddLine({from, at}, {std::min(from + dash, to_.x), at}, dim());
+        }
+    }
+
+    void line(const Curve& curve) {
+        const ImU32 colour = colour_of(curve.colour);
+        std::vector<ImVec2> points;
+        for (const glm::vec2 p : curve.points) points.push_back({x(p.x), y(p.y)});
+        if (points.size() > 1) {
+            list_->AddPolyline(points.data(), static_cast<int>(points.size()), colour, ImDrawFlags_None,
+                               0.13f * ImGui::GetFontSize());
+        }
+        if (points.size() > 60) points = {points.back()};  // so many marks would make one thick line
+        for (const ImVec2 p : points) list_->AddCircleFilled(p, 0.17f * ImGui::GetFontSize(), colour);
+    }
+
+    std::span<const Curve> curves_;
+    const PlotAxes& axes_;
+    ImDrawList* list_;
+    ImVec2 from_{}, to_{};
+    float most_x_ = 1.0f, low_ = 0.0f, high_ = 1.0f;
+};
+
+}  // namespace
+
+void log_plot(const char* id, std::span<const Curve> curves, const PlotAxes& axes, float height) {
+    ImGui::PushFont(small_font());
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImVec2 size{std::max(80.0f, ImGui::GetContentRegionAvail().x), height * ImGui::GetFontSize()};
+    ImGui::InvisibleButton(id, size);
+    const bool hovered = ImGui::IsItemHovered();
+    Plot plot(curves, axes, at, size);
+    plot.draw();
+    if (hovered) plot.tell(ImGui::GetIO().MousePos);
+    ImGui::PopFont();
+}
+
+void colour_mark(glm::vec3 colour) {
+    const float side = 0.6f * ImGui::GetFontSize();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float top = at.y + 0.5f * (ImGui::GetFrameHeight() - side);
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x, top}, {at.x + side, top + side}, colour_of(colour),
+                                              0.2f * side);
+    ImGui::Dummy({side, ImGui::GetFrameHeight()});
+    ImGui::SameLine();
+}
+
+}  // namespace tendril::app

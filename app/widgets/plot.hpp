@@ -1,0 +1,33 @@
+// Curves over a grid, with axes that say what they are.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tendril::app {
+
+struct Curve {
+    std::string name;
+    glm::vec3 colour{1.0f};
+    std::vector<glm::vec2> points;  ///< x ascending
+};
+
+struct PlotAxes {
+    const char* x = "";
+    const char* y = "";
+    /// The y axis is logarithmic and begins here; values below lie on its edge.
+    float least_y = 1e-6f;
+    float level = 0.0f;  ///< a dashed line at this y, where it is over 0
+    float at_x = -1.0f;  ///< a line at this x, where it is not negative
+};
+
+/// As wide as there is room, `height` in lines of text. Resting the mouse on it tells the nearest point.
+void log_plot(const char* id, std::span<const Curve> curves, const PlotAxes& axes, float height);
+
+/// A small square of colour before what is written next.
+void colour_mark(glm::vec3 colour);
+
+}  // namespace tendril::app
