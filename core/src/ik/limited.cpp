@@ -6,6 +6,7 @@
 #include "ik/limited_methods.hpp"
 #include "ik/limited_pose.hpp"
 #include "ik/limited_search.hpp"
+#include "ik/prepare.hpp"
 
 namespace tendril::ik::detail {
 namespace {
@@ -111,6 +112,7 @@ Report run_limited(Method method, Problem& problem, Watch watch) noexcept {
         if (report.residual > problem.tolerance) report.status = Status::Stretched;
         return report;
     }
+    snap_back(problem, watch);
     enter(problem, watch);
     const Reachable can = reachable(problem);
     lie_on_line(problem, can, watch);
@@ -144,7 +146,7 @@ Report run_limited(Method method, Problem& problem, Watch watch) noexcept {
         if (done <= problem.options.residuals.size()) problem.options.residuals[done - 1] = residual();
         watch.iteration_done(report.iterations, residual());
     }
-    if (error_of(problem) != best) assume(problem, nearest, Phase::Limit, watch);
+    if (error_of(problem) != best) assume(problem, nearest, Phase::Keep, watch);
     report.residual = residual();
     report.status = status_of(problem, can, stalled());
     return report;

@@ -123,7 +123,7 @@ void LimitedSearch::iterate(Problem& problem, Watch watch) noexcept {
     float error = error_of(problem);
     if (error > 0.5f * start) {
         if (error > start) {
-            assume(problem, room.before, Phase::Limit, watch);
+            assume(problem, room.before, Phase::Keep, watch);
             error = start;
         }
         descend(problem, damping_, error, watch);

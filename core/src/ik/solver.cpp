@@ -7,17 +7,13 @@
 
 #include "chain/checks.hpp"
 #include "ik/loop.hpp"
-#include "ik/problem.hpp"
+#include "ik/parts.hpp"
 #include "ik/rotation.hpp"
 #include "ik/validate.hpp"
 
 namespace tendril::ik {
 
 using namespace detail;
-
-struct Solver::Parts {
-    detail::Workspace room;
-};
 
 namespace {
 
@@ -86,6 +82,7 @@ Report Solver::solve(Method method, std::span<glm::vec3> joints, glm::vec3 targe
     const Report refused{Status::InvalidInput, 0, 0.0f};
     if (joints.size() != bones() + 1 || !takes(method, bones())) return refused;
     if (!are_points(joints) || !are_points({&target, 1}) || !are_valid(options, bones())) return refused;
+    if (!fit(options.limits, parts_->room.rest_directions)) return refused;
     Problem problem{joints, target, options.tolerance.value_or(1e-3f * reach()), options, parts_->room};
     int order = 0;
     return observer ? run(method, problem, Watched(*observer, order)) : run(method, problem, Unwatched());

@@ -47,6 +47,13 @@ bool are_valid(const Options& options, std::size_t bones) noexcept {
     return within(options.twist, -max_magnitude, max_magnitude);
 }
 
+bool fit(std::span<const Limit> limits, std::span<const glm::vec3> rest_directions) noexcept {
+    if (limits.empty()) return true;
+    return std::equal(
+        limits.begin(), limits.end(), rest_directions.begin(), rest_directions.end(),
+        [](const Limit& limit, const glm::vec3& rest) { return fault(limit, rest) == nullptr; });
+}
+
 bool takes(Method method, std::size_t bones) noexcept {
     if (method > Method::TwoBone) return false;
     return method != Method::TwoBone || bones == 2;

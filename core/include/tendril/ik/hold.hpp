@@ -17,8 +17,12 @@ struct Hold {
     std::size_t joint = 0;  ///< the bone's first joint, as limits are counted
     JointKind kind = JointKind::Free;
     Bound bound = Bound::Max;
-    float limit = 0.0f;   ///< radians: where the joint stops, signed as the bound is
-    float needed = 0.0f;  ///< radians: the angle that the target needs, if this joint alone were free
+    /// Radians: where the joint stops, as the limit's field counts it (down and right are positive). On the
+    /// rim of a cone between two half-angles it is less than either.
+    float limit = 0.0f;
+    /// Radians: the angle that the target needs, if this joint alone were free; where that is not enough, the
+    /// angle that brings the tip nearest.
+    float needed = 0.0f;
     bool enough = false;  ///< whether freeing this joint alone lets the tip reach the target
 };
 
