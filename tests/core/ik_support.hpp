@@ -1,0 +1,114 @@
+// What the solvers' tests share: poses, the promise that every solve keeps, and an observer that can replay.
+#pragma once
+
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "chain_support.hpp"
+#include "random.hpp"
+#include "tendril/ik/solver.hpp"
+
+namespace tendril::test {
+
+using Joints = std::vector<glm::vec3>;
+using Lengths = std::vector<float>;
+
+/// The methods that iterate on any chain.
+inline constexpr std::array iterating_methods{ik::Method::Fabrik, ik::Method::FabrikPlain,
+                                              ik::Method::Ccd,    ik::Method::JacobianTranspose,
+                                              ik::Method::Dls,    ik::Method::SvdDls};
+
+inline double reach_of(std::span<const float> lengths) {
+    return std::accumulate(lengths.begin(), lengths.end(), 0.0);
+}
+
+inline Joints straight_joints(std::span<const float> lengths, glm::vec3 direction = {1, 0, 0},
+                              glm::vec3 root = {0, 0, 0}) {
+    Joints joints{root};
+    for (const float length : lengths) joints.push_back(joints.back() + direction * length);
+    return joints;
+}
+
+inline glm::vec3 some_direction(Random& random) {
+    for (;;) {
+        const glm::vec3 p = random.point(1.0f);
+        const double size = distance(p, glm::vec3(0.0f));
+        if (size > 0.05 && size <= 1.0) return p * static_cast<float>(1.0 / size);
+    }
+}
+
+/// 0 to 1
+inline float part(Random& random) {
+    return 0.5f + 0.5f * random.around(1.0f);
+}
+
+inline float between(Random& random, float least, float most) {
+    return least + (most - least) * part(random);
+}
+
+/// Every bone in a direction of its own.
+inline Joints some_pose(std::span<const float> lengths, Random& random, glm::vec3 root = {0, 0, 0}) {
+    Joints joints{root};
+    for (const float length : lengths) joints.push_back(joints.back() + some_direction(random) * length);
+    return joints;
+}
+
+inline Lengths some_lengths(std::size_t bones, Random& random) {
+    Lengths lengths(bones);
+    for (float& length : lengths) length = between(random, 0.2f, 1.5f);
+    return lengths;
+}
+
+/// The promise of chain.hpp, for joints.
+inline ::testing::AssertionResult Holds(std::span<const glm::vec3> joints, std::span<const float> lengths) {
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        const glm::vec3 p = joints[i];
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+            return ::testing::AssertionFailure() << "joint " << i << " is not finite";
+        }
+        if (i == 0) continue;
+        const glm::vec3 q = joints[i - 1];
+        const double length = lengths[i - 1], off = std::abs(distance(p, q) - length);
+        const float far = std::max(
+            {std::abs(p.x), std::abs(p.y), std::abs(p.z), std::abs(q.x), std::abs(q.y), std::abs(q.z)});
+        double allowed = 1e-4 * std::max(1.0, length);
+        if (far > 1e3f / std::sqrt(3.0f)) allowed += static_cast<double>(std::nextafter(far, infinity) - far);
+        if (!(off <= allowed)) {
+            return ::testing::AssertionFailure()
+                   << "bone " << i - 1 << " of length " << length << " is off by " << off;
+        }
+    }
+    return ::testing::AssertionSuccess();
+}
+
+inline bool same_bits(std::span<const glm::vec3> a, std::span<const glm::vec3> b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
+}
+
+/// Keeps every step, and can take them again.
+class Recorder : public ik::Observer {
+  public:
+    void step(const ik::Step& step) noexcept override { steps.push_back(step); }
+    void iteration_done(int iteration, float residual) noexcept override {
+        iterations.push_back(iteration);
+        residuals.push_back(residual);
+    }
+
+    /// Where the steps lead from `joints`; a failure where one does not start where its joint is.
+    Joints replay(Joints joints) const {
+        for (const ik::Step& step : steps) {
+            EXPECT_LT(step.joint, joints.size());
+            if (step.joint >= joints.size()) return joints;
+            EXPECT_TRUE(test::same_bits(joints[step.joint], step.from)) << "step " << step.order;
+            joints[step.joint] = step.to;
+        }
+        return joints;
+    }
+
+    std::vector<ik::Step> steps;
+    std::vector<int> iterations;
+    std::vector<float> residuals;
+};
+
+}  // namespace tendril::test
