@@ -25,7 +25,7 @@ template <class Watch>
 void show_turn(Problem& problem, std::size_t joint, Watch watch) noexcept {
     std::vector<glm::vec3>& seen = problem.room.old;
     const glm::vec3 at = seen[joint];
-    for (std::size_t i = joint + 1; i < seen.size(); ++i) {
+    for (std::size_t i = joint + 1; i < problem.joints.size(); ++i) {
         const glm::vec3 to = plus(at, rotated(problem.room.turns[joint], minus(seen[i], at)));
         watch.moved(problem.iteration, Phase::Turn, i, joint, seen[i], to);
         seen[i] = to;

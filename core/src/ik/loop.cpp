@@ -12,6 +12,7 @@
 #include "ik/reachability.hpp"
 #include "ik/rotation.hpp"
 #include "ik/soft_reach.hpp"
+#include "ik/tip.hpp"
 
 namespace tendril::ik::detail {
 namespace {
@@ -156,6 +157,8 @@ glm::vec3 eased_target(const Problem& problem) noexcept {
 
 template <class Watch>
 Report run(Method method, Problem& problem, Watch watch) noexcept {
+    const bool turned = problem.options.tip_orientation && problem.bones() > 0;
+    if (turned && problem.options.limits.empty()) return run_turned(method, problem, watch);
     lay_to_lengths(problem, watch);
     const glm::vec3 goal = problem.target;
     problem.target = eased_target(problem);

@@ -40,7 +40,9 @@ struct Problem {
     int iteration = 0;  ///< the one that runs, from 1
 
     std::size_t bones() const noexcept { return joints.size() - 1; }
-    std::span<const float> lengths() const noexcept { return room.lengths; }
+    std::span<const float> lengths() const noexcept {
+        return std::span<const float>(room.lengths).first(bones());
+    }
     glm::vec3 root() const noexcept { return joints.front(); }
 };
 

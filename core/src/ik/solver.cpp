@@ -80,7 +80,9 @@ float Solver::reach() const noexcept {
 Report Solver::solve(Method method, std::span<glm::vec3> joints, glm::vec3 target, const Options& options,
                      Observer* observer) noexcept {
     const Report refused{Status::InvalidInput, 0, 0.0f};
-    if (joints.size() != bones() + 1 || !takes(method, bones())) return refused;
+    // With a tip orientation the last bone is laid by itself.
+    const bool taken = takes(method, bones()) || (options.tip_orientation && takes(method, bones() - 1));
+    if (joints.size() != bones() + 1 || !taken) return refused;
     if (!are_points(joints) || !are_points({&target, 1}) || !are_valid(options, bones())) return refused;
     if (!fit(options.limits, parts_->room.rest_directions)) return refused;
     Problem problem{joints, target, options.tolerance.value_or(1e-3f * reach()), options, parts_->room};
