@@ -8,7 +8,8 @@ file(RENAME ${work}/installed ${prefix})
 
 foreach(file IN ITEMS lib/libtendril_core.a lib/pkgconfig/tendril.pc lib/cmake/tendril/tendril-config.cmake
         lib/cmake/tendril/tendril-config-version.cmake lib/cmake/tendril/tendril_targets.cmake
-        include/tendril/version.hpp include/tendril/chain/chain.hpp include/tendril/chain/segment.hpp)
+        include/tendril/version.hpp include/tendril/chain/chain.hpp include/tendril/chain/segment.hpp
+        include/tendril/ik/solver.hpp include/tendril/ik/many.hpp)
     if(NOT EXISTS ${prefix}/${file})
         message(FATAL_ERROR "${file} was not installed")
     endif()

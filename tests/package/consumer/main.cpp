@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <cstdio>
 #include <stdexcept>
 #include <tendril/chain/chain.hpp>
+#include <tendril/ik/many.hpp>
 #include <tendril/version.hpp>
+#include <vector>
 
 int main() {
     tendril::Chain chain(glm::vec3(0, 0, -1));
@@ -19,4 +22,14 @@ int main() {
                 tendril::version_string, chain.size(), static_cast<double>(chain.reach()),
                 static_cast<double>(head.x), static_cast<double>(head.y), static_cast<double>(head.z),
                 static_cast<double>(tail.x), static_cast<double>(tail.y), static_cast<double>(tail.z));
+
+    // What the library uses inside is linked too: vector units and threads.
+    tendril::ik::Batch batch(8, 4);
+    const std::vector<glm::vec3> targets(batch.size(), glm::vec3(1, 2, 1));
+    std::vector<tendril::ik::Report> reports(batch.size());
+    tendril::ik::solve_many(batch, targets, reports, {.threads = 2});
+    const auto arrived = std::count_if(reports.begin(), reports.end(), [](const tendril::ik::Report& report) {
+        return report.status == tendril::ik::Status::Converged;
+    });
+    std::printf("%d of %zu tips arrived\n", static_cast<int>(arrived), batch.size());
 }
