@@ -8,11 +8,13 @@
 #include "ik/jacobian.hpp"
 #include "ik/kick.hpp"
 #include "ik/limited.hpp"
+#include "ik/pole.hpp"
 #include "ik/prepare.hpp"
 #include "ik/reachability.hpp"
 #include "ik/rotation.hpp"
 #include "ik/soft_reach.hpp"
 #include "ik/tip.hpp"
+#include "ik/two_bone.hpp"
 
 namespace tendril::ik::detail {
 namespace {
@@ -85,7 +87,9 @@ Progress prepare(Method method, Problem& problem, Watch watch) noexcept {
     save(problem);
     snap_back(problem, watch);
     const bool there = residual_of(problem) <= problem.tolerance;
-    if (!there && method != Method::FabrikPlain && is_on_one_line(problem)) kick_off_the_line(problem, watch);
+    // Plain FABRIK is left in the trap, for study; but not where it was carried there to face its pole.
+    const bool kicks = method != Method::FabrikPlain || problem.options.pole;
+    if (!there && kicks && is_on_one_line(problem)) kick_off_the_line(problem, watch);
     progress.start_again(residual_of(problem));
     return progress;
 }
@@ -134,14 +138,27 @@ Report iterations(Method method, Problem& problem, const glm::vec3& goal, Watch 
 }
 
 template <class Watch>
+Report closed_form(Problem& problem, const glm::vec3& goal, Watch watch) noexcept {
+    tell(problem, goal, residual_of(problem), watch);
+    problem.iteration = 1;
+    const Report report = two_bone_solve(problem, watch);
+    tell(problem, goal, report.residual, watch);
+    return report;
+}
+
+template <class Watch>
 Report solve_reached(Method method, Problem& problem, const glm::vec3& goal, Watch watch) noexcept {
     if (!problem.options.limits.empty()) return run_limited(method, problem, watch);
-    if (const auto answer = answer_beyond_reach(problem, watch)) {
-        tell(problem, goal, answer->residual, watch);
-        return *answer;
+    if (method == Method::TwoBone) return closed_form(problem, goal, watch);
+    auto report = answer_beyond_reach(problem, watch);
+    if (report) {
+        tell(problem, goal, report->residual, watch);
+    } else {
+        carry_to_pole(problem, watch);
+        report = iterations(method, problem, goal, watch);
     }
-    // The pole: face_pole turns the chain about its line, so the residual stays.
-    return iterations(method, problem, goal, watch);
+    face_pole(problem, watch);  // about the line from root to tip, so the residual stays
+    return *report;
 }
 
 /// Where the chain goes if the reach is soft.

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "ik/limited_room.hpp"
+#include "ik/pole_room.hpp"
 #include "tendril/ik/observer.hpp"
 #include "tendril/ik/options.hpp"
 
@@ -27,6 +28,7 @@ struct Workspace {
     std::vector<glm::quat> turns;            ///< n: the same
     std::vector<glm::vec3> joints;           ///< n + 1: those of a Chain while it is solved
     LimitedRoom limited;                     ///< for solves with limits
+    PoleRoom pole;                           ///< for solves with a pole
     float reach = 0.0f;
     float longest = 0.0f;
 };

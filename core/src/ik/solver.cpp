@@ -59,6 +59,7 @@ Solver::Solver(std::span<const float> lengths, std::span<const glm::vec3> rest_d
     room.turns.resize(lengths.size());
     room.joints.resize(lengths.size() + 1);
     room.limited.resize(lengths.size());
+    room.pole.resize(lengths.size());
 }
 
 Solver::Solver(const Chain& chain)
