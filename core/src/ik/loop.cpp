@@ -8,6 +8,7 @@
 #include "ik/jacobian.hpp"
 #include "ik/kick.hpp"
 #include "ik/limited.hpp"
+#include "ik/loop_progress.hpp"
 #include "ik/pole.hpp"
 #include "ik/prepare.hpp"
 #include "ik/reachability.hpp"
@@ -18,9 +19,6 @@
 
 namespace tendril::ik::detail {
 namespace {
-
-constexpr int patience = 10;    ///< iterations without a nearer tip until a solve has stalled
-constexpr int most_shakes = 3;  ///< how often a stalled chain is shaken before that is believed
 
 template <class Watch>
 void iterate(Method method, Problem& problem, Watch watch) noexcept {
@@ -41,17 +39,6 @@ void iterate(Method method, Problem& problem, Watch watch) noexcept {
             return;  // does not iterate
     }
 }
-
-/// How near the tip has been, and whether it still comes nearer.
-struct Progress {
-    float best;     ///< of the whole solve: the residual of room.best
-    float nearest;  ///< since the chain was last bent by hand
-    int idle = 0;   ///< iterations since `nearest` was last beaten
-    int shakes = 0;
-
-    bool stalled() const noexcept { return idle >= patience; }
-    void start_again(float residual) noexcept { nearest = residual, idle = 0; }
-};
 
 void save(Problem& problem) noexcept {
     std::copy(problem.joints.begin(), problem.joints.end(), problem.room.best.begin());
@@ -83,7 +70,7 @@ void tell(const Problem& problem, const glm::vec3& goal, float residual, Watch w
 
 template <class Watch>
 Progress prepare(Method method, Problem& problem, Watch watch) noexcept {
-    Progress progress{residual_of(problem), 0.0f};
+    Progress progress(residual_of(problem));
     save(problem);
     snap_back(problem, watch);
     const bool there = residual_of(problem) <= problem.tolerance;
@@ -94,42 +81,28 @@ Progress prepare(Method method, Problem& problem, Watch watch) noexcept {
     return progress;
 }
 
-void note(Problem& problem, float residual, Progress& progress) noexcept {
-    if (residual < progress.best) {
-        progress.best = residual;
-        if (residual > problem.tolerance) save(problem);
-    }
-    if (residual < progress.nearest) {
-        progress.start_again(residual);
-    } else {
-        ++progress.idle;
-    }
-}
-
 template <class Watch>
 Report iterations(Method method, Problem& problem, const glm::vec3& goal, Watch watch) noexcept {
     const Options& options = problem.options;
     Progress progress = prepare(method, problem, watch);
-    float residual = progress.nearest;
+    float residual = residual_of(problem);
     tell(problem, goal, residual, watch);
     while (problem.iteration < options.max_iterations) {
-        if (!options.every_iteration) {
-            if (residual <= problem.tolerance) break;
-            if (progress.stalled()) {
-                if (method == Method::FabrikPlain || progress.shakes == most_shakes) break;
-                shake(problem, progress.shakes++, watch);
-                progress.start_again(residual_of(problem));
-            }
+        const bool there = residual <= problem.tolerance;
+        if (!there && progress.wants_a_shake(method)) {
+            shake(problem, progress.count_shake(), watch);
+            progress.start_again(residual_of(problem));
         }
+        if ((there || progress.stalled()) && !options.every_iteration) break;
         ++problem.iteration;
         iterate(method, problem, watch);
         residual = residual_of(problem);
         tell(problem, goal, residual, watch);
-        note(problem, residual, progress);
+        if (progress.note(residual, problem.room.reach) && residual > problem.tolerance) save(problem);
     }
-    if (residual > problem.tolerance && progress.best < residual) {
+    if (residual > problem.tolerance && progress.best() < residual) {
         restore(problem, watch);
-        residual = progress.best;
+        residual = progress.best();
     }
     const Status status = residual <= problem.tolerance ? Status::Converged
                           : progress.stalled()          ? Status::Stalled

@@ -192,13 +192,13 @@ void spread(Problem& problem, Watch watch) noexcept {
     all.lengths = problem.lengths();
     all.held = problem.bones();
     Answer answer = with_all(all, span, wanted, reach, near);
-    if (!answer.fit.found) {
+    const float residual = distance(problem.joints.back(), problem.target);
+    if (!answer.fit.found || answer.fit.error > 0.5f * residual) {
         const Answer other = with_longest_held(all, span, wanted, reach, near);
         if (other.fit.error < answer.fit.error) answer = other;
     }
-    if (!(answer.fit.error < distance(problem.joints.back(), problem.target))) return;
-    glm::vec3 found = answer.fit.span;
-    const Rotation turn = least_turn(found, answer.aim);
+    if (!(answer.fit.error < residual)) return;
+    const Rotation turn = least_turn(answer.fit.span, answer.aim);
     lay(problem, answer.family, answer.fit.t, turn, answer.turns_held, watch);
 }
 
