@@ -17,7 +17,8 @@ constexpr double follow = 20.0;     ///< times what has changed
 constexpr double jump = 0.02;       ///< of the reach: what changed more has jumped
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-constexpr double no_side = 1e-6;  ///< of the reach: offsets below it are rounding
+constexpr double straight = 0.01;  ///< of the reach: no joint further off the line
+constexpr double no_side = 1e-6;   ///< of the reach: offsets below it are rounding
 
 /// Which way, and how far, the chain is off a line through its root.
 struct Bend {
@@ -61,6 +62,16 @@ struct Turn {
 double limited(double angle, double arm, double allowance) noexcept {
     if (std::abs(angle) * arm <= allowance) return angle;
     return std::copysign(allowance / arm, angle);
+}
+
+/// The arc of length 1 and radius 1 / 2h spans sin(h) / h; h for a span of 0 to 1. Newton's steps on a
+/// function that is convex from the start on to the root.
+double half_angle_of_arc(double span) noexcept {
+    double h = std::sqrt(6.0 * std::max(1.0 - span, 0.0));
+    for (int step = 0; step < 6 && h > 1e-6; ++step) {
+        h -= (std::sin(h) - span * h) / (std::cos(h) - span);
+    }
+    return h;
 }
 
 /// The pole as seen from `from`; none where it is on the line, as far as one can tell.
@@ -124,6 +135,30 @@ void face_with_joint(Problem& problem, std::size_t joint, Watch watch) noexcept 
 }
 
 }  // namespace
+
+template <class Watch>
+bool bow_to_pole(Problem& problem, Watch watch) noexcept {
+    if (!problem.options.pole) return false;
+    const double reach = static_cast<double>(problem.room.reach);
+    const glm::dvec3 root = wide(problem.root()), arm = minus(wide(problem.target), root);
+    const std::optional<glm::dvec3> line = direction_of(arm, no_side * reach);
+    if (!line || bend_of(problem, *line).furthest > straight * reach) return false;
+    const std::optional<glm::dvec3> side = pole_side(problem, root, *line);
+    if (!side) return false;
+    const double half = half_angle_of_arc(length(arm) / reach);
+    double before = 0.0;
+    glm::dvec3 at = root;
+    for (std::size_t i = 0; i < problem.bones(); ++i) {
+        const auto size = static_cast<double>(problem.lengths()[i]);
+        const double angle = half * (1.0 - (2.0 * before + size) / reach);
+        before += size;
+        at = plus(at, times(plus(times(*line, std::cos(angle)), times(*side, std::sin(angle))), size));
+        watch.moved(problem.iteration, Phase::Pole, i + 1, i, problem.joints[i + 1], narrow(at));
+        problem.joints[i + 1] = narrow(at);
+    }
+    watch.next_step();
+    return true;
+}
 
 double pole_allowance(const Problem& problem) noexcept {
     const PoleRoom& last = problem.room.pole;
@@ -194,6 +229,8 @@ void face_pole(Problem& problem, Watch watch) noexcept {
 
 template void carry_to_pole(Problem&, Unwatched) noexcept;
 template void carry_to_pole(Problem&, Watched) noexcept;
+template bool bow_to_pole(Problem&, Unwatched) noexcept;
+template bool bow_to_pole(Problem&, Watched) noexcept;
 template void face_pole(Problem&, Unwatched) noexcept;
 template void face_pole(Problem&, Watched) noexcept;
 

@@ -40,6 +40,12 @@ namespace tendril::ik::detail {
 template <class Watch>
 void carry_to_pole(Problem& problem, Watch watch) noexcept;
 
+/// A chain that is all but straight, laid along an arc towards its pole that spans about as far as the target
+/// is; true if it was. From a mere hint of a bend the iterations would fold the bones near the tip back upon
+/// the others, and a folded chain is on a line again before long.
+template <class Watch>
+bool bow_to_pole(Problem& problem, Watch watch) noexcept;
+
 /// After the last iteration: turns the middle joints to the pole and remembers the pose. The tip stays.
 template <class Watch>
 void face_pole(Problem& problem, Watch watch) noexcept;
