@@ -36,21 +36,21 @@ enum class PoleTurn : std::uint8_t {
 
 struct Options {
     /// Metres, 0 to max_magnitude; 1e-3 of the reach where left out.
-    std::optional<float> tolerance;
+    std::optional<float> tolerance{};
     /// 1 to 1 000 000.
     int max_iterations = 100;
     /// Goes on to max_iterations whatever was reached; for measuring, and for comparing solvers.
     bool every_iteration = false;
     /// One for each bone, at the joint that it starts from; or none at all.
-    std::span<const Limit> limits;
+    std::span<const Limit> limits{};
     /// The bend faces this point, metres.
-    std::optional<glm::vec3> pole;
+    std::optional<glm::vec3> pole{};
     PoleTurn pole_turn = PoleTurn::WholeChain;
     /// 0 to 1: before iterating, each joint is blended this far towards its rest direction from the one
     /// before.
     float snap_back = 0.0f;
     /// Unit quaternion: the turn that the last bone has from its rest direction when all is done.
-    std::optional<glm::quat> tip_orientation;
+    std::optional<glm::quat> tip_orientation{};
     /// Part of the reach, 0 to 1: in this zone before full reach the chain eases off instead of snapping
     /// straight, and so stays a little short of the target.
     float soft_zone = 0.0f;
@@ -63,7 +63,7 @@ struct Options {
     /// Two-bone only: the bend is turned by this about the line from root to tip, radians.
     float twist = 0.0f;
     /// Where given, element i receives the residual after iteration i + 1, as far as it has room. Metres.
-    std::span<float> residuals;
+    std::span<float> residuals{};
 };
 
 struct Report {
