@@ -70,7 +70,7 @@ Outcome outcome(Workspace& room, std::span<glm::vec3> joints, glm::vec3 target, 
     freed.tip_orientation = options.tip_orientation;
     Problem problem{joints, target, fine * room.reach, freed, room};
     run_limited(Method::Fabrik, problem, Unwatched());
-    const glm::quat turn = compose(conjugate(parent_of(room.rotations, joint)), room.rotations[joint]);
+    const glm::quat turn = local_turn(room.rotations, joint);
     return {error_of(problem), angles_of(limited.limits[joint], turn)};
 }
 
@@ -160,6 +160,7 @@ std::optional<Hold> Solver::explain(Method method, std::span<const glm::vec3> jo
     if (!are_valid(options, bones()) || !fit(options.limits, room.rest_directions)) return std::nullopt;
 
     LimitedPose& kept = room.limited.kept;
+    const bool remembers_pole = room.pole.valid;
     std::copy(joints.begin(), joints.end(), kept.joints.begin());
     std::copy(room.rotations.begin(), room.rotations.end(), kept.rotations.begin());
     const std::span<glm::vec3> work = room.joints;
@@ -178,6 +179,7 @@ std::optional<Hold> Solver::explain(Method method, std::span<const glm::vec3> jo
                        std::max(options.tolerance.value_or(1e-3f * reach()), 2.0f * fine * reach());
     }
     std::copy(kept.rotations.begin(), kept.rotations.end(), room.rotations.begin());
+    room.pole.valid = remembers_pole;
     return hold;
 }
 

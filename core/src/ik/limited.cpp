@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "ik/limited_methods.hpp"
+#include "ik/limited_pole.hpp"
 #include "ik/limited_pose.hpp"
 #include "ik/limited_search.hpp"
 #include "ik/prepare.hpp"
@@ -68,14 +69,14 @@ bool lie_on_line(Problem& problem, const Reachable& can, Watch watch) noexcept {
     return true;
 }
 
-/// Whether any joint stands at its limit.
+/// Whether any joint stands at its limit. A hinge always does, for two of its three axes are held.
 bool touches(const Problem& problem) noexcept {
     const LimitedRoom& room = problem.room.limited;
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         const LimitedJoint& joint = room.limits[i];
-        const glm::quat parent = parent_of(problem.room.rotations, i);
-        const glm::quat turn = compose(conjugate(parent), problem.room.rotations[i]);
-        if (is_at_limit(joint, angles_of(joint, turn))) return true;
+        if (joint.hinge() || is_at_limit(joint, angles_of(joint, local_turn(problem.room.rotations, i)))) {
+            return true;
+        }
     }
     return false;
 }
@@ -112,8 +113,10 @@ Report run_limited(Method method, Problem& problem, Watch watch) noexcept {
         if (report.residual > problem.tolerance) report.status = Status::Stretched;
         return report;
     }
+    expect_pole(problem);
     snap_back(problem, watch);
-    enter(problem, watch);
+    take_limits(problem);
+    settle(problem, watch);
     const Reachable can = reachable(problem);
     lie_on_line(problem, can, watch);
     watch.iteration_done(0, residual());
@@ -147,6 +150,7 @@ Report run_limited(Method method, Problem& problem, Watch watch) noexcept {
         watch.iteration_done(report.iterations, residual());
     }
     if (error_of(problem) != best) assume(problem, nearest, Phase::Keep, watch);
+    face_pole_within_limits(problem, watch);
     report.residual = residual();
     report.status = status_of(problem, can, stalled());
     return report;

@@ -3,6 +3,7 @@
 #include "ik/limited_pose.hpp"
 #include "ik/limited_pulls.hpp"
 #include "ik/limited_step.hpp"
+#include "tendril/ik/two_bone.hpp"
 
 namespace tendril::ik::detail {
 namespace {
@@ -38,12 +39,31 @@ void sweep(Problem& problem, Watch watch) noexcept {
     assume(problem, room.trial, Phase::Turn, watch);
 }
 
+/// The closed form, as if there were no limits, and then brought within them: the iterations that follow go
+/// on from there. The bones keep their lengths.
+template <class Watch>
+void close(Problem& problem, Watch watch) noexcept {
+    const std::span<glm::vec3> joints = problem.joints;
+    const TwoBone limb{joints[0], joints[1], joints[2], problem.lengths()[0], problem.lengths()[1]};
+    const TwoBoneResult result =
+        two_bone(limb, problem.target, {.pole = problem.options.pole, .twist = problem.options.twist});
+    for (const std::size_t i : {1u, 2u}) {
+        const glm::vec3 to = i == 1 ? result.mid : result.tip;
+        watch.moved(problem.iteration, Phase::Analytic, i, i - 1, joints[i], to);
+        joints[i] = to;
+    }
+    watch.next_step();
+    settle(problem, watch);
+}
+
 }  // namespace
 
 template <class Watch>
 void limited_iteration(Method method, Problem& problem, Watch watch) noexcept {
     if (method == Method::FabrikPlain) return limited_pulls(problem, watch);
     if (method == Method::Ccd) return sweep(problem, watch);
+    const bool closed = method == Method::TwoBone && problem.bones() == 2;
+    if (closed && problem.iteration == 1 && !problem.options.tip_orientation) return close(problem, watch);
     const float damping = problem.options.damping * problem.options.damping;
     const Descent descent = method == Method::JacobianTranspose ? Descent::Transpose
                             : method == Method::SvdDls          ? Descent::Filtered

@@ -52,14 +52,20 @@ void save(const Problem& problem, LimitedPose& pose) noexcept {
     std::copy_n(problem.room.rotations.begin(), problem.bones(), pose.rotations.begin());
 }
 
+void take_limits(Problem& problem) noexcept {
+    Workspace& room = problem.room;
+    for (std::size_t i = 0; i < problem.bones(); ++i) {
+        room.limited.limits[i] = limited_joint(problem.options.limits[i], room.rest_directions[i]);
+    }
+}
+
 template <class Watch>
-void enter(Problem& problem, Watch watch) noexcept {
+void settle(Problem& problem, Watch watch) noexcept {
     Workspace& room = problem.room;
     LimitedPose& pose = room.limited.trial;
     save(problem, pose);
     bool same = true;  // so far nothing had to move
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        room.limited.limits[i] = limited_joint(problem.options.limits[i], room.rest_directions[i]);
         const glm::vec3 before = bone_direction(problem, pose.rotations[i], i);
         const glm::vec3 along = tendril::detail::direction(problem.joints[i], problem.joints[i + 1], before);
         // A rotation that agrees to rounding stays as it is, or each solve would shake it a little.
@@ -80,7 +86,7 @@ void enter(Problem& problem, Watch watch) noexcept {
     assume(problem, pose, Phase::Limit, watch);
 }
 
-template void enter(Problem&, Unwatched) noexcept;
-template void enter(Problem&, Watched) noexcept;
+template void settle(Problem&, Unwatched) noexcept;
+template void settle(Problem&, Watched) noexcept;
 
 }  // namespace tendril::ik::detail

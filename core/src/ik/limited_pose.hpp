@@ -19,6 +19,11 @@ static inline glm::quat parent_of(const std::vector<glm::quat>& rotations, std::
     return bone == 0 ? glm::quat(1.0f, 0.0f, 0.0f, 0.0f) : rotations[bone - 1];
 }
 
+/// How a bone is turned against the one before.
+static inline glm::quat local_turn(const std::vector<glm::quat>& rotations, std::size_t bone) noexcept {
+    return compose(conjugate(parent_of(rotations, bone)), rotations[bone]);
+}
+
 static inline glm::vec3 bone_direction(const Problem& problem, const glm::quat& rotation,
                                        std::size_t bone) noexcept {
     return rotated(rotation, problem.room.limited.limits[bone].bone);
@@ -44,10 +49,14 @@ glm::vec3 orientation_error(const Problem& problem, const std::vector<glm::quat>
 void lay(const Problem& problem, LimitedPose& pose) noexcept;
 void save(const Problem& problem, LimitedPose& pose) noexcept;
 
-/// At the start: the limits are made ready, the rotations carried to where the joints are, each joint brought
-/// within its limit from the root on, and what hangs on it laid anew.
+/// At the start: makes the limits ready.
+void take_limits(Problem& problem) noexcept;
+
+/// Where joints were moved and rotations were not: the rotations are carried to where the joints are, each
+/// joint brought within its limit from the root on, and what hangs on it laid anew. What holds already is
+/// left as it is to the bit.
 template <class Watch>
-void enter(Problem& problem, Watch watch) noexcept;
+void settle(Problem& problem, Watch watch) noexcept;
 
 /// The pose becomes that of the solve, as one step.
 template <class Watch>

@@ -10,11 +10,13 @@ namespace {
 
 constexpr float first_damping = 1e-3f, least_damping = 1e-8f, most_damping = 1.0f;
 constexpr int slow_iterations = 3;
-constexpr float slow = 0.98f;   ///< less progress than to this part of the error is little
-constexpr int most_tries = 40;  ///< poses to start from again
-constexpr int near_tries = 3;   ///< of these, how many lie near the best so far
-constexpr int drawn = 4;        ///< poses from which the nearest is taken
-constexpr float clearly = 0.9f;
+constexpr float slow = 0.02f;        ///< progress by less than this part of what is left is little
+constexpr float crawling = 0.002f;   ///< the same while the nearest pose is polished
+constexpr int last_iterations = 15;  ///< in which it is
+constexpr int most_tries = 40;       ///< poses to start from again
+constexpr int near_tries = 3;        ///< of these, how many lie near the best so far
+constexpr int drawn = 4;             ///< poses from which the nearest is taken
+constexpr float clearly = 0.02f;     ///< of the reach
 
 /// SplitMix64 (Steele, Lea, Flood 2014), from 0 to under 1.
 float chance(std::uint64_t& state) noexcept {
@@ -85,17 +87,16 @@ bool LimitedSearch::stalls() const noexcept {
 }
 
 bool LimitedSearch::exhausted() const noexcept {
-    return stalls() && tries_ >= most_tries;
+    return polishes_ && stalls();
 }
 
 bool LimitedSearch::takes(float error, float nearest, bool arrived) const noexcept {
-    return error < nearest && (tries_ == 0 || arrived || error < clearly * home_);
+    return error < nearest && (tries_ == 0 || arrived || error < home_);
 }
 
-template <class Watch>
-void LimitedSearch::try_elsewhere(Problem& problem, Watch watch) noexcept {
+void LimitedSearch::draw_start(Problem& problem) noexcept {
     LimitedRoom& room = problem.room.limited;
-    if (tries_ == 0) home_ = error_of(problem, room.nearest);
+    if (tries_ == 0) home_ = error_of(problem, room.nearest) - clearly * problem.room.reach;
     ++tries_;
     std::uint64_t state = static_cast<std::uint64_t>(tries_) * 7919u;
     const float part = tries_ <= near_tries ? 0.25f * static_cast<float>(tries_) : 1.0f;
@@ -107,16 +108,27 @@ void LimitedSearch::try_elsewhere(Problem& problem, Watch watch) noexcept {
         best = error;
         std::swap(room.trial, room.before);
     }
-    assume(problem, room.before, Phase::Prepare, watch);
+}
+
+template <class Watch>
+void LimitedSearch::start_from(Problem& problem, const LimitedPose& pose, Phase phase, Watch watch) noexcept {
+    assume(problem, pose, phase, watch);
     damping_ = first_damping;
     slow_ = 0;
-    last_ = best;
+    last_ = error_of(problem);
 }
 
 template <class Watch>
 void LimitedSearch::iterate(Problem& problem, Watch watch) noexcept {
-    if (stalls() && tries_ < most_tries) return try_elsewhere(problem, watch);
     LimitedRoom& room = problem.room.limited;
+    const bool ends = problem.iteration + last_iterations > problem.options.max_iterations;
+    if (!polishes_ && stalled() && (ends || (stalls() && tries_ >= most_tries))) {
+        polishes_ = true;
+        start_from(problem, room.nearest, Phase::Keep, watch);
+    } else if (!polishes_ && stalls()) {
+        draw_start(problem);
+        start_from(problem, room.before, Phase::Prepare, watch);
+    }
     const float start = error_of(problem);
     save(problem, room.before);
     limited_pulls(problem, watch);
@@ -128,7 +140,9 @@ void LimitedSearch::iterate(Problem& problem, Watch watch) noexcept {
         }
         descend(problem, damping_, error, watch);
     }
-    slow_ = error > slow * last_ ? slow_ + 1 : 0;
+    // Far away from a target that cannot be reached, only so much is left as may still be gained.
+    const float left = std::min(last_, 0.1f * problem.room.reach);
+    slow_ = last_ - error < (polishes_ ? crawling : slow) * left ? slow_ + 1 : 0;
     last_ = error;
 }
 
