@@ -53,8 +53,16 @@ Batch batch_of(const Crowd& crowd) {
 struct Answer {
     std::vector<Joints> joints;
     std::vector<Report> reports;
-    bool operator==(const Answer&) const = default;
 };
+
+/// Nothing where they are equal to the bit; else the first chain that is not.
+std::string difference(const Answer& a, const Answer& b) {
+    for (std::size_t i = 0; i < std::min(a.joints.size(), b.joints.size()); ++i) {
+        if (!same_bits(a.joints[i], b.joints[i])) return "joints of chain " + std::to_string(i);
+        if (!(a.reports[i] == b.reports[i])) return "report of chain " + std::to_string(i);
+    }
+    return {};
+}
 
 std::vector<Joints> joints_of(const Batch& batch) {
     std::vector<Joints> joints(batch.size(), Joints(batch.bones() + 1));
@@ -151,7 +159,8 @@ TEST(SolveMany, EveryVectorUnitGivesTheSameBits) {
         const Answer widest = solve_many(crowd, {.every_iteration = every});
         for (const std::string_view unit : ik::vector_units()) {
             SCOPED_TRACE(unit);
-            EXPECT_EQ(solve_many(crowd, {.every_iteration = every, .vector_unit = unit}), widest);
+            const Answer answer = solve_many(crowd, {.every_iteration = every, .vector_unit = unit});
+            EXPECT_EQ(difference(answer, widest), "");
         }
     }
 }
@@ -166,10 +175,8 @@ TEST(SolveMany, EveryNumberOfChainsGivesTheSameBits) {
             Crowd some = all;
             some.lengths.resize(count), some.joints.resize(count), some.targets.resize(count);
             const Answer answer = solve_many(some, {.vector_unit = unit});
-            for (std::size_t i = 0; i < count; ++i) {
-                ASSERT_EQ(answer.joints[i], whole.joints[i]) << "chain " << i;
-                ASSERT_EQ(answer.reports[i], whole.reports[i]) << "chain " << i;
-            }
+            ASSERT_EQ(answer.joints.size(), count);
+            ASSERT_EQ(difference(answer, whole), "");
         }
     }
 }
@@ -184,9 +191,10 @@ TEST(SolveMany, EveryNumberOfThreadsGivesTheSameBits) {
     for (int threads = 2; threads <= 4; ++threads) {
         ManyOptions with = options;
         with.threads = threads;
-        for (int again = 0; again < 3; ++again) EXPECT_EQ(solve_many(crowd, with), one) << threads;
+        for (int again = 0; again < 3; ++again)
+            EXPECT_EQ(difference(solve_many(crowd, with), one), "") << threads;
     }
-    EXPECT_EQ(solve_many(crowd, {.max_iterations = 1000, .threads = 256}), one);
+    EXPECT_EQ(difference(solve_many(crowd, {.max_iterations = 1000, .threads = 256}), one), "");
 }
 
 TEST(SolveMany, AWholeCrowdOfStragglersIsSolved) {
@@ -312,8 +320,7 @@ TEST(SolveMany, RootsThatWalkTakeTheirChainsAlong) {
         }
         std::vector<Report> many(crowd.size());
         ik::solve_many(batch, targets, many);
-        ASSERT_EQ(many, reports);
-        ASSERT_EQ(joints_of(batch), each);
+        ASSERT_EQ(difference({joints_of(batch), many}, {each, reports}), "") << "frame " << frame;
     }
 }
 
@@ -332,7 +339,7 @@ TEST(SolveMany, ABadTargetHarmsNoOther) {
                 EXPECT_EQ(many.reports[i], (Report{Status::InvalidInput, 0, 0.0f}));
                 EXPECT_TRUE(same_bits(many.joints[i], crowd.joints[i]));
             } else if (!every) {
-                EXPECT_EQ(many.joints[i], good.joints[i]);
+                EXPECT_TRUE(same_bits(many.joints[i], good.joints[i])) << "chain " << i;
             }
             EXPECT_EQ(many.reports[i].status, each.reports[i].status);
         }
@@ -363,7 +370,7 @@ TEST(SolveMany, HostileNumbersNeverMakeWhatIsNotANumber) {
         for (const std::string_view unit : ik::vector_units()) {
             ManyOptions with = options;
             with.vector_unit = unit;
-            EXPECT_EQ(solve_many(crowd, with), many) << unit;
+            EXPECT_EQ(difference(solve_many(crowd, with), many), "") << unit;
         }
         for (std::size_t i = 0; i < crowd.size(); ++i) {
             const bool invalid = each.reports[i].status == Status::InvalidInput;
@@ -380,18 +387,19 @@ TEST(SolveMany, HostileNumbersNeverMakeWhatIsNotANumber) {
 TEST(SolveMany, JointsLeftTooFarOutAreInvalidNextTime) {
     Crowd crowd;
     // An elbow that will point up, over the ceiling of what is accepted.
-    crowd.add({1e9f, 1e9f}, {{0, 1e9f, 0}, {5e8f, 9.9e8f, 0}, {1e9f, 1e8f, 0}}, {5e8f, 1e9f, 0});
+    crowd.add({1e9f, 1e9f}, {{0, 1e9f, 0}, {5e8f, 9.9e8f, 1}, {1e9f, 1e8f, 0}}, {5e8f, 1e9f, 0});
     crowd.add({1, 1}, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {0, 1.5f, 0});
     Batch batch = batch_of(crowd);
     std::vector<Report> reports(2);
     ik::solve_many(batch, crowd.targets, reports);
     EXPECT_NE(reports[0].status, Status::InvalidInput);
     const std::vector<Joints> after = joints_of(batch);
-    ASSERT_GT(after[0][1].y, 1e9f);
+    ASSERT_TRUE(
+        std::any_of(after[0].begin(), after[0].end(), [](glm::vec3 joint) { return joint.y > 1e9f; }));
     ik::solve_many(batch, crowd.targets, reports);
     EXPECT_EQ(reports[0].status, Status::InvalidInput);
     EXPECT_EQ(reports[1].status, Status::Converged);
-    EXPECT_EQ(joints_of(batch)[0], after[0]);
+    EXPECT_TRUE(same_bits(joints_of(batch)[0], after[0]));
 }
 
 TEST(SolveMany, OptionsOutOfRangeAndListsOfTheWrongSizeMoveNothing) {
@@ -427,8 +435,7 @@ TEST(SolveMany, NeedsNoMemoryAndDoesWithoutThreadsWhereThereIsNone) {
         Batch batch = batch_of(crowd);
         std::vector<Report> reports(crowd.size());
         without_memory([&] { ik::solve_many(batch, crowd.targets, reports, {.threads = threads}); });
-        EXPECT_EQ(reports, expected.reports);
-        EXPECT_EQ(joints_of(batch), expected.joints);
+        EXPECT_EQ(difference({joints_of(batch), reports}, expected), "");
     }
 }
 

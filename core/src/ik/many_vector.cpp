@@ -69,22 +69,22 @@ HWY_INLINE void straight_on(const float* before, const float* from, Mask close, 
 /// The rows that a step reads and writes.
 struct StepRows {
     const float* from;    ///< the joint that is placed already
-    const float* aim;     ///< towards where: the old place of the other joint, or the target
-    float* to;            ///< the other joint
+    float* to;            ///< the one that is drawn to it
     const float* length;  ///< of the bone between them
     const float* before = nullptr;
 };
 
-/// In all active lanes.
+/// In the active lanes, or in all of them.
+template <bool some>
 HWY_INLINE void step(const StepRows& rows, const float* active, std::size_t lanes) {
     const Floats d;
     const Vec coincidence = all(tendril::detail::coincidence);
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
-        const float *const from = rows.from + i, *const aim = rows.aim + i;
+        const float* const from = rows.from + i;
         float* const to = rows.to + i;
         const Vec ax = load(from), ay = load(from + block_lanes), az = load(from + 2 * block_lanes);
-        const Vec x = hn::Sub(load(aim), ax), y = hn::Sub(load(aim + block_lanes), ay),
-                  z = hn::Sub(load(aim + 2 * block_lanes), az);
+        const Vec ox = load(to), oy = load(to + block_lanes), oz = load(to + 2 * block_lanes);
+        const Vec x = hn::Sub(ox, ax), y = hn::Sub(oy, ay), z = hn::Sub(oz, az);
         const Vec squared = squares(x, y, z), size = load(rows.length + i);
         const Vec scale = hn::Div(size, hn::Sqrt(hn::Max(squared, coincidence)));
         Vec px = hn::Add(ax, hn::Mul(x, scale)), py = hn::Add(ay, hn::Mul(y, scale)),
@@ -93,24 +93,43 @@ HWY_INLINE void step(const StepRows& rows, const float* active, std::size_t lane
         if (HWY_UNLIKELY(!hn::AllFalse(d, close))) {
             straight_on(rows.before ? rows.before + i : nullptr, from, close, size, px, py, pz);
         }
-        const Mask moves = hn::Gt(load(active + i), hn::Zero(d));
-        hn::Store(hn::IfThenElse(moves, px, load(to)), d, to);
-        hn::Store(hn::IfThenElse(moves, py, load(to + block_lanes)), d, to + block_lanes);
-        hn::Store(hn::IfThenElse(moves, pz, load(to + 2 * block_lanes)), d, to + 2 * block_lanes);
+        if constexpr (some) {
+            const Mask moves = hn::Gt(load(active + i), hn::Zero(d));
+            px = hn::IfThenElse(moves, px, ox);
+            py = hn::IfThenElse(moves, py, oy);
+            pz = hn::IfThenElse(moves, pz, oz);
+        }
+        hn::Store(px, d, to);
+        hn::Store(py, d, to + block_lanes);
+        hn::Store(pz, d, to + 2 * block_lanes);
     }
 }
 
-HWY_INLINE void put_tip_on_target(const Block& block, std::size_t lanes) {
+/// In the active lanes.
+HWY_INLINE void put_on_target(const Block& block, std::size_t joint, std::size_t lanes) {
     const Floats d;
-    float* const tip = block.joint(block.bones());
-    const float* const target = block.row(Row::TargetX);
-    const float* const active = block.row(Row::Active);
+    const float *const target = block.row(Row::TargetX), *const active = block.row(Row::Active);
     for (std::size_t axis = 0; axis < 3; ++axis) {
+        float* const to = block.joint(joint) + axis * block_lanes;
         for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
             const Mask moves = hn::Gt(load(active + i), hn::Zero(d));
-            float* const to = tip + axis * block_lanes + i;
-            hn::Store(hn::IfThenElse(moves, load(target + axis * block_lanes + i), load(to)), d, to);
+            hn::Store(hn::IfThenElse(moves, load(target + axis * block_lanes + i), load(to + i)), d, to + i);
         }
+    }
+}
+
+/// From the tip, then from the root.
+template <bool some>
+HWY_INLINE void pull_twice(const Block& block, std::size_t lanes) {
+    const std::size_t bones = block.bones();
+    const float* const active = block.row(Row::Active);
+    put_on_target(block, bones, lanes);
+    // Where the root would be drawn to does not matter: it stays.
+    for (std::size_t i = bones; i-- > 1;) {
+        step<some>({block.joint(i + 1), block.joint(i), block.length(i)}, active, lanes);
+    }
+    for (std::size_t i = 1; i <= bones; ++i) {
+        step<some>({block.joint(i - 1), block.joint(i), block.length(i - 1)}, active, lanes);
     }
 }
 
@@ -146,17 +165,13 @@ HWY_INLINE std::size_t take_stock(const Block& block, std::size_t lanes, const P
 }
 
 std::size_t pull(const Block& block, std::size_t lanes, const PullOrder& order) {
-    const std::size_t bones = block.bones();
-    const float* const active = block.row(Row::Active);
-    std::size_t left = lanes;
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < lanes; ++i) left += block.at(Row::Active, i) > 0.0f ? 1 : 0;
     for (int iteration = 0; iteration < order.iterations && left > 0; ++iteration) {
-        put_tip_on_target(block, lanes);
-        // Where the root would be drawn to does not matter: it stays.
-        for (std::size_t i = bones; i-- > 1;) {
-            step({block.joint(i + 1), block.joint(i), block.joint(i), block.length(i)}, active, lanes);
-        }
-        for (std::size_t i = 1; i <= bones; ++i) {
-            step({block.joint(i - 1), block.joint(i), block.joint(i), block.length(i - 1)}, active, lanes);
+        if (left == lanes) {  // what moves in unused lanes harms nobody
+            pull_twice<false>(block, lanes);
+        } else {
+            pull_twice<true>(block, lanes);
         }
         left = take_stock(block, lanes, order);
     }
@@ -244,9 +259,8 @@ HWY_INLINE void lay_loose(const Block& block, std::size_t lanes) {
             const Mask lay = hn::And(fails, starts(block, i, Start::Plain));
             hn::Store(hn::IfThenElse(lay, all(1.0f), load(active + i)), d, active + i);
         }
-        float* const to = block.joint(bone + 1);
-        step({block.joint(bone), to, to, block.length(bone), bone > 0 ? block.joint(bone - 1) : nullptr},
-             active, lanes);
+        const float* const before = bone > 0 ? block.joint(bone - 1) : nullptr;
+        step<true>({block.joint(bone), block.joint(bone + 1), block.length(bone), before}, active, lanes);
     }
 }
 
@@ -263,8 +277,8 @@ HWY_INLINE void lay_straight(const Block& block, std::size_t lanes) {
     }
     if (hn::AllFalse(d, any)) return;
     for (std::size_t bone = 0; bone < block.bones(); ++bone) {
-        step({block.joint(bone), block.row(Row::TargetX), block.joint(bone + 1), block.length(bone)}, active,
-             lanes);
+        put_on_target(block, bone + 1, lanes);
+        step<true>({block.joint(bone), block.joint(bone + 1), block.length(bone)}, active, lanes);
     }
 }
 

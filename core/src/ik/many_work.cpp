@@ -145,6 +145,7 @@ std::size_t Work::refill(const Block& tile, std::size_t used, WorkRoom& room) no
         --used;
         copy_lane(tile, used, tile, free[i], 0, Block::rows(bones_));
         room.chains[free[i]] = room.chains[used];
+        tile.at(Row::Active, used) = 0.0f;
     }
     return used;
 }
