@@ -72,4 +72,9 @@ const Palette& palette(Theme theme) {
     return theme == Theme::Light ? light : dark;
 }
 
+glm::vec4 faded(const Palette& palette, glm::vec3 colour, float strength) {
+    const glm::vec3 ground = 0.5f * (palette.background_top + palette.background_bottom);
+    return glm::vec4(ground + strength * (colour - ground), 1.0f);
+}
+
 }  // namespace tendril::app

@@ -29,4 +29,7 @@ struct Palette {
 
 const Palette& palette(Theme theme);
 
+/// A colour that stands back by so much (1 is all of it), opaque: strokes that meet show no seam.
+glm::vec4 faded(const Palette& palette, glm::vec3 colour, float strength);
+
 }  // namespace tendril::app

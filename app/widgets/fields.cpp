@@ -133,7 +133,8 @@ void reading(const char* name, const char* format, ...) {
 bool row_button(const char* title, int of, bool enabled, const char* tooltip) {
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float whole = ImGui::GetWindowContentRegionMax().x - ImGui::GetWindowContentRegionMin().x;
-    const float least = 4.5f * ImGui::GetFontSize();  // fewer to a row where they would be smaller than this
+    // Fewer to a row where they would be smaller than this; four or more are marks rather than words.
+    const float least = (of > 3 ? 2.2f : 4.5f) * ImGui::GetFontSize();
     of = std::clamp(static_cast<int>((whole + gap) / (least + gap)), 1, of);
     const float width = (whole - gap * static_cast<float>(of - 1)) / static_cast<float>(of);
     const std::string shown = elided(title, width - ImGui::GetStyle().FramePadding.x);
@@ -145,6 +146,10 @@ bool row_button(const char* title, int of, bool enabled, const char* tooltip) {
     ImGui::SameLine();  // the next one beside it, unless the row is full
     if (ImGui::GetCursorPosX() + width > ImGui::GetWindowContentRegionMax().x + 1.0f) ImGui::NewLine();
     return pressed;
+}
+
+void end_row() {
+    if (ImGui::GetCursorPosX() > ImGui::GetWindowContentRegionMin().x + 1.0f) ImGui::NewLine();
 }
 
 }  // namespace tendril::app

@@ -31,4 +31,7 @@ void reading(const char* name, const char* format, ...)
 /// A button as wide as its share of the row: `of` buttons to a row, or fewer where they would be too small.
 bool row_button(const char* title, int of, bool enabled = true, const char* tooltip = nullptr);
 
+/// What comes next begins below, though the row of buttons is not full.
+void end_row();
+
 }  // namespace tendril::app

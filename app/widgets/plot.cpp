@@ -90,7 +90,9 @@ class Plot {
             const ImVec2 size = ImGui::CalcTextSize(text);
             list_->AddText({from_.x - size.x - 4.0f, at - 0.5f * size.y}, dim(), text);
         }
-        const float step = tick_step(most_x_, 5);
+        const int room = std::max(1, static_cast<int>((to_.x - from_.x) / (3.5f * ImGui::GetFontSize())));
+        const float least = axes_.whole_x ? 1.0f : 0.0f;
+        const float step = std::max(least, tick_step(most_x_, room));
         for (float value = 0.0f; value <= most_x_ * 1.0001f; value += step) {
             list_->AddLine({x(value), from_.y}, {x(value), to_.y}, line);
             std::snprintf(text, sizeof text, "%.4g", static_cast<double>(value));

@@ -20,8 +20,9 @@ struct PlotAxes {
     const char* y = "";
     /// The y axis is logarithmic and begins here; values below lie on its edge.
     float least_y = 1e-6f;
-    float level = 0.0f;  ///< a dashed line at this y, where it is over 0
-    float at_x = -1.0f;  ///< a line at this x, where it is not negative
+    float level = 0.0f;    ///< a dashed line at this y, where it is over 0
+    float at_x = -1.0f;    ///< a line at this x, where it is not negative
+    bool whole_x = false;  ///< x counts something: marks at whole numbers only
 };
 
 /// As wide as there is room, `height` in lines of text. Resting the mouse on it tells the nearest point.

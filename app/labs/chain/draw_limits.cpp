@@ -96,7 +96,7 @@ class LimitDrawing {
     }
 
     void line(glm::vec3 a, glm::vec3 b, float width, float alpha) {
-        list_.line(a, b, px(width), glm::vec4(colour_, alpha * strength_));
+        list_.line(a, b, px(width), faded(view_.palette, colour_, alpha * strength_));
     }
 
     /// A hinge's range as an arc with its two ends, and where the bone is in it.
@@ -189,8 +189,8 @@ void draw_pole(const View& view, const ChainPart& part, DrawList& list) {
         const float square = glm::dot(along, along);
         const float share =
             square < 1e-9f ? 0.0f : std::clamp(glm::dot(at - root, along) / square, 0.0f, 1.0f);
-        list.line(root, part.target, view.scale, glm::vec4(view.palette.pole, 0.35f));
-        list.line(at, root + along * share, 1.5f * view.scale, glm::vec4(view.palette.pole, 0.5f));
+        list.line(root, part.target, view.scale, faded(view.palette, view.palette.pole, 0.35f));
+        list.line(at, root + along * share, 1.5f * view.scale, faded(view.palette, view.palette.pole, 0.5f));
     }
     Stroke& ball = list.sphere(at, (hovered ? 9.5f : 8.0f) * view.scale, Unit::Pixels,
                                glm::vec4(view.palette.pole, 1.0f));

@@ -47,7 +47,7 @@ class StudyDrawing {
 
   private:
     float px(float pixels) const { return pixels * view_.scale; }
-    glm::vec4 ghost(float alpha) const { return glm::vec4(view_.palette.ghost, alpha); }
+    glm::vec4 ghost(float alpha) const { return faded(view_.palette, view_.palette.ghost, alpha); }
 
     void label(glm::vec3 at, std::string text) {
         list_.labels.push_back({.at = at,
@@ -91,7 +91,7 @@ class StudyDrawing {
         const float away = glm::length(towards), bone = glm::distance(neighbour, move.to);
         if (away < 1e-5f) return;
         const glm::vec3 end = neighbour + towards / away * (1.25f * std::max(away, bone));
-        dashes(neighbour, end, glm::vec4(view_.palette.accent, 0.8f));
+        dashes(neighbour, end, faded(view_.palette, view_.palette.accent, 0.8f));
     }
 
     void dashes(glm::vec3 from, glm::vec3 to, glm::vec4 colour) {
@@ -111,7 +111,7 @@ class StudyDrawing {
             for (int i = 1; i <= circle_pieces; ++i) {
                 const float angle = glm::two_pi<float>() * static_cast<float>(i) / circle_pieces;
                 const glm::vec3 to = centre + radius * (std::cos(angle) * u + std::sin(angle) * v);
-                list_.line(from, to, px(1.0f), glm::vec4(view_.palette.accent, 0.45f));
+                list_.line(from, to, px(1.0f), faded(view_.palette, view_.palette.accent, 0.45f));
                 from = to;
             }
         }

@@ -5,7 +5,9 @@
 
 #include "app/labs/chain/panels.hpp"
 #include "app/widgets/fields.hpp"
+#include "app/widgets/fonts.hpp"
 #include "app/widgets/plot.hpp"
+#include "app/widgets/text.hpp"
 
 namespace tendril::app {
 namespace {
@@ -46,13 +48,15 @@ void racer_row(const Study& study, ik::Method method, bool time, const Palette& 
         std::find_if(racers.begin(), racers.end(), [&](const Racer& r) { return r.method == method; });
     if (racer == racers.end()) return;
     char text[96];
-    if (time) {
-        std::snprintf(text, sizeof text, "%d in %.1f us", racer->report.iterations, racer->microseconds);
-    } else {
-        std::snprintf(text, sizeof text, "%d, %.1e m", racer->report.iterations,
-                      static_cast<double>(racer->report.residual));
-    }
-    reading(ik::name(racer->report.status), "%s", text);
+    ImGui::SameLine();
+    std::snprintf(text, sizeof text, time ? "%.1f us" : "%.0f",
+                  time ? racer->microseconds : static_cast<double>(racer->report.iterations));
+    text_flush_right(text);
+    ImGui::PushFont(small_font());
+    std::snprintf(text, sizeof text, "%s, %.1e m off", ik::name(racer->report.status),
+                  static_cast<double>(racer->report.residual));
+    text_flush_right(text, true);
+    ImGui::PopFont();
 }
 
 void race_plot(const Race& race, bool time, const Palette& palette) {
@@ -70,7 +74,8 @@ void race_plot(const Race& race, bool time, const Palette& palette) {
              {.x = time ? "microseconds" : "iterations",
               .y = "tip to target, m",
               .least_y = least_residual(race.tolerance),
-              .level = race.tolerance},
+              .level = race.tolerance,
+              .whole_x = !time},
              plot_lines);
 }
 
@@ -105,7 +110,9 @@ void microscope_rows(const ChainPart& part, const Palette& palette, Emit& emit) 
     if (row_button(">", 4, step < trace.frames(), "On by a step")) emit("microscope.step", {{"by", 1}});
     if (row_button(">|", 4, step < trace.frames(), "On by an iteration"))
         emit("microscope.step", {{"iterations", 1}});
+    end_row();
     start_buttons("microscope.open", emit);
+    end_row();
     const Curve curve{solver_title(trace.method), palette.accent, by_iteration(trace.residuals)};
     const float tolerance = reach_tolerance(part.reach, part.chain.reach());
     log_plot("error", {&curve, 1},
@@ -113,7 +120,8 @@ void microscope_rows(const ChainPart& part, const Palette& palette, Emit& emit) 
               .y = "tip to target, m",
               .least_y = least_residual(tolerance),
               .level = tolerance,
-              .at_x = static_cast<float>(trace.iteration(step))},
+              .at_x = static_cast<float>(trace.iteration(step)),
+              .whole_x = true},
              plot_lines);
 }
 
@@ -122,15 +130,20 @@ void race_rows(const Workspace& workspace, const Palette& palette, Emit& emit) {
     const ChainPart& part = chain_part(workspace);
     const Study& study = part.study;
     bool& time = against_time();
+    ImGui::PushFont(small_font());
+    text_flush_right(time ? "time" : "iterations", true);
+    ImGui::PopFont();
     for (const ik::Method method : ik::all_methods) {
         if (method == ik::Method::TwoBone && part.chain.size() != 3) continue;
         racer_row(study, method, time, palette, emit);
     }
     race_plot(*study.race, time, palette);
-    ImGui::Checkbox("Against time, measured here and now", &time);
+    ImGui::Checkbox("Against time", &time);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Measured here and now, the least of several runs");
     bool apart = study.side_by_side;
     if (ImGui::Checkbox("Side by side", &apart)) emit("race.side_by_side", {{"on", apart}});
     start_buttons("race.open", emit);
+    end_row();
     if (row_button("Copy numbers as CSV", 1, true, "Every solver's residual at each iteration"))
         emit("race.copy");
 }
