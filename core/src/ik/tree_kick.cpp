@@ -70,11 +70,12 @@ const Effector* only_one(const TreeRoom& room, std::span<const Effector> effecto
 }
 
 /// All bones along the line from the root, one after the other; folded: all but the longest back along it.
-void lay_on_line(TreeRoom& room, const glm::dvec3& line, bool folded) noexcept {
+void lay_on_line(TreeRoom& room, glm::dvec3 line, bool folded) noexcept {
     std::size_t longest = 1;
     for (std::size_t k = 1; k < room.used; ++k) {
         if (room.slots[k].length > room.slots[longest].length) longest = k;
     }
+    if (inner(line, line) < 1e-60) line = {1.0, 0.0, 0.0};  // too near to each other for floats to tell
     const double scale = 1.0 / std::sqrt(inner(line, line));
     double along = 0.0;
     for (std::size_t k = 1; k < room.used; ++k) {

@@ -52,7 +52,8 @@ class Iteration {
         if (plain_ || number < newton_from || pulled.worst <= tolerance_) return take(room_.next, pulled);
         const bool nearer = pulled.cost < now_.cost;
         const double before = std::min(pulled.cost, now_.cost);
-        newton_step(room_, nearer ? room_.next : room_.at, damping_ / static_cast<double>(room_.used));
+        newton_step(room_, nearer ? room_.next : room_.at,
+                    damping_ * room_.lightest / static_cast<double>(room_.used));
         const Fit tried = fit(room_, room_.trial);
         if (tried.cost < before) {
             damping_ = std::max(damping_ / 4.0, least_damping);

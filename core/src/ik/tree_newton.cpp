@@ -85,6 +85,19 @@ void collect(TreeRoom& room, std::span<const glm::vec3> from, double damping) no
     }
 }
 
+/// At `length` from the parent towards `from + move`. In double: with little damping a move may be vast.
+glm::vec3 placed(const glm::vec3& parent, const glm::vec3& from, const glm::dvec3& move,
+                 float bone) noexcept {
+    glm::dvec3 way = between(parent, from);
+    way = {way.x + move.x, way.y + move.y, way.z + move.z};
+    const double squared = inner(way, way);
+    if (squared < 1e-60) return {parent.x + bone, parent.y, parent.z};
+    const double scale = static_cast<double>(bone) / std::sqrt(squared);
+    return {static_cast<float>(static_cast<double>(parent.x) + way.x * scale),
+            static_cast<float>(static_cast<double>(parent.y) + way.y * scale),
+            static_cast<float>(static_cast<double>(parent.z) + way.z * scale)};
+}
+
 }  // namespace
 
 void newton_step(TreeRoom& room, std::span<const glm::vec3> from, double damping) noexcept {
@@ -99,10 +112,7 @@ void newton_step(TreeRoom& room, std::span<const glm::vec3> from, double damping
         r.free.x += tension * r.per_tension.x;
         r.free.y += tension * r.per_tension.y;
         r.free.z += tension * r.per_tension.z;
-        const glm::vec3 moved_to{static_cast<float>(static_cast<double>(from[k].x) + r.free.x),
-                                 static_cast<float>(static_cast<double>(from[k].y) + r.free.y),
-                                 static_cast<float>(static_cast<double>(from[k].z) + r.free.z)};
-        room.trial[k] = lay(room.trial[slot.parent], moved_to, slot.length);
+        room.trial[k] = placed(room.trial[slot.parent], from[k], r.free, slot.length);
     }
 }
 

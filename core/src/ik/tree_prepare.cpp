@@ -9,7 +9,7 @@
 namespace tendril::ik::detail {
 namespace {
 
-constexpr double least_weight = 1e-6;  ///< of the heaviest
+constexpr double least_weight = 1e-4;  ///< of the heaviest
 
 double largest_coordinate(const glm::vec3& p) noexcept {
     return static_cast<double>(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}));
@@ -85,6 +85,7 @@ glm::dvec3 reachable(const TreeRoom& room, const Effector& effector) noexcept {
 
 void collect_goals(TreeRoom& room, std::span<const Effector> effectors) noexcept {
     double heaviest = 0.0;
+    room.lightest = 1.0;
     for (const Effector& effector : effectors) {
         if (room.path_reach[effector.joint] == 0.0) continue;  // it cannot move
         heaviest = std::max(heaviest, static_cast<double>(effector.weight));
@@ -94,6 +95,7 @@ void collect_goals(TreeRoom& room, std::span<const Effector> effectors) noexcept
         if (room.effector_at[k] == no_joint || room.slot_of[k] == 0) continue;
         const Effector& effector = effectors[room.effector_at[k]];
         const double weight = std::max(least_weight, static_cast<double>(effector.weight) / heaviest);
+        room.lightest = std::min(room.lightest, weight);
         const glm::dvec3 goal = reachable(room, effector);
         Slot& slot = room.slots[room.slot_of[k]];
         slot.weight += weight;

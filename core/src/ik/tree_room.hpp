@@ -56,6 +56,7 @@ struct TreeRoom {
     // Of one solve, by slot: room for as many as there are joints, `used` of them in use.
     std::size_t used = 0;
     std::vector<Slot> slots;
+    double lightest = 1.0;  ///< weight of an effector, as part of the heaviest
     std::size_t goal_count = 0;
     std::vector<std::size_t> goals;  ///< slots that have one, `goal_count` of them
     std::vector<glm::vec3> at, proposed, next, trial, best;

@@ -49,13 +49,13 @@ struct Effector {
     glm::vec3 target{0.0f};  ///< metres, at most max_magnitude
     /// 0 to max_magnitude; 0 is ignored. Only the weights' ratios count, and only where the effectors cannot
     /// all be at their targets: then the sum of weight times squared distance is made small. A weight under
-    /// 1e-6 of the heaviest counts as that.
+    /// 1e-4 of the heaviest counts as that.
     float weight = 1.0f;
 };
 
 struct TreeOptions {
     /// Metres, 0 to max_magnitude; 1e-3 of the reach where left out.
-    std::optional<float> tolerance;
+    std::optional<float> tolerance{};
     /// 1 to 1 000 000.
     int max_iterations = 100;
     /// Goes on to max_iterations whatever was reached; for measuring. Not where a single effector is out of
@@ -64,10 +64,10 @@ struct TreeOptions {
     /// The two pulls alone, as published, for study: slower, and a straight branch stays on its line.
     bool plain = false;
     /// Where given, element i receives the worst residual after iteration i + 1, as far as it has room.
-    std::span<float> residuals;
+    std::span<float> residuals{};
     /// Where given, element i receives the metres from effector i's joint to its target when all is done, as
     /// far as it has room; also for those that weigh nothing.
-    std::span<float> effector_residuals;
+    std::span<float> effector_residuals{};
 };
 
 struct TreeReport {
