@@ -8,6 +8,10 @@ namespace {
 
 constexpr glm::vec3 fallback{1.0f, 0.0f, 0.0f};  ///< where two joints coincide and show no direction
 
+/// Under this many the step that fits the span costs more than the pulls, so every other iteration does
+/// without.
+constexpr std::size_t few_bones = 8;
+
 template <class Watch>
 void pull_from_tip(Problem& problem, Watch watch) noexcept {
     const std::span<glm::vec3> joints = problem.joints;
@@ -52,7 +56,9 @@ void fabrik_iteration(Problem& problem, Watch watch) noexcept {
 template <class Watch>
 void fast_fabrik_iteration(Problem& problem, Watch watch) noexcept {
     fabrik_iteration(problem, watch);
-    if (!(distance(problem.joints.back(), problem.target) <= problem.tolerance)) spread(problem, watch);
+    const bool its_turn = problem.bones() >= few_bones || problem.iteration % 2 == 0;
+    const float residual = distance(problem.joints.back(), problem.target);
+    if (its_turn && !(residual <= problem.tolerance)) spread(problem, residual, watch);
 }
 
 template void fabrik_iteration(Problem&, Unwatched) noexcept;

@@ -8,24 +8,24 @@
 //     l + t (u - l)
 //
 // with one t for all: at 0 the chain is straight, at 1 it is as it was, over 1 it bends more. The span from
-// root to tip is nearly linear in t^2, so a few tries find the t where the span is the target's distance (the
-// regula falsi: between 0 and 1 there always is one where the chain falls short). Then the chain is turned as
-// a whole onto the target, and the tip is there.
+// root to tip is nearly linear in t^2, so two tries come near to the t where the span is the target's
+// distance (regula falsi: between 0 and 1 there always is one where the chain falls short). Then the chain is
+// turned as a whole towards the target.
 //
 // Where bending cannot bring the ends near enough to each other, the longest bone stays and the others do the
 // same with what is left of the way to the target; or, where they are too short for that, they fold back
 // along the longest.
 //
-// Cost: O(n), at most `tries` square roots a bone and one more, none of which waits for the one before it as
-// those of a pull do.
+// Cost: O(n), as a rule one or two square roots a bone, none of which waits for the one before it as those of
+// a pull do: about as much as the pulls.
 #pragma once
 
 #include "ik/problem.hpp"
 
 namespace tendril::ik::detail {
 
-/// After a pair of pulls. Moves nothing unless the tip comes nearer to the target.
+/// After a pair of pulls that left the tip `residual` from the target. Moves nothing unless that gets less.
 template <class Watch>
-void spread(Problem& problem, Watch watch) noexcept;
+void spread(Problem& problem, float residual, Watch watch) noexcept;
 
 }  // namespace tendril::ik::detail
