@@ -5,6 +5,7 @@
 #include <string>
 #include <tendril/version.hpp>
 
+#include "app/batch/paper_table.hpp"
 #include "app/batch/solve.hpp"
 #include "app/document/text.hpp"
 #include "app/io/solver_json.hpp"
@@ -158,6 +159,10 @@ int main(int argc, char** argv) {
     SolveLine solve;
     session.add_to(line);
     CLI::App* const solve_line = solve.add_to(line);
+    bool paper_csv = false;
+    CLI::App* const paper_line = line.add_subcommand("paper", "Measure the solvers and print a table");
+    paper_line->add_flag("--csv", paper_csv, "Print rows of comma-separated values");
+    paper_line->footer(paper_help);
     try {
         line.parse(argc, argv);
         for (const CLI::App* subcommand : line.get_subcommands()) refuse_options_before(line, *subcommand);
@@ -165,6 +170,10 @@ int main(int argc, char** argv) {
         if (solve_line->parsed()) {
             solve.check();
             solve_cases(solve.options, end_session_on_signals());
+            return 0;
+        }
+        if (paper_line->parsed()) {
+            print_paper(paper_csv, end_session_on_signals());
             return 0;
         }
         return session.run();
