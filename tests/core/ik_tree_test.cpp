@@ -125,6 +125,24 @@ TEST(IkTree, OneOutOfReachDoesNotKeepTheOthers) {
     EXPECT_GE(others, 190);
 }
 
+TEST(IkTree, HowFarOffATargetLiesAddsNothingToItsWeight) {
+    Figure figure = body();
+    Tree tree(figure.joints);
+    Random random(16);
+    for (int i = 0; i < 100; ++i) {
+        const Places before = random_pose(figure.joints, random, 0.5f);
+        aim(figure.effectors, random_pose(figure.joints, random, 0.5f));
+        const glm::vec3 away = random_direction(random);
+        Places near = before, far = before;
+        figure.effectors[1].target = away * 2.0f;
+        tree.solve(near, figure.effectors);
+        figure.effectors[1].target = away * 2097152.0f;
+        tree.solve(far, figure.effectors);
+        for (std::size_t k = 0; k < near.size(); ++k)
+            ASSERT_LT(distance(near[k], far[k]), 1e-6) << i << ", " << k;
+    }
+}
+
 /// Root, one bone, two arms of two; both hands want to be further apart than the arms reach.
 Figure torn() {
     Figure figure;
@@ -301,7 +319,9 @@ TEST(IkTree, StraightLinesAreLeft) {
             for (const float part : {0.95f, 0.7f, 0.5f, 0.1f, 0.0f, -0.1f, -0.5f, -0.9f, -0.99f}) {
                 Places places = straight_pose(joints, along);
                 const std::vector<Effector> effectors{{bones, along * (reach * part)}};
-                EXPECT_EQ(tree.solve(places, effectors).status, Status::Converged) << bones << ", " << part;
+                const TreeReport report = tree.solve(places, effectors);
+                EXPECT_EQ(report.status, Status::Converged) << bones << ", " << part;
+                EXPECT_LE(report.iterations, 14) << bones << ", " << part;
                 EXPECT_TRUE(Holds(joints, places));
             }
         }

@@ -28,21 +28,22 @@ bool on_line(const TreeRoom& room, std::size_t tip, std::size_t base, const glm:
     return true;
 }
 
-void kick_limb(TreeRoom& room, std::size_t tip, double tolerance) noexcept {
+bool kick_limb(TreeRoom& room, std::size_t tip, double tolerance) noexcept {
     const std::size_t base = limb_base(room, tip);
-    if (room.slots[tip].parent == base) return;  // one bone turns to its goal at once
+    if (room.slots[tip].parent == base) return false;  // one bone turns to its goal at once
     const glm::vec3 &goal = room.slots[tip].goal, &place = room.at[tip];
-    if (static_cast<double>(distance(goal, place)) <= tolerance) return;
+    if (static_cast<double>(distance(goal, place)) <= tolerance) return false;
     glm::vec3 line = minus(goal, room.at[base]);
     if (length(line) < 1e-3f * room.slots[tip].length) line = minus(place, room.at[room.slots[tip].parent]);
     const float size = length(line);
-    if (!(size > 1e-15f)) return;
+    if (!(size > 1e-15f)) return false;
     line = times(line, 1.0f / size);
-    if (!on_line(room, tip, base, line)) return;
+    if (!on_line(room, tip, base, line)) return false;
     const glm::vec3 side = perpendicular(line);
     for (std::size_t k = room.slots[tip].parent; k != base; k = room.slots[k].parent) {
         room.at[k] = moved(room.at[k], side, small_kick * room.slots[k].length);
     }
+    return true;
 }
 
 void lay_all(TreeRoom& room) noexcept {
@@ -106,9 +107,11 @@ bool lay_at_rim(TreeRoom& room, std::span<const Effector> effectors) noexcept {
     return true;
 }
 
-void kick_lines(TreeRoom& room, double tolerance) noexcept {
-    for (std::size_t i = 0; i < room.goal_count; ++i) kick_limb(room, room.goals[i], tolerance);
-    lay_all(room);
+bool kick_lines(TreeRoom& room, double tolerance) noexcept {
+    bool kicked = false;
+    for (std::size_t i = 0; i < room.goal_count; ++i) kicked |= kick_limb(room, room.goals[i], tolerance);
+    if (kicked) lay_all(room);
+    return kicked;
 }
 
 void kick_all(TreeRoom& room) noexcept {

@@ -63,6 +63,11 @@ class Iteration {
         if (nearer) take(room_.next, pulled);
     }
 
+    void leave_lines() noexcept {
+        keep_best();
+        if (kick_lines(room_, tolerance_)) now_ = fit(room_, room_.at);
+    }
+
     void kick() noexcept {
         keep_best();
         kick_all(room_);
@@ -113,8 +118,8 @@ double worst_residual(const TreeRoom& room, std::span<const Effector> effectors)
 TreeRun iterate(TreeRoom& room, std::span<const Effector> effectors, const TreeOptions& options,
                 double tolerance) noexcept {
     TreeRun run;
-    if (!options.plain) kick_lines(room, tolerance);
     Iteration iteration(room, options, tolerance);
+    if (!options.plain) iteration.leave_lines();
     Progress progress(iteration.now(), std::max(0.01 * tolerance, 1e-6 * room.reach));
     int kicks = options.plain ? most_kicks : 0;
     while (run.iterations < options.max_iterations) {

@@ -73,8 +73,9 @@ struct Fit {
 void prepare(TreeRoom& room, std::span<const glm::vec3> joints, std::span<const Effector> effectors) noexcept;
 
 /// Bends each limb (from an effector to the next joint that is shared, has an effector or is the root) that
-/// lies on the line to its goal and does not reach it: pulls would never leave the line.
-void kick_lines(TreeRoom& room, double tolerance) noexcept;
+/// lies on the line to its goal and does not reach it: pulls would never leave the line. False where there is
+/// none.
+bool kick_lines(TreeRoom& room, double tolerance) noexcept;
 /// Turns every bone a little, each to a side of its own: out of where nothing moves any more.
 void kick_all(TreeRoom& room) noexcept;
 
