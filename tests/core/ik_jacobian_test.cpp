@@ -1,0 +1,255 @@
+// The Jacobian solvers against the Jacobian itself: all 3 x 3n of it, and systems solved by elimination, in
+// double. The library builds neither.
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "ik_hostile.hpp"
+
+namespace tendril::test {
+namespace {
+
+using ik::Method;
+using ik::Status;
+using Json = nlohmann::json;
+using Vector = std::vector<double>;
+using Matrix = std::vector<Vector>;
+
+/// Gauss and Jordan, with pivots.
+Vector solved(Matrix a, Vector b) {
+    const std::size_t n = b.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        std::size_t best = i;
+        for (std::size_t r = i; r < n; ++r) best = std::abs(a[r][i]) > std::abs(a[best][i]) ? r : best;
+        std::swap(a[i], a[best]);
+        std::swap(b[i], b[best]);
+        for (std::size_t r = 0; r < n; ++r) {
+            if (r == i) continue;
+            const double by = a[r][i] / a[i][i];
+            for (std::size_t c = i; c < n; ++c) a[r][c] -= by * a[i][c];
+            b[r] -= by * b[i];
+        }
+    }
+    for (std::size_t i = 0; i < n; ++i) b[i] /= a[i][i];
+    return b;
+}
+
+/// Row by row; column 3 i + k is axis k x (tip - joint i).
+Matrix jacobian(const Joints& joints) {
+    Matrix j(3);
+    for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
+        const glm::dvec3 r = glm::dvec3(joints.back()) - glm::dvec3(joints[i]);
+        const double columns[3][3] = {{0, -r.z, r.y}, {r.z, 0, -r.x}, {-r.y, r.x, 0}};
+        for (const auto& column : columns) {
+            for (std::size_t row = 0; row < 3; ++row) j[row].push_back(column[row]);
+        }
+    }
+    return j;
+}
+
+Vector transposed_times(const Matrix& j, const Vector& e) {
+    Vector result(j[0].size(), 0.0);
+    for (std::size_t c = 0; c < result.size(); ++c) {
+        for (std::size_t r = 0; r < 3; ++r) result[c] += j[r][c] * e[r];
+    }
+    return result;
+}
+
+Matrix squared(const Matrix& j, double damping) {
+    Matrix result(3, Vector(3, 0.0));
+    for (std::size_t r = 0; r < 3; ++r) {
+        for (std::size_t s = 0; s < 3; ++s) {
+            for (std::size_t c = 0; c < j[0].size(); ++c) result[r][s] += j[r][c] * j[s][c];
+        }
+        result[r][r] += damping;
+    }
+    return result;
+}
+
+/// Where the tip goes to first order if the joints turn so.
+glm::dvec3 moved_tip(const Joints& joints, const Matrix& j, const Vector& turns) {
+    glm::dvec3 tip(joints.back());
+    for (std::size_t c = 0; c < turns.size(); ++c) tip += glm::dvec3(j[0][c], j[1][c], j[2][c]) * turns[c];
+    return tip;
+}
+
+Vector expected_turns(Method method, const Matrix& j, const Vector& e, double lambda_squared) {
+    if (method == Method::JacobianTranspose) {
+        const Matrix m = squared(j, 0.0);
+        double up = 0.0, down = 0.0;
+        for (std::size_t r = 0; r < 3; ++r) {
+            const double moved = m[r][0] * e[0] + m[r][1] * e[1] + m[r][2] * e[2];
+            up += e[r] * moved;
+            down += moved * moved;
+        }
+        Vector turns = transposed_times(j, e);
+        for (double& turn : turns) turn *= up / down;
+        return turns;
+    }
+    return transposed_times(j, solved(squared(j, lambda_squared), e));
+}
+
+/// A chain of many bones, with every singular value well above the point where the SVD begins to damp.
+Joints open_pose(std::span<const float> lengths, Random& random) {
+    for (;;) {
+        Joints joints{{0, 0, 0}};
+        const glm::vec3 first = some_direction(random), second = some_direction(random);
+        for (std::size_t i = 0; i < lengths.size(); ++i) {
+            const glm::vec3 towards =
+                (2 * i < lengths.size() ? first : second) + some_direction(random) * 0.5f;
+            const auto size = static_cast<float>(distance(towards, {0, 0, 0}));
+            joints.push_back(joints.back() + towards * (lengths[i] / size));
+        }
+        const Matrix m = squared(jacobian(joints), 0.0);
+        const double least = std::pow(0.45 * reach_of(lengths), 2.0);
+        const double det = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                           m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+        const double trace = m[0][0] + m[1][1] + m[2][2];
+        if (det / (0.25 * trace * trace) > least) return joints;  // a lower bound of the least eigenvalue
+    }
+}
+
+/// One iteration towards a target so near that turns are small against their squares.
+void expect_first_order(Method method, float damping, bool damped) {
+    Random random(11);
+    for (int k = 0; k < 100; ++k) {
+        const Lengths lengths(24, 1.0f / 24.0f);
+        const Joints start = open_pose(lengths, random);
+        const glm::vec3 target = start.back() + some_direction(random) * 0.002f;
+        const Matrix j = jacobian(start);
+        const Vector e{static_cast<double>(target.x - start.back().x),
+                       static_cast<double>(target.y - start.back().y),
+                       static_cast<double>(target.z - start.back().z)};
+        const double lambda_squared = damped ? std::pow(static_cast<double>(damping), 2.0) * 0.002 : 0.0;
+        const glm::dvec3 expected = moved_tip(start, j, expected_turns(method, j, e, lambda_squared));
+        Joints joints = start;
+        ik::Options options;
+        options.max_iterations = 1;
+        options.tolerance = 0.0f;
+        options.damping = damping;
+        ik::Solver(lengths).solve(method, joints, target, options);
+        EXPECT_LT(distance(joints.back(), glm::vec3(expected)), 2e-5) << "a hundredth of the way";
+    }
+}
+
+TEST(IkJacobian, TransposeTakesTheStepThatIsBestAlongTheGradient) {
+    expect_first_order(Method::JacobianTranspose, 0.1f, false);
+}
+
+TEST(IkJacobian, DampedLeastSquaresSolvesItsSystem) {
+    expect_first_order(Method::Dls, 0.1f, true);
+    expect_first_order(Method::Dls, 5.0f, true);
+}
+
+TEST(IkJacobian, TheSvdLeavesLargeSingularValuesUndamped) {
+    expect_first_order(Method::SvdDls, 0.1f, false);
+    expect_first_order(Method::SvdDls, 5.0f, false);
+}
+
+TEST(IkJacobian, TheSvdDampsTheDirectionThatIsAllButLost) {
+    // Nearly straight along x: y and z move freely, x hardly at all.
+    const Lengths lengths(4, 0.25f);
+    const Joints start{{0, 0, 0}, {0.25f, 0, 0}, {0.4999f, 0.005f, 0}, {0.7499f, 0.005f, 0}, {0.9999f, 0, 0}};
+    ik::Options options;
+    options.max_iterations = 1;
+    options.tolerance = 0.0f;
+    options.damping = 1.0f;
+    Joints across = start, along = start;
+    ik::Solver solver(lengths);
+    const glm::vec3 tip = start.back();
+    solver.solve(Method::SvdDls, across, tip + glm::vec3(0.0f, 0.0f, 0.01f), options);
+    solver.solve(Method::SvdDls, along, tip - glm::vec3(0.01f, 0.0f, 0.0f), options);
+    EXPECT_LT(distance(across.back(), tip + glm::vec3(0.0f, 0.0f, 0.01f)), 0.001);
+    EXPECT_GT(distance(along.back(), tip - glm::vec3(0.01f, 0.0f, 0.0f)), 0.008);
+}
+
+TEST(IkJacobian, AllJointsTurnAtOnce) {
+    Random random(12);
+    const Lengths lengths(4, 1.0f);
+    for (const Method method : {Method::JacobianTranspose, Method::Dls, Method::SvdDls}) {
+        Joints joints = some_pose(lengths, random);
+        Recorder recorder;
+        ik::Options options;
+        options.max_iterations = 3;
+        options.every_iteration = true;
+        ik::Solver(lengths).solve(method, joints, {1, 1, 1}, options, &recorder);
+        std::size_t turns = 0;
+        for (const ik::Step& step : recorder.steps) turns += step.phase == ik::Phase::Gradient;
+        EXPECT_EQ(turns, 12u);
+        for (const ik::Step& step : recorder.steps) {
+            if (step.phase != ik::Phase::Gradient) continue;
+            EXPECT_EQ(step.order, step.iteration - 1);
+        }
+    }
+}
+
+TEST(IkJacobian, TheDampedOnesReachEverythingInTheReference) {
+    const char* folder = std::getenv("TENDRIL_REFERENCE_DIR");
+    const auto path = std::filesystem::path(folder ? folder : TENDRIL_REFERENCE_DIR) / "solve.json";
+    std::ifstream file(path);
+    if (!file) GTEST_SKIP() << path << " is not there";
+    const Json cases = Json::parse(file);
+    for (const Method method : {Method::Dls, Method::SvdDls}) {
+        int most = 0;
+        for (const Json& example : cases) {
+            if (example.at("expect").at("status") != "Converged") continue;
+            SCOPED_TRACE(example.at("name").get<std::string>());
+            const auto lengths = example.at("lengths").get<Lengths>();
+            const Json& target = example.at("target");
+            Joints joints = straight_joints(lengths);
+            const ik::Report report = ik::Solver(lengths).solve(
+                method, joints, {target[0].get<float>(), target[1].get<float>(), target[2].get<float>()});
+            EXPECT_EQ(report.status, Status::Converged) << name(method);
+            EXPECT_LE(report.residual, 1e-3 * reach_of(lengths));
+            most = std::max(most, report.iterations);
+        }
+        std::printf("%s: at most %d iterations\n", name(method), most);
+    }
+}
+
+TEST(IkJacobian, TheDampedOnesReachInAHundredIterationsUpToTheRim) {
+    Random random(13);
+    for (const Method method : {Method::Dls, Method::SvdDls}) {
+        int most = 0;
+        for (int k = 0; k < 1500; ++k) {
+            const Lengths lengths = some_lengths(3 + random.below(10), random);
+            Joints joints = random.chance(3) ? straight_joints(lengths) : some_pose(lengths, random);
+            const float span = random.chance(2) ? some_span(lengths, 0.95f, 0.999f, random)
+                                                : some_span(lengths, 0.3f, 0.95f, random);
+            const glm::vec3 ahead(random.chance(2) ? 1.0f : -1.0f, 0.0f, 0.0f);
+            const glm::vec3 target = (random.chance(4) ? ahead : some_direction(random)) * span;
+            const ik::Report report = ik::Solver(lengths).solve(method, joints, target);
+            EXPECT_EQ(report.status, Status::Converged) << name(method) << ", solve " << k;
+            most = std::max(most, report.iterations);
+        }
+        std::printf("%s: at most %d iterations\n", name(method), most);
+    }
+}
+
+TEST(IkJacobian, EveryDampingLeadsThere) {
+    Random random(14);
+    for (const float damping : {1e-6f, 1e-3f, 0.1f, 0.5f}) {
+        for (const Method method : {Method::Dls, Method::SvdDls}) {
+            for (int k = 0; k < 100; ++k) {
+                const Lengths lengths = some_lengths(4 + random.below(6), random);
+                Joints joints = some_pose(lengths, random);
+                const glm::vec3 target = some_direction(random) * some_span(lengths, 0.3f, 0.98f, random);
+                ik::Options options;
+                options.damping = damping;
+                const ik::Report report = ik::Solver(lengths).solve(method, joints, target, options);
+                EXPECT_EQ(report.status, Status::Converged) << name(method) << ", damping " << damping;
+            }
+        }
+    }
+}
+
+TEST(IkJacobian, BearsAnything) {
+    for (const Method method : {Method::JacobianTranspose, Method::Dls, Method::SvdDls}) {
+        SCOPED_TRACE(name(method));
+        expect_bears_anything(method, 1000);
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test
