@@ -1,0 +1,172 @@
+// Bad input is refused and nothing is moved, not by a bit; hostile input never makes anything that is no
+// number.
+#include <functional>
+
+#include "ik_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+using ik::Limit;
+using ik::Method;
+using ik::Options;
+using ik::Report;
+using ik::Status;
+
+const Lengths lengths{1.0f, 0.5f};  // two bones, so that every method takes them
+constexpr Report refused{Status::InvalidInput, 0, 0.0f};
+
+void expect_refused(const Options& options, glm::vec3 target = {0.5f, 0.5f, 0.5f},
+                    Joints start = {{0, 0, 0}, {1, 0, 0}, {1, 0.5f, 0}}) {
+    for (const Method method : ik::all_methods) {
+        ik::Solver solver(lengths);
+        Joints joints = start;
+        Recorder recorder;
+        EXPECT_EQ(solver.solve(method, joints, target, options, &recorder), refused) << name(method);
+        EXPECT_TRUE(same_bits(joints, start)) << name(method);
+        EXPECT_TRUE(recorder.steps.empty() && recorder.iterations.empty()) << name(method);
+    }
+}
+
+TEST(IkInput, NumbersThatAreNoneOrTooLarge) {
+    for (const float bad : {nan, infinity, -infinity, 1.1e9f, -2e9f}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::vec3 point(0.5f);
+            point[axis] = bad;
+            expect_refused({}, point);
+            expect_refused({.pole = point});
+            for (std::size_t joint = 0; joint < 3; ++joint) {
+                Joints start{{0, 0, 0}, {1, 0, 0}, {1, 0.5f, 0}};
+                start[joint][axis] = bad;
+                expect_refused({}, {1, 1, 0}, start);
+            }
+        }
+        expect_refused({.tolerance = bad});
+        expect_refused({.snap_back = bad});
+        expect_refused({.soft_zone = bad});
+        expect_refused({.damping = bad});
+        expect_refused({.start_stretch_ratio = bad});
+        expect_refused({.max_stretch_scale = bad});
+        expect_refused({.twist = bad});
+        expect_refused({.tip_orientation = glm::quat(bad, 0, 0, 0)});
+    }
+}
+
+TEST(IkInput, NumbersOutOfTheirRange) {
+    expect_refused({.tolerance = -1e-6f});
+    expect_refused({.max_iterations = 0});
+    expect_refused({.max_iterations = -5});
+    expect_refused({.max_iterations = 1'000'001});
+    expect_refused({.pole_turn = static_cast<ik::PoleTurn>(7)});
+    expect_refused({.snap_back = -0.01f});
+    expect_refused({.snap_back = 1.01f});
+    expect_refused({.tip_orientation = glm::quat(0, 0, 0, 0)});
+    expect_refused({.tip_orientation = glm::quat(1, 1, 0, 0)});
+    expect_refused({.soft_zone = -0.1f});
+    expect_refused({.soft_zone = 1.1f});
+    expect_refused({.damping = 0.0f});
+    expect_refused({.damping = 11.0f});
+    expect_refused({.start_stretch_ratio = 0.0f});
+    expect_refused({.start_stretch_ratio = 1.5f});
+    expect_refused({.max_stretch_scale = 0.99f});
+    expect_refused({.max_stretch_scale = 101.0f});
+}
+
+TEST(IkInput, LimitsOfAnotherNumberOrWithAFault) {
+    const std::vector<Limit> good(2), one(1), three(3);
+    expect_refused({.limits = one});
+    expect_refused({.limits = three});
+    for (const auto& spoil : std::vector<std::function<void(Limit&)>>{
+             [](Limit& limit) {
+                 limit.axis = {0, 0, 0};
+             },
+             [](Limit& limit) { limit.axis.y = nan; },
+             [](Limit& limit) { limit.min = 1.0f, limit.max = 0.5f; },
+             [](Limit& limit) { limit.max = infinity; }, [](Limit& limit) { limit.min = -4.0f; }}) {
+        std::vector<Limit> limits{Limit{}, Limit::hinge({0, 0, 1}, -1.0f, 1.0f)};
+        spoil(limits[1]);
+        expect_refused({.limits = limits});
+    }
+}
+
+TEST(IkInput, TheWrongNumberOfJointsOrBones) {
+    ik::Solver solver(Lengths(4, 1.0f));
+    Joints joints(4);
+    EXPECT_EQ(solver.solve(Method::Fabrik, joints, {1, 1, 1}), refused);
+    EXPECT_EQ(solver.solve(Method::Fabrik, std::span<glm::vec3>(), {1, 1, 1}), refused);
+    Chain chain = straight(4);
+    const Chain before = chain;
+    EXPECT_EQ(solver.solve(Method::Fabrik, chain, {1, 1, 1}), refused);
+    EXPECT_TRUE(same_bits(chain, before));
+    joints = straight_joints(Lengths(4, 1.0f));
+    const Joints start = joints;
+    EXPECT_EQ(solver.solve(Method::TwoBone, joints, {1, 1, 1}), refused);
+    EXPECT_EQ(solver.solve(static_cast<Method>(99), joints, {1, 1, 1}), refused);
+    EXPECT_TRUE(same_bits(joints, start));
+}
+
+TEST(IkInput, AChainThatWouldLeaveItsRangeStays) {
+    Chain chain = straight(3, 8e8f);
+    const Chain before = chain;
+    ik::Solver solver(chain);
+    EXPECT_EQ(solver.solve(Method::Fabrik, chain, {0, 1e9f, 0}).status, Status::InvalidInput);
+    EXPECT_TRUE(same_bits(chain, before));
+}
+
+TEST(IkInput, ASolverTakesWhatAChainTakes) {
+    EXPECT_THROW(ik::Solver(Lengths{1.0f, -1.0f}), std::invalid_argument);
+    EXPECT_THROW(ik::Solver(Lengths{nan}), std::invalid_argument);
+    EXPECT_THROW(ik::Solver(Lengths{1.1e9f}), std::invalid_argument);
+    const std::vector<glm::vec3> two{{1, 0, 0}, {0, 1, 0}}, not_unit{{1, 0, 0}, {0, 2, 0}};
+    EXPECT_NO_THROW(ik::Solver(lengths, two));
+    EXPECT_THROW(ik::Solver(Lengths{1.0f}, two), std::invalid_argument);
+    EXPECT_THROW(ik::Solver(lengths, not_unit), std::invalid_argument);
+    EXPECT_NE(message_of<std::invalid_argument>([] {
+                  ik::Solver solver(Lengths{1.0f, -1.0f});
+              }).find("-1"),
+              std::string::npos);
+    EXPECT_EQ(ik::Solver(Chain()).bones(), 0u);
+    EXPECT_EQ(ik::Solver(straight(1)).bones(), 0u);
+}
+
+float hostile_length(Random& random) {
+    constexpr float some[] = {0.0f, 1e-30f, 1e-9f, 1e-4f, 0.3f, 1.0f, 17.0f, 1e5f, 1e9f};
+    return some[random.below(9)];
+}
+
+glm::vec3 hostile_point(const Joints& joints, Random& random) {
+    if (!joints.empty() && random.chance(3)) return joints[random.below(joints.size())];
+    constexpr float ranges[] = {0.0f, 1e-30f, 1e-6f, 0.5f, 8.0f, 1e4f, 1e9f};
+    return random.point(ranges[random.below(7)]);
+}
+
+TEST(IkInput, HostileButValidInputNeverMakesNoNumber) {
+    Random random(20261121);
+    for (int i = 0; i < 20'000; ++i) {
+        Lengths some(random.below(7));
+        for (float& length : some) length = hostile_length(random);
+        Joints joints;
+        for (std::size_t j = 0; j <= some.size(); ++j) joints.push_back(hostile_point(joints, random));
+        const glm::vec3 target = hostile_point(joints, random);
+        Options options{.max_iterations = 1 + static_cast<int>(random.below(20)),
+                        .every_iteration = random.chance(4),
+                        .snap_back = random.chance(3) ? part(random) : 0.0f,
+                        .soft_zone = random.chance(3) ? part(random) : 0.0f};
+        if (random.chance(3)) options.pole = hostile_point(joints, random);
+        if (random.chance(4)) options.tolerance = random.chance(2) ? 0.0f : 1e9f;
+        const Method method = ik::all_methods[random.below(ik::all_methods.size())];
+        ik::Solver solver(some);
+        const glm::vec3 root = joints.front();
+        const Report report = solver.solve(method, joints, target, options);
+        EXPECT_EQ(report.status == Status::InvalidInput, method == Method::TwoBone && some.size() != 2);
+        EXPECT_TRUE(std::isfinite(report.residual)) << name(method) << ", case " << i;
+        EXPECT_TRUE(same_bits(joints.front(), root)) << name(method) << ", case " << i;
+        for (const glm::vec3& joint : joints) {
+            EXPECT_TRUE(std::isfinite(joint.x) && std::isfinite(joint.y) && std::isfinite(joint.z))
+                << name(method) << ", case " << i;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test
