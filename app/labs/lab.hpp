@@ -81,6 +81,8 @@ class Lab {
     virtual bool has_timeline(const Workspace&) const { return false; }
     virtual void timeline(const Workspace&, Emit&) const {}
 
+    /// What *copy as C++* puts on the clipboard, a whole program; empty where the lab has none.
+    virtual std::string code(const Workspace&) const { return {}; }
     /// What --state writes, without handles and camera.
     virtual Json state(const Workspace& workspace) const = 0;
 };

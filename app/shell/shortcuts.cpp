@@ -8,7 +8,7 @@ namespace {
 Shortcut row(const char* chord, const char* command, Json arguments, const char* title, Section section,
              bool in_menu = true, bool while_typing = false) {
     const std::string_view name = command;
-    const bool repeats = name == "undo" || name == "redo" || name == "time.step";
+    const bool repeats = name == "undo" || name == "redo" || name == "time.step" || name == "microscope.step";
     return {*chord_from_name(chord),
             command,
             std::move(arguments),
@@ -71,6 +71,7 @@ const std::vector<Shortcut>& shortcuts() {
         row("ctrl+z", "undo", Json::object(), "Undo", Section::Edit),
         row("ctrl+shift+z", "redo", Json::object(), "Redo", Section::Edit),
         row("ctrl+y", "redo", Json::object(), "Redo", Section::Edit, false),
+        row("delete", "chain.remove", Json::object(), "Remove the selected segment", Section::Edit),
         row("f", "camera.frame", {{"what", "selection"}}, "Frame selection", Section::View),
         row("home", "camera.frame", {{"what", "all"}}, "Frame all", Section::View),
         row("1", "camera.view", {{"name", "front"}}, "Front", Section::View),
@@ -83,6 +84,12 @@ const std::vector<Shortcut>& shortcuts() {
         row("f9", "view.panels", Json::object(), "Fold panels", Section::View),
         row("space", "time.toggle", Json::object(), "Play or pause", Section::Time),
         row(".", "time.step", Json::object(), "One tick", Section::Time),
+        row("right", "microscope.step", {{"by", 1}}, "Microscope: next step", Section::Time, false),
+        row("left", "microscope.step", {{"by", -1}}, "Microscope: step before", Section::Time, false),
+        row("shift+right", "microscope.step", {{"iterations", 1}}, "Microscope: next iteration",
+            Section::Time, false),
+        row("shift+left", "microscope.step", {{"iterations", -1}}, "Microscope: iteration before",
+            Section::Time, false),
         row("?", "view.help", Json::object(), "Keys and mouse", Section::Help),
         row("f1", "view.help", Json::object(), "Keys and mouse", Section::Help, false, true),
         row("ctrl+k", "view.palette", Json::object(), "Find a command", Section::Help, true, true),

@@ -94,6 +94,7 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
         const std::size_t bones = part->chain.size() < 2 ? 0 : part->chain.size() - 1;
         if (json.contains("reach")) part->reach = load_reach(json["reach"], where + ".reach", bones);
         if (json.contains("study")) part->study = load_study(json["study"], where + ".study", part->chain);
+        part->study.refresh(part->chain, part->reach, part->target);
         const Json& chosen = json_member(json, "selected", where);
         check_range(*part);
         if (!chosen.is_null() && !part->chain.empty()) {

@@ -39,6 +39,7 @@ class ChainLab final : public Lab {
     void inspector(const Workspace& workspace, Emit& emit) const override;
     bool has_timeline(const Workspace& workspace) const override;
     void timeline(const Workspace& workspace, Emit& emit) const override;
+    std::string code(const Workspace& workspace) const override;
     Json state(const Workspace& workspace) const override;
 };
 

@@ -1,9 +1,11 @@
 // Limits as they are: a cone where the bone may point, a fan for a hinge, a dial for twist.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "app/labs/chain/draw.hpp"
 
@@ -82,6 +84,7 @@ class LimitDrawing {
         if (limit_.kind != ik::JointKind::Hinge) dial(glm::normalize(turns_[i] * rest_));
         line(centre_, centre_ + radius_ * direction(0.0f, 0.0f), 1.0f, 0.35f);  // where it points at rest
         if (held) {
+            needed(*part_.result->hold);
             list_.ring(centre_, px(13.0f), px(3.0f), glm::vec4(view_.palette.limit, 1.0f)).layer =
                 Layer::Overlay;
         }
@@ -131,6 +134,28 @@ class LimitDrawing {
             from = to;
         }
         needle(angles_.up, angles_.left);
+    }
+
+    /// Where the bone would have to point for the target, dashed, with the angle beside it.
+    void needed(const ik::Hold& hold) {
+        if (hold.bound == ik::Bound::TwistMin || hold.bound == ik::Bound::TwistMax) return;
+        const bool sideways = hold.bound == ik::Bound::Left || hold.bound == ik::Bound::Right;
+        const bool down = hold.bound == ik::Bound::Down || hold.bound == ik::Bound::Right;
+        const float angle = down ? -std::abs(hold.needed) : hold.needed;
+        const glm::vec3 towards = sideways ? direction(angles_.up, angle) : direction(angle, angles_.left);
+        constexpr int dashes = 7;
+        for (int i = 0; i < dashes; ++i) {
+            const float from = (static_cast<float>(i) + 0.2f) / dashes;
+            line(centre_ + radius_ * from * towards, centre_ + radius_ * (from + 0.6f / dashes) * towards,
+                 2.0f, 1.0f);
+        }
+        char text[32];
+        std::snprintf(text, sizeof text, "needs %.0f\xc2\xb0", glm::degrees(static_cast<double>(angle)));
+        list_.labels.push_back({.at = centre_ + 1.05f * radius_ * towards,
+                                .clearance = px(6.0f),
+                                .text = text,
+                                .colour = view_.palette.text,
+                                .rank = 3});
     }
 
     void needle(float up, float left) {

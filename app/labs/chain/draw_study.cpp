@@ -37,7 +37,7 @@ class StudyDrawing {
     void race() {
         const Race& race = *part_.study.race;
         const glm::vec3 lane = race_lane(part_.study);
-        polyline(part_.study.start, ghost(0.45f), 1.5f, {});
+        polyline(part_.study.start, ghost(0.8f), 2.0f, {});
         for (std::size_t i = 0; i < race.racers.size(); ++i) {
             const glm::vec3 apart = lane * static_cast<float>(i);
             if (i > 0 && lane != glm::vec3(0.0f)) target_again(apart);
@@ -65,7 +65,8 @@ class StudyDrawing {
 
     /// The start, and where the last iterations ended, the older the fainter.
     void ghosts(const Trace& trace, std::size_t step) {
-        polyline(trace.start, ghost(0.35f), 1.5f, {});
+        polyline(trace.start, ghost(0.8f), 2.0f, {});
+        for (const glm::vec3& joint : trace.start) list_.sphere(joint, px(3.0f), Unit::Pixels, ghost(0.8f));
         const int now = trace.iteration(step);
         for (int i = std::max(1, now - most_ghosts); i < now; ++i) {
             const float age = static_cast<float>(now - i) / static_cast<float>(most_ghosts + 1);
@@ -119,7 +120,7 @@ class StudyDrawing {
 
     void racer(const Racer& racer, glm::vec3 apart) {
         const glm::vec4 colour(view_.palette.racers[static_cast<std::size_t>(racer.method)], 1.0f);
-        if (apart != glm::vec3(0.0f)) polyline(part_.study.start, ghost(0.45f), 1.5f, apart);
+        if (apart != glm::vec3(0.0f)) polyline(part_.study.start, ghost(0.8f), 2.0f, apart);
         for (std::size_t i = 0; i < racer.joints.size(); ++i) {
             if (i > 0) {
                 list_.line(racer.joints[i - 1] + apart, racer.joints[i] + apart, px(3.0f), colour).shadow =

@@ -78,9 +78,9 @@ ik::Limit limit_of(const ReachSettings& settings, std::size_t joint) {
     return joint < settings.limits.size() ? settings.limits[joint] : ik::Limit{};
 }
 
-void set_limit(ReachSettings& settings, std::size_t joint, const ik::Limit& limit, std::size_t bones) {
-    if (const char* why = ik::fault(limit)) throw std::invalid_argument(why);
-    if (settings.limits.empty()) settings.limits.resize(bones);
+void set_limit(ReachSettings& settings, std::size_t joint, const ik::Limit& limit, const Chain& chain) {
+    if (const char* why = ik::fault(limit, chain.default_direction())) throw std::invalid_argument(why);
+    if (settings.limits.empty()) settings.limits.resize(chain.size() - 1);
     settings.limits[joint] = limit;
     const bool all_free = std::all_of(settings.limits.begin(), settings.limits.end(),
                                       [](const auto& each) { return each.kind == ik::JointKind::Free; });

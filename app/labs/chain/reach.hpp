@@ -58,8 +58,8 @@ void bone_removed(ReachSettings& settings, std::size_t index, std::size_t segmen
 void forget_limits(ReachSettings& settings);
 /// The limit of a joint; free where none is set.
 ik::Limit limit_of(const ReachSettings& settings, std::size_t joint);
-/// Throws std::invalid_argument for a limit with a fault. `bones`: of the chain.
-void set_limit(ReachSettings& settings, std::size_t joint, const ik::Limit& limit, std::size_t bones);
+/// Throws std::invalid_argument for a limit with a fault.
+void set_limit(ReachSettings& settings, std::size_t joint, const ik::Limit& limit, const Chain& chain);
 
 /// "joint 2 (hinge) stops at 145 degrees; the target needs 162".
 std::string hold_text(const ik::Hold& hold);

@@ -47,8 +47,7 @@ constexpr const char* angle_names[] = {"min_deg",  "max_deg",   "up_deg",       
 void set_joint_limit(ChainPart& part, const Arguments& given) {
     const std::size_t index = index_of(given);
     check_index(part, index);
-    const std::size_t bones = part.chain.size() - 1;
-    if (index >= bones) {
+    if (index + 1 == part.chain.size()) {
         throw Refused("index " + std::to_string(index) + " is the tail: no bone starts there to be limited");
     }
     // A limit of the same kind keeps what is not told; another kind begins with its own angles.
@@ -59,7 +58,7 @@ void set_joint_limit(ChainPart& part, const Arguments& given) {
     for (const char* angle : angle_names) {
         if (given.has(angle)) json[angle] = number(given.number(angle));
     }
-    set_limit(part.reach, index, limit_from_json(json, "limit"), bones);
+    set_limit(part.reach, index, limit_from_json(json, "limit"), part.chain);
     reach_again(part);
 }
 

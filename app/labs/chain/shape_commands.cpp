@@ -62,7 +62,8 @@ void insert(ChainPart& part, const Arguments& given) {
 }
 
 void remove(ChainPart& part, const Arguments& given) {
-    const std::size_t index = index_of(given);
+    if (!given.has("index") && !part.selected) throw Refused("needs index: no segment is selected");
+    const std::size_t index = given.has("index") ? index_of(given) : *part.selected;
     part.chain.remove(index);
     shape_changed(part);
     bone_removed(part.reach, index, part.chain.size());
@@ -123,8 +124,9 @@ void add_shape_commands(CommandTable& table) {
     table.add(chain_command(
         "chain.insert", {index_argument(true, "the new segment's"), length_argument(), position_argument()},
         "Inserts a segment before another", insert));
-    table.add(
-        chain_command("chain.remove", {index_argument(true, "which segment")}, "Removes a segment", remove));
+    table.add(chain_command("chain.remove",
+                            {index_argument(false, "which segment; the selected one when left out")},
+                            "Removes a segment", remove));
     table.add(chain_command("chain.reset", {}, "Everything in this lab as at the first start", reset));
     table.add(chain_command("chain.set_length", {index_argument(true, "which segment"), length_argument()},
                             "Sets a segment's length and lays the chain anew", set_length));

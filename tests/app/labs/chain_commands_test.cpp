@@ -1,41 +1,13 @@
 // The Chain lab's commands: what each does, what each refuses, and that a refusal changes nothing.
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "app/document/scene_file.hpp"
-#include "app/labs/chain/chain_lab.hpp"
-#include "app/labs/labs.hpp"
+#include "tests/app/labs/chain_support.hpp"
 
 namespace tendril::app {
 namespace {
 
-class ChainCommands : public testing::Test {
-  protected:
-    Labs labs;
-    CommandTable table = make_command_table(labs);
-    Workspace workspace = make_blank_workspace(labs);
-
-    const ChainPart& part() const { return chain_part(workspace); }
-    void run(const char* name, Json arguments = Json::object(), Gesture gesture = 0) {
-        table.run(workspace, name, arguments, gesture);
-    }
-    /// Runs what must be refused; gives the message, having checked that nothing changed.
-    std::string refused(const char* name, const Json& arguments) {
-        const Json scene = save_scene(workspace);
-        const std::size_t history = workspace.history.size();
-        try {
-            table.run(workspace, name, arguments);
-        } catch (const Refused& refusal) {
-            EXPECT_EQ(save_scene(workspace), scene) << name << " changed something, though refused";
-            EXPECT_EQ(workspace.history.size(), history);
-            return refusal.what();
-        }
-        ADD_FAILURE() << name << " " << arguments << " was accepted";
-        return {};
-    }
-};
+class ChainCommands : public ChainTest {};
 
 TEST_F(ChainCommands, StartIsEightMetresAlongXWithTheTargetOnTheTail) {
     ASSERT_EQ(part().chain.size(), 8u);

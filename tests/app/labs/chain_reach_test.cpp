@@ -1,0 +1,197 @@
+// Reach mode: what each command does to it, what is refused, and what a limit says that holds.
+#include <cmath>
+#include <glm/trigonometric.hpp>
+
+#include "tests/app/labs/chain_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+class ChainReach : public ChainTest {
+  protected:
+    /// Two bones of a metre whose elbow bends from 0 to 145 degrees in the plane of the picture.
+    void elbow() {
+        reach_with(2);
+        run("chain.limit",
+            {{"index", 1}, {"kind", "hinge"}, {"axis", {0, 0, 1}}, {"min_deg", 0}, {"max_deg", 145}});
+    }
+    /// How far from the shoulder a two-bone arm of metres ends whose elbow is bent so much.
+    static float distance_at(float degrees) { return 2.0f * std::cos(glm::radians(0.5f * degrees)); }
+};
+
+TEST_F(ChainReach, the_head_stays_and_the_tail_reaches_the_target) {
+    run("chain.mode", {{"mode", "reach"}});
+    EXPECT_EQ(part().chain.position(7), glm::vec3(7, 0, 0)) << "the mode alone moves nothing";
+    run("chain.target", {{"to", {3, 3, 1}}});
+    EXPECT_EQ(part().chain.position(0), glm::vec3(0, 0, 0));
+    EXPECT_LE(tip_distance(), 7e-3f);
+    EXPECT_EQ(state()["reach"]["report"]["status"], "Converged");
+    EXPECT_EQ(state()["reach"]["report"]["solver"], "fabrik");
+    EXPECT_EQ(state()["mode"], "reach");
+}
+
+TEST_F(ChainReach, every_solver_reaches_and_says_so) {
+    for (const ik::Method method : ik::all_methods) {
+        reach_with(method == ik::Method::TwoBone ? 2 : 7);
+        run("chain.solver", {{"name", ik::name(method)}, {"iterations", 1000}});
+        run("chain.target", {{"to", {1.2, 0.7, 0.4}}});
+        EXPECT_EQ(state()["reach"]["report"]["status"], "Converged") << ik::name(method);
+        EXPECT_EQ(state()["reach"]["solver"], ik::name(method));
+        EXPECT_LE(tip_distance(), part().chain.reach() * 1.001e-3f) << ik::name(method);
+    }
+}
+
+TEST_F(ChainReach, a_target_out_of_reach_stretches_the_chain) {
+    run("chain.mode", {{"mode", "reach"}});
+    run("chain.target", {{"to", {0, 10, 0}}});
+    EXPECT_EQ(state()["reach"]["report"]["status"], "Stretched");
+    EXPECT_NEAR(state()["reach"]["report"]["residual"].get<float>(), 3.0f, 1e-4f);
+    EXPECT_NEAR(part().chain.position(4).y, 4.0f, 1e-5f);
+}
+
+TEST_F(ChainReach, options_are_kept_when_left_out) {
+    run("chain.solver", {{"name", "dls"}, {"iterations", 7}, {"tolerance", 0.25}, {"damping", 0.5}});
+    run("chain.solver", {{"snap_back", 0.5}, {"soft_zone", 0.125}, {"pole_turn", "each_joint"}});
+    const ReachSettings& reach = part().reach;
+    EXPECT_EQ(reach.method, ik::Method::Dls);
+    EXPECT_EQ(reach.iterations, 7);
+    EXPECT_EQ(reach.tolerance, 0.25f);
+    EXPECT_EQ(reach.damping, 0.5f);
+    EXPECT_EQ(reach.snap_back, 0.5f);
+    EXPECT_EQ(reach.soft_zone, 0.125f);
+    EXPECT_EQ(reach.pole_turn, ik::PoleTurn::EachJoint);
+    run("chain.solver", {{"default_tolerance", true}});
+    run("chain.mode", {{"mode", "reach"}});
+    EXPECT_NEAR(state()["tolerance"].get<float>(), 7e-3f, 1e-6f);
+    run("chain.mode", {{"mode", "reach"}, {"iterations", 3}, {"tolerance", 0.5}});
+    EXPECT_EQ(state()["iterations"], 3);
+    EXPECT_EQ(state()["tolerance"], 0.5);
+    run("chain.mode", {{"mode", "fixed"}});
+    EXPECT_EQ(state()["iterations"], 1) << "each mode has its own";
+}
+
+TEST_F(ChainReach, an_elbow_just_out_of_range_is_named_with_its_limit_and_what_is_needed) {
+    elbow();
+    run("chain.target", {{"to", {distance_at(162.0f), 0, 0}}});
+    const Json reach = state()["reach"];
+    EXPECT_EQ(reach["report"]["status"], "Limited");
+    EXPECT_EQ(reach["explanation"], "joint 1 (hinge) stops at 145 degrees; the target needs 162");
+    EXPECT_EQ(reach["hold"]["joint"], 1);
+    EXPECT_NEAR(reach["hold"]["limit_deg"].get<float>(), 145.0f, 0.01f);
+    EXPECT_NEAR(reach["hold"]["needed_deg"].get<float>(), 162.0f, 1.0f);
+    EXPECT_NEAR(reach["report"]["residual"].get<float>(), distance_at(145.0f) - distance_at(162.0f), 2e-3f);
+
+    run("chain.target", {{"to", {distance_at(140.0f), 0, 0}}});
+    EXPECT_EQ(state()["reach"]["report"]["status"], "Converged");
+    EXPECT_EQ(state()["reach"]["explanation"], nullptr);
+}
+
+TEST_F(ChainReach, a_limit_bends_the_chain_as_soon_as_it_is_set) {
+    elbow();
+    run("chain.limit", {{"index", 1}, {"min_deg", 30}});
+    EXPECT_EQ(state()["reach"]["limits"][1]["min_deg"], 30.0);
+    EXPECT_EQ(state()["reach"]["limits"][1]["max_deg"], 145.0) << "what is left out is kept";
+    const glm::vec3 upper = part().chain.position(1) - part().chain.position(0);
+    const glm::vec3 lower = part().chain.position(2) - part().chain.position(1);
+    EXPECT_GE(glm::degrees(std::acos(std::min(1.0f, glm::dot(upper, lower)))), 29.9f);
+    run("chain.limit", {{"index", 1}, {"kind", "free"}});
+    EXPECT_TRUE(part().reach.limits.empty());
+}
+
+TEST_F(ChainReach, limits_stay_with_their_segments) {
+    reach_with(5);
+    run("chain.limit", {{"index", 2}, {"kind", "hinge"}, {"max_deg", 90}});
+    run("chain.insert", {{"index", 1}, {"length", 0.5}});
+    EXPECT_EQ(limit_of(part().reach, 3).kind, ik::JointKind::Hinge);
+    EXPECT_EQ(part().reach.limits.size(), 6u);
+    run("chain.remove", {{"index", 0}});
+    EXPECT_EQ(limit_of(part().reach, 2).kind, ik::JointKind::Hinge);
+    EXPECT_EQ(part().reach.limits.size(), 5u);
+    run("chain.add", {{"length", 1}});
+    EXPECT_EQ(part().reach.limits.size(), 6u);
+    run("chain.target", {{"to", {2, 2, 0}}});
+    run("chain.clear");
+    EXPECT_TRUE(part().reach.limits.empty());
+}
+
+TEST_F(ChainReach, the_pole_turns_the_chain_to_face_it) {
+    reach_with(2);
+    run("chain.target", {{"to", {1.4, 0, 0}}});
+    run("chain.pole", {{"to", {0.7, 0, 3}}});
+    EXPECT_GT(part().chain.position(1).z, 0.5f);
+    run("chain.pole", {{"to", {0.7, -3, 0}}});
+    EXPECT_LT(part().chain.position(1).y, -0.5f);
+    EXPECT_LE(tip_distance(), 2e-3f);
+    run("chain.pole", {{"off", true}});
+    EXPECT_FALSE(part().reach.pole);
+}
+
+TEST_F(ChainReach, everything_comes_back_from_a_file_bit_for_bit) {
+    elbow();
+    run("chain.limit",
+        {{"index", 0}, {"kind", "ball_and_socket"}, {"up_deg", 33.3}, {"twist_min_deg", -12.7}});
+    run("chain.solver", {{"name", "ccd"}, {"tolerance", 0.001}, {"twist_deg", 10.1}});
+    run("chain.pole", {{"to", {1, 2, 3}}});
+    run("chain.target", {{"to", {0.4, 0.9, 0.3}}});
+    const Json scene = parse_json(save_scene(workspace).dump());
+    Workspace other = make_blank_workspace(labs);
+    load_scene(other, scene);
+    EXPECT_EQ(save_scene(other), scene);
+    EXPECT_EQ(chain_part(other).reach, part().reach);
+    // And goes on as this one does.
+    const Json on{{"to", {0.9, -0.8, 0.5}}};
+    run("chain.target", on);
+    table.run(other, "chain.target", on);
+    EXPECT_EQ(save_scene(other), save_scene(workspace));
+}
+
+TEST_F(ChainReach, a_scene_from_before_there_was_reach_opens) {
+    Json scene = save_scene(workspace);
+    scene["labs"]["chain"].erase("reach");
+    run("chain.solver", {{"name", "ccd"}});
+    load_scene(workspace, scene);
+    EXPECT_EQ(part().reach, ReachSettings());
+}
+
+TEST_F(ChainReach, each_change_is_one_step_to_undo) {
+    elbow();
+    const Json before = save_scene(workspace);
+    const std::size_t history = workspace.history.size();
+    run("chain.solver", {{"name", "dls"}});
+    run("chain.pole", {{"to", {0, 3, 0}}});
+    run("chain.limit", {{"index", 0}, {"kind", "pivot"}});
+    run("chain.target", {{"to", {0, 1, 1}}});
+    EXPECT_EQ(workspace.history.size(), history + 4);
+    for (int i = 0; i < 4; ++i) run("undo");
+    EXPECT_EQ(save_scene(workspace), before);
+}
+
+TEST_F(ChainReach, bad_input_is_refused_with_what_is_wrong) {
+    reach_with(4);
+    const auto says = [&](const char* name, const Json& arguments, const char* part_of) {
+        const std::string why = refused(name, arguments);
+        EXPECT_NE(why.find(part_of), std::string::npos) << name << arguments << ": " << why;
+    };
+    says("chain.solver", {{"name", "newton"}}, "newton");
+    says("chain.solver", {{"name", "two_bone"}}, "two_bone takes a chain of three segments");
+    says("chain.solver", {{"iterations", 0}}, "iterations");
+    says("chain.solver", {{"tolerance", -1}}, "tolerance");
+    says("chain.solver", {{"snap_back", 1.5}}, "snap_back");
+    says("chain.solver", {{"damping", 0}}, "damping");
+    says("chain.target", {{"to", {0, 2e9, 0}}}, "to");
+    says("chain.target", {{"to", {0, nullptr, 0}}}, "to");
+    says("chain.pole", {{"to", {0, "up", 0}}}, "to");
+    says("chain.pole", Json::object(), "off");
+    says("chain.pole", {{"to", {0, 1, 0}}, {"off", true}}, "exclude");
+    says("chain.limit", {{"index", 4}, {"kind", "hinge"}}, "tail");
+    says("chain.limit", {{"index", 9}, {"kind", "hinge"}}, "9");
+    says("chain.limit", {{"index", 1}, {"kind", "knee"}}, "knee");
+    says("chain.limit", {{"index", 1}, {"kind", "hinge"}, {"min_deg", 50}, {"max_deg", 20}}, "50");
+    says("chain.limit", {{"index", 1}, {"kind", "hinge"}, {"axis", {0, 0, 0}}}, "axis");
+    says("chain.limit", {{"index", 1}, {"kind", "hinge"}, {"axis", {1, 0, 0}}}, "bone");
+    says("chain.limit", {{"index", 1}, {"kind", "hinge"}, {"max_deg", 200}}, "200");
+    says("chain.limit", {{"index", 1}, {"kind", "saddle"}, {"up_deg", -1}}, "up_deg");
+}
+
+}  // namespace
+}  // namespace tendril::app

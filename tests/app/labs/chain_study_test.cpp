@@ -1,0 +1,231 @@
+// The microscope and the race.
+#include <glm/geometric.hpp>
+#include <set>
+#include <sstream>
+
+#include "tests/app/labs/chain_support.hpp"
+#include "tests/app/support/temp_folder.hpp"
+
+namespace tendril::app {
+namespace {
+
+class ChainStudy : public ChainTest {
+  protected:
+    const Study& study() const { return part().study; }
+    const Trace& trace() const { return *part().study.trace; }
+};
+
+TEST_F(ChainStudy, the_microscope_shows_the_eight_pulls_of_an_iteration_of_four_bones) {
+    reach_with(4);
+    run("chain.solver", {{"name", "fabrik_plain"}});
+    run("chain.target", {{"to", {1, 2, 1}}});
+    run("microscope.open", {{"start", "straight"}});
+    std::vector<std::pair<std::size_t, std::size_t>> pulls;
+    for (std::size_t i = 1; i <= trace().end_of_iteration(1); ++i) {
+        run("microscope.seek", {{"step", i}});
+        const Json shown = state()["microscope"];
+        ASSERT_EQ(shown["moves"].size(), 1u);
+        const Json& move = shown["moves"][0];
+        const std::size_t joint = move["joint"].get<std::size_t>();
+        EXPECT_EQ(shown["positions"][joint], move["to"]);
+        if (move["neighbour"].is_null()) continue;  // the tip onto the target, the root onto its place
+        const std::size_t neighbour = move["neighbour"].get<std::size_t>();
+        pulls.emplace_back(joint, neighbour);
+        // On the line from its neighbour through where it was, at the bone's length.
+        const auto at = [&](const Json& p) { return glm::vec3(p[0], p[1], p[2]); };
+        const glm::vec3 anchor = at(shown["positions"][neighbour]);
+        const glm::vec3 was = at(move["from"]) - anchor, is = at(move["to"]) - anchor;
+        EXPECT_NEAR(glm::length(is), 1.0f, 1e-5f);
+        if (glm::length(was) > 1e-3f) {
+            EXPECT_LT(glm::length(glm::cross(glm::normalize(was), is)), 1e-4f);
+        }
+    }
+    const std::vector<std::pair<std::size_t, std::size_t>> expected{{3, 4}, {2, 3}, {1, 2}, {0, 1},
+                                                                    {1, 0}, {2, 1}, {3, 2}, {4, 3}};
+    EXPECT_EQ(pulls, expected);
+}
+
+TEST_F(ChainStudy, the_last_step_of_every_solver_is_where_the_chain_ends) {
+    for (const ik::Method method : ik::all_methods) {
+        reach_with(method == ik::Method::TwoBone ? 2 : 6);
+        run("chain.solver", {{"name", ik::name(method)}});
+        run("chain.pole", {{"to", {0, 2, 3}}});
+        run("microscope.open");
+        run("chain.target", {{"to", {0.9, 1.1, 0.4}}});
+        ASSERT_GT(trace().frames(), 0u) << ik::name(method);
+        const std::vector<glm::vec3> last = trace().pose(trace().frames());
+        for (std::size_t i = 0; i < last.size(); ++i) {
+            EXPECT_EQ(last[i], part().chain.position(i)) << ik::name(method) << " joint " << i;
+        }
+        EXPECT_EQ(trace().residuals.size(), static_cast<std::size_t>(trace().report.iterations) + 1);
+        run("microscope.close");
+    }
+}
+
+TEST_F(ChainStudy, limits_are_seen_at_work) {
+    reach_with(3);
+    run("chain.limit", {{"index", 1}, {"kind", "hinge"}, {"max_deg", 60}});
+    run("microscope.open");
+    run("chain.target", {{"to", {0.5, 1, 0.5}}});
+    const std::vector<glm::vec3> last = trace().pose(trace().frames());
+    for (std::size_t i = 0; i < last.size(); ++i) EXPECT_EQ(last[i], part().chain.position(i)) << i;
+}
+
+TEST_F(ChainStudy, every_solve_begins_at_the_same_start) {
+    run("chain.mode", {{"mode", "reach"}});
+    run("microscope.open", {{"start", "here"}});
+    run("chain.target", {{"to", {2, 3, 0}}});
+    const Chain first = part().chain;
+    run("chain.target", {{"to", {-2, 3, 1}}});
+    run("chain.target", {{"to", {2, 3, 0}}});
+    EXPECT_EQ(part().chain, first) << "from the same start to the same target is the same way";
+    EXPECT_EQ(study().start.back(), glm::vec3(7, 0, 0));
+    run("microscope.close");
+    EXPECT_EQ(part().chain, first) << "closing leaves the chain as it was solved";
+}
+
+TEST_F(ChainStudy, opening_looks_into_the_last_solve) {
+    run("chain.mode", {{"mode", "reach"}});
+    run("chain.target", {{"to", {2, 3, 0}}});
+    const Chain solved = part().chain;
+    run("microscope.open");
+    EXPECT_EQ(part().chain, solved);
+    EXPECT_EQ(study().start.back(), glm::vec3(7, 0, 0));
+    EXPECT_GT(trace().frames(), 0u);
+}
+
+TEST_F(ChainStudy, steps_go_on_and_back_and_stay_within) {
+    reach_with(4);
+    run("chain.solver", {{"name", "fabrik_plain"}, {"tolerance", 1e-6}, {"iterations", 3}});
+    run("microscope.open");
+    run("chain.target", {{"to", {1, 1.5, 1}}});
+    const auto step = [&] { return study().step; };
+    EXPECT_EQ(step(), 0u);
+    run("microscope.step");
+    run("microscope.step", {{"by", 2}});
+    EXPECT_EQ(step(), 3u);
+    run("microscope.step", {{"iterations", 1}});
+    EXPECT_EQ(step(), trace().end_of_iteration(1));
+    run("microscope.step", {{"iterations", 1}});
+    EXPECT_EQ(step(), trace().end_of_iteration(2));
+    run("microscope.step", {{"iterations", -1}});
+    EXPECT_EQ(step(), trace().end_of_iteration(1));
+    run("microscope.step", {{"by", 1000}});
+    EXPECT_EQ(step(), trace().frames());
+    run("microscope.step", {{"by", -100000}});
+    EXPECT_EQ(step(), 0u);
+    EXPECT_NE(refused("microscope.seek", {{"step", 5000}}).find("5000"), std::string::npos);
+}
+
+TEST_F(ChainStudy, every_step_has_its_sentence) {
+    for (const ik::Method method : ik::all_methods) {
+        reach_with(method == ik::Method::TwoBone ? 2 : 5);
+        run("chain.solver", {{"name", ik::name(method)}});
+        run("microscope.open", {{"start", "straight"}});
+        run("chain.target", {{"to", {0.7, 0, 0}}});
+        for (std::size_t i = 0; i <= trace().frames(); ++i) EXPECT_FALSE(describe_frame(trace(), i).empty());
+        run("microscope.close");
+    }
+}
+
+TEST_F(ChainStudy, the_race_runs_who_takes_part_from_the_same_start) {
+    run("chain.mode", {{"mode", "reach"}});
+    run("chain.target", {{"to", {3, 3, 1}}});
+    run("race.open", {{"start", "straight"}});
+    run("race.solver", {{"name", "jacobian_transpose"}, {"on", true}});
+    run("race.solver", {{"name", "fabrik_plain"}, {"on", false}});
+    const Json race = state()["race"];
+    std::set<std::string> names;
+    for (const Json& racer : race) {
+        names.insert(racer["solver"].get<std::string>());
+        EXPECT_EQ(racer["positions"].size(), 8u);
+        EXPECT_EQ(racer["positions"][0], point({0, 0, 0}));
+        EXPECT_FALSE(racer.contains("microseconds")) << "a state is the same every time";
+    }
+    EXPECT_EQ(names, (std::set<std::string>{"fabrik", "ccd", "jacobian_transpose", "dls"}));
+    EXPECT_EQ(race[0]["status"], "Converged");
+}
+
+TEST_F(ChainStudy, the_race_is_written_as_csv) {
+    run("race.open", {{"start", "straight"}});
+    run("chain.target", {{"to", {3, 3, 1}}});
+    const test::TempFolder folder;
+    run("race.save", {{"path", (folder / "race.csv").string()}});
+    run("race.copy");
+    const std::string csv = test::read(folder / "race.csv");
+    std::istringstream lines(csv);
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(line, "solver,iteration,residual,microseconds,status");
+    std::size_t rows = 0, expected = 0;
+    while (std::getline(lines, line)) rows += line.empty() ? 0 : 1;
+    for (const Racer& racer : study().race->racers) expected += racer.residuals.size();
+    EXPECT_EQ(rows, expected);
+    ASSERT_TRUE(workspace.ui.copied);
+    EXPECT_EQ(*workspace.ui.copied, csv);
+    EXPECT_NE(refused("race.save", {{"path", "/nowhere/at/all.csv"}}).find("/nowhere"), std::string::npos);
+}
+
+TEST_F(ChainStudy, a_study_comes_back_from_a_file) {
+    run("microscope.open", {{"start", "straight"}});
+    run("chain.target", {{"to", {3, 3, 1}}});
+    run("microscope.seek", {{"step", 5}});
+    const Json scene = parse_json(save_scene(workspace).dump());
+    const Json shown = state()["microscope"];
+    Workspace other = make_blank_workspace(labs);
+    load_scene(other, scene);
+    EXPECT_EQ(save_scene(other), scene);
+    EXPECT_EQ(labs.find(chain_lab)->state(other)["microscope"], shown);
+}
+
+TEST_F(ChainStudy, what_changes_the_chain_closes_it_and_other_modes_too) {
+    for (const char* kind : {"microscope.open", "race.open"}) {
+        run(kind);
+        run("chain.add", {{"length", 1}});
+        EXPECT_FALSE(study().open()) << kind;
+        run(kind);
+        run("chain.mode", {{"mode", "forward"}});
+        EXPECT_FALSE(study().open()) << kind;
+        run(kind);
+        run("chain.preset", {{"name", "arm"}});
+        EXPECT_FALSE(study().open()) << kind;
+    }
+}
+
+TEST_F(ChainStudy, what_cannot_be_studied_is_refused) {
+    EXPECT_NE(refused("microscope.close").find("not open"), std::string::npos);
+    EXPECT_NE(refused("microscope.step").find("not open"), std::string::npos);
+    EXPECT_NE(refused("race.close").find("no race"), std::string::npos);
+    EXPECT_NE(refused("race.save", {{"path", "a.csv"}}).find("no race"), std::string::npos);
+    EXPECT_NE(refused("race.copy").find("no race"), std::string::npos);
+    run("chain.preset", {{"name", "start"}, {"count", 1000}});
+    EXPECT_NE(refused("microscope.open").find("1000"), std::string::npos);
+    run("chain.clear");
+    EXPECT_NE(refused("race.open").find("no bone"), std::string::npos);
+}
+
+TEST_F(ChainStudy, hostile_scenes_say_where_they_are_wrong) {
+    run("microscope.open", {{"start", "straight"}});
+    const Json scene = save_scene(workspace);
+    const auto says = [&](const char* key, const Json& value) {
+        Json broken = scene;
+        broken["labs"]["chain"]["study"][key] = value;
+        try {
+            load_scene(workspace, broken);
+            ADD_FAILURE() << key << " " << value << " was accepted";
+        } catch (const std::runtime_error& error) {
+            EXPECT_NE(std::string(error.what()).find(std::string("study.") + key), std::string::npos)
+                << error.what();
+        }
+    };
+    says("kind", "telescope");
+    says("start", Json::array());
+    says("step", -1);
+    says("step", "last");
+    says("solvers", Json::array({"newton"}));
+    says("side_by_side", 1);
+    says("rotations", Json::array({1, 2}));
+}
+
+}  // namespace
+}  // namespace tendril::app
