@@ -102,58 +102,102 @@ Status status_of(const Problem& problem, const Reachable& can, bool stalled) noe
     return touches(problem) ? Status::Limited : Status::Stalled;
 }
 
+/// What the loop knows besides the pose: room.limited.nearest has the error `best`.
+struct Course {
+    Reachable can;
+    float best = 0.0f;
+};
+
+void note_if_nearer(Problem& problem, Course& course) noexcept {
+    const float error = error_of(problem);
+    if (!(error < course.best)) return;
+    course.best = error;
+    save(problem, problem.room.limited.nearest);
+}
+
+template <class Watch>
+Course prepare(Problem& problem, Watch watch) noexcept {
+    expect_pole(problem);
+    take_limits(problem);
+    settle(problem, watch);
+    Course course{reachable(problem), error_of(problem)};
+    save(problem, problem.room.limited.nearest);
+    if (problem.options.snap_back > 0.0f) {
+        snap_back(problem, watch);
+        settle(problem, watch);
+    }
+    lie_on_line(problem, course.can, watch);
+    note_if_nearer(problem, course);
+    return course;
+}
+
+float residual_of(const Problem& problem) noexcept {
+    return distance(problem.joints.back(), problem.target);
+}
+
+template <class Watch>
+void tell(const Problem& problem, Watch watch) noexcept {
+    const std::span<float> told = problem.options.residuals;
+    const auto done = static_cast<std::size_t>(problem.iteration);
+    const float residual = residual_of(problem);
+    if (done >= 1 && done <= told.size()) told[done - 1] = residual;
+    watch.iteration_done(problem.iteration, residual);
+}
+
+/// Whether it stalled.
+template <class Watch>
+bool search(Problem& problem, Course& course, Watch watch) noexcept {
+    LimitedSearch search(error_of(problem));
+    while (problem.iteration < problem.options.max_iterations) {
+        const bool over = arrived(problem, course.can) || search.exhausted();
+        if (over && !problem.options.every_iteration) break;
+        ++problem.iteration;
+        search.iterate(problem, watch);
+        if (search.takes(error_of(problem), course.best, arrived(problem, course.can))) {
+            note_if_nearer(problem, course);
+        }
+        tell(problem, watch);
+    }
+    return search.stalled();
+}
+
+/// The same by a method that has no second try.
+template <class Watch>
+bool go_on(Method method, Problem& problem, Course& course, Watch watch) noexcept {
+    Progress progress(course.best);
+    while (problem.iteration < problem.options.max_iterations) {
+        const bool over = arrived(problem, course.can) || progress.stalled();
+        if (over && !problem.options.every_iteration) break;
+        ++problem.iteration;
+        limited_iteration(method, problem, watch);
+        note_if_nearer(problem, course);
+        progress.note(course.best);
+        tell(problem, watch);
+    }
+    return progress.stalled();
+}
+
 }  // namespace
 
 template <class Watch>
 Report run_limited(Method method, Problem& problem, Watch watch) noexcept {
-    Report report;
-    const auto residual = [&] { return distance(problem.joints.back(), problem.target); };
-    if (problem.bones() == 0 || !(problem.room.reach > 0.0f)) {
-        report.residual = residual();
-        if (report.residual > problem.tolerance) report.status = Status::Stretched;
-        return report;
+    if (!(problem.room.reach > 0.0f)) {
+        take_limits(problem);
+        settle(problem, watch);
+        tell(problem, watch);
+        const bool there = residual_of(problem) <= problem.tolerance;
+        return {there ? Status::Converged : Status::Stretched, 0, residual_of(problem)};
     }
-    expect_pole(problem);
-    snap_back(problem, watch);
-    take_limits(problem);
-    settle(problem, watch);
-    const Reachable can = reachable(problem);
-    lie_on_line(problem, can, watch);
-    watch.iteration_done(0, residual());
-
-    LimitedPose& nearest = problem.room.limited.nearest;
-    float best = error_of(problem);
-    save(problem, nearest);
-    LimitedSearch search(best);
-    Progress progress(best);
-    const bool searching = method == Method::Fabrik;
-    const auto stalled = [&] { return searching ? search.stalled() : progress.stalled(); };
-    const auto over = [&] {
-        return arrived(problem, can) || (searching ? search.exhausted() : progress.stalled());
-    };
-    while (report.iterations < problem.options.max_iterations) {
-        if (!problem.options.every_iteration && over()) break;
-        problem.iteration = ++report.iterations;
-        if (searching) {
-            search.iterate(problem, watch);
-        } else {
-            limited_iteration(method, problem, watch);
-        }
-        const float error = error_of(problem);
-        if (searching ? search.takes(error, best, arrived(problem, can)) : error < best) {
-            best = error;
-            save(problem, nearest);
-        }
-        progress.note(best);
-        const auto done = static_cast<std::size_t>(report.iterations);
-        if (done <= problem.options.residuals.size()) problem.options.residuals[done - 1] = residual();
-        watch.iteration_done(report.iterations, residual());
+    Course course = prepare(problem, watch);
+    tell(problem, watch);
+    const bool stalled =
+        method == Method::Fabrik ? search(problem, course, watch) : go_on(method, problem, course, watch);
+    const bool there = residual_of(problem) <= problem.tolerance && is_turned(problem);
+    if (!there && error_of(problem) != course.best) {
+        assume(problem, problem.room.limited.nearest, Phase::Keep, watch);
     }
-    if (error_of(problem) != best) assume(problem, nearest, Phase::Keep, watch);
     face_pole_within_limits(problem, watch);
-    report.residual = residual();
-    report.status = status_of(problem, can, stalled());
-    return report;
+    return {status_of(problem, course.can, stalled), problem.iteration, residual_of(problem)};
 }
 
 template Report run_limited(Method, Problem&, Unwatched) noexcept;

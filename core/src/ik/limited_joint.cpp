@@ -131,10 +131,10 @@ float excess_of(const LimitedJoint& joint, const JointAngles& angles) noexcept {
                     std::abs(over(angles.twist, joint.twist_min, joint.twist_max)));
 }
 
-bool bring_within(const LimitedJoint& joint, glm::quat& turn) noexcept {
+bool bring_within(const LimitedJoint& joint, glm::quat& turn, float slack) noexcept {
     if (joint.free()) return false;
     const JointAngles angles = angles_of(joint, turn);
-    if (excess_of(joint, angles) <= at_bound) return false;
+    if (excess_of(joint, angles) <= slack) return false;
     turn = turn_of(joint, within(joint, angles));
     return true;
 }

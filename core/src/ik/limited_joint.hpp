@@ -44,8 +44,8 @@ glm::quat turn_of(const LimitedJoint& joint, const JointAngles& angles) noexcept
 JointAngles within(const LimitedJoint& joint, const JointAngles& angles) noexcept;
 float excess_of(const LimitedJoint& joint, const JointAngles& angles) noexcept;
 
-/// The same for a turn; false, and the turn is left bit for bit, where it is within or over by rounding only.
-bool bring_within(const LimitedJoint& joint, glm::quat& turn) noexcept;
+/// The same for a turn; false, and the turn is left bit for bit, where it is over by no more than `slack`.
+bool bring_within(const LimitedJoint& joint, glm::quat& turn, float slack = at_bound) noexcept;
 
 /// Whether any of the angles that the joint has is at its bound, or has no room at all.
 bool is_at_limit(const LimitedJoint& joint, const JointAngles& angles) noexcept;

@@ -52,10 +52,24 @@ void save(const Problem& problem, LimitedPose& pose) noexcept {
     std::copy_n(problem.room.rotations.begin(), problem.bones(), pose.rotations.begin());
 }
 
+namespace {
+
+/// A bone that points straight back shows neither its twist nor to which side it swung. Where any of these is
+/// limited, it stays this far from there, so that floats can tell.
+void keep_from_half_turn(LimitedJoint& joint) noexcept {
+    constexpr float most = pi - 0.02f;
+    const float least = std::min({joint.up, joint.down, joint.left, joint.right});
+    if (least >= pi - at_bound && joint.twist_max - joint.twist_min >= 2.0f * pi - at_bound) return;
+    for (float* angle : {&joint.up, &joint.down, &joint.left, &joint.right}) *angle = std::min(*angle, most);
+}
+
+}  // namespace
+
 void take_limits(Problem& problem) noexcept {
     Workspace& room = problem.room;
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         room.limited.limits[i] = limited_joint(problem.options.limits[i], room.rest_directions[i]);
+        keep_from_half_turn(room.limited.limits[i]);
     }
 }
 
@@ -74,7 +88,8 @@ void settle(Problem& problem, Watch watch) noexcept {
         }
         const glm::quat parent = parent_of(pose.rotations, i);
         glm::quat turn = compose(conjugate(parent), pose.rotations[i]);
-        if (bring_within(room.limited.limits[i], turn)) {
+        // More than a solve leaves, or the next one would begin by moving what the last has left.
+        if (bring_within(room.limited.limits[i], turn, 5.0f * at_bound)) {
             pose.rotations[i] = unit(compose(parent, turn));
             same = false;
         }

@@ -63,10 +63,9 @@ template <class Watch>
 void assume(Problem& problem, const LimitedPose& pose, Phase phase, Watch watch) noexcept {
     for (std::size_t i = 1; i < problem.joints.size(); ++i) {
         const glm::vec3 from = problem.joints[i], to = pose.joints[i];
+        if (from.x == to.x && from.y == to.y && from.z == to.z) continue;
+        watch.moved(problem.iteration, phase, i, i - 1, from, to);
         problem.joints[i] = to;
-        if (Watch::watching && (from.x != to.x || from.y != to.y || from.z != to.z)) {
-            watch.moved(problem.iteration, phase, i, i - 1, from, to);
-        }
     }
     std::copy_n(pose.rotations.begin(), problem.bones(), problem.room.rotations.begin());
     watch.next_step();

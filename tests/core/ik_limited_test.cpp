@@ -1,0 +1,339 @@
+// Solves with limits: held whatever comes, arriving from rest, the better kept, steps that replay.
+#include "ik_hostile.hpp"
+#include "ik_limit_support.hpp"
+#include "memory.hpp"
+
+namespace tendril::test {
+namespace {
+
+using ik::Method;
+using ik::Status;
+
+Arm hostile_arm(Random& random) {
+    Arm arm = some_arm(random, arm_kinds[random.below(arm_kinds.size())], 1 + random.below(8));
+    for (std::size_t i = 0; i < arm.lengths.size(); ++i) {
+        if (random.chance(15)) arm.lengths[i] = 0.0f;
+        if (random.chance(15)) arm.limits[i] = ik::Limit();
+        if (random.chance(10)) arm.limits[i].left = arm.limits[i].right = 0.0f;
+        if (random.chance(20)) arm.limits[i].up = arm.limits[i].down = radians(180);
+        if (random.chance(20)) arm.limits[i].min = arm.limits[i].max = radians(20);
+        if (random.chance(20)) arm.limits[i].min = radians(-180), arm.limits[i].max = radians(180);
+        if (random.chance(20))
+            arm.limits[i].twist_min = radians(-180), arm.limits[i].twist_max = radians(180);
+    }
+    return arm;
+}
+
+ik::Options hostile_options(Random& random, const Arm& arm, const Joints& joints) {
+    ik::Options options;
+    options.limits = arm.limits;
+    options.max_iterations = 1 + static_cast<int>(random.below(12));
+    if (random.chance(40)) options.max_iterations = 60;
+    options.every_iteration = random.chance(8);
+    if (random.chance(6)) options.tolerance = 0.0f;
+    if (random.chance(6)) options.pole = hostile_target(joints, arm.lengths, random);
+    if (random.chance(6)) options.snap_back = part(random);
+    if (random.chance(6)) options.damping = random.chance(2) ? 1e-6f : 10.0f;
+    if (random.chance(6)) options.soft_zone = part(random);
+    if (random.chance(6))
+        options.tip_orientation = glm::angleAxis(random.around(3.0f), some_direction(random));
+    return options;
+}
+
+TEST(IkLimited, HoldsWhateverTheTargetHundredThousandTimes) {
+    Random random(given_seed());
+    int solves = 0;
+    while (solves < 100'000 && !HasFailure()) {
+        const Arm arm = hostile_arm(random);
+        ik::Solver solver = arm.solver();
+        Joints joints = random.chance(2) ? arm.at_rest() : hostile_pose(arm.lengths, random);
+        for (int k = 0; k < 10 && !HasFailure(); ++k, ++solves) {
+            SCOPED_TRACE("solve " + std::to_string(solves));
+            if (random.chance(20)) joints = hostile_pose(arm.lengths, random);
+            const Method method = ik::all_methods[random.below(arm.lengths.size() == 2 ? 7 : 6)];
+            const glm::vec3 target = hostile_target(joints, arm.lengths, random);
+            const ik::Options options = hostile_options(random, arm, joints);
+            const Joints before = joints;
+            const ik::Report report = solver.solve(method, joints, target, options);
+            EXPECT_NE(report.status, Status::InvalidInput);
+            EXPECT_TRUE(WithinLimits(arm, joints, solver.rotations())) << name(method);
+            EXPECT_TRUE(Holds(joints, arm.lengths));
+            EXPECT_TRUE(same_bits(joints.front(), before.front()));
+            const double residual = distance(joints.back(), target);
+            EXPECT_NEAR(report.residual, residual, 1e-5 * (1.0 + residual));
+        }
+    }
+}
+
+/// How many of a hundred come to a hundredth of the reach from rest, where a pose within the limits made the
+/// target.
+double arrived(Method method, ArmKind kind, std::size_t bones, int count, std::uint64_t seed) {
+    Random random(seed);
+    int there = 0;
+    for (int k = 0; k < count; ++k) {
+        const Arm arm = some_arm(random, kind, bones);
+        const glm::vec3 target = some_tip(arm, random);
+        ik::Solver solver = arm.solver();
+        Joints joints = arm.at_rest();
+        ik::Options options;
+        options.limits = arm.limits;
+        options.max_iterations = 200;
+        const ik::Report report = solver.solve(method, joints, target, options);
+        EXPECT_TRUE(WithinLimits(arm, joints, solver.rotations()));
+        there += report.residual <= 1e-2f * arm.reach();
+    }
+    return 100.0 * there / count;
+}
+
+TEST(IkLimited, FromRestItArrivesWhereSomePoseDoes) {
+    for (const ArmKind kind : arm_kinds) {
+        for (const std::size_t bones : {4u, 5u}) {
+            for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+                // The specification asks for 95.
+                EXPECT_GE(arrived(Method::Fabrik, kind, bones, 250, seed), 98.5)
+                    << name(kind) << ", " << bones << " bones, seed " << seed;
+            }
+        }
+    }
+}
+
+/// The others have no second try; so many arrive, and no fewer.
+TEST(IkLimited, TheOtherMethodsArriveAsOftenAsTheyDid) {
+    const auto all = [](Method method) {
+        double sum = 0;
+        for (const ArmKind kind : arm_kinds) sum += arrived(method, kind, 5, 200, 7);
+        return sum / static_cast<double>(arm_kinds.size());
+    };
+    EXPECT_GE(all(Method::FabrikPlain), 40);
+    EXPECT_GE(all(Method::Ccd), 80);
+    EXPECT_GE(all(Method::JacobianTranspose), 75);
+    EXPECT_GE(all(Method::Dls), 75);
+    EXPECT_GE(all(Method::SvdDls), 75);
+}
+
+TEST(IkLimited, TwoBonesArriveWhereSomePoseDoes) {
+    Random random(5);
+    int there = 0;
+    for (int k = 0; k < 500; ++k) {
+        Arm arm = some_arm(random, ArmKind::Human, 2);
+        const glm::vec3 target = some_tip(arm, random);
+        ik::Solver solver = arm.solver();
+        Joints joints = arm.at_rest();
+        const ik::Report report = solver.solve(Method::TwoBone, joints, target, {.limits = arm.limits});
+        EXPECT_TRUE(WithinLimits(arm, joints, solver.rotations()));
+        there += report.residual <= 1e-2f * arm.reach();
+    }
+    EXPECT_GE(there, 450);
+}
+
+TEST(IkLimited, AnElbowBehindAShoulderNeedsTheShouldersTwist) {
+    Arm arm{{1, 1}, {{1, 0, 0}, {1, 0, 0}}, {}};
+    ik::Limit shoulder = ik::Limit::of(ik::JointKind::BallAndSocket);
+    shoulder.up = shoulder.down = shoulder.left = shoulder.right = radians(20);
+    shoulder.twist_min = radians(-170), shoulder.twist_max = radians(170);
+    arm.limits = {shoulder, ik::Limit::hinge({0, 0, 1}, 0, radians(145))};
+    // Straight ahead and to the right: the elbow bends about +Z, to the left, unless the shoulder twists.
+    for (int k = 0; k < 16; ++k) {
+        const float about = radians(22.5 * k - 168);
+        const glm::vec3 target{1.4f, 0.9f * std::cos(about), 0.9f * std::sin(about)};
+        ik::Solver solver = arm.solver();
+        Joints joints = arm.at_rest();
+        EXPECT_EQ(solver.solve(Method::Fabrik, joints, target, {.limits = arm.limits}).status,
+                  Status::Converged)
+            << k;
+    }
+}
+
+TEST(IkLimited, OutOfReachItSaysWhatHoldsIt) {
+    Arm arm{{1, 1, 1}, {{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}, {}};
+    arm.limits.assign(3, ik::Limit::hinge({0, 0, 1}, radians(-90), radians(90)));
+    const auto solve = [&](glm::vec3 target) {
+        ik::Solver solver = arm.solver();
+        Joints joints = arm.at_rest();
+        return solver.solve(Method::Fabrik, joints, target, {.limits = arm.limits});
+    };
+    const ik::Report straight = solve({2.4f, 3.2f, 0});
+    EXPECT_EQ(straight.status, Status::Stretched);
+    EXPECT_NEAR(straight.residual, 1.0f, 3e-4f);
+    const ik::Report aside = solve({0, 0, 4});  // out of the plane of its hinges
+    EXPECT_EQ(aside.status, Status::Limited);
+    EXPECT_NEAR(aside.residual, std::hypot(4.0f, 1.0f), 2e-3f);  // folded, its tip comes no nearer than 1
+    EXPECT_EQ(solve({0.5f, 0.5f, 0.8f}).status, Status::Limited);
+    EXPECT_NEAR(solve({0.5f, 0.5f, 0.8f}).residual, std::hypot(0.8f, 1.0f - std::sqrt(0.5f)), 2e-3f);
+    EXPECT_EQ(solve({1.5f, 1.5f, 0}).status, Status::Converged);
+}
+
+TEST(IkLimited, TheWorseEndIsNotTaken) {
+    Random random(given_seed() + 1);
+    for (int k = 0; k < 3000 && !HasFailure(); ++k) {
+        const Arm arm = hostile_arm(random);
+        ik::Solver solver = arm.solver();
+        Joints joints = arm.at_rest();
+        ik::Options options;
+        options.limits = arm.limits;
+        options.max_iterations = 30;
+        solver.solve(Method::Fabrik, joints, some_direction(random) * arm.reach(), options);
+        for (const Method method : iterating_methods) {
+            const glm::vec3 target = hostile_target(joints, arm.lengths, random);
+            options.max_iterations = 1 + static_cast<int>(random.below(5));
+            const double before = distance(joints.back(), target);
+            solver.solve(method, joints, target, options);
+            const double reach = arm.reach(), tolerance = 1e-3 * reach;
+            EXPECT_LE(distance(joints.back(), target),
+                      std::max(before, tolerance) + 2e-6 * (reach + before + distance(joints[0], {})))
+                << name(method) << " " << k;
+        }
+    }
+}
+
+TEST(IkLimited, AStartThatIsOverIsBroughtWithin) {
+    Arm arm{{1, 1}, {{1, 0, 0}, {1, 0, 0}}, {}};
+    arm.limits.assign(2, ik::Limit::hinge({0, 0, 1}, 0, radians(45)));
+    for (const Method method : ik::all_methods) {
+        ik::Solver solver = arm.solver();
+        Joints joints{{0, 0, 0}, {-1, 0, 0}, {-1, -1, 0}};
+        solver.solve(method, joints, {-2, 0, 0}, {.max_iterations = 1, .limits = arm.limits});
+        EXPECT_TRUE(WithinLimits(arm, joints, solver.rotations())) << name(method);
+    }
+}
+
+TEST(IkLimited, SolvedAgainNothingMoves) {
+    Random random(3);
+    for (int k = 0; k < 300; ++k) {
+        const Arm arm = some_arm(random, arm_kinds[random.below(arm_kinds.size())], 5);
+        const glm::vec3 target = some_tip(arm, random);
+        ik::Solver solver = arm.solver();
+        Joints joints = arm.at_rest();
+        const ik::Options options{.limits = arm.limits};
+        if (solver.solve(Method::Fabrik, joints, target, options).status != Status::Converged) continue;
+        const Joints before = joints;
+        const ik::Report report = solver.solve(Method::Fabrik, joints, target, options);
+        EXPECT_EQ(report.iterations, 0);
+        EXPECT_EQ(report.status, Status::Converged);
+        EXPECT_TRUE(same_bits(joints, before)) << k;
+    }
+}
+
+/// A target that goes in small steps along a line, with the arm following from where it is.
+TEST(IkLimited, AnArmThatFollowsSeldomJumps) {
+    Random random(21);
+    int steps = 0, jumps = 0;
+    for (int k = 0; k < 100; ++k) {
+        const Arm arm = some_arm(random, arm_kinds[random.below(arm_kinds.size())], 5);
+        const glm::vec3 from = some_tip(arm, random), to = some_tip(arm, random);
+        ik::Solver solver = arm.solver();
+        Joints joints = arm.at_rest();
+        const ik::Options options{.limits = arm.limits};
+        solver.solve(Method::Fabrik, joints, from, options);
+        for (int i = 1; i <= 300; ++i, ++steps) {
+            const Joints before = joints;
+            solver.solve(Method::Fabrik, joints, from + (to - from) * (static_cast<float>(i) / 300.0f),
+                         options);
+            double furthest = 0;
+            for (std::size_t j = 0; j < joints.size(); ++j) {
+                furthest = std::max(furthest, distance(joints[j], before[j]));
+            }
+            jumps += furthest > 0.05 * static_cast<double>(arm.reach());
+        }
+    }
+    // Where the line leaves what the arm can reach it must now and then change its mind.
+    EXPECT_LE(jumps, steps / 300) << "of " << steps;
+}
+
+TEST(IkLimited, WatchedItGoesTheSameWayAndTheStepsLeadThere) {
+    Random random(given_seed() + 2);
+    for (int k = 0; k < 3000 && !HasFailure(); ++k) {
+        const Arm arm = hostile_arm(random);
+        const Joints start = random.chance(2) ? arm.at_rest() : hostile_pose(arm.lengths, random);
+        const Method method = ik::all_methods[random.below(arm.lengths.size() == 2 ? 7 : 6)];
+        const glm::vec3 target = hostile_target(start, arm.lengths, random);
+        const ik::Options options = hostile_options(random, arm, start);
+        ik::Solver first = arm.solver(), second = arm.solver();
+        Joints joints = start, twin = start;
+        Recorder recorder;
+        const ik::Report report = first.solve(method, joints, target, options);
+        EXPECT_EQ(second.solve(method, twin, target, options, &recorder), report);
+        EXPECT_TRUE(same_bits(joints, twin)) << name(method);
+        EXPECT_TRUE(same_bits(recorder.replay(start), joints)) << name(method);
+    }
+}
+
+TEST(IkLimited, EightPullsForFourBonesThenWhatTheLimitsAdd) {
+    Random random(4);
+    const Arm arm = some_arm(random, ArmKind::Cones, 4);
+    ik::Solver solver = arm.solver();
+    Joints joints = arm.at_rest();
+    Recorder recorder;
+    solver.solve(Method::FabrikPlain, joints, some_tip(arm, random),
+                 {.max_iterations = 1, .limits = arm.limits}, &recorder);
+    int from_tip = 0, from_root = 0;
+    for (const ik::Step& step : recorder.steps) {
+        from_tip += step.phase == ik::Phase::FromTip && step.neighbour != ik::no_joint;
+        from_root += step.phase == ik::Phase::FromRoot && step.neighbour != ik::no_joint;
+    }
+    EXPECT_EQ(from_tip, 4);
+    EXPECT_EQ(from_root, 4);
+}
+
+TEST(IkLimited, APoleIsFacedAsFarAsTheRootLetsIt) {
+    Arm arm{{1, 1}, {{1, 0, 0}, {1, 0, 0}}, {ik::Limit(), ik::Limit::hinge({0, 0, 1}, 0, radians(145))}};
+    const glm::vec3 target{1.2f, 0, 0};
+    const auto elbow = [&](const ik::Limit& root, glm::vec3 pole) {
+        arm.limits[0] = root;
+        ik::Solver solver = arm.solver();
+        Joints joints = arm.at_rest();
+        const ik::Options options{.limits = arm.limits, .pole = pole};
+        EXPECT_EQ(solver.solve(Method::Fabrik, joints, target, options).status, Status::Converged);
+        EXPECT_TRUE(WithinLimits(arm, joints, solver.rotations()));
+        return joints[1];
+    };
+    EXPECT_GT(elbow(ik::Limit(), {0, 5, 0}).y, 0.75f);
+    EXPECT_GT(elbow(ik::Limit(), {0, 0, 5}).z, 0.75f);
+    ik::Limit root = ik::Limit::of(ik::JointKind::BallAndSocket);
+    root.up = root.down = root.left = root.right = radians(90);
+    root.twist_min = radians(-60), root.twist_max = radians(60);
+    const glm::vec3 held = elbow(root, {0, 5, 0});  // at rest it bends to -Y; it may turn by 60 degrees or so
+    EXPECT_GT(held.y, -0.7f);
+    EXPECT_LT(held.y, 0.5f);
+}
+
+TEST(IkLimited, BadLimitsMoveNothing) {
+    const Arm arm{{1, 1}, {{1, 0, 0}, {1, 0, 0}}, {ik::Limit(), ik::Limit::hinge({0, 0, 1}, 0, 1)}};
+    std::vector<std::vector<ik::Limit>> bad(6, arm.limits);
+    bad[0][1].min = 2;
+    bad[1][1].axis = {0, 0, 0};
+    bad[2][1].axis = {1, 0, 0};  // along the bone
+    bad[3][1].max = nan;
+    bad[4].pop_back();
+    bad[5][0] = ik::Limit::of(ik::JointKind::BallAndSocket), bad[5][0].up = -1;
+    for (const std::vector<ik::Limit>& limits : bad) {
+        for (const Method method : ik::all_methods) {
+            ik::Solver solver = arm.solver();
+            Joints joints{{0, 0, 0}, {5, 0, 0}, {6, 1, 0}};
+            const Joints before = joints;
+            EXPECT_EQ(solver.solve(method, joints, {1, 1, 0}, {.limits = limits}).status,
+                      Status::InvalidInput);
+            EXPECT_TRUE(same_bits(joints, before));
+            EXPECT_FALSE(solver.explain(method, joints, {1, 1, 0}, {.limits = limits}).has_value());
+        }
+    }
+}
+
+TEST(IkLimited, NeedsNoMemory) {
+    Random random(8);
+    for (const Method method : ik::all_methods) {
+        const std::size_t bones = method == Method::TwoBone ? 2 : 5;
+        const Arm arm = some_arm(random, ArmKind::Human, bones);
+        ik::Solver solver = arm.solver();
+        Joints joints = arm.at_rest();
+        const ik::Options options{.limits = arm.limits, .pole = glm::vec3(0, 3, 0)};
+        without_memory([&] {
+            solver.solve(method, joints, {-0.3f, 0.2f, 0.4f}, options);
+            solver.explain(method, joints, {-0.3f, 0.2f, 0.4f}, options);
+        });
+        EXPECT_TRUE(WithinLimits(arm, joints, solver.rotations()));
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test
