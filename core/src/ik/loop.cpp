@@ -74,9 +74,9 @@ Progress prepare(Method method, Problem& problem, Watch watch) noexcept {
     save(problem);
     snap_back(problem, watch);
     const bool there = residual_of(problem) <= problem.tolerance;
-    // Plain FABRIK is left in the trap, for study; but not where it was carried there to face its pole.
-    const bool kicks = method != Method::FabrikPlain || problem.options.pole;
-    if (!there && kicks && is_on_one_line(problem)) kick_off_the_line(problem, watch);
+    const bool bowed = !there && bow_to_pole(problem, watch);
+    const bool kicks = !there && !bowed && method != Method::FabrikPlain;
+    if (kicks && is_on_one_line(problem)) kick_off_the_line(problem, watch);
     progress.start_again(residual_of(problem));
     return progress;
 }
@@ -134,11 +134,13 @@ Report solve_reached(Method method, Problem& problem, const glm::vec3& goal, Wat
     return *report;
 }
 
-/// Where the chain goes if the reach is soft.
-glm::vec3 eased_target(const Problem& problem) noexcept {
-    const float zone = problem.options.soft_zone, reach = problem.room.reach;
+/// Where the chain goes if the reach is soft. Two bones that may stretch reach further.
+glm::vec3 eased_target(Method method, const Problem& problem) noexcept {
+    const float scale = method == Method::TwoBone ? problem.options.max_stretch_scale : 1.0f;
+    const float zone = problem.options.soft_zone, reach = problem.room.reach * scale;
     const float far = exact_distance(problem.root(), problem.target);
-    const float eased = eased_distance(far, reach, 2.0f * problem.room.longest - reach, zone);
+    const float nearest = 2.0f * problem.room.longest - problem.room.reach;
+    const float eased = eased_distance(far, reach, nearest, zone);
     if (zone == 0.0f || eased >= far) return problem.target;
     return moved(problem.root(), minus(problem.target, problem.root()), eased / far);
 }
@@ -151,7 +153,7 @@ Report run(Method method, Problem& problem, Watch watch) noexcept {
     if (turned && problem.options.limits.empty()) return run_turned(method, problem, watch);
     lay_to_lengths(problem, watch);
     const glm::vec3 goal = problem.target;
-    problem.target = eased_target(problem);
+    problem.target = eased_target(method, problem);
     Report report = solve_reached(method, problem, goal, watch);
     if (problem.target != goal) {
         report.residual = exact_distance(problem.joints.back(), goal);
