@@ -98,7 +98,8 @@ Report iterations(Method method, Problem& problem, const glm::vec3& goal, Watch 
         iterate(method, problem, watch);
         residual = residual_of(problem);
         tell(problem, goal, residual, watch);
-        if (progress.note(residual, problem.room.reach) && residual > problem.tolerance) save(problem);
+        const bool goes_on = residual > problem.tolerance || options.every_iteration;
+        if (progress.note(residual, problem.room.reach) && goes_on) save(problem);
     }
     if (residual > problem.tolerance && progress.best() < residual) {
         restore(problem, watch);
