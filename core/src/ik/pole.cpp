@@ -94,14 +94,35 @@ double whole_angle(Problem& problem, const glm::dvec3& line) noexcept {
     return angle;
 }
 
-/// Everything up to joint `last` is turned about a line through the root.
 template <class Watch>
-void turn_chain(Problem& problem, const Turn& turn, std::size_t last, Watch watch) noexcept {
+void place(Problem& problem, std::size_t joint, std::size_t about, const glm::dvec3& at,
+           Watch watch) noexcept {
+    const glm::vec3 from = problem.joints[joint];
+    problem.joints[joint] = narrow(at);
+    watch.moved(problem.iteration, Phase::Pole, joint, about, from, problem.joints[joint]);
+}
+
+/// The chain as one stiff piece about its root. Bones are laid to their lengths on the way: solves that move
+/// a chain in no other way would let them drift.
+template <class Watch>
+void carry(Problem& problem, const Turn& turn, Watch watch) noexcept {
+    glm::vec3 before = problem.root();
+    for (std::size_t i = 0; i < problem.bones(); ++i) {
+        const glm::dvec3 bone = turn(minus(wide(problem.joints[i + 1]), wide(before)));
+        const double size = length(bone), wanted = static_cast<double>(problem.lengths()[i]);
+        before = problem.joints[i + 1];
+        const glm::dvec3 laid = size > 0.0 ? times(bone, wanted / size) : glm::dvec3(wanted, 0.0, 0.0);
+        place(problem, i + 1, 0, plus(wide(problem.joints[i]), laid), watch);
+    }
+    watch.next_step();
+}
+
+/// All but root and tip about a line through the root.
+template <class Watch>
+void roll(Problem& problem, const Turn& turn, Watch watch) noexcept {
     const glm::dvec3 root = wide(problem.root());
-    for (std::size_t i = 1; i <= last; ++i) {
-        const glm::vec3 from = problem.joints[i];
-        problem.joints[i] = narrow(plus(root, turn(minus(wide(from), root))));
-        watch.moved(problem.iteration, Phase::Pole, i, 0, from, problem.joints[i]);
+    for (std::size_t i = 1; i < problem.bones(); ++i) {
+        place(problem, i, 0, plus(root, turn(minus(wide(problem.joints[i]), root))), watch);
     }
     watch.next_step();
 }
@@ -113,7 +134,7 @@ void face_with_whole_chain(Problem& problem, Watch watch) noexcept {
         direction_of(minus(wide(problem.joints.back()), wide(problem.root())), least);
     if (!line) return;
     const double angle = whole_angle(problem, *line);
-    if (angle != 0.0) turn_chain(problem, Turn(*line, angle), problem.bones() - 1, watch);
+    if (angle != 0.0) roll(problem, Turn(*line, angle), watch);
 }
 
 template <class Watch>
@@ -122,15 +143,13 @@ void face_with_joint(Problem& problem, std::size_t joint, Watch watch) noexcept 
     const glm::dvec3 before = wide(problem.joints[joint - 1]), after = wide(problem.joints[joint + 1]);
     const std::optional<glm::dvec3> line = direction_of(minus(after, before), least);
     if (!line) return;
-    const glm::vec3 from = problem.joints[joint];
-    const glm::dvec3 arm = minus(wide(from), before), offset = across(arm, *line);
+    const glm::dvec3 arm = minus(wide(problem.joints[joint]), before), offset = across(arm, *line);
     const std::optional<glm::dvec3> to = pole_side(problem, before, *line);
     if (!to || !direction_of(offset, least)) return;
     const double angle =
         limited(angle_about(*line, offset, *to), length(offset), problem.room.pole.allowance);
     if (angle == 0.0) return;
-    problem.joints[joint] = narrow(plus(before, Turn(*line, angle)(arm)));
-    watch.moved(problem.iteration, Phase::Pole, joint, joint - 1, from, problem.joints[joint]);
+    place(problem, joint, joint - 1, plus(before, Turn(*line, angle)(arm)), watch);
     watch.next_step();
 }
 
@@ -153,8 +172,7 @@ bool bow_to_pole(Problem& problem, Watch watch) noexcept {
         const double angle = half * (1.0 - (2.0 * before + size) / reach);
         before += size;
         at = plus(at, times(plus(times(*line, std::cos(angle)), times(*side, std::sin(angle))), size));
-        watch.moved(problem.iteration, Phase::Pole, i + 1, i, problem.joints[i + 1], narrow(at));
-        problem.joints[i + 1] = narrow(at);
+        place(problem, i + 1, i, at, watch);
     }
     watch.next_step();
     return true;
@@ -211,10 +229,10 @@ void carry_to_pole(Problem& problem, Watch watch) noexcept {
     // Opposite directions: any axis at right angles will do, and rounding has chosen one.
     const glm::dvec3 axis = sine > 1e-9 ? times(normal, 1.0 / sine) : perpendicular(*from);
     const double angle = std::atan2(sine, dot(*from, *to));
-    if (angle > 1e-9) turn_chain(problem, Turn(axis, angle), problem.bones(), watch);
+    if (angle > 1e-9) carry(problem, Turn(axis, angle), watch);
     if (problem.options.pole_turn == PoleTurn::EachJoint) return;
     const double about = whole_angle(problem, *to);
-    if (about != 0.0) turn_chain(problem, Turn(*to, about), problem.bones(), watch);
+    if (about != 0.0) carry(problem, Turn(*to, about), watch);
 }
 
 template <class Watch>
