@@ -1,6 +1,5 @@
-// Which joint limit holds the tip back: every joint that stands at its limit is freed in turn, and the solve
-// goes on from where it ended. For the joint that helps most, the room that it needs is then found by
-// halving.
+// Which joint limit holds the tip back: from the best pose within all limits every joint that stands at its
+// own is freed in turn. For the joint that helps most, the room that it needs is then found by halving.
 #include <algorithm>
 #include <cmath>
 
@@ -25,10 +24,25 @@ struct Outcome {
     JointAngles angles;
 };
 
-/// All the room that a joint of this kind can have.
-Limit opened(Limit limit) noexcept {
-    limit.min = limit.twist_min = -pi;
-    limit.max = limit.twist_max = pi;
+/// All the room that a joint can have on the side on which it stands at its limit. Both sides at once would
+/// let it turn the other way round to the same place.
+Limit opened(Limit limit, const JointAngles& angles) noexcept {
+    const bool hinge = limit.kind == JointKind::Hinge;
+    float& most = hinge ? limit.max : limit.twist_max;
+    float& least = hinge ? limit.min : limit.twist_min;
+    const float angle = hinge ? angles.up : angles.twist;
+    const bool upper = angle >= most - 2.0f * at_bound, lower = angle <= least + 2.0f * at_bound;
+    if (upper) most = pi;
+    if (lower && !upper) least = -pi;
+    limit.up = limit.down = limit.left = limit.right = pi;
+    return limit;
+}
+
+/// For a joint without any room, the other side.
+Limit mirrored(Limit limit) noexcept {
+    const bool hinge = limit.kind == JointKind::Hinge;
+    (hinge ? limit.max : limit.twist_max) = hinge ? limit.min : limit.twist_min;
+    (hinge ? limit.min : limit.twist_min) = -pi;
     limit.up = limit.down = limit.left = limit.right = pi;
     return limit;
 }
@@ -74,15 +88,11 @@ Outcome outcome(Workspace& room, std::span<glm::vec3> joints, glm::vec3 target, 
     return {error_of(problem), angles_of(limited.limits[joint], turn)};
 }
 
-/// By how much a hinge's angle is over its limit, and by how much under it, the shorter way round.
 Hold hinge_hold(const Limit& limit, float angle) noexcept {
     Hold hold;
-    float above = angle - limit.max, below = limit.min - angle;
-    if (above < 0.0f) above += 2.0f * pi;
-    if (below < 0.0f) below += 2.0f * pi;
-    hold.bound = above <= below ? Bound::Max : Bound::Min;
-    hold.limit = above <= below ? limit.max : limit.min;
-    hold.needed = above <= below ? limit.max + above : limit.min - below;
+    hold.bound = angle > limit.max ? Bound::Max : Bound::Min;
+    hold.limit = angle > limit.max ? limit.max : limit.min;
+    hold.needed = angle;
     return hold;
 }
 
@@ -130,6 +140,18 @@ struct Candidate {
     float over = 0.0f;  ///< by how much it leaves its limit
 };
 
+/// The outcome of freeing a joint; of its two sides, where it stands at both.
+Outcome freed(Workspace& room, std::span<glm::vec3> joints, glm::vec3 target, const Options& options,
+              std::size_t i, const JointAngles& angles) noexcept {
+    const Limit& limit = options.limits[i];
+    const Outcome one = outcome(room, joints, target, options, i, opened(limit, angles));
+    const bool hinge = limit.kind == JointKind::Hinge;
+    const float width = hinge ? limit.max - limit.min : limit.twist_max - limit.twist_min;
+    if (width > 4.0f * at_bound) return one;
+    const Outcome other = outcome(room, joints, target, options, i, mirrored(limit));
+    return other.error < one.error ? other : one;
+}
+
 /// The joint whose freeing brings the tip nearest; where several bring it there, the one that needs least.
 Candidate best_candidate(Workspace& room, std::span<glm::vec3> joints, glm::vec3 target,
                          const Options& options, float start) noexcept {
@@ -137,17 +159,30 @@ Candidate best_candidate(Workspace& room, std::span<glm::vec3> joints, glm::vec3
     const float there = fine * room.reach;
     for (std::size_t i = 0; i < options.limits.size(); ++i) {
         const LimitedJoint joint = limited_joint(options.limits[i], room.rest_directions[i]);
-        const glm::quat parent = parent_of(room.limited.kept.rotations, i);
-        const glm::quat turn = compose(conjugate(parent), room.limited.kept.rotations[i]);
-        if (!is_at_limit(joint, angles_of(joint, turn))) continue;
-        const Outcome freed = outcome(room, joints, target, options, i, opened(options.limits[i]));
-        const float over = excess_of(joint, freed.angles);
-        if (over <= 2.0f * at_bound || freed.error >= start * (1.0f - noticeable)) continue;
-        const bool nearer = std::max(freed.error, there) < std::max(best.outcome.error, there);
-        const bool as_near = freed.error <= there && best.outcome.error <= there && over < best.over;
-        if (best.joint == no_joint || nearer || as_near) best = {i, freed, over};
+        const JointAngles angles = angles_of(joint, local_turn(room.limited.kept.rotations, i));
+        if (!is_at_limit(joint, angles)) continue;
+        const Outcome result = freed(room, joints, target, options, i, angles);
+        const float over = excess_of(joint, result.angles);
+        if (over <= 2.0f * at_bound || result.error >= start * (1.0f - noticeable)) continue;
+        const bool nearer = std::max(result.error, there) < std::max(best.outcome.error, there);
+        const bool as_near = result.error <= there && best.outcome.error <= there && over < best.over;
+        if (best.joint == no_joint || nearer || as_near) best = {i, result, over};
     }
     return best;
+}
+
+/// A method that gave up early may stand at limits that hold nothing. So the default one goes on first, as
+/// far as the limits let it; from there on they are freed. The error that is left.
+float best_within_limits(Workspace& room, std::span<glm::vec3> joints, glm::vec3 target,
+                         const Options& options) noexcept {
+    Options all;
+    all.max_iterations = iterations;
+    all.limits = options.limits;
+    all.tip_orientation = options.tip_orientation;
+    Problem problem{joints, target, fine * room.reach, all, room};
+    run_limited(Method::Fabrik, problem, Unwatched());
+    save(problem, room.limited.kept);
+    return error_of(problem);
 }
 
 }  // namespace
@@ -159,14 +194,12 @@ std::optional<Hold> Solver::explain(Method method, std::span<const glm::vec3> jo
     if (method > Method::TwoBone || !are_points(joints) || !are_points({&target, 1})) return std::nullopt;
     if (!are_valid(options, bones()) || !fit(options.limits, room.rest_directions)) return std::nullopt;
 
-    LimitedPose& kept = room.limited.kept;
     const bool remembers_pole = room.pole.valid;
-    std::copy(joints.begin(), joints.end(), kept.joints.begin());
-    std::copy(room.rotations.begin(), room.rotations.end(), kept.rotations.begin());
+    std::copy(room.rotations.begin(), room.rotations.end(), room.limited.given.begin());
     const std::span<glm::vec3> work = room.joints;
     std::copy(joints.begin(), joints.end(), work.begin());
-    const Problem as_it_is{work, target, 0.0f, options, room};
-    const Candidate found = best_candidate(room, work, target, options, error_of(as_it_is));
+    const float start = best_within_limits(room, work, target, options);
+    const Candidate found = best_candidate(room, work, target, options, start);
     std::optional<Hold> hold;
     if (found.joint != no_joint) {
         const std::size_t i = found.joint;
@@ -178,7 +211,7 @@ std::optional<Hold> Solver::explain(Method method, std::span<const glm::vec3> jo
         hold->enough = found.outcome.error <=
                        std::max(options.tolerance.value_or(1e-3f * reach()), 2.0f * fine * reach());
     }
-    std::copy(kept.rotations.begin(), kept.rotations.end(), room.rotations.begin());
+    std::copy(room.limited.given.begin(), room.limited.given.end(), room.rotations.begin());
     room.pole.valid = remembers_pole;
     return hold;
 }

@@ -31,11 +31,13 @@ struct LimitedRoom {
     LimitedPose trial;                              ///< what a step would lead to
     LimitedPose nearest;                            ///< the nearest to the target so far
 
-    LimitedPose kept;          ///< explain: the pose that it must not change
-    std::vector<Limit> freed;  ///< explain: the limits, but for one
+    LimitedPose kept;              ///< explain: the pose from which each joint is freed
+    std::vector<glm::quat> given;  ///< explain: the rotations that it must not change
+    std::vector<Limit> freed;      ///< explain: the limits, but for one
 
     void resize(std::size_t bones) {
         kept.resize(bones);
+        given.resize(bones);
         freed.resize(bones);
         limits.resize(bones);
         angles.resize(bones);

@@ -1,0 +1,172 @@
+// The last bone turned as asked, with and without limits.
+#include "ik_hostile.hpp"
+#include "ik_limit_support.hpp"
+#include "memory.hpp"
+
+namespace tendril::test {
+namespace {
+
+using ik::Method;
+using ik::Status;
+
+glm::quat some_rotation(Random& random) {
+    return glm::angleAxis(random.around(3.0f), some_direction(random));
+}
+
+double angle_between(glm::quat a, glm::quat b) {
+    const glm::dmat3 turn = glm::transpose(matrix_of(a)) * matrix_of(b);
+    const glm::dvec3 v{turn[1][2] - turn[2][1], turn[2][0] - turn[0][2], turn[0][1] - turn[1][0]};
+    return std::atan2(glm::length(v), turn[0][0] + turn[1][1] + turn[2][2] - 1.0);
+}
+
+TEST(IkTip, EveryMethodLaysTheLastBoneAsAsked) {
+    Random random(given_seed());
+    for (int k = 0; k < 2000 && !HasFailure(); ++k) {
+        const Lengths lengths = some_lengths(2 + random.below(6), random);
+        Joints rest;
+        for (std::size_t i = 0; i < lengths.size(); ++i) rest.push_back(some_direction(random));
+        const glm::quat asked = some_rotation(random);
+        const glm::vec3 target =
+            some_direction(random) * (part(random) * static_cast<float>(reach_of(lengths)));
+        for (const Method method : iterating_methods) {
+            SCOPED_TRACE(std::string(name(method)) + " " + std::to_string(k));
+            ik::Solver solver(lengths, rest);
+            Joints joints = some_pose(lengths, random);
+            const ik::Options options{.tip_orientation = asked};
+            const ik::Report report = solver.solve(method, joints, target, options);
+            EXPECT_TRUE(Holds(joints, lengths));
+            const glm::vec3 last = joints.back() - joints[joints.size() - 2];
+            EXPECT_LE(distance(last, asked * rest.back() * lengths.back()), 1e-4);
+            EXPECT_LE(angle_between(solver.rotations().back(), asked), 1e-5);
+            EXPECT_NEAR(report.residual, distance(joints.back(), target), 1e-5);
+            // What the chain without its last bone can do decides.
+            const Lengths others(lengths.begin(), lengths.end() - 1);
+            const double away = distance(target - asked * rest.back() * lengths.back(), {});
+            const double reach = reach_of(others), longest = *std::max_element(others.begin(), others.end());
+            if (away > reach * 1.0001) {
+                EXPECT_EQ(report.status, Status::Stretched);
+                EXPECT_NEAR(report.residual, away - reach, 1e-4);
+            } else if (away < 2 * longest - reach - 1e-4) {
+                EXPECT_EQ(report.status, Status::TooClose);
+            } else if (away < 0.98 * reach && away > (2 * longest - reach) + 0.02 * reach &&
+                       (method == Method::Fabrik || method == Method::Dls)) {
+                EXPECT_EQ(report.status, Status::Converged);
+            }
+        }
+    }
+}
+
+TEST(IkTip, RotationsFollowTheBones) {
+    Random random(2);
+    const Lengths lengths = some_lengths(5, random);
+    ik::Solver solver(lengths);
+    Joints joints = straight_joints(lengths);
+    for (int k = 0; k < 50; ++k) {
+        solver.solve(Method::Fabrik, joints, some_direction(random) * 2.0f,
+                     {.tip_orientation = some_rotation(random)});
+        for (std::size_t i = 0; i < lengths.size(); ++i) {
+            const glm::vec3 said = solver.rotations()[i] * glm::vec3(1, 0, 0) * lengths[i];
+            EXPECT_LE(distance(joints[i + 1] - joints[i], said), 1e-4) << i;
+        }
+    }
+}
+
+TEST(IkTip, TheTwoBoneSolverPlacesAHandOnAnArm) {
+    const Lengths arm{1, 1, 0.3f};
+    ik::Solver solver(arm);
+    Joints joints = straight_joints(arm);
+    const glm::quat down = glm::angleAxis(radians(-90), glm::vec3(0, 0, 1));
+    const ik::Report report = solver.solve(Method::TwoBone, joints, {1.2f, 0, 0}, {.tip_orientation = down});
+    EXPECT_EQ(report.status, Status::Converged);
+    EXPECT_LE(distance(joints[2], {1.2f, 0.3f, 0}), 1e-4);
+    ik::Solver two(Lengths{1, 0.3f});
+    joints = straight_joints(Lengths{1, 0.3f});
+    EXPECT_EQ(two.solve(Method::TwoBone, joints, {0, 0.7f, 0}, {.tip_orientation = down}).status,
+              Status::Converged);
+    ik::Solver four(Lengths{1, 1, 1, 1});
+    joints = straight_joints(Lengths{1, 1, 1, 1});
+    EXPECT_EQ(four.solve(Method::TwoBone, joints, {1, 1, 0}, {.tip_orientation = down}).status,
+              Status::InvalidInput);
+}
+
+TEST(IkTip, OneBoneIsJustLaid) {
+    ik::Solver solver(Lengths{2});
+    Joints joints{{1, 1, 1}, {3, 1, 1}};
+    const glm::quat up = glm::angleAxis(radians(90), glm::vec3(0, 0, 1));
+    EXPECT_EQ(solver.solve(Method::Fabrik, joints, {1, 3, 1}, {.tip_orientation = up}).status,
+              Status::Converged);
+    EXPECT_LE(distance(joints[1], {1, 3, 1}), 1e-5);
+    const ik::Report off = solver.solve(Method::Fabrik, joints, {1, 1, 3}, {.tip_orientation = up});
+    EXPECT_EQ(off.status, Status::Stretched);
+    EXPECT_NEAR(off.residual, std::sqrt(8.0f), 1e-5f);
+}
+
+/// The pose that made the target made the orientation too.
+TEST(IkTip, WithinLimitsMostArrive) {
+    Random random(6);
+    int there = 0, turned_so = 0;
+    constexpr int count = 1000;
+    for (int k = 0; k < count; ++k) {
+        const Arm arm = some_arm(random, ArmKind::Cones, 5);
+        // A first solve finds some pose within the limits, whatever its target.
+        ik::Solver maker = arm.solver();
+        Joints made = arm.at_rest();
+        maker.solve(Method::Fabrik, made, some_tip(arm, random),
+                    {.max_iterations = 200, .limits = arm.limits});
+        ik::Solver solver = arm.solver();
+        Joints joints = arm.at_rest();
+        ik::Options options;
+        options.max_iterations = 200;
+        options.limits = arm.limits;
+        options.tip_orientation = maker.rotations().back();
+        const ik::Report report = solver.solve(Method::Fabrik, joints, made.back(), options);
+        EXPECT_TRUE(WithinLimits(arm, joints, solver.rotations()));
+        there += report.status == Status::Converged;
+        turned_so += angle_between(solver.rotations().back(), *options.tip_orientation) < 1 * degree;
+        if (report.status == Status::Converged) {
+            EXPECT_LE(report.residual, 1e-3f * arm.reach());
+            EXPECT_LE(degrees(angle_between(solver.rotations().back(), *options.tip_orientation)), 0.1);
+        }
+    }
+    EXPECT_GE(there, count * 95 / 100);
+    EXPECT_GE(turned_so, count * 95 / 100);
+}
+
+TEST(IkTip, AWristThatCannotIsLimited) {
+    Arm arm{{1, 1, 0.3f}, {{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}, {}};
+    arm.limits = {ik::Limit::of(ik::JointKind::Suture), ik::Limit::of(ik::JointKind::Suture),
+                  ik::Limit::of(ik::JointKind::Gliding)};
+    for (const Method method : iterating_methods) {
+        ik::Solver solver = arm.solver();
+        Joints joints = arm.at_rest();
+        const glm::quat back = glm::angleAxis(radians(170), glm::vec3(0, 0, 1));
+        const ik::Options options{.limits = arm.limits, .tip_orientation = back};
+        EXPECT_EQ(solver.solve(method, joints, {2.3f, 0, 0}, options).status, Status::Limited)
+            << name(method);
+        EXPECT_TRUE(WithinLimits(arm, joints, solver.rotations()));
+    }
+}
+
+TEST(IkTip, WatchedItGoesTheSameWayWithoutMemory) {
+    Random random(given_seed() + 1);
+    for (int k = 0; k < 1000 && !HasFailure(); ++k) {
+        const Lengths lengths = hostile_lengths(random);
+        const Joints start = hostile_pose(lengths, random);
+        const glm::vec3 target = hostile_target(start, lengths, random);
+        const ik::Options options{.max_iterations = 20, .tip_orientation = some_rotation(random)};
+        for (const Method method : iterating_methods) {
+            ik::Solver first(lengths), second(lengths);
+            Joints joints = start, twin = start;
+            Recorder recorder;
+            ik::Report report;
+            without_memory([&] { report = first.solve(method, joints, target, options); });
+            EXPECT_TRUE(Holds(joints, lengths));
+            EXPECT_EQ(second.solve(method, twin, target, options, &recorder), report);
+            EXPECT_TRUE(same_bits(joints, twin)) << name(method);
+            EXPECT_TRUE(same_bits(recorder.replay(start), joints)) << name(method);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test
