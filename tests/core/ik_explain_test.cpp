@@ -54,7 +54,9 @@ TEST(IkExplain, AnElbowJustOutOfItsRangeIsNamedWithTheAngleOfTheLawOfCosines) {
                     SCOPED_TRACE(std::string(name(method)) + " " + std::to_string(needed));
                     const auto [report, hold] = explained(arm, direction * span(1.0f, 0.8f, needed), method);
                     // Plain FABRIK may still be crawling on when its iterations are used up.
-                    if (method != Method::FabrikPlain) EXPECT_EQ(report.status, Status::Limited);
+                    if (method != Method::FabrikPlain) {
+                        EXPECT_EQ(report.status, Status::Limited);
+                    }
                     ASSERT_TRUE(hold.has_value());
                     EXPECT_EQ(hold->joint, 1u);
                     EXPECT_EQ(hold->kind, JointKind::Hinge);
