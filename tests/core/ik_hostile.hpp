@@ -104,7 +104,9 @@ inline void expect_bears_anything(ik::Method method, int solves) {
         options.max_iterations = 1 + static_cast<int>(random.below(40));
         options.every_iteration = random.chance(5);
         if (random.chance(4)) options.damping = 1e-6f;
-        if (random.chance(3)) options.pole = hostile_target(start, lengths, random);
+        // Further out the spacing of floats alone is more than bones may be off by.
+        const bool near = reach_of(lengths) < 500.0;
+        if (random.chance(3) && near) options.pole = hostile_target(start, lengths, random);
         if (random.chance(2)) options.pole_turn = ik::PoleTurn::EachJoint;
         if (random.chance(4)) options.tolerance = 0.0f;
         expect_bears(method, lengths, start, target, options);
