@@ -1,10 +1,12 @@
 // The command line.
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <cstdio>
 #include <map>
 #include <string>
 #include <tendril/version.hpp>
 
+#include "app/batch/code.hpp"
 #include "app/batch/paper_table.hpp"
 #include "app/batch/solve.hpp"
 #include "app/document/text.hpp"
@@ -109,7 +111,7 @@ struct SolveLine {
     bool csv = false, json = false;
 
     CLI::App* add_to(CLI::App& line);
-    void check();
+    const SolveOptions& checked();
 };
 
 CLI::App* SolveLine::add_to(CLI::App& line) {
@@ -128,12 +130,13 @@ CLI::App* SolveLine::add_to(CLI::App& line) {
     return solve;
 }
 
-void SolveLine::check() {
+const SolveOptions& SolveLine::checked() {
     options.format = csv ? RowFormat::Csv : json ? RowFormat::Json : RowFormat::Table;
     options.methods = methods_named(solver);
     // Range would let what is no number at all through.
     if (const auto& t = options.tolerance; t && !(*t >= 0.0f && *t <= tendril::max_magnitude))
         throw CLI::ValidationError("--tolerance: must be 0 to 1e9 metres, got " + std::to_string(*t));
+    return options;
 }
 
 int complain(const std::string& what) {
@@ -151,32 +154,51 @@ void refuse_options_before(const CLI::App& line, const CLI::App& subcommand) {
     }
 }
 
+/// What needs no picture; each has its own help.
+class BatchLine {
+  public:
+    explicit BatchLine(CLI::App& line)
+        : line_(line),
+          solve_(solve_options_.add_to(line)),
+          paper_(line.add_subcommand("paper", "Measure the solvers and print a table")),
+          code_(line.add_subcommand("code", "Print a scene as a C++ program against the library")) {
+        paper_->add_flag("--csv", paper_csv_, "Print rows of comma-separated values");
+        paper_->footer(paper_help);
+        code_->add_option("SCENE", scene_, "A scene file; its open lab is printed")->required();
+    }
+    bool asked() const { return !line_.get_subcommands().empty(); }
+    void run() {
+        refuse_options_before(line_, *line_.get_subcommands().front());
+        const std::atomic<bool>& ending = end_session_on_signals();
+        if (solve_->parsed()) solve_cases(solve_options_.checked(), ending);
+        if (paper_->parsed()) print_paper(paper_csv_, ending);
+        if (code_->parsed()) print_code(scene_);
+    }
+
+  private:
+    CLI::App& line_;
+    SolveLine solve_options_;
+    CLI::App *solve_, *paper_, *code_;
+    bool paper_csv_ = false;
+    std::string scene_;
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
     CLI::App line("Tendril: see, tune and carry away procedural animation.", "tendril");
     SessionLine session;
-    SolveLine solve;
     session.add_to(line);
-    CLI::App* const solve_line = solve.add_to(line);
-    bool paper_csv = false;
-    CLI::App* const paper_line = line.add_subcommand("paper", "Measure the solvers and print a table");
-    paper_line->add_flag("--csv", paper_csv, "Print rows of comma-separated values");
-    paper_line->footer(paper_help);
+    BatchLine batch(line);
+    line.require_subcommand(0, 1);
     try {
         line.parse(argc, argv);
-        for (const CLI::App* subcommand : line.get_subcommands()) refuse_options_before(line, *subcommand);
-        session.check();
-        if (solve_line->parsed()) {
-            solve.check();
-            solve_cases(solve.options, end_session_on_signals());
-            return 0;
+        if (!batch.asked()) {
+            session.check();
+            return session.run();
         }
-        if (paper_line->parsed()) {
-            print_paper(paper_csv, end_session_on_signals());
-            return 0;
-        }
-        return session.run();
+        batch.run();
+        return 0;
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return line.exit(error);
         return complain(error.what());

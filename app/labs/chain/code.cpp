@@ -1,0 +1,220 @@
+#include "app/labs/chain/code.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "app/labs/chain/chain_lab.hpp"
+#include "app/labs/chain/code_numbers.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// What the solvers of the library have for a default need not be said.
+const ik::Options plain_options;
+
+class ChainProgram {
+  public:
+    explicit ChainProgram(const ChainPart& part) : part_(part) {
+        part_.study.rewind(part_.chain, part_.reach);
+    }
+    std::string text();
+
+  private:
+    bool solves() const { return part_.mode == ChainMode::Reach && part_.chain.size() >= 2; }
+    std::size_t limit_count() const;
+    bool tables() const { return part_.chain.size() > most_in_a_list; }
+
+    void head();
+    void chain();
+    void move();
+    void pull();
+    void reach();
+    void limits();
+    void rotations();
+    void options();
+    void end();
+
+    void line(std::string_view text) { (code_ += text) += '\n'; }
+    /// A statement of main.
+    void say(std::string_view text) { ((code_ += "    ") += text) += '\n'; }
+
+    ChainPart part_;
+    std::string code_;
+};
+
+std::string ChainProgram::text() {
+    head();
+    if (part_.chain.size() > most_in_a_list)
+        line(number_table("segment_numbers", segment_numbers(part_.chain)));
+    if (limit_count() > most_in_a_list) line(limit_table(part_.reach.limits));
+    if (solves() && part_.reach.rotations.size() > most_in_a_list)
+        line(number_table("rotation_numbers", rotation_numbers(part_.reach.rotations)));
+    line("int main() {");
+    chain();
+    move();
+    end();
+    return std::move(code_);
+}
+
+std::size_t ChainProgram::limit_count() const {
+    if (!solves()) return 0;
+    const auto& limits = part_.reach.limits;
+    return static_cast<std::size_t>(std::count_if(
+        limits.begin(), limits.end(), [](const auto& limit) { return limit.kind != ik::JointKind::Free; }));
+}
+
+void ChainProgram::head() {
+    line("// A chain of " + std::to_string(part_.chain.size()) + " segments, carried away from Tendril. " +
+         mode_help(part_.mode));
+    line("//");
+    line("// CMake: find_package(tendril REQUIRED)");
+    line("//        target_link_libraries(your_program PRIVATE tendril::core)");
+    if (tables()) line("#include <cstddef>");
+    line("#include <cstdio>");
+    if (tables()) line("#include <iterator>");
+    line("#include <tendril/chain/chain.hpp>");
+    if (solves()) line("#include <tendril/ik/solver.hpp>");
+    line("#include <vector>\n");
+    if (solves()) line("namespace ik = tendril::ik;\n");
+}
+
+void ChainProgram::chain() {
+    say("// Where each segment is, and how far it is from the one before; metres.");
+    const auto segments = part_.chain.segments();
+    if (segments.size() > most_in_a_list) {
+        say("std::vector<tendril::Segment> segments;");
+        say("for (std::size_t i = 0; i < std::size(segment_numbers); i += 4) {");
+        say("    const float* const n = segment_numbers + i;");
+        say("    segments.push_back({{n[0], n[1], n[2]}, n[3]});");
+        say("}");
+    } else {
+        say("const std::vector<tendril::Segment> segments{");
+        for (const Segment& each : segments)
+            say("    {" + braced(each.position) + ", " + literal(each.length) + "},");
+        say("};");
+    }
+    say("// What has no direction of its own lies along this one.");
+    say("const glm::vec3 default_direction" + braced(part_.chain.default_direction()) + ";");
+    say("tendril::Chain chain = tendril::Chain::from_segments(segments, default_direction);\n");
+    say("const glm::vec3 target" + braced(part_.target) + ";");
+}
+
+void ChainProgram::move() {
+    if (solves())
+        reach();
+    else
+        pull();
+}
+
+void ChainProgram::pull() {
+    switch (part_.mode) {
+        case ChainMode::Forward:
+            return say("chain.forward(target);");
+        case ChainMode::Backward:
+            return say("chain.backward(target);");
+        case ChainMode::Fixed:
+            return say("chain.fixed(target, {.iterations = " +
+                       std::to_string(iterations_of(part_, ChainMode::Fixed)) +
+                       ", .tolerance = " + literal(part_.tolerance) + "});");
+        case ChainMode::WithIndex:
+            if (part_.chain.empty())
+                return say("static_cast<void>(target);  // an empty chain has none to pull");
+            return say("chain.with_index(" + std::to_string(part_.index) + ", target);");
+        case ChainMode::Reach:
+            return say("static_cast<void>(target);  // fewer than two segments have no bone to turn");
+    }
+}
+
+void ChainProgram::reach() {
+    options();
+    limits();
+    line("");
+    say("// Make it once and keep it: solving allocates nothing.");
+    say("ik::Solver solver(chain);");
+    rotations();
+    say("const ik::Report report = solver.solve(ik::Method::" + enumerator(part_.reach.method) +
+        ", chain, target, options);");
+    say("std::printf(\"%s after %d iterations, %g m from the target\\n\", ik::name(report.status),");
+    say("            report.iterations, report.residual);");
+}
+
+void ChainProgram::options() {
+    const ReachSettings& chosen = part_.reach;
+    const ik::Options options = solver_options(chosen, ik::Solver(part_.chain).reach());
+    const auto set = [&](const std::string& what, const std::string& value, const char* comment = "") {
+        say("options." + what + " = " + value + ";" + comment);
+    };
+    line("");
+    say("ik::Options options;");
+    set("tolerance", literal(*options.tolerance), "  // metres");
+    set("max_iterations", std::to_string(options.max_iterations));
+    if (options.pole) {
+        say("options.pole = glm::vec3" + braced(*options.pole) + ";  // the bend faces this point");
+        if (options.pole_turn != plain_options.pole_turn) set("pole_turn", "ik::PoleTurn::EachJoint");
+    }
+    if (options.snap_back != plain_options.snap_back) set("snap_back", literal(options.snap_back));
+    if (options.soft_zone != plain_options.soft_zone)
+        set("soft_zone", literal(options.soft_zone), "  // part of the reach");
+    const bool damped = chosen.method == ik::Method::Dls || chosen.method == ik::Method::SvdDls;
+    if (damped) set("damping", literal(options.damping), "  // part of the reach");
+    if (options.twist != plain_options.twist)
+        set("twist", literal(options.twist), ("  // " + degrees_text(options.twist) + " degrees").c_str());
+}
+
+void ChainProgram::limits() {
+    if (limit_count() == 0) return;
+    const auto& limits = part_.reach.limits;
+    line("");
+    say("// For each bone how its first joint may turn; angles in radians.");
+    say("std::vector<ik::Limit> limits(" + std::to_string(limits.size()) + ");");
+    if (limit_count() > most_in_a_list) {
+        say("for (const JointLimit& each : joint_limits) limits[each.joint] = each.limit;");
+    } else {
+        for (std::size_t i = 0; i < limits.size(); ++i)
+            if (limits[i].kind != ik::JointKind::Free)
+                say("limits[" + std::to_string(i) + "] = " + readable(limits[i], "    ") + ";");
+    }
+    say("options.limits = limits;");
+}
+
+void ChainProgram::rotations() {
+    const auto& rotations = part_.reach.rotations;
+    if (rotations.empty()) return;
+    say("// How each bone was turned about itself when it was carried away (w, x, y, z).");
+    if (rotations.size() > most_in_a_list) {
+        say("std::vector<glm::quat> rotations;");
+        say("for (std::size_t i = 0; i < std::size(rotation_numbers); i += 4) {");
+        say("    const float* const n = rotation_numbers + i;");
+        say("    rotations.emplace_back(n[0], n[1], n[2], n[3]);");
+        say("}");
+    } else {
+        say("const std::vector<glm::quat> rotations{");
+        for (const glm::quat& q : rotations)
+            say("    {" + literal(q.w) + ", " + literal(q.x) + ", " + literal(q.y) + ", " + literal(q.z) +
+                "},");
+        say("};");
+    }
+    say("solver.set_rotations(rotations);");
+}
+
+void ChainProgram::end() {
+    line("");
+    say("for (const tendril::Segment& segment : chain.segments()) {");
+    say("    const glm::vec3& at = segment.position;");
+    say("    std::printf(\"%.9g %.9g %.9g\\n\", at.x, at.y, at.z);");
+    say("}");
+    line("}");
+}
+
+}  // namespace
+
+std::string chain_code(const ChainPart& part) {
+    return ChainProgram(part).text();
+}
+
+std::string ChainLab::code(const Workspace& workspace) const {
+    return chain_code(chain_part(workspace));
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,110 @@
+#include "app/labs/chain/code_numbers.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <glm/trigonometric.hpp>
+
+namespace tendril::app {
+namespace {
+
+/// "svd_dls" to "SvdDls"
+std::string pascal(const char* name) {
+    std::string text;
+    bool upper = true;
+    for (const char* c = name; *c != '\0'; ++c) {
+        if (*c != '_') text += upper ? static_cast<char>(*c - 'a' + 'A') : *c;
+        upper = *c == '_';
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string literal(float value) {
+    std::array<char, 32> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+    std::string text(digits.data(), end);
+    if (text.find_first_of(".e") == text.npos) text += ".0";
+    return text + 'f';
+}
+
+std::string braced(glm::vec3 value) {
+    return std::string("{") + literal(value.x) + ", " + literal(value.y) + ", " + literal(value.z) + "}";
+}
+
+std::string degrees_text(float radians) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", glm::degrees(static_cast<double>(radians)));
+    return text;
+}
+
+std::string enumerator(ik::Method method) {
+    return pascal(ik::name(method));
+}
+
+std::string enumerator(ik::JointKind kind) {
+    return pascal(ik::name(kind));
+}
+
+std::string readable(const ik::Limit& limit, const std::string& margin) {
+    if (limit.kind == ik::JointKind::Hinge) {
+        return "ik::Limit::hinge(" + braced(limit.axis) + ", " + literal(limit.min) + ", " +
+               literal(limit.max) + ")";
+    }
+    std::string text = "{.kind = ik::JointKind::" + enumerator(limit.kind) + ",";
+    const std::string next = "\n" + margin + margin;
+    text += next + ".axis = " + braced(limit.axis);
+    const std::pair<const char*, float> angles[] = {
+        {"up", limit.up},       {"down", limit.down},           {"left", limit.left},
+        {"right", limit.right}, {"twist_min", limit.twist_min}, {"twist_max", limit.twist_max}};
+    for (const auto& [name, angle] : angles) text += "," + next + "." + name + " = " + literal(angle);
+    return text + "}";
+}
+
+std::string number_table(const char* name, const std::vector<float>& numbers) {
+    std::string text = "static const float " + std::string(name) + "[] = {\n";
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        text += i % 4 == 0 ? "    " : " ";
+        text += literal(numbers[i]);
+        text += i % 4 == 3 ? ",\n" : ",";
+    }
+    return text + "};\n";
+}
+
+std::vector<float> segment_numbers(const Chain& chain) {
+    std::vector<float> numbers;
+    for (const auto& [position, length] : chain.segments())
+        numbers.insert(numbers.end(), {position.x, position.y, position.z, length});
+    return numbers;
+}
+
+std::vector<float> rotation_numbers(const std::vector<glm::quat>& rotations) {
+    std::vector<float> numbers;
+    for (const glm::quat& q : rotations) numbers.insert(numbers.end(), {q.w, q.x, q.y, q.z});
+    return numbers;
+}
+
+std::string limit_table(const std::vector<ik::Limit>& limits) {
+    std::string text =
+        "struct JointLimit {\n"
+        "    std::size_t joint;\n"
+        "    ik::Limit limit;\n"
+        "};\n"
+        "// Kind, axis, min and max; up, down, left, right; twist_min and twist_max.\n"
+        "static const JointLimit joint_limits[] = {\n";
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+        const ik::Limit& limit = limits[i];
+        if (limit.kind == ik::JointKind::Free) continue;
+        text += "    {" + std::to_string(i) + ", {ik::JointKind::" + enumerator(limit.kind) + ", " +
+                braced(limit.axis);
+        for (const float angle : {limit.min, limit.max, limit.up, limit.down, limit.left, limit.right,
+                                  limit.twist_min, limit.twist_max})
+            text += ", " + literal(angle);
+        text += "}},\n";
+    }
+    return text + "};\n";
+}
+
+}  // namespace tendril::app

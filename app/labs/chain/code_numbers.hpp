@@ -1,0 +1,38 @@
+// Numbers, points and limits as C++ has them; what code.cpp is built of.
+#pragma once
+
+#include <cstddef>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <tendril/chain/chain.hpp>
+#include <tendril/ik/solver.hpp>
+#include <vector>
+
+namespace tendril::app {
+
+/// More values than this stand in a table of plain numbers: less to read, and compiled in no time.
+inline constexpr std::size_t most_in_a_list = 64;
+
+/// The fewest decimals that a compiler reads as this very float: "0.1f". Must be finite.
+std::string literal(float value);
+/// "{1.0f, 2.0f, 3.0f}"
+std::string braced(glm::vec3 value);
+/// "22.5"
+std::string degrees_text(float radians);
+/// "SvdDls", "BallAndSocket"
+std::string enumerator(ik::Method method);
+std::string enumerator(ik::JointKind kind);
+
+/// An expression that is this limit, its angles also told in degrees; what follows its first line is indented
+/// by `margin`.
+std::string readable(const ik::Limit& limit, const std::string& margin);
+
+/// "static const float NAME[] = {...};", four numbers a line.
+std::string number_table(const char* name, const std::vector<float>& numbers);
+std::vector<float> segment_numbers(const Chain& chain);
+std::vector<float> rotation_numbers(const std::vector<glm::quat>& rotations);
+/// A type JointLimit {joint, limit} and the table joint_limits of those that are not free.
+std::string limit_table(const std::vector<ik::Limit>& limits);
+
+}  // namespace tendril::app
