@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 
 #include "ik/many_block.hpp"
@@ -14,16 +15,23 @@ struct PullOrder {
     bool every;          ///< whether chains go on that have arrived
 };
 
-/// Both work on the first `lanes` lanes and what is left of the last register beyond them, and return how
-/// many chains are active then.
+// Both work on the first `lanes` lanes and what is left of the last register beyond them, where none may be
+// active, and return how many chains are active then.
+
+/// Reads joints, lengths and targets; lays what is loose to its lengths and what is out of reach straight;
+/// writes Row::Start, and all from Row::Residual on: Active is 1 where Plain and not there yet.
+using Look = std::size_t(const Block& block, std::size_t lanes, bool every);
+/// Pulls the active lanes; those that have arrived, stalled or used up their iterations become inactive.
+using Pull = std::size_t(const Block& block, std::size_t lanes, const PullOrder& order);
+
 struct VectorUnit {
-    /// Reads joints, lengths and targets; lays what is loose to its lengths and what is out of reach
-    /// straight; writes Row::Start, and all from Row::Residual on: Active is 1 where Plain and not there yet.
-    std::size_t (*look)(const Block& block, std::size_t lanes, bool every);
-    /// Pulls the active lanes; those that have arrived, stalled or used up their iterations become
-    /// inactive.
-    std::size_t (*pull)(const Block& block, std::size_t lanes, const PullOrder& order);
+    Look* look = nullptr;
+    Pull* pull = nullptr;
 };
+
+/// As compiled for one of Highway's targets.
+Look* look_with(std::int64_t target) noexcept;
+Pull* pull_with(std::int64_t target) noexcept;
 
 /// Null for a name that is not among vector_units().
 const VectorUnit* vector_unit_named(std::string_view name) noexcept;

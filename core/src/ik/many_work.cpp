@@ -9,9 +9,10 @@
 namespace tendril::ik::detail {
 namespace {
 
-constexpr int burst = 8;  ///< iterations between two looks at who is done
-/// To move a chain costs as much as some fifty iterations in company: it pays for one in so many of a block.
-constexpr std::size_t few = block_lanes / 4;
+// Chosen by measuring (tests/bench/ik_many.cpp). To move a chain costs as much as some ten iterations of it.
+constexpr std::size_t few = block_lanes / 2;    ///< fewer active chains than these leave their block
+constexpr int short_burst = 2, long_burst = 4;  ///< iterations between two looks at who is done: in blocks,
+                                                ///< and among those that take long
 
 void copy_lane(const Block& from, std::size_t from_lane, const Block& to, std::size_t to_lane,
                std::size_t first_row, std::size_t rows) noexcept {
@@ -82,7 +83,7 @@ void Work::solve_block(std::size_t index, WorkRoom& room) noexcept {
 /// other blocks.
 void Work::pull_block(const Block& block, std::size_t lanes, std::size_t active) const noexcept {
     const bool alone = options_.every_iteration || chains_ <= block_lanes;
-    const PullOrder order{alone ? options_.max_iterations : burst, options_.max_iterations,
+    const PullOrder order{alone ? options_.max_iterations : short_burst, options_.max_iterations,
                           options_.every_iteration};
     if (active > 0) active = unit_.pull(block, lanes, order);
     while (active > few) active = unit_.pull(block, lanes, order);
@@ -117,7 +118,7 @@ void Work::solve_stragglers(WorkRoom& room) noexcept {
     const Block tile(room.tile.get(), bones_);
     std::size_t used = 0;  // lanes
     while ((used = refill(tile, used, room)) > 0) {
-        unit_.pull(tile, used, {burst, options_.max_iterations, false});
+        unit_.pull(tile, used, {long_burst, options_.max_iterations, false});
     }
 }
 
