@@ -1,17 +1,22 @@
 // What a person takes along: text on the clipboard.
 #include "app/document/scene_file.hpp"
+#include "app/labs/chain/code.hpp"
 #include "app/labs/chain/command_support.hpp"
 
 namespace tendril::app {
 
 void add_copy_commands(CommandTable& table) {
     table.add({.name = "chain.copy",
-               .arguments = {choice_argument("as", true, "the scene as text", {"json"})},
-               .help = "Puts the scene on the clipboard",
+               .arguments = {choice_argument("as", true, "a program against the library, or the scene",
+                                             {"cpp", "json"})},
+               .help = "Puts the chain on the clipboard, as code or as a scene",
                .effect = Effect::Look,
-               .apply = [](Workspace& workspace, const Arguments&) {
-                   workspace.ui.copied = json_to_text(save_scene(workspace));
-                   workspace.toast("The scene is on the clipboard, as JSON.");
+               .apply = [](Workspace& workspace, const Arguments& given) {
+                   const bool code = given.text("as") == "cpp";
+                   workspace.ui.copied = code ? chain_code(workspace.document.get<ChainPart>(chain_lab))
+                                              : json_to_text(save_scene(workspace));
+                   workspace.toast(code ? "The chain is on the clipboard, as C++."
+                                        : "The scene is on the clipboard, as JSON.");
                }});
     table.add({.name = "race.copy",
                .arguments = {},

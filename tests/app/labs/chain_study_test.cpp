@@ -166,6 +166,14 @@ TEST_F(ChainStudy, the_race_is_written_as_csv) {
     EXPECT_NE(refused("race.save", {{"path", "/nowhere/at/all.csv"}}).find("/nowhere"), std::string::npos);
 }
 
+TEST_F(ChainStudy, the_chain_is_copied_as_code_and_as_a_scene) {
+    run("chain.copy", {{"as", "cpp"}});
+    EXPECT_NE(workspace.ui.copied.value().find("#include <tendril/"), std::string::npos);
+    run("chain.copy", {{"as", "json"}});
+    EXPECT_EQ(parse_json(workspace.ui.copied.value()), save_scene(workspace));
+    EXPECT_FALSE(refused("chain.copy", {{"as", "rust"}}).empty());
+}
+
 TEST_F(ChainStudy, a_study_comes_back_from_a_file) {
     run("microscope.open", {{"start", "straight"}});
     run("chain.target", {{"to", {3, 3, 1}}});
