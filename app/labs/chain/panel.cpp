@@ -101,10 +101,11 @@ void ChainLab::panel(const Workspace& workspace, Emit& emit) const {
     const ChainPart& part = chain_part(workspace);
     mode_rows(part, emit);
     if (part.mode == ChainMode::Reach) solver_rows(part, emit);
+    study_rows(part, emit);
     segment_rows(part, emit);
     target_rows(part, workspace.clock.playing, emit);
     preset_rows(emit);
-    study_rows(part, emit);
+    carry_rows(emit);
 }
 
 void ChainLab::timeline(const Workspace& workspace, Emit& emit) const {

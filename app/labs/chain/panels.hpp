@@ -7,8 +7,10 @@ namespace tendril::app {
 
 /// The panel: what solves, and its options.
 void solver_rows(const ChainPart& part, Emit& emit);
-/// The panel: microscope, race, and what to carry away.
+/// The panel: microscope and race.
 void study_rows(const ChainPart& part, Emit& emit);
+/// The panel: what to copy.
+void carry_rows(Emit& emit);
 /// The inspector: how the last solve went.
 void report_rows(const ChainPart& part, const Palette& palette);
 /// The inspector: the limit of the selected joint.

@@ -43,7 +43,7 @@ void option_rows(const ReachSettings& reach, Emit& emit) {
 /// A pole begins above the middle of the line from head to target, clear of the chain.
 glm::vec3 first_pole(const ChainPart& part) {
     const glm::vec3 middle = 0.5f * (part.chain.segments().front().position + part.target);
-    return middle + glm::vec3(0.0f, 0.6f * std::max(1.0f, part.chain.reach() * 0.5f), 0.0f);
+    return middle + glm::vec3(0.0f, 0.6f * std::max(1.0f, part.chain.reach()), 0.0f);
 }
 
 void pole_rows(const ChainPart& part, Emit& emit) {

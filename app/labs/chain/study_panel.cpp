@@ -91,6 +91,9 @@ void study_rows(const ChainPart& part, Emit& emit) {
         emit(magnified ? "microscope.close" : "microscope.open");
     if (row_button(racing ? "Close race" : "Race", 2, solvable, "Several solvers, from the same start"))
         emit(racing ? "race.close" : "race.open");
+}
+
+void carry_rows(Emit& emit) {
     section("Carry away");
     if (row_button("Copy as C++", 2, true, "This chain, mode and solver as a program against the library"))
         emit("chain.copy", {{"as", "cpp"}});
