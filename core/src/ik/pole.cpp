@@ -17,6 +17,8 @@ constexpr double follow = 20.0;     ///< times what has changed
 constexpr double jump = 0.02;       ///< of the reach: what changed more has jumped
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
+constexpr int most_sweeps = 64;    ///< of EachJoint
+constexpr double settled = 1e-3;   ///< radians
 constexpr double straight = 0.01;  ///< of the reach: no joint further off the line
 constexpr double no_side = 1e-6;   ///< of the reach: offsets below it are rounding
 
@@ -137,20 +139,41 @@ void face_with_whole_chain(Problem& problem, Watch watch) noexcept {
     if (angle != 0.0) roll(problem, Turn(*line, angle), watch);
 }
 
+/// One joint about the line through its neighbours; how far it was turned, radians. Where it is on that line,
+/// and how far off, comes from the lengths of its bones: many turns would let them drift.
 template <class Watch>
-void face_with_joint(Problem& problem, std::size_t joint, Watch watch) noexcept {
+double face_with_joint(Problem& problem, std::size_t joint, Watch watch) noexcept {
     const double least = no_side * static_cast<double>(problem.room.reach);
-    const glm::dvec3 before = wide(problem.joints[joint - 1]), after = wide(problem.joints[joint + 1]);
-    const std::optional<glm::dvec3> line = direction_of(minus(after, before), least);
-    if (!line) return;
-    const glm::dvec3 arm = minus(wide(problem.joints[joint]), before), offset = across(arm, *line);
+    const glm::dvec3 before = wide(problem.joints[joint - 1]);
+    const glm::dvec3 between = minus(wide(problem.joints[joint + 1]), before);
+    const std::optional<glm::dvec3> line = direction_of(between, least);
+    if (!line) return 0.0;
+    const glm::dvec3 offset = across(minus(wide(problem.joints[joint]), before), *line);
     const std::optional<glm::dvec3> to = pole_side(problem, before, *line);
-    if (!to || !direction_of(offset, least)) return;
-    const double angle =
-        limited(angle_about(*line, offset, *to), length(offset), problem.room.pole.allowance);
-    if (angle == 0.0) return;
-    place(problem, joint, joint - 1, plus(before, Turn(*line, angle)(arm)), watch);
+    const std::optional<glm::dvec3> side = direction_of(offset, least);
+    if (!to || !side) return 0.0;
+    const double a = static_cast<double>(problem.lengths()[joint - 1]);
+    const double b = static_cast<double>(problem.lengths()[joint]), span = length(between);
+    const double along = 0.5 * (span + (a - b) * (a + b) / span);
+    const double height = std::sqrt(std::max((a - along) * (a + along), 0.0));
+    const double angle = limited(angle_about(*line, *side, *to), height, problem.room.pole.allowance);
+    if (angle == 0.0) return 0.0;
+    const glm::dvec3 up = times(Turn(*line, angle)(*side), height);
+    place(problem, joint, joint - 1, plus(before, plus(times(*line, along), up)), watch);
     watch.next_step();
+    return std::abs(angle);
+}
+
+template <class Watch>
+void face_with_each_joint(Problem& problem, Watch watch) noexcept {
+    const int sweeps = problem.room.pole.allowance < unlimited ? 1 : most_sweeps;
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+        double largest = 0.0;
+        for (std::size_t i = 1; i < problem.bones(); ++i) {
+            largest = std::max(largest, face_with_joint(problem, i, watch));
+        }
+        if (largest < settled) return;
+    }
 }
 
 }  // namespace
@@ -238,7 +261,7 @@ void carry_to_pole(Problem& problem, Watch watch) noexcept {
 template <class Watch>
 void face_pole(Problem& problem, Watch watch) noexcept {
     if (problem.options.pole && problem.options.pole_turn == PoleTurn::EachJoint) {
-        for (std::size_t i = 1; i < problem.bones(); ++i) face_with_joint(problem, i, watch);
+        face_with_each_joint(problem, watch);
     } else if (problem.options.pole) {
         face_with_whole_chain(problem, watch);
     }

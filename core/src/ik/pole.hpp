@@ -6,8 +6,9 @@
 // to the bit.
 //
 // PoleTurn::EachJoint turns one joint after the other, from the root on, about the line through its two
-// neighbours, to the point of its circle that is nearest to the pole. One sweep a solve: as every turn brings
-// the joints nearer to the pole, taken together, repeated solves come to rest.
+// neighbours, to the point of its circle that is nearest to the pole. Every turn brings the joints nearer to
+// the pole, taken together; so sweeps over the chain come to rest. There are as many as it takes, 64 at most,
+// where nothing limits the turns, and one a solve where something does (below).
 //
 // No jumps. A turn at the end alone does jump, for three reasons, and there is an answer to each:
 //

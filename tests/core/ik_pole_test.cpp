@@ -1,0 +1,292 @@
+// The bend faces its pole, moves neither root nor tip, and never jumps.
+#include "ik_hostile.hpp"
+
+namespace tendril::test {
+namespace {
+
+using ik::Method;
+using ik::Options;
+using ik::PoleTurn;
+using ik::Status;
+
+glm::dvec3 cross(glm::dvec3 a, glm::dvec3 b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+double dot(glm::dvec3 a, glm::dvec3 b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+double size(glm::dvec3 v) {
+    return std::sqrt(dot(v, v));
+}
+
+/// What of `v` is at right angles to the line, of any length.
+glm::dvec3 off(glm::dvec3 v, glm::dvec3 line) {
+    return v - line * (dot(v, line) / dot(line, line));
+}
+
+double angle_between(glm::dvec3 a, glm::dvec3 b) {
+    return std::atan2(size(cross(a, b)), dot(a, b));
+}
+
+/// Between the pole and the weighted sum of the offsets, about the line from root to tip; 0 for what is
+/// straight.
+double off_its_pole(const Joints& joints, std::span<const float> lengths, glm::vec3 pole) {
+    const glm::dvec3 root(joints.front()), line = glm::dvec3(joints.back()) - root;
+    glm::dvec3 bend(0.0);
+    for (std::size_t i = 1; i + 1 < joints.size(); ++i) {
+        bend += off(glm::dvec3(joints[i]) - root, line) * static_cast<double>(lengths[i - 1] + lengths[i]);
+    }
+    const double reach = reach_of(lengths);
+    if (size(bend) < 1e-3 * reach * reach) return 0.0;
+    return angle_between(bend, off(glm::dvec3(pole) - root, line));
+}
+
+Options facing(glm::vec3 pole, PoleTurn turn = PoleTurn::WholeChain) {
+    Options options;
+    options.pole = pole;
+    options.pole_turn = turn;
+    return options;
+}
+
+TEST(IkPole, TheBendFacesItAfterOneSolveWhateverTheMethod) {
+    Random random(1);
+    for (int k = 0; k < 2000; ++k) {
+        const Lengths lengths = some_lengths(2 + random.below(10), random);
+        const Joints start = random.chance(4) ? straight_joints(lengths) : some_pose(lengths, random);
+        const glm::vec3 target = some_direction(random) * some_span(lengths, 0.2f, 0.97f, random);
+        const glm::vec3 pole = random.point(4.0f);
+        if (size(off(pole, target)) < 0.1) continue;
+        for (const Method method : iterating_methods) {
+            Joints joints = start;
+            const ik::Report report = ik::Solver(lengths).solve(method, joints, target, facing(pole));
+            EXPECT_LT(off_its_pole(joints, lengths, pole), 2e-3) << name(method) << ", solve " << k;
+            EXPECT_NEAR(report.residual, distance(joints.back(), target), 1e-6 * reach_of(lengths));
+        }
+    }
+}
+
+TEST(IkPole, TheTurnMovesNeitherRootNorTip) {
+    Random random(2);
+    for (const PoleTurn turn : {PoleTurn::WholeChain, PoleTurn::EachJoint}) {
+        for (int k = 0; k < 500; ++k) {
+            const Lengths lengths = some_lengths(3 + random.below(8), random);
+            Joints joints = some_pose(lengths, random);
+            const glm::vec3 target = some_direction(random) * some_span(lengths, 0.2f, 0.9f, random);
+            Recorder recorder;
+            ik::Solver(lengths).solve(Method::Fabrik, joints, target, facing(random.point(3.0f), turn),
+                                      &recorder);
+            // From the last step that is no turn to the pole on: that is the turn at the end.
+            auto step = recorder.steps.rbegin();
+            for (; step != recorder.steps.rend() && step->phase == ik::Phase::Pole; ++step) {
+                if (step->iteration == 0) break;
+                EXPECT_NE(step->joint, 0u);
+                EXPECT_NE(step->joint, lengths.size());
+            }
+            EXPECT_TRUE(Holds(joints, lengths));
+        }
+    }
+}
+
+TEST(IkPole, EachJointComesToFaceItInItsOwnPlane) {
+    Random random(3);
+    int faced = 0, all = 0;
+    for (int k = 0; k < 200; ++k) {
+        const Lengths lengths = some_lengths(3 + random.below(5), random);
+        Joints joints = some_pose(lengths, random);
+        const auto reach = static_cast<float>(reach_of(lengths));
+        const glm::vec3 target = some_direction(random) * some_span(lengths, 0.5f, 0.8f, random);
+        const glm::vec3 pole = some_direction(random) * (3.0f * reach);
+        ik::Solver(lengths).solve(Method::Fabrik, joints, target, facing(pole, PoleTurn::EachJoint));
+        EXPECT_TRUE(Holds(joints, lengths));
+        for (std::size_t i = 1; i + 1 < joints.size(); ++i) {
+            const glm::dvec3 line = glm::dvec3(joints[i + 1]) - glm::dvec3(joints[i - 1]);
+            const glm::dvec3 bend = off(glm::dvec3(joints[i]) - glm::dvec3(joints[i - 1]), line);
+            if (size(bend) < 0.05) continue;
+            ++all;
+            faced += angle_between(bend, off(glm::dvec3(pole) - glm::dvec3(joints[i - 1]), line)) < 0.05;
+        }
+    }
+    std::printf("%d of %d joints face the pole\n", faced, all);
+    EXPECT_GT(faced, all * 98 / 100);
+}
+
+TEST(IkPole, SolvedAgainAndAgainItComesToRest) {
+    Random random(4);
+    for (int k = 0; k < 500; ++k) {
+        const Lengths lengths = some_lengths(2 + random.below(8), random);
+        Joints joints = some_pose(lengths, random);
+        const glm::vec3 target = some_direction(random) * some_span(lengths, 0.2f, 0.95f, random);
+        const glm::vec3 pole = random.point(4.0f);
+        const double reach = reach_of(lengths);
+        if (size(off(pole, target)) < 0.1 * reach) continue;
+        ik::Solver solver(lengths);
+        solver.solve(Method::Fabrik, joints, target, facing(pole));
+        Joints settled = joints;
+        // The tip was within tolerance of the target; now it comes onto the line to it, and the pole with it.
+        for (int again = 0; again < 10; ++again) solver.solve(Method::Fabrik, joints, target, facing(pole));
+        for (std::size_t i = 0; i < joints.size(); ++i) {
+            EXPECT_LT(distance(joints[i], settled[i]), 0.02 * reach);
+        }
+        settled = joints;
+        solver.solve(Method::Fabrik, joints, target, facing(pole));
+        for (std::size_t i = 0; i < joints.size(); ++i) {
+            EXPECT_LT(distance(joints[i], settled[i]), 1e-5 * reach);
+        }
+    }
+}
+
+TEST(IkPole, OnTheLineItLeavesThePlaneAsItIs) {
+    const Lengths lengths(4, 0.25f);
+    Joints joints{{0, 0, 0}, {0.25f, 0, 0}, {0.5f, 0, 0}, {0.75f, 0, 0}, {1, 0, 0}};
+    ik::Solver solver(lengths);
+    solver.solve(Method::Fabrik, joints, {0.7f, 0, 0}, facing({0.3f, 0.6f, 0.8f}));
+    const Joints before = joints;
+    for (const glm::vec3 pole : {glm::vec3(5, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 0, 0)}) {
+        solver.solve(Method::Fabrik, joints, {0.7f, 0, 0}, facing(pole));
+        for (std::size_t i = 0; i < joints.size(); ++i) EXPECT_LT(distance(joints[i], before[i]), 1e-3);
+    }
+    // On its way onto the line, and through it, nothing breaks.
+    for (int k = 0; k <= 2000; ++k) {
+        const float y = 0.001f * static_cast<float>(1000 - k);
+        solver.solve(Method::Fabrik, joints, {0.7f, 0, 0}, facing({0.3f, y, 0}));
+        EXPECT_TRUE(Holds(joints, lengths));
+    }
+    for (int k = 0; k < 1000; ++k) solver.solve(Method::Fabrik, joints, {0.7f, 0, 0}, facing({0.3f, -1, 0}));
+    EXPECT_LT(off_its_pole(joints, lengths, {0.3f, -1, 0}), 1e-3) << "it has caught up";
+}
+
+TEST(IkPole, APoleThatIsNewOrJumpsIsFacedAtOnce) {
+    Random random(5);
+    const Lengths lengths(6, 1.0f / 6.0f);
+    const glm::vec3 target(0.1f, 0.6f, 0.2f);
+    Joints joints = some_pose(lengths, random);
+    ik::Solver solver(lengths);
+    solver.solve(Method::Fabrik, joints, target);
+    for (int k = 0; k < 20; ++k) {
+        const glm::vec3 pole = some_direction(random);
+        if (size(off(pole, target)) < 0.2) continue;
+        solver.solve(Method::Fabrik, joints, target, facing(pole));
+        EXPECT_LT(off_its_pole(joints, lengths, pole), 1e-3);
+    }
+}
+
+/// A smooth walk in steps of 0.0001: distances in [least, most] of the reach, the pole at least `clear` off
+/// the line, which it is steered away from.
+class Walk {
+  public:
+    Walk(glm::vec3 pole, double least, double most, Random& random)
+        : random_(random), pole_(pole), least_(least), most_(most), distance_(0.5 * (least + most)) {
+        do {
+            direction_ = glm::dvec3(some_direction(random));
+        } while (!is_clear());
+    }
+    bool is_clear() const { return size(off(pole_, direction_)) >= 0.05; }
+    glm::vec3 next() {
+        spin_ = spin_ * 0.999 + glm::dvec3(random_.point(0.05f));
+        speed_ = speed_ * 0.999 + static_cast<double>(random_.around(0.05f));
+        if (distance_ < least_ + 0.02) speed_ = std::abs(speed_);
+        if (distance_ > most_ - 0.02) speed_ = -std::abs(speed_);
+        if (size(off(pole_, direction_)) < 0.07) spin_ = cross(direction_, -off(pole_, direction_)) * 50.0;
+        const glm::dvec3 velocity = cross(spin_, direction_) + direction_ * speed_;
+        glm::dvec3 at = direction_ * distance_ + velocity * (1e-4 / std::max(size(velocity), 1e-9));
+        direction_ = at / size(at);
+        distance_ = std::clamp(size(at), least_, most_);
+        return direction_ * distance_;
+    }
+
+  private:
+    Random& random_;
+    glm::dvec3 pole_, direction_, spin_{0.0};
+    double least_, most_, distance_, speed_ = 0.0;
+};
+
+struct Jumps {
+    double worst = 0.0;  ///< metres a joint moved in one step
+    int steps = 0, unfaced = 0;
+};
+
+/// Chains of 1 m, solved once to the walk's start and then along it, each from the pose before.
+Jumps walk(Method method, PoleTurn turn, std::size_t bones, int paths, int steps, Random& random) {
+    Jumps jumps;
+    for (int path = 0; path < paths; ++path) {
+        Lengths lengths = random.chance(2) ? Lengths(bones, 1.0f) : some_lengths(bones, random);
+        const auto reach = static_cast<float>(reach_of(lengths));
+        for (float& length : lengths) length /= reach;
+        const double longest = *std::max_element(lengths.begin(), lengths.end());
+        const glm::vec3 pole = some_direction(random) * between(random, 0.15f, 1.5f);
+        // Where a long bone leaves a hole its edge is as steep as full reach, so it is kept away from as
+        // well.
+        const double least = std::max(0.05, 2.0 * longest - 1.0 + (bones == 2 ? 0.06 : 0.02));
+        if (least > 0.9) continue;
+        Walk walk(pole, least, 0.99, random);
+        Joints joints = random.chance(2) ? straight_joints(lengths) : some_pose(lengths, random);
+        ik::Solver solver(lengths);
+        solver.solve(method, joints, walk.next(), facing(pole, turn));
+        for (int k = 0; k < steps; ++k) {
+            const Joints before = joints;
+            const ik::Report report = solver.solve(method, joints, walk.next(), facing(pole, turn));
+            EXPECT_TRUE(report.status == Status::Converged || method == Method::JacobianTranspose ||
+                        method == Method::Ccd || method == Method::FabrikPlain);
+            if (!walk.is_clear()) continue;
+            ++jumps.steps;
+            jumps.unfaced += off_its_pole(joints, lengths, pole) > 0.02;
+            for (std::size_t i = 0; i < joints.size(); ++i) {
+                jumps.worst = std::max(jumps.worst, distance(joints[i], before[i]));
+            }
+        }
+    }
+    return jumps;
+}
+
+TEST(IkPole, TheDefaultNeverJumpsAlongARandomPath) {
+    Random random(given_seed());
+    for (const std::size_t bones : {2u, 3u, 4u, 6u, 10u, 20u}) {
+        const Jumps jumps = walk(Method::Fabrik, PoleTurn::WholeChain, bones, 12, 5000, random);
+        std::printf("%2zu bones, %d steps of 0.1 mm: no joint moves over %.2f mm\n", bones, jumps.steps,
+                    1e3 * jumps.worst);
+        EXPECT_GT(jumps.steps, 20'000);
+        EXPECT_LT(jumps.worst, 0.005);
+        EXPECT_LE(jumps.unfaced, jumps.steps / 200) << "nor does it lag behind";
+    }
+}
+
+TEST(IkPole, NeitherDoesEachJointByItself) {
+    Random random(given_seed());
+    for (const std::size_t bones : {2u, 3u, 6u, 10u}) {
+        const Jumps jumps = walk(Method::Fabrik, PoleTurn::EachJoint, bones, 10, 4000, random);
+        std::printf("%2zu bones: %.2f mm\n", bones, 1e3 * jumps.worst);
+        EXPECT_LT(jumps.worst, 0.005);
+    }
+}
+
+TEST(IkPole, NorDoTheOtherMethods) {
+    Random random(given_seed());
+    for (const Method method : {Method::FabrikPlain, Method::Dls, Method::SvdDls}) {
+        const Jumps jumps = walk(method, PoleTurn::WholeChain, 6, 8, 3000, random);
+        std::printf("%s: %.2f mm\n", name(method), 1e3 * jumps.worst);
+        EXPECT_LT(jumps.worst, 0.005);
+    }
+    const Jumps jumps = walk(Method::TwoBone, PoleTurn::WholeChain, 2, 20, 5000, random);
+    std::printf("two_bone: %.2f mm\n", 1e3 * jumps.worst);
+    EXPECT_LT(jumps.worst, 0.005);
+}
+
+TEST(IkPole, BearsAnything) {
+    Random random(given_seed());
+    for (int k = 0; k < 4000; ++k) {
+        SCOPED_TRACE("solve " + std::to_string(k));
+        const Lengths lengths = hostile_lengths(random);
+        if (reach_of(lengths) > 500.0) continue;
+        const Joints start = hostile_pose(lengths, random);
+        Options options = facing(hostile_target(start, lengths, random));
+        if (random.chance(2)) options.pole_turn = PoleTurn::EachJoint;
+        options.max_iterations = 20;
+        const Method method = iterating_methods[random.below(iterating_methods.size())];
+        expect_bears(method, lengths, start, hostile_target(start, lengths, random), options);
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test
