@@ -86,10 +86,11 @@ void study_rows(const ChainPart& part, Emit& emit) {
     const bool solvable = part.chain.size() > 1 && part.chain.size() <= max_studied_segments;
     const bool magnified = part.study.kind == Study::Kind::Microscope;
     const bool racing = part.study.kind == Study::Kind::Race;
-    if (row_button(magnified ? "Close microscope" : "Microscope", 2, solvable,
-                   "Every step of one solve, and the pose after it"))
+    if (row_button(magnified ? "Close" : "Microscope", 2, solvable,
+                   magnified ? "Closes the microscope" : "Every step of one solve, and the pose after it"))
         emit(magnified ? "microscope.close" : "microscope.open");
-    if (row_button(racing ? "Close race" : "Race", 2, solvable, "Several solvers, from the same start"))
+    if (row_button(racing ? "Close" : "Race", 2, solvable,
+                   racing ? "Closes the race" : "Several solvers, from the same start"))
         emit(racing ? "race.close" : "race.open");
 }
 
