@@ -70,22 +70,35 @@ const Effector* only_one(const TreeRoom& room, std::span<const Effector> effecto
     return only;
 }
 
-/// All bones along the line from the root, one after the other; folded: all but the longest back along it.
-void lay_on_line(TreeRoom& room, glm::dvec3 line, bool folded) noexcept {
+/// `by` metres from `from` along `line`. One step after the other, so that no bone is off by the rounding of
+/// both its ends.
+glm::vec3 stepped(const glm::vec3& from, const glm::dvec3& line, double by) noexcept {
+    const double size = std::sqrt(inner(line, line));
+    // Too near to each other for floats to tell: any way will do.
+    const glm::dvec3 along =
+        size > 1e-30 ? glm::dvec3(line.x / size, line.y / size, line.z / size) : glm::dvec3(1.0, 0.0, 0.0);
+    return {static_cast<float>(static_cast<double>(from.x) + along.x * by),
+            static_cast<float>(static_cast<double>(from.y) + along.y * by),
+            static_cast<float>(static_cast<double>(from.z) + along.z * by)};
+}
+
+void lay_straight(TreeRoom& room, const glm::vec3& target) noexcept {
+    for (std::size_t k = 1; k < room.used; ++k) {
+        room.at[k] = stepped(room.at[k - 1], between(room.at[k - 1], target),
+                             static_cast<double>(room.slots[k].length));
+    }
+}
+
+/// The longest bone towards the goal, the others back along it.
+void fold(TreeRoom& room, const glm::vec3& goal) noexcept {
     std::size_t longest = 1;
     for (std::size_t k = 1; k < room.used; ++k) {
         if (room.slots[k].length > room.slots[longest].length) longest = k;
     }
-    if (inner(line, line) < 1e-60) line = {1.0, 0.0, 0.0};  // too near to each other for floats to tell
-    const double scale = 1.0 / std::sqrt(inner(line, line));
-    double along = 0.0;
+    const glm::dvec3 line = between(room.at[0], goal);
     for (std::size_t k = 1; k < room.used; ++k) {
         const double bone = static_cast<double>(room.slots[k].length);
-        along += folded && k != longest ? -bone : bone;
-        const double by = along * scale;
-        room.at[k] = {static_cast<float>(static_cast<double>(room.at[0].x) + line.x * by),
-                      static_cast<float>(static_cast<double>(room.at[0].y) + line.y * by),
-                      static_cast<float>(static_cast<double>(room.at[0].z) + line.z * by)};
+        room.at[k] = stepped(room.at[k - 1], line, k == longest ? bone : -bone);
     }
 }
 
@@ -98,9 +111,9 @@ bool lay_at_rim(TreeRoom& room, std::span<const Effector> effectors) noexcept {
     const double nearest = 2.0 * room.path_longest[effector->joint] - furthest;
     const double far = gap(room.at[0], effector->target);
     if (far > furthest) {
-        lay_on_line(room, between(room.at[0], effector->target), false);
+        lay_straight(room, effector->target);
     } else if (far < nearest) {
-        lay_on_line(room, between(room.at[0], room.slots[room.goals[0]].goal), true);
+        fold(room, room.slots[room.goals[0]].goal);
     } else {
         return false;
     }
