@@ -147,7 +147,8 @@ void ChainProgram::options() {
     };
     line("");
     say("ik::Options options;");
-    set("tolerance", literal(*options.tolerance), "  // metres");
+    set("tolerance", literal(*options.tolerance),
+        chosen.tolerance ? "  // metres" : "  // metres: 1e-3 of the reach");
     set("max_iterations", std::to_string(options.max_iterations));
     if (options.pole) {
         say("options.pole = glm::vec3" + braced(*options.pole) + ";  // the bend faces this point");
@@ -173,7 +174,7 @@ void ChainProgram::limits() {
     } else {
         for (std::size_t i = 0; i < limits.size(); ++i)
             if (limits[i].kind != ik::JointKind::Free)
-                say("limits[" + std::to_string(i) + "] = " + readable(limits[i], "    ") + ";");
+                code_ += readable("limits[" + std::to_string(i) + "]", limits[i], "    ");
     }
     say("options.limits = limits;");
 }

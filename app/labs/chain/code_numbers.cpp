@@ -48,19 +48,23 @@ std::string enumerator(ik::JointKind kind) {
     return pascal(ik::name(kind));
 }
 
-std::string readable(const ik::Limit& limit, const std::string& margin) {
+std::string readable(const std::string& name, const ik::Limit& limit, const std::string& margin) {
     if (limit.kind == ik::JointKind::Hinge) {
-        return "ik::Limit::hinge(" + braced(limit.axis) + ", " + literal(limit.min) + ", " +
-               literal(limit.max) + ")";
+        return margin + name + " = ik::Limit::hinge(" + braced(limit.axis) + ", " + literal(limit.min) +
+               ", " + literal(limit.max) + ");  // " + degrees_text(limit.min) + " to " +
+               degrees_text(limit.max) + " degrees\n";
     }
-    std::string text = "{.kind = ik::JointKind::" + enumerator(limit.kind) + ",";
-    const std::string next = "\n" + margin + margin;
-    text += next + ".axis = " + braced(limit.axis);
+    const std::string next = margin + std::string(name.size() + 4, ' ');
+    std::string text = margin + name + " = {.kind = ik::JointKind::" + enumerator(limit.kind) + ",\n";
+    text += next + ".axis = " + braced(limit.axis) + ",\n";
     const std::pair<const char*, float> angles[] = {
         {"up", limit.up},       {"down", limit.down},           {"left", limit.left},
         {"right", limit.right}, {"twist_min", limit.twist_min}, {"twist_max", limit.twist_max}};
-    for (const auto& [name, angle] : angles) text += "," + next + "." + name + " = " + literal(angle);
-    return text + "}";
+    for (const auto& [field, angle] : angles) {
+        if (angle == 0.0f) continue;  // as it is by itself
+        text += next + "." + field + " = " + literal(angle) + ",  // " + degrees_text(angle) + " degrees\n";
+    }
+    return text + margin + "};\n";
 }
 
 std::string number_table(const char* name, const std::vector<float>& numbers) {

@@ -24,9 +24,9 @@ std::string degrees_text(float radians);
 std::string enumerator(ik::Method method);
 std::string enumerator(ik::JointKind kind);
 
-/// An expression that is this limit, its angles also told in degrees; what follows its first line is indented
-/// by `margin`.
-std::string readable(const ik::Limit& limit, const std::string& margin);
+/// The statement that gives `name` this limit, its angles told in degrees beside it. Each line begins with
+/// `margin`; ends with a newline.
+std::string readable(const std::string& name, const ik::Limit& limit, const std::string& margin);
 
 /// "static const float NAME[] = {...};", four numbers a line.
 std::string number_table(const char* name, const std::vector<float>& numbers);
