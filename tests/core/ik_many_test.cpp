@@ -151,6 +151,38 @@ TEST(SolveMany, ATighterToleranceIsKept) {
     }
 }
 
+TEST(SolveMany, AToleranceThatFloatsCannotKeepStalls) {
+    Random random(18);
+    const Crowd crowd = some_crowd(500, 6, random, 0.1f, 0.95f);
+    const ManyOptions options{.tolerance = 0.0f, .max_iterations = 2000};
+    const Answer many = solve_many(crowd, options);
+    expect_same(crowd, many, solve_each(crowd, options), 1e-4);
+    const auto stalled = [](const Report& report) { return report.status == Status::Stalled; };
+    EXPECT_GT(std::count_if(many.reports.begin(), many.reports.end(), stalled), 50);
+}
+
+TEST(SolveMany, FarFromTheOriginChainsAreSolvedAsTheScalarSolverSolvesThem) {
+    Random random(19);
+    for (const float far : {900.0f, 2e3f, 3e4f, 1e6f}) {
+        Crowd crowd;
+        for (int i = 0; i < 300; ++i) {
+            const Lengths lengths = some_lengths(5, random);
+            const glm::vec3 root = some_direction(random) * far;
+            const float reach = static_cast<float>(reach_of(lengths));
+            crowd.add(lengths, some_pose(lengths, random, root),
+                      root + some_direction(random) * (0.8f * reach * part(random)));
+        }
+        const ManyOptions options{.max_iterations = 5, .every_iteration = true};
+        const Answer many = solve_many(crowd, options), each = solve_each(crowd, options);
+        std::size_t equal = 0;
+        for (std::size_t i = 0; i < crowd.size(); ++i) {
+            equal += same_bits(many.joints[i], each.joints[i]) ? 1 : 0;
+            EXPECT_TRUE(Holds(many.joints[i], crowd.lengths[i])) << far;
+        }
+        EXPECT_GE(equal, crowd.size() * 9 / 10) << far;
+    }
+}
+
 TEST(SolveMany, EveryVectorUnitGivesTheSameBits) {
     ASSERT_FALSE(ik::vector_units().empty());
     Random random(4);
