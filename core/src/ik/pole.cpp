@@ -139,33 +139,30 @@ void face_with_whole_chain(Problem& problem, Watch watch) noexcept {
     if (angle != 0.0) roll(problem, Turn(*line, angle), watch);
 }
 
-/// One joint about the line through its neighbours; how far it was turned, radians. Where it is on that line,
-/// and how far off, comes from the lengths of its bones: many turns would let them drift.
+/// One joint about the line through its neighbours; how far it was turned, radians.
 template <class Watch>
 double face_with_joint(Problem& problem, std::size_t joint, Watch watch) noexcept {
     const double least = no_side * static_cast<double>(problem.room.reach);
-    const glm::dvec3 before = wide(problem.joints[joint - 1]);
-    const glm::dvec3 between = minus(wide(problem.joints[joint + 1]), before);
-    const std::optional<glm::dvec3> line = direction_of(between, least);
+    std::vector<glm::dvec3>& joints = problem.room.pole.wide_joints;
+    const glm::dvec3 before = joints[joint - 1];
+    const std::optional<glm::dvec3> line = direction_of(minus(joints[joint + 1], before), least);
     if (!line) return 0.0;
-    const glm::dvec3 offset = across(minus(wide(problem.joints[joint]), before), *line);
+    const glm::dvec3 arm = minus(joints[joint], before), offset = across(arm, *line);
     const std::optional<glm::dvec3> to = pole_side(problem, before, *line);
-    const std::optional<glm::dvec3> side = direction_of(offset, least);
-    if (!to || !side) return 0.0;
-    const double a = static_cast<double>(problem.lengths()[joint - 1]);
-    const double b = static_cast<double>(problem.lengths()[joint]), span = length(between);
-    const double along = 0.5 * (span + (a - b) * (a + b) / span);
-    const double height = std::sqrt(std::max((a - along) * (a + along), 0.0));
-    const double angle = limited(angle_about(*line, *side, *to), height, problem.room.pole.allowance);
+    if (!to || !direction_of(offset, least)) return 0.0;
+    const double angle =
+        limited(angle_about(*line, offset, *to), length(offset), problem.room.pole.allowance);
     if (angle == 0.0) return 0.0;
-    const glm::dvec3 up = times(Turn(*line, angle)(*side), height);
-    place(problem, joint, joint - 1, plus(before, plus(times(*line, along), up)), watch);
+    joints[joint] = plus(before, Turn(*line, angle)(arm));
+    place(problem, joint, joint - 1, joints[joint], watch);
     watch.next_step();
     return std::abs(angle);
 }
 
 template <class Watch>
 void face_with_each_joint(Problem& problem, Watch watch) noexcept {
+    // In double throughout: a float would be rounded in every sweep, and bones would drift.
+    std::transform(problem.joints.begin(), problem.joints.end(), problem.room.pole.wide_joints.begin(), wide);
     const int sweeps = problem.room.pole.allowance < unlimited ? 1 : most_sweeps;
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         double largest = 0.0;

@@ -17,7 +17,12 @@ struct PoleRoom {
     std::vector<glm::vec3> joints;  ///< n + 1, from the root: the pose that was left
     double allowance = 0.0;         ///< how far the solve that runs may still move a joint to face its pole
 
-    void resize(std::size_t bones) { joints.resize(bones + 1); }
+    std::vector<glm::dvec3> wide_joints;  ///< n + 1: those of the solve, while each joint turns by itself
+
+    void resize(std::size_t bones) {
+        joints.resize(bones + 1);
+        wide_joints.resize(bones + 1);
+    }
 };
 
 }  // namespace tendril::ik::detail
