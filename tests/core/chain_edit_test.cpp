@@ -216,5 +216,37 @@ TEST(ChainEdit, DefaultDirectionMovesNothing) {
     EXPECT_NE(chain, straight(3));
 }
 
+TEST(ChainEdit, SetPositionsKeepsAPoseBitForBit) {
+    Chain chain = straight(4);
+    const std::vector<glm::vec3> pose{{1, 1, 1}, {1, 2, 1}, {1, 2.00005f, 2}, {0, 2.00005f, 2}};
+    chain.set_positions(pose);
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_TRUE(same_bits(chain.position(i), pose[i])) << i;
+        EXPECT_EQ(chain.length(i), 1.0f);
+    }
+}
+
+TEST(ChainEdit, SetPositionsLaysFromTheFirstThatIsNotAtItsLength) {
+    Chain chain = straight(4);
+    chain.set_positions(std::vector<glm::vec3>{{0, 0, 0}, {0, 1, 0}, {0, 1, 3}, {0, 1, 3}});
+    expect_positions(chain, {{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 1, 2}});
+}
+
+TEST(ChainEdit, SetPositionsRefusesAndChangesNothing) {
+    Chain chain = straight(2);
+    const Chain before = chain;
+    EXPECT_THROW(chain.set_positions(std::vector<glm::vec3>(3)), std::invalid_argument);
+    EXPECT_THROW(chain.set_positions(std::vector<glm::vec3>(1)), std::invalid_argument);
+    EXPECT_THROW(chain.set_positions({}), std::invalid_argument);
+    for (const float bad : {nan, infinity, 1.1e9f}) {
+        const std::vector<glm::vec3> pose{{0, 0, 0}, {0, bad, 0}};
+        const std::string message = message_of<std::invalid_argument>([&] { chain.set_positions(pose); });
+        EXPECT_NE(message.find("positions[1]"), std::string::npos) << message;
+    }
+    EXPECT_TRUE(same_bits(chain, before));
+    Chain empty;
+    EXPECT_NO_THROW(empty.set_positions({}));
+}
+
 }  // namespace
 }  // namespace tendril::test

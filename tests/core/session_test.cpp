@@ -8,4 +8,8 @@ TEST(Session, EndsInTheSameBitsInEveryBuild) {
     EXPECT_EQ(session_hash(), golden_session_hash);
 }
 
+TEST(Session, SolvesEndInTheSameBitsInEveryBuild) {
+    EXPECT_EQ(solve_hash(), golden_solve_hash);
+}
+
 }  // namespace tendril::test

@@ -18,10 +18,11 @@ namespace tendril::ik {
 /// How a solve ended.
 enum class Status : std::uint8_t {
     Converged,       ///< the tip is within tolerance of the target
-    Stretched,       ///< the target is out of reach; the chain lies straight towards it
+    Stretched,       ///< the target is out of reach and the chain lies straight towards it; or the soft zone
+                     ///< keeps it short of the target by more than the tolerance
     TooClose,        ///< the target is nearer than the longest bone lets the tip fold
     Limited,         ///< the joint limits keep the tip away
-    Stalled,         ///< further iterations would change nothing
+    Stalled,         ///< further iterations would change nothing: ten in a row did not
     IterationLimit,  ///< still on its way when the iterations were used up
     InvalidInput     ///< a number that is not finite or out of range: nothing was moved
 };
@@ -39,7 +40,8 @@ struct Options {
     std::optional<float> tolerance{};
     /// 1 to 1 000 000.
     int max_iterations = 100;
-    /// Goes on to max_iterations whatever was reached; for measuring, and for comparing solvers.
+    /// Goes on to max_iterations whatever was reached; for measuring, and for comparing solvers. (A target
+    /// out of reach or too close needs no iterations, then either.)
     bool every_iteration = false;
     /// One for each bone, at the joint that it starts from; or none at all.
     std::span<const Limit> limits{};
@@ -52,7 +54,10 @@ struct Options {
     /// Unit quaternion: the turn that the last bone has from its rest direction when all is done.
     std::optional<glm::quat> tip_orientation{};
     /// Part of the reach, 0 to 1: in this zone before full reach the chain eases off instead of snapping
-    /// straight, and so stays a little short of the target.
+    /// straight. With z its width in metres, a its start and x = (distance - a) / z of a target beyond a, the
+    /// tip goes out to a + z x / sqrt(1 + x^2): smooth where the zone begins, and never quite full reach. The
+    /// report is about the target itself: where the tip stays short of it by more than the tolerance, the
+    /// status is Stretched and the residual what is missing.
     float soft_zone = 0.0f;
     /// Damping of the two damped solvers as part of the reach, over 0 to 10.
     float damping = 0.1f;

@@ -8,6 +8,11 @@
 // cannot tell. So make one per chain and keep it. Solving allocates nothing, throws nothing and gives the
 // same bits for the same calls.
 //
+// Before the first iteration, in O(n): what is out of reach or too close is answered at once, and a chain
+// that lies on one line with its target, where no method would bend it, is given a small bow, always the same
+// (but not for Method::FabrikPlain, which stalls there). A solve that would end worse than it began, or than
+// it once was, ends with the nearest pose that it met.
+//
 // Cost: O(n) an iteration for every method.
 //
 // Bones keep their lengths as in chain.hpp, except that Method::TwoBone may stretch them.
@@ -67,7 +72,9 @@ class Solver {
     /// target. What it starts from is laid to the bones' lengths first, if it was not.
     Report solve(Method method, std::span<glm::vec3> joints, glm::vec3 target, const Options& options = {},
                  Observer* observer = nullptr) noexcept;
-    /// The same for a chain of bones() + 1 segments. A chain keeps its lengths: two bones do not stretch.
+    /// The same for a chain of bones() + 1 segments. A chain keeps its lengths: two bones do not stretch. And
+    /// it takes no coordinate over max_magnitude: where the solve would lead there, the chain stays as it is
+    /// and the status is InvalidInput.
     Report solve(Method method, Chain& chain, glm::vec3 target, const Options& options = {},
                  Observer* observer = nullptr) noexcept;
 
