@@ -27,6 +27,11 @@
 // nothing moves any more. After a jump of target, pole or pose, or without a solve before, nothing is
 // limited.
 //
+// What remains: a flat chain whose bones come to lie folded upon one line while the target moves on has no
+// smooth way to go (three bones a, b, c at a distance of a + b - c, say), with or without a pole. Chains that
+// start straight are bowed and do not get there; EachJoint, which flattens a chain, can lead one of three
+// bones into it.
+//
 // A pole on the line, or a chain that is straight, shows no side: the chain is left as it is carried.
 //
 // Cost: O(n) before the iterations and O(n) after.
