@@ -23,13 +23,8 @@ void copy_lane(const Block& from, std::size_t from_lane, const Block& to, std::s
 
 }  // namespace
 
-WorkRoom::WorkRoom(std::size_t bones) : tile(Block::floats(bones)), joints(bones + 1) {
-    scalar.lengths.resize(bones);
-    scalar.rest_directions.resize(bones, glm::vec3(1.0f, 0.0f, 0.0f));
-    scalar.rotations.resize(bones, glm::quat(1.0f, 0.0f, 0.0f, 0.0f));
-    scalar.best.resize(bones + 1);
-    scalar.old.resize(bones + 1);
-    scalar.turns.resize(bones);
+WorkRoom::WorkRoom(std::size_t bones) : tile(Block::floats(bones)) {
+    scalar.resize(bones);
 }
 
 void Stragglers::push(std::span<const std::uint32_t> chains) noexcept {
@@ -92,15 +87,16 @@ void Work::pull_block(const Block& block, std::size_t lanes, std::size_t active)
 /// Line traps, folded chains and whatever floats cannot tell from them: rare, and so left to the scalar code.
 void Work::solve_careful(const Block& block, std::size_t lane, std::size_t chain,
                          WorkRoom& room) const noexcept {
-    for (std::size_t i = 0; i <= bones_; ++i) room.joints[i] = block.point(i, lane);
+    for (std::size_t i = 0; i <= bones_; ++i) room.scalar.joints[i] = block.point(i, lane);
     for (std::size_t i = 0; i < bones_; ++i) room.scalar.lengths[i] = block.length(i)[lane];
     room.scalar.reach = block.at(Row::Reach, lane);
     room.scalar.longest = block.at(Row::Longest, lane);
-    Problem problem{room.joints, block.target(lane), block.at(Row::Tolerance, lane), options_, room.scalar};
+    Problem problem{room.scalar.joints, block.target(lane), block.at(Row::Tolerance, lane), options_,
+                    room.scalar};
     lay_to_lengths(problem, Unwatched());
     const Method method = is_on_one_line(problem) ? Method::Fabrik : Method::FabrikPlain;
     const Report answer = ik::detail::run(method, problem, Unwatched());
-    for (std::size_t i = 1; i <= bones_; ++i) block.set_point(i, lane, room.joints[i]);
+    for (std::size_t i = 1; i <= bones_; ++i) block.set_point(i, lane, room.scalar.joints[i]);
     if (!reports_.empty()) reports_[chain] = answer;
 }
 

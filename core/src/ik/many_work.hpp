@@ -7,7 +7,6 @@
 #include <glm/vec3.hpp>
 #include <mutex>
 #include <span>
-#include <vector>
 
 #include "ik/many_block.hpp"
 #include "ik/many_vector.hpp"
@@ -23,7 +22,6 @@ struct WorkRoom {
     BlockMemory tile;                                 ///< a block of chains from anywhere
     std::array<std::uint32_t, block_lanes> chains{};  ///< which chain is in which lane of it
     Workspace scalar;                                 ///< for the careful ones
-    std::vector<glm::vec3> joints;                    ///< n + 1
 };
 
 /// Chains that need more iterations than most of their block: any thread may go on with them.

@@ -31,6 +31,19 @@ struct Workspace {
     PoleRoom pole;                           ///< for solves with a pole
     float reach = 0.0f;
     float longest = 0.0f;
+
+    /// Room for so many bones; they rest along +X and are not turned.
+    void resize(std::size_t bones) {
+        lengths.resize(bones);
+        rest_directions.resize(bones, glm::vec3(1.0f, 0.0f, 0.0f));
+        rotations.resize(bones, glm::quat(1.0f, 0.0f, 0.0f, 0.0f));
+        best.resize(bones + 1);
+        old.resize(bones + 1);
+        turns.resize(bones);
+        joints.resize(bones + 1);
+        limited.resize(bones);
+        pole.resize(bones);
+    }
 };
 
 struct Problem {

@@ -50,16 +50,9 @@ Solver::Solver(std::span<const float> lengths, std::span<const glm::vec3> rest_d
     }
     for (std::size_t i = 0; i < rest_directions.size(); ++i) require_direction(i, rest_directions[i]);
     room.reach = static_cast<float>(reach);
-    room.lengths.assign(lengths.begin(), lengths.end());
-    room.rest_directions.assign(rest_directions.begin(), rest_directions.end());
-    room.rest_directions.resize(lengths.size(), glm::vec3(1.0f, 0.0f, 0.0f));
-    room.rotations.assign(lengths.size(), glm::quat(1.0f, 0.0f, 0.0f, 0.0f));
-    room.best.resize(lengths.size() + 1);
-    room.old.resize(lengths.size() + 1);
-    room.turns.resize(lengths.size());
-    room.joints.resize(lengths.size() + 1);
-    room.limited.resize(lengths.size());
-    room.pole.resize(lengths.size());
+    room.resize(lengths.size());
+    std::copy(lengths.begin(), lengths.end(), room.lengths.begin());
+    std::copy(rest_directions.begin(), rest_directions.end(), room.rest_directions.begin());
 }
 
 Solver::Solver(const Chain& chain)
