@@ -1,0 +1,65 @@
+// A file of cases is refused by a std::runtime_error, or every case in it is solved by every solver: lengths
+// kept, nothing but numbers, limits held, and the start untouched where the solver refuses.
+#include <algorithm>
+#include <cmath>
+#include <tendril/ik/solver.hpp>
+
+#include "app/batch/cases.hpp"
+#include "tests/fuzz/check.hpp"
+
+using namespace tendril;
+using tendril::fuzz::check;
+
+namespace {
+
+constexpr std::size_t most_bones = 64, most_cases = 16;
+
+bool finite(const glm::vec3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+std::vector<glm::vec3> start_of(const app::Case& each) {
+    if (!each.start.empty()) return each.start;
+    std::vector<glm::vec3> joints{glm::vec3(0.0f)};
+    for (const float length : each.lengths) joints.push_back(joints.back() + glm::vec3(length, 0.0f, 0.0f));
+    return joints;
+}
+
+void solve(const app::Case& each) {
+    for (const ik::Method method : ik::all_methods) {
+        ik::Solver solver(each.lengths, each.rest_directions);
+        ik::Options options;
+        options.max_iterations = 20;
+        options.pole = each.pole;
+        options.limits = each.limits;
+        const std::vector<glm::vec3> start = start_of(each);
+        std::vector<glm::vec3> joints = start;
+        const ik::Report report = solver.solve(method, joints, each.target, options);
+        if (report.status == ik::Status::InvalidInput) {
+            check(joints == start, "what is refused is not moved");
+            continue;
+        }
+        check(std::isfinite(report.residual), "the residual is a number");
+        check(std::all_of(joints.begin(), joints.end(), finite), "the joints are numbers");
+        check(joints.front() == start.front(), "the root stays");
+    }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string text = fuzz::text_of(data, size);
+    try {
+        std::size_t cases = 0;
+        app::read_cases(text, [&](const app::Case& each, double part) {
+            check(part >= 0.0 && part <= 1.0, "how far the reading is lies between none and all");
+            if (each.lengths.size() <= most_bones) solve(each);
+            return ++cases < most_cases;
+        });
+    } catch (const std::runtime_error& error) {
+        check(error.what()[0] != '\0', "a refusal says why");
+    } catch (const std::invalid_argument&) {
+        check(false, "what a solver cannot be made from is refused with its place");
+    }
+    return 0;
+}
