@@ -1,12 +1,11 @@
 #include "ik/pole.hpp"
 
 #include <algorithm>
-#include <cfloat>
 #include <cmath>
 #include <limits>
 #include <optional>
 
-#include "ik/turns.hpp"
+#include "ik/rotation.hpp"
 #include "ik/wide.hpp"
 
 namespace tendril::ik::detail {
