@@ -134,6 +134,18 @@ TEST(IkTwoBone, OutOfReachItIsStraightAndTooCloseItIsFolded) {
     EXPECT_LT(distance(behind.tip, {0, 0, 0.5f}), 1e-6);
 }
 
+TEST(IkTwoBone, StretchingNeverCostsATargetThatIsInReach) {
+    const TwoBone limb{{0, 0, 0}, {1, 0, 0}, {1.1f, 0, 0}, 1.0f, 0.1f};
+    for (const float start : {0.3f, 0.8f}) {
+        for (float far = 0.91f; far < 1.09f; far += 0.005f) {
+            const TwoBoneResult result = ik::two_bone(
+                limb, {far, 0, 0}, {.start_stretch_ratio = start, .max_stretch_scale = 10.0f});
+            EXPECT_EQ(result.status, Status::Converged) << start << ' ' << far;
+            EXPECT_LT(result.residual, 1e-5f) << start << ' ' << far;
+        }
+    }
+}
+
 TEST(IkTwoBone, StretchesAsItIsTold) {
     const TwoBone limb{{0, 0, 0}, {1, 1, 0}, {2, 0, 0}, 1.0f, 1.0f};
     const TwoBoneOptions options{

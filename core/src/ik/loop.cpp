@@ -158,8 +158,11 @@ Report run(Method method, Problem& problem, Watch watch) noexcept {
     Report report = solve_reached(method, problem, goal, watch);
     if (problem.target != goal) {
         report.residual = exact_distance(problem.joints.back(), goal);
-        const bool short_of_it = report.residual > problem.tolerance;
-        if (report.status == Status::Converged && short_of_it) report.status = Status::Stretched;
+        const bool there = report.residual <= problem.tolerance;
+        // What it was asked for is what counts, not the eased target that it came to.
+        const bool eased = report.status == Status::Converged || report.status == Status::TooClose;
+        if (there) report.status = Status::Converged;
+        if (!there && eased) report.status = Status::Stretched;
         problem.target = goal;
     }
     return report;

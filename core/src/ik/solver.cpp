@@ -52,7 +52,9 @@ Solver::Solver(std::span<const float> lengths, std::span<const glm::vec3> rest_d
     room.reach = static_cast<float>(reach);
     room.resize(lengths.size());
     std::copy(lengths.begin(), lengths.end(), room.lengths.begin());
-    std::copy(rest_directions.begin(), rest_directions.end(), room.rest_directions.begin());
+    for (std::size_t i = 0; i < rest_directions.size(); ++i) {
+        room.rest_directions[i] = times(rest_directions[i], 1.0f / length(rest_directions[i]));
+    }
 }
 
 Solver::Solver(const Chain& chain)

@@ -44,9 +44,9 @@ glm::vec3 shape(Problem& problem, const Family& family, float t) noexcept {
         for (std::size_t i = from; i < to; ++i) {
             const glm::vec3 blend = moved(times(minus(joints[i + 1], joints[i]), t), towards, lengths[i]);
             const float squared = dot(blend, blend);
-            // One that is just opposite to the line vanishes on its way.
-            const float scale = squared > FLT_MIN ? lengths[i] / std::sqrt(squared) : 0.0f;
-            bones[i] = times(blend, scale);
+            // One that is just opposite to the line has no direction on its way.
+            bones[i] = squared > FLT_MIN ? times(blend, lengths[i] / std::sqrt(squared))
+                                         : times(family.line, lengths[i]);
             span = plus(span, bones[i]);
         }
         return span;

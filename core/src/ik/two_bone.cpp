@@ -34,6 +34,9 @@ Triangle triangle(double upper, double lower, double distance, const TwoBoneOpti
     const double start = static_cast<double>(options.start_stretch_ratio) * reach;
     if (distance > start && start > 0.0) {
         t.scale = std::min(distance / start, static_cast<double>(options.max_stretch_scale));
+        // Bones that differ in length grow apart too: not so far that they fold no nearer than the target.
+        const double folded = std::abs(upper - lower);
+        if (folded <= distance && folded * t.scale > distance) t.scale = distance / folded;
     }
     const double a = upper * t.scale, b = lower * t.scale;
     const double most = a + b, least = std::abs(a - b);

@@ -4,9 +4,10 @@
 // n bones, for the length of its head is none.
 //
 // A Solver holds what does not change from solve to solve (lengths, rest directions), the room to work in,
-// and one thing that does: how each bone is turned about itself, which limits need to know and positions
-// cannot tell. So make one per chain and keep it. Solving allocates nothing, throws nothing and gives the
-// same bits for the same calls.
+// and two things that do: how each bone is turned about itself, which limits need to know and positions
+// cannot tell, and the pose in which the last solve with a pole left the chain, so that the next one turns it
+// no faster than joints may move. So make one per chain and keep it. Solving allocates nothing, throws
+// nothing and gives the same bits for the same calls in the same order.
 //
 // Before the first iteration, in O(n): what is out of reach or too close is answered at once, and a chain
 // that lies on one line with its target, where no method would bend it, is given a small bow, always the same
