@@ -24,6 +24,8 @@ struct Hold {
     /// angle that brings the tip nearest.
     float needed = 0.0f;
     bool enough = false;  ///< whether freeing this joint alone lets the tip reach the target
+
+    bool operator==(const Hold&) const = default;
 };
 
 }  // namespace tendril::ik
