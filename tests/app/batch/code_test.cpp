@@ -1,0 +1,138 @@
+// A chain as a C++ program: what stands in it. That it compiles and moves the chain as the program does is
+// held by tests/package/code.cmake.
+#include "app/labs/chain/code.hpp"
+
+#include <cmath>
+#include <random>
+
+#include "app/document/scene_file.hpp"
+#include "app/labs/chain/code_numbers.hpp"
+#include "app/labs/labs.hpp"
+#include "tests/app/support/program.hpp"
+
+namespace tendril::test {
+namespace {
+
+using namespace app;
+
+bool lacks(const std::string& text, const char* part) {
+    return text.find(part) == text.npos;
+}
+
+ChainPart reaching() {
+    ChainPart part = first_chain();
+    part.mode = ChainMode::Reach;
+    return part;
+}
+
+TEST(Code, every_float_has_its_own_literal) {
+    EXPECT_EQ(literal(1.0f), "1.0f");
+    EXPECT_EQ(literal(0.1f), "0.1f");
+    EXPECT_EQ(literal(-2.5f), "-2.5f");
+    EXPECT_EQ(literal(1e9f), "1e+09f");
+    EXPECT_EQ(literal(-0.0f), "-0.0f");
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> exponent(-30.0f, 9.0f);
+    for (int i = 0; i < 10'000; ++i) {
+        const float value = std::pow(10.0f, exponent(random)) * (i % 2 == 0 ? 1.0f : -1.0f);
+        EXPECT_EQ(std::stof(literal(value)), value);
+    }
+}
+
+TEST(Code, each_mode_makes_its_own_call) {
+    const std::pair<ChainMode, const char*> calls[] = {
+        {ChainMode::Forward, "chain.forward(target);"},
+        {ChainMode::Backward, "chain.backward(target);"},
+        {ChainMode::Fixed, "chain.fixed(target, {.iterations = 9, .tolerance = 0.25f});"},
+        {ChainMode::WithIndex, "chain.with_index(4, target);"},
+        {ChainMode::Reach, "solver.solve(ik::Method::Fabrik, chain, target, options);"}};
+    for (const auto& [mode, call] : calls) {
+        ChainPart part = first_chain();
+        part.mode = mode;
+        part.index = 4;
+        part.iterations[2] = 9;
+        part.tolerance = 0.25f;
+        const std::string code = chain_code(part);
+        EXPECT_TRUE(has(code, call));
+        EXPECT_TRUE(has(code, "const glm::vec3 target{7.0f, 0.0f, 0.0f};"));
+        EXPECT_EQ(lacks(code, "tendril/ik/"), mode != ChainMode::Reach);
+        EXPECT_TRUE(code.ends_with("}\n"));
+    }
+}
+
+TEST(Code, options_that_are_the_librarys_own_are_not_said) {
+    const std::string plain = chain_code(reaching());
+    for (const char* option : {"pole", "snap_back", "soft_zone", "damping", "twist", "limits", "rotations"})
+        EXPECT_TRUE(lacks(plain, option)) << option;
+    ChainPart part = reaching();
+    part.reach.method = ik::Method::SvdDls;
+    part.reach.pole = glm::vec3(0, 2, 0);
+    part.reach.pole_turn = ik::PoleTurn::EachJoint;
+    part.reach.snap_back = 0.5f;
+    part.reach.soft_zone = 0.1f;
+    part.reach.twist_deg = 90.0f;
+    part.reach.limits.resize(7);
+    part.reach.limits[2] = ik::Limit::hinge({0, 1, 0}, 0.0f, 1.5f);
+    part.reach.limits[3] = ik::Limit::of(ik::JointKind::BallAndSocket);
+    const std::string code = chain_code(part);
+    for (const char* said :
+         {"Method::SvdDls", "options.pole = glm::vec3{0.0f, 2.0f, 0.0f};", "PoleTurn::EachJoint",
+          "options.snap_back = 0.5f;", "options.soft_zone = 0.1f;", "options.damping = 0.1f;",
+          "options.twist = 1.5707964f;  // 90 degrees", "limits(7);", "options.limits = limits;",
+          "limits[2] = ik::Limit::hinge({0.0f, 1.0f, 0.0f}, 0.0f, 1.5f);  // 0 to 85.94 degrees",
+          "limits[3] = {.kind = ik::JointKind::BallAndSocket,"})
+        EXPECT_TRUE(has(code, said));
+    EXPECT_TRUE(lacks(code, "limits[0]"));
+}
+
+TEST(Code, chains_too_short_for_their_mode_are_left_alone) {
+    ChainPart part = reaching();
+    part.chain = Chain();
+    EXPECT_TRUE(lacks(chain_code(part), "solve("));
+    part.mode = ChainMode::WithIndex;
+    EXPECT_TRUE(lacks(chain_code(part), "with_index("));
+    part.mode = ChainMode::Reach;
+    part.chain.add(1.0f);
+    EXPECT_TRUE(lacks(chain_code(part), "solve("));
+}
+
+TEST(Code, long_chains_are_tables) {
+    ChainPart part = reaching();
+    while (part.chain.size() < 64) part.chain.add(1.0f);
+    EXPECT_TRUE(lacks(chain_code(part), "segment_numbers"));
+    part.chain.add(1.0f);
+    EXPECT_TRUE(
+        has(chain_code(part), "static const float segment_numbers[] = {\n    0.0f, 0.0f, 0.0f, 1.0f,\n"));
+}
+
+TEST(Code, a_studied_chain_is_where_its_solves_start) {
+    ChainPart part = reaching();
+    part.study.begin(Study::Kind::Microscope, Study::From::Here, part.chain, part.reach);
+    const std::string before = chain_code(part);
+    const glm::vec3 target = part.target;
+    reach_for(part, {1, 3, 1});
+    part.target = target;
+    EXPECT_EQ(chain_code(part), before);
+}
+
+TEST(Code, the_program_prints_the_open_labs_code_and_refuses_what_is_no_scene) {
+    const TempFolder folder;
+    const std::string scene = (folder / "scene.json").string();
+    const Labs labs;
+    Workspace workspace = make_blank_workspace(labs);
+    save_scene_file(workspace, scene);
+    const Outcome outcome = run_program({"code", scene}, {{"DISPLAY", {}}, {"WAYLAND_DISPLAY", {}}});
+    EXPECT_TRUE(succeeded(outcome));
+    EXPECT_EQ(outcome.out, chain_code(first_chain()));
+
+    EXPECT_TRUE(complained(run_program({"code", "/no/such.json"}), 2, {"/no/such.json"}));
+    EXPECT_TRUE(complained(run_program({"code"}), 2, {"SCENE"}));
+    write(folder / "bad.json", R"({"tendril_scene": 1, "lab": "kitchen", "labs": {}, "camera": {}})");
+    EXPECT_TRUE(complained(run_program({"code", (folder / "bad.json").string()}), 2, {"kitchen"}));
+    write(folder / "list.json", "[]");
+    EXPECT_TRUE(complained(run_program({"code", (folder / "list.json").string()}), 2, {"list.json"}));
+    EXPECT_TRUE(has(run_program({"code", "--help"}).out, "C++"));
+}
+
+}  // namespace
+}  // namespace tendril::test
