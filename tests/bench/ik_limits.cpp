@@ -146,7 +146,7 @@ void held_table() {
     Arm arm = arm_of(5, true);
     arm.limits[1] = Limit::hinge({0, 0, 1}, 0, 145 * degree);
     Solver solver = arm.solver();
-    const glm::vec3 target{-2.0f, -1.0f, 2.0f};
+    const glm::vec3 target{-4.5f, -0.5f, 1.0f};
     Options options;
     options.limits = arm.limits;
     Joints joints = arm.at_rest();
