@@ -9,10 +9,12 @@
 // division; so several registers of chains take the same step side by side, and chains that are done leave
 // room for those that are not.
 //
-// Answers: bit for bit those of Solver with Method::FabrikPlain, whatever the vector unit, the number of
-// threads and the company that a chain is in; but for two cases. A chain that lies on a line with its target,
-// which plain FABRIK would not get off, is bent as Method::Fabrik bends it. And a target that is out of reach
-// is answered in float, where Solver takes double: to 1e-4 of the reach the same.
+// Answers: the pulls are those of Solver with Method::FabrikPlain, bit for bit, whatever the vector unit, the
+// number of threads and the company that a chain is in. Three things differ. A chain that lies on a line with
+// its target, which plain FABRIK would not get off, is solved as Method::Fabrik solves it. A target out of
+// reach is answered in float, where Solver takes double. And where the last pose is not the nearest (pulls
+// never take the tip away by more than rounding), Solver goes back to the nearest. To 1e-4 of the reach the
+// last two come to the same.
 //
 // Cost: O(bones) an iteration and chain. Next to as many calls of Solver::solve, some 30 times less with AVX2
 // and 50 times less with AVX-512 where all chains iterate alike, a third to two thirds of that gain where
