@@ -8,7 +8,9 @@
 //
 // Source of the decomposition: F. S. Grassia, "Practical parameterization of rotations using the exponential
 // map", Journal of Graphics Tools 3(3), 1998. Joint kinds after Aristidou, Chrysanthou, Lasenby, "Extending
-// FABRIK with model constraints", Computer Animation and Virtual Worlds 27(1), 2016.
+// FABRIK with model constraints", Computer Animation and Virtual Worlds 27(1), 2016. Angles of the presets
+// after Greene, Heckman (eds.), "The Clinical Measurement of Joint Motion", American Academy of Orthopaedic
+// Surgeons, 1994, rounded.
 #pragma once
 
 #include <cstdint>
