@@ -64,19 +64,19 @@ void check_band(std::size_t bones, const float (&band)[2], bool equal, bool from
 }
 
 TEST(IkRim, TwelveIterationsReachFromAnyPose) {
-    for (const std::size_t bones : {3, 10, 30}) {
+    for (const std::size_t bones : {3u, 10u, 30u}) {
         for (const auto& band : bands) check_band(bones, band, true, false);
     }
 }
 
 TEST(IkRim, TwelveIterationsReachFromStraight) {
-    for (const std::size_t bones : {3, 10, 30}) {
+    for (const std::size_t bones : {3u, 10u, 30u}) {
         for (const auto& band : bands) check_band(bones, band, true, true);
     }
 }
 
 TEST(IkRim, BonesOfManyLengthsToo) {
-    for (const std::size_t bones : {3, 10, 30}) {
+    for (const std::size_t bones : {3u, 10u, 30u}) {
         for (const auto& band : bands) check_band(bones, band, false, false);
     }
 }
