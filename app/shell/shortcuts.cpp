@@ -71,7 +71,7 @@ const std::vector<Shortcut>& shortcuts() {
         row("ctrl+z", "undo", Json::object(), "Undo", Section::Edit),
         row("ctrl+shift+z", "redo", Json::object(), "Redo", Section::Edit),
         row("ctrl+y", "redo", Json::object(), "Redo", Section::Edit, false),
-        row("delete", "chain.remove", Json::object(), "Remove the selected segment", Section::Edit),
+        row("delete", "chain.remove_selected", Json::object(), "Remove the selected segment", Section::Edit),
         row("f", "camera.frame", {{"what", "selection"}}, "Frame selection", Section::View),
         row("home", "camera.frame", {{"what", "all"}}, "Frame all", Section::View),
         row("1", "camera.view", {{"name", "front"}}, "Front", Section::View),

@@ -95,7 +95,8 @@ ChainPart first_chain() {
 bool same(const ChainPart& a, const ChainPart& b) {
     return a.mode == b.mode && a.index == b.index && a.iterations == b.iterations &&
            a.tolerance == b.tolerance && a.target == b.target && a.selected == b.selected &&
-           a.motion == b.motion && a.chain == b.chain && a.reach == b.reach && a.study == b.study;
+           a.motion == b.motion && a.chain == b.chain && a.reach == b.reach && a.result == b.result &&
+           a.study == b.study;
 }
 
 void check_range(const ChainPart& part) {

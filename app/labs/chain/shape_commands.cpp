@@ -61,9 +61,7 @@ void insert(ChainPart& part, const Arguments& given) {
     bone_inserted(part.reach, index, part.chain.size());
 }
 
-void remove(ChainPart& part, const Arguments& given) {
-    if (!given.has("index") && !part.selected) throw Refused("needs index: no segment is selected");
-    const std::size_t index = given.has("index") ? index_of(given) : *part.selected;
+void remove_at(ChainPart& part, std::size_t index) {
     part.chain.remove(index);
     shape_changed(part);
     bone_removed(part.reach, index, part.chain.size());
@@ -77,6 +75,15 @@ void remove(ChainPart& part, const Arguments& given) {
     const std::size_t last = part.chain.size() - 1;
     if (part.selected) part.selected = std::min(*part.selected, last);
     part.index = std::min(part.index, last);
+}
+
+void remove(ChainPart& part, const Arguments& given) {
+    remove_at(part, index_of(given));
+}
+
+void remove_selected(ChainPart& part, const Arguments&) {
+    if (!part.selected) throw Refused("no segment is selected");
+    remove_at(part, *part.selected);
 }
 
 void clear(ChainPart& part, const Arguments& given) {
@@ -124,9 +131,9 @@ void add_shape_commands(CommandTable& table) {
     table.add(chain_command(
         "chain.insert", {index_argument(true, "the new segment's"), length_argument(), position_argument()},
         "Inserts a segment before another", insert));
-    table.add(chain_command("chain.remove",
-                            {index_argument(false, "which segment; the selected one when left out")},
-                            "Removes a segment", remove));
+    table.add(
+        chain_command("chain.remove", {index_argument(true, "which segment")}, "Removes a segment", remove));
+    table.add(chain_command("chain.remove_selected", {}, "Removes the selected segment", remove_selected));
     table.add(chain_command("chain.reset", {}, "Everything in this lab as at the first start", reset));
     table.add(chain_command("chain.set_length", {index_argument(true, "which segment"), length_argument()},
                             "Sets a segment's length and lays the chain anew", set_length));

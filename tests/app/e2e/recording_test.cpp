@@ -106,7 +106,7 @@ TEST_F(Recording, holds_the_use_of_panels) {
 
 TEST_F(Recording, holds_text_typed_into_a_field) {
     // A double click on the target's height opens the field.
-    const glm::vec2 field(173, 472);
+    const glm::vec2 field(173, 569);
     ScriptText script;
     script.click(field).click(field).wait(1).key("ctrl+a").text("1.25").key("enter").wait(3);
     const Json state = state_of(record_and_replay(script));

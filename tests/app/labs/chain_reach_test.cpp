@@ -30,6 +30,19 @@ TEST_F(ChainReach, the_head_stays_and_the_tail_reaches_the_target) {
     EXPECT_EQ(state()["mode"], "reach");
 }
 
+TEST_F(ChainReach, a_solve_that_moves_nothing_says_so_too) {
+    run("chain.mode", {{"mode", "reach"}});
+    run("chain.target", {{"to", {7, 0, 0}}});
+    EXPECT_EQ(state()["reach"]["report"]["status"], "Converged");
+}
+
+TEST_F(ChainReach, delete_removes_what_is_selected) {
+    EXPECT_NE(refused("chain.remove_selected").find("no segment is selected"), std::string::npos);
+    run("chain.select", {{"index", 3}});
+    run("chain.remove_selected");
+    EXPECT_EQ(part().chain.size(), 7u);
+}
+
 TEST_F(ChainReach, every_solver_reaches_and_says_so) {
     for (const ik::Method method : ik::all_methods) {
         reach_with(method == ik::Method::TwoBone ? 2 : 7);

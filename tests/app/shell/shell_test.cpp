@@ -26,6 +26,8 @@ TEST(Shortcuts, EachRunsACommandOfTheTableAndNoTwoShareAKey) {
         EXPECT_NE(shortcuts_markdown().find(shortcut.title), std::string::npos);
         if (shortcut.command == "undo" || shortcut.command == "redo") continue;  // nothing to take back yet
         Workspace workspace = make_blank_workspace(labs);
+        table.run(workspace, "microscope.open", Json::object());  // some need something to work on
+        table.run(workspace, "chain.select", {{"index", 1}});
         EXPECT_NO_THROW(table.run(workspace, shortcut.command, shortcut.arguments)) << shortcut.command;
     }
     EXPECT_EQ(keys_for("undo"), "Ctrl+Z");

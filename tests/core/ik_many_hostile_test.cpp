@@ -1,0 +1,233 @@
+// solve_many with what is loose, on the move, hostile or out of range; and the batch that it works on.
+#include "ik_many_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+TEST(SolveMany, LooseJointsAreLaidToTheirLengthsFirst) {
+    Random random(11);
+    Crowd crowd = some_crowd(1000, 5, random, 0.0f, 1.1f);
+    for (std::size_t i = 0; i < crowd.size(); ++i) {
+        Joints& joints = crowd.joints[i];
+        if (i % 5 == 0) joints.front() += random.point(0.5f);
+        if (i % 5 == 1) joints[random.below(6)] += random.point(2.0f);
+        if (i % 5 == 2) crowd.lengths[i][random.below(5)] = part(random);
+        if (i % 5 == 3) joints[1 + random.below(5)] = joints[random.below(6)];
+    }
+    for (const bool every : {false, true}) {
+        const ManyOptions options{.max_iterations = 15, .every_iteration = every};
+        expect_same(crowd, solve_many(crowd, options), solve_each(crowd, options), 1e-4);
+    }
+}
+
+TEST(SolveMany, JointsOnAGridThatCoincideAreLaidAsTheScalarSolverLaysThem) {
+    Random random(12);
+    const auto grid = [&] {
+        const auto whole = [&] { return static_cast<float>(random.below(4)); };
+        const float x = whole(), y = whole();
+        return glm::vec3(x, y, 0.0f);
+    };
+    Crowd crowd;
+    for (int i = 0; i < 3000; ++i) {
+        Lengths lengths(4);
+        for (float& length : lengths) length = static_cast<float>(random.below(3));
+        Joints joints(5);
+        for (glm::vec3& joint : joints) joint = grid();
+        crowd.add(lengths, joints, grid() + glm::vec3(0, 0, 0.3f));
+    }
+    const ManyOptions options{.max_iterations = 6, .every_iteration = true};
+    expect_same(crowd, solve_many(crowd, options), solve_each(crowd, options), 1e-4);
+}
+
+TEST(SolveMany, RootsThatWalkTakeTheirChainsAlong) {
+    Random random(13);
+    const Crowd crowd = some_crowd(300, 6, random, 0.3f, 0.8f);
+    Batch batch = batch_of(crowd);
+    std::vector<Joints> each = crowd.joints;
+    std::vector<glm::vec3> targets = crowd.targets;
+    std::vector<Report> reports(crowd.size());
+    for (int frame = 0; frame < 20; ++frame) {
+        for (std::size_t i = 0; i < crowd.size(); ++i) {
+            const glm::vec3 by = random.point(0.1f);
+            targets[i] += by;
+            each[i].front() += by;
+            batch.set_root(i, each[i].front());
+            const Report report =
+                ik::Solver(crowd.lengths[i]).solve(ik::Method::FabrikPlain, each[i], targets[i]);
+            reports[i] = report;
+        }
+        std::vector<Report> many(crowd.size());
+        ik::solve_many(batch, targets, many);
+        ASSERT_EQ(difference({joints_of(batch), many}, {each, reports}), "") << "frame " << frame;
+    }
+}
+
+TEST(SolveMany, ABadTargetHarmsNoOther) {
+    Random random(14);
+    Crowd crowd = some_crowd(260, 5, random);
+    const Answer good = solve_many(crowd, {});
+    const glm::vec3 bad[] = {
+        {nan, 0, 0}, {0, infinity, 0}, {0, 0, -infinity}, {1.1e9f, 0, 0}, {nan, nan, nan}};
+    for (std::size_t i = 0; i < crowd.size(); i += 3) crowd.targets[i] = bad[i % std::size(bad)];
+    for (const bool every : {false, true}) {
+        const ManyOptions options{.every_iteration = every};
+        const Answer many = solve_many(crowd, options), each = solve_each(crowd, options);
+        for (std::size_t i = 0; i < crowd.size(); ++i) {
+            if (i % 3 == 0) {
+                EXPECT_EQ(many.reports[i], (Report{Status::InvalidInput, 0, 0.0f}));
+                EXPECT_TRUE(same_bits(many.joints[i], crowd.joints[i]));
+            } else if (!every) {
+                EXPECT_TRUE(same_bits(many.joints[i], good.joints[i])) << "chain " << i;
+            }
+            EXPECT_EQ(many.reports[i].status, each.reports[i].status);
+        }
+    }
+}
+
+TEST(SolveMany, HostileNumbersNeverMakeWhatIsNotANumber) {
+    Random random(15);
+    const float hostile[] = {0.0f, -0.0f, 1e-30f, 1e-6f, 3e-4f, 1.0f,     -1.0f,
+                             1e3f, 1e6f,  1e9f,   -1e9f, nan,   infinity, 1e-42f};
+    const auto number = [&] { return hostile[random.below(std::size(hostile))]; };
+    const auto finite = [&] {
+        for (;;) {
+            if (const float value = number(); std::abs(value) <= 1e9f) return value;
+        }
+    };
+    for (int round = 0; round < 20; ++round) {
+        Crowd crowd;
+        for (int i = 0; i < 200; ++i) {
+            Lengths lengths(3);
+            for (float& length : lengths) length = std::abs(finite());
+            Joints joints(4);
+            for (glm::vec3& joint : joints) joint = {finite(), finite(), finite()};
+            crowd.add(lengths, joints, {number(), number(), number()});
+        }
+        const ManyOptions options{.max_iterations = 12, .every_iteration = round % 2 == 0};
+        const Answer many = solve_many(crowd, options), each = solve_each(crowd, options);
+        for (const std::string_view unit : ik::vector_units()) {
+            ManyOptions with = options;
+            with.vector_unit = unit;
+            EXPECT_EQ(difference(solve_many(crowd, with), many), "") << unit;
+        }
+        for (std::size_t i = 0; i < crowd.size(); ++i) {
+            const bool invalid = each.reports[i].status == Status::InvalidInput;
+            EXPECT_EQ(many.reports[i].status == Status::InvalidInput, invalid);
+            EXPECT_TRUE(std::isfinite(many.reports[i].residual));
+            for (const glm::vec3& joint : many.joints[i]) {
+                ASSERT_TRUE(std::isfinite(joint.x) && std::isfinite(joint.y) && std::isfinite(joint.z));
+            }
+            EXPECT_TRUE(invalid || Holds(many.joints[i], crowd.lengths[i]));
+        }
+    }
+}
+
+TEST(SolveMany, JointsLeftTooFarOutAreInvalidNextTime) {
+    Crowd crowd;
+    // An elbow that will point up, over the ceiling of what is accepted.
+    crowd.add({1e9f, 1e9f}, {{0, 1e9f, 0}, {5e8f, 9.9e8f, 1}, {1e9f, 1e8f, 0}}, {5e8f, 1e9f, 0});
+    crowd.add({1, 1}, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {0, 1.5f, 0});
+    Batch batch = batch_of(crowd);
+    std::vector<Report> reports(2);
+    ik::solve_many(batch, crowd.targets, reports);
+    EXPECT_NE(reports[0].status, Status::InvalidInput);
+    const std::vector<Joints> after = joints_of(batch);
+    ASSERT_TRUE(
+        std::any_of(after[0].begin(), after[0].end(), [](glm::vec3 joint) { return joint.y > 1e9f; }));
+    ik::solve_many(batch, crowd.targets, reports);
+    EXPECT_EQ(reports[0].status, Status::InvalidInput);
+    EXPECT_EQ(reports[1].status, Status::Converged);
+    EXPECT_TRUE(same_bits(joints_of(batch)[0], after[0]));
+}
+
+TEST(SolveMany, OptionsOutOfRangeAndListsOfTheWrongSizeMoveNothing) {
+    Random random(16);
+    const Crowd crowd = some_crowd(5, 3, random);
+    Batch batch = batch_of(crowd);
+    const std::vector<Joints> before = joints_of(batch);
+    const auto expect_refused = [&](std::span<const glm::vec3> targets, std::size_t places,
+                                    const ManyOptions& options) {
+        std::vector<Report> reports(places);
+        ik::solve_many(batch, targets, reports, options);
+        for (const Report& report : reports) EXPECT_EQ(report, (Report{Status::InvalidInput, 0, 0.0f}));
+        EXPECT_EQ(joints_of(batch), before);
+    };
+    const std::span<const glm::vec3> all(crowd.targets);
+    expect_refused(all.first(4), 5, {});
+    expect_refused(all, 4, {});
+    expect_refused(all, 6, {});
+    for (const float tolerance : {-1.0f, nan, infinity, 2e9f})
+        expect_refused(all, 5, {.tolerance = tolerance});
+    for (const int most : {0, -1, 1'000'001}) expect_refused(all, 5, {.max_iterations = most});
+    for (const int threads : {0, -1, 257}) expect_refused(all, 5, {.threads = threads});
+    expect_refused(all, 5, {.vector_unit = "abacus"});
+    ik::solve_many(batch, all);  // without reports
+    EXPECT_NE(joints_of(batch), before);
+}
+
+TEST(SolveMany, NeedsNoMemoryAndDoesWithoutThreadsWhereThereIsNone) {
+    Random random(17);
+    const Crowd crowd = some_crowd(4000, 10, random, 0.0f, 1.1f);
+    const Answer expected = solve_many(crowd, {});
+    for (const int threads : {1, 4}) {
+        Batch batch = batch_of(crowd);
+        std::vector<Report> reports(crowd.size());
+        without_memory([&] { ik::solve_many(batch, crowd.targets, reports, {.threads = threads}); });
+        EXPECT_EQ(difference({joints_of(batch), reports}, expected), "");
+    }
+}
+
+TEST(Batch, StartsStraightAndKeepsWhatItIsGiven) {
+    Batch batch(130, 3);
+    EXPECT_EQ(batch.size(), 130u);
+    EXPECT_EQ(batch.bones(), 3u);
+    EXPECT_EQ(batch.reach(129), 3.0f);
+    EXPECT_EQ(batch.joint(129, 2), glm::vec3(2, 0, 0));
+    batch.set_lengths(128, Lengths{1, 2, 0.5f});
+    batch.set_joints(128, Joints{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}});
+    batch.set_root(128, {0, 0, 7});
+    EXPECT_EQ(batch.length(128, 1), 2.0f);
+    EXPECT_EQ(batch.reach(128), 3.5f);
+    EXPECT_EQ(batch.joint(128, 0), glm::vec3(0, 0, 7));
+    EXPECT_EQ(batch.joint(128, 3), glm::vec3(10, 11, 12));
+    EXPECT_EQ(batch.joint(127, 3), glm::vec3(3, 0, 0));
+    Joints out(4);
+    batch.joints(128, out);
+    EXPECT_EQ(out, (Joints{{0, 0, 7}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}}));
+    Batch moved = std::move(batch);
+    EXPECT_EQ(moved.joint(128, 0), glm::vec3(0, 0, 7));
+
+    Batch none(0, 1);
+    ik::solve_many(none, {});
+    EXPECT_EQ(none.size(), 0u);
+}
+
+TEST(Batch, RefusesWhatIsOutOfRangeAndKeepsWhatItWas) {
+    Batch batch(2, 2);
+    const std::vector<Joints> before = joints_of(batch);
+    EXPECT_THROW(Batch(1, 0), std::invalid_argument);
+    EXPECT_THROW(Batch(1, 1'000'001), std::invalid_argument);
+    EXPECT_THROW(Batch((std::size_t{1} << 31) + 1, 1), std::invalid_argument);
+    EXPECT_THROW(batch.set_lengths(2, Lengths{1, 1}), std::out_of_range);
+    EXPECT_THROW(batch.set_joints(2, before[0]), std::out_of_range);
+    EXPECT_THROW(batch.set_root(2, {}), std::out_of_range);
+    EXPECT_THROW(batch.joint(0, 3), std::out_of_range);
+    EXPECT_THROW(batch.length(0, 2), std::out_of_range);
+    EXPECT_THROW(batch.reach(2), std::out_of_range);
+    EXPECT_THROW(batch.set_root(0, {nan, 0, 0}), std::invalid_argument);
+    EXPECT_THROW(batch.set_joints(0, Joints(2)), std::invalid_argument);
+    EXPECT_THROW(batch.set_joints(0, Joints{{0, 0, 0}, {0, 0, 0}, {2e9f, 0, 0}}), std::invalid_argument);
+    EXPECT_EQ(message_of<std::invalid_argument>([&] {
+                  batch.set_lengths(0, Lengths{1, -2});
+              }),
+              "Batch: lengths[1] must be finite, at least 0 and at most 1e9, got -2");
+    EXPECT_EQ(message_of<std::out_of_range>([&] { batch.set_root(5, {}); }),
+              "Batch: chain 5 is out of range, there are 2");
+    Joints small(2);
+    EXPECT_THROW(batch.joints(0, small), std::invalid_argument);
+    EXPECT_EQ(joints_of(batch), before);
+    EXPECT_EQ(batch.length(0, 0), 1.0f);
+}
+
+}  // namespace
+}  // namespace tendril::test
