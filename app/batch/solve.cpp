@@ -82,10 +82,12 @@ class TableRows final : public Rows {
                       "  solver              status          iterations    residual (m)   time (us)\n");
             headed_ = true;
         }
-        char rest[128];
-        std::snprintf(rest, sizeof rest, "  %-18s  %-14s  %10d  %14.6g  %10.2f\n", ik::name(row.method),
-                      ik::name(row.report.status), row.report.iterations,
-                      static_cast<double>(row.report.residual), row.microseconds);
+        char rest[128], residual[32] = "-";  // what was refused was not measured
+        if (row.report.status != ik::Status::InvalidInput) {
+            std::snprintf(residual, sizeof residual, "%.6g", static_cast<double>(row.report.residual));
+        }
+        std::snprintf(rest, sizeof rest, "  %-18s  %-14s  %10d  %14s  %10.2f\n", ik::name(row.method),
+                      ik::name(row.report.status), row.report.iterations, residual, row.microseconds);
         out.write(column(row.asked.name, name_width_) + rest);
     }
 

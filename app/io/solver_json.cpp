@@ -105,7 +105,9 @@ Json report_json(ik::Method method, const ik::Report& report) {
     return {{"solver", ik::name(method)},
             {"status", ik::name(report.status)},
             {"iterations", report.iterations},
-            {"residual", finite_number(report.residual)}};
+            // What was refused was not measured either.
+            {"residual",
+             report.status == ik::Status::InvalidInput ? Json(nullptr) : finite_number(report.residual)}};
 }
 
 Json hold_json(const ik::Hold& hold) {

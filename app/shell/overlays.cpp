@@ -37,7 +37,9 @@ void key_table(const char* title, float key_width, Rows rows) {
 void keys_of(Section which) {
     std::string last;
     for (const Shortcut& shortcut : shortcuts()) {
-        if (shortcut.section != which || (!shortcut.in_menu && shortcut.command != "view.close")) continue;
+        // Other keys for the same are told beside the first; what only keys do is told though no menu has it.
+        const bool alone = shortcut.command == "view.close" || which == Section::Microscope;
+        if (shortcut.section != which || (!shortcut.in_menu && !alone)) continue;
         if (shortcut.title != last) key_row(all_keys_for(shortcut), shortcut.title);
         last = shortcut.title;
     }
@@ -63,7 +65,7 @@ bool begin_sheet(const char* title, glm::vec2 screen, glm::vec2 wanted) {
 
 void show_help(const ShellFrame& frame, Emit& emit) {
     const float scale = frame.layout.scale;
-    if (!begin_sheet("Keys and mouse", frame.screen(), {860.0f * scale, 560.0f * scale})) {
+    if (!begin_sheet("Keys and mouse", frame.screen(), {860.0f * scale, 640.0f * scale})) {
         emit("view.help", {{"open", false}});
     }
     // Side by side where there is room, else one below the other.
@@ -76,6 +78,7 @@ void show_help(const ShellFrame& frame, Emit& emit) {
             for (const auto& help : mouse_help()) key_row(help.gesture, help.effect);
         });
         key_table("Time", mouse, [] { keys_of(Section::Time); });
+        key_table("Microscope", mouse, [] { keys_of(Section::Microscope); });
         key_table("Help", mouse, [] { keys_of(Section::Help); });
         ImGui::TableNextColumn();
         key_table("Scene", keys, [] { keys_of(Section::Scene); });

@@ -55,6 +55,8 @@ const char* section_title(Section section) {
             return "View";
         case Section::Time:
             return "Time";
+        case Section::Microscope:
+            return "Microscope";
         case Section::Help:
             return "Help";
     }
@@ -84,12 +86,12 @@ const std::vector<Shortcut>& shortcuts() {
         row("f9", "view.panels", Json::object(), "Fold panels", Section::View),
         row("space", "time.toggle", Json::object(), "Play or pause", Section::Time),
         row(".", "time.step", Json::object(), "One tick", Section::Time),
-        row("right", "microscope.step", {{"by", 1}}, "Microscope: next step", Section::Time, false),
-        row("left", "microscope.step", {{"by", -1}}, "Microscope: step before", Section::Time, false),
-        row("shift+right", "microscope.step", {{"iterations", 1}}, "Microscope: next iteration",
-            Section::Time, false),
-        row("shift+left", "microscope.step", {{"iterations", -1}}, "Microscope: iteration before",
-            Section::Time, false),
+        row("right", "microscope.step", {{"by", 1}}, "Microscope: a step on", Section::Microscope, false),
+        row("left", "microscope.step", {{"by", -1}}, "Microscope: a step back", Section::Microscope, false),
+        row("shift+right", "microscope.step", {{"iterations", 1}}, "Microscope: an iteration on",
+            Section::Microscope, false),
+        row("shift+left", "microscope.step", {{"iterations", -1}}, "Microscope: an iteration back",
+            Section::Microscope, false),
         row("?", "view.help", Json::object(), "Keys and mouse", Section::Help),
         row("f1", "view.help", Json::object(), "Keys and mouse", Section::Help, false, true),
         row("ctrl+k", "view.palette", Json::object(), "Find a command", Section::Help, true, true),

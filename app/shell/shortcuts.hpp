@@ -12,7 +12,7 @@
 
 namespace tendril::app {
 
-enum class Section { Scene, Edit, View, Time, Help };
+enum class Section { Scene, Edit, View, Time, Microscope, Help };
 const char* section_title(Section section);
 
 struct Shortcut {

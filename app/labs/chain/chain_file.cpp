@@ -91,8 +91,10 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
         part->index = static_cast<std::size_t>(
             json_integer(json_member(json, "index", where), where + ".index", 0, last));
         // Scenes from before there was a Reach mode have no such part.
-        const std::size_t bones = part->chain.size() < 2 ? 0 : part->chain.size() - 1;
-        if (json.contains("reach")) part->reach = load_reach(json["reach"], where + ".reach", bones);
+        if (json.contains("reach")) part->reach = load_reach(json["reach"], where + ".reach", part->chain);
+        if (json.contains("study") && part->mode != ChainMode::Reach) {
+            throw std::runtime_error(where + ".study is for mode reach, not " + mode_name(part->mode));
+        }
         if (json.contains("study")) part->study = load_study(json["study"], where + ".study", part->chain);
         part->study.refresh(part->chain, part->reach, part->target);
         const Json& chosen = json_member(json, "selected", where);

@@ -35,6 +35,7 @@ void ChainLab::step(Workspace& workspace) const {
         part.motion.ticks = (part.motion.ticks + 1) % ticks_per_round(part.motion);
         reach_for(part, motion_point(part.motion, part.motion.ticks));
         check_range(part);
+        part.study.refresh(part.chain, part.reach, part.target);
     } catch (const std::logic_error& error) {  // a chain dragged to the end of the world stops there
         workspace.document = before;
         workspace.document.edit<ChainPart>(chain_lab).motion.path = Motion::Path::Still;

@@ -107,6 +107,11 @@ void check_range(const ChainPart& part) {
         if (outside(segment.position))
             throw std::invalid_argument("the chain would reach farther than 1e9 m");
     }
+    if (!part.reach.limits.empty() && part.chain.size() > max_limited_segments) {
+        throw std::invalid_argument("chains of up to " + std::to_string(max_limited_segments) +
+                                    " segments can have limits; this one has " +
+                                    std::to_string(part.chain.size()));
+    }
     if (part.motion.path == Motion::Path::Still) return;
     const glm::vec3 span(part.motion.radius);
     if (outside(part.motion.centre - span) || outside(part.motion.centre + span)) {

@@ -15,7 +15,8 @@
 namespace tendril::app {
 
 inline constexpr const char* chain_lab = "chain";
-inline constexpr std::size_t max_segments = 500'000;  ///< a scene of more would be too large a file
+inline constexpr std::size_t max_segments = 500'000;          ///< a scene of more would be too large a file
+inline constexpr std::size_t max_limited_segments = 100'000;  ///< of a chain with limits, for the same reason
 inline constexpr int max_iterations = 10'000;
 inline constexpr float least_damping = 1e-4f, most_damping = 10.0f;
 

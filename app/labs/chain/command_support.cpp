@@ -4,22 +4,37 @@
 
 namespace tendril::app {
 
+namespace {
+
+/// Whether trace and race would come out the same.
+bool same_study(const ChainPart& a, const ChainPart& b) {
+    return a.study.kind == b.study.kind && a.study.start == b.study.start &&
+           a.study.start_rotations == b.study.start_rotations && a.study.racers == b.study.racers &&
+           a.target == b.target && a.reach == b.reach && a.chain == b.chain;
+}
+
+}  // namespace
+
 Command chain_command(const char* name, std::vector<Argument> arguments, const char* help,
                       void (*change)(ChainPart&, const Arguments&), Effect effect) {
     return {.name = name,
             .arguments = std::move(arguments),
             .help = help,
             .effect = effect,
-            .apply = [change](Workspace& workspace, const Arguments& given) {
+            .apply = [change, effect](Workspace& workspace, const Arguments& given) {
                 const Document before = workspace.document;
                 ChainPart& part = workspace.document.edit<ChainPart>(chain_lab);
+                const ChainPart& old = before.get<ChainPart>(chain_lab);
                 change(part, given);
+                // What is studied is always the solve that the chain shows.
+                if (part.study.open() && effect == Effect::Edit) reach_for(part, part.target);
                 check_range(part);
                 // What changes nothing leaves no step to undo.
-                if (same(part, before.get<ChainPart>(chain_lab))) {
+                if (same(part, old)) {
                     workspace.document = before;
                     return;
                 }
+                if (same_study(part, old)) return;
                 part.study.refresh(part.chain, part.reach, part.target);
             }};
 }

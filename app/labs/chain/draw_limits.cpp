@@ -1,11 +1,9 @@
 // Limits as they are: a cone where the bone may point, a fan for a hinge, a dial for twist.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
-#include <glm/trigonometric.hpp>
 
 #include "app/labs/chain/draw.hpp"
 
@@ -149,11 +147,9 @@ class LimitDrawing {
             line(centre_ + radius_ * from * towards, centre_ + radius_ * (from + 0.6f / dashes) * towards,
                  2.0f, 1.0f);
         }
-        char text[32];
-        std::snprintf(text, sizeof text, "needs %.0f\xc2\xb0", glm::degrees(static_cast<double>(angle)));
         list_.labels.push_back({.at = centre_ + 1.05f * radius_ * towards,
                                 .clearance = px(6.0f),
-                                .text = text,
+                                .text = "needs " + needed_degrees(hold) + "\xc2\xb0",
                                 .colour = view_.palette.text,
                                 .rank = 3});
     }

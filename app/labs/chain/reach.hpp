@@ -63,6 +63,8 @@ void set_limit(ReachSettings& settings, std::size_t joint, const ik::Limit& limi
 
 /// "joint 2 (hinge) stops at 145 degrees; the target needs 162".
 std::string hold_text(const ik::Hold& hold);
+/// "162": as that sentence has it.
+std::string needed_degrees(const ik::Hold& hold);
 const char* solver_title(ik::Method method);
 const char* solver_help(ik::Method method);
 /// What a status means, in a sentence.
@@ -79,7 +81,7 @@ inline constexpr std::array all_joint_kinds{
 void save_rotations(Json& json, const std::vector<glm::quat>& rotations);
 std::vector<glm::quat> load_rotations(const Json& json, const std::string& where, std::size_t bones);
 Json save_reach(const ReachSettings& settings);
-/// Throws std::runtime_error naming the place. `bones`: of the chain that it belongs to.
-ReachSettings load_reach(const Json& json, const std::string& where, std::size_t bones);
+/// Throws std::runtime_error naming the place.
+ReachSettings load_reach(const Json& json, const std::string& where, const Chain& chain);
 
 }  // namespace tendril::app

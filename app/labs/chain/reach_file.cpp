@@ -69,7 +69,8 @@ Json save_reach(const ReachSettings& settings) {
     return json;
 }
 
-ReachSettings load_reach(const Json& json, const std::string& where, std::size_t bones) {
+ReachSettings load_reach(const Json& json, const std::string& where, const Chain& chain) {
+    const std::size_t bones = chain.size() < 2 ? 0 : chain.size() - 1;
     ReachSettings settings;
     const auto at = [&](const char* key) { return where + "." + key; };
     const auto value = [&](const char* key, float low, float high) {
@@ -93,7 +94,11 @@ ReachSettings load_reach(const Json& json, const std::string& where, std::size_t
         pole_turn_from_name(json_text(json_member(json, "pole_turn", where), at("pole_turn")));
     if (const Json* limits = bone_list(json, "limits", where, bones)) {
         for (std::size_t i = 0; i < bones; ++i) {
-            settings.limits.push_back(limit_from_json((*limits)[i], at("limits") + "." + std::to_string(i)));
+            const std::string here = at("limits") + "." + std::to_string(i);
+            settings.limits.push_back(limit_from_json((*limits)[i], here));
+            if (const char* why = ik::fault(settings.limits.back(), chain.default_direction())) {
+                throw std::runtime_error(here + ": " + why);
+            }
         }
     }
     settings.rotations = load_rotations(json, where, bones);

@@ -39,13 +39,12 @@ const char* bound_phrase(ik::Bound bound) {
     return phrases[static_cast<std::size_t>(bound)];
 }
 
-/// Whole degrees, or tenths where the two would look the same.
-std::string degree_pair(const char* phrase, float limit, float needed) {
-    const double a = glm::degrees(static_cast<double>(limit)), b = glm::degrees(static_cast<double>(needed));
-    const int digits = std::lround(a) == std::lround(b) ? 1 : 0;
-    char text[160];
-    std::snprintf(text, sizeof text, "%s %.*f degrees; the target needs %.*f", phrase, digits, a + 0.0,
-                  digits, b + 0.0);
+/// Whole degrees, or tenths where limit and need would look the same.
+std::string degrees_text(const ik::Hold& hold, float angle) {
+    const auto whole = [](float radians) { return std::lround(glm::degrees(radians)); };
+    char text[32];
+    std::snprintf(text, sizeof text, "%.*f", whole(hold.limit) == whole(hold.needed) ? 1 : 0,
+                  glm::degrees(static_cast<double>(angle)) + 0.0);
     return text;
 }
 
@@ -77,9 +76,14 @@ const char* kind_title(ik::JointKind kind) {
     return titles[static_cast<std::size_t>(kind)];
 }
 
+std::string needed_degrees(const ik::Hold& hold) {
+    return degrees_text(hold, hold.needed);
+}
+
 std::string hold_text(const ik::Hold& hold) {
     std::string text = "joint " + std::to_string(hold.joint) + " (" + kind_title(hold.kind) + ") ";
-    text += degree_pair(bound_phrase(hold.bound), hold.limit, hold.needed);
+    text += std::string(bound_phrase(hold.bound)) + " " + degrees_text(hold, hold.limit) + " degrees";
+    text += "; the target needs " + needed_degrees(hold);
     if (!hold.enough) text += " and more of the others";
     return text;
 }

@@ -75,7 +75,7 @@ Json ChainLab::state(const Workspace& workspace) const {
               {"reach", number(part.chain.reach())},
               {"motion", motion_name(part.motion.path)},
               {"segments", std::move(list)}};
-    if (part.mode == ChainMode::Reach) json["reach"] = reach_state(part);
+    if (part.mode == ChainMode::Reach) json["solve"] = reach_state(part);
     if (part.study.trace) json["microscope"] = microscope_state(part.study);
     if (part.study.race) json["race"] = race_state(*part.study.race);
     return json;

@@ -60,7 +60,7 @@ void Study::close() {
 void Study::rewind(Chain& chain, ReachSettings& settings) const {
     if (!open()) return;
     chain.set_positions(start);
-    settings.rotations = start_rotations;
+    settings.rotations = settings.limits.empty() ? std::vector<glm::quat>() : start_rotations;
 }
 
 void Study::refresh(const Chain& chain, const ReachSettings& settings, glm::vec3 target) {
@@ -79,8 +79,15 @@ void Study::refresh(const Chain& chain, const ReachSettings& settings, glm::vec3
 }
 
 std::size_t Study::bytes() const {
-    return (start.size() + last_start.size()) * sizeof(glm::vec3) +
-           (start_rotations.size() + last_rotations.size()) * sizeof(glm::quat);
+    std::size_t sum = (start.size() + last_start.size()) * sizeof(glm::vec3) +
+                      (start_rotations.size() + last_rotations.size()) * sizeof(glm::quat);
+    if (trace) sum += trace->steps.size() * (sizeof(ik::Step) + sizeof(std::size_t));
+    if (race) {
+        for (const Racer& racer : race->racers) {
+            sum += racer.joints.size() * sizeof(glm::vec3) + racer.residuals.size() * sizeof(float);
+        }
+    }
+    return sum;
 }
 
 bool Study::operator==(const Study& other) const {

@@ -23,7 +23,6 @@ Argument start_argument() {
 
 /// A study is of mode reach; the chain shows what a solve from the start comes to.
 void open(ChainPart& part, const Arguments& given, Study::Kind kind) {
-    if (part.motion.path != Motion::Path::Still) part.motion.path = Motion::Path::Still;
     part.study.begin(kind, start_of(given), part.chain, part.reach);
     part.mode = ChainMode::Reach;
     reach_for(part, part.target);
@@ -93,7 +92,7 @@ void lay_out_race(ChainPart& part, const Arguments& given) {
 void add_microscope_commands(CommandTable& table) {
     table.add(chain_command("microscope.open", {start_argument()},
                             "Looks inside a solve, step by step, from a start that stays", open_microscope,
-                            Effect::Look));
+                            Effect::Edit));
     table.add(chain_command("microscope.seek",
                             {{.name = "step",
                               .type = ArgumentType::Integer,
@@ -131,7 +130,7 @@ void add_study_commands(CommandTable& table) {
     add_microscope_commands(table);
     table.add(chain_command("race.open", {start_argument()},
                             "Runs several solvers from the same start to the same target", open_race,
-                            Effect::Look));
+                            Effect::Edit));
     table.add(
         chain_command("race.solver",
                       {choice_argument("name", true, "who",

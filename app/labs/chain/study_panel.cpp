@@ -53,8 +53,12 @@ void racer_row(const Study& study, ik::Method method, bool time, const Palette& 
                   time ? racer->microseconds : static_cast<double>(racer->report.iterations));
     text_flush_right(text);
     ImGui::PushFont(small_font());
-    std::snprintf(text, sizeof text, "%s, %.1e m off", ik::name(racer->report.status),
-                  static_cast<double>(racer->report.residual));
+    if (racer->report.status == ik::Status::InvalidInput) {
+        std::snprintf(text, sizeof text, "does not take this chain");
+    } else {
+        std::snprintf(text, sizeof text, "%s, %.1e m off", ik::name(racer->report.status),
+                      static_cast<double>(racer->report.residual));
+    }
     text_flush_right(text, true);
     ImGui::PopFont();
 }

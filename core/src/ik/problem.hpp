@@ -52,7 +52,8 @@ struct Problem {
     float tolerance;
     const Options& options;
     Workspace& room;
-    int iteration = 0;  ///< the one that runs, from 1
+    glm::vec3 goal = target;  ///< what was asked for; the target is nearer where the reach is soft
+    int iteration = 0;        ///< the one that runs, from 1
 
     std::size_t bones() const noexcept { return joints.size() - 1; }
     std::span<const float> lengths() const noexcept {

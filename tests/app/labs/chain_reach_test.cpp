@@ -25,15 +25,15 @@ TEST_F(ChainReach, the_head_stays_and_the_tail_reaches_the_target) {
     run("chain.target", {{"to", {3, 3, 1}}});
     EXPECT_EQ(part().chain.position(0), glm::vec3(0, 0, 0));
     EXPECT_LE(tip_distance(), 7e-3f);
-    EXPECT_EQ(state()["reach"]["report"]["status"], "Converged");
-    EXPECT_EQ(state()["reach"]["report"]["solver"], "fabrik");
+    EXPECT_EQ(state()["solve"]["report"]["status"], "Converged");
+    EXPECT_EQ(state()["solve"]["report"]["solver"], "fabrik");
     EXPECT_EQ(state()["mode"], "reach");
 }
 
 TEST_F(ChainReach, a_solve_that_moves_nothing_says_so_too) {
     run("chain.mode", {{"mode", "reach"}});
     run("chain.target", {{"to", {7, 0, 0}}});
-    EXPECT_EQ(state()["reach"]["report"]["status"], "Converged");
+    EXPECT_EQ(state()["solve"]["report"]["status"], "Converged");
 }
 
 TEST_F(ChainReach, delete_removes_what_is_selected) {
@@ -48,8 +48,8 @@ TEST_F(ChainReach, every_solver_reaches_and_says_so) {
         reach_with(method == ik::Method::TwoBone ? 2 : 7);
         run("chain.solver", {{"name", ik::name(method)}, {"iterations", 1000}});
         run("chain.target", {{"to", {1.2, 0.7, 0.4}}});
-        EXPECT_EQ(state()["reach"]["report"]["status"], "Converged") << ik::name(method);
-        EXPECT_EQ(state()["reach"]["solver"], ik::name(method));
+        EXPECT_EQ(state()["solve"]["report"]["status"], "Converged") << ik::name(method);
+        EXPECT_EQ(state()["solve"]["solver"], ik::name(method));
         EXPECT_LE(tip_distance(), part().chain.reach() * 1.001e-3f) << ik::name(method);
     }
 }
@@ -57,8 +57,8 @@ TEST_F(ChainReach, every_solver_reaches_and_says_so) {
 TEST_F(ChainReach, a_target_out_of_reach_stretches_the_chain) {
     run("chain.mode", {{"mode", "reach"}});
     run("chain.target", {{"to", {0, 10, 0}}});
-    EXPECT_EQ(state()["reach"]["report"]["status"], "Stretched");
-    EXPECT_NEAR(state()["reach"]["report"]["residual"].get<float>(), 3.0f, 1e-4f);
+    EXPECT_EQ(state()["solve"]["report"]["status"], "Stretched");
+    EXPECT_NEAR(state()["solve"]["report"]["residual"].get<float>(), 3.0f, 1e-4f);
     EXPECT_NEAR(part().chain.position(4).y, 4.0f, 1e-5f);
 }
 
@@ -86,7 +86,7 @@ TEST_F(ChainReach, options_are_kept_when_left_out) {
 TEST_F(ChainReach, an_elbow_just_out_of_range_is_named_with_its_limit_and_what_is_needed) {
     elbow();
     run("chain.target", {{"to", {distance_at(162.0f), 0, 0}}});
-    const Json reach = state()["reach"];
+    const Json reach = state()["solve"];
     EXPECT_EQ(reach["report"]["status"], "Limited");
     EXPECT_EQ(reach["explanation"], "joint 1 (hinge) stops at 145 degrees; the target needs 162");
     EXPECT_EQ(reach["hold"]["joint"], 1);
@@ -95,15 +95,15 @@ TEST_F(ChainReach, an_elbow_just_out_of_range_is_named_with_its_limit_and_what_i
     EXPECT_NEAR(reach["report"]["residual"].get<float>(), distance_at(145.0f) - distance_at(162.0f), 2e-3f);
 
     run("chain.target", {{"to", {distance_at(140.0f), 0, 0}}});
-    EXPECT_EQ(state()["reach"]["report"]["status"], "Converged");
-    EXPECT_EQ(state()["reach"]["explanation"], nullptr);
+    EXPECT_EQ(state()["solve"]["report"]["status"], "Converged");
+    EXPECT_EQ(state()["solve"]["explanation"], nullptr);
 }
 
 TEST_F(ChainReach, a_limit_bends_the_chain_as_soon_as_it_is_set) {
     elbow();
     run("chain.limit", {{"index", 1}, {"min_deg", 30}});
-    EXPECT_EQ(state()["reach"]["limits"][1]["min_deg"], 30.0);
-    EXPECT_EQ(state()["reach"]["limits"][1]["max_deg"], 145.0) << "what is left out is kept";
+    EXPECT_EQ(state()["solve"]["limits"][1]["min_deg"], 30.0);
+    EXPECT_EQ(state()["solve"]["limits"][1]["max_deg"], 145.0) << "what is left out is kept";
     const glm::vec3 upper = part().chain.position(1) - part().chain.position(0);
     const glm::vec3 lower = part().chain.position(2) - part().chain.position(1);
     EXPECT_GE(glm::degrees(std::acos(std::min(1.0f, glm::dot(upper, lower)))), 29.9f);
@@ -164,6 +164,32 @@ TEST_F(ChainReach, a_scene_from_before_there_was_reach_opens) {
     run("chain.solver", {{"name", "ccd"}});
     load_scene(workspace, scene);
     EXPECT_EQ(part().reach, ReachSettings());
+}
+
+TEST_F(ChainReach, a_scene_with_a_limit_that_commands_refuse_is_refused) {
+    elbow();
+    Json scene = save_scene(workspace);
+    scene["labs"]["chain"]["reach"]["limits"][1]["axis"] = {1, 0, 0};
+    try {
+        load_scene(workspace, scene);
+        ADD_FAILURE() << "accepted";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("limits.1"), std::string::npos) << error.what();
+    }
+}
+
+TEST_F(ChainReach, limits_end_where_a_scene_would_be_too_large) {
+    run("chain.preset", {{"name", "start"}, {"count", 100001}});
+    EXPECT_NE(refused("chain.limit", {{"index", 0}, {"kind", "pivot"}}).find("100000"), std::string::npos);
+}
+
+TEST_F(ChainReach, a_new_tolerance_gives_a_new_report) {
+    elbow();
+    run("chain.target", {{"to", {distance_at(162.0f), 0, 0}}});
+    EXPECT_EQ(state()["solve"]["report"]["status"], "Limited");
+    run("chain.solver", {{"tolerance", 100}});
+    run("chain.target", {{"to", {distance_at(162.0f), 0, 0}}});
+    EXPECT_EQ(state()["solve"]["report"]["status"], "Converged");
 }
 
 TEST_F(ChainReach, each_change_is_one_step_to_undo) {

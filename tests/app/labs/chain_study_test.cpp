@@ -174,6 +174,55 @@ TEST_F(ChainStudy, the_chain_is_copied_as_code_and_as_a_scene) {
     EXPECT_FALSE(refused("chain.copy", {{"as", "rust"}}).empty());
 }
 
+/// The microscope's last step is where the chain is, whatever was done meanwhile.
+TEST_F(ChainStudy, chain_report_and_trace_never_part) {
+    const auto expect_one = [&](const char* after) {
+        const std::vector<glm::vec3> last = trace().pose(trace().frames());
+        ASSERT_EQ(last.size(), part().chain.size()) << after;
+        for (std::size_t i = 0; i < last.size(); ++i) EXPECT_EQ(last[i], part().chain.position(i)) << after;
+        ASSERT_TRUE(part().result) << after;
+        EXPECT_EQ(part().result->report, trace().report) << after;
+    };
+    run("microscope.open", {{"start", "straight"}});
+    expect_one("open");
+    run("chain.target", {{"to", {3, 3, 0}}});
+    expect_one("target");
+    run("chain.mode", {{"mode", "reach"}, {"iterations", 1}});
+    expect_one("mode");
+    run("chain.solver", {{"name", "ccd"}, {"iterations", 50}});
+    expect_one("solver");
+    run("chain.pull", {{"index", 3}, {"to", {1, 5, 0}}});
+    expect_one("pull");
+    run("chain.set_length", {{"index", 3}, {"length", 0.5}});
+    expect_one("set_length");
+    run("chain.limit", {{"index", 2}, {"kind", "hinge"}, {"max_deg", 30}});
+    expect_one("limit");
+    run("chain.limit", {{"index", 2}, {"kind", "free"}});
+    expect_one("free");
+    EXPECT_TRUE(part().reach.rotations.empty());
+    run("chain.motion", {{"path", "circle"}});
+    for (int i = 0; i < 5; ++i) labs.find(chain_lab)->step(workspace);
+    expect_one("motion");
+}
+
+TEST_F(ChainStudy, opening_is_undone_and_history_knows_what_a_trace_weighs) {
+    run("chain.target", {{"to", {3, 4, 0}}});
+    const Json before = save_scene(workspace);
+    const std::size_t light = part().bytes();
+    run("microscope.open", {{"start", "straight"}});
+    EXPECT_GE(part().bytes(), light + trace().steps.size() * sizeof(ik::Step));
+    run("undo");
+    EXPECT_EQ(save_scene(workspace), before);
+}
+
+TEST_F(ChainStudy, what_does_not_change_the_solve_leaves_the_trace_alone) {
+    run("race.open", {{"start", "straight"}});
+    const auto race = study().race;
+    run("chain.select", {{"index", 2}});
+    run("race.side_by_side", {{"on", true}});
+    EXPECT_EQ(study().race, race) << "nor are its times measured anew";
+}
+
 TEST_F(ChainStudy, a_study_comes_back_from_a_file) {
     run("microscope.open", {{"start", "straight"}});
     run("chain.target", {{"to", {3, 3, 1}}});

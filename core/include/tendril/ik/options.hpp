@@ -67,7 +67,8 @@ struct Options {
     float max_stretch_scale = 1.0f;
     /// Two-bone only: the bend is turned by this about the line from root to tip, radians.
     float twist = 0.0f;
-    /// Where given, element i receives the residual after iteration i + 1, as far as it has room. Metres.
+    /// Where given, element i receives the residual after iteration i + 1, as far as it has room. Metres. The
+    /// report's own is that of the nearest pose, so it may be less than the last of these.
     std::span<float> residuals{};
 };
 
