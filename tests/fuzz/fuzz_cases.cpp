@@ -48,7 +48,7 @@ void solve(const app::Case& each) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    const std::string text = fuzz::text_of(data, size);
+    const std::string_view text = fuzz::text_of(data, size);
     try {
         std::size_t cases = 0;
         app::read_cases(text, [&](const app::Case& each, double part) {
