@@ -12,17 +12,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <glm/geometric.hpp>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "measure.hpp"
 #include "tendril/chain/chain.hpp"
 
 namespace {
 
 using tendril::Chain;
+using tendril::bench::take_flag;
 
 constexpr std::size_t sizes[] = {10, 100, 1'000, 10'000, 100'000, 1'000'000};
 constexpr const char* modes[] = {"forward", "backward", "with_index", "fixed"};
@@ -204,17 +205,9 @@ bool report(const std::map<std::string, double>& seconds) {
 }  // namespace
 
 int main(int count, char** arguments) {
-    bool check = false;
-    int kept = 0;
-    for (int i = 0; i < count; ++i) {
-        if (std::strcmp(arguments[i], "--check") == 0) {
-            check = true;
-        } else {
-            arguments[kept++] = arguments[i];
-        }
-    }
-    benchmark::Initialize(&kept, arguments);
-    if (benchmark::ReportUnrecognizedArguments(kept, arguments)) return 2;
+    const bool check = take_flag(count, arguments, "--check");
+    benchmark::Initialize(&count, arguments);
+    if (benchmark::ReportUnrecognizedArguments(count, arguments)) return 2;
     for (const std::size_t size : sizes) {
         for (const std::string mode : modes) {
             for (auto* each :

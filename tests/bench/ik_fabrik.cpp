@@ -13,17 +13,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <ctime>
 #include <map>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "measure.hpp"
 #include "tendril/ik/solver.hpp"
 
 namespace {
 
+using tendril::bench::take_flag;
 using tendril::ik::Method;
 using tendril::ik::Options;
 using tendril::ik::Report;
@@ -287,17 +288,9 @@ void register_all() {
 }  // namespace
 
 int main(int count, char** arguments) {
-    bool check = false;
-    int kept = 0;
-    for (int i = 0; i < count; ++i) {
-        if (std::strcmp(arguments[i], "--check") == 0) {
-            check = true;
-        } else {
-            arguments[kept++] = arguments[i];
-        }
-    }
-    benchmark::Initialize(&kept, arguments);
-    if (benchmark::ReportUnrecognizedArguments(kept, arguments)) return 2;
+    const bool check = take_flag(count, arguments, "--check");
+    benchmark::Initialize(&count, arguments);
+    if (benchmark::ReportUnrecognizedArguments(count, arguments)) return 2;
     register_all();
     Medians medians;
     benchmark::RunSpecifiedBenchmarks(&medians);

@@ -50,6 +50,15 @@ inline bool claim(const char* what, double value, double least) {
     return holds;
 }
 
+/// Whether the flag is there; takes it out, for what reads the others.
+inline bool take_flag(int& count, char** arguments, const char* flag) {
+    char** const end = arguments + count;
+    char** const kept = std::remove_if(
+        arguments + 1, end, [&](const char* argument) { return std::strcmp(argument, flag) == 0; });
+    count = static_cast<int>(kept - arguments);
+    return kept != end;
+}
+
 inline bool has_flag(int count, char** arguments, const char* flag) {
     return std::any_of(arguments + 1, arguments + count,
                        [&](const char* argument) { return std::strcmp(argument, flag) == 0; });

@@ -9,6 +9,13 @@
 
 namespace tendril::test {
 
+inline glm::dvec3 cross(glm::dvec3 a, glm::dvec3 b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double dot(glm::dvec3 a, glm::dvec3 b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
 inline std::uint64_t given_seed() {
     const char* given = std::getenv("TENDRIL_SEED");
     const std::uint64_t value = given ? std::strtoull(given, nullptr, 0) : 20'260'301u;

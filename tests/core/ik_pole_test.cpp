@@ -9,14 +9,6 @@ using ik::Options;
 using ik::PoleTurn;
 using ik::Status;
 
-glm::dvec3 cross(glm::dvec3 a, glm::dvec3 b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-double dot(glm::dvec3 a, glm::dvec3 b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
 double size(glm::dvec3 v) {
     return std::sqrt(dot(v, v));
 }

@@ -11,14 +11,6 @@ using ik::TwoBone;
 using ik::TwoBoneOptions;
 using ik::TwoBoneResult;
 
-glm::dvec3 cross(glm::dvec3 a, glm::dvec3 b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-double dot(glm::dvec3 a, glm::dvec3 b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
 glm::dvec3 unit(glm::dvec3 v) {
     return v / std::sqrt(dot(v, v));
 }

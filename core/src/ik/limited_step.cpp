@@ -225,7 +225,7 @@ void take(Problem& problem, const Wanted& by) noexcept {
         angles.twist += scale * change.twist;
         glm::quat turn = old;
         if (room.limits[i].free()) {
-            const glm::vec3 about = times({change.up, change.left, change.twist}, 0.5f * scale);
+            const glm::vec3 about = times(glm::vec3{change.up, change.left, change.twist}, 0.5f * scale);
             const glm::vec3 own = rotated(conjugate(parent_of(problem.room.rotations, i)), about);
             turn = compose(unit_quaternion(1.0f, own.x, own.y, own.z), old);
         } else {

@@ -4,28 +4,17 @@
 #include <cmath>
 
 #include "ik/rotation.hpp"
+#include "ik/wide.hpp"
 
 namespace tendril::ik::detail {
 namespace {
 
-struct Vec {
-    double x = 0.0, y = 0.0, z = 0.0;
-};
-
-Vec between(const glm::vec3& from, const glm::vec3& to) noexcept {
-    return {static_cast<double>(to.x) - static_cast<double>(from.x),
-            static_cast<double>(to.y) - static_cast<double>(from.y),
-            static_cast<double>(to.z) - static_cast<double>(from.z)};
+glm::dvec3 between(const glm::vec3& from, const glm::vec3& to) noexcept {
+    return minus(wide(to), wide(from));
 }
 
-double size(const Vec& v) noexcept {
-    return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
-}
-
-glm::vec3 placed(const glm::vec3& at, const Vec& direction, double by) noexcept {
-    return {static_cast<float>(static_cast<double>(at.x) + direction.x * by),
-            static_cast<float>(static_cast<double>(at.y) + direction.y * by),
-            static_cast<float>(static_cast<double>(at.z) + direction.z * by)};
+glm::vec3 placed(const glm::vec3& at, const glm::dvec3& direction, double by) noexcept {
+    return narrow(plus(wide(at), times(direction, by)));
 }
 
 template <class Watch>
@@ -39,10 +28,11 @@ void place(Problem& problem, std::size_t joint, const glm::vec3& to, Watch watch
 /// of many joints do not add up to a bend.
 template <class Watch>
 void lay_straight(Problem& problem, Watch watch) noexcept {
-    Vec along = between(problem.root(), problem.target);
+    glm::dvec3 along = between(problem.root(), problem.target);
     for (std::size_t i = 1; i < problem.joints.size(); ++i) {
-        const Vec ahead = between(problem.joints[i - 1], problem.target);
-        if (const double far = size(ahead); far > 0.0) along = {ahead.x / far, ahead.y / far, ahead.z / far};
+        const glm::dvec3 ahead = between(problem.joints[i - 1], problem.target);
+        if (const double far = length(ahead); far > 0.0)
+            along = {ahead.x / far, ahead.y / far, ahead.z / far};
         place(problem, i, placed(problem.joints[i - 1], along, static_cast<double>(problem.lengths()[i - 1])),
               watch);
     }
@@ -54,19 +44,18 @@ std::size_t longest_bone(std::span<const float> lengths) noexcept {
 
 /// Along which line the chain, folded at its longest bone, lies nearest to where it is: with c the place of
 /// each joint on the line that is the direction of the sum of c * (joint - root).
-Vec nearest_line(const Problem& problem, std::size_t longest) noexcept {
-    Vec sum;
+glm::dvec3 nearest_line(const Problem& problem, std::size_t longest) noexcept {
+    glm::dvec3 sum(0.0);
     double along = 0.0;
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        const auto length = static_cast<double>(problem.lengths()[i]);
-        along += i == longest ? length : -length;
-        const Vec arm = between(problem.root(), problem.joints[i + 1]);
-        sum = {sum.x + along * arm.x, sum.y + along * arm.y, sum.z + along * arm.z};
+        const auto bone = static_cast<double>(problem.lengths()[i]);
+        along += i == longest ? bone : -bone;
+        const glm::dvec3 arm = between(problem.root(), problem.joints[i + 1]);
+        sum = plus(sum, times(arm, along));
     }
-    const double far = size(sum);
+    const double far = length(sum);
     if (far > 0.0) return {sum.x / far, sum.y / far, sum.z / far};
-    const glm::vec3& rest = problem.room.rest_directions[longest];
-    return {static_cast<double>(rest.x), static_cast<double>(rest.y), static_cast<double>(rest.z)};
+    return wide(problem.room.rest_directions[longest]);
 }
 
 /// `span` is where the tip ends on its line. A target so near to the root that every line leaves the same
@@ -74,26 +63,26 @@ Vec nearest_line(const Problem& problem, std::size_t longest) noexcept {
 template <class Watch>
 void fold(Problem& problem, double distance, double span, Watch watch) noexcept {
     const std::size_t longest = longest_bone(problem.lengths());
-    Vec along = between(problem.root(), problem.target);
+    glm::dvec3 along = between(problem.root(), problem.target);
     along = distance <= 1e-3 * span ? nearest_line(problem, longest)
-                                    : Vec{along.x / distance, along.y / distance, along.z / distance};
+                                    : glm::dvec3{along.x / distance, along.y / distance, along.z / distance};
     for (std::size_t i = 1; i < problem.joints.size(); ++i) {
-        const auto length = static_cast<double>(problem.lengths()[i - 1]);
-        place(problem, i, placed(problem.joints[i - 1], along, i - 1 == longest ? length : -length), watch);
+        const auto bone = static_cast<double>(problem.lengths()[i - 1]);
+        place(problem, i, placed(problem.joints[i - 1], along, i - 1 == longest ? bone : -bone), watch);
     }
 }
 
 }  // namespace
 
 float exact_distance(const glm::vec3& a, const glm::vec3& b) noexcept {
-    return static_cast<float>(size(between(a, b)));
+    return static_cast<float>(length(between(a, b)));
 }
 
 template <class Watch>
 std::optional<Report> answer_beyond_reach(Problem& problem, Watch watch) noexcept {
     double reach = 0.0;
-    for (const float length : problem.lengths()) reach += static_cast<double>(length);
-    const double distance = size(between(problem.root(), problem.target)), equal = 1e-6 * reach;
+    for (const float bone : problem.lengths()) reach += static_cast<double>(bone);
+    const double distance = length(between(problem.root(), problem.target)), equal = 1e-6 * reach;
     const double nearest = 2.0 * static_cast<double>(problem.room.longest) - reach;
     Report report;
     if (distance >= reach - equal) {

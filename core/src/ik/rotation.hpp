@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include "chain/pull.hpp"
+#include "ik/vector.hpp"
 
 namespace tendril::ik::detail {
 
@@ -14,25 +15,6 @@ using tendril::detail::distance;
 using tendril::detail::moved;
 using tendril::detail::squared_distance;
 using tendril::detail::step;
-
-static inline glm::vec3 minus(const glm::vec3& a, const glm::vec3& b) noexcept {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-static inline glm::vec3 plus(const glm::vec3& a, const glm::vec3& b) noexcept {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-static inline glm::vec3 times(const glm::vec3& a, float by) noexcept {
-    return {a.x * by, a.y * by, a.z * by};
-}
-static inline float dot(const glm::vec3& a, const glm::vec3& b) noexcept {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-static inline glm::vec3 cross(const glm::vec3& a, const glm::vec3& b) noexcept {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-static inline float length(const glm::vec3& a) noexcept {
-    return std::sqrt(dot(a, a));
-}
 
 /// Some unit vector at right angles to `a`, which must not be zero; the same for the same `a`.
 static inline glm::vec3 perpendicular(const glm::vec3& a) noexcept {

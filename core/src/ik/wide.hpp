@@ -1,10 +1,11 @@
-// Vectors of doubles, in plain arithmetic as in rotation.hpp: for the few sums and closed forms in which
-// floats would lose what counts. Not installed.
+// What only vectors of doubles need. Not installed.
 #pragma once
 
 #include <cmath>
 #include <glm/vec3.hpp>
 #include <optional>
+
+#include "ik/vector.hpp"
 
 namespace tendril::ik::detail {
 
@@ -13,24 +14,6 @@ static inline glm::dvec3 wide(const glm::vec3& a) noexcept {
 }
 static inline glm::vec3 narrow(const glm::dvec3& a) noexcept {
     return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
-}
-static inline glm::dvec3 plus(const glm::dvec3& a, const glm::dvec3& b) noexcept {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-static inline glm::dvec3 minus(const glm::dvec3& a, const glm::dvec3& b) noexcept {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-static inline glm::dvec3 times(const glm::dvec3& a, double by) noexcept {
-    return {a.x * by, a.y * by, a.z * by};
-}
-static inline double dot(const glm::dvec3& a, const glm::dvec3& b) noexcept {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-static inline glm::dvec3 cross(const glm::dvec3& a, const glm::dvec3& b) noexcept {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-static inline double length(const glm::dvec3& a) noexcept {
-    return std::sqrt(dot(a, a));
 }
 /// What of `a` is at right angles to the unit vector `axis`.
 static inline glm::dvec3 across(const glm::dvec3& a, const glm::dvec3& axis) noexcept {
