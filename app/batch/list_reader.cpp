@@ -2,27 +2,13 @@
 
 #include <algorithm>
 
+#include "app/document/json_scan.hpp"
+
 namespace tendril::app {
 namespace {
 
 std::size_t skip_space(std::string_view text, std::size_t at) {
     return std::min(text.find_first_not_of(" \t\r\n", at), text.size());
-}
-
-int line_at(std::string_view text, std::size_t offset) {
-    const auto before = text.substr(0, offset);
-    return 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n'));
-}
-
-/// Past the closing quote of the string that opens at `at`.
-std::size_t skip_string(std::string_view text, std::size_t at) {
-    for (++at; at < text.size(); ++at) {
-        if (text[at] == '\\')
-            ++at;
-        else if (text[at] == '"')
-            return at + 1;
-    }
-    return text.size();
 }
 
 /// Where the value at `at` ends, by its brackets and quotes alone: whether it is one shows when it is parsed.
@@ -33,7 +19,7 @@ std::size_t skip_value(std::string_view text, std::size_t at) {
         if (depth == 0 && (c == ',' || c == ']' || c == '}')) break;
         if (c == '[' || c == '{') ++depth;
         if (c == ']' || c == '}') --depth;
-        at = c == '"' ? skip_string(text, at) : at + 1;
+        at = c == '"' ? string_end(text, at) : at + 1;
     }
     return at;
 }

@@ -5,25 +5,10 @@
 #include <vector>
 
 #include "app/document/json.hpp"
+#include "app/document/json_scan.hpp"
 
 namespace tendril::app {
 namespace {
-
-int line_at(std::string_view text, std::size_t offset) {
-    const auto before = text.substr(0, offset);
-    return 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n'));
-}
-
-/// The end of the string that opens at `at`: past its closing quote, or past the text.
-std::size_t string_end(std::string_view text, std::size_t at) {
-    for (++at; at < text.size(); ++at) {
-        if (text[at] == '\\')
-            ++at;
-        else if (text[at] == '"')
-            return at + 1;
-    }
-    return text.size();
-}
 
 void check_depth(std::string_view text) {
     int depth = 0;

@@ -151,11 +151,7 @@ class StudyDrawing {
 }  // namespace
 
 std::vector<glm::vec3> shown_joints(const ChainPart& part) {
-    if (part.study.trace) return part.study.trace->pose(part.study.step);
-    std::vector<glm::vec3> joints;
-    joints.reserve(part.chain.size());
-    for (const Segment& segment : part.chain.segments()) joints.push_back(segment.position);
-    return joints;
+    return part.study.trace ? part.study.trace->pose(part.study.step) : positions(part.chain);
 }
 
 glm::vec3 race_lane(const Study& study) {

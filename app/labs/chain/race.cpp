@@ -10,12 +10,6 @@ namespace {
 
 constexpr int timings = 5;
 
-std::vector<glm::vec3> positions(const Chain& chain) {
-    std::vector<glm::vec3> joints;
-    for (const Segment& segment : chain.segments()) joints.push_back(segment.position);
-    return joints;
-}
-
 Racer run(ik::Method method, const Chain& chain, const ReachSettings& settings, glm::vec3 target) {
     using Clock = std::chrono::steady_clock;
     Racer racer;

@@ -7,6 +7,19 @@
 
 namespace tendril::app {
 
+std::vector<glm::vec3> positions(const Chain& chain) {
+    std::vector<glm::vec3> joints;
+    joints.reserve(chain.size());
+    for (const Segment& segment : chain.segments()) joints.push_back(segment.position);
+    return joints;
+}
+
+void check_takes(ik::Method method, const Chain& chain) {
+    if (method != ik::Method::TwoBone || chain.size() == 3) return;
+    throw std::invalid_argument("two_bone takes a chain of three segments (two bones); this one has " +
+                                std::to_string(chain.size()));
+}
+
 float reach_tolerance(const ReachSettings& settings, float reach) {
     return settings.tolerance.value_or(1e-3f * reach);
 }
@@ -33,10 +46,7 @@ ik::Solver make_solver(const Chain& chain, const ReachSettings& settings) {
 
 std::optional<ReachResult> solve_reach(Chain& chain, ReachSettings& settings, glm::vec3 target) {
     if (chain.size() < 2) return std::nullopt;
-    if (settings.method == ik::Method::TwoBone && chain.size() != 3) {
-        throw std::invalid_argument("two_bone takes a chain of three segments (two bones); this one has " +
-                                    std::to_string(chain.size()));
-    }
+    check_takes(settings.method, chain);
     ik::Solver solver = make_solver(chain, settings);
     const ik::Options options = solver_options(settings, solver.reach());
     ReachResult result{settings.method, solver.solve(settings.method, chain, target, options), {}};
@@ -45,9 +55,7 @@ std::optional<ReachResult> solve_reach(Chain& chain, ReachSettings& settings, gl
     }
     if (settings.limits.empty()) return result;
     if (result.report.status == ik::Status::Limited && solver.bones() <= max_explained_bones) {
-        std::vector<glm::vec3> joints;
-        for (const Segment& segment : chain.segments()) joints.push_back(segment.position);
-        result.hold = solver.explain(settings.method, joints, target, options);
+        result.hold = solver.explain(settings.method, positions(chain), target, options);
     }
     settings.rotations.assign(solver.rotations().begin(), solver.rotations().end());
     return result;

@@ -41,6 +41,12 @@ struct ReachResult {
     bool operator==(const ReachResult&) const = default;
 };
 
+/// Where the segments are, head first.
+std::vector<glm::vec3> positions(const Chain& chain);
+/// Throws std::invalid_argument for a method that does not take this chain: two_bone, where there are not
+/// two.
+void check_takes(ik::Method method, const Chain& chain);
+
 /// As the solver takes them, with `reach` the chain's; points into `settings`.
 ik::Options solver_options(const ReachSettings& settings, float reach);
 /// Metres.

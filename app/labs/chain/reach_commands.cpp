@@ -16,10 +16,7 @@ void set_solver(ChainPart& part, const Arguments& given) {
     ReachSettings& reach = part.reach;
     if (given.has("name")) {
         reach.method = *ik::method_named(given.text("name"));
-        if (reach.method == ik::Method::TwoBone && part.chain.size() != 3) {
-            throw Refused("two_bone takes a chain of three segments (two bones); this one has " +
-                          std::to_string(part.chain.size()));
-        }
+        check_takes(reach.method, part.chain);
     }
     if (given.has("iterations")) reach.iterations = given.integer("iterations");
     if (given.has("tolerance")) reach.tolerance = given.number("tolerance");

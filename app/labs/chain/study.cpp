@@ -9,12 +9,6 @@ namespace tendril::app {
 
 namespace {
 
-std::vector<glm::vec3> positions(const Chain& chain) {
-    std::vector<glm::vec3> joints;
-    for (const Segment& segment : chain.segments()) joints.push_back(segment.position);
-    return joints;
-}
-
 std::vector<glm::vec3> straight(const Chain& chain) {
     Chain line(chain.default_direction());
     for (const Segment& segment : chain.segments()) line.add(segment.length);

@@ -66,7 +66,7 @@ std::vector<int> iteration_ends(const Trace& trace) {
 Trace record_trace(Chain chain, ReachSettings settings, glm::vec3 target) {
     Trace trace;
     trace.method = settings.method;
-    for (const Segment& segment : chain.segments()) trace.start.push_back(segment.position);
+    trace.start = positions(chain);
     Recorder recorder(trace);
     ik::Solver solver = make_solver(chain, settings);
     trace.report =
