@@ -1,0 +1,88 @@
+// The Rope lab's share of the document: a rope world, and how it is played with and shown.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tendril/rope/world.hpp>
+#include <vector>
+
+#include "app/document/document.hpp"
+#include "app/document/workspace.hpp"
+
+namespace tendril::app {
+
+inline constexpr const char* rope_lab = "rope";
+inline constexpr std::size_t max_lab_particles = 100'000;  ///< more would make too large a scene file
+inline constexpr std::size_t max_lab_colliders = 1'000;
+
+/// What a click in the scene does to what it hits.
+enum class RopeTool : std::uint8_t { Move, Pin, Cut };
+
+/// A collider that swings to and fro by itself: its centre is at middle + sin(2 pi t / period) * swing.
+struct Swing {
+    std::string collider;
+    glm::vec3 middle{0.0f};
+    glm::vec3 swing{0.0f};  ///< metres
+    float period = 2.0f;    ///< seconds
+    bool operator==(const Swing&) const = default;
+};
+
+/// A particle that a drag holds; it was free before.
+struct Hold {
+    std::string body;
+    std::size_t particle = 0;
+    bool operator==(const Hold&) const = default;
+};
+
+/// What is selected: a particle of a body, or a collider.
+struct RopeChoice {
+    std::string body;
+    std::size_t particle = 0;
+    std::string collider;  ///< not empty: this, and no particle
+    bool operator==(const RopeChoice&) const = default;
+};
+
+/// The torture dial: frames of uneven length, from 1 ms to 250 ms. At 0 a frame is a tick; at 1 they swing
+/// over the whole range.
+struct Torture {
+    float dial = 0.0f;
+    std::uint32_t frames = 0;  ///< so far: what the next frame's length follows from
+    double owed = 0.0;         ///< seconds that have passed since the last frame
+    double frame = 0.0;        ///< seconds: the next frame's length; 0: not known yet
+    bool operator==(const Torture&) const = default;
+};
+
+struct RopeView {
+    bool particles = false;  ///< as balls on the tube
+    bool stress = false;     ///< colours by how far each link is over or under its length
+    int sides = 16;          ///< of the tube, 3 to 64
+    bool operator==(const RopeView&) const = default;
+};
+
+struct RopePart final : Part {
+    std::shared_ptr<const rope::World> world = std::make_shared<const rope::World>();
+    std::vector<Swing> swings;
+    double time = 0.0;  ///< seconds that the world has been let run
+    RopeTool tool = RopeTool::Move;
+    std::optional<RopeChoice> choice;
+    std::optional<Hold> hold;
+    Torture torture;
+    RopeView view;
+    int quiet_ticks = 0;  ///< ticks in a row in which nothing moved to speak of
+    /// What a tick's simulation took, microseconds; measured in a live window only. Not saved.
+    float cost = 0.0f;
+
+    std::shared_ptr<Part> clone() const override { return std::make_shared<RopePart>(*this); }
+    Json save() const override;
+    std::shared_ptr<Part> load(const Json& json, const std::string& where) const override;
+    std::size_t bytes() const override;
+};
+
+/// The lab's part of a workspace.
+inline const RopePart& rope_part(const Workspace& workspace) {
+    return workspace.document.get<RopePart>(rope_lab);
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,81 @@
+// What hangs in a rope world: ropes, sheets and locks of hair. All are particles and links between them; a
+// body is a range of particles that has a name.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tendril::rope {
+
+/// Particles of one body are numbered on from `first`.
+struct Body {
+    enum class Kind : std::uint8_t { Rope, Sheet, Lock };
+    std::string name;
+    Kind kind = Kind::Rope;
+    std::size_t first = 0, count = 0;  ///< particles
+    /// Particles in a row of a sheet, in a strand of a lock; `count` for a rope.
+    std::size_t row = 0;
+    float radius = 0.02f;  ///< metres: how far from colliders its particles are kept, and how thick it is
+    /// Relative length at which a link of a sheet tears, 0.1 for 10 % over its rest; 0: never.
+    float tear = 0.0f;
+};
+
+/// Keeps two particles at a distance.
+struct Link {
+    /// Stretch links are what a rope or sheet consists of; the others only shape it.
+    enum class Kind : std::uint8_t { Stretch, Shear, Bend };
+    std::uint32_t a = 0, b = 0;
+    float rest = 0.0f;  ///< metres
+    Kind kind = Kind::Stretch;
+    float compliance = 0.0f;  ///< m/N; of stretch links in addition to the settings'
+    float tension = 0.0f;     ///< newtons, as last solved; below zero where it pushes
+};
+
+/// A rope of equal segments.
+struct RopeShape {
+    std::string name;  ///< unique; "rope", "rope 2", ... where empty
+    glm::vec3 from{0.0f}, to{1.0f, 0.0f, 0.0f};
+    int segments = 32;  ///< 1 to max_particles - 1
+    /// Metres; the distance where left out. Where it is more than the distance the rope hangs on a parabola
+    /// along gravity; where it is less the rope begins stretched.
+    std::optional<float> length{};
+    float radius = 0.02f;
+    float density = 1.0f;  ///< kg/m, over 0
+    bool pin_start = false, pin_end = false;
+};
+
+/// A cloth: a grid of columns x rows particles.
+struct SheetShape {
+    std::string name;  ///< unique; "sheet", "sheet 2", ... where empty
+    glm::vec3 corner{0.0f};
+    glm::vec3 along{1.0f, 0.0f, 0.0f};  ///< from the corner to the other end of the first row
+    glm::vec3 down{0.0f, -1.0f, 0.0f};  ///< from the corner to the last row
+    int columns = 24, rows = 24;        ///< particles, 2 or more each
+    float radius = 0.01f;
+    float density = 0.2f;            ///< kg/m^2, over 0
+    float shear = 1e-4f, bend = 1e-2f;  ///< compliance of shear and bend links, m/N
+    float tear = 0.0f;               ///< relative length at which links tear; 0: never
+    enum class Pins : std::uint8_t { None, Corners, Row } pins = Pins::None;  ///< of the first row
+};
+
+/// Hair: strands of equal length, each held at its root, where it keeps its direction.
+struct LockShape {
+    struct Root {
+        glm::vec3 position{0.0f};
+        glm::vec3 direction{0.0f, -1.0f, 0.0f};  ///< of any length but 0
+    };
+    std::string name;  ///< unique; "lock", "lock 2", ... where empty
+    std::vector<Root> roots;
+    float length = 0.5f;  ///< metres, over 0
+    int segments = 16;
+    float radius = 0.004f;
+    float density = 0.05f;  ///< kg/m, over 0
+    float bend = 1e-1f;     ///< compliance of bend links, m/N
+    std::string attach;     ///< a collider that the roots move with; empty: none
+};
+
+}  // namespace tendril::rope

@@ -1,0 +1,61 @@
+// Bodies that ropes cannot enter.
+#pragma once
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <variant>
+
+namespace tendril::rope {
+
+struct Sphere {
+    glm::vec3 centre{0.0f};
+    float radius = 0.5f;  ///< metres, 0 or more
+};
+/// All within `radius` of the line from a to b.
+struct Capsule {
+    glm::vec3 a{0.0f}, b{0.0f, 1.0f, 0.0f};
+    float radius = 0.25f;
+};
+/// All behind a plane.
+struct Plane {
+    glm::vec3 point{0.0f};
+    glm::vec3 normal{0.0f, 1.0f, 0.0f};  ///< of any length but 0
+};
+struct Box {
+    glm::vec3 centre{0.0f};
+    glm::vec3 half_extents{0.5f};  ///< metres, each 0 or more
+    glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
+};
+using Shape = std::variant<Sphere, Capsule, Plane, Box>;
+
+/// Point on the surface that is nearest, as seen from a point.
+struct SurfaceDistance {
+    double distance = 0.0;            ///< metres, below zero inside
+    glm::dvec3 normal{0.0, 1.0, 0.0};  ///< unit, outwards; a fixed one where there is no telling
+};
+/// For any point and any shape that require() takes; never NaN.
+SurfaceDistance surface_distance(const Shape& shape, const glm::dvec3& point) noexcept;
+
+/// The point that moves with a shape: the centre of a sphere or box, the middle of a capsule, a plane's point.
+glm::vec3 centre(const Shape& shape) noexcept;
+/// The same shape with that point elsewhere.
+Shape moved(const Shape& shape, const glm::vec3& centre) noexcept;
+/// "sphere", "capsule", "plane", "box"
+const char* kind(const Shape& shape) noexcept;
+/// Half of the smallest extent, metres: a sphere's and capsule's radius, a box's least half extent; a plane
+/// has no size, 1.
+float size(const Shape& shape) noexcept;
+
+/// Throws std::invalid_argument naming `operation`, the member and its value, where one is not finite, over
+/// max_magnitude, below zero, or a normal or rotation is zero.
+void require(const char* operation, const Shape& shape);
+
+struct Collider {
+    std::string name;
+    Shape shape;         ///< where it is now
+    glm::dvec3 goal{0.0};  ///< where its centre is going
+    double seconds = 0.0;  ///< of simulated time until it is there; 0: it stays
+};
+
+}  // namespace tendril::rope

@@ -1,0 +1,60 @@
+// How a rope world is simulated.
+//
+// Time runs in fixed substeps, so a second of it comes out the same however it was cut into frames. In each
+// substep every free particle is moved on by Verlet's rule and is then put back to where distances, pins and
+// colliders let it be. Three solvers do the putting back:
+//
+// * Relaxation satisfies one distance after the other, `iterations` times (T. Jakobsen, "Advanced Character
+//   Physics", GDC 2001; M. Mueller et al., "Position Based Dynamics", 2007). How far a rope stretches then
+//   depends on the iterations and on the substep.
+// * Xpbd does the same with compliance: the stretch is that of a material (M. Macklin, M. Mueller,
+//   N. Chentanez, "XPBD", 2016), once the iterations suffice.
+// * Direct solves all distances along a rope at once: their linearisation is tridiagonal, O(n) a pass. The
+//   tension of the substep before is taken in implicitly, because it makes a fine rope stiff sideways
+//   (M. Tournier et al., "Stable Constrained Dynamics", 2015), and it pulls along the mean of the directions
+//   before and after, which neither adds energy nor takes it (O. Gonzalez, "Mechanical systems subject to
+//   holonomic constraints", 1999). A sheet is solved row by row and column by column.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+namespace tendril::rope {
+
+enum class Solver : std::uint8_t { Relaxation, Xpbd, Direct };
+/// "relaxation", "xpbd", "direct"
+const char* name(Solver solver) noexcept;
+
+struct Settings {
+    /// Seconds, min_substep to max_substep.
+    double substep = 1.0 / 240.0;
+    /// Passes in a substep, 1 to max_iterations. Direct ends as soon as it has arrived.
+    int iterations = 16;
+    Solver solver = Solver::Direct;
+    /// How fast motion dies away, 1/s, 0 to max_rate.
+    float damping = 0.1f;
+    /// m/s^2, each coordinate up to max_acceleration.
+    glm::vec3 gravity{0.0f, -9.81f, 0.0f};
+    float gravity_scale = 1.0f;  ///< -max_scale to max_scale
+    /// Acceleration of everything beside gravity, m/s^2: a wind.
+    glm::vec3 external{0.0f};
+    /// Strain per newton, 1/N, 0 to max_compliance: how much longer a metre of rope gets under one newton.
+    /// Relaxation does not know it.
+    float compliance = 0.0f;
+    /// Coulomb's coefficient between rope and colliders, 0 to max_friction.
+    float friction = 0.5f;
+    /// Seconds that one call of advance() simulates at most; what is over is dropped. Over 0, to 10.
+    float longest_frame = 0.25f;
+
+    bool operator==(const Settings&) const = default;
+};
+
+inline constexpr double min_substep = 1e-5, max_substep = 0.1;
+inline constexpr int max_iterations = 10'000;
+inline constexpr float max_rate = 1e3f, max_acceleration = 1e4f, max_scale = 1e3f, max_compliance = 1e3f,
+                       max_friction = 100.0f;
+
+/// Throws std::invalid_argument naming `operation`, the setting and its value, where one is out of range.
+void require(const char* operation, const Settings& settings);
+
+}  // namespace tendril::rope
