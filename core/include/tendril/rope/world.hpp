@@ -93,7 +93,8 @@ class World {
     /// The number of a body's particle. Throws where there is no such body or particle.
     std::size_t particle(std::string_view body, std::size_t index) const;
 
-    /// Holds a particle and takes it to `at` evenly in the next `seconds` of simulated time.
+    /// Holds a particle and takes it to `at` evenly in the next `seconds` of simulated time; 0: within the next
+    /// substep.
     void pin(std::size_t particle, const glm::vec3& at, double seconds = 0.0);
     /// Holds a particle where it is, moving with a collider.
     void attach(std::size_t particle, std::string_view collider);
@@ -105,9 +106,11 @@ class World {
     std::string cut(std::string_view rope, std::size_t segment);
 
     void add_collider(std::string name, const Shape& shape);
-    /// Takes a collider to `to` evenly in the next `seconds` of simulated time; it carries what it meets.
+    /// Takes a collider to `to` evenly in the next `seconds` of simulated time, 0: within the next substep; it
+    /// carries what it meets.
     void move_collider(std::string_view name, const glm::vec3& to, double seconds = 0.0);
     void set_collider(std::string_view name, const Shape& shape);  ///< there at once
+    /// What is attached to it is let go.
     void remove_collider(std::string_view name);
     const Collider* find_collider(std::string_view name) const noexcept;
 
@@ -127,10 +130,15 @@ class World {
     /// The sum of a body's rest lengths, metres; of a sheet and a lock that of one row or strand.
     double length(const Body& body) const noexcept;
 
+    /// One of ik::vector_units(), or "none", for comparing; the widest where left empty. The bits are the same.
+    void use_vector_unit(std::string_view name);
+
+    struct Plan;     // of the library's own
+    struct Scratch;  // likewise
+
   private:
-    struct Plan;
-    struct Scratch;
-    friend class Substep;
+    void reshaped() noexcept;
+    Collider& collider(const char* operation, std::string_view name);
 
     State state_;
     std::shared_ptr<const Plan> plan_;  ///< how the links are solved; follows from them

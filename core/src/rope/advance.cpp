@@ -1,0 +1,160 @@
+// How time passes: fixed substeps, each of which moves what is free on and lets a solver put it right.
+#include <algorithm>
+#include <cmath>
+
+#include "chain/checks.hpp"
+#include "rope/build.hpp"
+#include "rope/geometry.hpp"
+#include "rope/substep.hpp"
+
+namespace tendril::rope {
+namespace {
+
+using glm::dvec3;
+
+/// The part of the way to a goal that is done in `h`, of the `seconds` that are left for it.
+double part_of(double h, double& seconds) {
+    const double part = seconds > h * (1.0 + 1e-6) ? h / seconds : 1.0;
+    seconds = part < 1.0 ? seconds - h : 0.0;
+    return part;
+}
+
+/// Links that are longer than their sheet bears are gone; whether there were any.
+bool tear(State& state) {
+    std::vector<float> limit(state.position.size(), 0.0f);
+    for (const Body& body : state.bodies)
+        std::fill_n(limit.begin() + static_cast<std::ptrdiff_t>(body.first), body.count, body.tear);
+    const auto torn = [&](const Link& link) {
+        const double longest = static_cast<double>(limit[link.a]);
+        const double length = detail::length(state.position[link.b] - state.position[link.a]);
+        return longest > 0.0 && length > link.rest * (1.0 + longest);
+    };
+    return std::erase_if(state.links, torn) > 0;
+}
+
+/// Sizes everything for a world, so that nothing is allocated later.
+void prepare(World::Scratch& scratch, const State& state, const World::Plan& plan) {
+    if (scratch.unit.solve == nullptr) scratch.unit = detail::vector_unit("");
+    const std::size_t particles = state.position.size();
+    scratch.place.resize(particles);
+    scratch.base.resize(particles);
+    scratch.weight.resize(particles);
+    scratch.touch.assign(particles, Touch{});
+    scratch.touched.clear();
+    scratch.touched.reserve(particles);
+    scratch.pull.resize(state.links.size());
+    scratch.colliders.resize(state.colliders.size());
+    scratch.run_worst.assign(plan.runs.size(), 0.0);
+    scratch.run_scale.assign(plan.runs.size(), 1.0);
+    constexpr std::size_t alignment = 8;  // doubles: 64 bytes
+    scratch.block.assign(detail::Block::doubles(plan.longest, scratch.unit.lanes) + alignment, 0.0);
+    const auto address = reinterpret_cast<std::uintptr_t>(scratch.block.data());
+    scratch.block_offset = (64 - address % 64) % 64 / sizeof(double);
+    scratch.fresh = false;
+}
+
+}  // namespace
+
+Substep::Substep(State& state, const World::Plan& plan, World::Scratch& scratch)
+    : state_(state),
+      plan_(plan),
+      scratch_(scratch),
+      h_(state.settings.substep),
+      acceleration_(detail::acceleration(state.settings)) {}
+
+int Substep::run() {
+    move_colliders();
+    move_particles();
+    find_near();
+    const Solver solver = state_.settings.solver;
+    const int passes = solver == Solver::Direct ? direct() : relax(solver == Solver::Xpbd);
+    push_out_for_good();
+    keep();
+    return passes;
+}
+
+void Substep::move_colliders() {
+    for (std::size_t i = 0; i < state_.colliders.size(); ++i) {
+        Collider& collider = state_.colliders[i];
+        const dvec3 from(centre(collider.shape));
+        const double part = part_of(h_, collider.seconds);
+        const Shape was = collider.shape;
+        if (const dvec3 to = from + part * (collider.goal - from); glm::vec3(to) != centre(was)) {
+            collider.shape = moved(was, glm::vec3(to));
+        }
+        scratch_.colliders[i].shape = collider.shape;
+        scratch_.colliders[i].by = dvec3(centre(collider.shape)) - from;
+    }
+}
+
+void Substep::move_particles() {
+    const double kept = std::exp(-static_cast<double>(state_.settings.damping) * h_);
+    const double same = state_.moved_in > 0.0 ? h_ / state_.moved_in : 0.0;
+    const dvec3 fall = (h_ * h_) * acceleration_;
+    for (std::size_t i = 0; i < state_.position.size(); ++i) {
+        state_.moved[i] = same * state_.moved[i];  // had the substep before been as long as this one
+        scratch_.base[i] = state_.position[i] + (kept * state_.moved[i] + fall);
+        scratch_.weight[i] = 1.0 / state_.mass[i];
+    }
+    for (Pin& pin : state_.pins) {
+        const dvec3 at = state_.position[pin.particle];
+        dvec3 goal = pin.goal;
+        for (std::size_t c = 0; !pin.collider.empty() && c < state_.colliders.size(); ++c) {
+            if (state_.colliders[c].name == pin.collider) goal += dvec3(centre(state_.colliders[c].shape));
+        }
+        scratch_.base[pin.particle] = at + part_of(h_, pin.seconds) * (goal - at);
+        scratch_.weight[pin.particle] = 0.0;
+    }
+    scratch_.place = scratch_.base;
+    for (std::size_t i = 0; i < state_.links.size(); ++i) {
+        scratch_.pull[i] = static_cast<double>(state_.links[i].tension) * (h_ * h_);
+    }
+}
+
+void Substep::keep() {
+    for (std::size_t i = 0; i < state_.position.size(); ++i) {
+        state_.before[i] = state_.moved[i];
+        state_.moved[i] = scratch_.place[i] - state_.position[i];
+        state_.position[i] = scratch_.place[i];
+    }
+    for (std::size_t r = 0; r < plan_.runs.size(); ++r) {
+        if (scratch_.run_scale[r] == 1.0) continue;
+        const World::Plan::Run& run = plan_.runs[r];
+        for (std::uint32_t k = 0; k <= run.links; ++k) {
+            dvec3& by = state_.moved[plan_.nodes[run.first_node + k]];
+            by = scratch_.run_scale[r] * by;
+        }
+        scratch_.run_scale[r] = 1.0;
+    }
+    for (std::size_t i = 0; i < state_.links.size(); ++i) {
+        state_.links[i].tension = static_cast<float>(scratch_.pull[i] / (h_ * h_));
+    }
+    for (const std::uint32_t i : scratch_.touched) scratch_.touch[i] = Touch{};
+    scratch_.touched.clear();
+    state_.moved_in = h_;
+    ++state_.substeps;
+}
+
+Advance World::advance(double seconds) {
+    if (!(seconds >= 0.0 && seconds <= 1e9)) {
+        tendril::detail::refuse("advance", "seconds", "0 or more", tendril::detail::text(static_cast<float>(seconds)));
+    }
+    Advance done;
+    const double substep = state_.settings.substep;
+    const double simulated = std::min(seconds, static_cast<double>(state_.settings.longest_frame));
+    done.dropped = static_cast<std::uint64_t>((seconds - simulated) / substep + 1e-6);
+    state_.dropped += done.dropped;
+    state_.remainder += simulated;
+    while (state_.remainder >= substep * (1.0 - 1e-6)) {
+        state_.remainder = std::max(0.0, state_.remainder - substep);
+        if (!plan_) plan_ = std::make_shared<const Plan>(state_);
+        if (!scratch_) scratch_ = std::make_unique<Scratch>();
+        if (scratch_->fresh) prepare(*scratch_, state_, *plan_);
+        done.passes += Substep(state_, *plan_, *scratch_).run();
+        ++done.substeps;
+        if (plan_->tears && tear(state_)) reshaped();
+    }
+    return done;
+}
+
+}  // namespace tendril::rope

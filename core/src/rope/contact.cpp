@@ -1,0 +1,193 @@
+// Keeping particles and links out of colliders while the solver works.
+//
+// What a collider has pushed a particle in a substep is remembered: its part along the normal bounds friction
+// (Coulomb's law, as displacements), and what tension would pull into the collider adds to it. So a rope that is
+// drawn around a post grips it the harder the more it is drawn.
+#include <algorithm>
+#include <limits>
+
+#include "rope/contact_shape.hpp"
+#include "rope/geometry.hpp"
+#include "rope/substep.hpp"
+
+namespace tendril::rope {
+namespace {
+
+using glm::dvec3;
+
+/// How far a particle may come in a substep beside what it moves freely, metres.
+constexpr double slack = 1e-3;
+
+struct Bounds {
+    dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
+
+    void add(const dvec3& point) {
+        low = {std::min(low.x, point.x), std::min(low.y, point.y), std::min(low.z, point.z)};
+        high = {std::max(high.x, point.x), std::max(high.y, point.y), std::max(high.z, point.z)};
+    }
+    void grow(double by) { low -= dvec3(by), high += dvec3(by); }
+    bool meets(const dvec3& other_low, const dvec3& other_high) const {
+        return low.x <= other_high.x && low.y <= other_high.y && low.z <= other_high.z && high.x >= other_low.x &&
+               high.y >= other_low.y && high.z >= other_low.z;
+    }
+};
+
+}  // namespace
+
+void Substep::find_near() {
+    scratch_.near.clear();
+    if (state_.colliders.empty()) return;
+    for (World::Scratch::Moving& collider : scratch_.colliders) {
+        collider.size = size(collider.shape);
+        detail::bounds(collider.shape, collider.by, collider.low, collider.high);
+    }
+    Bounds whole;
+    scratch_.chunk_low.resize(plan_.chunks.size());
+    scratch_.chunk_high.resize(plan_.chunks.size());
+    for (std::size_t c = 0; c < plan_.chunks.size(); ++c) {
+        const World::Plan::Chunk& chunk = plan_.chunks[c];
+        Bounds bounds;
+        double farthest = 0.0;
+        for (std::uint32_t i = chunk.first; i < chunk.first + chunk.count; ++i) {
+            const dvec3 by = scratch_.place[i] - state_.position[i];
+            farthest = std::max(farthest, detail::dot(by, by));
+            bounds.add(scratch_.place[i]);
+            bounds.add(state_.position[i]);
+        }
+        bounds.grow(std::sqrt(farthest) + state_.bodies[chunk.body].radius + chunk.reach + slack);
+        scratch_.chunk_low[c] = bounds.low;
+        scratch_.chunk_high[c] = bounds.high;
+        whole.add(bounds.low);
+        whole.add(bounds.high);
+    }
+    // What is far from everything costs nothing further.
+    scratch_.close.clear();
+    for (std::uint32_t k = 0; k < scratch_.colliders.size(); ++k) {
+        if (whole.meets(scratch_.colliders[k].low, scratch_.colliders[k].high)) scratch_.close.push_back(k);
+    }
+    for (std::uint32_t c = 0; c < plan_.chunks.size(); ++c) {
+        const Bounds chunk{scratch_.chunk_low[c], scratch_.chunk_high[c]};
+        for (const std::uint32_t k : scratch_.close) {
+            const World::Scratch::Moving& collider = scratch_.colliders[k];
+            const bool meets = chunk.meets(collider.low, collider.high);
+            if (meets && !detail::beyond(collider.shape, chunk.low, chunk.high)) scratch_.near.push_back({c, k});
+        }
+    }
+}
+
+Touch& Substep::touch(std::uint32_t i, std::uint32_t collider, const dvec3& normal) {
+    Touch& touch = scratch_.touch[i];
+    if (!touch.touching) {
+        touch.touching = true;
+        touch.carried = scratch_.colliders[collider].by;
+        touch.normal = normal;
+        scratch_.touched.push_back(i);
+    }
+    return touch;
+}
+
+double Substep::grip(std::uint32_t i) {
+    Touch& touch = scratch_.touch[i];
+    const double pressed = detail::dot(touch.push, touch.normal);
+    const dvec3 rubbed = touch.push - pressed * touch.normal;
+    const dvec3 slip = scratch_.place[i] - state_.position[i] - touch.carried;
+    dvec3 wanted = rubbed - (slip - detail::dot(slip, touch.normal) * touch.normal);
+    const double size = detail::length(wanted), most = static_cast<double>(state_.settings.friction) * pressed;
+    touch.grips = size < most;
+    if (size > most) wanted = (most / size) * wanted;
+    scratch_.place[i] += wanted - rubbed;
+    touch.push = pressed * touch.normal + wanted;
+    return detail::length(wanted - rubbed);
+}
+
+double Substep::settle() {
+    double farthest = 0.0;
+    std::size_t kept = 0;
+    for (const std::uint32_t i : scratch_.touched) {
+        Touch& touch = scratch_.touch[i];
+        if (detail::dot(touch.push, touch.normal) > 0.0) {
+            farthest = std::max(farthest, grip(i));
+            scratch_.touched[kept++] = i;
+            continue;
+        }
+        scratch_.place[i] -= touch.push;  // a collider does not pull
+        farthest = std::max(farthest, detail::length(touch.push));
+        touch = Touch{};
+    }
+    scratch_.touched.resize(kept);
+    return farthest;
+}
+
+double Substep::push_out(bool first) {
+    double farthest = 0.0;
+    for (const World::Scratch::Near& near : scratch_.near) {
+        const World::Plan::Chunk& chunk = plan_.chunks[near.chunk];
+        const double radius = state_.bodies[chunk.body].radius;
+        for (std::uint32_t i = chunk.first; i < chunk.first + chunk.count; ++i) {
+            farthest = std::max(farthest, push_particle(i, near.collider, radius, first));
+        }
+        // Where links are longer than the collider is thick it could slip through between two particles.
+        if (chunk.reach <= scratch_.colliders[near.collider].size) continue;
+        for (std::uint32_t l = 0; l < chunk.links; ++l) {
+            const Link& link = state_.links[plan_.chunk_links[chunk.first_link + l]];
+            farthest = std::max(farthest, push_link(link, near.collider, radius));
+        }
+    }
+    return farthest;
+}
+
+double Substep::push_particle(std::uint32_t i, std::uint32_t number, double radius, bool first) {
+    if (scratch_.weight[i] == 0.0) return 0.0;
+    const World::Scratch::Moving& collider = scratch_.colliders[number];
+    dvec3& place = scratch_.place[i];
+    SurfaceDistance surface = surface_distance(collider.shape, place);
+    if (first) {
+        // As the collider sees it, from where it came. Something fast is stopped on the side that it came from.
+        const dvec3 from = state_.position[i] + collider.by, way = place - from;
+        const double far = detail::length(way), step = 0.5 * collider.size + radius;
+        if (far > step && surface.distance < far + radius) {
+            const int looks = static_cast<int>(std::min(64.0, std::ceil(far / std::max(step, 1e-9))));
+            for (int k = 0; k < looks; ++k) {
+                const dvec3 on_the_way = from + (static_cast<double>(k) / looks) * way;
+                const SurfaceDistance there = surface_distance(collider.shape, on_the_way);
+                if (there.distance >= radius) continue;
+                place = on_the_way;
+                surface = there;
+                break;
+            }
+        }
+    }
+    const double depth = radius - surface.distance;
+    if (!(depth > 0.0)) return 0.0;
+    place += depth * surface.normal;
+    Touch& contact = touch(i, number, surface.normal);
+    if (detail::dot(contact.normal, surface.normal) < 0.9) return depth;  // the second of two
+    contact.push += depth * surface.normal;
+    return std::max(depth, grip(i));
+}
+
+double Substep::push_link(const Link& link, std::uint32_t number, double radius) {
+    const World::Scratch::Moving& collider = scratch_.colliders[number];
+    if (link.rest <= collider.size) return 0.0;
+    dvec3 &a = scratch_.place[link.a], &b = scratch_.place[link.b];
+    const double t = detail::nearest_on_line(collider.shape, a, b);
+    if (t <= 0.0 || t >= 1.0) return 0.0;
+    const SurfaceDistance surface = surface_distance(collider.shape, a + t * (b - a));
+    const double depth = radius - surface.distance;
+    const double share_a = scratch_.weight[link.a] * (1.0 - t), share_b = scratch_.weight[link.b] * t;
+    const double shares = share_a * (1.0 - t) + share_b * t;
+    if (!(depth > 0.0) || shares <= 0.0) return 0.0;
+    const auto push = [&](std::uint32_t i, double by) {
+        if (by <= 0.0) return;
+        scratch_.place[i] += by * surface.normal;
+        Touch& contact = touch(i, number, surface.normal);
+        if (detail::dot(contact.normal, surface.normal) < 0.9) return;
+        contact.push += by * surface.normal;
+        grip(i);
+    };
+    push(link.a, depth * share_a / shares);
+    push(link.b, depth * share_b / shares);
+    return depth;
+}
+
+}  // namespace tendril::rope

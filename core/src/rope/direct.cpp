@@ -1,0 +1,241 @@
+// The direct solver: whole runs at once, as many side by side as a vector register has lanes.
+//
+// A run that nothing else is linked to first takes in the tension that it had, then one or two passes make its
+// lengths right. Where it moves too fast for that (a whip cracks), or would gain energy, it begins again with
+// what tension was found, pulling along where its links will be: that converges, and costs energy.
+#include <algorithm>
+#include <cmath>
+
+#include "rope/geometry.hpp"
+#include "rope/substep.hpp"
+
+namespace tendril::rope {
+namespace {
+
+using detail::Block;
+using detail::Order;
+using detail::Row;
+using glm::dvec3;
+
+constexpr double arrived = 1e-7;      ///< relative length error that is made no better
+constexpr double good_enough = 1e-4;  ///< a run with more begins again
+constexpr double at_rest = 1e-7;      ///< metres: contacts that move things by less have settled
+constexpr int beginnings = 6;
+/// Of a perfect pull along the mean so much is left out: it takes the jitter of single particles away within a
+/// second, and from a pendulum of a second's period a few percent of its energy in a minute.
+constexpr double least_backward = 0.01;
+
+}  // namespace
+
+/// Runs that are solved side by side: `count` of them from `run` on, in the lanes of a block.
+struct Substep::Batch {
+    std::uint32_t run = 0, count = 1;
+    bool single = false;
+};
+
+int Substep::direct() {
+    for (const std::uint32_t i : plan_.soft) scratch_.pull[i] = 0.0;
+    for (const World::Plan::Run& run : plan_.runs) {
+        if (!run.alone) std::fill_n(scratch_.pull.begin() + run.first_link, run.links, 0.0);
+    }
+    int passes = 0;
+    double worst = 0.0;
+    while (passes < state_.settings.iterations) {
+        double moved = passes > 0 ? settle() : 0.0;
+        if (!scratch_.near.empty()) moved = std::max(moved, push_out(passes == 0));
+        if (passes > 0 && worst <= good_enough && moved <= at_rest) break;
+        satisfy_soft();
+        worst = 0.0;
+        for (const World::Plan::Group& group : plan_.groups) worst = std::max(worst, solve_group(group, passes));
+        ++passes;
+        if (plan_.all_alone && scratch_.touched.empty() && scratch_.near.empty()) break;
+    }
+    limit_energy();
+    return passes;
+}
+
+double Substep::solve_group(const World::Plan::Group& group, int iteration) {
+    double worst = 0.0;
+    const auto lanes = static_cast<std::uint32_t>(scratch_.unit.lanes);
+    for (std::uint32_t done = 0; done < group.runs;) {
+        const std::uint32_t left = group.runs - done;
+        // A few runs are quicker one by one than in a register that is mostly empty.
+        const bool single = left < 2 || lanes == 1;
+        const std::uint32_t count = single ? 1 : std::min(left, lanes);
+        worst = std::max(worst, solve_batch({group.first_run + done, count, single}, iteration));
+        done += count;
+    }
+    return worst;
+}
+
+double Substep::solve_batch(const Batch& batch, int iteration) {
+    const World::Plan::Run& first = plan_.runs[batch.run];
+    Block block{scratch_.block.data() + scratch_.block_offset, first.links, batch.single ? 1 : scratch_.unit.lanes};
+    Order order;
+    gather(block, batch, order.touching);
+    order.implicit = first.alone && iteration == 0;
+    order.backward = least_backward;
+    order.passes = first.alone ? 2 : 1;
+    order.tolerance = arrived;
+    (batch.single ? scratch_.unit.single : scratch_.unit.solve)(block, order);
+    double worst = 0.0;
+    for (std::uint32_t lane = 0; lane < batch.count; ++lane) {
+        const std::uint32_t run = batch.run + lane;
+        scratch_.run_worst[run] = order.worst[lane];
+        scatter(block, lane, run);
+    }
+    for (std::uint32_t run = batch.run; run < batch.run + batch.count; ++run) {
+        if (first.alone && iteration < beginnings) again(run);
+        worst = std::max(worst, scratch_.run_worst[run]);
+    }
+    return worst;
+}
+
+void Substep::again(std::uint32_t run) {
+    const bool free = undisturbed(run);
+    const bool gains = free && energy_gained(run) > 1e-4 * energy_scale(run);
+    if (scratch_.run_worst[run] <= good_enough && !gains) return;
+    const World::Plan::Run& it = plan_.runs[run];
+    Block block{scratch_.block.data() + scratch_.block_offset, it.links, 1};
+    const int most = std::min(beginnings, state_.settings.iterations);
+    for (std::uint32_t k = it.first_link; k < it.first_link + it.links; ++k) {
+        scratch_.pull[k] = static_cast<double>(state_.links[k].tension) * (h_ * h_);
+    }
+    for (int i = 0; i < most; ++i) {
+        Order order;
+        gather(block, {run, 1, true}, order.touching);
+        order.implicit = true;
+        order.backward = 1.0;
+        order.passes = i + 1 < most ? 2 : 8;
+        order.tolerance = arrived;
+        scratch_.unit.single(block, order);
+        scratch_.run_worst[run] = order.worst[0];
+        scatter(block, 0, run);
+        if (order.worst[0] <= good_enough) break;
+    }
+}
+
+void Substep::gather(const Block& block, const Batch& batch, bool& touching) const {
+    touching = false;
+    const World::Plan::Run& first = plan_.runs[batch.run];
+    const auto put = [](double* at, const dvec3& value, std::size_t lanes) {
+        at[0] = value.x, at[lanes] = value.y, at[2 * lanes] = value.z;
+    };
+    for (std::size_t lane = 0; lane < block.lanes; ++lane) {
+        const World::Plan::Run& run = plan_.runs[batch.run + std::min<std::size_t>(lane, batch.count - 1)];
+        for (std::uint32_t k = 0; k <= first.links; ++k) {
+            const std::uint32_t i = plan_.nodes[run.first_node + k];
+            const Touch& touch = scratch_.touch[i];
+            double* const node = block.at(k, 0) + lane;
+            const auto row = [&](std::size_t which) -> double* { return node + which * block.lanes; };
+            put(row(Row::X), scratch_.place[i], block.lanes);
+            put(row(Row::BaseX), scratch_.base[i] + touch.push, block.lanes);
+            put(row(Row::OldX), state_.position[i] - state_.moved[i], block.lanes);
+            *row(Row::Weight) = scratch_.weight[i];
+            *row(Row::Grip) = touch.grips ? 1.0 : 0.0;
+            put(row(Row::NormalX), touch.normal, block.lanes);
+            put(row(Row::HeldX), dvec3(0.0), block.lanes);
+            touching = touching || touch.touching;
+            if (k == run.links) continue;
+            const Link& link = state_.links[run.first_link + k];
+            *row(Row::Rest) = link.rest;
+            *row(Row::Give) = compliance_of(link) / (h_ * h_);
+            *row(Row::Pull) = scratch_.pull[run.first_link + k];
+        }
+    }
+    if (touching) loosen(block);
+}
+
+/// Where both ends of a link are gripped though it is too long or short, the grip has to give.
+void Substep::loosen(const Block& block) const {
+    for (std::size_t k = 0; k < block.links; ++k) {
+        for (std::size_t lane = 0; lane < block.lanes; ++lane) {
+            const auto at = [&](std::size_t node, std::size_t row) -> double& { return block.at(node, row)[lane]; };
+            if (at(k, Row::Grip) == 0.0 || at(k + 1, Row::Grip) == 0.0) continue;
+            const dvec3 by{at(k + 1, Row::X) - at(k, Row::X), at(k + 1, Row::Y) - at(k, Row::Y),
+                           at(k + 1, Row::Z) - at(k, Row::Z)};
+            const double rest = at(k, Row::Rest);
+            if (std::abs(detail::length(by) - rest) <= good_enough * rest) continue;
+            at(k, Row::Grip) = at(k + 1, Row::Grip) = 0.0;
+        }
+    }
+}
+
+void Substep::scatter(const Block& block, std::uint32_t lane, std::uint32_t number) {
+    const World::Plan::Run& run = plan_.runs[number];
+    for (std::uint32_t k = 0; k <= run.links; ++k) {
+        const std::uint32_t i = plan_.nodes[run.first_node + k];
+        const double* const node = block.at(k, 0) + lane;
+        const auto row = [&](std::size_t which) { return node[which * block.lanes]; };
+        if (scratch_.weight[i] > 0.0) scratch_.place[i] = {row(Row::X), row(Row::Y), row(Row::Z)};
+        if (scratch_.touch[i].touching) {
+            scratch_.touch[i].push -= dvec3(row(Row::HeldX), row(Row::HeldY), row(Row::HeldZ));
+        }
+        if (k < run.links) scratch_.pull[run.first_link + k] = row(Row::Pull);
+    }
+}
+
+/// Whether only gravity and the run's own links have worked on it.
+bool Substep::undisturbed(std::uint32_t number) const {
+    const World::Plan::Run& run = plan_.runs[number];
+    if (!run.alone) return false;
+    for (std::uint32_t k = 0; k <= run.links; ++k) {
+        const std::uint32_t i = plan_.nodes[run.first_node + k];
+        const bool pulled = scratch_.weight[i] == 0.0 && scratch_.place[i] != state_.position[i];
+        if (pulled || scratch_.touch[i].touching) return false;
+    }
+    return true;
+}
+
+/// Joules that the run has more of than before the substep: kinetic energy by the displacements, and potential.
+double Substep::energy_gained(std::uint32_t number) const {
+    const World::Plan::Run& run = plan_.runs[number];
+    double gained = 0.0;
+    for (std::uint32_t k = 0; k <= run.links; ++k) {
+        const std::uint32_t i = plan_.nodes[run.first_node + k];
+        if (scratch_.weight[i] == 0.0) continue;
+        const dvec3 now = scratch_.place[i] - state_.position[i], then = state_.moved[i];
+        const double kinetic = (detail::dot(now, now) - detail::dot(then, then)) / (h_ * h_);
+        gained += 0.5 * state_.mass[i] * (kinetic - detail::dot(acceleration_, now + then));
+    }
+    for (std::uint32_t k = 0; k < run.links; ++k) {
+        gained += elastic_energy(run.first_link + k, scratch_.pull[run.first_link + k] / (h_ * h_));
+        gained -= elastic_energy(run.first_link + k, state_.links[run.first_link + k].tension);
+    }
+    return gained;
+}
+
+double Substep::elastic_energy(std::uint32_t number, double tension) const {
+    return 0.5 * compliance_of(state_.links[number]) * tension * tension;
+}
+
+/// What energy a run has to do with: its weight times its length.
+double Substep::energy_scale(std::uint32_t number) const {
+    const World::Plan::Run& run = plan_.runs[number];
+    double mass = 0.0, length = 0.0;
+    for (std::uint32_t k = 0; k < run.links; ++k) {
+        mass += state_.mass[plan_.nodes[run.first_node + k]];
+        length += state_.links[run.first_link + k].rest;
+    }
+    return mass * length * detail::length(acceleration_);
+}
+
+/// A run that gained energy for all that moves on a little slower.
+void Substep::limit_energy() {
+    for (std::uint32_t r = 0; r < plan_.runs.size(); ++r) {
+        if (!undisturbed(r)) continue;
+        const double gained = energy_gained(r);
+        if (!(gained > 1e-9 * energy_scale(r))) continue;
+        double kinetic = 0.0;
+        const World::Plan::Run& run = plan_.runs[r];
+        for (std::uint32_t k = 0; k <= run.links; ++k) {
+            const std::uint32_t i = plan_.nodes[run.first_node + k];
+            if (scratch_.weight[i] == 0.0) continue;
+            const dvec3 now = scratch_.place[i] - state_.position[i];
+            kinetic += 0.5 * state_.mass[i] * detail::dot(now, now) / (h_ * h_);
+        }
+        if (kinetic > 0.0) scratch_.run_scale[r] = std::sqrt(std::max(0.0, 1.0 - gained / kinetic));
+    }
+}
+
+}  // namespace tendril::rope

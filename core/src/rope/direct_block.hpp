@@ -1,0 +1,59 @@
+// Several runs side by side in memory, one a lane, for the direct solver. Not installed.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+namespace tendril::rope::detail {
+
+/// Rows of a node. A node is a particle of a run; its link leads to the next node.
+enum Row : std::size_t {
+    X, Y, Z,           ///< where it is
+    BaseX, BaseY, BaseZ,  ///< where it would be without any tension
+    OldX, OldY, OldZ,  ///< where it was one substep before the last; then: the unit direction of its link there
+    Weight,            ///< inverse mass; 0: it is held
+    Grip,              ///< 1 where friction holds it, else 0
+    NormalX, NormalY, NormalZ,  ///< of what it touches; it does not move along it; 0: it touches nothing
+    HeldX, HeldY, HeldZ,        ///< out: what grip and normal kept it from moving, added up
+    Rest,              ///< of its link: length
+    Give,              ///< compliance, m/N, over h^2
+    Pull,              ///< tension times h^2
+    PullX, PullY, PullZ,  ///< the direction that its tension works in
+    Upper, Right,      ///< of the tridiagonal system
+    rows
+};
+
+inline constexpr std::size_t most_lanes = 8;
+
+/// Runs of `links` links each, in `lanes` lanes. Where there are fewer runs the last one is there again.
+struct Block {
+    double* data = nullptr;  ///< aligned to 64 bytes
+    std::size_t links = 0;
+    std::size_t lanes = 1;
+
+    double* at(std::size_t node, std::size_t row) const { return data + (node * rows + row) * lanes; }
+    static std::size_t doubles(std::size_t links, std::size_t lanes) { return (links + 1) * rows * lanes; }
+};
+
+/// What the solver does to a block. What it says is one value a lane.
+struct Order {
+    bool implicit = false;    ///< first take the tension that there is in implicitly
+    double backward = 0.0;    ///< 0: pull along the mean of before and after; 1: after
+    int passes = 2;           ///< at most
+    double tolerance = 1e-7;  ///< relative length error at which a lane is done
+    bool touching = false;    ///< whether any normal is not 0
+    double worst[most_lanes];  ///< out: the largest relative length error
+    int taken = 0;             ///< out: passes taken
+};
+
+using SolveBlock = void(const Block& block, Order& order);
+
+struct VectorUnit {
+    SolveBlock* solve = nullptr;   ///< lanes at a time
+    SolveBlock* single = nullptr;  ///< one lane
+    std::size_t lanes = 1;
+};
+/// The widest there is, or that of a name as ik::vector_units() has it; empty for an unknown name.
+VectorUnit vector_unit(std::string_view name) noexcept;
+
+}  // namespace tendril::rope::detail

@@ -1,0 +1,250 @@
+// The direct solver on a block, for a register of any width. Not installed; it is included once for each vector
+// unit.
+//
+// Let q_k be the direction in which link k pulls, n_k the one in which it lies, and W_k the inverse mass of
+// node k, a matrix where the node touches something. To first order link k gets shorter by
+//
+//     -n_k W_k q_{k-1} t_{k-1} + n_k (W_k + W_{k+1}) q_k t_k - n_k W_{k+1} q_{k+1} t_{k+1}
+//
+// for pulls t: one tridiagonal system a run. No operation is fused, so every lane has the same bits with every
+// vector unit.
+#if defined(TENDRIL_ROPE_DIRECT_STEP_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENDRIL_ROPE_DIRECT_STEP_INL
+#undef TENDRIL_ROPE_DIRECT_STEP_INL
+#else
+#define TENDRIL_ROPE_DIRECT_STEP_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include "rope/direct_block.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace tendril::rope::detail {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class D>
+struct Vector3 {
+    hn::Vec<D> x, y, z;
+};
+
+template <class D>
+class BlockSolver {
+    using V = hn::Vec<D>;
+    using V3 = Vector3<D>;
+
+  public:
+    explicit BlockSolver(const Block& block) : block_(block) {}
+
+    void run(Order& order) {
+        lay_old_directions();
+        if (order.implicit) take_implicitly(order);
+        V worst = order.passes > 0 ? largest_error() : hn::Zero(d_);
+        order.taken = 0;
+        for (int pass = 0; pass < order.passes; ++pass) {
+            const auto open = hn::Gt(worst, hn::Set(d_, order.tolerance));
+            if (hn::AllFalse(d_, open)) break;
+            order.touching ? improve<true>(open, order) : improve<false>(open, order);
+            worst = largest_error();
+            ++order.taken;
+        }
+        HWY_ALIGN double lanes[most_lanes] = {};
+        hn::Store(worst, d_, lanes);
+        for (std::size_t i = 0; i < block_.lanes; ++i) order.worst[i] = lanes[i];
+    }
+
+  private:
+    V load(std::size_t node, std::size_t row) const { return hn::Load(d_, block_.at(node, row)); }
+    V3 load3(std::size_t node, std::size_t row) const {
+        return {load(node, row), load(node, row + 1), load(node, row + 2)};
+    }
+    void store(V value, std::size_t node, std::size_t row) const { hn::Store(value, d_, block_.at(node, row)); }
+    void store3(const V3& value, std::size_t node, std::size_t row) const {
+        store(value.x, node, row), store(value.y, node, row + 1), store(value.z, node, row + 2);
+    }
+    V set(double value) const { return hn::Set(d_, value); }
+    static V3 plus(const V3& a, const V3& b) { return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)}; }
+    static V3 minus(const V3& a, const V3& b) { return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)}; }
+    static V3 times(V by, const V3& a) { return {hn::Mul(by, a.x), hn::Mul(by, a.y), hn::Mul(by, a.z)}; }
+    static V dot(const V3& a, const V3& b) {
+        return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+    }
+    /// The unit vector, and the length; +X where it has none to speak of.
+    V3 unit(const V3& a, V& length) const {
+        length = hn::Sqrt(dot(a, a));
+        const auto none = hn::Lt(length, set(1e-30));
+        const V inverse = hn::Div(set(1.0), hn::Max(length, set(1e-30)));
+        const V3 along = times(inverse, a);
+        return {hn::IfThenElse(none, set(1.0), along.x), hn::IfThenZeroElse(none, along.y),
+                hn::IfThenZeroElse(none, along.z)};
+    }
+
+    void lay_old_directions() const {
+        V length;
+        V3 from = load3(0, OldX);
+        for (std::size_t k = 0; k < block_.links; ++k) {
+            const V3 to = load3(k + 1, OldX);
+            store3(unit(minus(to, from), length), k, OldX);
+            from = to;
+        }
+    }
+
+    /// Half of the tension there is, over the length: the force that a metre between the nodes makes. Its
+    /// bound keeps a rope that cannot be as short as its pins ask from drowning all other digits.
+    V stiffness(std::size_t k) const {
+        const V both = hn::Add(load(k, Weight), load(k + 1, Weight));
+        const V length = hn::Max(load(k, Rest), set(1e-9));
+        const V half = hn::Div(hn::Mul(set(0.5), hn::Max(load(k, Pull), hn::Zero(d_))), length);
+        return hn::Min(half, hn::Div(set(1e8), hn::Max(both, set(1e-30))));
+    }
+
+    /// Nodes move from their base by tensions along the old and the new directions. Tension has no way to push
+    /// sideways here: all three coordinates share one tridiagonal matrix.
+    void take_implicitly(const Order& order) const {
+        const V ahead = set(1.0 + order.backward), behind = set(1.0 - order.backward);
+        V stiff_before = hn::Zero(d_), upper = hn::Zero(d_);
+        V3 old_before{hn::Zero(d_), hn::Zero(d_), hn::Zero(d_)}, right = old_before;
+        for (std::size_t k = 0; k <= block_.links; ++k) {
+            const bool last = k == block_.links;
+            const V weight = hn::Sub(load(k, Weight), hn::Mul(load(k, Weight), load(k, Grip)));
+            const V stiff = last ? hn::Zero(d_) : stiffness(k);
+            const V3 old = last ? V3{hn::Zero(d_), hn::Zero(d_), hn::Zero(d_)}
+                                : times(hn::Mul(stiff, load(k, Rest)), load3(k, OldX));
+            const V up = hn::Mul(hn::Mul(weight, ahead), stiff);
+            const V down = hn::Mul(hn::Mul(weight, ahead), stiff_before);
+            const V pivot = hn::Add(hn::Add(hn::Add(set(1.0), up), down), hn::Mul(down, upper));
+            const V inverse = hn::Div(set(1.0), pivot);
+            const V3 pulled = times(hn::Mul(weight, behind), minus(old, old_before));
+            right = times(inverse, plus(plus(load3(k, BaseX), pulled), times(down, right)));
+            upper = hn::Neg(hn::Mul(up, inverse));
+            store(upper, k, Upper);
+            store3(right, k, X);
+            // What was taken in is what counts from here on.
+            if (!last) store(hn::Mul(hn::Mul(set(2.0), stiff), hn::Max(load(k, Rest), set(1e-9))), k, Pull);
+            stiff_before = stiff;
+            old_before = old;
+        }
+        V3 behind_it = right;
+        for (std::size_t k = block_.links; k-- > 0;) {
+            behind_it = minus(load3(k, X), times(load(k, Upper), behind_it));
+            store3(behind_it, k, X);
+        }
+        if (order.touching) keep_out_of_contacts();
+    }
+
+    /// What the tension moved along normals, or what grips, goes back, and is remembered.
+    void keep_out_of_contacts() const {
+        for (std::size_t k = 0; k <= block_.links; ++k) {
+            const V3 normal = load3(k, NormalX), by = minus(load3(k, X), load3(k, BaseX));
+            const V3 held = times(dot(by, normal), normal);
+            store3(minus(load3(k, X), held), k, X);
+            store3(plus(load3(k, HeldX), held), k, HeldX);
+        }
+    }
+
+    V largest_error() const {
+        V worst = hn::Zero(d_);
+        V3 from = load3(0, X);
+        for (std::size_t k = 0; k < block_.links; ++k) {
+            const V3 to = load3(k + 1, X), by = minus(to, from);
+            const V rest = load(k, Rest);
+            const V error = hn::Sub(hn::Sub(hn::Sqrt(dot(by, by)), rest), hn::Mul(load(k, Give), load(k, Pull)));
+            worst = hn::Max(worst, hn::Div(hn::Abs(error), hn::Max(rest, set(1e-9))));
+            from = to;
+        }
+        return worst;
+    }
+
+    /// A displacement that pulls on node k with `by` moves it by this.
+    template <bool touching>
+    V3 yield(std::size_t k, const V3& by) const {
+        const V weight = load(k, Weight);
+        if constexpr (!touching) return times(weight, by);
+        const V3 normal = load3(k, NormalX);
+        const V3 along = minus(by, times(dot(by, normal), normal));
+        return times(hn::Sub(weight, hn::Mul(weight, load(k, Grip))), along);
+    }
+
+    /// One pass: the lengths made right to first order, where `open`.
+    template <bool touching, class M>
+    void improve(M open, const Order& order) const {
+        eliminate<touching>(order);
+        const V zero = hn::Zero(d_);
+        V pull_after = zero;
+        V3 pulls_after{zero, zero, zero};  // pull and direction of the link after
+        for (std::size_t k = block_.links; k-- > 0;) {
+            pull_after = hn::Sub(load(k, Right), hn::Mul(load(k, Upper), pull_after));
+            const V pull = hn::IfThenElseZero(open, pull_after);
+            store(hn::Add(load(k, Pull), pull), k, Pull);
+            const V3 pulls = times(pull, load3(k, PullX));
+            move<touching>(k + 1, minus(pulls_after, pulls));
+            pulls_after = pulls;
+        }
+        move<touching>(0, pulls_after);
+    }
+
+    template <bool touching>
+    void move(std::size_t k, const V3& by) const {
+        const V3 moves = yield<touching>(k, by);
+        store3(plus(load3(k, X), moves), k, X);
+        if constexpr (touching) {
+            const V3 wanted = times(load(k, Weight), by);
+            store3(plus(load3(k, HeldX), minus(wanted, moves)), k, HeldX);
+        }
+    }
+
+    template <bool touching>
+    void eliminate(const Order& order) const {
+        const V zero = hn::Zero(d_), after = set(0.5 * (1.0 + order.backward)),
+                before = set(0.5 * (1.0 - order.backward));
+        V upper_before = zero, right_before = zero;
+        V3 pull_before{zero, zero, zero}, lies_before = pull_before;
+        V3 from = load3(0, X);
+        for (std::size_t k = 0; k < block_.links; ++k) {
+            const V3 to = load3(k + 1, X);
+            V length;
+            const V3 lies = unit(minus(to, from), length), old = load3(k, OldX);
+            // Over a right angle in two substeps is too fast for the mean to be of use.
+            const auto slow = hn::Gt(dot(lies, old), zero);
+            const V3 mean = plus(times(after, lies), times(before, old));
+            const V3 pull{hn::IfThenElse(slow, mean.x, lies.x), hn::IfThenElse(slow, mean.y, lies.y),
+                          hn::IfThenElse(slow, mean.z, lies.z)};
+            store3(pull, k, PullX);
+            const V give = load(k, Give);
+            const V error = hn::Sub(hn::Sub(length, load(k, Rest)), hn::Mul(give, load(k, Pull)));
+            const V3 yields = yield<touching>(k, pull);
+            const V both = hn::Add(load(k, Weight), load(k + 1, Weight));
+            const V diagonal = hn::Add(hn::Add(dot(lies, yields), dot(lies, yield<touching>(k + 1, pull))), give);
+            const V lower = hn::Neg(dot(lies, yield<touching>(k, pull_before)));
+            const V up_before = hn::Neg(dot(lies_before, yields));  // of row k - 1
+            // The row before is finished only now that its upper entry is known.
+            V upper_ready = zero;
+            if (k > 0) {
+                upper_ready = hn::Mul(up_before, upper_before);
+                store(upper_ready, k - 1, Upper);
+            }
+            const V pivot = hn::Sub(hn::Add(diagonal, hn::Mul(set(1e-9), both)), hn::Mul(lower, upper_ready));
+            const V inverse = hn::Div(set(1.0), hn::Max(pivot, hn::Max(hn::Mul(set(1e-10), both), set(1e-30))));
+            // Between two nodes that are held there is nothing to solve.
+            const auto fixed = hn::Le(hn::Add(diagonal, zero), hn::Mul(set(1e-12), both));
+            right_before = hn::IfThenZeroElse(
+                fixed, hn::Mul(inverse, hn::Sub(error, hn::Mul(lower, right_before))));
+            upper_before = hn::IfThenZeroElse(fixed, inverse);
+            store(right_before, k, Right);
+            pull_before = pull;
+            lies_before = lies;
+            from = to;
+        }
+        store(zero, block_.links - 1, Upper);
+    }
+
+    D d_;
+    Block block_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tendril::rope::detail
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,41 @@
+// One link after the other, over and over.
+#include "rope/geometry.hpp"
+#include "rope/substep.hpp"
+
+namespace tendril::rope {
+
+/// Moves both ends by their share of the error, or the free one by all of it, or neither.
+void Substep::satisfy(std::uint32_t number, double compliance) {
+    const Link& link = state_.links[number];
+    const double weight_a = scratch_.weight[link.a], weight_b = scratch_.weight[link.b];
+    if (weight_a + weight_b == 0.0) return;
+    glm::dvec3 &a = scratch_.place[link.a], &b = scratch_.place[link.b];
+    const glm::dvec3 by = b - a;
+    const double length = detail::length(by), give = compliance / (h_ * h_);
+    const glm::dvec3 along = length > 1e-30 ? (1.0 / length) * by : glm::dvec3(1.0, 0.0, 0.0);
+    const double error = length - link.rest - give * scratch_.pull[number];
+    const double pull = error / (weight_a + weight_b + give);
+    scratch_.pull[number] += pull;
+    a += (weight_a * pull) * along;
+    b -= (weight_b * pull) * along;
+}
+
+void Substep::satisfy_soft() {
+    for (const std::uint32_t i : plan_.soft) satisfy(i, state_.links[i].compliance);
+}
+
+int Substep::relax(bool compliant) {
+    std::fill(scratch_.pull.begin(), scratch_.pull.end(), 0.0);
+    for (int pass = 0; pass < state_.settings.iterations; ++pass) {
+        push_out(pass == 0);
+        for (std::uint32_t i = 0; i < state_.links.size(); ++i) {
+            const Link& link = state_.links[i];
+            if (link.kind != Link::Kind::Stretch) continue;
+            satisfy(i, compliant ? compliance_of(link) : 0.0);
+        }
+        satisfy_soft();
+    }
+    return state_.settings.iterations;
+}
+
+}  // namespace tendril::rope

@@ -1,0 +1,52 @@
+// What a world works with while it is advanced; nothing in it is remembered. Not installed.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rope/direct_block.hpp"
+#include "rope/plan.hpp"
+
+namespace tendril::rope {
+
+/// A particle's touch with a collider, in one substep.
+struct Touch {
+    glm::dvec3 normal{0.0};
+    glm::dvec3 push{0.0};     ///< how the collider has moved it so far, metres
+    glm::dvec3 carried{0.0};  ///< how the collider itself moves in the substep
+    bool touching = false;
+    bool grips = false;  ///< friction holds it where the collider is
+};
+
+struct World::Scratch {
+    std::vector<glm::dvec3> place;   ///< where each particle is as yet
+    std::vector<glm::dvec3> base;    ///< where it would be if nothing held it
+    std::vector<double> weight;      ///< inverse mass; 0: pinned
+    std::vector<double> pull;        ///< of each link: tension times h^2
+    std::vector<Touch> touch;
+    std::vector<std::uint32_t> touched;  ///< particles with a touch
+    struct Near {
+        std::uint32_t chunk, collider;
+    };
+    std::vector<Near> near;            ///< chunk by chunk
+    std::vector<std::uint32_t> close;  ///< colliders that anything is near
+    std::vector<glm::dvec3> chunk_low, chunk_high;
+    struct Moving {
+        Shape shape;         ///< at the end of the substep
+        glm::dvec3 by{0.0};  ///< in the substep
+        glm::dvec3 low{0.0}, high{0.0};
+        double size = 0.0;
+    };
+    std::vector<Moving> colliders;
+    std::vector<double> run_worst;  ///< of each run: relative length error after its last pass
+    std::vector<double> run_scale;  ///< of each run: what its motion keeps, so that no energy is gained
+    std::vector<double> block;      ///< memory of a block
+    std::size_t block_offset = 0;
+    detail::VectorUnit unit;
+    std::string unit_name;
+    bool fresh = true;  ///< sizes are not those of the world
+};
+
+}  // namespace tendril::rope

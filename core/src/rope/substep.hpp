@@ -1,0 +1,63 @@
+// One fixed step of time. Not installed.
+#pragma once
+
+#include "rope/scratch.hpp"
+
+namespace tendril::rope {
+
+class Substep {
+  public:
+    Substep(State& state, const World::Plan& plan, World::Scratch& scratch);
+    /// Gives back how many passes the solver took.
+    int run();
+
+  private:
+    // advance.cpp
+    void move_colliders();
+    void move_particles();
+    void keep();
+
+    // contact.cpp: looks for what is near, and keeps it out
+    void find_near();
+    double push_out(bool first);                                ///< the farthest that anything was pushed
+    double push_particle(std::uint32_t i, std::uint32_t collider, double radius, bool first);
+    double push_link(const Link& link, std::uint32_t collider, double radius);
+    double grip(std::uint32_t i);                               ///< Coulomb's friction; how far it moved
+    double settle();                                            ///< lets go what is pulled off
+    Touch& touch(std::uint32_t i, std::uint32_t collider, const glm::dvec3& normal);
+
+    // last_push.cpp: what is still inside after the last pass
+    void push_out_for_good();
+
+    // relax.cpp: one link after the other
+    int relax(bool compliant);
+    void satisfy(std::uint32_t link, double compliance);
+    void satisfy_soft();
+
+    // direct.cpp: whole runs at once
+    struct Batch;
+    int direct();
+    double solve_group(const World::Plan::Group& group, int iteration);
+    double solve_batch(const Batch& batch, int iteration);
+    void again(std::uint32_t run);
+    void gather(const detail::Block& block, const Batch& batch, bool& touching) const;
+    void scatter(const detail::Block& block, std::uint32_t lane, std::uint32_t run);
+    void loosen(const detail::Block& block) const;
+    double energy_gained(std::uint32_t run) const;
+    double elastic_energy(std::uint32_t link, double tension) const;
+    double energy_scale(std::uint32_t run) const;
+    bool undisturbed(std::uint32_t run) const;
+    void limit_energy();
+
+    double compliance_of(const Link& link) const {
+        return static_cast<double>(state_.settings.compliance) * link.rest + link.compliance;
+    }
+
+    State& state_;
+    const World::Plan& plan_;
+    World::Scratch& scratch_;
+    double h_;
+    glm::dvec3 acceleration_;
+};
+
+}  // namespace tendril::rope
