@@ -163,6 +163,7 @@ double Substep::push_particle(std::uint32_t i, std::uint32_t number, double radi
     Touch& contact = touch(i, number, surface.normal);
     if (detail::dot(contact.normal, surface.normal) < 0.9) return depth;  // the second of two
     contact.push += depth * surface.normal;
+    contact.out += depth * surface.normal;
     return std::max(depth, grip(i));
 }
 
@@ -183,6 +184,7 @@ double Substep::push_link(const Link& link, std::uint32_t number, double radius)
         Touch& contact = touch(i, number, surface.normal);
         if (detail::dot(contact.normal, surface.normal) < 0.9) return;
         contact.push += by * surface.normal;
+        contact.out += by * surface.normal;
         grip(i);
     };
     push(link.a, depth * share_a / shares);

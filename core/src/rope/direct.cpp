@@ -19,11 +19,27 @@ using glm::dvec3;
 
 constexpr double arrived = 1e-7;      ///< relative length error that is made no better
 constexpr double good_enough = 1e-4;  ///< a run with more begins again
+constexpr double hopeless = 0.02;      ///< a run with more is relaxed instead
+constexpr int rescue_passes = 16;
 constexpr double at_rest = 1e-7;      ///< metres: contacts that move things by less have settled
+/// What friction holds does not move, but for a little: two particles that are held with a wrong length between
+/// them come right.
+constexpr double held_by_grip = 0.98;
 constexpr int beginnings = 6;
 /// Of a perfect pull along the mean so much is left out: it takes the jitter of single particles away within a
 /// second, and from a pendulum of a second's period a few percent of its energy in a minute.
 constexpr double least_backward = 0.01;
+
+}  // namespace
+
+namespace {
+
+/// Links that lie on something can be asked for lengths that they cannot have (a ball pushes farther into a taut
+/// rope than it is long). The longer it takes, the more their system is damped (Levenberg, Marquardt).
+double damping_of(bool touching, int iteration) {
+    if (!touching) return 1e-9;
+    return iteration < 4 ? 1e-4 : iteration < 8 ? 1e-3 : 1e-2;
+}
 
 }  // namespace
 
@@ -50,8 +66,37 @@ int Substep::direct() {
         ++passes;
         if (plan_.all_alone && scratch_.touched.empty() && scratch_.near.empty()) break;
     }
+    rescue();
     limit_energy();
     return passes;
+}
+
+/// A run that could not be solved (or not be: it is asked for the impossible) is relaxed: that always ends
+/// somewhere sensible.
+void Substep::rescue() {
+    bool any = false;
+    for (std::uint32_t r = 0; r < plan_.runs.size(); ++r) {
+        if (scratch_.run_worst[r] <= hopeless) continue;
+        any = true;
+        const World::Plan::Run& run = plan_.runs[r];
+        for (std::uint32_t k = 0; k <= run.links; ++k) {
+            const std::uint32_t i = plan_.nodes[run.first_node + k];
+            scratch_.place[i] = scratch_.base[i];
+            scratch_.touch[i].push = scratch_.touch[i].out = dvec3(0.0);
+        }
+    }
+    if (!any) return;
+    for (int pass = 0; pass < rescue_passes; ++pass) {
+        push_out(pass == 0);
+        for (std::uint32_t r = 0; r < plan_.runs.size(); ++r) {
+            const World::Plan::Run& run = plan_.runs[r];
+            if (scratch_.run_worst[r] <= hopeless) continue;
+            for (std::uint32_t k = run.first_link; k < run.first_link + run.links; ++k) {
+                scratch_.pull[k] = 0.0;  // whatever it was, it is not what held the run
+                satisfy(k, 0.0);
+            }
+        }
+    }
 }
 
 double Substep::solve_group(const World::Plan::Group& group, int iteration) {
@@ -74,8 +119,10 @@ double Substep::solve_batch(const Batch& batch, int iteration) {
     Order order;
     gather(block, batch, order.touching);
     order.implicit = first.alone && iteration == 0;
-    order.backward = least_backward;
+    // Where runs share particles each only undoes part of what the others did: the plain direction serves best.
+    order.backward = first.alone ? least_backward : 1.0;
     order.passes = first.alone ? 2 : 1;
+    order.damping = damping_of(order.touching, iteration);
     order.tolerance = arrived;
     (batch.single ? scratch_.unit.single : scratch_.unit.solve)(block, order);
     double worst = 0.0;
@@ -102,17 +149,30 @@ void Substep::again(std::uint32_t run) {
         scratch_.pull[k] = static_cast<double>(state_.links[k].tension) * (h_ * h_);
     }
     for (int i = 0; i < most; ++i) {
+        for (std::uint32_t k = 0; k <= it.links; ++k) {
+            forget_tension(plan_.nodes[it.first_node + k]);
+        }
         Order order;
         gather(block, {run, 1, true}, order.touching);
         order.implicit = true;
         order.backward = 1.0;
         order.passes = i + 1 < most ? 2 : 8;
+        order.damping = damping_of(order.touching, i);
         order.tolerance = arrived;
         scratch_.unit.single(block, order);
         scratch_.run_worst[run] = order.worst[0];
         scatter(block, 0, run);
         if (order.worst[0] <= good_enough) break;
     }
+}
+
+/// A push without what answered the tension: out of the collider, and what friction does without any.
+void Substep::forget_tension(std::uint32_t i) {
+    Touch& touch = scratch_.touch[i];
+    if (!touch.touching) return;
+    const auto along = [&](const dvec3& v) { return v - detail::dot(v, touch.normal) * touch.normal; };
+    const dvec3 slip = scratch_.base[i] + touch.out - state_.position[i] - touch.carried;
+    touch.push = touch.out + (touch.grips ? -along(slip) : along(touch.push));
 }
 
 void Substep::gather(const Block& block, const Batch& batch, bool& touching) const {
@@ -132,31 +192,15 @@ void Substep::gather(const Block& block, const Batch& batch, bool& touching) con
             put(row(Row::BaseX), scratch_.base[i] + touch.push, block.lanes);
             put(row(Row::OldX), state_.position[i] - state_.moved[i], block.lanes);
             *row(Row::Weight) = scratch_.weight[i];
-            *row(Row::Grip) = touch.grips ? 1.0 : 0.0;
-            put(row(Row::NormalX), touch.normal, block.lanes);
+            *row(Row::Grip) = touch.grips && run.alone ? held_by_grip : 0.0;
+            put(row(Row::NormalX), run.alone ? touch.normal : dvec3(0.0), block.lanes);
             put(row(Row::HeldX), dvec3(0.0), block.lanes);
-            touching = touching || touch.touching;
+            touching = touching || (touch.touching && run.alone);
             if (k == run.links) continue;
             const Link& link = state_.links[run.first_link + k];
             *row(Row::Rest) = link.rest;
             *row(Row::Give) = compliance_of(link) / (h_ * h_);
             *row(Row::Pull) = scratch_.pull[run.first_link + k];
-        }
-    }
-    if (touching) loosen(block);
-}
-
-/// Where both ends of a link are gripped though it is too long or short, the grip has to give.
-void Substep::loosen(const Block& block) const {
-    for (std::size_t k = 0; k < block.links; ++k) {
-        for (std::size_t lane = 0; lane < block.lanes; ++lane) {
-            const auto at = [&](std::size_t node, std::size_t row) -> double& { return block.at(node, row)[lane]; };
-            if (at(k, Row::Grip) == 0.0 || at(k + 1, Row::Grip) == 0.0) continue;
-            const dvec3 by{at(k + 1, Row::X) - at(k, Row::X), at(k + 1, Row::Y) - at(k, Row::Y),
-                           at(k + 1, Row::Z) - at(k, Row::Z)};
-            const double rest = at(k, Row::Rest);
-            if (std::abs(detail::length(by) - rest) <= good_enough * rest) continue;
-            at(k, Row::Grip) = at(k + 1, Row::Grip) = 0.0;
         }
     }
 }
@@ -168,7 +212,7 @@ void Substep::scatter(const Block& block, std::uint32_t lane, std::uint32_t numb
         const double* const node = block.at(k, 0) + lane;
         const auto row = [&](std::size_t which) { return node[which * block.lanes]; };
         if (scratch_.weight[i] > 0.0) scratch_.place[i] = {row(Row::X), row(Row::Y), row(Row::Z)};
-        if (scratch_.touch[i].touching) {
+        if (run.alone && scratch_.touch[i].touching) {
             scratch_.touch[i].push -= dvec3(row(Row::HeldX), row(Row::HeldY), row(Row::HeldZ));
         }
         if (k < run.links) scratch_.pull[run.first_link + k] = row(Row::Pull);

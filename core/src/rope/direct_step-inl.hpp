@@ -130,17 +130,29 @@ class BlockSolver {
             behind_it = minus(load3(k, X), times(load(k, Upper), behind_it));
             store3(behind_it, k, X);
         }
-        if (order.touching) keep_out_of_contacts();
+        if (order.touching) keep_out_of_contacts(order);
     }
 
-    /// What the tension moved along normals, or what grips, goes back, and is remembered.
-    void keep_out_of_contacts() const {
+    /// What the tension moved along normals goes back; that, and what it would have moved where something grips,
+    /// is remembered.
+    void keep_out_of_contacts(const Order& order) const {
+        V3 pull_before{hn::Zero(d_), hn::Zero(d_), hn::Zero(d_)};
         for (std::size_t k = 0; k <= block_.links; ++k) {
             const V3 normal = load3(k, NormalX), by = minus(load3(k, X), load3(k, BaseX));
             const V3 held = times(dot(by, normal), normal);
-            store3(minus(load3(k, X), held), k, X);
-            store3(plus(load3(k, HeldX), held), k, HeldX);
+            const V3 pull = k < block_.links ? pull_along_mean(k, order) : V3{hn::Zero(d_), hn::Zero(d_), hn::Zero(d_)};
+            const V3 resisted = times(hn::Mul(load(k, Weight), load(k, Grip)), minus(pull, pull_before));
+            store3(plus(load3(k, HeldX), plus(held, resisted)), k, HeldX);
+            store3(held, k, PullX);  // taken off below, when no neighbour needs the place any more
+            pull_before = pull;
         }
+        for (std::size_t k = 0; k <= block_.links; ++k) store3(minus(load3(k, X), load3(k, PullX)), k, X);
+    }
+    V3 pull_along_mean(std::size_t k, const Order& order) const {
+        const V length = hn::Max(load(k, Rest), set(1e-9));
+        const V stiff = hn::Div(hn::Mul(set(0.5), load(k, Pull)), length);
+        const V3 now = minus(load3(k + 1, X), load3(k, X)), old = times(load(k, Rest), load3(k, OldX));
+        return times(stiff, plus(times(set(1.0 + order.backward), now), times(set(1.0 - order.backward), old)));
     }
 
     V largest_error() const {
@@ -224,7 +236,7 @@ class BlockSolver {
                 upper_ready = hn::Mul(up_before, upper_before);
                 store(upper_ready, k - 1, Upper);
             }
-            const V pivot = hn::Sub(hn::Add(diagonal, hn::Mul(set(1e-9), both)), hn::Mul(lower, upper_ready));
+            const V pivot = hn::Sub(hn::Add(diagonal, hn::Mul(set(order.damping), both)), hn::Mul(lower, upper_ready));
             const V inverse = hn::Div(set(1.0), hn::Max(pivot, hn::Max(hn::Mul(set(1e-10), both), set(1e-30))));
             // Between two nodes that are held there is nothing to solve.
             const auto fixed = hn::Le(hn::Add(diagonal, zero), hn::Mul(set(1e-12), both));

@@ -15,6 +15,7 @@ namespace tendril::rope {
 struct Touch {
     glm::dvec3 normal{0.0};
     glm::dvec3 push{0.0};     ///< how the collider has moved it so far, metres
+    glm::dvec3 out{0.0};      ///< what of that was because it was inside, and not because of tension or friction
     glm::dvec3 carried{0.0};  ///< how the collider itself moves in the substep
     bool touching = false;
     bool grips = false;  ///< friction holds it where the collider is

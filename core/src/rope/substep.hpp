@@ -40,9 +40,10 @@ class Substep {
     double solve_group(const World::Plan::Group& group, int iteration);
     double solve_batch(const Batch& batch, int iteration);
     void again(std::uint32_t run);
+    void rescue();
+    void forget_tension(std::uint32_t i);
     void gather(const detail::Block& block, const Batch& batch, bool& touching) const;
     void scatter(const detail::Block& block, std::uint32_t lane, std::uint32_t run);
-    void loosen(const detail::Block& block) const;
     double energy_gained(std::uint32_t run) const;
     double elastic_energy(std::uint32_t link, double tension) const;
     double energy_scale(std::uint32_t run) const;
