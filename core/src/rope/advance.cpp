@@ -45,6 +45,7 @@ void prepare(World::Scratch& scratch, const State& state, const World::Plan& pla
     scratch.pull.resize(state.links.size());
     scratch.colliders.resize(state.colliders.size());
     scratch.run_worst.assign(plan.runs.size(), 0.0);
+    scratch.run_gain.assign(plan.runs.size(), 0.0);
     scratch.run_scale.assign(plan.runs.size(), 1.0);
     constexpr std::size_t alignment = 8;  // doubles: 64 bytes
     scratch.block.assign(detail::Block::doubles(plan.longest, scratch.unit.lanes) + alignment, 0.0);

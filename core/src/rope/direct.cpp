@@ -4,6 +4,7 @@
 // lengths right. Where it moves too fast for that (a whip cracks), or would gain energy, it begins again with
 // what tension was found, pulling along where its links will be: that converges, and costs energy.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "rope/geometry.hpp"
@@ -132,6 +133,7 @@ double Substep::solve_batch(const Batch& batch, int iteration) {
         scatter(block, lane, run);
     }
     for (std::uint32_t run = batch.run; run < batch.run + batch.count; ++run) {
+        scratch_.run_gain[run] = energy_gained(run);
         if (first.alone && iteration < beginnings) again(run);
         worst = std::max(worst, scratch_.run_worst[run]);
     }
@@ -139,9 +141,7 @@ double Substep::solve_batch(const Batch& batch, int iteration) {
 }
 
 void Substep::again(std::uint32_t run) {
-    const bool free = undisturbed(run);
-    const bool gains = free && energy_gained(run) > 1e-4 * energy_scale(run);
-    if (scratch_.run_worst[run] <= good_enough && !gains) return;
+    if (scratch_.run_worst[run] <= good_enough && !gains_energy(run, 1e-4)) return;
     const World::Plan::Run& it = plan_.runs[run];
     Block block{scratch_.block.data() + scratch_.block_offset, it.links, 1};
     const int most = std::min(beginnings, state_.settings.iterations);
@@ -164,6 +164,7 @@ void Substep::again(std::uint32_t run) {
         scatter(block, 0, run);
         if (order.worst[0] <= good_enough) break;
     }
+    scratch_.run_gain[run] = energy_gained(run);
 }
 
 /// A push without what answered the tension: out of the collider, and what friction does without any.
@@ -181,25 +182,37 @@ void Substep::gather(const Block& block, const Batch& batch, bool& touching) con
     const auto put = [](double* at, const dvec3& value, std::size_t lanes) {
         at[0] = value.x, at[lanes] = value.y, at[2 * lanes] = value.z;
     };
+    std::array<const World::Plan::Run*, detail::most_lanes> lane_runs{};
     for (std::size_t lane = 0; lane < block.lanes; ++lane) {
-        const World::Plan::Run& run = plan_.runs[batch.run + std::min<std::size_t>(lane, batch.count - 1)];
-        for (std::uint32_t k = 0; k <= first.links; ++k) {
+        lane_runs[lane] = &plan_.runs[batch.run + std::min<std::size_t>(lane, batch.count - 1)];
+    }
+    const bool keeps_out = first.alone && !scratch_.touched.empty();
+    const double per_square = 1.0 / (h_ * h_);
+    for (std::uint32_t k = 0; k <= first.links; ++k) {
+        for (std::size_t lane = 0; lane < block.lanes; ++lane) {
+            const World::Plan::Run& run = *lane_runs[lane];
             const std::uint32_t i = plan_.nodes[run.first_node + k];
-            const Touch& touch = scratch_.touch[i];
             double* const node = block.at(k, 0) + lane;
             const auto row = [&](std::size_t which) -> double* { return node + which * block.lanes; };
             put(row(Row::X), scratch_.place[i], block.lanes);
-            put(row(Row::BaseX), scratch_.base[i] + touch.push, block.lanes);
             put(row(Row::OldX), state_.position[i] - state_.moved[i], block.lanes);
             *row(Row::Weight) = scratch_.weight[i];
-            *row(Row::Grip) = touch.grips && run.alone ? held_by_grip : 0.0;
-            put(row(Row::NormalX), run.alone ? touch.normal : dvec3(0.0), block.lanes);
-            put(row(Row::HeldX), dvec3(0.0), block.lanes);
-            touching = touching || (touch.touching && run.alone);
+            dvec3 base = scratch_.base[i];
+            if (keeps_out) {
+                const Touch& touch = scratch_.touch[i];
+                base += touch.push;
+                *row(Row::Grip) = touch.grips ? held_by_grip : 0.0;
+                put(row(Row::NormalX), touch.normal, block.lanes);
+                put(row(Row::HeldX), dvec3(0.0), block.lanes);
+                touching = touching || touch.touching;
+            } else {
+                *row(Row::Grip) = 0.0;
+            }
+            put(row(Row::BaseX), base, block.lanes);
             if (k == run.links) continue;
             const Link& link = state_.links[run.first_link + k];
             *row(Row::Rest) = link.rest;
-            *row(Row::Give) = compliance_of(link) / (h_ * h_);
+            *row(Row::Give) = compliance_of(link) * per_square;
             *row(Row::Pull) = scratch_.pull[run.first_link + k];
         }
     }
@@ -207,50 +220,52 @@ void Substep::gather(const Block& block, const Batch& batch, bool& touching) con
 
 void Substep::scatter(const Block& block, std::uint32_t lane, std::uint32_t number) {
     const World::Plan::Run& run = plan_.runs[number];
+    const bool held = run.alone && !scratch_.touched.empty();
     for (std::uint32_t k = 0; k <= run.links; ++k) {
         const std::uint32_t i = plan_.nodes[run.first_node + k];
         const double* const node = block.at(k, 0) + lane;
         const auto row = [&](std::size_t which) { return node[which * block.lanes]; };
         if (scratch_.weight[i] > 0.0) scratch_.place[i] = {row(Row::X), row(Row::Y), row(Row::Z)};
-        if (run.alone && scratch_.touch[i].touching) {
+        if (held && scratch_.touch[i].touching) {
             scratch_.touch[i].push -= dvec3(row(Row::HeldX), row(Row::HeldY), row(Row::HeldZ));
         }
         if (k < run.links) scratch_.pull[run.first_link + k] = row(Row::Pull);
     }
 }
 
-/// Whether only gravity and the run's own links have worked on it.
-bool Substep::undisturbed(std::uint32_t number) const {
-    const World::Plan::Run& run = plan_.runs[number];
-    if (!run.alone) return false;
-    for (std::uint32_t k = 0; k <= run.links; ++k) {
-        const std::uint32_t i = plan_.nodes[run.first_node + k];
-        const bool pulled = scratch_.weight[i] == 0.0 && scratch_.place[i] != state_.position[i];
-        if (pulled || scratch_.touch[i].touching) return false;
-    }
-    return true;
-}
-
-/// Joules that the run has more of than before the substep: kinetic energy by the displacements, and potential.
+/// Joules that a run has more of than before the substep: kinetic energy by the displacements, potential, and
+/// what is in its links; nothing where something else than gravity has worked on it.
 double Substep::energy_gained(std::uint32_t number) const {
     const World::Plan::Run& run = plan_.runs[number];
+    if (!run.alone) return 0.0;
+    const bool touches = !scratch_.touched.empty();
+    const double per_square = 1.0 / (h_ * h_);
     double gained = 0.0;
     for (std::uint32_t k = 0; k <= run.links; ++k) {
         const std::uint32_t i = plan_.nodes[run.first_node + k];
-        if (scratch_.weight[i] == 0.0) continue;
         const dvec3 now = scratch_.place[i] - state_.position[i], then = state_.moved[i];
-        const double kinetic = (detail::dot(now, now) - detail::dot(then, then)) / (h_ * h_);
-        gained += 0.5 * state_.mass[i] * (kinetic - detail::dot(acceleration_, now + then));
+        if (touches && scratch_.touch[i].touching) return 0.0;
+        if (scratch_.weight[i] == 0.0) {
+            if (now != dvec3(0.0)) return 0.0;
+            continue;
+        }
+        const double kinetic = detail::dot(now, now) - detail::dot(then, then);
+        gained += 0.5 * state_.mass[i] * (kinetic * per_square - detail::dot(acceleration_, now + then));
     }
-    for (std::uint32_t k = 0; k < run.links; ++k) {
-        gained += elastic_energy(run.first_link + k, scratch_.pull[run.first_link + k] / (h_ * h_));
-        gained -= elastic_energy(run.first_link + k, state_.links[run.first_link + k].tension);
+    for (std::uint32_t k = run.first_link; k < run.first_link + run.links; ++k) {
+        const Link& link = state_.links[k];
+        const double half = 0.5 * compliance_of(link);
+        if (half == 0.0) continue;
+        const double now = scratch_.pull[k] * per_square, then = link.tension;
+        gained += half * (now * now - then * then);
     }
     return gained;
 }
 
-double Substep::elastic_energy(std::uint32_t number, double tension) const {
-    return 0.5 * compliance_of(state_.links[number]) * tension * tension;
+/// Whether a run gained more than that part of what energy it has to do with.
+bool Substep::gains_energy(std::uint32_t run, double part) const {
+    const double gained = scratch_.run_gain[run];
+    return gained > 0.0 && gained > part * energy_scale(run);
 }
 
 /// What energy a run has to do with: its weight times its length.
@@ -267,9 +282,7 @@ double Substep::energy_scale(std::uint32_t number) const {
 /// A run that gained energy for all that moves on a little slower.
 void Substep::limit_energy() {
     for (std::uint32_t r = 0; r < plan_.runs.size(); ++r) {
-        if (!undisturbed(r)) continue;
-        const double gained = energy_gained(r);
-        if (!(gained > 1e-9 * energy_scale(r))) continue;
+        if (!gains_energy(r, 1e-9)) continue;
         double kinetic = 0.0;
         const World::Plan::Run& run = plan_.runs[r];
         for (std::uint32_t k = 0; k <= run.links; ++k) {
@@ -278,7 +291,7 @@ void Substep::limit_energy() {
             const dvec3 now = scratch_.place[i] - state_.position[i];
             kinetic += 0.5 * state_.mass[i] * detail::dot(now, now) / (h_ * h_);
         }
-        if (kinetic > 0.0) scratch_.run_scale[r] = std::sqrt(std::max(0.0, 1.0 - gained / kinetic));
+        if (kinetic > 0.0) scratch_.run_scale[r] = std::sqrt(std::max(0.0, 1.0 - scratch_.run_gain[r] / kinetic));
     }
 }
 

@@ -40,10 +40,11 @@ class BlockSolver {
     void run(Order& order) {
         lay_old_directions();
         if (order.implicit) take_implicitly(order);
-        V worst = order.passes > 0 ? largest_error() : hn::Zero(d_);
+        // The first pass is always worth it: looking whether it is costs half as much.
+        V worst = set(1e300);
         order.taken = 0;
         for (int pass = 0; pass < order.passes; ++pass) {
-            const auto open = hn::Gt(worst, hn::Set(d_, order.tolerance));
+            const auto open = hn::Gt(worst, set(order.tolerance));
             if (hn::AllFalse(d_, open)) break;
             order.touching ? improve<true>(open, order) : improve<false>(open, order);
             worst = largest_error();

@@ -42,6 +42,7 @@ struct World::Scratch {
     };
     std::vector<Moving> colliders;
     std::vector<double> run_worst;  ///< of each run: relative length error after its last pass
+    std::vector<double> run_gain;   ///< of each run: energy it has more of than before, joules
     std::vector<double> run_scale;  ///< of each run: what its motion keeps, so that no energy is gained
     std::vector<double> block;      ///< memory of a block
     std::size_t block_offset = 0;

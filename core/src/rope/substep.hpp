@@ -45,9 +45,8 @@ class Substep {
     void gather(const detail::Block& block, const Batch& batch, bool& touching) const;
     void scatter(const detail::Block& block, std::uint32_t lane, std::uint32_t run);
     double energy_gained(std::uint32_t run) const;
-    double elastic_energy(std::uint32_t link, double tension) const;
+    bool gains_energy(std::uint32_t run, double part) const;
     double energy_scale(std::uint32_t run) const;
-    bool undisturbed(std::uint32_t run) const;
     void limit_energy();
 
     double compliance_of(const Link& link) const {
