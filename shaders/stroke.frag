@@ -7,13 +7,15 @@ flat in vec4 solid;
 flat in vec4 fractions;
 flat in vec4 premultiplied;
 flat in vec4 style_and_axis;
+flat in vec4 edge;
 
 uniform float orthographic;
 uniform float metres_per_pixel;
 uniform vec2 to_window_depth;
-uniform vec3 sky;
 
 out vec4 colour;
+
+#include "light.glsl"
 
 // Where on the axis the circle is whose edge is nearest: back along the normal of the flank, which leans by the slope.
 float nearest_circle() { return clamp(at.x - abs(at.y) * outline.w, 0.0, outline.x); }
@@ -31,21 +33,11 @@ float nearest_ball() {
     return clamp((e + solid.z * root) * fractions.y, 0.0, 1.0);
 }
 
-// A key light at the upper left of whoever looks, the sky above, a darker rim that sets things off from what is behind.
-vec3 lit(vec3 normal) {
-    const vec3 key = vec3(-0.451, 0.621, 0.641);
-    float from_key = dot(normal, key);
-    float from_sky = dot(normal, sky);
-    float glint = max(2.0 * from_key * normal.z - key.z, 0.0);  // the key's reflection, along the line of sight
-    glint *= glint;
-    glint *= glint;
-    glint *= glint;
-    float rim = 1.0 - normal.z;
-    float light = (0.66 + 0.11 * from_sky + 0.30 * max(from_key, 0.0)) * (1.0 - 0.25 * rim * rim);
-    return premultiplied.rgb * light + 0.12 * premultiplied.a * glint;
-}
-
 void main() {
+    bool is_edge = edge.w > 0.0;
+    // Edges end flat, so that where one goes on in the next no pixel is covered twice.
+    if (is_edge && (at.x < 0.0 || at.x > outline.x)) discard;
+
     float foot = nearest_circle();
     float distance_ = length(at - vec2(foot, 0.0)) - outline.y - foot * outline.z;
     float ring = style_and_axis.y;
@@ -62,10 +54,10 @@ void main() {
     vec2 along = style_and_axis.zw;
     vec3 normal = vec3(along * across.x + vec2(-along.y, along.x) * across.y, facing);
     float is_lit = style_and_axis.x;
-    vec3 rgb = mix(premultiplied.rgb, lit(normal), is_lit);
+    vec3 rgb = mix(premultiplied.rgb, lit(premultiplied, is_edge ? edge.xyz : normal), is_lit);
     colour = vec4(min(rgb, premultiplied.a), premultiplied.a) * coverage;
 
-    float bulge = is_lit * facing * radius * metres_per_pixel;
+    float bulge = is_edge ? 0.0 : is_lit * facing * radius * metres_per_pixel;
     float depth = mix(fractions.z, fractions.w, t);
     depth = (depth - orthographic * bulge) / max(1.0 - (1.0 - orthographic) * bulge, 1e-3);
     gl_FragDepth = to_window_depth.x * depth + to_window_depth.y;

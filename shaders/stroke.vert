@@ -8,6 +8,7 @@ layout(location = 0) in vec4 ends;    // pixels: a, b
 layout(location = 1) in vec4 sizes;   // pixels: radius at a, and at b, which is no larger; depths there
 layout(location = 2) in vec4 colour;  // straight alpha
 layout(location = 3) in vec2 style;   // lit, half the ring's width
+layout(location = 4) in vec4 facing;  // of an edge: the normal of its surface, as light.glsl takes it, and 1
 
 uniform vec2 framebuffer_size;
 uniform float pixels_per_metre;
@@ -19,6 +20,7 @@ flat out vec4 solid;      // length, growth from a to b, how much nearer to the 
 flat out vec4 fractions;  // 1/m, 1/g (see the fragment shader), depths
 flat out vec4 premultiplied;
 flat out vec4 style_and_axis;
+flat out vec4 edge;
 
 void main() {
     vec2 axis = ends.zw - ends.xy;
@@ -44,6 +46,7 @@ void main() {
     fractions = vec4(ball ? vec2(1.0) : vec2(1.0 / m, 1.0 / g), sizes.zw);
     premultiplied = vec4(colour.rgb * colour.a, colour.a);
     style_and_axis = vec4(style, along);
+    edge = facing;
 
     float rim = 0.51 + style.y;
     vec2 low = vec2(-sizes.x - rim, -sizes.x - rim), high = vec2(len + sizes.y + rim, sizes.x + rim);

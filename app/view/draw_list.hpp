@@ -1,9 +1,11 @@
 // What to draw, with no GL in it. Labs fill one each frame; the renderer draws it, picking reads it,
 // and tests look into it.
 //
-// Everything solid is one shape, a *stroke*: two balls and what lies between them. A sphere is a stroke
+// Nearly everything is one shape, a *stroke*: two balls and what lies between them. A sphere is a stroke
 // whose ends coincide, a line one of constant width, a bone a tapered one. So one instanced call draws
-// them all, whatever their number, and one distance function picks them.
+// them all, whatever their number, and one distance function picks them. Surfaces of other shapes are
+// triangles of one mesh; app/view/surfaces.hpp builds them. They are not picked: whoever wants that lays
+// strokes over them that are seen through.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "app/view/mesh.hpp"
+
 namespace tendril::app {
 
 /// Names what a stroke belongs to for picking; the lab gives it its meaning. Nothing: not pickable.
@@ -20,13 +24,15 @@ using PickId = std::int32_t;
 inline constexpr PickId no_pick = -1;
 
 enum class Unit : std::uint8_t { Metres, Pixels };
-enum class Shade : std::uint8_t { Lit, Flat, Ring };  ///< Ring: a flat circle outline facing the eye
-enum class Layer : std::uint8_t { Scene, Overlay };   ///< Overlay is drawn over the scene, whatever its depth
+/// Ring: a flat circle outline facing the eye. Edge: a line along the edge of a surface, lit as that is.
+enum class Shade : std::uint8_t { Lit, Flat, Ring, Edge };
+enum class Layer : std::uint8_t { Scene, Overlay };  ///< Overlay is drawn over the scene, whatever its depth
 
 struct Stroke {
     glm::vec3 a{0.0f}, b{0.0f};
     float radius_a = 1.0f, radius_b = 1.0f;
-    glm::vec4 colour{1.0f};
+    glm::vec4 colour{1.0f};   ///< with an alpha of 0 it is not drawn, but still picked, and throws its shadow
+    glm::vec3 normal{0.0f};   ///< of the surface; only for Shade::Edge
     float ring_width = 0.0f;  ///< pixels; only for Shade::Ring
     Unit unit = Unit::Metres;
     Shade shade = Shade::Lit;
@@ -48,8 +54,9 @@ struct Label {
 struct DrawList {
     std::vector<Stroke> strokes;
     std::vector<Label> labels;
+    Mesh mesh{};
 
-    void clear() { strokes.clear(), labels.clear(); }
+    void clear() { strokes.clear(), labels.clear(), mesh.clear(); }
 
     /// Each returns the stroke it appended, for the fields that are seldom set.
     Stroke& sphere(glm::vec3 centre, float radius, Unit unit, glm::vec4 colour);

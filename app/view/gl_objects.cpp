@@ -1,5 +1,6 @@
 #include "app/view/gl_objects.hpp"
 
+#include <cstddef>
 #include <stdexcept>
 
 #include "app/view/assets.hpp"
@@ -7,10 +8,23 @@
 namespace tendril::app {
 namespace {
 
+/// A shader with the files that its lines `#include "..."` name in their place, since GLSL has no such line.
+std::string whole_source(const std::string& file) {
+    constexpr std::string_view before = "\n#include \"", after = "\"\n";
+    std::string text(shader_source(file));
+    for (std::size_t at = text.find(before); at != text.npos; at = text.find(before, at)) {
+        const std::size_t name = at + before.size(), end = text.find(after, name);
+        if (end == text.npos) throw std::runtime_error("shader " + file + ": an #include without its end");
+        const std::string_view included = shader_source(text.substr(name, end - name));
+        text.replace(at + 1, end + 1 - at, included);
+    }
+    return text;
+}
+
 class Shader {
   public:
     Shader(GLenum kind, const std::string& file) : name_(glCreateShader(kind)) {
-        const std::string_view source = shader_source(file);
+        const std::string source = whole_source(file);
         const GLchar* const text = source.data();
         const auto length = static_cast<GLint>(source.size());
         glShaderSource(name_, 1, &text, &length);
@@ -33,6 +47,15 @@ class Shader {
   private:
     GLuint name_;
 };
+
+/// To the bound buffer, which grows with room to spare.
+void send_to(GLenum target, std::size_t& capacity, const void* data, std::size_t bytes) {
+    if (bytes > capacity) {
+        capacity = bytes + bytes / 2;
+        glBufferData(target, static_cast<GLsizeiptr>(capacity), nullptr, GL_STREAM_DRAW);
+    }
+    glBufferSubData(target, 0, static_cast<GLsizeiptr>(bytes), data);
+}
 
 }  // namespace
 
@@ -72,11 +95,7 @@ Instances::~Instances() {
 
 void Instances::send(const void* data, std::size_t bytes) {
     glBindBuffer(GL_ARRAY_BUFFER, buffer_);
-    if (bytes > capacity_) {
-        capacity_ = bytes + bytes / 2;
-        glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(capacity_), nullptr, GL_STREAM_DRAW);
-    }
-    glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(bytes), data);
+    send_to(GL_ARRAY_BUFFER, capacity_, data, bytes);
 }
 
 void Instances::draw(std::size_t first, std::size_t count) const {
@@ -90,6 +109,45 @@ void Instances::draw(std::size_t first, std::size_t count) const {
                               reinterpret_cast<const void*>(first * stride_ + a.offset));
     }
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count));
+    glBindVertexArray(0);
+}
+
+Triangles::Triangles() {
+    glGenVertexArrays(1, &vertex_array_);
+    glGenBuffers(1, &vertices_);
+    glGenBuffers(1, &indices_);
+    glBindVertexArray(vertex_array_);
+    glBindBuffer(GL_ARRAY_BUFFER, vertices_);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_);
+    const std::size_t members[]{offsetof(Vertex, position), offsetof(Vertex, normal),
+                                offsetof(Vertex, colour), offsetof(Vertex, back)};
+    for (GLuint i = 0; i < std::size(members); ++i) {
+        glEnableVertexAttribArray(i);
+        glVertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex),
+                              reinterpret_cast<const void*>(members[i]));
+    }
+    glBindVertexArray(0);
+}
+
+Triangles::~Triangles() {
+    glDeleteVertexArrays(1, &vertex_array_);
+    glDeleteBuffers(1, &vertices_);
+    glDeleteBuffers(1, &indices_);
+}
+
+void Triangles::send(std::span<const Vertex> vertices, std::span<const std::uint32_t> indices) {
+    // The indices' buffer is part of the vertex array's state.
+    glBindVertexArray(vertex_array_);
+    glBindBuffer(GL_ARRAY_BUFFER, vertices_);
+    send_to(GL_ARRAY_BUFFER, vertices_capacity_, vertices.data(), vertices.size_bytes());
+    send_to(GL_ELEMENT_ARRAY_BUFFER, indices_capacity_, indices.data(), indices.size_bytes());
+    glBindVertexArray(0);
+    count_ = indices.size();
+}
+
+void Triangles::draw() const {
+    glBindVertexArray(vertex_array_);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count_), GL_UNSIGNED_INT, nullptr);
     glBindVertexArray(0);
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "app/view/mesh.hpp"
 #include "app/window/gl.hpp"
 
 namespace tendril::app {
@@ -66,6 +67,23 @@ class Instances {
     GLuint vertex_array_ = 0;
     GLuint buffer_ = 0;
     std::size_t capacity_ = 0;  ///< bytes
+};
+
+/// A mesh, sent anew each frame and drawn in one call. Attributes 0 to 3 are the members of Vertex.
+class Triangles {
+  public:
+    Triangles();
+    ~Triangles();
+    Triangles(const Triangles&) = delete;
+    Triangles& operator=(const Triangles&) = delete;
+
+    void send(std::span<const Vertex> vertices, std::span<const std::uint32_t> indices);
+    void draw() const;
+
+  private:
+    GLuint vertex_array_ = 0, vertices_ = 0, indices_ = 0;
+    std::size_t vertices_capacity_ = 0, indices_capacity_ = 0;  ///< bytes
+    std::size_t count_ = 0;
 };
 
 }  // namespace tendril::app

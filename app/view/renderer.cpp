@@ -1,6 +1,7 @@
 #include "app/view/renderer.hpp"
 
 #include "app/view/renderer_backdrop.hpp"
+#include "app/view/renderer_mesh.hpp"
 #include "app/view/renderer_shadows.hpp"
 #include "app/view/renderer_strokes.hpp"
 
@@ -9,6 +10,7 @@ namespace tendril::app {
 struct Renderer::Impl {
     Backdrop backdrop;
     ShadowPass shadows;
+    MeshPass mesh;
     StrokePass strokes;
     int draw_calls = 0;
 };
@@ -67,10 +69,11 @@ void Renderer::draw(const DrawList& list, const Camera& camera, const Palette& p
     if (seen) {
         glEnable(GL_SCISSOR_TEST);
         glScissor(viewport.min.x, viewport.min.y, viewport.size.x, viewport.size.y);
-        // The ground is drawn in the camera's clip space, the strokes in pixels of the framebuffer.
+        // The ground is drawn in the camera's clip space, all else in pixels of the framebuffer.
         glViewport(viewport.min.x, viewport.min.y, viewport.size.x, viewport.size.y);
         calls += impl_->shadows.draw(camera);
         glViewport(0, 0, size.x, size.y);
+        calls += impl_->mesh.draw(list.mesh, camera, frame);
         impl_->strokes.prepare(list, camera, frame);
         calls += impl_->strokes.draw(Layer::Scene);
         calls += impl_->strokes.draw(Layer::Overlay);

@@ -30,6 +30,29 @@ std::uint8_t byte(float value) {
     return static_cast<std::uint8_t>(255.0f * std::clamp(value, 0.0f, 1.0f) + 0.5f);
 }
 
+/// The normal of an edge's surface for the light, as mesh.vert and mesh.frag have it: turned by what turns
+/// the line of sight into the middle one, and not away from the eye.
+std::array<std::int8_t, 4> facing(const Stroke& edge, const Camera& camera) {
+    const glm::vec3 right = camera.right(), up = camera.up(), towards = -camera.forward();
+    const auto seen = [&](glm::vec3 v) {
+        return glm::vec3(glm::dot(v, right), glm::dot(v, up), glm::dot(v, towards));
+    };
+    glm::vec3 normal = seen(edge.normal);
+    if (!camera.pose().orthographic) {
+        const glm::vec3 sight = seen(glm::normalize(camera.eye() - 0.5f * (edge.a + edge.b)));
+        const glm::vec3 half_way = sight + glm::vec3(0.0f, 0.0f, 1.0f);
+        const float along = 2.0f * glm::dot(sight, normal);
+        normal -= glm::dot(half_way, normal) / std::max(1.0f + sight.z, 1e-3f) * half_way;
+        normal.z += along;
+    }
+    normal.z = std::max(normal.z, 0.0f);
+    normal *= 127.0f / std::max(glm::length(normal), 1e-6f);
+    const auto rounded = [](float value) {
+        return static_cast<std::int8_t>(std::isfinite(value) ? std::lround(value) : 0);
+    };
+    return {rounded(normal.x), rounded(normal.y), rounded(normal.z), 127};
+}
+
 }  // namespace
 
 StrokePass::StrokePass()
@@ -37,7 +60,8 @@ StrokePass::StrokePass()
       buffer_(sizeof(Instance), std::array{Attribute{4, GL_FLOAT, offsetof(Instance, a)},
                                            Attribute{4, GL_FLOAT, offsetof(Instance, radius_a)},
                                            Attribute{4, GL_UNSIGNED_BYTE, offsetof(Instance, colour)},
-                                           Attribute{2, GL_FLOAT, offsetof(Instance, lit)}}) {}
+                                           Attribute{2, GL_FLOAT, offsetof(Instance, lit)},
+                                           Attribute{4, GL_BYTE, offsetof(Instance, facing)}}) {}
 
 void StrokePass::sort(const DrawList& list, const Camera& camera) {
     const StrokeProjector projector(camera);
@@ -55,7 +79,8 @@ void StrokePass::sort(const DrawList& list, const Camera& camera) {
 }
 
 StrokePass::Instance StrokePass::instance(const Stroke& stroke, const ProjectedStroke& outline,
-                                          const Frame& frame, bool orthographic) {
+                                          const Frame& frame, const Camera& camera) {
+    const bool orthographic = camera.pose().orthographic;
     const float ratio = frame.pixel_ratio, height = static_cast<float>(frame.framebuffer_size.y);
     const auto pixel = [&](glm::vec2 p) { return glm::vec2(ratio * p.x, height - ratio * p.y); };
     Instance out{.a = pixel(outline.a),
@@ -65,8 +90,10 @@ StrokePass::Instance StrokePass::instance(const Stroke& stroke, const ProjectedS
                  .depth_a = orthographic ? outline.depth_a : 1.0f / outline.depth_a,
                  .depth_b = orthographic ? outline.depth_b : 1.0f / outline.depth_b,
                  .colour = {},
-                 .lit = stroke.shade == Shade::Lit ? 1.0f : 0.0f,
-                 .ring = stroke.shade == Shade::Ring ? 0.5f * ratio * stroke.ring_width : 0.0f};
+                 .lit = stroke.shade == Shade::Lit || stroke.shade == Shade::Edge ? 1.0f : 0.0f,
+                 .ring = stroke.shade == Shade::Ring ? 0.5f * ratio * stroke.ring_width : 0.0f,
+                 .facing = {}};
+    if (stroke.shade == Shade::Edge) out.facing = facing(stroke, camera);
     // The shader wants the larger end first.
     if (out.radius_a < out.radius_b) {
         std::swap(out.a, out.b);
@@ -113,8 +140,7 @@ void StrokePass::prepare(const DrawList& list, const Camera& camera, const Frame
     instances_.clear();
     scene_count_ = 0;
     for (const Place& place : order_) {
-        instances_.push_back(instance(list.strokes[place.stroke], outlines_[place.outline], frame,
-                                      camera.pose().orthographic));
+        instances_.push_back(instance(list.strokes[place.stroke], outlines_[place.outline], frame, camera));
         if ((place.key & overlay_bit) == 0) ++scene_count_;
     }
     buffer_.send(instances_.data(), instances_.size() * sizeof(Instance));

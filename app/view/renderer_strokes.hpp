@@ -27,8 +27,9 @@ class StrokePass {
         float radius_a, radius_b;
         float depth_a, depth_b;  ///< in the form that changes evenly across the screen
         std::array<std::uint8_t, 4> colour;
-        float lit;   ///< 1: a solid in the light, 0: flat
-        float ring;  ///< half the ring's width; 0: not a ring
+        float lit;                          ///< 1: a solid in the light, 0: flat
+        float ring;                         ///< half the ring's width; 0: not a ring
+        std::array<std::int8_t, 4> facing;  ///< of an edge: the surface's normal as it is lit, and 1
     };
     /// What is drawn first comes first.
     struct Place {
@@ -41,7 +42,7 @@ class StrokePass {
 
     void sort(const DrawList& list, const Camera& camera);
     static Instance instance(const Stroke& stroke, const ProjectedStroke& outline, const Frame& frame,
-                             bool orthographic);
+                             const Camera& camera);
     void set_uniforms(const Camera& camera, const Frame& frame) const;
 
     Program program_;

@@ -1,0 +1,44 @@
+// Clean edges for surfaces without multisampling: along each edge of a mesh that is an outline as seen from
+// the eye, a thin stroke that takes its colour and light from the surface.
+//
+// The rasteriser draws the pixels whose centres a triangle covers, all or nothing. The stroke, half a pixel
+// to each side of the outline, covers the pixels next to those in proportion, so that together they are the
+// surface made half a pixel larger with a soft edge. Strokes are drawn after the mesh, the far ones first, so
+// the edge is soft over whatever is behind. A closed surface is built that half pixel smaller beforehand.
+#pragma once
+
+#include <glm/geometric.hpp>
+
+#include "app/view/camera.hpp"
+#include "app/view/draw_list.hpp"
+
+namespace tendril::app {
+
+class Edges {
+  public:
+    /// Pixels that an edge adds all around.
+    static constexpr float width = 0.5f;
+
+    Edges(DrawList& list, const Camera& camera) : list_(list), camera_(camera) {}
+
+    /// From a point towards the eye, of any length.
+    glm::vec3 to_eye(glm::vec3 point) const {
+        return camera_.pose().orthographic ? -camera_.forward() : camera_.eye() - point;
+    }
+    /// Whether a face with that normal and that point in its plane shows its front.
+    bool front(glm::vec3 normal, glm::vec3 point) const { return glm::dot(normal, to_eye(point)) > 0.0f; }
+
+    /// What `width` is at that point, in metres.
+    float metres(glm::vec3 point) const { return width * camera_.metres_per_pixel(point); }
+
+    /// `normal` points to the side that is seen.
+    void outline(glm::vec3 a, glm::vec3 b, glm::vec3 normal, glm::vec3 colour);
+    /// Between two faces that both are seen; lies a little before them, as it would drown in them.
+    void crease(glm::vec3 a, glm::vec3 b, glm::vec3 normal, glm::vec3 colour);
+
+  private:
+    DrawList& list_;
+    const Camera& camera_;
+};
+
+}  // namespace tendril::app

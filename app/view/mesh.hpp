@@ -1,0 +1,33 @@
+// Triangles to draw, with no GL in it: whatever is solid and not a stroke. A frame has one mesh, which all
+// its surfaces are appended to, so that one call draws them.
+//
+// Triangles are opaque and have two sides. The front is the side from which their corners run
+// counter-clockwise, and the normals point to it.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace tendril::app {
+
+struct Vertex {
+    glm::vec3 position{0.0f};
+    glm::vec3 normal{0.0f, 1.0f, 0.0f};  ///< unit
+    glm::vec3 colour{1.0f};              ///< of the front
+    glm::vec3 back{1.0f};                ///< of the back
+};
+
+struct Mesh {
+    std::vector<Vertex> vertices;
+    std::vector<std::uint32_t> indices;  ///< three to a triangle
+
+    void clear() { vertices.clear(), indices.clear(); }
+    /// The index that the next vertex will have.
+    std::uint32_t next() const { return static_cast<std::uint32_t>(vertices.size()); }
+    void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        indices.insert(indices.end(), {a, b, c});
+    }
+};
+
+}  // namespace tendril::app

@@ -1,0 +1,93 @@
+#include "app/view/spline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace tendril::app {
+namespace {
+
+/// The derivative at p1 over the knot interval from p1 to p2.
+glm::vec3 slope_between(glm::vec3 p0, glm::vec3 p1, glm::vec3 p2) {
+    const float before = std::sqrt(glm::distance(p0, p1)), after = std::sqrt(glm::distance(p1, p2));
+    const glm::vec3 velocity = (p1 - p0) / before - (p2 - p0) / (before + after) + (p2 - p1) / after;
+    return velocity * after;
+}
+
+float angle(glm::vec3 a, glm::vec3 b) {
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+/// What `vector` becomes by the smallest turn that takes `from` to `to`; both unit, and not opposite.
+glm::vec3 turned(glm::vec3 vector, glm::vec3 from, glm::vec3 to) {
+    const glm::vec3 half_way = from + to;
+    return vector - glm::dot(half_way, vector) / (1.0f + glm::dot(from, to)) * half_way +
+           2.0f * glm::dot(from, vector) * to;
+}
+
+glm::vec3 first_normal(glm::vec3 tangent) {
+    // No rule is steady for all tangents. This one fails at the tangent opposite to `pole` only, which is no
+    // direction that a rope is likely to set out in.
+    const glm::vec3 pole(0.60f, 0.64f, 0.48f), across(-0.80f, 0.48f, 0.36f);
+    if (glm::dot(pole, tangent) < -0.9999f) return across;
+    return turned(across, pole, tangent);
+}
+
+/// The unit vector across `tangent` that is nearest to `normal`.
+glm::vec3 straightened(glm::vec3 normal, glm::vec3 tangent) {
+    normal -= glm::dot(normal, tangent) * tangent;
+    const float length = glm::length(normal);
+    return length > 1e-3f ? normal / length : first_normal(tangent);
+}
+
+}  // namespace
+
+glm::vec3 CurveSpan::at(float t) const {
+    const float s = 1.0f - t;
+    return s * s * (1.0f + 2.0f * t) * a + t * t * (1.0f + 2.0f * s) * b + s * s * t * slope_a -
+           t * t * s * slope_b;
+}
+
+glm::vec3 CurveSpan::slope(float t) const {
+    const float s = 1.0f - t;
+    return 6.0f * s * t * (b - a) + s * (s - 2.0f * t) * slope_a + t * (t - 2.0f * s) * slope_b;
+}
+
+float CurveSpan::turn() const {
+    return angle(slope_a, b - a) + angle(b - a, slope_b);
+}
+
+CurveSpan curve_span(std::span<const glm::vec3> points, std::size_t i) {
+    const glm::vec3 a = points[i], b = points[i + 1];
+    const bool first = i == 0, last = i + 2 == points.size();
+    CurveSpan span{.a = a, .b = b, .slope_a = b - a, .slope_b = b - a};
+    if (!first) span.slope_a = slope_between(points[i - 1], a, b);
+    if (!last) span.slope_b = -slope_between(points[i + 2], b, a);
+    // Where the curve begins or ends it bends as little as one end's direction lets it: a parabola.
+    if (first && !last) span.slope_a = 2.0f * (b - a) - span.slope_b;
+    if (last && !first) span.slope_b = 2.0f * (b - a) - span.slope_a;
+    return span;
+}
+
+void set_frames(std::span<CurvePoint> points) {
+    if (points.empty()) return;
+    points[0].normal = straightened(first_normal(points[0].tangent), points[0].tangent);
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const CurvePoint& from = points[i - 1];
+        CurvePoint& to = points[i];
+        glm::vec3 normal = from.normal, tangent = from.tangent;
+        // Mirrored in the plane half way between the two points, then in the one that makes the tangents
+        // meet.
+        const glm::vec3 step = to.at - from.at;
+        if (const float squared = glm::dot(step, step); squared > 0.0f) {
+            normal -= 2.0f / squared * glm::dot(step, normal) * step;
+            tangent -= 2.0f / squared * glm::dot(step, tangent) * step;
+        }
+        const glm::vec3 rest = to.tangent - tangent;
+        if (const float squared = glm::dot(rest, rest); squared > 1e-12f)
+            normal -= 2.0f / squared * glm::dot(rest, normal) * rest;
+        to.normal = straightened(normal, to.tangent);
+    }
+}
+
+}  // namespace tendril::app
