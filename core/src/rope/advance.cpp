@@ -42,6 +42,7 @@ void prepare(World::Scratch& scratch, const State& state, const World::Plan& pla
     scratch.touch.assign(particles, Touch{});
     scratch.touched.clear();
     scratch.touched.reserve(particles);
+    scratch.body_near.assign(state.bodies.size(), 0);
     scratch.pull.resize(state.links.size());
     scratch.colliders.resize(state.colliders.size());
     scratch.run_worst.assign(plan.runs.size(), 0.0);
@@ -90,8 +91,10 @@ void Substep::move_colliders() {
 
 void Substep::move_particles() {
     const double kept = std::exp(-static_cast<double>(state_.settings.damping) * h_);
-    const double same = state_.moved_in > 0.0 ? h_ / state_.moved_in : 0.0;
-    const dvec3 fall = (h_ * h_) * acceleration_;
+    // Where the step before was not as long as this one, Verlet's rule for uneven steps.
+    const bool before = state_.moved_in > 0.0;
+    const double same = before ? h_ / state_.moved_in : 0.0;
+    const dvec3 fall = (before ? 0.5 * h_ * (h_ + state_.moved_in) : h_ * h_) * acceleration_;
     for (std::size_t i = 0; i < state_.position.size(); ++i) {
         state_.moved[i] = same * state_.moved[i];  // had the substep before been as long as this one
         scratch_.base[i] = state_.position[i] + (kept * state_.moved[i] + fall);
@@ -109,6 +112,21 @@ void Substep::move_particles() {
     scratch_.place = scratch_.base;
     for (std::size_t i = 0; i < state_.links.size(); ++i) {
         scratch_.pull[i] = static_cast<double>(state_.links[i].tension) * (h_ * h_);
+    }
+}
+
+/// How far links are from their rest lengths now, by body.
+void Substep::measure() {
+    if (!measures) return;
+    for (Body& body : state_.bodies) body.stretch = 0.0f;
+    std::size_t b = 0;
+    for (const Link& link : state_.links) {
+        while (link.a < state_.bodies[b].first) --b;  // links of a body lie together, nearly always
+        while (link.a - state_.bodies[b].first >= state_.bodies[b].count) ++b;
+        if (link.kind != Link::Kind::Stretch) continue;
+        const double length = detail::length(scratch_.place[link.b] - scratch_.place[link.a]);
+        const double error = link.rest > 0.0f ? std::abs(length / link.rest - 1.0) : length;
+        state_.bodies[b].stretch = std::max(state_.bodies[b].stretch, static_cast<float>(error));
     }
 }
 
@@ -133,7 +151,6 @@ void Substep::keep() {
     for (const std::uint32_t i : scratch_.touched) scratch_.touch[i] = Touch{};
     scratch_.touched.clear();
     state_.moved_in = h_;
-    ++state_.substeps;
 }
 
 Advance World::advance(double seconds) {
@@ -151,8 +168,11 @@ Advance World::advance(double seconds) {
         if (!plan_) plan_ = std::make_shared<const Plan>(state_);
         if (!scratch_) scratch_ = std::make_unique<Scratch>();
         if (scratch_->fresh) prepare(*scratch_, state_, *plan_);
-        done.passes += Substep(state_, *plan_, *scratch_).run();
+        Substep step(state_, *plan_, *scratch_);
+        step.measures = state_.remainder < substep * (1.0 - 1e-6);
+        done.passes += step.run();
         ++done.substeps;
+        ++state_.substeps;
         if (plan_->tears && tear(state_)) reshaped();
     }
     return done;

@@ -59,6 +59,7 @@ void check_bodies(const State& state) {
         }
         tendril::detail::require_length(op, "radius of a body", body.radius);
         tendril::detail::require_length(op, "tear of a body", body.tear);
+        tendril::detail::require_length(op, "stretch of a body", body.stretch);
         next += body.count;
     }
     if (next != state.position.size()) refuse("some particles belong to no body");

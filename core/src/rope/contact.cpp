@@ -1,8 +1,8 @@
 // Keeping particles and links out of colliders while the solver works.
 //
 // What a collider has pushed a particle in a substep is remembered: its part along the normal bounds friction
-// (Coulomb's law, as displacements), and what tension would pull into the collider adds to it. So a rope that is
-// drawn around a post grips it the harder the more it is drawn.
+// (Coulomb's law, as displacements). What tension has drawn into the collider is part of it, so a rope around a
+// post grips it the harder the more it is drawn.
 #include <algorithm>
 #include <limits>
 
@@ -36,6 +36,7 @@ struct Bounds {
 
 void Substep::find_near() {
     scratch_.near.clear();
+    std::fill(scratch_.body_near.begin(), scratch_.body_near.end(), std::uint8_t{0});
     if (state_.colliders.empty()) return;
     for (World::Scratch::Moving& collider : scratch_.colliders) {
         collider.size = size(collider.shape);
@@ -70,7 +71,9 @@ void Substep::find_near() {
         for (const std::uint32_t k : scratch_.close) {
             const World::Scratch::Moving& collider = scratch_.colliders[k];
             const bool meets = chunk.meets(collider.low, collider.high);
-            if (meets && !detail::beyond(collider.shape, chunk.low, chunk.high)) scratch_.near.push_back({c, k});
+            if (!meets || detail::beyond(collider.shape, chunk.low, chunk.high)) continue;
+            scratch_.near.push_back({c, k});
+            scratch_.body_near[plan_.chunks[c].body] = 1;
         }
     }
 }
@@ -86,58 +89,36 @@ Touch& Substep::touch(std::uint32_t i, std::uint32_t collider, const dvec3& norm
     return touch;
 }
 
-double Substep::grip(std::uint32_t i) {
+void Substep::grip(std::uint32_t i) {
     Touch& touch = scratch_.touch[i];
     const double pressed = detail::dot(touch.push, touch.normal);
     const dvec3 rubbed = touch.push - pressed * touch.normal;
     const dvec3 slip = scratch_.place[i] - state_.position[i] - touch.carried;
     dvec3 wanted = rubbed - (slip - detail::dot(slip, touch.normal) * touch.normal);
     const double size = detail::length(wanted), most = static_cast<double>(state_.settings.friction) * pressed;
-    touch.grips = size < most;
     if (size > most) wanted = (most / size) * wanted;
     scratch_.place[i] += wanted - rubbed;
     touch.push = pressed * touch.normal + wanted;
-    return detail::length(wanted - rubbed);
 }
 
-double Substep::settle() {
-    double farthest = 0.0;
-    std::size_t kept = 0;
-    for (const std::uint32_t i : scratch_.touched) {
-        Touch& touch = scratch_.touch[i];
-        if (detail::dot(touch.push, touch.normal) > 0.0) {
-            farthest = std::max(farthest, grip(i));
-            scratch_.touched[kept++] = i;
-            continue;
-        }
-        scratch_.place[i] -= touch.push;  // a collider does not pull
-        farthest = std::max(farthest, detail::length(touch.push));
-        touch = Touch{};
-    }
-    scratch_.touched.resize(kept);
-    return farthest;
-}
-
-double Substep::push_out(bool first) {
-    double farthest = 0.0;
+void Substep::push_out(bool first) {
     for (const World::Scratch::Near& near : scratch_.near) {
         const World::Plan::Chunk& chunk = plan_.chunks[near.chunk];
         const double radius = state_.bodies[chunk.body].radius;
         for (std::uint32_t i = chunk.first; i < chunk.first + chunk.count; ++i) {
-            farthest = std::max(farthest, push_particle(i, near.collider, radius, first));
+            push_particle(i, near.collider, radius, first);
         }
         // Where links are longer than the collider is thick it could slip through between two particles.
         if (chunk.reach <= scratch_.colliders[near.collider].size) continue;
         for (std::uint32_t l = 0; l < chunk.links; ++l) {
             const Link& link = state_.links[plan_.chunk_links[chunk.first_link + l]];
-            farthest = std::max(farthest, push_link(link, near.collider, radius));
+            push_link(link, near.collider, radius);
         }
     }
-    return farthest;
 }
 
-double Substep::push_particle(std::uint32_t i, std::uint32_t number, double radius, bool first) {
-    if (scratch_.weight[i] == 0.0) return 0.0;
+void Substep::push_particle(std::uint32_t i, std::uint32_t number, double radius, bool first) {
+    if (scratch_.weight[i] == 0.0) return;
     const World::Scratch::Moving& collider = scratch_.colliders[number];
     dvec3& place = scratch_.place[i];
     SurfaceDistance surface = surface_distance(collider.shape, place);
@@ -158,38 +139,35 @@ double Substep::push_particle(std::uint32_t i, std::uint32_t number, double radi
         }
     }
     const double depth = radius - surface.distance;
-    if (!(depth > 0.0)) return 0.0;
+    if (!(depth > 0.0)) return;
     place += depth * surface.normal;
     Touch& contact = touch(i, number, surface.normal);
-    if (detail::dot(contact.normal, surface.normal) < 0.9) return depth;  // the second of two
+    if (detail::dot(contact.normal, surface.normal) < 0.9) return;  // the second of two
     contact.push += depth * surface.normal;
-    contact.out += depth * surface.normal;
-    return std::max(depth, grip(i));
+    grip(i);
 }
 
-double Substep::push_link(const Link& link, std::uint32_t number, double radius) {
+void Substep::push_link(const Link& link, std::uint32_t number, double radius) {
     const World::Scratch::Moving& collider = scratch_.colliders[number];
-    if (link.rest <= collider.size) return 0.0;
+    if (link.rest <= collider.size) return;
     dvec3 &a = scratch_.place[link.a], &b = scratch_.place[link.b];
     const double t = detail::nearest_on_line(collider.shape, a, b);
-    if (t <= 0.0 || t >= 1.0) return 0.0;
+    if (t <= 0.0 || t >= 1.0) return;
     const SurfaceDistance surface = surface_distance(collider.shape, a + t * (b - a));
     const double depth = radius - surface.distance;
     const double share_a = scratch_.weight[link.a] * (1.0 - t), share_b = scratch_.weight[link.b] * t;
     const double shares = share_a * (1.0 - t) + share_b * t;
-    if (!(depth > 0.0) || shares <= 0.0) return 0.0;
+    if (!(depth > 0.0) || shares <= 0.0) return;
     const auto push = [&](std::uint32_t i, double by) {
         if (by <= 0.0) return;
         scratch_.place[i] += by * surface.normal;
         Touch& contact = touch(i, number, surface.normal);
         if (detail::dot(contact.normal, surface.normal) < 0.9) return;
         contact.push += by * surface.normal;
-        contact.out += by * surface.normal;
         grip(i);
     };
     push(link.a, depth * share_a / shares);
     push(link.b, depth * share_b / shares);
-    return depth;
 }
 
 }  // namespace tendril::rope

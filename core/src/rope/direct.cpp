@@ -3,6 +3,10 @@
 // A run that nothing else is linked to first takes in the tension that it had, then one or two passes make its
 // lengths right. Where it moves too fast for that (a whip cracks), or would gain energy, it begins again with
 // what tension was found, pulling along where its links will be: that converges, and costs energy.
+//
+// Colliders push last. So what tension draws into them shows as depth, and friction is bounded by it: a rope
+// around a post holds as Euler and Eytelwein have it. The lengths that this costs are made good in the next
+// substep.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,27 +24,13 @@ using glm::dvec3;
 
 constexpr double arrived = 1e-7;      ///< relative length error that is made no better
 constexpr double good_enough = 1e-4;  ///< a run with more begins again
-constexpr double hopeless = 0.02;      ///< a run with more is relaxed instead
-constexpr int rescue_passes = 16;
-constexpr double at_rest = 1e-7;      ///< metres: contacts that move things by less have settled
-/// What friction holds does not move, but for a little: two particles that are held with a wrong length between
-/// them come right.
-constexpr double held_by_grip = 0.98;
-constexpr int beginnings = 6;
+constexpr double hopeless = 0.02;     ///< a run with more in the end is relaxed instead
+constexpr int beginnings = 6, rescue_passes = 16;
+/// Passes that runs which share particles take at least while something pushes them.
+constexpr int pushed_passes = 4;
 /// Of a perfect pull along the mean so much is left out: it takes the jitter of single particles away within a
 /// second, and from a pendulum of a second's period a few percent of its energy in a minute.
 constexpr double least_backward = 0.01;
-
-}  // namespace
-
-namespace {
-
-/// Links that lie on something can be asked for lengths that they cannot have (a ball pushes farther into a taut
-/// rope than it is long). The longer it takes, the more their system is damped (Levenberg, Marquardt).
-double damping_of(bool touching, int iteration) {
-    if (!touching) return 1e-9;
-    return iteration < 4 ? 1e-4 : iteration < 8 ? 1e-3 : 1e-2;
-}
 
 }  // namespace
 
@@ -55,17 +45,16 @@ int Substep::direct() {
     for (const World::Plan::Run& run : plan_.runs) {
         if (!run.alone) std::fill_n(scratch_.pull.begin() + run.first_link, run.links, 0.0);
     }
+    const bool pushed = !scratch_.near.empty();
     int passes = 0;
-    double worst = 0.0;
-    while (passes < state_.settings.iterations) {
-        double moved = passes > 0 ? settle() : 0.0;
-        if (!scratch_.near.empty()) moved = std::max(moved, push_out(passes == 0));
-        if (passes > 0 && worst <= good_enough && moved <= at_rest) break;
+    for (double worst = 0.0; passes < state_.settings.iterations; ++passes) {
+        const bool settled = worst <= good_enough && (!pushed || passes >= pushed_passes);
+        if (passes > 0 && (plan_.all_alone || settled)) break;
         satisfy_soft();
         worst = 0.0;
         for (const World::Plan::Group& group : plan_.groups) worst = std::max(worst, solve_group(group, passes));
-        ++passes;
-        if (plan_.all_alone && scratch_.touched.empty() && scratch_.near.empty()) break;
+        measure();
+        push_out(passes == 0);
     }
     rescue();
     limit_energy();
@@ -77,18 +66,17 @@ int Substep::direct() {
 void Substep::rescue() {
     bool any = false;
     for (std::uint32_t r = 0; r < plan_.runs.size(); ++r) {
-        if (scratch_.run_worst[r] <= hopeless) continue;
+        if (scratch_.run_worst[r] <= hopeless) continue;  // also where it is no number
         any = true;
         const World::Plan::Run& run = plan_.runs[r];
         for (std::uint32_t k = 0; k <= run.links; ++k) {
             const std::uint32_t i = plan_.nodes[run.first_node + k];
             scratch_.place[i] = scratch_.base[i];
-            scratch_.touch[i].push = scratch_.touch[i].out = dvec3(0.0);
+            scratch_.touch[i].push = dvec3(0.0);
         }
     }
     if (!any) return;
     for (int pass = 0; pass < rescue_passes; ++pass) {
-        push_out(pass == 0);
         for (std::uint32_t r = 0; r < plan_.runs.size(); ++r) {
             const World::Plan::Run& run = plan_.runs[r];
             if (scratch_.run_worst[r] <= hopeless) continue;
@@ -97,6 +85,7 @@ void Substep::rescue() {
                 satisfy(k, 0.0);
             }
         }
+        push_out(pass == 0);
     }
 }
 
@@ -118,12 +107,11 @@ double Substep::solve_batch(const Batch& batch, int iteration) {
     const World::Plan::Run& first = plan_.runs[batch.run];
     Block block{scratch_.block.data() + scratch_.block_offset, first.links, batch.single ? 1 : scratch_.unit.lanes};
     Order order;
-    gather(block, batch, order.touching);
+    gather(block, batch);
     order.implicit = first.alone && iteration == 0;
     // Where runs share particles each only undoes part of what the others did: the plain direction serves best.
     order.backward = first.alone ? least_backward : 1.0;
     order.passes = first.alone ? 2 : 1;
-    order.damping = damping_of(order.touching, iteration);
     order.tolerance = arrived;
     (batch.single ? scratch_.unit.single : scratch_.unit.solve)(block, order);
     double worst = 0.0;
@@ -134,7 +122,7 @@ double Substep::solve_batch(const Batch& batch, int iteration) {
     }
     for (std::uint32_t run = batch.run; run < batch.run + batch.count; ++run) {
         scratch_.run_gain[run] = energy_gained(run);
-        if (first.alone && iteration < beginnings) again(run);
+        if (first.alone && iteration == 0) again(run);
         worst = std::max(worst, scratch_.run_worst[run]);
     }
     return worst;
@@ -149,15 +137,11 @@ void Substep::again(std::uint32_t run) {
         scratch_.pull[k] = static_cast<double>(state_.links[k].tension) * (h_ * h_);
     }
     for (int i = 0; i < most; ++i) {
-        for (std::uint32_t k = 0; k <= it.links; ++k) {
-            forget_tension(plan_.nodes[it.first_node + k]);
-        }
         Order order;
-        gather(block, {run, 1, true}, order.touching);
+        gather(block, {run, 1, true});
         order.implicit = true;
         order.backward = 1.0;
         order.passes = i + 1 < most ? 2 : 8;
-        order.damping = damping_of(order.touching, i);
         order.tolerance = arrived;
         scratch_.unit.single(block, order);
         scratch_.run_worst[run] = order.worst[0];
@@ -167,17 +151,7 @@ void Substep::again(std::uint32_t run) {
     scratch_.run_gain[run] = energy_gained(run);
 }
 
-/// A push without what answered the tension: out of the collider, and what friction does without any.
-void Substep::forget_tension(std::uint32_t i) {
-    Touch& touch = scratch_.touch[i];
-    if (!touch.touching) return;
-    const auto along = [&](const dvec3& v) { return v - detail::dot(v, touch.normal) * touch.normal; };
-    const dvec3 slip = scratch_.base[i] + touch.out - state_.position[i] - touch.carried;
-    touch.push = touch.out + (touch.grips ? -along(slip) : along(touch.push));
-}
-
-void Substep::gather(const Block& block, const Batch& batch, bool& touching) const {
-    touching = false;
+void Substep::gather(const Block& block, const Batch& batch) const {
     const World::Plan::Run& first = plan_.runs[batch.run];
     const auto put = [](double* at, const dvec3& value, std::size_t lanes) {
         at[0] = value.x, at[lanes] = value.y, at[2 * lanes] = value.z;
@@ -186,7 +160,6 @@ void Substep::gather(const Block& block, const Batch& batch, bool& touching) con
     for (std::size_t lane = 0; lane < block.lanes; ++lane) {
         lane_runs[lane] = &plan_.runs[batch.run + std::min<std::size_t>(lane, batch.count - 1)];
     }
-    const bool keeps_out = first.alone && !scratch_.touched.empty();
     const double per_square = 1.0 / (h_ * h_);
     for (std::uint32_t k = 0; k <= first.links; ++k) {
         for (std::size_t lane = 0; lane < block.lanes; ++lane) {
@@ -197,18 +170,7 @@ void Substep::gather(const Block& block, const Batch& batch, bool& touching) con
             put(row(Row::X), scratch_.place[i], block.lanes);
             put(row(Row::OldX), state_.position[i] - state_.moved[i], block.lanes);
             *row(Row::Weight) = scratch_.weight[i];
-            dvec3 base = scratch_.base[i];
-            if (keeps_out) {
-                const Touch& touch = scratch_.touch[i];
-                base += touch.push;
-                *row(Row::Grip) = touch.grips ? held_by_grip : 0.0;
-                put(row(Row::NormalX), touch.normal, block.lanes);
-                put(row(Row::HeldX), dvec3(0.0), block.lanes);
-                touching = touching || touch.touching;
-            } else {
-                *row(Row::Grip) = 0.0;
-            }
-            put(row(Row::BaseX), base, block.lanes);
+            put(row(Row::BaseX), scratch_.base[i], block.lanes);
             if (k == run.links) continue;
             const Link& link = state_.links[run.first_link + k];
             *row(Row::Rest) = link.rest;
@@ -220,15 +182,11 @@ void Substep::gather(const Block& block, const Batch& batch, bool& touching) con
 
 void Substep::scatter(const Block& block, std::uint32_t lane, std::uint32_t number) {
     const World::Plan::Run& run = plan_.runs[number];
-    const bool held = run.alone && !scratch_.touched.empty();
     for (std::uint32_t k = 0; k <= run.links; ++k) {
         const std::uint32_t i = plan_.nodes[run.first_node + k];
         const double* const node = block.at(k, 0) + lane;
         const auto row = [&](std::size_t which) { return node[which * block.lanes]; };
         if (scratch_.weight[i] > 0.0) scratch_.place[i] = {row(Row::X), row(Row::Y), row(Row::Z)};
-        if (held && scratch_.touch[i].touching) {
-            scratch_.touch[i].push -= dvec3(row(Row::HeldX), row(Row::HeldY), row(Row::HeldZ));
-        }
         if (k < run.links) scratch_.pull[run.first_link + k] = row(Row::Pull);
     }
 }
@@ -237,14 +195,12 @@ void Substep::scatter(const Block& block, std::uint32_t lane, std::uint32_t numb
 /// what is in its links; nothing where something else than gravity has worked on it.
 double Substep::energy_gained(std::uint32_t number) const {
     const World::Plan::Run& run = plan_.runs[number];
-    if (!run.alone) return 0.0;
-    const bool touches = !scratch_.touched.empty();
+    if (!run.alone || scratch_.body_near[run.body]) return 0.0;
     const double per_square = 1.0 / (h_ * h_);
     double gained = 0.0;
     for (std::uint32_t k = 0; k <= run.links; ++k) {
         const std::uint32_t i = plan_.nodes[run.first_node + k];
         const dvec3 now = scratch_.place[i] - state_.position[i], then = state_.moved[i];
-        if (touches && scratch_.touch[i].touching) return 0.0;
         if (scratch_.weight[i] == 0.0) {
             if (now != dvec3(0.0)) return 0.0;
             continue;

@@ -12,9 +12,6 @@ enum Row : std::size_t {
     BaseX, BaseY, BaseZ,  ///< where it would be without any tension
     OldX, OldY, OldZ,  ///< where it was one substep before the last; then: the unit direction of its link there
     Weight,            ///< inverse mass; 0: it is held
-    Grip,              ///< how much of that friction holds, 0 to 1
-    NormalX, NormalY, NormalZ,  ///< of what it touches; it does not move along it; 0: it touches nothing
-    HeldX, HeldY, HeldZ,        ///< out: what grip and normal kept it from moving, added up
     Rest,              ///< of its link: length
     Give,              ///< compliance, m/N, over h^2
     Pull,              ///< tension times h^2
@@ -41,8 +38,6 @@ struct Order {
     double backward = 0.0;    ///< 0: pull along the mean of before and after; 1: after
     int passes = 2;           ///< at most
     double tolerance = 1e-7;  ///< relative length error at which a lane is done
-    double damping = 1e-9;    ///< of the system's diagonal, as a part of it
-    bool touching = false;    ///< whether any normal is not 0
     double worst[most_lanes];  ///< out: the largest relative length error
     int taken = 0;             ///< out: passes taken
 };

@@ -1,10 +1,10 @@
 // The direct solver on a block, for a register of any width. Not installed; it is included once for each vector
 // unit.
 //
-// Let q_k be the direction in which link k pulls, n_k the one in which it lies, and W_k the inverse mass of
-// node k, a matrix where the node touches something. To first order link k gets shorter by
+// Let q_k be the direction in which link k pulls, n_k the one in which it lies, and w_k the inverse mass of
+// node k. To first order link k gets shorter by
 //
-//     -n_k W_k q_{k-1} t_{k-1} + n_k (W_k + W_{k+1}) q_k t_k - n_k W_{k+1} q_{k+1} t_{k+1}
+//     -w_k (n_k q_{k-1}) t_{k-1} + (w_k + w_{k+1}) (n_k q_k) t_k - w_{k+1} (n_k q_{k+1}) t_{k+1}
 //
 // for pulls t: one tridiagonal system a run. No operation is fused, so every lane has the same bits with every
 // vector unit.
@@ -46,7 +46,7 @@ class BlockSolver {
         for (int pass = 0; pass < order.passes; ++pass) {
             const auto open = hn::Gt(worst, set(order.tolerance));
             if (hn::AllFalse(d_, open)) break;
-            order.touching ? improve<true>(open, order) : improve<false>(open, order);
+            improve(open, order);
             worst = largest_error();
             ++order.taken;
         }
@@ -108,7 +108,7 @@ class BlockSolver {
         V3 old_before{hn::Zero(d_), hn::Zero(d_), hn::Zero(d_)}, right = old_before;
         for (std::size_t k = 0; k <= block_.links; ++k) {
             const bool last = k == block_.links;
-            const V weight = hn::Sub(load(k, Weight), hn::Mul(load(k, Weight), load(k, Grip)));
+            const V weight = load(k, Weight);
             const V stiff = last ? hn::Zero(d_) : stiffness(k);
             const V3 old = last ? V3{hn::Zero(d_), hn::Zero(d_), hn::Zero(d_)}
                                 : times(hn::Mul(stiff, load(k, Rest)), load3(k, OldX));
@@ -131,29 +131,6 @@ class BlockSolver {
             behind_it = minus(load3(k, X), times(load(k, Upper), behind_it));
             store3(behind_it, k, X);
         }
-        if (order.touching) keep_out_of_contacts(order);
-    }
-
-    /// What the tension moved along normals goes back; that, and what it would have moved where something grips,
-    /// is remembered.
-    void keep_out_of_contacts(const Order& order) const {
-        V3 pull_before{hn::Zero(d_), hn::Zero(d_), hn::Zero(d_)};
-        for (std::size_t k = 0; k <= block_.links; ++k) {
-            const V3 normal = load3(k, NormalX), by = minus(load3(k, X), load3(k, BaseX));
-            const V3 held = times(dot(by, normal), normal);
-            const V3 pull = k < block_.links ? pull_along_mean(k, order) : V3{hn::Zero(d_), hn::Zero(d_), hn::Zero(d_)};
-            const V3 resisted = times(hn::Mul(load(k, Weight), load(k, Grip)), minus(pull, pull_before));
-            store3(plus(load3(k, HeldX), plus(held, resisted)), k, HeldX);
-            store3(held, k, PullX);  // taken off below, when no neighbour needs the place any more
-            pull_before = pull;
-        }
-        for (std::size_t k = 0; k <= block_.links; ++k) store3(minus(load3(k, X), load3(k, PullX)), k, X);
-    }
-    V3 pull_along_mean(std::size_t k, const Order& order) const {
-        const V length = hn::Max(load(k, Rest), set(1e-9));
-        const V stiff = hn::Div(hn::Mul(set(0.5), load(k, Pull)), length);
-        const V3 now = minus(load3(k + 1, X), load3(k, X)), old = times(load(k, Rest), load3(k, OldX));
-        return times(stiff, plus(times(set(1.0 + order.backward), now), times(set(1.0 - order.backward), old)));
     }
 
     V largest_error() const {
@@ -169,20 +146,10 @@ class BlockSolver {
         return worst;
     }
 
-    /// A displacement that pulls on node k with `by` moves it by this.
-    template <bool touching>
-    V3 yield(std::size_t k, const V3& by) const {
-        const V weight = load(k, Weight);
-        if constexpr (!touching) return times(weight, by);
-        const V3 normal = load3(k, NormalX);
-        const V3 along = minus(by, times(dot(by, normal), normal));
-        return times(hn::Sub(weight, hn::Mul(weight, load(k, Grip))), along);
-    }
-
     /// One pass: the lengths made right to first order, where `open`.
-    template <bool touching, class M>
+    template <class M>
     void improve(M open, const Order& order) const {
-        eliminate<touching>(order);
+        eliminate(order);
         const V zero = hn::Zero(d_);
         V pull_after = zero;
         V3 pulls_after{zero, zero, zero};  // pull and direction of the link after
@@ -191,23 +158,16 @@ class BlockSolver {
             const V pull = hn::IfThenElseZero(open, pull_after);
             store(hn::Add(load(k, Pull), pull), k, Pull);
             const V3 pulls = times(pull, load3(k, PullX));
-            move<touching>(k + 1, minus(pulls_after, pulls));
+            move(k + 1, minus(pulls_after, pulls));
             pulls_after = pulls;
         }
-        move<touching>(0, pulls_after);
+        move(0, pulls_after);
     }
 
-    template <bool touching>
     void move(std::size_t k, const V3& by) const {
-        const V3 moves = yield<touching>(k, by);
-        store3(plus(load3(k, X), moves), k, X);
-        if constexpr (touching) {
-            const V3 wanted = times(load(k, Weight), by);
-            store3(plus(load3(k, HeldX), minus(wanted, moves)), k, HeldX);
-        }
+        store3(plus(load3(k, X), times(load(k, Weight), by)), k, X);
     }
 
-    template <bool touching>
     void eliminate(const Order& order) const {
         const V zero = hn::Zero(d_), after = set(0.5 * (1.0 + order.backward)),
                 before = set(0.5 * (1.0 - order.backward));
@@ -226,21 +186,20 @@ class BlockSolver {
             store3(pull, k, PullX);
             const V give = load(k, Give);
             const V error = hn::Sub(hn::Sub(length, load(k, Rest)), hn::Mul(give, load(k, Pull)));
-            const V3 yields = yield<touching>(k, pull);
-            const V both = hn::Add(load(k, Weight), load(k + 1, Weight));
-            const V diagonal = hn::Add(hn::Add(dot(lies, yields), dot(lies, yield<touching>(k + 1, pull))), give);
-            const V lower = hn::Neg(dot(lies, yield<touching>(k, pull_before)));
-            const V up_before = hn::Neg(dot(lies_before, yields));  // of row k - 1
+            const V weight = load(k, Weight), both = hn::Add(weight, load(k + 1, Weight));
+            const V diagonal = hn::Add(hn::Mul(both, dot(lies, pull)), give);
+            const V lower = hn::Neg(hn::Mul(weight, dot(lies, pull_before)));
+            const V up_before = hn::Neg(hn::Mul(weight, dot(lies_before, pull)));  // of row k - 1
             // The row before is finished only now that its upper entry is known.
             V upper_ready = zero;
             if (k > 0) {
                 upper_ready = hn::Mul(up_before, upper_before);
                 store(upper_ready, k - 1, Upper);
             }
-            const V pivot = hn::Sub(hn::Add(diagonal, hn::Mul(set(order.damping), both)), hn::Mul(lower, upper_ready));
+            const V pivot = hn::Sub(hn::Add(diagonal, hn::Mul(set(1e-9), both)), hn::Mul(lower, upper_ready));
             const V inverse = hn::Div(set(1.0), hn::Max(pivot, hn::Max(hn::Mul(set(1e-10), both), set(1e-30))));
             // Between two nodes that are held there is nothing to solve.
-            const auto fixed = hn::Le(hn::Add(diagonal, zero), hn::Mul(set(1e-12), both));
+            const auto fixed = hn::Le(both, zero);
             right_before = hn::IfThenZeroElse(
                 fixed, hn::Mul(inverse, hn::Sub(error, hn::Mul(lower, right_before))));
             upper_before = hn::IfThenZeroElse(fixed, inverse);

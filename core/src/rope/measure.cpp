@@ -20,7 +20,7 @@ glm::vec3 World::velocity(std::size_t particle) const noexcept {
     return glm::vec3((1.0 / state_.moved_in) * state_.moved[particle]);
 }
 
-double World::stretch(const Body& body) const noexcept {
+double World::length_error(const Body& body) const noexcept {
     double worst = 0.0;
     for (const Link& link : state_.links) {
         if (link.kind != Link::Kind::Stretch || !within(body, link)) continue;

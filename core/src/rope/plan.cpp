@@ -47,6 +47,7 @@ World::Plan::Plan(const State& state) {
     }
     group_runs(state.position.size());
     cut_into_chunks(state);
+    name_bodies(state);
     all_alone = soft.empty() &&
                 std::all_of(runs.begin(), runs.end(), [](const Run& run) { return run.alone; });
     tears = std::any_of(state.bodies.begin(), state.bodies.end(), [](const Body& b) { return b.tear > 0.0f; });
@@ -63,6 +64,14 @@ void World::Plan::group_runs(std::size_t particles) {
         ++groups.back().runs;
         for (std::uint32_t k = 0; k <= run.links; ++k)
             taken[nodes[run.first_node + k]] = static_cast<std::uint32_t>(groups.size());
+    }
+}
+
+void World::Plan::name_bodies(const State& state) {
+    for (Run& run : runs) {
+        const auto after = std::upper_bound(state.bodies.begin(), state.bodies.end(), nodes[run.first_node],
+                                            [](std::uint32_t i, const Body& body) { return i < body.first; });
+        run.body = static_cast<std::uint32_t>(after - state.bodies.begin()) - 1;
     }
 }
 

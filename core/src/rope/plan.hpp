@@ -14,7 +14,8 @@ struct World::Plan {
     struct Run {
         std::uint32_t first_link = 0, links = 0;
         std::uint32_t first_node = 0;  ///< in `nodes`, links + 1 of them
-        bool alone = false;            ///< no other link touches its particles
+        std::uint32_t body = 0;
+        bool alone = false;  ///< no other link touches its particles
     };
     /// Runs of equal length that share no particle, one after the other in `runs`.
     struct Group {
@@ -43,6 +44,7 @@ struct World::Plan {
   private:
     void group_runs(std::size_t particles);
     void cut_into_chunks(const State& state);
+    void name_bodies(const State& state);
 };
 
 }  // namespace tendril::rope

@@ -35,6 +35,7 @@ int Substep::relax(bool compliant) {
         }
         satisfy_soft();
     }
+    measure();
     return state_.settings.iterations;
 }
 

@@ -15,10 +15,8 @@ namespace tendril::rope {
 struct Touch {
     glm::dvec3 normal{0.0};
     glm::dvec3 push{0.0};     ///< how the collider has moved it so far, metres
-    glm::dvec3 out{0.0};      ///< what of that was because it was inside, and not because of tension or friction
     glm::dvec3 carried{0.0};  ///< how the collider itself moves in the substep
     bool touching = false;
-    bool grips = false;  ///< friction holds it where the collider is
 };
 
 struct World::Scratch {
@@ -33,6 +31,7 @@ struct World::Scratch {
     };
     std::vector<Near> near;            ///< chunk by chunk
     std::vector<std::uint32_t> close;  ///< colliders that anything is near
+    std::vector<std::uint8_t> body_near;  ///< whether any collider is near a body
     std::vector<glm::dvec3> chunk_low, chunk_high;
     struct Moving {
         Shape shape;         ///< at the end of the substep

@@ -8,6 +8,8 @@ namespace tendril::rope {
 class Substep {
   public:
     Substep(State& state, const World::Plan& plan, World::Scratch& scratch);
+    /// Whether bodies are told how far they are stretched in the end.
+    bool measures = false;
     /// Gives back how many passes the solver took.
     int run();
 
@@ -15,15 +17,15 @@ class Substep {
     // advance.cpp
     void move_colliders();
     void move_particles();
+    void measure();
     void keep();
 
     // contact.cpp: looks for what is near, and keeps it out
     void find_near();
-    double push_out(bool first);                                ///< the farthest that anything was pushed
-    double push_particle(std::uint32_t i, std::uint32_t collider, double radius, bool first);
-    double push_link(const Link& link, std::uint32_t collider, double radius);
-    double grip(std::uint32_t i);                               ///< Coulomb's friction; how far it moved
-    double settle();                                            ///< lets go what is pulled off
+    void push_out(bool first);
+    void push_particle(std::uint32_t i, std::uint32_t collider, double radius, bool first);
+    void push_link(const Link& link, std::uint32_t collider, double radius);
+    void grip(std::uint32_t i);  ///< Coulomb's friction
     Touch& touch(std::uint32_t i, std::uint32_t collider, const glm::dvec3& normal);
 
     // last_push.cpp: what is still inside after the last pass
@@ -41,8 +43,7 @@ class Substep {
     double solve_batch(const Batch& batch, int iteration);
     void again(std::uint32_t run);
     void rescue();
-    void forget_tension(std::uint32_t i);
-    void gather(const detail::Block& block, const Batch& batch, bool& touching) const;
+    void gather(const detail::Block& block, const Batch& batch) const;
     void scatter(const detail::Block& block, std::uint32_t lane, std::uint32_t run);
     double energy_gained(std::uint32_t run) const;
     bool gains_energy(std::uint32_t run, double part) const;

@@ -22,6 +22,9 @@ struct Body {
     float radius = 0.02f;  ///< metres: how far from colliders its particles are kept, and how thick it is
     /// Relative length at which a link of a sheet tears, 0.1 for 10 % over its rest; 0: never.
     float tear = 0.0f;
+    /// The largest relative length error of its stretch links, |length / rest - 1| (or the length, where a rest is
+    /// 0), as the solver left it last. What pushing out of colliders adds afterwards is not the solver's.
+    float stretch = 0.0f;
 };
 
 /// Keeps two particles at a distance.

@@ -121,9 +121,9 @@ class World {
     glm::vec3 position(std::size_t particle) const noexcept { return glm::vec3(state_.position[particle]); }
     /// Of a body's particles, m/s.
     glm::vec3 velocity(std::size_t particle) const noexcept;
-    /// The largest relative length error of a body's stretch links: |length / rest - 1|, or how far it is over
-    /// or under where a rest is 0. Pushing out of colliders adds to it.
-    double stretch(const Body& body) const noexcept;
+    /// The largest relative length error of a body's stretch links as they are now. It has in it what pushing out of
+    /// colliders added, which Body::stretch has not.
+    double length_error(const Body& body) const noexcept;
     /// Kinetic energy, by central differences, and potential, joules, as of one substep ago; potential is 0
     /// where the coordinates are.
     double energy(const Body& body) const noexcept;
