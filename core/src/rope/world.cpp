@@ -71,6 +71,11 @@ World& World::operator=(const World& other) {
 World& World::operator=(World&&) noexcept = default;
 World::~World() = default;
 
+void World::built() noexcept {
+    state_.bodies.back().stretch = static_cast<float>(length_error(state_.bodies.back()));
+    reshaped();
+}
+
 void World::reshaped() noexcept {
     plan_.reset();
     if (scratch_) scratch_->fresh = true;
@@ -101,21 +106,21 @@ void World::clear() noexcept {
 std::string World::add_rope(const RopeShape& shape) {
     std::string name = free_name(state_, "add_rope", shape.name, "rope");
     detail::build(state_, shape, name);
-    reshaped();
+    built();
     return name;
 }
 
 std::string World::add_sheet(const SheetShape& shape) {
     std::string name = free_name(state_, "add_sheet", shape.name, "sheet");
     detail::build(state_, shape, name);
-    reshaped();
+    built();
     return name;
 }
 
 std::string World::add_lock(const LockShape& shape) {
     std::string name = free_name(state_, "add_lock", shape.name, "lock");
     detail::build(state_, shape, name);
-    reshaped();
+    built();
     return name;
 }
 

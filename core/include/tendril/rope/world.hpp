@@ -121,6 +121,8 @@ class World {
     glm::vec3 position(std::size_t particle) const noexcept { return glm::vec3(state_.position[particle]); }
     /// Of a body's particles, m/s.
     glm::vec3 velocity(std::size_t particle) const noexcept;
+    /// Body::stretch.
+    double stretch(const Body& body) const noexcept { return body.stretch; }
     /// The largest relative length error of a body's stretch links as they are now. It has in it what pushing out of
     /// colliders added, which Body::stretch has not.
     double length_error(const Body& body) const noexcept;
@@ -137,6 +139,7 @@ class World {
     struct Scratch;  // likewise
 
   private:
+    void built() noexcept;
     void reshaped() noexcept;
     Collider& collider(const char* operation, std::string_view name);
 
