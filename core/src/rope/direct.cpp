@@ -110,8 +110,11 @@ double Substep::solve_batch(const Batch& batch, int iteration) {
     gather(block, batch);
     order.implicit = first.alone && iteration == 0;
     // Where runs share particles each only undoes part of what the others did: the plain direction serves best.
-    order.backward = first.alone ? least_backward : 1.0;
-    order.passes = first.alone ? 2 : 1;
+    // Runs that share particles undo part of what the others did, and what colliders pushed has wrong lengths to
+    // begin with: there the plain direction serves best.
+    const bool pushed = scratch_.body_near[first.body] != 0;
+    order.backward = first.alone && !pushed ? least_backward : 1.0;
+    order.passes = !first.alone ? 1 : pushed ? 4 : 2;
     order.tolerance = arrived;
     (batch.single ? scratch_.unit.single : scratch_.unit.solve)(block, order);
     double worst = 0.0;
@@ -129,7 +132,8 @@ double Substep::solve_batch(const Batch& batch, int iteration) {
 }
 
 void Substep::again(std::uint32_t run) {
-    if (scratch_.run_worst[run] <= good_enough && !gains_energy(run, 1e-4)) return;
+    const double enough = scratch_.body_near[plan_.runs[run].body] != 0 ? 10.0 * good_enough : good_enough;
+    if (scratch_.run_worst[run] <= enough && !gains_energy(run, 1e-4)) return;
     const World::Plan::Run& it = plan_.runs[run];
     Block block{scratch_.block.data() + scratch_.block_offset, it.links, 1};
     const int most = std::min(beginnings, state_.settings.iterations);
@@ -146,7 +150,7 @@ void Substep::again(std::uint32_t run) {
         scratch_.unit.single(block, order);
         scratch_.run_worst[run] = order.worst[0];
         scatter(block, 0, run);
-        if (order.worst[0] <= good_enough) break;
+        if (order.worst[0] <= enough) break;
     }
     scratch_.run_gain[run] = energy_gained(run);
 }
