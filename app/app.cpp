@@ -54,7 +54,7 @@ void App::start_from(const RecordingStart& start) {
     load_scene(workspace_, start.scene);
     if (labs_.find(start.lab) == nullptr)
         throw std::runtime_error("lab: there is no lab \"" + start.lab + "\"");
-    workspace_.lab = start.lab;
+    workspace_.open_lab(start.lab);
     std::vector<std::string> complaints;
     workspace_.settings = load_settings(start.settings, complaints);
     if (!complaints.empty()) throw std::runtime_error("settings: " + complaints.front());
@@ -102,8 +102,7 @@ void App::compose(const Event* event, Pass pass) {
     if (in_tick) {
         take_shortcut(emit);
         const Camera camera(workspace_.camera, layout_.view);
-        pointer_.take(event, input_, {workspace_, lab(), camera, drawn_, ui_.wants_mouse(), layout_.scale},
-                      emit);
+        pointer_.take(event, input_, pointed_at(camera), emit);
         run_emitted(emit);
     }
 
@@ -129,6 +128,10 @@ void App::compose(const Event* event, Pass pass) {
     ui_.end();
 }
 
+Pointer::Scene App::pointed_at(const Camera& camera) const {
+    return {workspace_, lab(), camera, drawn_, ui_.wants_mouse(), layout_.scale};
+}
+
 void App::take_event(const Event& event, Emit& emit) {
     if (const auto* press = std::get_if<MousePress>(&event)) {
         if (press->down) ++gesture_;
@@ -147,7 +150,8 @@ void App::take_shortcut(Emit& emit) {
     const Chord chord = input_.pressed();
     if (chord.key == Key::Unknown) return;
     if (chord.key == Key::Escape && pointer_.dragged() != no_pick) {
-        pointer_.release();  // a drag that was let go leaves nothing behind
+        const Camera camera(workspace_.camera, layout_.view);
+        pointer_.release(pointed_at(camera), emit);  // a drag that was let go leaves nothing behind
         if (workspace_.history.is_open(gesture_)) emit("undo");
         return;
     }
@@ -188,8 +192,13 @@ void App::run(const RunCommand& command) {
 
 void App::step_lab() {
     Clock& clock = workspace_.clock;
-    if (lab().moving(workspace_)) lab().step(workspace_);
+    if (lab().moving(workspace_)) {
+        if (lab().rewinds())
+            workspace_.rewind.remember(clock.tick, workspace_.document.parts().at(workspace_.lab));
+        lab().step(workspace_);
+    }
     ++clock.tick;
+    clock.passed += static_cast<double>(clock.speed);
     clock.steps_due = std::max(0, clock.steps_due - 1);
 }
 
@@ -248,7 +257,13 @@ Json App::state() {
     }
     state["handles"] = std::move(handles);
     state["camera"] = save_camera(workspace_.camera);
-    state["time"] = {{"playing", workspace_.clock.playing}, {"tick", workspace_.clock.tick}};
+    const Clock& clock = workspace_.clock;
+    state["time"] = {{"playing", clock.playing}, {"tick", clock.tick}, {"speed", number(clock.speed)}};
+    if (!workspace_.rewind.empty()) {
+        const std::uint64_t newest = std::max(workspace_.rewind.newest(), clock.tick);
+        state["time"]["ticks_back"] = newest - clock.tick;
+        state["time"]["remembered"] = newest - workspace_.rewind.oldest();
+    }
     return state;
 }
 

@@ -63,6 +63,7 @@ class App final : public Stage {
     enum class Pass { Tick, Settle, Picture };
     /// Runs the user interface and builds the picture, once.
     void compose(const Event* event, Pass pass);
+    Pointer::Scene pointed_at(const Camera& camera) const;
     void take_event(const Event& event, Emit& emit);
     void take_shortcut(Emit& emit);
     void run_emitted(Emit& emit);

@@ -46,6 +46,7 @@ LiveLoop::LiveLoop(App& app, Window& window, const Options& options)
 
 void LiveLoop::run(Player& player, std::optional<int> frames) {
     using Time = std::chrono::steady_clock;
+    app_.workspace().clock.measured = true;
     auto last = Time::now();
     std::vector<Event> events;
     while (!options_.ending && !app_.quit() && (!frames || ticks_ < *frames)) {

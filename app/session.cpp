@@ -57,7 +57,8 @@ void open_scene(App& app, const SessionOptions& options) {
         if (app.labs().find(options.lab) == nullptr) {
             throw std::runtime_error("there is no lab \"" + options.lab + "\"; --list-labs names them");
         }
-        app.workspace().lab = options.lab;
+        app.workspace().open_lab(options.lab);
+        app.workspace().cameras.clear();  // a recording knows the camera of the open lab alone
     }
 }
 

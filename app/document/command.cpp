@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/trigonometric.hpp>
 
 namespace tendril::app {
 namespace {
@@ -18,6 +19,10 @@ const char* type_name(ArgumentType type) {
             return "a text";
         case ArgumentType::Point:
             return "a point [x, y, z]";
+        case ArgumentType::NumberOrPoint:
+            return "a number or a point [x, y, z]";
+        case ArgumentType::Rotation:
+            return "a unit quaternion [x, y, z, w] or angles in degrees [x, y, z]";
     }
     return "";
 }
@@ -39,6 +44,23 @@ bool sane(const Json& value) {
     return std::isfinite(number) && std::abs(number) <= 1e9;
 }
 
+void check_point(const Json& value, ArgumentType type, const auto& refuse) {
+    if (!value.is_array() || value.size() != 3) refuse(type_name(type));
+    for (const auto& coordinate : value) {
+        if (!sane(coordinate)) refuse("three finite numbers of at most 1e9 in magnitude");
+    }
+}
+
+/// Are these four the coordinates of a unit quaternion, but for the rounding of who wrote them down?
+bool is_unit(const Json& value) {
+    double squares = 0.0;
+    for (const auto& coordinate : value) {
+        if (!sane(coordinate)) return false;
+        squares += coordinate.get<double>() * coordinate.get<double>();
+    }
+    return std::abs(std::sqrt(squares) - 1.0) < 1e-3;
+}
+
 /// Refuses a value that does not fit its argument; `where` is "chain.add: length".
 void check_value(const Argument& argument, const Json& value, const std::string& where) {
     const auto refuse = [&](const std::string& rule) {
@@ -55,10 +77,24 @@ void check_value(const Argument& argument, const Json& value, const std::string&
                 refuse("one of " + joined(argument.choices));
             }
             return;
+        case ArgumentType::NumberOrPoint:
+            if (value.is_array()) {
+                check_point(value, argument.type, refuse);
+                return;
+            }
+            [[fallthrough]];
+        case ArgumentType::Number:
+            if (!value.is_number()) refuse(type_name(argument.type));
+            if (!sane(value)) refuse("finite and at most 1e9 in magnitude");
+            break;
         case ArgumentType::Point:
-            if (!value.is_array() || value.size() != 3) refuse(type_name(argument.type));
-            for (const auto& coordinate : value) {
-                if (!sane(coordinate)) refuse("three finite numbers of at most 1e9 in magnitude");
+            check_point(value, argument.type, refuse);
+            return;
+        case ArgumentType::Rotation:
+            if (value.is_array() && value.size() == 4) {
+                if (!is_unit(value)) refuse("a quaternion [x, y, z, w] of length 1");
+            } else {
+                check_point(value, argument.type, refuse);
             }
             return;
         case ArgumentType::Integer:
@@ -66,10 +102,6 @@ void check_value(const Argument& argument, const Json& value, const std::string&
             if (!sane(value) || std::trunc(value.get<double>()) != value.get<double>()) {
                 refuse(type_name(argument.type));
             }
-            break;
-        case ArgumentType::Number:
-            if (!value.is_number()) refuse(type_name(argument.type));
-            if (!sane(value)) refuse("finite and at most 1e9 in magnitude");
             break;
     }
     const double number = value.get<double>();
@@ -112,6 +144,13 @@ glm::vec3 Arguments::point(const char* name) const {
     return {value[0].get<float>(), value[1].get<float>(), value[2].get<float>()};
 }
 
+glm::quat Arguments::rotation(const char* name) const {
+    const Json& value = json_.at(name);
+    if (value.size() == 3) return glm::quat(glm::radians(point(name)));
+    const auto coordinate = [&](std::size_t i) { return value[i].get<float>(); };
+    return glm::normalize(glm::quat(coordinate(3), coordinate(0), coordinate(1), coordinate(2)));
+}
+
 void CommandTable::add(Command command) {
     if (find(command.name) != nullptr) throw std::logic_error("command added twice: " + command.name);
     commands_.push_back(std::move(command));
@@ -140,6 +179,7 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
     }
     if (workspace.document == before) return;
     if (command->effect == Effect::Edit) {
+        workspace.rewind.forget_from(workspace.clock.tick);  // what came of it, as it was before, came not
         const bool moved = workspace.path != path;
         workspace.history.push(before, command->name, gesture, moved ? std::optional(path) : std::nullopt);
     } else if (command->effect == Effect::Look && !modified) {

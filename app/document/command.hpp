@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <glm/gtc/quaternion.hpp>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -26,7 +27,9 @@ class UnknownCommand : public Refused {
     using Refused::Refused;
 };
 
-enum class ArgumentType { Number, Integer, Boolean, Text, Point };
+/// NumberOrPoint: one number, or three. Rotation: a unit quaternion [x, y, z, w], or degrees about X, then Y,
+/// then Z.
+enum class ArgumentType { Number, Integer, Boolean, Text, Point, NumberOrPoint, Rotation };
 
 struct Argument {
     std::string name;
@@ -48,6 +51,8 @@ class Arguments {
     bool boolean(const char* name) const { return json_.at(name).get<bool>(); }
     std::string text(const char* name) const { return json_.at(name).get<std::string>(); }
     glm::vec3 point(const char* name) const;
+    bool is_point(const char* name) const { return json_.at(name).is_array(); }  ///< of a NumberOrPoint
+    glm::quat rotation(const char* name) const;                                  ///< of unit length
 
   private:
     const Json& json_;

@@ -1,5 +1,6 @@
 #include "app/document/json.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -38,11 +39,18 @@ std::string dump(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+/// A row of a table: short in values, however many digits they have.
+bool is_row(const Json& json) {
+    constexpr std::size_t longest_row = 16;
+    return json.is_array() && json.size() <= longest_row &&
+           std::none_of(json.begin(), json.end(), [](const Json& each) { return each.is_structured(); });
+}
+
 void write_indented(std::string& out, const Json& json, std::size_t indent) {
     constexpr std::size_t line_width = 100;
     if (json.is_structured() && !json.empty()) {
         std::string one_line = dump(json);
-        if (indent + one_line.size() > line_width) {
+        if (indent + one_line.size() > line_width && !is_row(json)) {
             const std::string margin(indent + 1, ' ');
             out += json.is_object() ? "{\n" : "[\n";
             bool first = true;
@@ -80,6 +88,10 @@ Json point(glm::vec3 p) {
 
 Json pixel(glm::vec2 p) {
     return Json::array({number(p.x), number(p.y)});
+}
+
+Json dpoint(const glm::dvec3& p) {
+    return Json::array({p.x, p.y, p.z});
 }
 
 Json degrees(float radians) {
@@ -159,6 +171,17 @@ float json_number(const Json& value, const std::string& where, float low, float 
     return x;
 }
 
+double json_real(const Json& value, const std::string& where) {
+    return finite(value, where);
+}
+
+double json_real(const Json& value, const std::string& where, double low, double high) {
+    const double x = finite(value, where);
+    if (!(x >= low && x <= high))
+        expected("a number from " + Json(low).dump() + " to " + Json(high).dump(), value, where);
+    return x;
+}
+
 float json_degrees(const Json& value, const std::string& where) {
     return from_degrees(finite(value, where));
 }
@@ -171,6 +194,13 @@ int json_integer(const Json& value, const std::string& where, int low, int high)
     return static_cast<int>(x);
 }
 
+std::uint64_t json_count(const Json& value, const std::string& where, std::uint64_t high) {
+    const double x = value.is_number() ? value.get<double>() : std::nan("");
+    if (!(x >= 0.0 && x <= static_cast<double>(high) && x == std::floor(x)))
+        expected("a whole number from 0 to " + std::to_string(high), value, where);
+    return static_cast<std::uint64_t>(x);
+}
+
 bool json_bool(const Json& value, const std::string& where) {
     if (!value.is_boolean()) expected("true or false", value, where);
     return value.get<bool>();
@@ -179,6 +209,11 @@ bool json_bool(const Json& value, const std::string& where) {
 std::string json_text(const Json& value, const std::string& where) {
     if (!value.is_string()) expected("a text", value, where);
     return value.get<std::string>();
+}
+
+glm::dvec3 json_dpoint(const Json& value, const std::string& where) {
+    if (!value.is_array() || value.size() != 3) expected("a point [x, y, z]", value, where);
+    return {json_real(value[0], where), json_real(value[1], where), json_real(value[2], where)};
 }
 
 glm::vec3 json_point(const Json& value, const std::string& where) {

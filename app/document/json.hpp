@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -25,6 +26,7 @@ Json point(glm::vec3 p);
 Json pixel(glm::vec2 p);
 /// An angle as files hold it, in degrees; json_degrees gives back the very same radians.
 Json degrees(float radians);
+Json dpoint(const glm::dvec3& p);  ///< of doubles, which JSON holds exactly as they are
 
 /// JSON for people to read and compare: what fits a line stands on one. Ends with a newline.
 std::string json_to_text(const Json& json);
@@ -61,11 +63,16 @@ Json read_json_file(const std::filesystem::path& path);
 const Json& json_member(const Json& object, const char* key, const std::string& where);
 float json_number(const Json& value, const std::string& where);
 float json_number(const Json& value, const std::string& where, float low, float high);
+double json_real(const Json& value, const std::string& where);
+double json_real(const Json& value, const std::string& where, double low, double high);
 float json_degrees(const Json& value, const std::string& where);  ///< in radians
 /// A whole number; 3.0 is one.
 int json_integer(const Json& value, const std::string& where, int low, int high);
+/// A count that may outgrow an int: a whole number from 0 to `high`, which is at most 2^53.
+std::uint64_t json_count(const Json& value, const std::string& where, std::uint64_t high);
 bool json_bool(const Json& value, const std::string& where);
 std::string json_text(const Json& value, const std::string& where);
 glm::vec3 json_point(const Json& value, const std::string& where);
+glm::dvec3 json_dpoint(const Json& value, const std::string& where);
 
 }  // namespace tendril::app

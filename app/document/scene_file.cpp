@@ -111,13 +111,13 @@ void load_scene(Workspace& workspace, const Json& scene) {
             throw std::runtime_error("lab: there is no lab " + json_summary(*found));
     }
     const Json* camera = optional_member(scene, "camera");
-    const CameraPose pose = camera ? load_camera(*camera, "camera") : workspace.first_view;
+    const CameraPose pose = camera ? load_camera(*camera, "camera") : workspace.first_view_of(lab);
 
     // Nothing below throws.
     workspace.document = std::move(document);
     workspace.lab = std::move(lab);
     workspace.camera = pose;
-    workspace.clock.tick = 0;
+    workspace.start_anew();
 }
 
 void save_scene_file(Workspace& workspace, const std::filesystem::path& path) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "app/document/camera_pose.hpp"
 #include "app/document/document.hpp"
 #include "app/document/history.hpp"
+#include "app/document/rewind.hpp"
 #include "app/document/settings.hpp"
 
 namespace tendril::app {
@@ -21,7 +23,15 @@ struct Clock {
     bool playing = true;
     std::uint64_t tick = 0;  ///< simulated ticks so far
     int steps_due = 0;       ///< ticks to take at once, though paused
+    float speed = 1.0f;      ///< slow motion: seconds that pass in a lab in a second of time
+    double passed = 0.0;     ///< ticks that have passed in the labs, by speed
+    bool measured = false;   ///< what simulating takes is measured: in a live window, where it does no harm
+
+    /// Of a lab that moves by whole ticks: how many pass in the next one.
+    int whole_ticks() const;
 };
+
+inline constexpr float slowest = 0.05f, fastest = 2.0f;
 
 enum class ToastKind { Info, Refusal };
 
@@ -48,15 +58,23 @@ struct Workspace {
     Document document;
     Document blank;         ///< what scene.new starts from
     std::string lab;        ///< the lab that is open
-    CameraPose first_view;  ///< what scene.new looks from
+    CameraPose first_view;  ///< what scene.new looks from, in a lab that has no view of its own
+    std::map<std::string, CameraPose> first_views;  ///< each lab's
     CameraPose camera;
+    std::map<std::string, CameraPose> cameras;  ///< of the labs that were open before
     Clock clock;
+    Rewind rewind;
     History history;
     Settings settings;
     UiState ui;
     std::filesystem::path path;  ///< the scene's file, empty while it has none
     Document saved;              ///< as it was last saved or opened
 
+    /// Opens a lab, seen as it was last seen.
+    void open_lab(const std::string& name);
+    const CameraPose& first_view_of(const std::string& name) const;
+    /// Time and cameras as they are for a scene that has just begun.
+    void start_anew();
     bool modified() const { return document != saved; }
     void toast(std::string text, ToastKind kind = ToastKind::Info);
 };

@@ -12,6 +12,7 @@ void step_through(Workspace& workspace, bool back) {
                          : workspace.history.redo(workspace.document, &workspace.path);
     if (!document) throw Refused(back ? "nothing to undo" : "nothing to redo");
     workspace.document = std::move(*document);
+    workspace.rewind.clear();
 }
 
 void add_history_commands(CommandTable& table) {
@@ -36,8 +37,8 @@ void add_scene_commands(CommandTable& table) {
                    w.document = w.blank;
                    w.saved = w.blank;
                    w.path.clear();
-                   w.camera = w.first_view;
-                   w.clock.tick = 0;
+                   w.start_anew();
+                   w.camera = w.first_view_of(w.lab);
                }});
     table.add({.name = "scene.open",
                .arguments = {{.name = "path", .type = ArgumentType::Text, .help = "the scene file"}},
@@ -136,6 +137,18 @@ void add_dialog_commands(CommandTable& table) {
                }});
 }
 
+/// Goes back (or forward again) to the moment that is remembered nearest.
+void seek(Workspace& w, const Arguments& given) {
+    if (w.rewind.empty()) throw Refused("there is no earlier moment to go back to");
+    const auto& now = w.document.parts().at(w.lab);
+    if (w.clock.tick > w.rewind.newest()) w.rewind.remember(w.clock.tick, now);
+    const Rewind::Moment& moment = w.rewind.at(static_cast<std::uint64_t>(given.integer("ticks_back")));
+    w.clock.playing = false;
+    if (moment.tick == w.clock.tick) return;
+    w.clock.tick = moment.tick;
+    w.document.set(w.lab, now->at_moment(moment.part));
+}
+
 void add_time_commands(CommandTable& table) {
     const auto add = [&](const char* name, const char* help, auto change) {
         table.add({.name = name,
@@ -152,6 +165,23 @@ void add_time_commands(CommandTable& table) {
         w.clock.playing = false;
         ++w.clock.steps_due;
     });
+    table.add({.name = "time.speed",
+               .arguments = {{.name = "factor",
+                              .help = "seconds that pass in a second; below 1 is slow motion",
+                              .low = slowest,
+                              .high = fastest}},
+               .help = "Sets how fast time runs",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments& a) { w.clock.speed = a.number("factor"); }});
+    table.add({.name = "time.seek",
+               .arguments = {{.name = "ticks_back",
+                              .type = ArgumentType::Integer,
+                              .help = "ticks of 1/60 s before the last one",
+                              .low = 0,
+                              .high = Rewind::most_ticks}},
+               .help = "Pauses, and shows an earlier moment; time goes on from there",
+               .effect = Effect::Look,
+               .apply = seek});
 }
 
 /// A setting that is one of two: the one that is named, or the other one when none is.
@@ -254,7 +284,7 @@ void add_workspace_commands(CommandTable& table) {
                .apply = [](Workspace& w, const Arguments& a) {
                    const std::string name = a.text("name");
                    if (!w.document.parts().contains(name)) throw Refused("there is no lab \"" + name + "\"");
-                   w.lab = name;
+                   w.open_lab(name);
                }});
 }
 

@@ -57,8 +57,10 @@ class Lab {
 
     /// Whether time changes anything here now; a lab at rest lets the window idle.
     virtual bool moving(const Workspace& workspace) const = 0;
-    /// One tick of tick_seconds.
+    /// One tick of tick_seconds, in which clock.speed times as much passes in the lab.
     virtual void step(Workspace& workspace) const = 0;
+    /// Whether its last seconds are remembered, to go back in time.
+    virtual bool rewinds() const { return false; }
 
     virtual void draw(const View& view, DrawList& list) const = 0;
 
@@ -68,6 +70,8 @@ class Lab {
     virtual glm::vec3 position_of(const Workspace& workspace, PickId pick) const = 0;
     /// The handle is dragged to a point; called each time the pointer moves.
     virtual void drag(const Workspace& workspace, PickId pick, glm::vec3 to, Emit& emit) const = 0;
+    /// The handle that was dragged is let go, wherever it is now.
+    virtual void drop(const Workspace&, PickId, Emit&) const {}
     /// The handle, or with no_pick the empty room, is clicked.
     virtual void click(const Workspace& workspace, PickId pick, Emit& emit) const = 0;
     /// What the mouse would do there, for the status line.

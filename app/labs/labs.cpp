@@ -4,11 +4,13 @@
 
 #include "app/labs/camera_commands.hpp"
 #include "app/labs/chain/chain_lab.hpp"
+#include "app/labs/rope/rope_lab.hpp"
 
 namespace tendril::app {
 
 Labs::Labs() {
     labs_.push_back(std::make_unique<ChainLab>());
+    labs_.push_back(std::make_unique<RopeLab>());
 }
 
 const Lab* Labs::find(std::string_view name) const {
@@ -22,6 +24,7 @@ Workspace make_blank_workspace(const Labs& labs) {
     for (const auto& lab : labs.all()) workspace.document.set(lab->name(), lab->blank());
     workspace.blank = workspace.saved = workspace.document;
     workspace.lab = labs.all().front()->name();
+    for (const auto& lab : labs.all()) workspace.first_views[lab->name()] = lab->first_view();
     workspace.camera = workspace.first_view = labs.all().front()->first_view();
     return workspace;
 }

@@ -55,7 +55,7 @@ void Pointer::take(const Event* event, const Input& input, const Scene& scene, E
                 emit_camera(emit, scene.workspace.camera, zoomed(scene.camera, input.mouse(), wheel->by));
             }
         } else if (const auto* focus = std::get_if<Focus>(event); focus != nullptr && !focus->focused) {
-            release();
+            release(scene, emit);
         } else if (std::holds_alternative<KeyChange>(*event) && doing_ == Doing::Drag) {
             drag(input, scene, emit);  // an axis key takes hold at once
         }
@@ -67,7 +67,8 @@ void Pointer::take(const Event* event, const Input& input, const Scene& scene, E
     }
 }
 
-void Pointer::release() {
+void Pointer::release(const Scene& scene, Emit& emit) {
+    if (doing_ == Doing::Drag) scene.lab.drop(scene.workspace, caught_, emit);
     doing_ = Doing::Nothing;
     caught_ = no_pick;
 }
@@ -92,7 +93,7 @@ void Pointer::press(const MousePress& press, const Input& input, const Scene& sc
 
 void Pointer::let_go(const Scene& scene, Emit& emit) {
     if (doing_ == Doing::Press) scene.lab.click(scene.workspace, caught_, emit);
-    release();
+    release(scene, emit);
 }
 
 void Pointer::move(const Input& input, const Scene& scene, Emit& emit) {

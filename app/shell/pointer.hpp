@@ -27,8 +27,8 @@ class Pointer {
     /// Takes this tick's event. Emits camera.set, the lab's drag and click commands, and a document is
     /// changed by them afterwards.
     void take(const Event* event, const Input& input, const Scene& scene, Emit& emit);
-    /// Ends whatever is going on, without a click.
-    void release();
+    /// Ends whatever is going on, without a click; what was dragged is dropped.
+    void release(const Scene& scene, Emit& emit);
 
     PickId hovered() const { return hovered_; }
     PickId dragged() const { return doing_ == Doing::Drag ? caught_ : no_pick; }

@@ -32,9 +32,11 @@ void ChainLab::step(Workspace& workspace) const {
     const Document before = workspace.document;
     auto& part = workspace.document.edit<ChainPart>(chain_lab);
     try {
-        part.motion.ticks = (part.motion.ticks + 1) % ticks_per_round(part.motion);
-        reach_for(part, motion_point(part.motion, part.motion.ticks));
-        check_range(part);
+        for (int due = workspace.clock.whole_ticks(); due > 0; --due) {
+            part.motion.ticks = (part.motion.ticks + 1) % ticks_per_round(part.motion);
+            reach_for(part, motion_point(part.motion, part.motion.ticks));
+            check_range(part);
+        }
         part.study.refresh(part.chain, part.reach, part.target);
     } catch (const std::logic_error& error) {  // a chain dragged to the end of the world stops there
         workspace.document = before;

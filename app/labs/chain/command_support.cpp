@@ -48,32 +48,6 @@ Argument index_argument(bool required, const char* help) {
             .high = static_cast<double>(max_segments) - 1};
 }
 
-Argument choice_argument(const char* name, bool required, const char* help,
-                         std::vector<std::string> choices) {
-    return {.name = name,
-            .type = ArgumentType::Text,
-            .required = required,
-            .help = help,
-            .choices = std::move(choices)};
-}
-
-Argument integer_argument(const char* name, const char* help, double low, double high) {
-    return {.name = name,
-            .type = ArgumentType::Integer,
-            .required = false,
-            .help = help,
-            .low = low,
-            .high = high};
-}
-
-Argument number_argument(const char* name, const char* help, double low, double high) {
-    return {.name = name, .required = false, .help = help, .low = low, .high = high};
-}
-
-Argument switch_argument(const char* name, const char* help) {
-    return {.name = name, .type = ArgumentType::Boolean, .required = false, .help = help};
-}
-
 std::size_t index_of(const Arguments& given) {
     return static_cast<std::size_t>(given.integer("index"));
 }

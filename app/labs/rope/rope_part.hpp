@@ -77,8 +77,12 @@ struct RopePart final : Part {
     std::shared_ptr<Part> clone() const override { return std::make_shared<RopePart>(*this); }
     Json save() const override;
     std::shared_ptr<Part> load(const Json& json, const std::string& where) const override;
+    std::shared_ptr<const Part> at_moment(std::shared_ptr<const Part> then) const override;
     std::size_t bytes() const override;
 };
+
+/// What the lab starts with.
+RopePart first_ropes();
 
 /// The lab's part of a workspace.
 inline const RopePart& rope_part(const Workspace& workspace) {

@@ -1,0 +1,64 @@
+#include "app/document/rewind.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace tendril::app {
+
+void Rewind::remember(std::uint64_t tick, std::shared_ptr<const Part> part) {
+    forget_from(tick);
+    // Until now it was the newest, and kept as that alone.
+    if (!moments_.empty() && moments_.back().tick % stride_ != 0) drop_last();
+    while (!moments_.empty() && moments_.front().tick + most_ticks < tick) drop_oldest();
+    const std::size_t size = part->bytes();
+    moments_.push_back({tick, std::move(part), size});
+    bytes_ += size;
+    thin();
+}
+
+void Rewind::forget_from(std::uint64_t tick) {
+    while (!moments_.empty() && moments_.back().tick >= tick) drop_last();
+    if (moments_.empty()) stride_ = 1;
+}
+
+void Rewind::clear() {
+    moments_.clear();
+    bytes_ = 0;
+    stride_ = 1;
+}
+
+const Rewind::Moment& Rewind::at(std::uint64_t ticks_back) const {
+    const std::uint64_t wanted = newest() - std::min(ticks_back, newest());
+    const auto after =
+        std::lower_bound(moments_.begin(), moments_.end(), wanted,
+                         [](const Moment& moment, std::uint64_t tick) { return moment.tick < tick; });
+    if (after == moments_.begin()) return *after;
+    const auto before = std::prev(after);
+    return after->tick - wanted <= wanted - before->tick ? *after : *before;
+}
+
+/// Keeps within the bound by looking away every other time, and looks more closely again once there is room.
+void Rewind::thin() {
+    if (stride_ > 1 && 4 * bytes_ < max_bytes_) stride_ /= 2;
+    while (bytes_ > max_bytes_ && moments_.size() > 2 && stride_ < most_ticks) {
+        stride_ *= 2;
+        std::erase_if(moments_, [&, last = newest()](const Moment& moment) {
+            const bool dropped = moment.tick % stride_ != 0 && moment.tick != last;
+            if (dropped) bytes_ -= moment.bytes;
+            return dropped;
+        });
+    }
+    while (bytes_ > max_bytes_ && moments_.size() > 1) drop_oldest();
+}
+
+void Rewind::drop_last() {
+    bytes_ -= moments_.back().bytes;
+    moments_.pop_back();
+}
+
+void Rewind::drop_oldest() {
+    bytes_ -= moments_.front().bytes;
+    moments_.pop_front();
+}
+
+}  // namespace tendril::app

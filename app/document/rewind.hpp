@@ -1,0 +1,53 @@
+// The open lab's last ten seconds, to go back in time: its part at every tick, or, where they grow too large,
+// at every second, fourth, ... of them. They are none of the document's: undo knows nothing of them, and no
+// file holds them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+
+#include "app/document/document.hpp"
+
+namespace tendril::app {
+
+class Rewind {
+  public:
+    static constexpr std::uint64_t most_ticks = 600;
+
+    struct Moment {
+        std::uint64_t tick = 0;
+        std::shared_ptr<const Part> part;
+        std::size_t bytes = 0;
+    };
+
+    explicit Rewind(std::size_t max_bytes = 64u << 20) : max_bytes_(max_bytes) {}
+
+    /// The part as it is at a tick. What was remembered of that tick and of later ones is forgotten: time
+    /// goes on from here.
+    void remember(std::uint64_t tick, std::shared_ptr<const Part> part);
+    void forget_from(std::uint64_t tick);
+    void clear();
+
+    bool empty() const { return moments_.empty(); }
+    /// Not of an empty one.
+    std::uint64_t oldest() const { return moments_.front().tick; }
+    std::uint64_t newest() const { return moments_.back().tick; }
+    /// The moment nearest to so many ticks before the newest.
+    const Moment& at(std::uint64_t ticks_back) const;
+
+    std::size_t size() const { return moments_.size(); }
+    std::size_t bytes() const { return bytes_; }
+
+  private:
+    void drop_last();
+    void drop_oldest();
+    void thin();
+
+    std::deque<Moment> moments_;  ///< by tick
+    std::uint64_t stride_ = 1;    ///< kept are the ticks that this divides, and the newest
+    std::size_t max_bytes_, bytes_ = 0;
+};
+
+}  // namespace tendril::app

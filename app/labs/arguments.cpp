@@ -1,0 +1,39 @@
+#include "app/labs/arguments.hpp"
+
+namespace tendril::app {
+
+Argument choice_argument(const char* name, bool required, const char* help,
+                         std::vector<std::string> choices) {
+    return {.name = name,
+            .type = ArgumentType::Text,
+            .required = required,
+            .help = help,
+            .choices = std::move(choices)};
+}
+
+Argument integer_argument(const char* name, const char* help, double low, double high) {
+    return {.name = name,
+            .type = ArgumentType::Integer,
+            .required = false,
+            .help = help,
+            .low = low,
+            .high = high};
+}
+
+Argument number_argument(const char* name, const char* help, double low, double high) {
+    return {.name = name, .required = false, .help = help, .low = low, .high = high};
+}
+
+Argument switch_argument(const char* name, const char* help) {
+    return {.name = name, .type = ArgumentType::Boolean, .required = false, .help = help};
+}
+
+Argument text_argument(const char* name, bool required, const char* help) {
+    return {.name = name, .type = ArgumentType::Text, .required = required, .help = help};
+}
+
+Argument point_argument(const char* name, bool required, const char* help) {
+    return {.name = name, .type = ArgumentType::Point, .required = required, .help = help};
+}
+
+}  // namespace tendril::app

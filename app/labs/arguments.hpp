@@ -1,0 +1,26 @@
+// The arguments that the commands of every lab are put together from.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/document/command.hpp"
+
+namespace tendril::app {
+
+Argument choice_argument(const char* name, bool required, const char* help, std::vector<std::string> choices);
+// These may be left out.
+Argument integer_argument(const char* name, const char* help, double low, double high);
+Argument number_argument(const char* name, const char* help, double low, double high);
+Argument switch_argument(const char* name, const char* help);
+// These may be left out where not `required`.
+Argument text_argument(const char* name, bool required, const char* help);
+Argument point_argument(const char* name, bool required, const char* help);
+
+std::vector<std::string> names(const auto& list, auto name_of) {
+    std::vector<std::string> result;
+    for (const auto& each : list) result.emplace_back(name_of(each));
+    return result;
+}
+
+}  // namespace tendril::app

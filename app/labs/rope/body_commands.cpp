@@ -1,0 +1,190 @@
+// Ropes, sheets and locks of hair: adding, removing, pinning, cutting.
+#include <algorithm>
+
+#include "app/labs/rope/lock_roots.hpp"
+#include "app/labs/rope/rope_edit.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr double most_particles = static_cast<double>(max_lab_particles);
+constexpr const char* pins_names[] = {"none", "corners", "row"};
+
+std::string name_of(const Arguments& given) {
+    return given.has("name") ? given.text("name") : std::string();
+}
+
+std::size_t count_of(int particles) {
+    return static_cast<std::size_t>(particles);
+}
+
+void add(RopeEdit& edit, const Arguments& given) {
+    rope::RopeShape shape{.name = name_of(given), .from = given.point("from"), .to = given.point("to")};
+    if (given.has("segments")) shape.segments = given.integer("segments");
+    if (given.has("length")) shape.length = given.number("length");
+    if (given.has("radius")) shape.radius = given.number("radius");
+    if (given.has("pin_start")) shape.pin_start = given.boolean("pin_start");
+    if (given.has("pin_end")) shape.pin_end = given.boolean("pin_end");
+    check_particle_room(edit.seen(), count_of(shape.segments) + 1);
+    edit.world().add_rope(shape);
+}
+
+void add_sheet(RopeEdit& edit, const Arguments& given) {
+    rope::SheetShape shape{.name = name_of(given),
+                           .corner = given.point("corner"),
+                           .along = given.point("along"),
+                           .down = given.point("down")};
+    if (given.has("columns")) shape.columns = given.integer("columns");
+    if (given.has("rows")) shape.rows = given.integer("rows");
+    if (given.has("radius")) shape.radius = given.number("radius");
+    if (given.has("density")) shape.density = given.number("density");
+    if (given.has("shear")) shape.shear = given.number("shear");
+    if (given.has("bend")) shape.bend = given.number("bend");
+    if (given.has("tear")) shape.tear = given.number("tear");
+    if (given.has("pins")) {
+        const auto* const pins = std::find(std::begin(pins_names), std::end(pins_names), given.text("pins"));
+        shape.pins = static_cast<rope::SheetShape::Pins>(pins - std::begin(pins_names));
+    }
+    check_particle_room(edit.seen(), count_of(shape.columns) * count_of(shape.rows));
+    edit.world().add_sheet(shape);
+}
+
+void add_lock(RopeEdit& edit, const Arguments& given) {
+    rope::LockShape shape;
+    shape.name = name_of(given);
+    if (given.has("length")) shape.length = given.number("length");
+    if (given.has("segments")) shape.segments = given.integer("segments");
+    if (given.has("radius")) shape.radius = given.number("radius");
+    if (given.has("density")) shape.density = given.number("density");
+    if (given.has("bend")) shape.bend = given.number("bend");
+    LockPatch patch;
+    if (given.has("direction")) patch.direction = given.point("direction");
+    if (given.has("strands")) patch.strands = given.integer("strands");
+    if (given.has("spread")) patch.spread = given.number("spread");
+    check_particle_room(edit.seen(), count_of(patch.strands) * (count_of(shape.segments) + 1));
+    if (given.has("attach")) {
+        if (given.has("centre")) throw Refused("centre is not for a lock that is attached to a collider");
+        const rope::Collider& collider = collider_of(edit.seen(), given.text("attach"));
+        shape.attach = collider.name;
+        shape.roots = roots_on(collider.shape, patch, shape.radius);
+    } else {
+        if (!given.has("centre")) throw Refused("centre is missing, or a collider to attach the lock to");
+        patch.centre = given.point("centre");
+        shape.roots = roots_around(patch);
+    }
+    edit.world().add_lock(shape);
+}
+
+void remove(RopeEdit& edit, const Arguments& given) {
+    edit.world().remove(body_of(edit.seen(), given.text("name")).name);
+    forget_missing(edit.part);
+}
+
+void pin(RopeEdit& edit, const Arguments& given) {
+    const NamedParticle named = named_particle(edit.seen(), given);
+    if (edit.part.hold == Hold{named.body, named.index}) edit.part.hold.reset();  // now it is held for good
+    if (given.has("at"))
+        edit.move_pin(named.particle, given.point("at"));
+    else
+        edit.world().pin(named.particle, edit.seen().position(named.particle));
+}
+
+void unpin(RopeEdit& edit, const Arguments& given) {
+    const NamedParticle named = named_particle(edit.seen(), given);
+    if (!edit.seen().pinned(named.particle)) return;
+    if (edit.part.hold == Hold{named.body, named.index}) edit.part.hold.reset();
+    edit.world().unpin(named.particle);
+}
+
+/// What pointed behind the cut points at the same particle of the new rope.
+void follow_cut(std::string& body, std::size_t& particle, const std::string& cut_rope, std::size_t segment,
+                const std::string& rest) {
+    if (body != cut_rope || particle <= segment) return;
+    body = rest;
+    particle -= segment + 1;
+}
+
+void cut(RopeEdit& edit, const Arguments& given) {
+    const rope::Body& body = body_of(edit.seen(), given.text("rope"));
+    const std::string name = body.name;
+    const auto segment = static_cast<std::size_t>(given.integer("segment"));
+    if (body.kind == rope::Body::Kind::Rope && segment + 1 >= body.count) {
+        throw Refused("segment " + std::to_string(segment) + " is out of range, \"" + name + "\" has " +
+                      std::to_string(body.count == 0 ? 0 : body.count - 1));
+    }
+    const std::string rest = edit.world().cut(name, segment);
+    RopePart& part = edit.part;
+    if (part.choice) follow_cut(part.choice->body, part.choice->particle, name, segment, rest);
+    if (part.hold) follow_cut(part.hold->body, part.hold->particle, name, segment, rest);
+    forget_missing(part);
+}
+
+Argument own_name(const char* otherwise) {
+    return text_argument("name", false, otherwise);
+}
+
+void add_adding_commands(CommandTable& table) {
+    table.add(rope_command("rope.add",
+                           {point_argument("from", true, "metres"), point_argument("to", true, "metres"),
+                            own_name("\"rope\", \"rope 2\", ... when left out"),
+                            integer_argument("segments", "32 when left out", 1, most_particles - 1),
+                            number_argument("length", "metres; the distance when left out", 0.0, 1e9),
+                            number_argument("radius", "metres; 0.02 when left out", 0.0, 1e9),
+                            switch_argument("pin_start", "holds its first particle"),
+                            switch_argument("pin_end", "holds its last particle")},
+                           "Adds a rope: straight, or hanging where it is longer than the distance", add));
+    table.add(
+        rope_command("rope.sheet.add",
+                     {point_argument("corner", true, "metres"),
+                      point_argument("along", true, "from the corner to the other end of the first row"),
+                      point_argument("down", true, "from the corner to the last row"),
+                      own_name("\"sheet\", \"sheet 2\", ... when left out"),
+                      integer_argument("columns", "particles; 24 when left out", 2, most_particles),
+                      integer_argument("rows", "particles; 24 when left out", 2, most_particles),
+                      number_argument("radius", "metres; 0.01 when left out", 0.0, 1e9),
+                      number_argument("density", "kg/m^2; 0.2 when left out", 0.0, 1e9),
+                      number_argument("shear", "compliance, m/N", 0.0, 1e9),
+                      number_argument("bend", "compliance, m/N", 0.0, 1e9),
+                      number_argument("tear", "relative length at which links tear; 0: never", 0.0, 1e9),
+                      choice_argument("pins", false, "of its first row",
+                                      names(pins_names, [](const char* name) { return name; }))},
+                     "Adds a cloth", add_sheet));
+    table.add(rope_command(
+        "rope.lock.add",
+        {own_name("\"lock\", \"lock 2\", ... when left out"),
+         point_argument("centre", false, "of the patch that it grows from"),
+         text_argument("attach", false, "a collider that it grows from, instead of a centre"),
+         point_argument("direction", false, "that it grows in; downwards, or up from a collider"),
+         integer_argument("strands", "32 when left out", 1, most_particles),
+         number_argument("spread", "the patch's radius, metres; 0.1 when left out", 0.0, 1e9),
+         number_argument("length", "metres; 0.5 when left out", 0.0, 1e9),
+         integer_argument("segments", "of a strand; 16 when left out", 1, most_particles - 1),
+         number_argument("radius", "metres; 0.004 when left out", 0.0, 1e9),
+         number_argument("density", "kg/m; 0.05 when left out", 0.0, 1e9),
+         number_argument("bend", "compliance, m/N", 0.0, 1e9)},
+        "Adds a lock of hair, held at its roots", add_lock));
+}
+
+}  // namespace
+
+void add_body_commands(CommandTable& table) {
+    add_adding_commands(table);
+    table.add(rope_command("rope.remove", {text_argument("name", true, "of a rope, sheet or lock")},
+                           "Removes a rope, sheet or lock", remove));
+    table.add(rope_command("rope.pin",
+                           {rope_argument(true, "which"), particle_argument(true, "which"),
+                            point_argument("at", false, "metres; where it is when left out")},
+                           "Holds a particle at a point", pin));
+    table.add(rope_command("rope.unpin", {rope_argument(true, "which"), particle_argument(true, "which")},
+                           "Lets a particle go", unpin));
+    table.add(rope_command("rope.cut",
+                           {rope_argument(true, "which"),
+                            {.name = "segment",
+                             .type = ArgumentType::Integer,
+                             .help = "that goes",
+                             .low = 0,
+                             .high = most_particles - 1}},
+                           "Parts a rope in two", cut));
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,141 @@
+// What ropes cannot enter.
+#include <algorithm>
+#include <string_view>
+
+#include "app/labs/rope/rope_edit.hpp"
+#include "app/labs/rope/rope_names.hpp"
+#include "app/labs/rope/rope_time.hpp"
+
+namespace tendril::app {
+namespace {
+
+struct Kind {
+    const char* name;
+    std::vector<std::string_view> needs, takes;
+};
+
+const std::vector<Kind>& kinds() {
+    static const std::vector<Kind> list{{"sphere", {"centre", "radius"}, {}},
+                                        {"capsule", {"a", "b", "radius"}, {}},
+                                        {"plane", {"point", "normal"}, {}},
+                                        {"box", {"centre", "half_extents"}, {"rotation"}}};
+    return list;
+}
+
+/// What a kind needs must be given, and what it does not have must not.
+void check_kind(const Kind& kind, const Arguments& given) {
+    const auto has = [](const std::vector<std::string_view>& list, std::string_view name) {
+        return std::find(list.begin(), list.end(), name) != list.end();
+    };
+    for (const char* name : {"centre", "radius", "a", "b", "point", "normal", "half_extents", "rotation"}) {
+        if (has(kind.needs, name) && !given.has(name))
+            throw Refused(std::string(name) + " is missing; a " + kind.name + " needs it");
+        if (!has(kind.needs, name) && !has(kind.takes, name) && given.has(name))
+            throw Refused(std::string("a ") + kind.name + " has no " + name);
+    }
+}
+
+rope::Shape shape_of(const Arguments& given) {
+    const std::string name = given.text("kind");
+    const auto kind =
+        std::find_if(kinds().begin(), kinds().end(), [&](const Kind& k) { return name == k.name; });
+    check_kind(*kind, given);
+    if (name == "sphere") return rope::Sphere{given.point("centre"), given.number("radius")};
+    if (name == "capsule") return rope::Capsule{given.point("a"), given.point("b"), given.number("radius")};
+    if (name == "plane") return rope::Plane{given.point("point"), given.point("normal")};
+    rope::Box box{.centre = given.point("centre"), .half_extents = given.point("half_extents")};
+    if (given.has("rotation")) box.rotation = given.rotation("rotation");
+    return box;
+}
+
+Swing* swing_of(RopePart& part, const std::string& collider) {
+    const auto found = std::find_if(part.swings.begin(), part.swings.end(),
+                                    [&](const Swing& swing) { return swing.collider == collider; });
+    return found == part.swings.end() ? nullptr : &*found;
+}
+
+/// A swing whose centre is `at` at this moment.
+void centre_on(Swing& swing, glm::vec3 at, double time) {
+    swing.middle = glm::vec3(0.0f);
+    swing.middle = at - swing_point(swing, time);
+    require(swing);
+}
+
+void add(RopeEdit& edit, const Arguments& given) {
+    const std::string name = given.text("name");
+    if (name.empty()) throw Refused("name must not be empty");
+    const rope::Shape shape = shape_of(given);
+    check_collider_room(edit.seen());
+    edit.world().add_collider(name, shape);
+}
+
+void move(RopeEdit& edit, const Arguments& given) {
+    const std::string name = collider_of(edit.seen(), given.text("name")).name;
+    const glm::vec3 to = given.point("to");
+    if (Swing* swing = swing_of(edit.part, name)) centre_on(*swing, to, edit.part.time);
+    edit.move_collider(name, to);
+}
+
+void remove(RopeEdit& edit, const Arguments& given) {
+    edit.world().remove_collider(collider_of(edit.seen(), given.text("name")).name);
+    forget_missing(edit.part);
+}
+
+/// It swings on from where it is: to change how far or how fast never makes it jump.
+void set_swing(RopeEdit& edit, const Arguments& given) {
+    const rope::Collider& collider = collider_of(edit.seen(), given.text("name"));
+    const glm::vec3 by = given.point("by");
+    Swing* swing = swing_of(edit.part, collider.name);
+    if (by == glm::vec3(0.0f)) {
+        std::erase_if(edit.part.swings, [&](const Swing& s) { return s.collider == collider.name; });
+        return;
+    }
+    Swing wanted = swing ? *swing : Swing{.collider = collider.name};
+    const glm::vec3 at = swing ? swing_point(*swing, edit.part.time) : rope::centre(collider.shape);
+    wanted.swing = by;
+    if (given.has("period")) wanted.period = given.number("period");
+    if (swing && wanted == *swing) return;
+    centre_on(wanted, at, edit.part.time);
+    if (swing)
+        *swing = wanted;
+    else
+        edit.part.swings.push_back(wanted);
+}
+
+Argument name_argument() {
+    return text_argument("name", true, "which");
+}
+
+}  // namespace
+
+void add_collider_commands(CommandTable& table) {
+    table.add(
+        rope_command("rope.collider.add",
+                     {text_argument("name", true, "its own"),
+                      choice_argument("kind", true,
+                                      "sphere: centre, radius; capsule: a, b, radius; plane: point, normal; "
+                                      "box: centre, half_extents, rotation",
+                                      names(kinds(), [](const Kind& k) { return k.name; })),
+                      point_argument("centre", false, "of a sphere or box"),
+                      number_argument("radius", "of a sphere or capsule, metres", 0.0, 1e9),
+                      point_argument("a", false, "a capsule's end"),
+                      point_argument("b", false, "its other end"),
+                      point_argument("point", false, "on a plane"),
+                      point_argument("normal", false, "of a plane, outwards"),
+                      point_argument("half_extents", false, "of a box, metres"),
+                      {.name = "rotation",
+                       .type = ArgumentType::Rotation,
+                       .required = false,
+                       .help = "of a box: [x, y, z, w], or degrees about X, Y and Z"}},
+                     "Adds a body that ropes cannot enter", add));
+    table.add(rope_command("rope.collider.move",
+                           {name_argument(), point_argument("to", true, "where its centre goes, metres")},
+                           "Moves a collider; it carries what it meets", move));
+    table.add(rope_command("rope.collider.remove", {name_argument()}, "Removes a collider", remove));
+    table.add(rope_command("rope.collider.swing",
+                           {name_argument(), point_argument("by", true, "metres to each side; 0: off"),
+                            number_argument("period", "seconds", shortest_swing, longest_swing)},
+                           "Lets a collider swing to and fro by itself", set_swing));
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,71 @@
+// What is chosen, held and shown: it leaves no step to undo.
+#include "app/labs/rope/rope_edit.hpp"
+#include "app/labs/rope/rope_names.hpp"
+
+namespace tendril::app {
+namespace {
+
+void select(RopeEdit& edit, const Arguments& given) {
+    const bool particle = given.has("rope") || given.has("particle");
+    if (particle && given.has("collider"))
+        throw Refused("a particle or a collider can be selected, not both");
+    edit.part.choice.reset();
+    if (given.has("collider")) {
+        edit.part.choice = RopeChoice{{}, 0, collider_of(edit.seen(), given.text("collider")).name};
+    } else if (particle) {
+        if (!given.has("rope")) throw Refused("rope is missing (a text)");
+        if (!given.has("particle")) throw Refused("particle is missing (a whole number)");
+        const NamedParticle chosen = named_particle(edit.seen(), given);
+        edit.part.choice = RopeChoice{chosen.body, chosen.index, {}};
+    }
+}
+
+void hold(RopeEdit& edit, const Arguments& given) {
+    const NamedParticle held = named_particle(edit.seen(), given);
+    const Hold wanted{held.body, held.index};
+    if (edit.part.hold != wanted) {
+        if (edit.seen().pinned(held.particle)) {
+            throw Refused("particle " + std::to_string(held.index) + " of \"" + held.body +
+                          "\" is pinned; rope.pin moves it");
+        }
+        let_go(edit);
+    }
+    edit.move_pin(held.particle, given.point("at"));
+    edit.part.hold = wanted;
+}
+
+void set_view(RopeEdit& edit, const Arguments& given) {
+    RopeView& view = edit.part.view;
+    if (given.has("particles")) view.particles = given.boolean("particles");
+    if (given.has("stress")) view.stress = given.boolean("stress");
+    if (given.has("sides")) view.sides = given.integer("sides");
+}
+
+}  // namespace
+
+void add_look_commands(CommandTable& table) {
+    table.add(rope_command("rope.select",
+                           {rope_argument(false, "of the particle"), particle_argument(false, "which"),
+                            text_argument("collider", false, "instead of a particle")},
+                           "Selects a particle or a collider; nothing when all is left out", select,
+                           Effect::Look));
+    table.add(rope_command("rope.hold",
+                           {rope_argument(true, "which"), particle_argument(true, "which; a free one"),
+                            point_argument("at", true, "metres")},
+                           "Holds a free particle, as a drag does, until rope.let_go", hold, Effect::Look));
+    table.add(rope_command(
+        "rope.let_go", {}, "Lets go of what rope.hold holds",
+        [](RopeEdit& edit, const Arguments&) { let_go(edit); }, Effect::Look));
+    table.add(rope_command(
+        "rope.tool", {choice_argument("name", true, "which", names(all_tools, tool_name))},
+        "What a click does to what it hits",
+        [](RopeEdit& edit, const Arguments& given) { edit.part.tool = tool_from_name(given.text("name")); },
+        Effect::Look));
+    table.add(rope_command("rope.view",
+                           {switch_argument("particles", "shown as balls"),
+                            switch_argument("stress", "colours by how far each link is over its length"),
+                            integer_argument("sides", "of the tube", fewest_sides, most_sides)},
+                           "How ropes are shown; what is left out stays", set_view, Effect::Look));
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,126 @@
+// What the mouse takes hold of in this lab, and what comes of it.
+#include <algorithm>
+
+#include "app/labs/rope/rope_lab.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr std::size_t most_handles = 400;
+
+Json of_particle(const ParticlePlace& place) {
+    return Json{{"rope", place.body->name}, {"particle", place.index}};
+}
+
+}  // namespace
+
+const rope::Collider* picked_collider(const rope::World& world, PickId pick) {
+    const auto& colliders = world.state().colliders;
+    if (!is_collider_pick(pick)) return nullptr;
+    const std::size_t index = static_cast<std::size_t>(pick) - max_lab_particles;
+    return index < colliders.size() ? &colliders[index] : nullptr;
+}
+
+std::optional<ParticlePlace> picked_particle(const rope::World& world, PickId pick) {
+    if (pick < 0 || is_collider_pick(pick)) return std::nullopt;
+    const auto particle = static_cast<std::size_t>(pick);
+    for (const rope::Body& body : world.state().bodies)
+        if (particle >= body.first && particle < body.first + body.count)
+            return ParticlePlace{&body, particle - body.first};
+    return std::nullopt;
+}
+
+std::size_t handle_stride(const rope::World& world) {
+    return world.size() / most_handles + 1;
+}
+
+std::vector<Handle> RopeLab::handles(const Workspace& workspace) const {
+    const rope::World& world = *rope_part(workspace).world;
+    const std::size_t stride = handle_stride(world);
+    std::vector<bool> shown(world.size());
+    for (const rope::Pin& pin : world.state().pins)
+        shown[pin.particle] = world.state().pins.size() <= most_handles;
+    std::vector<Handle> handles;
+    for (const rope::Body& body : world.state().bodies) {
+        for (std::size_t i = 0; i < body.count; ++i) {
+            const bool end = body.kind == rope::Body::Kind::Rope && (i == 0 || i + 1 == body.count);
+            if (i % stride == 0 || end || shown[body.first + i])
+                handles.push_back({body.name + "." + std::to_string(i), world.position(body.first + i)});
+        }
+    }
+    for (const rope::Collider& collider : world.state().colliders)
+        handles.push_back({"collider." + collider.name, rope::centre(collider.shape)});
+    return handles;
+}
+
+glm::vec3 RopeLab::position_of(const Workspace& workspace, PickId pick) const {
+    const rope::World& world = *rope_part(workspace).world;
+    if (const auto* collider = picked_collider(world, pick)) return rope::centre(collider->shape);
+    if (const auto place = picked_particle(world, pick))
+        return world.position(place->body->first + place->index);
+    return glm::vec3(0.0f);
+}
+
+void RopeLab::drag(const Workspace& workspace, PickId pick, glm::vec3 to, Emit& emit) const {
+    const RopePart& part = rope_part(workspace);
+    if (const auto* collider = picked_collider(*part.world, pick)) {
+        emit.continuously("rope.collider.move", {{"name", collider->name}, {"to", point(to)}});
+        return;
+    }
+    const auto place = picked_particle(*part.world, pick);
+    if (!place) return;
+    const bool held = part.hold == Hold{place->body->name, place->index};
+    const bool pinned = !held && part.world->pinned(place->body->first + place->index);
+    Json arguments = of_particle(*place);
+    arguments["at"] = point(to);
+    emit.continuously(pinned ? "rope.pin" : "rope.hold", std::move(arguments));
+}
+
+void RopeLab::drop(const Workspace& workspace, PickId, Emit& emit) const {
+    if (rope_part(workspace).hold) emit.continuously("rope.let_go", Json::object());
+}
+
+void RopeLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
+    const RopePart& part = rope_part(workspace);
+    const rope::World& world = *part.world;
+    if (const auto* collider = picked_collider(world, pick)) {
+        emit("rope.select", {{"collider", collider->name}});
+        return;
+    }
+    const auto place = picked_particle(world, pick);
+    if (!place) {
+        if (part.choice) emit("rope.select");
+        return;
+    }
+    emit("rope.select", of_particle(*place));
+    if (part.tool == RopeTool::Pin) {
+        const bool pinned = world.pinned(place->body->first + place->index);
+        emit(pinned ? "rope.unpin" : "rope.pin", of_particle(*place));
+    } else if (part.tool == RopeTool::Cut && place->body->kind == rope::Body::Kind::Rope) {
+        const std::size_t segment = std::min(place->index, std::max<std::size_t>(place->body->count, 2) - 2);
+        emit("rope.cut", {{"rope", place->body->name}, {"segment", segment}});
+    }
+}
+
+std::string RopeLab::hint(const Workspace& workspace, PickId pick) const {
+    const RopePart& part = rope_part(workspace);
+    if (const auto* collider = picked_collider(*part.world, pick)) {
+        return collider->name + " (" + rope::kind(collider->shape) +
+               "): drag moves it, and it carries what it meets. Click selects it.";
+    }
+    const auto place = picked_particle(*part.world, pick);
+    if (!place) return {};
+    const std::string name = place->body->name + ", particle " + std::to_string(place->index);
+    switch (part.tool) {
+        case RopeTool::Move:
+            break;
+        case RopeTool::Pin:
+            return name + ": click pins it, or lets it go.";
+        case RopeTool::Cut:
+            return name + ": click cuts here.";
+    }
+    const bool pinned = part.world->pinned(place->body->first + place->index);
+    return name + (pinned ? " (pinned): drag moves its pin." : ": drag pulls it. Click selects it.");
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,139 @@
+#include "app/labs/rope/rope_edit.hpp"
+
+#include <algorithm>
+
+namespace tendril::app {
+
+RopeEdit::RopeEdit(RopePart& changed, const Clock& clock)
+    : part(changed), seconds_(clock.playing ? tick_seconds * static_cast<double>(clock.speed) : 0.0) {}
+
+rope::World& RopeEdit::world() {
+    if (!copy_) {
+        copy_ = std::make_shared<rope::World>(*part.world);
+        part.world = copy_;
+    }
+    return *copy_;
+}
+
+void RopeEdit::move_pin(std::size_t particle, const glm::vec3& at) {
+    world().pin(particle, at, seconds_);
+    if (seconds_ > 0.0) return;
+    rope::State state = world().state();
+    state.position[particle] = glm::dvec3(at);
+    state.moved[particle] = state.before[particle] = glm::dvec3(0.0);
+    world() = rope::World(std::move(state));
+}
+
+void RopeEdit::move_collider(const std::string& name, const glm::vec3& to) {
+    world().move_collider(name, to, seconds_);
+    if (seconds_ == 0.0) world().set_collider(name, rope::moved(world().find_collider(name)->shape, to));
+}
+
+Command rope_command(const char* name, std::vector<Argument> arguments, const char* help,
+                     void (*change)(RopeEdit&, const Arguments&), Effect effect) {
+    return {.name = name,
+            .arguments = std::move(arguments),
+            .help = help,
+            .effect = effect,
+            .apply = [change](Workspace& workspace, const Arguments& given) {
+                const Document before = workspace.document;
+                RopePart& part = workspace.document.edit<RopePart>(rope_lab);
+                const RopePart& old = before.get<RopePart>(rope_lab);
+                RopeEdit edit(part, workspace.clock);
+                change(edit, given);
+                // What changes nothing leaves no step to undo.
+                if (same(part, old)) {
+                    workspace.document = before;
+                    return;
+                }
+                if (part.world != old.world || part.swings != old.swings) part.quiet_ticks = 0;
+            }};
+}
+
+bool same(const RopePart& a, const RopePart& b) {
+    return a.world == b.world && a.swings == b.swings && a.time == b.time && a.tool == b.tool &&
+           a.choice == b.choice && a.hold == b.hold && a.torture == b.torture && a.view == b.view;
+}
+
+void check_particle_room(const rope::World& world, std::size_t more) {
+    const std::size_t all = world.size() + more;
+    if (all > max_lab_particles) {
+        throw Refused("that would make " + std::to_string(all) + " particles; the most is " +
+                      std::to_string(max_lab_particles));
+    }
+}
+
+void check_collider_room(const rope::World& world) {
+    const std::size_t all = world.state().colliders.size() + 1;
+    if (all > max_lab_colliders) {
+        throw Refused("that would make " + std::to_string(all) + " colliders; the most is " +
+                      std::to_string(max_lab_colliders));
+    }
+}
+
+const rope::Body& body_of(const rope::World& world, const std::string& name) {
+    const rope::Body* body = world.find(name);
+    if (body == nullptr) throw Refused("there is no rope \"" + name + "\"");
+    return *body;
+}
+
+const rope::Collider& collider_of(const rope::World& world, const std::string& name) {
+    const rope::Collider* collider = world.find_collider(name);
+    if (collider == nullptr) throw Refused("there is no collider \"" + name + "\"");
+    return *collider;
+}
+
+NamedParticle named_particle(const rope::World& world, const Arguments& given) {
+    const rope::Body& body = body_of(world, given.text("rope"));
+    const auto index = static_cast<std::size_t>(given.integer("particle"));
+    if (index >= body.count) {
+        throw Refused("particle " + std::to_string(index) + " is out of range, \"" + body.name + "\" has " +
+                      std::to_string(body.count));
+    }
+    return {body.name, index, body.first + index};
+}
+
+std::optional<std::size_t> held_particle(const RopePart& part) {
+    const rope::Body* body = part.hold ? part.world->find(part.hold->body) : nullptr;
+    if (body == nullptr || part.hold->particle >= body->count) return std::nullopt;
+    const std::size_t particle = body->first + part.hold->particle;
+    return part.world->pinned(particle) ? std::optional(particle) : std::nullopt;
+}
+
+void let_go(RopeEdit& edit) {
+    if (!edit.part.hold) return;
+    if (const auto held = held_particle(edit.part)) edit.world().unpin(*held);
+    edit.part.hold.reset();
+}
+
+void forget_missing(RopePart& part) {
+    const rope::World& world = *part.world;
+    const auto there = [&](const std::string& name, std::size_t particle) {
+        const rope::Body* body = world.find(name);
+        return body != nullptr && particle < body->count;
+    };
+    if (part.hold && !there(part.hold->body, part.hold->particle)) part.hold.reset();
+    if (part.choice) {
+        const RopeChoice& choice = *part.choice;
+        const bool stays = choice.collider.empty() ? there(choice.body, choice.particle)
+                                                   : world.find_collider(choice.collider) != nullptr;
+        if (!stays) part.choice.reset();
+    }
+    std::erase_if(part.swings,
+                  [&](const Swing& swing) { return world.find_collider(swing.collider) == nullptr; });
+}
+
+Argument rope_argument(bool required, const char* help) {
+    return text_argument("rope", required, help);
+}
+
+Argument particle_argument(bool required, const char* help) {
+    return {.name = "particle",
+            .type = ArgumentType::Integer,
+            .required = required,
+            .help = help,
+            .low = 0,
+            .high = static_cast<double>(max_lab_particles) - 1};
+}
+
+}  // namespace tendril::app

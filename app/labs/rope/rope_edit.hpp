@@ -1,0 +1,70 @@
+// What the files of this lab's commands share.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/document/command.hpp"
+#include "app/labs/arguments.hpp"
+#include "app/labs/rope/rope_part.hpp"
+
+namespace tendril::app {
+
+/// A change of the lab's part.
+class RopeEdit {
+  public:
+    RopeEdit(RopePart& changed, const Clock& clock);
+
+    RopePart& part;
+    /// The world to look at, and a copy of it to change, put in its place: what does not ask for that leaves
+    /// the world as it is.
+    const rope::World& seen() const { return *part.world; }
+    rope::World& world();
+    /// Each gets there in the length of one tick, so that it carries evenly what it meets; while time stands,
+    /// at once.
+    void move_pin(std::size_t particle, const glm::vec3& at);
+    void move_collider(const std::string& name, const glm::vec3& to);
+
+  private:
+    std::shared_ptr<rope::World> copy_;
+    double seconds_;  ///< of the world that the next tick takes; 0 while time stands
+};
+
+/// A command on a copy of the lab's part; what it changes in the world wakes it.
+Command rope_command(const char* name, std::vector<Argument> arguments, const char* help,
+                     void (*change)(RopeEdit&, const Arguments&), Effect effect = Effect::Edit);
+
+/// Whether the two hold the very same; the same world, and not merely an equal one.
+bool same(const RopePart& a, const RopePart& b);
+
+/// Throws Refused where there would be too many, before there are.
+void check_particle_room(const rope::World& world, std::size_t more);
+void check_collider_room(const rope::World& world);
+/// Throws Refused where there is none of that name.
+const rope::Body& body_of(const rope::World& world, const std::string& name);
+const rope::Collider& collider_of(const rope::World& world, const std::string& name);
+/// The particle that `rope` and `particle` name.
+struct NamedParticle {
+    std::string body;
+    std::size_t index = 0;     ///< in the body
+    std::size_t particle = 0;  ///< in the world
+};
+NamedParticle named_particle(const rope::World& world, const Arguments& given);
+
+/// What a drag holds, if it still does.
+std::optional<std::size_t> held_particle(const RopePart& part);
+/// Lets go of what a drag holds.
+void let_go(RopeEdit& edit);
+/// Whatever is gone is neither chosen nor held nor swings.
+void forget_missing(RopePart& part);
+
+Argument rope_argument(bool required, const char* help);
+Argument particle_argument(bool required, const char* help);
+
+void add_world_commands(CommandTable& table);
+void add_body_commands(CommandTable& table);
+void add_collider_commands(CommandTable& table);
+void add_look_commands(CommandTable& table);
+
+}  // namespace tendril::app

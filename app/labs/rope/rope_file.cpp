@@ -1,0 +1,148 @@
+// The Rope lab in a scene file. What a drag holds when it is saved is let go: nobody holds it when it is
+// opened.
+#include <stdexcept>
+
+#include "app/labs/rope/rope_edit.hpp"
+#include "app/labs/rope/rope_names.hpp"
+#include "app/labs/rope/rope_part.hpp"
+#include "app/labs/rope/world_file.hpp"
+
+namespace tendril::app {
+namespace {
+
+[[noreturn]] void fail(const std::string& where, const std::string& what) {
+    throw std::runtime_error(where + ": " + what);
+}
+
+Json save_swing(const Swing& swing) {
+    return Json{{"collider", swing.collider},
+                {"middle", point(swing.middle)},
+                {"swing", point(swing.swing)},
+                {"period", number(swing.period)}};
+}
+
+Swing load_swing(const Json& json, const std::string& where) {
+    const auto read = [&](const char* key) -> const Json& { return json_member(json, key, where); };
+    Swing swing;
+    swing.collider = json_text(read("collider"), where + ".collider");
+    swing.middle = json_point(read("middle"), where + ".middle");
+    swing.swing = json_point(read("swing"), where + ".swing");
+    swing.period = json_number(read("period"), where + ".period", shortest_swing, longest_swing);
+    return swing;
+}
+
+std::vector<Swing> load_swings(const Json& json, const std::string& where, const rope::World& world) {
+    if (!json.is_array()) fail(where, "expected a list, found " + json_summary(json));
+    if (json.size() > max_lab_colliders) {
+        fail(where, "has " + std::to_string(json.size()) + " swings; the most is " +
+                        std::to_string(max_lab_colliders));
+    }
+    std::vector<Swing> swings;
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        const std::string here = where + "." + std::to_string(i);
+        swings.push_back(load_swing(json[i], here));
+        const std::string& name = swings.back().collider;
+        if (world.find_collider(name) == nullptr)
+            fail(here + ".collider", "there is no collider " + json_summary(Json(name)));
+        for (std::size_t before = 0; before < i; ++before) {
+            if (swings[before].collider == name)
+                fail(here + ".collider", json_summary(Json(name)) + " swings twice");
+        }
+    }
+    return swings;
+}
+
+Json save_choice(const std::optional<RopeChoice>& choice) {
+    if (!choice) return nullptr;
+    if (!choice->collider.empty()) return Json{{"collider", choice->collider}};
+    return Json{{"rope", choice->body}, {"particle", choice->particle}};
+}
+
+std::optional<RopeChoice> load_choice(const Json& json, const std::string& where, const rope::World& world) {
+    if (json.is_null()) return std::nullopt;
+    RopeChoice choice;
+    if (json.is_object() && json.contains("collider")) {
+        choice.collider = json_text(json["collider"], where + ".collider");
+        if (world.find_collider(choice.collider) == nullptr)
+            fail(where + ".collider", "there is no collider " + json_summary(json["collider"]));
+        return choice;
+    }
+    choice.body = json_text(json_member(json, "rope", where), where + ".rope");
+    const rope::Body* body = world.find(choice.body);
+    if (body == nullptr) fail(where + ".rope", "there is no rope " + json_summary(json["rope"]));
+    const int last = body->count == 0 ? 0 : static_cast<int>(body->count) - 1;
+    choice.particle = static_cast<std::size_t>(
+        json_integer(json_member(json, "particle", where), where + ".particle", 0, last));
+    return choice;
+}
+
+Json save_torture(const Torture& torture) {
+    return Json{{"dial", number(torture.dial)},
+                {"frames", torture.frames},
+                {"owed", torture.owed},
+                {"frame", torture.frame}};
+}
+
+Torture load_torture(const Json& json, const std::string& where) {
+    const auto read = [&](const char* key) -> const Json& { return json_member(json, key, where); };
+    Torture torture;
+    torture.dial = json_number(read("dial"), where + ".dial", 0.0f, 1.0f);
+    torture.frames = static_cast<std::uint32_t>(json_count(read("frames"), where + ".frames", 0xffffffffu));
+    torture.owed = json_real(read("owed"), where + ".owed", 0.0, 10.0);
+    torture.frame = json_real(read("frame"), where + ".frame", 0.0, longest_torture_frame);
+    return torture;
+}
+
+RopeView load_view(const Json& json, const std::string& where) {
+    const auto read = [&](const char* key) -> const Json& { return json_member(json, key, where); };
+    RopeView view;
+    view.particles = json_bool(read("particles"), where + ".particles");
+    view.stress = json_bool(read("stress"), where + ".stress");
+    view.sides = json_integer(read("sides"), where + ".sides", fewest_sides, most_sides);
+    return view;
+}
+
+/// The world without what a drag holds.
+Json save_released(const RopePart& part) {
+    const auto held = held_particle(part);
+    if (!held) return save_world(part.world->state());
+    rope::World released = *part.world;
+    released.unpin(*held);
+    return save_world(released.state());
+}
+
+}  // namespace
+
+Json RopePart::save() const {
+    Json moving = Json::array();
+    for (const Swing& swing : swings) moving.push_back(save_swing(swing));
+    return Json{{"time", time},
+                {"tool", tool_name(tool)},
+                {"selected", save_choice(choice)},
+                {"view", {{"particles", view.particles}, {"stress", view.stress}, {"sides", view.sides}}},
+                {"torture", save_torture(torture)},
+                {"swings", std::move(moving)},
+                {"world", save_released(*this)}};
+}
+
+std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where) const {
+    const auto read = [&](const char* key) -> const Json& { return json_member(json, key, where); };
+    auto part = std::make_shared<RopePart>();
+    std::string place = where;  // of what the core may find wrong
+    try {
+        part->time = json_real(read("time"), where + ".time", 0.0, 1e9);
+        place = where + ".tool";
+        part->tool = tool_from_name(json_text(read("tool"), place));
+        part->view = load_view(read("view"), where + ".view");
+        part->torture = load_torture(read("torture"), where + ".torture");
+        place = where + ".world";
+        part->world = std::make_shared<const rope::World>(load_world(read("world"), place));
+        part->swings = load_swings(read("swings"), where + ".swings", *part->world);
+        part->choice = load_choice(read("selected"), where + ".selected", *part->world);
+    } catch (const std::logic_error& error) {  // the core's own words, told where in the file
+        fail(place, error.what());
+    }
+    return part;
+}
+
+}  // namespace tendril::app

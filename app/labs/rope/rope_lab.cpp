@@ -1,0 +1,117 @@
+#include "app/labs/rope/rope_lab.hpp"
+
+#include <chrono>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "app/labs/rope/rope_edit.hpp"
+#include "app/labs/rope/rope_time.hpp"
+#include "app/labs/rope/scenes.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr int resting_ticks = 60;  ///< of rest after which the lab stands still
+
+/// Measures in a live window alone: pictures and states off screen hold no timings.
+class Stopwatch {
+  public:
+    Stopwatch(bool on, float& smoothed) : on_(on), smoothed_(smoothed) {
+        if (on_) start_ = Time::now();
+    }
+    void stop() {
+        if (!on_) return;
+        const std::chrono::duration<float, std::micro> taken = Time::now() - start_;
+        smoothed_ = smoothed_ == 0.0f ? taken.count() : glm::mix(smoothed_, taken.count(), 0.1f);
+    }
+
+  private:
+    using Time = std::chrono::steady_clock;
+    bool on_;
+    float& smoothed_;
+    Time::time_point start_;
+};
+
+/// Of a collider, but for planes, which have no end.
+void include(const rope::Shape& shape, glm::vec3& low, glm::vec3& high) {
+    const auto take = [&](glm::vec3 centre, glm::vec3 extent) {
+        low = glm::min(low, centre - extent);
+        high = glm::max(high, centre + extent);
+    };
+    if (const auto* sphere = std::get_if<rope::Sphere>(&shape)) {
+        take(sphere->centre, glm::vec3(sphere->radius));
+    } else if (const auto* capsule = std::get_if<rope::Capsule>(&shape)) {
+        take(capsule->a, glm::vec3(capsule->radius));
+        take(capsule->b, glm::vec3(capsule->radius));
+    } else if (const auto* box = std::get_if<rope::Box>(&shape)) {
+        take(box->centre, glm::vec3(glm::length(box->half_extents)));
+    }
+}
+
+std::optional<Bounds> choice_bounds(const RopePart& part) {
+    if (!part.choice) return std::nullopt;
+    const rope::World& world = *part.world;
+    if (const rope::Collider* collider = world.find_collider(part.choice->collider))
+        return Bounds{rope::centre(collider->shape), std::max(2.0f * rope::size(collider->shape), 0.2f)};
+    const rope::Body* body = world.find(part.choice->body);
+    if (body == nullptr) return std::nullopt;
+    return Bounds{world.position(body->first + part.choice->particle), 0.3f};
+}
+
+}  // namespace
+
+std::shared_ptr<Part> RopeLab::blank() const {
+    return std::make_shared<RopePart>(first_ropes());
+}
+
+CameraPose RopeLab::first_view() const {
+    return rope_scenes().front().view;
+}
+
+void RopeLab::add_commands(CommandTable& table) const {
+    add_world_commands(table);
+    add_body_commands(table);
+    add_collider_commands(table);
+    add_look_commands(table);
+}
+
+bool RopeLab::moving(const Workspace& workspace) const {
+    return rope_part(workspace).quiet_ticks < resting_ticks;
+}
+
+void RopeLab::step(Workspace& workspace) const {
+    const Document before = workspace.document;
+    const bool modified = workspace.modified();
+    auto& part = workspace.document.edit<RopePart>(rope_lab);
+    try {
+        Stopwatch stopwatch(workspace.clock.measured, part.cost);
+        pass_time(part, tick_seconds * static_cast<double>(workspace.clock.speed));
+        stopwatch.stop();
+        if (!in_range(*part.world)) throw std::out_of_range("something would get farther than 1e9 m");
+        part.quiet_ticks = at_rest(part) ? part.quiet_ticks + 1 : 0;
+    } catch (const std::logic_error& error) {  // what flies off the end of the world stops there
+        workspace.document = before;
+        workspace.clock.playing = false;
+        workspace.toast(std::string("Time stands: ") + error.what(), ToastKind::Refusal);
+        return;
+    }
+    if (!modified) workspace.saved = workspace.document;  // that time passes is nothing that wants saving
+}
+
+Bounds RopeLab::bounds(const Workspace& workspace, bool selection_only) const {
+    const RopePart& part = rope_part(workspace);
+    if (selection_only) {
+        if (const auto chosen = choice_bounds(part)) return *chosen;
+    }
+    constexpr float none = 1e30f;
+    glm::vec3 low(none), high(-none);
+    for (std::size_t i = 0; i < part.world->size(); ++i) {
+        low = glm::min(low, part.world->position(i));
+        high = glm::max(high, part.world->position(i));
+    }
+    for (const rope::Collider& collider : part.world->state().colliders) include(collider.shape, low, high);
+    if (low.x > high.x) return {{0.0f, 1.0f, 0.0f}, 1.5f};
+    return {0.5f * (low + high), std::max(0.5f * glm::distance(low, high), 0.2f)};
+}
+
+}  // namespace tendril::app

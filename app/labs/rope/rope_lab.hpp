@@ -1,0 +1,63 @@
+// The Rope lab: ropes, cloth and hair among colliders, to drag, pin and cut.
+//
+// Its commands change a copy of the world (rope_edit.hpp); time does the same in step(). The world that a
+// part holds is never changed in place, so undo, rewind and a copy of the document share it.
+#pragma once
+
+#include "app/labs/lab.hpp"
+#include "app/labs/rope/rope_part.hpp"
+
+namespace tendril::app {
+
+/// What is picked in the picture: a particle by its number in the world, or a collider by its place in the
+/// world's list. The numbers hold for the picture that was drawn.
+inline PickId particle_pick(std::size_t particle) {
+    return static_cast<PickId>(particle);
+}
+inline PickId collider_pick(std::size_t index) {
+    return static_cast<PickId>(max_lab_particles + index);
+}
+inline bool is_collider_pick(PickId pick) {
+    return pick >= static_cast<PickId>(max_lab_particles);
+}
+/// Of what is there in the picture; null (nothing) where the world has changed since.
+const rope::Collider* picked_collider(const rope::World& world, PickId pick);
+struct ParticlePlace {
+    const rope::Body* body = nullptr;
+    std::size_t index = 0;  ///< in the body
+};
+std::optional<ParticlePlace> picked_particle(const rope::World& world, PickId pick);
+
+/// Every n-th particle of a world has a handle of its own, so that there are some hundred at most; the ends
+/// of a rope and what is pinned always do.
+std::size_t handle_stride(const rope::World& world);
+
+class RopeLab final : public Lab {
+  public:
+    std::string name() const override { return rope_lab; }
+    std::string title() const override { return "Rope"; }
+    std::shared_ptr<Part> blank() const override;
+    CameraPose first_view() const override;
+    void add_commands(CommandTable& table) const override;
+
+    bool moving(const Workspace& workspace) const override;
+    void step(Workspace& workspace) const override;
+    bool rewinds() const override { return true; }
+
+    void draw(const View& view, DrawList& list) const override;
+    std::vector<LegendRow> legend(const Workspace& workspace) const override;
+
+    std::vector<Handle> handles(const Workspace& workspace) const override;
+    glm::vec3 position_of(const Workspace& workspace, PickId pick) const override;
+    void drag(const Workspace& workspace, PickId pick, glm::vec3 to, Emit& emit) const override;
+    void drop(const Workspace& workspace, PickId pick, Emit& emit) const override;
+    void click(const Workspace& workspace, PickId pick, Emit& emit) const override;
+    std::string hint(const Workspace& workspace, PickId pick) const override;
+
+    Bounds bounds(const Workspace& workspace, bool selection_only) const override;
+    void panel(const Workspace& workspace, Emit& emit) const override;
+    void inspector(const Workspace& workspace, Emit& emit) const override;
+    Json state(const Workspace& workspace) const override;
+};
+
+}  // namespace tendril::app

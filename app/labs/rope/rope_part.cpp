@@ -1,0 +1,44 @@
+#include "app/labs/rope/rope_part.hpp"
+
+#include "app/labs/rope/rope_edit.hpp"
+#include "app/labs/rope/scenes.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// Of lists, what they take; not what the world keeps beside its state to be fast.
+std::size_t bytes_of(const rope::State& state) {
+    constexpr std::size_t particle = 3 * sizeof(glm::dvec3) + sizeof(double);
+    return state.position.size() * particle + state.links.size() * sizeof(rope::Link) +
+           state.bodies.size() * sizeof(rope::Body) + state.pins.size() * sizeof(rope::Pin) +
+           state.colliders.size() * sizeof(rope::Collider);
+}
+
+}  // namespace
+
+RopePart first_ropes() {
+    RopePart part;
+    RopeScene scene = make_rope_scene(rope_scenes().front());
+    part.world = std::make_shared<const rope::World>(std::move(scene.world));
+    part.swings = std::move(scene.swings);
+    return part;
+}
+
+/// What is chosen and how it is shown stays; what a drag held then is let go, since no drag holds it now.
+std::shared_ptr<const Part> RopePart::at_moment(std::shared_ptr<const Part> then) const {
+    auto part = std::make_shared<RopePart>(dynamic_cast<const RopePart&>(*then));
+    RopeEdit edit(*part, Clock{});
+    let_go(edit);
+    part->tool = tool;
+    part->view = view;
+    part->choice = choice;
+    part->cost = cost;
+    forget_missing(*part);
+    return part;
+}
+
+std::size_t RopePart::bytes() const {
+    return sizeof(*this) + sizeof(rope::World) + bytes_of(world->state()) + swings.size() * sizeof(Swing);
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,116 @@
+#include "app/labs/rope/rope_time.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/vector_relational.hpp>
+#include <stdexcept>
+#include <tendril/chain/segment.hpp>
+
+#include "app/labs/rope/rope_names.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr float still_speed = 1e-4f;  ///< m/s
+
+/// 0 to 1, as good as random; the same on every machine, which the standard's distributions are not.
+double shuffled(std::uint32_t number) {
+    std::uint32_t x = number + 0x9e3779b9u;
+    x = (x ^ (x >> 16)) * 0x85ebca6bu;
+    x = (x ^ (x >> 13)) * 0xc2b2ae35u;
+    return static_cast<double>(x ^ (x >> 16)) / 4294967295.0;
+}
+
+/// Sends every swinging collider to where it is a tick later.
+void aim(const RopePart& part, rope::World& world, double time) {
+    for (const Swing& swing : part.swings)
+        world.move_collider(swing.collider, swing_point(swing, time), tick_seconds);
+}
+
+/// A frame of the lab. While something swings it is cut where ticks of the lab's own time end, and aimed
+/// there: so the swing is the same however its time is cut.
+void pass_frame(RopePart& part, rope::World& world, double seconds) {
+    constexpr double rounding = 1e-6;  // of a tick
+    if (part.swings.empty()) {
+        world.advance(seconds);
+        part.time += seconds;
+        return;
+    }
+    while (seconds > rounding * tick_seconds) {
+        const double ticks = part.time / tick_seconds;
+        const bool at_tick = std::abs(ticks - std::round(ticks)) < rounding;
+        const double next = ((at_tick ? std::round(ticks) : std::floor(ticks)) + 1.0) * tick_seconds;
+        if (at_tick) aim(part, world, next);
+        const double piece = std::min(seconds, next - part.time);
+        world.advance(piece);
+        part.time += piece;
+        seconds -= piece;
+    }
+}
+
+}  // namespace
+
+void pass_time(RopePart& part, double seconds) {
+    auto world = std::make_shared<rope::World>(*part.world);
+    Torture& torture = part.torture;
+    if (torture.dial == 0.0f) {
+        if (torture.owed > 0.0) pass_frame(part, *world, std::exchange(torture.owed, 0.0));
+        torture.frame = 0.0;
+        pass_frame(part, *world, seconds);
+    } else {
+        torture.owed += seconds;
+        if (torture.frame == 0.0) torture.frame = torture_frame(torture.dial, torture.frames);
+        while (torture.owed >= torture.frame) {
+            torture.owed -= torture.frame;
+            pass_frame(part, *world, torture.frame);
+            torture.frame = torture_frame(torture.dial, ++torture.frames);
+        }
+    }
+    part.world = std::move(world);
+}
+
+double torture_frame(float dial, std::uint32_t number) {
+    const double where = 2.0 * shuffled(number) - 1.0;
+    const double end = where < 0.0 ? shortest_torture_frame : longest_torture_frame;
+    const double frame =
+        tick_seconds * std::pow(end / tick_seconds, std::abs(where) * static_cast<double>(dial));
+    return std::clamp(frame, shortest_torture_frame, longest_torture_frame);
+}
+
+glm::vec3 swing_point(const Swing& swing, double time) {
+    const double turns = time / static_cast<double>(swing.period);
+    const double angle = glm::two_pi<double>() * (turns - std::floor(turns));
+    return swing.middle + static_cast<float>(std::sin(angle)) * swing.swing;
+}
+
+void require(const Swing& swing) {
+    const glm::vec3 farthest = glm::abs(swing.middle) + glm::abs(swing.swing);
+    if (!glm::all(glm::lessThanEqual(farthest, glm::vec3(max_magnitude))))
+        throw std::invalid_argument("it would swing farther than 1e9 m");
+}
+
+bool at_rest(const RopePart& part) {
+    const rope::State& state = part.world->state();
+    const auto on_its_way = [](const auto& each) { return each.seconds > 0.0; };
+    if (!part.swings.empty() || std::any_of(state.colliders.begin(), state.colliders.end(), on_its_way) ||
+        std::any_of(state.pins.begin(), state.pins.end(), on_its_way))
+        return false;
+    for (std::size_t i = 0; i < part.world->size(); ++i)
+        if (glm::length(part.world->velocity(i)) > still_speed) return false;
+    return true;
+}
+
+bool in_range(const rope::World& world) {
+    const auto inside = [](const glm::dvec3& v) {
+        return glm::all(glm::lessThanEqual(glm::abs(v), glm::dvec3(max_magnitude)));  // not so for NaN
+    };
+    const rope::State& state = world.state();
+    for (std::size_t i = 0; i < world.size(); ++i)
+        if (!inside(state.position[i]) || !inside(state.moved[i]) || !inside(state.before[i])) return false;
+    return true;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,27 @@
+// How time passes in the Rope lab: whole ticks, or uneven frames by the torture dial; colliders that swing.
+#pragma once
+
+#include <cstdint>
+
+#include "app/labs/rope/rope_part.hpp"
+
+namespace tendril::app {
+
+/// Lets `seconds` pass in the lab. The world that comes of it does not depend on how they are cut.
+void pass_time(RopePart& part, double seconds);
+
+/// Seconds of the torture dial's frame of that number: a tick at dial 0, anything from 1 to 250 ms at 1.
+double torture_frame(float dial, std::uint32_t number);
+
+/// Where a swinging collider's centre is at a time of the lab.
+glm::vec3 swing_point(const Swing& swing, double time);
+/// Throws std::invalid_argument where it would swing out of the range of coordinates.
+void require(const Swing& swing);
+
+/// Nothing is on its way, and nothing moves faster than one would see.
+bool at_rest(const RopePart& part);
+
+/// Whether everything is where a scene file can hold it.
+bool in_range(const rope::World& world);
+
+}  // namespace tendril::app

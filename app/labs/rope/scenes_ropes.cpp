@@ -1,0 +1,171 @@
+// Scenes of ropes.
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "app/labs/rope/scenes.hpp"
+
+namespace tendril::app {
+
+/// Two hands bring a rope down over a ball and a bar; shorter ones fall over the bar beside it.
+RopeScene drape_scene() {
+    RopeScene scene;
+    rope::World& world = scene.world;
+    add_ground(world);
+    world.add_collider("ball", rope::Sphere{{-0.65f, 0.95f, 0.0f}, 0.4f});
+    world.add_collider("bar", rope::Capsule{{0.8f, 1.1f, -0.7f}, {0.8f, 1.1f, 0.7f}, 0.14f});
+    // It begins taut above everything, so that it comes to lie on top.
+    const float height = 1.9f, hands = 1.55f, half = 2.1f;
+    world.add_rope({.name = "rope",
+                    .from = {-half, height, 0},
+                    .to = {half, height, 0},
+                    .segments = 80,
+                    .pin_start = true,
+                    .pin_end = true});
+    world.pin(world.particle("rope", 0), {-hands, height, 0}, 1.2);
+    world.pin(world.particle("rope", 80), {hands, height, 0}, 1.2);
+    const float lengths[] = {1.7f, 1.4f, 1.9f, 1.5f};
+    const float places[] = {-0.5f, -0.25f, 0.25f, 0.5f};
+    for (int i = 0; i < 4; ++i) {
+        const float length = lengths[i], shift = 0.06f * static_cast<float>(i - 1);
+        world.add_rope({.name = "short " + std::to_string(i + 1),
+                        .from = {0.8f + shift - 0.5f * length, 1.45f, places[i]},
+                        .to = {0.8f + shift + 0.5f * length, 1.45f, places[i]},
+                        .segments = 36,
+                        .radius = 0.016f});
+    }
+    return scene;
+}
+
+/// A deck and two hand ropes between four posts; a ball rolls to and fro over it.
+RopeScene bridge_scene() {
+    RopeScene scene;
+    rope::World& world = scene.world;
+    const float end = 2.0f, side = 0.36f, deck = 0.95f, hand = 1.5f, thick = 0.06f;
+    add_ground(world);
+    for (const float x : {-end, end}) {
+        for (const float z : {-side, side}) {
+            const std::string name = std::string(x < 0 ? "left" : "right") + (z < 0 ? " far" : " near");
+            world.add_collider(name + " post", rope::Capsule{{x, 0, z}, {x, hand + 0.08f, z}, thick});
+        }
+    }
+    const float from = end - thick - 0.03f;
+    for (const float z : {-side, side}) {
+        world.add_rope({.name = z < 0 ? "far hand rope" : "near hand rope",
+                        .from = {-from, hand, z},
+                        .to = {from, hand, z},
+                        .segments = 64,
+                        .length = 2.0f * from * 1.03f,
+                        .pin_start = true,
+                        .pin_end = true});
+    }
+    constexpr int columns = 7, rows = 61;
+    const float half = side - 0.08f;
+    world.add_sheet({.name = "deck",
+                     .corner = {-from, deck, -half},
+                     .along = {0, 0, 2.0f * half},
+                     .down = {2.0f * from * 1.03f, 0, 0},
+                     .columns = columns,
+                     .rows = rows,
+                     .radius = 0.012f,
+                     .density = 2.0f,
+                     .pins = rope::SheetShape::Pins::Row});
+    for (int i = 0; i < columns; ++i) {
+        const float z = half * (2.0f * static_cast<float>(i) / (columns - 1) - 1.0f);
+        world.pin(world.particle("deck", static_cast<std::size_t>((rows - 1) * columns + i)), {from, deck, z},
+                  0.5);
+    }
+    world.add_collider("ball", rope::Sphere{{0.0f, 0.92f, 0.0f}, 0.22f});
+    scene.swings.push_back({"ball", {0.0f, 0.92f, 0.0f}, {1.2f, 0.0f, 0.0f}, 9.0f});
+    rope::Settings settings = world.settings();
+    settings.damping = 0.6f;
+    settings.friction = 0.2f;
+    world.set_settings(settings);
+    return scene;
+}
+
+/// Pendulums whose swings in half a minute are whole numbers, one more for each: side by side they make
+/// waves, fall apart, and find together again.
+RopeScene pendulum_scene() {
+    RopeScene scene;
+    rope::World& world = scene.world;
+    add_ground(world);
+    constexpr int count = 11, slowest_swings = 18;
+    constexpr float seconds = 30.0f, beam = 1.4f, apart = 0.17f, amplitude = 0.45f;
+    const float half = 0.5f * apart * (count - 1) + 0.18f;
+    world.add_collider("beam", rope::Capsule{{-half, beam + 0.05f, 0}, {half, beam + 0.05f, 0}, 0.04f});
+    for (const float x : {-half, half})
+        world.add_collider(x < 0 ? "left post" : "right post",
+                           rope::Capsule{{x, 0, 0}, {x, beam + 0.05f, 0}, 0.04f});
+    for (int i = 0; i < count; ++i) {
+        const float period = seconds / static_cast<float>(slowest_swings + i);
+        const float turn = period / glm::two_pi<float>();
+        const float length = 9.81f * turn * turn;
+        const glm::vec3 pivot(apart * (static_cast<float>(i) - 0.5f * (count - 1)), beam, 0.0f);
+        const std::string name = "pendulum " + std::to_string(i + 1);
+        world.add_rope({.name = name,
+                        .from = pivot,
+                        .to = pivot + length * glm::vec3(0, -std::cos(amplitude), std::sin(amplitude)),
+                        .segments = 6,
+                        .radius = 0.012f,
+                        .density = 0.02f,
+                        .pin_start = true});
+        weigh_down(world, name, 1, 0.5);
+    }
+    rope::Settings settings = world.settings();
+    settings.damping = 0.0f;
+    world.set_settings(settings);
+    return scene;
+}
+
+/// A rope over the drum of a well: a hand pulls at one end, a bucket hangs from the other.
+RopeScene well_scene() {
+    RopeScene scene;
+    rope::World& world = scene.world;
+    add_ground(world);
+    const float drum = 1.6f, radius = 0.16f, rope_radius = 0.018f, shaft = 0.5f;
+    const float out = radius + rope_radius + 0.002f;
+    for (const float z : {-0.62f, 0.62f})
+        world.add_collider(z < 0 ? "far post" : "near post", rope::Capsule{{0, 0, z}, {0, drum, z}, 0.05f});
+    world.add_collider("drum", rope::Capsule{{0, drum, -0.5f}, {0, drum, 0.5f}, radius});
+    constexpr int stones = 10;
+    for (int i = 0; i < stones; ++i) {
+        const float angle = glm::two_pi<float>() * static_cast<float>(i) / stones;
+        const glm::vec3 centre(out + shaft * std::cos(angle), 0.2f, shaft * std::sin(angle));
+        world.add_collider(
+            "stone " + std::to_string(i + 1),
+            rope::Box{centre, {0.05f, 0.2f, 0.155f}, glm::angleAxis(-angle, glm::vec3(0, 1, 0))});
+    }
+    const glm::vec3 hand(-1.15f, 0.75f, 0.0f);
+    world.add_collider("hand", rope::Sphere{hand, 0.06f});
+    // From the hand up to the drum, over it, and down into the shaft.
+    std::vector<glm::vec3> line{hand};
+    const glm::vec3 axis(0, drum, 0);
+    const float reach = glm::distance(hand, axis);
+    const float touch = std::atan2(hand.y - axis.y, hand.x - axis.x) - std::acos(out / reach);
+    constexpr int pieces = 24;
+    const float over = touch < 0.0f ? touch + glm::two_pi<float>() : touch;
+    for (int i = 0; i <= pieces; ++i) {
+        const float angle = over * (1.0f - static_cast<float>(i) / pieces);
+        line.push_back(axis + out * glm::vec3(std::cos(angle), std::sin(angle), 0));
+    }
+    line.push_back({out, 0.55f, 0.0f});
+    constexpr int segments = 96;
+    world.add_rope({.name = "rope",
+                    .from = hand,
+                    .to = hand + glm::vec3(0, 1, 0),
+                    .segments = segments,
+                    .radius = rope_radius,
+                    .density = 0.4f});
+    lay(world, "rope", line);
+    weigh_down(world, "rope", 4, 4.0);
+    world.attach(world.particle("rope", 0), "hand");
+    const glm::vec3 pull(0.22f, -0.22f, 0.0f);
+    scene.swings.push_back({"hand", hand, pull, 6.0f});
+    rope::Settings settings = world.settings();
+    settings.damping = 0.4f;
+    settings.friction = 0.15f;
+    world.set_settings(settings);
+    return scene;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,95 @@
+// The whole of the lab: what it begins with, and how it is simulated.
+#include "app/labs/rope/rope_edit.hpp"
+#include "app/labs/rope/scenes.hpp"
+#include "app/labs/rope/world_file.hpp"
+
+namespace tendril::app {
+namespace {
+
+void clear(RopeEdit& edit, const Arguments&) {
+    edit.world().clear();
+    forget_missing(edit.part);
+}
+
+void reset(RopeEdit& edit, const Arguments&) {
+    edit.part = first_ropes();
+}
+
+/// Another scene is looked at as it is best seen; how ropes are shown, and the tool, stay.
+void take_scene(Workspace& workspace, const Arguments& given) {
+    const RopeSceneEntry& entry = rope_scene(given.text("name"));
+    RopeScene scene = make_rope_scene(entry);
+    RopePart& part = workspace.document.edit<RopePart>(rope_lab);
+    part.world = std::make_shared<const rope::World>(std::move(scene.world));
+    part.swings = std::move(scene.swings);
+    part.time = 0.0;
+    part.torture = {.dial = part.torture.dial};
+    part.choice.reset();
+    part.hold.reset();
+    part.quiet_ticks = 0;
+    workspace.camera = entry.view;
+}
+
+void settings(RopeEdit& edit, const Arguments& given) {
+    rope::Settings wanted = edit.seen().settings();
+    // The shortest decimals of a float are what was meant: 0.1 is no 0.10000000149.
+    if (given.has("substep")) wanted.substep = number(given.number("substep")).get<double>();
+    if (given.has("iterations")) wanted.iterations = given.integer("iterations");
+    if (given.has("solver")) wanted.solver = solver_from_name(given.text("solver"));
+    if (given.has("damping")) wanted.damping = given.number("damping");
+    if (given.has("gravity")) {
+        wanted.gravity =
+            given.is_point("gravity") ? given.point("gravity") : glm::vec3(0, -given.number("gravity"), 0);
+    }
+    if (given.has("gravity_scale")) wanted.gravity_scale = given.number("gravity_scale");
+    if (given.has("external")) wanted.external = given.point("external");
+    if (given.has("compliance")) wanted.compliance = given.number("compliance");
+    if (given.has("friction")) wanted.friction = given.number("friction");
+    if (wanted != edit.seen().settings()) edit.world().set_settings(wanted);
+}
+
+void set_torture(RopeEdit& edit, const Arguments& given) {
+    edit.part.torture.dial = given.number("dial");
+    edit.part.torture.frame = 0.0;  // the next frame already follows the dial
+}
+
+std::vector<Argument> settings_arguments() {
+    return {
+        number_argument("substep", "seconds", rope::min_substep, rope::max_substep),
+        integer_argument("iterations", "passes in a substep", 1, rope::max_iterations),
+        choice_argument("solver", false, "how distances are kept", names(all_solvers, rope::name)),
+        number_argument("damping", "how fast motion dies away, 1/s", 0.0, rope::max_rate),
+        {.name = "gravity",
+         .type = ArgumentType::NumberOrPoint,
+         .required = false,
+         .help = "m/s^2: downwards, or [x, y, z]",
+         .low = -rope::max_acceleration,
+         .high = rope::max_acceleration},
+        number_argument("gravity_scale", "gravity is taken so many times", -rope::max_scale, rope::max_scale),
+        point_argument("external", false, "m/s^2 beside gravity: a wind"),
+        number_argument("compliance", "strain per newton; relaxation does not know it", 0.0,
+                        rope::max_compliance),
+        number_argument("friction", "between ropes and colliders", 0.0, rope::max_friction)};
+}
+
+}  // namespace
+
+void add_world_commands(CommandTable& table) {
+    table.add(rope_command("rope.clear", {}, "Takes every rope and collider away", clear));
+    table.add(rope_command("rope.reset", {}, "Everything in this lab as at the first start", reset));
+    table.add(
+        {.name = "rope.preset",
+         .arguments = {choice_argument("name", true, "which scene",
+                                       names(rope_scenes(), [](const auto& each) { return each.name; }))},
+         .help = "Begins with a ready-made scene",
+         .effect = Effect::Edit,
+         .apply = take_scene});
+    table.add(rope_command("rope.settings", settings_arguments(),
+                           "How ropes are simulated; what is left out stays", settings));
+    table.add(
+        rope_command("rope.torture",
+                     {{.name = "dial", .help = "0: even frames; 1: from 1 to 250 ms", .low = 0, .high = 1}},
+                     "Cuts time into uneven frames, as a program that stutters does", set_torture));
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,25 @@
+// A rope world in a scene file and in --state.
+#pragma once
+
+#include <string>
+#include <tendril/rope/world.hpp>
+
+#include "app/document/json.hpp"
+
+namespace tendril::app {
+
+/// Everything that a world remembers, bit for bit.
+Json save_world(const rope::State& state);
+/// Throws std::runtime_error with the place and what is wrong there.
+rope::State load_world(const Json& json, const std::string& where);
+
+Json save_settings(const rope::Settings& settings);
+/// {"kind": "sphere", "centre": ..., "radius": ...}
+Json save_shape(const rope::Shape& shape);
+
+const char* body_kind_name(rope::Body::Kind kind);
+rope::Solver solver_from_name(const std::string& name);
+inline constexpr rope::Solver all_solvers[] = {rope::Solver::Relaxation, rope::Solver::Xpbd,
+                                               rope::Solver::Direct};
+
+}  // namespace tendril::app
