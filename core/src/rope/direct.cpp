@@ -109,12 +109,14 @@ double Substep::solve_batch(const Batch& batch, int iteration) {
     Order order;
     gather(block, batch);
     order.implicit = first.alone && iteration == 0;
-    // Where runs share particles each only undoes part of what the others did: the plain direction serves best.
-    // Runs that share particles undo part of what the others did, and what colliders pushed has wrong lengths to
-    // begin with: there the plain direction serves best.
-    const bool pushed = scratch_.body_near[first.body] != 0;
-    order.backward = first.alone && !pushed ? least_backward : 1.0;
-    order.passes = !first.alone ? 1 : pushed ? 4 : 2;
+    for (std::uint32_t lane = 0; lane < detail::most_lanes; ++lane) {
+        // Runs that share particles undo part of what the others did, and what colliders pushed has wrong lengths
+        // to begin with: there the plain direction serves best.
+        const std::uint32_t body = plan_.runs[batch.run + std::min(lane, batch.count - 1)].body;
+        const bool pushed = scratch_.body_near[body] != 0;
+        order.backward[lane] = first.alone && !pushed ? least_backward : 1.0;
+        order.passes[lane] = !first.alone ? 1.0 : pushed ? 4.0 : 2.0;
+    }
     order.tolerance = arrived;
     (batch.single ? scratch_.unit.single : scratch_.unit.solve)(block, order);
     double worst = 0.0;
@@ -144,8 +146,8 @@ void Substep::again(std::uint32_t run) {
         Order order;
         gather(block, {run, 1, true});
         order.implicit = true;
-        order.backward = 1.0;
-        order.passes = i + 1 < most ? 2 : 8;
+        order.backward[0] = 1.0;
+        order.passes[0] = i + 1 < most ? 2.0 : 8.0;
         order.tolerance = arrived;
         scratch_.unit.single(block, order);
         scratch_.run_worst[run] = order.worst[0];

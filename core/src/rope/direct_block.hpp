@@ -35,8 +35,8 @@ struct Block {
 /// What the solver does to a block. What it says is one value a lane.
 struct Order {
     bool implicit = false;    ///< first take the tension that there is in implicitly
-    double backward = 0.0;    ///< 0: pull along the mean of before and after; 1: after
-    int passes = 2;           ///< at most
+    double backward[most_lanes] = {};  ///< 0: pull along the mean of before and after; 1: after
+    double passes[most_lanes] = {};    ///< at most
     double tolerance = 1e-7;  ///< relative length error at which a lane is done
     double worst[most_lanes];  ///< out: the largest relative length error
     int taken = 0;             ///< out: passes taken

@@ -41,14 +41,14 @@ class BlockSolver {
         lay_old_directions();
         if (order.implicit) take_implicitly(order);
         // The first pass is always worth it: looking whether it is costs half as much.
+        const V most = hn::LoadU(d_, order.passes);
         V worst = set(1e300);
         order.taken = 0;
-        for (int pass = 0; pass < order.passes; ++pass) {
-            const auto open = hn::Gt(worst, set(order.tolerance));
+        for (;; ++order.taken) {
+            const auto open = hn::And(hn::Gt(worst, set(order.tolerance)), hn::Lt(set(order.taken), most));
             if (hn::AllFalse(d_, open)) break;
             improve(open, order);
             worst = largest_error();
-            ++order.taken;
         }
         HWY_ALIGN double lanes[most_lanes] = {};
         hn::Store(worst, d_, lanes);
@@ -103,7 +103,8 @@ class BlockSolver {
     /// Nodes move from their base by tensions along the old and the new directions. Tension has no way to push
     /// sideways here: all three coordinates share one tridiagonal matrix.
     void take_implicitly(const Order& order) const {
-        const V ahead = set(1.0 + order.backward), behind = set(1.0 - order.backward);
+        const V backward = hn::LoadU(d_, order.backward);
+        const V ahead = hn::Add(set(1.0), backward), behind = hn::Sub(set(1.0), backward);
         V stiff_before = hn::Zero(d_), upper = hn::Zero(d_);
         V3 old_before{hn::Zero(d_), hn::Zero(d_), hn::Zero(d_)}, right = old_before;
         for (std::size_t k = 0; k <= block_.links; ++k) {
@@ -169,8 +170,8 @@ class BlockSolver {
     }
 
     void eliminate(const Order& order) const {
-        const V zero = hn::Zero(d_), after = set(0.5 * (1.0 + order.backward)),
-                before = set(0.5 * (1.0 - order.backward));
+        const V zero = hn::Zero(d_), half = set(0.5), backward = hn::LoadU(d_, order.backward);
+        const V after = hn::Add(half, hn::Mul(half, backward)), before = hn::Sub(half, hn::Mul(half, backward));
         V upper_before = zero, right_before = zero;
         V3 pull_before{zero, zero, zero}, lies_before = pull_before;
         V3 from = load3(0, X);
