@@ -28,15 +28,23 @@ class Plot {
   public:
     Plot(std::span<const Curve> curves, const PlotAxes& axes, ImVec2 at, ImVec2 size)
         : curves_(curves), axes_(axes), list_(ImGui::GetWindowDrawList()) {
-        float most_y = axes.level;
+        float most_y = axes.level > 0.0f ? axes.level : -1e30f, least_y = 1e30f;
         for (const Curve& curve : curves) {
             for (const glm::vec2 p : curve.points) {
                 most_x_ = std::max(most_x_, p.x);
                 most_y = std::max(most_y, p.y);
+                least_y = std::min(least_y, p.y);
             }
         }
-        low_ = std::floor(std::log10(axes.least_y));
-        high_ = std::max(low_ + 1.0f, std::ceil(std::log10(std::max(most_y, axes.least_y)) - 1e-4f));
+        if (logarithmic()) {
+            low_ = std::floor(std::log10(axes.least_y));
+            high_ = std::max(low_ + 1.0f, std::ceil(std::log10(std::max(most_y, axes.least_y)) - 1e-4f));
+        } else if (least_y <= most_y) {
+            // A curve that is all but level is shown so.
+            const float room = std::max(0.05f * (most_y - least_y), 1e-3f * std::max(std::abs(most_y), 1e-3f));
+            low_ = least_y - room;
+            high_ = most_y + room;
+        }
         const float text = ImGui::GetFontSize();
         from_ = {at.x + ImGui::CalcTextSize("1e-6").x + 0.4f * text, at.y + 1.2f * text};
         to_ = {at.x + size.x - 0.6f * text, at.y + size.y - 2.4f * text};
@@ -73,8 +81,9 @@ class Plot {
 
   private:
     float x(float value) const { return from_.x + (to_.x - from_.x) * value / std::max(most_x_, 1e-9f); }
+    bool logarithmic() const { return axes_.least_y > 0.0f; }
     float y(float value) const {
-        const float power = std::log10(std::max(value, axes_.least_y));
+        const float power = logarithmic() ? std::log10(std::max(value, axes_.least_y)) : value;
         return to_.y + (from_.y - to_.y) * (power - low_) / (high_ - low_);
     }
     static ImU32 dim() { return ImGui::GetColorU32(ImGuiCol_TextDisabled); }
@@ -82,11 +91,19 @@ class Plot {
     void grid() {
         const ImU32 line = ImGui::GetColorU32(ImGuiCol_Border, 0.7f);
         char text[24];
-        const float decades = tick_step(high_ - low_, 6);
-        for (float power = low_; power <= high_ + 0.01f; power += std::max(1.0f, std::round(decades))) {
+        const int rows = std::max(1, static_cast<int>((to_.y - from_.y) / (1.6f * ImGui::GetFontSize())));
+        const float step_y = logarithmic() ? std::max(1.0f, std::round(tick_step(high_ - low_, std::min(6, rows))))
+                                           : tick_step(high_ - low_, std::min(4, rows));
+        const float first = logarithmic() ? low_ : std::ceil(low_ / step_y) * step_y;
+        for (int i = 0; first + static_cast<float>(i) * step_y <= high_ + 1e-3f * step_y; ++i) {
+            const float power = first + static_cast<float>(i) * step_y;
             const float at = to_.y + (from_.y - to_.y) * (power - low_) / (high_ - low_);
             list_->AddLine({from_.x, at}, {to_.x, at}, line);
-            std::snprintf(text, sizeof text, "1e%d", static_cast<int>(power));
+            if (logarithmic()) {
+                std::snprintf(text, sizeof text, "1e%d", static_cast<int>(power));
+            } else {
+                std::snprintf(text, sizeof text, "%.3g", static_cast<double>(std::abs(power) < 1e-6f ? 0.0f : power));
+            }
             const ImVec2 size = ImGui::CalcTextSize(text);
             list_->AddText({from_.x - size.x - 4.0f, at - 0.5f * size.y}, dim(), text);
         }
@@ -135,15 +152,15 @@ class Plot {
 
 }  // namespace
 
-void log_plot(const char* id, std::span<const Curve> curves, const PlotAxes& axes, float height) {
+void plot(const char* id, std::span<const Curve> curves, const PlotAxes& axes, float height) {
     ImGui::PushFont(small_font());
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const ImVec2 size{std::max(80.0f, ImGui::GetContentRegionAvail().x), height * ImGui::GetFontSize()};
     ImGui::InvisibleButton(id, size);
     const bool hovered = ImGui::IsItemHovered();
-    Plot plot(curves, axes, at, size);
-    plot.draw();
-    if (hovered) plot.tell(ImGui::GetIO().MousePos);
+    Plot drawing(curves, axes, at, size);
+    drawing.draw();
+    if (hovered) drawing.tell(ImGui::GetIO().MousePos);
     ImGui::PopFont();
 }
 

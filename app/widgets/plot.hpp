@@ -18,7 +18,8 @@ struct Curve {
 struct PlotAxes {
     const char* x = "";
     const char* y = "";
-    /// The y axis is logarithmic and begins here; values below lie on its edge.
+    /// The y axis is logarithmic and begins here; values below lie on its edge. 0: it is even, and goes from the
+    /// least value to the greatest.
     float least_y = 1e-6f;
     float level = 0.0f;    ///< a dashed line at this y, where it is over 0
     float at_x = -1.0f;    ///< a line at this x, where it is not negative
@@ -26,7 +27,7 @@ struct PlotAxes {
 };
 
 /// As wide as there is room, `height` in lines of text. Resting the mouse on it tells the nearest point.
-void log_plot(const char* id, std::span<const Curve> curves, const PlotAxes& axes, float height);
+void plot(const char* id, std::span<const Curve> curves, const PlotAxes& axes, float height);
 
 /// A small square of colour before what is written next.
 void colour_mark(glm::vec3 colour);

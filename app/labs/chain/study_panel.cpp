@@ -74,7 +74,7 @@ void race_plot(const Race& race, bool time, const Palette& palette) {
         }
         curves.push_back(std::move(curve));
     }
-    log_plot("race plot", curves,
+    plot("race plot", curves,
              {.x = time ? "microseconds" : "iterations",
               .y = "tip to target, m",
               .least_y = least_residual(race.tolerance),
@@ -123,7 +123,7 @@ void microscope_rows(const ChainPart& part, const Palette& palette, Emit& emit) 
     end_row();
     const Curve curve{solver_title(trace.method), palette.accent, by_iteration(trace.residuals)};
     const float tolerance = reach_tolerance(part.reach, part.chain.reach());
-    log_plot("error", {&curve, 1},
+    plot("error", {&curve, 1},
              {.x = "iterations",
               .y = "tip to target, m",
               .least_y = least_residual(tolerance),

@@ -1,10 +1,18 @@
-// The Rope lab's picture, as plain as can be: links as lines, colliders as what they are.
+// The Rope lab's picture: tubes, cloth and hair, what they lie on, and where they are held.
+#include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "app/labs/rope/rope_lab.hpp"
+#include "app/labs/rope/stress.hpp"
+#include "app/view/surfaces.hpp"
 
 namespace tendril::app {
 namespace {
+
+constexpr int strand_sides = 6;          ///< nobody sees more on a hair
+constexpr float plane_radius = 3.0f;     ///< metres of an endless plane that are shown
+constexpr glm::vec4 unseen{0.0f};        ///< of strokes that can be caught, but are drawn otherwise
 
 class Drawing {
   public:
@@ -12,90 +20,173 @@ class Drawing {
         : view_(view), list_(list), part_(rope_part(view.workspace)), world_(*part_.world) {}
 
     void run() {
-        colliders();
-        links();
+        for (std::size_t i = 0; i < world_.state().colliders.size(); ++i) collider(i);
+        positions_.reserve(world_.size());
+        for (std::size_t i = 0; i < world_.size(); ++i) positions_.push_back(world_.position(i));
+        colours_ = particle_colours(world_, view_.palette, part_.view.stress);
+        if (!part_.view.stress) mark_choice();
+        for (const rope::Body& body : world_.state().bodies) {
+            if (body.kind == rope::Body::Kind::Sheet) {
+                cloth(body);
+            } else {
+                strands(body);
+            }
+        }
+        catchable_links();
         particles();
+        labels();
     }
 
   private:
     float px(float pixels) const { return pixels * view_.scale; }
     bool lit(PickId pick) const { return view_.hovered == pick || view_.dragged == pick; }
+    bool chosen(const rope::Body& body) const {
+        return part_.choice && part_.choice->collider.empty() && part_.choice->body == body.name;
+    }
+    bool chosen(const rope::Body& body, std::size_t i) const { return chosen(body) && part_.choice->particle == i; }
 
-    void colliders() {
-        const auto& all = world_.state().colliders;
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            const PickId pick = collider_pick(i);
-            const bool chosen = part_.choice && part_.choice->collider == all[i].name;
-            const glm::vec3 colour = chosen      ? view_.palette.selection
-                                     : lit(pick) ? view_.palette.accent
-                                                 : view_.palette.joint;
-            Stroke* stroke = shape(all[i].shape, glm::vec4(colour, 1.0f));
-            if (stroke == nullptr) continue;
-            stroke->shadow = true;
-            stroke->pick = pick;
+    glm::vec3 collider_colour(std::size_t i) const {
+        const bool selected = part_.choice && part_.choice->collider == world_.state().colliders[i].name;
+        if (selected) return view_.palette.selection;
+        return lit(collider_pick(i)) ? view_.palette.accent : view_.palette.ghost;
+    }
+
+    void collider(std::size_t i) {
+        const rope::Shape& shape = world_.state().colliders[i].shape;
+        const glm::vec3 colour = collider_colour(i);
+        const PickId pick = collider_pick(i);
+        if (const auto* sphere = std::get_if<rope::Sphere>(&shape)) {
+            solid(list_.sphere(sphere->centre, sphere->radius, Unit::Metres, glm::vec4(colour, 1.0f)), pick);
+        } else if (const auto* capsule = std::get_if<rope::Capsule>(&shape)) {
+            solid(list_.bone(capsule->a, capsule->b, capsule->radius, capsule->radius, glm::vec4(colour, 1.0f)), pick);
+        } else if (const auto* block = std::get_if<rope::Box>(&shape)) {
+            box(list_, view_.camera, block->centre, block->half_extents, block->rotation, colour);
+            catchable_box(*block, pick);
+        } else if (const auto* plane = std::get_if<rope::Plane>(&shape)) {
+            plane_patch(list_, view_.camera, plane->point, plane->normal, plane_radius, colour);
+            // A grip in its middle; on the ground it would only be in the way.
+            if (plane->point.y == 0.0f && glm::normalize(plane->normal).y > 0.999f) return;
+            solid(list_.sphere(plane->point, px(5.0f), Unit::Pixels, glm::vec4(colour, 1.0f)), pick);
+        }
+    }
+    static void solid(Stroke& stroke, PickId pick) {
+        stroke.shadow = true;
+        stroke.pick = pick;
+    }
+    /// A capsule along the longest side: near enough to be caught by.
+    void catchable_box(const rope::Box& block, PickId pick) {
+        const glm::vec3 half = block.half_extents;
+        int axis = half.x >= half.y && half.x >= half.z ? 0 : half.y >= half.z ? 1 : 2;
+        glm::vec3 along(0.0f);
+        const float thick = std::min(half[(axis + 1) % 3], half[(axis + 2) % 3]);
+        along[axis] = half[axis] - std::min(thick, half[axis]);
+        along = block.rotation * along;
+        Stroke& stroke = list_.bone(block.centre - along, block.centre + along, thick, thick, unseen);
+        stroke.pick = pick;
+    }
+
+    void mark_choice() {
+        for (const rope::Body& body : world_.state().bodies) {
+            if (!chosen(body)) continue;
+            for (std::size_t i = body.first; i < body.first + body.count; ++i)
+                colours_[i] = glm::mix(colours_[i], view_.palette.selection, 0.35f);
         }
     }
 
-    /// Null for what has no end.
-    Stroke* shape(const rope::Shape& shape, glm::vec4 colour) {
-        if (const auto* sphere = std::get_if<rope::Sphere>(&shape))
-            return &list_.sphere(sphere->centre, sphere->radius, Unit::Metres, colour);
-        if (const auto* capsule = std::get_if<rope::Capsule>(&shape))
-            return &list_.bone(capsule->a, capsule->b, capsule->radius, capsule->radius, colour);
-        if (const auto* box = std::get_if<rope::Box>(&shape)) return &edges(*box, colour);
-        return nullptr;
+    void strands(const rope::Body& body) {
+        const int sides = body.kind == rope::Body::Kind::Lock ? strand_sides : part_.view.sides;
+        const std::span<const glm::vec3> points(positions_), colours(colours_);
+        for (std::size_t at = body.first; at < body.first + body.count; at += body.row) {
+            tube(list_, view_.camera, points.subspan(at, body.row), body.radius, sides, colours.subspan(at, body.row));
+        }
     }
 
-    Stroke& edges(const rope::Box& box, glm::vec4 colour) {
-        const auto corner = [&](int bits) {
-            const glm::vec3 sign(bits & 1 ? 1 : -1, bits & 2 ? 1 : -1, bits & 4 ? 1 : -1);
-            return box.centre + box.rotation * (sign * box.half_extents);
-        };
-        for (int from = 0; from < 8; ++from)
-            for (const int axis : {1, 2, 4})
-                if ((from & axis) == 0) list_.line(corner(from), corner(from | axis), px(1.5f), colour);
-        const float size = rope::size(box);
-        return list_.sphere(box.centre, size, Unit::Metres, colour);
+    void cloth(const rope::Body& body) {
+        const int columns = static_cast<int>(body.row), rows = static_cast<int>(body.count / body.row);
+        const std::span<const glm::vec3> points(positions_), colours(colours_);
+        const std::vector<std::uint8_t> cells = whole_cells(world_, body);
+        const SheetGrid grid{columns, rows, points.subspan(body.first, body.count), cells};
+        if (part_.view.stress || chosen(body)) {
+            sheet(list_, view_.camera, grid, view_.palette.head, view_.palette.link,
+                  colours.subspan(body.first, body.count));
+        } else {
+            sheet(list_, view_.camera, grid, cloth_front(view_.palette), view_.palette.link);
+        }
     }
 
-    void links() {
-        const auto& state = world_.state();
-        list_.strokes.reserve(list_.strokes.size() + state.links.size() + 64);
-        std::size_t at = 0;
-        std::vector<float> radius(world_.size());
-        for (const rope::Body& body : state.bodies)
-            for (std::size_t i = 0; i < body.count; ++i) radius[body.first + i] = body.radius;
+    /// Each half of a link is caught as the particle at its end; where links are cut, all of it as its first.
+    void catchable_links() {
+        const bool cuts = part_.tool == RopeTool::Cut;
+        const rope::State& state = world_.state();
+        list_.strokes.reserve(list_.strokes.size() + 2 * state.links.size());
+        std::size_t b = 0;
         for (const rope::Link& link : state.links) {
-            if (link.kind != rope::Link::Kind::Stretch) continue;
-            at = link.a;
-            Stroke& stroke = list_.bone(world_.position(link.a), world_.position(link.b), radius[at],
-                                        radius[at], glm::vec4(view_.palette.link, 1.0f));
-            stroke.shadow = true;
-            stroke.pick = particle_pick(link.a);
+            while (link.a < state.bodies[b].first) --b;
+            while (link.a - state.bodies[b].first >= state.bodies[b].count) ++b;
+            const rope::Body& body = state.bodies[b];
+            if (link.kind != rope::Link::Kind::Stretch || body.kind == rope::Body::Kind::Lock) continue;
+            const glm::vec3 from = positions_[link.a], to = positions_[link.b], middle = 0.5f * (from + to);
+            catchable(from, cuts ? to : middle, body.radius, link.a);
+            if (!cuts) catchable(middle, to, body.radius, link.b);
+            if (cuts && view_.hovered == particle_pick(link.a) && body.kind == rope::Body::Kind::Rope) {
+                const float thick = 1.15f * body.radius;
+                list_.bone(from, to, thick, thick, glm::vec4(view_.palette.limit, 1.0f));
+            }
         }
+    }
+    void catchable(glm::vec3 from, glm::vec3 to, float radius, std::size_t particle) {
+        Stroke& stroke = list_.bone(from, to, radius, radius, unseen);
+        stroke.pick = particle_pick(particle);
     }
 
     void particles() {
-        const std::size_t stride = handle_stride(world_);
         std::vector<bool> pinned(world_.size());
-        for (const rope::Pin& pin : world_.state().pins) pinned[pin.particle] = true;
+        for (const rope::Pin& pin : world_.state().pins) pinned[pin.particle] = pin.collider.empty();
+        const bool cuts = part_.tool == RopeTool::Cut;
         for (const rope::Body& body : world_.state().bodies) {
             for (std::size_t i = 0; i < body.count; ++i) {
                 const std::size_t particle = body.first + i;
                 const PickId pick = particle_pick(particle);
-                const bool chosen = part_.choice && part_.choice->collider.empty() &&
-                                    part_.choice->body == body.name && part_.choice->particle == i;
-                const bool shown =
-                    pinned[particle] || chosen || lit(pick) || (part_.view.particles && i % stride == 0);
-                if (!shown) continue;
-                const glm::vec3 colour = chosen             ? view_.palette.selection
+                const bool alone = body.count == 1;  // what is left of a rope that was cut at its end
+                const bool selected = chosen(body, i), under_mouse = !cuts && lit(pick);
+                if (!(pinned[particle] || selected || under_mouse || part_.view.particles || alone)) continue;
+                const glm::vec3 colour = selected           ? view_.palette.selection
                                          : pinned[particle] ? view_.palette.target
+                                         : under_mouse      ? view_.palette.accent
                                                             : view_.palette.joint;
-                Stroke& ball = list_.sphere(world_.position(particle), px(pinned[particle] ? 5.0f : 4.0f),
-                                            Unit::Pixels, glm::vec4(colour, 1.0f));
+                Stroke& ball = list_.sphere(positions_[particle], ball_radius(body, particle), Unit::Pixels,
+                                            glm::vec4(colour, 1.0f));
                 ball.pick = pick;
-                ball.rank = 1;
+                ball.rank = pinned[particle] ? 2 : 1;
             }
+        }
+    }
+    /// Pixels: a little more than the rope is thick, so that it shows.
+    float ball_radius(const rope::Body& body, std::size_t particle) const {
+        const float thick = body.radius / view_.camera.metres_per_pixel(positions_[particle]);
+        return std::clamp(1.3f * thick, px(3.0f), std::max(px(6.0f), 1.3f * thick));
+    }
+
+    void labels() {
+        const bool always = view_.workspace.settings.labels == LabelMode::Always;
+        const PickId shown = view_.dragged != no_pick ? view_.dragged : view_.hovered;
+        const auto add = [&](glm::vec3 at, const std::string& text, bool under_mouse) {
+            list_.labels.push_back({.at = at,
+                                    .clearance = px(12.0f),
+                                    .text = text,
+                                    .colour = view_.palette.text,
+                                    .rank = under_mouse ? 1 : 0});
+        };
+        const rope::State& state = world_.state();
+        for (std::size_t i = 0; i < state.colliders.size(); ++i) {
+            const bool under_mouse = shown == collider_pick(i);
+            if (under_mouse || always) add(rope::centre(state.colliders[i].shape), state.colliders[i].name, under_mouse);
+        }
+        for (const rope::Body& body : state.bodies)
+            if (always) add(positions_[body.first], body.name, false);
+        if (const auto place = picked_particle(world_, shown)) {
+            const std::size_t particle = place->body->first + place->index;
+            add(positions_[particle], place->body->name + ", particle " + std::to_string(place->index), true);
         }
     }
 
@@ -103,6 +194,7 @@ class Drawing {
     DrawList& list_;
     const RopePart& part_;
     const rope::World& world_;
+    std::vector<glm::vec3> positions_, colours_;
 };
 
 }  // namespace
@@ -113,7 +205,14 @@ void RopeLab::draw(const View& view, DrawList& list) const {
 
 std::vector<LegendRow> RopeLab::legend(const Workspace& workspace) const {
     const Palette& colours = palette(workspace.settings.theme);
-    return {{"pinned", colours.target}, {"selection", colours.selection}};
+    std::vector<LegendRow> rows{{"pinned", colours.target}, {"selection", colours.selection}};
+    if (rope_part(workspace).view.stress) {
+        rows.push_back({"its length", colours.joint});
+        rows.push_back({"1 % too long", stress_colour(0.01f, colours)});
+        rows.push_back({"10 % too long", stress_colour(0.1f, colours)});
+        rows.push_back({"10 % too short", stress_colour(-0.1f, colours)});
+    }
+    return rows;
 }
 
 }  // namespace tendril::app

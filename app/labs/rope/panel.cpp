@@ -1,30 +1,170 @@
-// The Rope lab's panels, as plain as can be.
+// What one chooses in the Rope lab: scene, tool, what there is, how it is simulated and shown.
+#include <imgui.h>
+
+#include <algorithm>
+#include <string>
+
+#include "app/labs/rope/panels.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/rope/rope_names.hpp"
 #include "app/labs/rope/scenes.hpp"
 #include "app/widgets/fields.hpp"
+#include "app/widgets/timeline.hpp"
 
 namespace tendril::app {
+namespace {
 
-void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
-    const RopePart& part = rope_part(workspace);
-    section("Scene");
+void scene_rows(Emit& emit) {
+    section("Begin with");
     for (const RopeSceneEntry& scene : rope_scenes())
-        if (row_button(scene.title, 2)) emit("rope.preset", {{"name", scene.name}});
+        if (row_button(scene.title, 3)) emit("rope.preset", {{"name", scene.name}});
     end_row();
+    if (row_button("Empty", 2, true, "Takes every rope and collider away")) emit("rope.clear");
+    if (row_button("Reset", 2, true, "Everything as at the first start; undo brings it back")) emit("rope.reset");
+    end_row();
+}
+
+void tool_rows(const RopePart& part, Emit& emit) {
     section("A click");
-    static constexpr const char* titles[] = {"Selects", "Pins and lets go", "Cuts"};
+    static constexpr const char* titles[] = {"Selects", "Pins, or lets go", "Cuts"};
     for (const RopeTool tool : all_tools) {
         if (option_button(titles[static_cast<std::size_t>(tool)], part.tool == tool))
             emit("rope.tool", {{"name", tool_name(tool)}});
     }
+    note(part.tool == RopeTool::Cut ? "Click a segment of a rope: it parts there."
+                                    : "Drag any particle of a rope, and any collider.");
 }
 
-void RopeLab::inspector(const Workspace& workspace, Emit&) const {
+/// "ball", "ball 2", ...: the first name that no collider has.
+std::string free_name(const rope::World& world, const std::string& kind) {
+    std::string name = kind;
+    for (int i = 2; world.find_collider(name) != nullptr; ++i) name = kind + " " + std::to_string(i);
+    return name;
+}
+
+void add_rows(const Workspace& workspace, Emit& emit) {
+    section("Add");
     const RopePart& part = rope_part(workspace);
+    const glm::vec3 at = workspace.camera.target;
+    if (row_button("Rope", 4, true, "A rope that hangs between two pins")) {
+        emit("rope.add", {{"from", point(at + glm::vec3(-0.6f, 0.6f, 0.0f))},
+                          {"to", point(at + glm::vec3(0.6f, 0.6f, 0.0f))},
+                          {"length", 1.7},
+                          {"segments", 48},
+                          {"pin_start", true},
+                          {"pin_end", true}});
+    }
+    const auto collider = [&](const char* title, const char* name, const char* kind, Json shape) {
+        if (!row_button(title, 4, true, "A collider in the middle of the view")) return;
+        Json arguments{{"name", free_name(*part.world, name)}, {"kind", kind}};
+        arguments.update(shape);
+        emit("rope.collider.add", std::move(arguments));
+    };
+    collider("Ball", "ball", "sphere", {{"centre", point(at)}, {"radius", 0.25}});
+    collider("Bar", "bar", "capsule",
+             {{"a", point(at - glm::vec3(0, 0, 0.5f))}, {"b", point(at + glm::vec3(0, 0, 0.5f))}, {"radius", 0.1}});
+    collider("Box", "box", "box", {{"centre", point(at)}, {"half_extents", {0.25, 0.25, 0.25}}});
+    end_row();
+}
+
+const char* solver_help(rope::Solver solver) {
+    switch (solver) {
+        case rope::Solver::Relaxation:
+            return "One segment after the other, again and again. How far it stretches is a matter of iterations and "
+                   "substep, not of the material.";
+        case rope::Solver::Xpbd:
+            return "As relaxation, but compliance is a material's, given enough iterations.";
+        case rope::Solver::Direct:
+            return "All segments of a rope at once: it does not stretch, and keeps its energy.";
+    }
+    return "";
+}
+
+/// A row of rope.settings.
+void setting(const char* name, const char* key, float value, float speed, float low, float high, const char* format,
+             Emit& emit) {
+    if (number_field(name, value, speed, low, high, format)) emit.continuously("rope.settings", {{key, number(value)}});
+}
+
+void solver_rows(const RopePart& part, Emit& emit) {
+    section("Solver");
+    const rope::Settings& now = part.world->settings();
+    static constexpr const char* titles[] = {"Relaxation", "XPBD", "Direct"};
+    for (const rope::Solver solver : {rope::Solver::Direct, rope::Solver::Xpbd, rope::Solver::Relaxation}) {
+        if (option_button(titles[static_cast<std::size_t>(solver)], now.solver == solver))
+            emit("rope.settings", {{"solver", rope::name(solver)}});
+    }
+    note(solver_help(now.solver));
+    int iterations = now.iterations;
+    if (integer_field("iterations", iterations, 1, 1000))
+        emit.continuously("rope.settings", {{"iterations", iterations}});
+    float per_second = static_cast<float>(1.0 / now.substep);
+    if (number_field("substeps", per_second, 2.0f, 10.0f, 10000.0f, "%.0f /s"))
+        emit.continuously("rope.settings", {{"substep", number(1.0f / per_second)}});
+    if (now.solver != rope::Solver::Relaxation)
+        setting("compliance", "compliance", now.compliance, 1e-5f, 0.0f, 1.0f, "%.5f /N", emit);
+}
+
+void world_rows(const RopePart& part, Emit& emit) {
     section("World");
-    reading("particles", "%zu", part.world->size());
-    reading("substeps dropped", "%llu", static_cast<unsigned long long>(part.world->state().dropped));
+    const rope::Settings& now = part.world->settings();
+    setting("damping", "damping", now.damping, 0.01f, 0.0f, 100.0f, "%.2f /s", emit);
+    setting("friction", "friction", now.friction, 0.01f, 0.0f, 10.0f, "%.2f", emit);
+    glm::vec3 gravity = now.gravity, wind = now.external;
+    if (point_field("gravity", gravity, 0.05f)) emit.continuously("rope.settings", {{"gravity", point(gravity)}});
+    if (point_field("wind", wind, 0.05f)) emit.continuously("rope.settings", {{"external", point(wind)}});
+}
+
+void time_rows(const Workspace& workspace, Emit& emit) {
+    section("Time");
+    const RopePart& part = rope_part(workspace);
+    float percent = 100.0f * workspace.clock.speed;
+    if (number_field("speed", percent, 0.5f, 5.0f, 200.0f, "%.0f %%"))
+        emit.continuously("time.speed", {{"factor", number(percent / 100.0f)}});
+    float dial = 100.0f * part.torture.dial;
+    if (number_field("torture", dial, 0.5f, 0.0f, 100.0f, "%.0f %%"))
+        emit.continuously("rope.torture", {{"dial", number(dial / 100.0f)}});
+    note(part.torture.dial > 0.0f ? "Frames of 1 to 250 ms: the picture stutters, the ropes do not mind."
+                                  : "Torture cuts time into uneven frames, as a program that stutters does.");
+}
+
+void view_rows(const RopePart& part, Emit& emit) {
+    section("Show");
+    if (option_button("Stress", part.view.stress)) emit("rope.view", {{"stress", !part.view.stress}});
+    if (option_button("Particles", part.view.particles)) emit("rope.view", {{"particles", !part.view.particles}});
+    int sides = part.view.sides;
+    if (integer_slider("sides", sides, fewest_sides, most_sides)) emit.continuously("rope.view", {{"sides", sides}});
+}
+
+}  // namespace
+
+void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
+    const RopePart& part = rope_part(workspace);
+    scene_rows(emit);
+    tool_rows(part, emit);
+    add_rows(workspace, emit);
+    solver_rows(part, emit);
+    world_rows(part, emit);
+    time_rows(workspace, emit);
+    view_rows(part, emit);
+}
+
+void RopeLab::inspector(const Workspace& workspace, Emit& emit) const {
+    selection_rows(workspace, emit);
+    number_rows(workspace, palette(workspace.settings.theme));
+}
+
+void RopeLab::timeline(const Workspace& workspace, Emit& emit) const {
+    const Rewind& past = workspace.rewind;
+    if (past.empty()) return;
+    // The strip is ten seconds long from the beginning: what is not there yet is to its right.
+    const auto first = past.oldest();
+    const int ticks = static_cast<int>(Rewind::most_ticks) + 1;
+    const int newest = static_cast<int>(past.newest() - first);
+    const auto tick_now = std::clamp(workspace.clock.tick, first, past.newest());
+    int now = static_cast<int>(tick_now - first);
+    if (app::timeline("past", now, ticks, tick_seconds))
+        emit.continuously("time.seek", {{"ticks_back", std::max(0, newest - now)}});
 }
 
 }  // namespace tendril::app

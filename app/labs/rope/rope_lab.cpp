@@ -48,6 +48,17 @@ void include(const rope::Shape& shape, glm::vec3& low, glm::vec3& high) {
     }
 }
 
+void take_sample(RopePart& part) {
+    RopeSample sample;
+    for (const rope::Body& body : part.world->state().bodies) {
+        sample.stretch = std::max(sample.stretch, body.stretch);
+        sample.error = std::max(sample.error, static_cast<float>(part.world->length_error(body)));
+        sample.energy += static_cast<float>(part.world->energy(body));
+    }
+    if (part.samples.size() >= most_rope_samples) part.samples.erase(part.samples.begin());
+    part.samples.push_back(sample);
+}
+
 std::optional<Bounds> choice_bounds(const RopePart& part) {
     if (!part.choice) return std::nullopt;
     const rope::World& world = *part.world;
@@ -88,6 +99,7 @@ void RopeLab::step(Workspace& workspace) const {
         pass_time(part, tick_seconds * static_cast<double>(workspace.clock.speed));
         stopwatch.stop();
         if (!in_range(*part.world)) throw std::out_of_range("something would get farther than 1e9 m");
+        take_sample(part);
         part.quiet_ticks = at_rest(part) ? part.quiet_ticks + 1 : 0;
     } catch (const std::logic_error& error) {  // what flies off the end of the world stops there
         workspace.document = before;

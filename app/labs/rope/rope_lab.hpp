@@ -57,6 +57,8 @@ class RopeLab final : public Lab {
     Bounds bounds(const Workspace& workspace, bool selection_only) const override;
     void panel(const Workspace& workspace, Emit& emit) const override;
     void inspector(const Workspace& workspace, Emit& emit) const override;
+    bool has_timeline(const Workspace& workspace) const override { return !workspace.rewind.empty(); }
+    void timeline(const Workspace& workspace, Emit& emit) const override;
     Json state(const Workspace& workspace) const override;
 };
 

@@ -61,6 +61,15 @@ struct RopeView {
     bool operator==(const RopeView&) const = default;
 };
 
+/// What a tick came to, for the curves.
+struct RopeSample {
+    float stretch = 0.0f;  ///< the largest relative length error of all ropes, as the solver left it
+    float error = 0.0f;    ///< the same with what pushing out of colliders added
+    float energy = 0.0f;   ///< joules, of all bodies
+    bool operator==(const RopeSample&) const = default;
+};
+inline constexpr std::size_t most_rope_samples = 600;  ///< ten seconds of them
+
 struct RopePart final : Part {
     std::shared_ptr<const rope::World> world = std::make_shared<const rope::World>();
     std::vector<Swing> swings;
@@ -71,6 +80,7 @@ struct RopePart final : Part {
     Torture torture;
     RopeView view;
     int quiet_ticks = 0;  ///< ticks in a row in which nothing moved to speak of
+    std::vector<RopeSample> samples;  ///< of the last ticks. Not saved.
     /// What a tick's simulation took, microseconds; measured in a live window only. Not saved.
     float cost = 0.0f;
 

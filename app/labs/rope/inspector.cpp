@@ -1,0 +1,121 @@
+// What is selected in the Rope lab, and how the simulation goes.
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "app/labs/rope/panels.hpp"
+#include "app/labs/rope/rope_names.hpp"
+#include "app/widgets/fields.hpp"
+#include "app/widgets/plot.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// The strongest pull of the links at a particle, newtons.
+float tension_at(const rope::World& world, std::size_t particle) {
+    float strongest = 0.0f;
+    for (const rope::Link& link : world.state().links) {
+        if (link.kind == rope::Link::Kind::Stretch && (link.a == particle || link.b == particle))
+            strongest = std::max(strongest, link.tension);
+    }
+    return strongest;
+}
+
+void particle_rows(const RopePart& part, const rope::Body& body, std::size_t index, Emit& emit) {
+    const rope::World& world = *part.world;
+    const std::size_t particle = body.first + index;
+    const bool pinned = world.pinned(particle);
+    const Json which{{"rope", body.name}, {"particle", index}};
+    reading("of", "%s", body.name.c_str());
+    reading("particle", "%zu of %zu%s", index, body.count, pinned ? ", pinned" : "");
+    glm::vec3 at = world.position(particle);
+    if (pinned) {
+        if (point_field("at", at, 0.01f)) {
+            Json arguments = which;
+            arguments["at"] = point(at);
+            emit.continuously("rope.pin", std::move(arguments));
+        }
+    } else {
+        reading("at", "%.3f  %.3f  %.3f", static_cast<double>(at.x), static_cast<double>(at.y),
+                static_cast<double>(at.z));
+    }
+    reading("speed", "%.3f m/s", static_cast<double>(glm::length(world.velocity(particle))));
+    reading("tension", "%.2f N", static_cast<double>(tension_at(world, particle)));
+    reading(body.kind == rope::Body::Kind::Rope ? "rope's length" : "length of a row", "%.3f m", world.length(body));
+    if (row_button(pinned ? "Unpin" : "Pin", 3)) emit(pinned ? "rope.unpin" : "rope.pin", which);
+    const bool rope = body.kind == rope::Body::Kind::Rope;
+    if (row_button("Cut", 3, rope && body.count > 1, "Parts the rope behind this particle"))
+        emit("rope.cut", {{"rope", body.name}, {"segment", std::min(index, body.count - 2)}});
+    if (row_button("Remove", 3, true, "Takes all of it away")) emit("rope.remove", {{"name", body.name}});
+    end_row();
+}
+
+void collider_rows(const RopePart& part, const rope::Collider& collider, Emit& emit) {
+    reading("collider", "%s", collider.name.c_str());
+    reading("kind", "%s", rope::kind(collider.shape));
+    glm::vec3 at = rope::centre(collider.shape);
+    if (point_field("at", at, 0.01f))
+        emit.continuously("rope.collider.move", {{"name", collider.name}, {"to", point(at)}});
+    const auto found = std::find_if(part.swings.begin(), part.swings.end(),
+                                    [&](const Swing& swing) { return swing.collider == collider.name; });
+    const bool swings = found != part.swings.end();
+    glm::vec3 by = swings ? found->swing : glm::vec3(0.0f);
+    float period = swings ? found->period : 2.0f;
+    const auto swing = [&] {
+        emit.continuously("rope.collider.swing",
+                          {{"name", collider.name}, {"by", point(by)}, {"period", number(period)}});
+    };
+    if (point_field("swings by", by, 0.01f)) swing();
+    if (swings && number_field("period", period, 0.02f, shortest_swing, longest_swing, "%.2f s")) swing();
+    if (row_button("Remove", 3, true, "Takes the collider away")) emit("rope.collider.remove", {{"name", collider.name}});
+    end_row();
+}
+
+Curve curve(const char* name, glm::vec3 colour, const std::vector<RopeSample>& samples, float RopeSample::*value) {
+    Curve drawn{name, colour, {}};
+    drawn.points.reserve(samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        drawn.points.push_back({static_cast<float>(i) * static_cast<float>(tick_seconds), samples[i].*value});
+    return drawn;
+}
+
+}  // namespace
+
+void selection_rows(const Workspace& workspace, Emit& emit) {
+    section("Selection");
+    const RopePart& part = rope_part(workspace);
+    if (part.choice) {
+        if (const rope::Collider* collider = part.world->find_collider(part.choice->collider))
+            return collider_rows(part, *collider, emit);
+        const rope::Body* body = part.world->find(part.choice->body);
+        if (body != nullptr && part.choice->particle < body->count)
+            return particle_rows(part, *body, part.choice->particle, emit);
+    }
+    note("Nothing is selected. Click a rope or a collider.");
+}
+
+void number_rows(const Workspace& workspace, const Palette& palette) {
+    const RopePart& part = rope_part(workspace);
+    const rope::State& state = part.world->state();
+    section("Numbers");
+    reading("particles", "%zu", state.position.size());
+    reading("links", "%zu", state.links.size());
+    const RopeSample last = part.samples.empty() ? RopeSample{} : part.samples.back();
+    reading("stretch", "%.4f %%", 100.0 * static_cast<double>(last.stretch));
+    reading("with contacts", "%.4f %%", 100.0 * static_cast<double>(last.error));
+    reading("energy", "%.3f J", static_cast<double>(last.energy));
+    reading("time", "%.2f s", part.time);
+    reading("substeps", "%llu", static_cast<unsigned long long>(state.substeps));
+    reading("dropped", "%llu", static_cast<unsigned long long>(state.dropped));
+    if (workspace.clock.measured && part.cost > 0.0f)
+        reading("time a frame", "%.0f us", static_cast<double>(part.cost));
+    if (part.quiet_ticks > 0) note("At rest.");
+    if (part.samples.size() < 2) return;
+    section("Last ten seconds");
+    const Curve stretches[] = {curve("with contacts", palette.ghost, part.samples, &RopeSample::error),
+                               curve("stretch", palette.limit, part.samples, &RopeSample::stretch)};
+    plot("stretch", stretches, {.x = "s", .y = "stretch, and with contacts", .least_y = 1e-8f}, 9.0f);
+    const Curve energy[] = {curve("energy", palette.accent, part.samples, &RopeSample::energy)};
+    plot("energy", energy, {.x = "s", .y = "energy, J", .least_y = 0.0f}, 9.0f);
+}
+
+}  // namespace tendril::app

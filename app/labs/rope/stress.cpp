@@ -1,0 +1,76 @@
+#include "app/labs/rope/stress.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "app/view/surfaces.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr float least_strain = 1e-4f, full_strain = 0.1f;
+
+}  // namespace
+
+glm::vec3 stress_colour(float strain, const Palette& palette) {
+    const float size = std::abs(strain);
+    const float share = std::log(std::max(size, least_strain) / least_strain) / std::log(full_strain / least_strain);
+    return glm::mix(palette.joint, strain > 0.0f ? palette.limit : palette.head, std::min(share, 1.0f));
+}
+
+glm::vec3 cloth_front(const Palette& palette) {
+    return glm::mix(palette.accent, palette.joint, 0.35f);
+}
+
+std::vector<glm::vec3> particle_colours(const rope::World& world, const Palette& palette, bool stress) {
+    const rope::State& state = world.state();
+    if (!stress) {
+        std::vector<glm::vec3> colours(world.size(), palette.joint);
+        for (const rope::Body& body : state.bodies) {
+            if (body.kind != rope::Body::Kind::Lock) continue;
+            std::fill_n(colours.begin() + static_cast<std::ptrdiff_t>(body.first), body.count,
+                        glm::mix(palette.target, palette.ghost, 0.55f));
+        }
+        return colours;
+    }
+    // The worst strain of the links at each particle.
+    std::vector<float> worst(world.size(), 0.0f);
+    for (const rope::Link& link : state.links) {
+        if (link.kind != rope::Link::Kind::Stretch || link.rest <= 0.0f) continue;
+        const double length = glm::distance(state.position[link.a], state.position[link.b]);
+        const float strain = static_cast<float>(length / static_cast<double>(link.rest) - 1.0);
+        for (const std::uint32_t end : {link.a, link.b}) {
+            if (std::abs(strain) > std::abs(worst[end])) worst[end] = strain;
+        }
+    }
+    std::vector<glm::vec3> colours(world.size());
+    std::transform(worst.begin(), worst.end(), colours.begin(),
+                   [&](float strain) { return stress_colour(strain, palette); });
+    return colours;
+}
+
+std::vector<std::uint8_t> whole_cells(const rope::World& world, const rope::Body& sheet) {
+    const std::size_t columns = sheet.row, rows = sheet.count / sheet.row;
+    // A link of the grid by the particle that it begins at: along the row, or down the column.
+    std::vector<std::uint8_t> along(sheet.count, 0), down(sheet.count, 0);
+    for (const rope::Link& link : world.state().links) {
+        if (link.kind != rope::Link::Kind::Stretch || link.a < sheet.first) continue;
+        const std::size_t from = link.a - sheet.first;
+        if (from >= sheet.count) continue;
+        (link.b == link.a + 1 ? along : down)[from] = 1;
+    }
+    std::vector<std::uint8_t> cells((columns - 1) * (rows - 1), 0);
+    for (std::size_t r = 0; r + 1 < rows; ++r) {
+        for (std::size_t c = 0; c + 1 < columns; ++c) {
+            const std::size_t i = r * columns + c;
+            std::uint8_t& cell = cells[r * (columns - 1) + c];
+            if (along[i] != 0 && down[i] != 0) cell |= SheetGrid::upper;
+            if (along[i + columns] != 0 && down[i + 1] != 0) cell |= SheetGrid::lower;
+        }
+    }
+    return cells;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,24 @@
+// Colours of ropes, and what is left of a torn cloth.
+#pragma once
+
+#include <cstdint>
+#include <tendril/rope/world.hpp>
+#include <vector>
+
+#include "app/view/palette.hpp"
+
+namespace tendril::app {
+
+/// Of something that is by this part of its length too long (or, below zero, too short): neutral up to 0.01 %,
+/// full from 10 % on.
+glm::vec3 stress_colour(float strain, const Palette& palette);
+
+/// One for each particle of a world: what its body is, or how its links are strained.
+std::vector<glm::vec3> particle_colours(const rope::World& world, const Palette& palette, bool stress);
+
+glm::vec3 cloth_front(const Palette& palette);
+
+/// What is left of each cell of a sheet, as SheetGrid has it: a triangle goes with either of its links.
+std::vector<std::uint8_t> whole_cells(const rope::World& world, const rope::Body& sheet);
+
+}  // namespace tendril::app
