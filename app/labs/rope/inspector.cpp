@@ -98,14 +98,12 @@ void number_rows(const Workspace& workspace, const Palette& palette) {
     const rope::State& state = part.world->state();
     section("Numbers");
     reading("particles", "%zu", state.position.size());
-    reading("links", "%zu", state.links.size());
     const RopeSample last = part.samples.empty() ? RopeSample{} : part.samples.back();
     reading("stretch", "%.4f %%", 100.0 * static_cast<double>(last.stretch));
     reading("with contacts", "%.4f %%", 100.0 * static_cast<double>(last.error));
     reading("energy", "%.3f J", static_cast<double>(last.energy));
     reading("time", "%.2f s", part.time);
-    reading("substeps", "%llu", static_cast<unsigned long long>(state.substeps));
-    reading("dropped", "%llu", static_cast<unsigned long long>(state.dropped));
+    reading("substeps dropped", "%llu", static_cast<unsigned long long>(state.dropped));
     if (workspace.clock.measured && part.cost > 0.0f)
         reading("time a frame", "%.0f us", static_cast<double>(part.cost));
     if (part.quiet_ticks > 0) note("At rest.");

@@ -27,6 +27,7 @@ void take_scene(Workspace& workspace, const Arguments& given) {
     part.choice.reset();
     part.hold.reset();
     part.quiet_ticks = 0;
+    part.samples.clear();
     workspace.camera = entry.view;
 }
 

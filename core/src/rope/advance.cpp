@@ -43,6 +43,7 @@ void prepare(World::Scratch& scratch, const State& state, const World::Plan& pla
     scratch.touched.clear();
     scratch.touched.reserve(particles);
     scratch.body_near.assign(state.bodies.size(), 0);
+    scratch.body_lost.assign(state.bodies.size(), 0);
     scratch.pull.resize(state.links.size());
     scratch.colliders.resize(state.colliders.size());
     scratch.run_worst.assign(plan.runs.size(), 0.0);

@@ -158,7 +158,9 @@ void Substep::push_link(const Link& link, std::uint32_t number, double radius) {
     const double share_a = scratch_.weight[link.a] * (1.0 - t), share_b = scratch_.weight[link.b] * t;
     const double shares = share_a * (1.0 - t) + share_b * t;
     if (!(depth > 0.0) || shares <= 0.0) return;
-    const auto push = [&](std::uint32_t i, double by) {
+    const auto push = [&](std::uint32_t i, double wanted) {
+        // Beside an end that is held the other one would have to go very far.
+        const double by = std::min(wanted, 1.5 * depth);
         if (by <= 0.0) return;
         scratch_.place[i] += by * surface.normal;
         Touch& contact = touch(i, number, surface.normal);

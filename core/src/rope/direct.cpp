@@ -24,10 +24,14 @@ using glm::dvec3;
 
 constexpr double arrived = 1e-7;      ///< relative length error that is made no better
 constexpr double good_enough = 1e-4;  ///< a run with more begins again
+constexpr double shared_enough = 1e-3;  ///< the same where runs share particles
 constexpr double hopeless = 0.02;     ///< a run with more in the end is relaxed instead
 constexpr int beginnings = 6, rescue_passes = 16;
 /// Passes that runs which share particles take at least while something pushes them.
 constexpr int pushed_passes = 4;
+/// A run that others pull at may be asked for lengths that it cannot have, straight between two pins: its system is
+/// damped (Levenberg, Marquardt), or it would fling its particles about.
+constexpr double shared_damping = 2e-2;
 /// Of a perfect pull along the mean so much is left out: it takes the jitter of single particles away within a
 /// second, and from a pendulum of a second's period a few percent of its energy in a minute.
 constexpr double least_backward = 0.01;
@@ -48,7 +52,7 @@ int Substep::direct() {
     const bool pushed = !scratch_.near.empty();
     int passes = 0;
     for (double worst = 0.0; passes < state_.settings.iterations; ++passes) {
-        const bool settled = worst <= good_enough && (!pushed || passes >= pushed_passes);
+        const bool settled = worst <= shared_enough && (!pushed || passes >= pushed_passes);
         if (passes > 0 && (plan_.all_alone || settled)) break;
         satisfy_soft();
         worst = 0.0;
@@ -61,25 +65,28 @@ int Substep::direct() {
     return passes;
 }
 
-/// A run that could not be solved (or not be: it is asked for the impossible) is relaxed: that always ends
+/// A body that could not be solved (or cannot be: it is asked for the impossible) is relaxed: that always ends
 /// somewhere sensible.
 void Substep::rescue() {
     bool any = false;
+    std::fill(scratch_.body_lost.begin(), scratch_.body_lost.end(), std::uint8_t{0});
     for (std::uint32_t r = 0; r < plan_.runs.size(); ++r) {
-        if (scratch_.run_worst[r] <= hopeless) continue;  // also where it is no number
+        if (scratch_.run_worst[r] <= hopeless) continue;  // not so where it is no number
         any = true;
-        const World::Plan::Run& run = plan_.runs[r];
-        for (std::uint32_t k = 0; k <= run.links; ++k) {
-            const std::uint32_t i = plan_.nodes[run.first_node + k];
+        scratch_.body_lost[plan_.runs[r].body] = 1;
+    }
+    if (!any) return;
+    for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
+        if (scratch_.body_lost[b] == 0) continue;
+        const Body& body = state_.bodies[b];
+        for (std::size_t i = body.first; i < body.first + body.count; ++i) {
             scratch_.place[i] = scratch_.base[i];
             scratch_.touch[i].push = dvec3(0.0);
         }
     }
-    if (!any) return;
     for (int pass = 0; pass < rescue_passes; ++pass) {
-        for (std::uint32_t r = 0; r < plan_.runs.size(); ++r) {
-            const World::Plan::Run& run = plan_.runs[r];
-            if (scratch_.run_worst[r] <= hopeless) continue;
+        for (const World::Plan::Run& run : plan_.runs) {
+            if (scratch_.body_lost[run.body] == 0) continue;
             for (std::uint32_t k = run.first_link; k < run.first_link + run.links; ++k) {
                 scratch_.pull[k] = 0.0;  // whatever it was, it is not what held the run
                 satisfy(k, 0.0);
@@ -117,6 +124,7 @@ double Substep::solve_batch(const Batch& batch, int iteration) {
         order.backward[lane] = first.alone && !pushed ? least_backward : 1.0;
         order.passes[lane] = !first.alone ? 1.0 : pushed ? 4.0 : 2.0;
     }
+    if (!first.alone) order.damping = shared_damping;
     order.tolerance = arrived;
     (batch.single ? scratch_.unit.single : scratch_.unit.solve)(block, order);
     double worst = 0.0;

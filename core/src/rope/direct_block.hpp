@@ -37,6 +37,7 @@ struct Order {
     bool implicit = false;    ///< first take the tension that there is in implicitly
     double backward[most_lanes] = {};  ///< 0: pull along the mean of before and after; 1: after
     double passes[most_lanes] = {};    ///< at most
+    double damping = 1e-9;             ///< of the system's diagonal, as a part of it
     double tolerance = 1e-7;  ///< relative length error at which a lane is done
     double worst[most_lanes];  ///< out: the largest relative length error
     int taken = 0;             ///< out: passes taken

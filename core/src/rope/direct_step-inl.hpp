@@ -197,7 +197,7 @@ class BlockSolver {
                 upper_ready = hn::Mul(up_before, upper_before);
                 store(upper_ready, k - 1, Upper);
             }
-            const V pivot = hn::Sub(hn::Add(diagonal, hn::Mul(set(1e-9), both)), hn::Mul(lower, upper_ready));
+            const V pivot = hn::Sub(hn::Add(diagonal, hn::Mul(set(order.damping), both)), hn::Mul(lower, upper_ready));
             const V inverse = hn::Div(set(1.0), hn::Max(pivot, hn::Max(hn::Mul(set(1e-10), both), set(1e-30))));
             // Between two nodes that are held there is nothing to solve.
             const auto fixed = hn::Le(both, zero);

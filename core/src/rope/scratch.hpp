@@ -32,6 +32,7 @@ struct World::Scratch {
     std::vector<Near> near;            ///< chunk by chunk
     std::vector<std::uint32_t> close;  ///< colliders that anything is near
     std::vector<std::uint8_t> body_near;  ///< whether any collider is near a body
+    std::vector<std::uint8_t> body_lost;  ///< whether a body could not be solved
     std::vector<glm::dvec3> chunk_low, chunk_high;
     struct Moving {
         Shape shape;         ///< at the end of the substep
