@@ -159,10 +159,11 @@ Advance World::advance(double seconds) {
     }
     Advance done;
     const double substep = state_.settings.substep;
-    const double simulated = std::min(seconds, static_cast<double>(state_.settings.longest_frame));
-    done.dropped = static_cast<std::uint64_t>((seconds - simulated) / substep + 1e-6);
+    // Only whole substeps are dropped: what is less is not lost, or it would never be counted.
+    const double over = std::max(0.0, seconds - static_cast<double>(state_.settings.longest_frame));
+    done.dropped = static_cast<std::uint64_t>(over / substep + 1e-6);
     state_.dropped += done.dropped;
-    state_.remainder += simulated;
+    state_.remainder += std::max(0.0, seconds - static_cast<double>(done.dropped) * substep);
     while (state_.remainder >= substep * (1.0 - 1e-6)) {
         state_.remainder = std::max(0.0, state_.remainder - substep);
         if (!plan_) plan_ = std::make_shared<const Plan>(state_);
