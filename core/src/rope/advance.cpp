@@ -118,6 +118,7 @@ void Substep::move_particles() {
 /// How far links are from their rest lengths now, by body.
 void Substep::measure() {
     if (!measures) return;
+    constexpr double most = max_magnitude;  // where a rest is next to nothing
     for (Body& body : state_.bodies) body.stretch = 0.0f;
     std::size_t b = 0;
     for (const Link& link : state_.links) {
@@ -126,7 +127,7 @@ void Substep::measure() {
         if (link.kind != Link::Kind::Stretch) continue;
         const double length = detail::length(scratch_.place[link.b] - scratch_.place[link.a]);
         const double error = link.rest > 0.0f ? std::abs(length / link.rest - 1.0) : length;
-        state_.bodies[b].stretch = std::max(state_.bodies[b].stretch, static_cast<float>(error));
+        state_.bodies[b].stretch = std::max(state_.bodies[b].stretch, static_cast<float>(std::min(error, most)));
     }
 }
 

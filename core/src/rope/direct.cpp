@@ -85,6 +85,7 @@ void Substep::rescue() {
                 satisfy(k, 0.0);
             }
         }
+        if (pass + 1 == rescue_passes) measure();
         push_out(pass == 0);
     }
 }
