@@ -119,6 +119,7 @@ void Substep::move_particles() {
 /// How far links are from their rest lengths now, by body.
 void Substep::measure() {
     if (!measures) return;
+    constexpr double most = max_magnitude;  // where a rest is next to nothing
     for (Body& body : state_.bodies) body.stretch = 0.0f;
     std::size_t b = 0;
     for (const Link& link : state_.links) {
@@ -127,7 +128,7 @@ void Substep::measure() {
         if (link.kind != Link::Kind::Stretch) continue;
         const double length = detail::length(scratch_.place[link.b] - scratch_.place[link.a]);
         const double error = link.rest > 0.0f ? std::abs(length / link.rest - 1.0) : length;
-        state_.bodies[b].stretch = std::max(state_.bodies[b].stretch, static_cast<float>(error));
+        state_.bodies[b].stretch = std::max(state_.bodies[b].stretch, static_cast<float>(std::min(error, most)));
     }
 }
 
@@ -160,10 +161,11 @@ Advance World::advance(double seconds) {
     }
     Advance done;
     const double substep = state_.settings.substep;
-    const double simulated = std::min(seconds, static_cast<double>(state_.settings.longest_frame));
-    done.dropped = static_cast<std::uint64_t>((seconds - simulated) / substep + 1e-6);
+    // Only whole substeps are dropped: what is less is not lost, or it would never be counted.
+    const double over = std::max(0.0, seconds - static_cast<double>(state_.settings.longest_frame));
+    done.dropped = static_cast<std::uint64_t>(over / substep + 1e-6);
     state_.dropped += done.dropped;
-    state_.remainder += simulated;
+    state_.remainder += std::max(0.0, seconds - static_cast<double>(done.dropped) * substep);
     while (state_.remainder >= substep * (1.0 - 1e-6)) {
         state_.remainder = std::max(0.0, state_.remainder - substep);
         if (!plan_) plan_ = std::make_shared<const Plan>(state_);

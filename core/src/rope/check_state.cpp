@@ -38,7 +38,8 @@ void check_particles(const State& state) {
         if (!is_point(state.position[i])) refuse(at("position", i) + " is not finite or too far out");
         if (!is_point(state.moved[i])) refuse(at("moved", i) + " is not finite or too large");
         if (!is_point(state.before[i])) refuse(at("before", i) + " is not finite or too large");
-        if (!(state.mass[i] > 0.0 && state.mass[i] <= max_magnitude)) refuse(at("mass", i) + " must be over 0");
+        // 1e9 kg/m on 1e9 m, or a square of that, is allowed.
+        if (!(state.mass[i] > 0.0 && state.mass[i] <= 1e30)) refuse(at("mass", i) + " must be over 0 and finite");
     }
 }
 

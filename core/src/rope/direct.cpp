@@ -92,6 +92,7 @@ void Substep::rescue() {
                 satisfy(k, 0.0);
             }
         }
+        if (pass + 1 == rescue_passes) measure();
         push_out(pass == 0);
     }
 }
@@ -226,8 +227,12 @@ double Substep::energy_gained(std::uint32_t number) const {
         const Link& link = state_.links[k];
         const double half = 0.5 * compliance_of(link);
         if (half == 0.0) continue;
+        // Like the rest by what is halfway between substeps; what it was two ago is known from the lengths.
+        const dvec3 then_by = state_.position[link.b] - state_.position[link.a];
+        const dvec3 old_by = then_by - (state_.moved[link.b] - state_.moved[link.a]);
         const double now = scratch_.pull[k] * per_square, then = link.tension;
-        gained += half * (now * now - then * then);
+        const double old = then - (detail::length(then_by) - detail::length(old_by)) / compliance_of(link);
+        gained += 0.5 * half * (now * now - old * old);
     }
     return gained;
 }

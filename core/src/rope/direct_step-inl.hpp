@@ -91,12 +91,17 @@ class BlockSolver {
         }
     }
 
+    /// How long a link is under the tension that there is.
+    V stretched(std::size_t k) const {
+        const V longer = hn::Mul(load(k, Give), hn::Max(load(k, Pull), hn::Zero(d_)));
+        return hn::Max(hn::Add(load(k, Rest), longer), set(1e-9));
+    }
+
     /// Half of the tension there is, over the length: the force that a metre between the nodes makes. Its
     /// bound keeps a rope that cannot be as short as its pins ask from drowning all other digits.
     V stiffness(std::size_t k) const {
         const V both = hn::Add(load(k, Weight), load(k + 1, Weight));
-        const V length = hn::Max(load(k, Rest), set(1e-9));
-        const V half = hn::Div(hn::Mul(set(0.5), hn::Max(load(k, Pull), hn::Zero(d_))), length);
+        const V half = hn::Div(hn::Mul(set(0.5), hn::Max(load(k, Pull), hn::Zero(d_))), stretched(k));
         return hn::Min(half, hn::Div(set(1e8), hn::Max(both, set(1e-30))));
     }
 
@@ -110,9 +115,9 @@ class BlockSolver {
         for (std::size_t k = 0; k <= block_.links; ++k) {
             const bool last = k == block_.links;
             const V weight = load(k, Weight);
-            const V stiff = last ? hn::Zero(d_) : stiffness(k);
+            const V stiff = last ? hn::Zero(d_) : stiffness(k), length = last ? hn::Zero(d_) : stretched(k);
             const V3 old = last ? V3{hn::Zero(d_), hn::Zero(d_), hn::Zero(d_)}
-                                : times(hn::Mul(stiff, load(k, Rest)), load3(k, OldX));
+                                : times(hn::Mul(stiff, length), load3(k, OldX));
             const V up = hn::Mul(hn::Mul(weight, ahead), stiff);
             const V down = hn::Mul(hn::Mul(weight, ahead), stiff_before);
             const V pivot = hn::Add(hn::Add(hn::Add(set(1.0), up), down), hn::Mul(down, upper));
@@ -123,7 +128,7 @@ class BlockSolver {
             store(upper, k, Upper);
             store3(right, k, X);
             // What was taken in is what counts from here on.
-            if (!last) store(hn::Mul(hn::Mul(set(2.0), stiff), hn::Max(load(k, Rest), set(1e-9))), k, Pull);
+            if (!last) store(hn::Mul(hn::Mul(set(2.0), stiff), length), k, Pull);
             stiff_before = stiff;
             old_before = old;
         }

@@ -58,37 +58,37 @@ dvec3 least_move(const Neighbours& neighbours, const dvec3& at, double radius) {
 }
 
 /// Out along a line, as far as every collider on the way asks for; no number where there is no end.
-double way_out(const Neighbours& neighbours, const dvec3& from, const dvec3& along) {
+double way_out(const Neighbours& neighbours, const dvec3& from, const dvec3& along, double thickness) {
     double way = 0.0;
     for (int i = 0; i < 200; ++i) {
-        const double depth = neighbours.depth(from + way * along, tolerance);
+        const double depth = neighbours.depth(from + way * along, thickness + tolerance);
         if (depth <= 0.0) return way;
         way += depth + tolerance;
     }
     return std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Where a ball is out of every collider, or at least its middle is; near `from`.
+/// Where a ball is out of every collider; where there is no room for all of it, at least its middle is. Near
+/// `from`, if that is easily found.
 dvec3 outside(const Neighbours& neighbours, const dvec3& from, double radius) {
-    for (const double thickness : {radius, 0.0}) {  // where there is no room for all of it, at least its middle
+    for (const double thickness : {radius, 0.0}) {
         dvec3 at = from;
         for (int i = 0; i < rounds; ++i) {
             if (neighbours.depth(at, thickness) <= tolerance) return at;
             at += least_move(neighbours, at, thickness);
         }
         if (neighbours.depth(at, thickness) <= tolerance) return at;
+        // Between surfaces that all but meet: the shortest way out of 26.
+        double shortest = std::numeric_limits<double>::infinity();
+        for (int k = 0; k < 27; ++k) {
+            if (k == 13) continue;
+            const dvec3 along = detail::unit(dvec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
+            const double way = way_out(neighbours, from, along, thickness);
+            if (way < shortest) shortest = way, at = from + way * along;
+        }
+        if (shortest < std::numeric_limits<double>::infinity()) return at;
     }
-    // Between surfaces that all but meet: the shortest way out of 26.
-    dvec3 best = from;
-    double shortest = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < 27; ++k) {
-        const dvec3 direction(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
-        if (k == 13) continue;
-        const dvec3 along = detail::unit(direction);
-        const double way = way_out(neighbours, from, along);
-        if (way < shortest) shortest = way, best = from + way * along;
-    }
-    return best;
+    return from;
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ struct Link {
 
 /// A rope of equal segments.
 struct RopeShape {
-    std::string name;  ///< unique; "rope", "rope 2", ... where empty
+    std::string name{};  ///< unique; "rope", "rope 2", ... where empty
     glm::vec3 from{0.0f}, to{1.0f, 0.0f, 0.0f};
     int segments = 32;  ///< 1 to max_particles - 1
     /// Metres; the distance where left out. Where it is more than the distance the rope hangs on a parabola
@@ -53,7 +53,7 @@ struct RopeShape {
 
 /// A cloth: a grid of columns x rows particles.
 struct SheetShape {
-    std::string name;  ///< unique; "sheet", "sheet 2", ... where empty
+    std::string name{};  ///< unique; "sheet", "sheet 2", ... where empty
     glm::vec3 corner{0.0f};
     glm::vec3 along{1.0f, 0.0f, 0.0f};  ///< from the corner to the other end of the first row
     glm::vec3 down{0.0f, -1.0f, 0.0f};  ///< from the corner to the last row
@@ -71,14 +71,14 @@ struct LockShape {
         glm::vec3 position{0.0f};
         glm::vec3 direction{0.0f, -1.0f, 0.0f};  ///< of any length but 0
     };
-    std::string name;  ///< unique; "lock", "lock 2", ... where empty
-    std::vector<Root> roots;
+    std::string name{};  ///< unique; "lock", "lock 2", ... where empty
+    std::vector<Root> roots{};
     float length = 0.5f;  ///< metres, over 0
     int segments = 16;
     float radius = 0.004f;
     float density = 0.05f;  ///< kg/m, over 0
     float bend = 1e-1f;     ///< compliance of bend links, m/N
-    std::string attach;     ///< a collider that the roots move with; empty: none
+    std::string attach{};   ///< a collider that the roots move with; empty: none
 };
 
 }  // namespace tendril::rope

@@ -1,0 +1,145 @@
+// A rope that hangs from both ends comes to rest as a catenary; plain relaxation does not quite, and by how much
+// is known.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "rope_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+using rope::Settings;
+using rope::Solver;
+using rope::World;
+
+struct Hung {
+    float span, length;
+    int segments;
+    double sag;  ///< that a catenary has
+};
+
+std::vector<Hung> own_cases() {
+    std::vector<Hung> cases;
+    for (const auto& [span, length] : {std::pair{1.0f, 1.5f}, {1.0f, 1.1f}, {2.0f, 5.0f}, {0.661f, 3.442f}})
+        cases.push_back({span, length, 64, catenary_sag(span, length)});
+    return cases;
+}
+
+/// The relative error of the sag now.
+double sag_error(const World& world, const Hung& hung) {
+    return -lowest(world) / hung.sag - 1.0;
+}
+
+/// The default damping, 0.1 per second, halves a swing in 14 s: what is let go on its parabola swings by two
+/// percent of its sag for a while, is within 1 % after 25 s and within 0.2 % after a minute.
+void check_defaults(const std::vector<Hung>& cases) {
+    for (const Hung& hung : cases) {
+        SCOPED_TRACE(std::to_string(hung.span) + " m, " + std::to_string(hung.length) + " m of rope");
+        World world;
+        hang_between(world, hung.span, hung.length, hung.segments);
+        EXPECT_LE(std::abs(sag_error(world, hung)), 0.03);  // a parabola is close already
+        double worst_stretch = 0.0, worst_late = 0.0;
+        for (int second = 1; second <= 60; ++second) {
+            run(world, 1.0);
+            worst_stretch = std::max(worst_stretch, stretch(world));
+            if (second >= 25) worst_late = std::max(worst_late, std::abs(sag_error(world, hung)));
+        }
+        EXPECT_LE(worst_late, 0.01);
+        EXPECT_LE(std::abs(sag_error(world, hung)), 0.002);
+        EXPECT_LE(worst_stretch, 1e-3);
+        EXPECT_LE(stretch(world), 1e-6);
+    }
+}
+
+TEST(RopeCatenary, OfTheSpec) {
+    check_defaults(own_cases());
+}
+
+TEST(RopeCatenary, OfAnIndependentSource) {
+    const char* folder = std::getenv("TENDRIL_REFERENCE_DIR");
+    const auto path = std::filesystem::path(folder ? folder : TENDRIL_REFERENCE_DIR) / "rope.json";
+    std::ifstream file(path);
+    if (!file) GTEST_SKIP() << path << " is not there";
+    std::vector<Hung> cases;
+    for (const auto& json : nlohmann::json::parse(file).at("catenary")) {
+        const Hung hung{json.at("span").get<float>(), json.at("length").get<float>(),
+                        json.at("segments").get<int>(), json.at("sag").get<double>()};
+        EXPECT_NEAR(hung.sag, catenary_sag(hung.span, hung.length), 1e-6);  // of theory there is only one
+        const auto same = [&](const Hung& own) { return own.span == hung.span && own.length == hung.length; };
+        const std::vector<Hung> own = own_cases();
+        if (std::none_of(own.begin(), own.end(), same)) cases.push_back(hung);  // the others are checked above
+    }
+    check_defaults(cases);
+}
+
+TEST(RopeCatenary, OfAnySpanAndLength) {
+    Random random(41);
+    for (int i = 0; i < 8; ++i) {
+        const float span = 0.3f + 0.7f * std::abs(random.around(1.0f));
+        const float length = span * (1.05f + 2.0f * std::abs(random.around(1.0f)));
+        const int segments = 32 + static_cast<int>(random.below(64));
+        World world = world_with({.damping = 1.0f});
+        hang_between(world, span, length, segments);
+        run(world, 20.0);
+        // A polygon of so many sides hangs a little less deep than a curve of its length.
+        const Hung hung{span, length, segments, catenary_sag(span, length)};
+        EXPECT_LE(std::abs(sag_error(world, hung)), 0.005) << span << ' ' << length << ' ' << segments;
+        EXPECT_LE(stretch(world), 1e-5);
+    }
+}
+
+/// One above the other, and both at one point: no curve at all.
+TEST(RopeCatenary, WithoutWidthHangsStraightDown) {
+    for (const float lower : {0.0f, 0.5f}) {
+        World world = world_with({.damping = 1.0f});
+        world.add_rope({.name = "rope",
+                        .from = {0, 0, 0},
+                        .to = {0, -lower, 0},
+                        .segments = 40,
+                        .length = 2.0f,
+                        .pin_start = true,
+                        .pin_end = true});
+        run(world, 10.0);
+        EXPECT_NEAR(lowest(world), -0.5 * (2.0 + lower), 0.05);  // to a segment
+        EXPECT_LE(stretch(world), 1e-4);
+    }
+}
+
+/// What plain relaxation was measured to sag too much: it must stay the plain method.
+TEST(RopeCatenary, PlainRelaxationSagsByWhatItAlwaysDid) {
+    struct Measured {
+        int iterations;
+        double substep, too_much;
+    };
+    const Hung hung{1.0f, 1.1f, 64, catenary_sag(1.0, 1.1)};
+    for (const Measured& each :
+         {Measured{16, 1.0 / 240.0, 0.129}, Measured{64, 1.0 / 240.0, 0.036}, Measured{1, 1.0 / 3840.0, 0.009}}) {
+        World world = world_with(
+            {.substep = each.substep, .iterations = each.iterations, .solver = Solver::Relaxation, .damping = 1.0f});
+        hang_between(world, hung.span, hung.length, hung.segments);
+        run(world, 15.0);
+        EXPECT_NEAR(sag_error(world, hung), each.too_much, 0.0006) << each.iterations << ' ' << each.substep;
+        EXPECT_GT(stretch(world), 1e-3);  // and says how much it stretches
+    }
+}
+
+/// Far from the origin a float has no digit left for how a rope moves: doubles have.
+TEST(RopeCatenary, AThousandKilometresOut) {
+    World world = world_with({.damping = 1.0f});
+    const float far = 1e6f - 8.0f;
+    world.add_rope({.name = "rope",
+                    .from = {far, 0, -far},
+                    .to = {far + 1.0f, 0, -far},
+                    .segments = 64,
+                    .length = 1.5f,
+                    .pin_start = true,
+                    .pin_end = true});
+    run(world, 15.0);
+    EXPECT_LE(std::abs(-lowest(world) / catenary_sag(1.0, 1.5) - 1.0), 0.002);
+    EXPECT_LE(stretch(world), 1e-6);
+}
+
+}  // namespace
+}  // namespace tendril::test

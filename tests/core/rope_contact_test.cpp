@@ -1,0 +1,211 @@
+// Ropes and colliders, one at a time: laid on, started inside, carried along, and kept whole.
+#include <glm/gtc/quaternion.hpp>
+
+#include "rope_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+using glm::dvec3;
+using rope::Box;
+using rope::Capsule;
+using rope::Plane;
+using rope::Shape;
+using rope::Solver;
+using rope::Sphere;
+using rope::World;
+
+/// By how much the worst free particle of any body is inside any collider, metres.
+double deepest(const World& world) {
+    double most = 0.0;
+    for (const rope::Body& body : world.state().bodies)
+        for (std::size_t i = body.first; i < body.first + body.count; ++i) {
+            if (world.pinned(i)) continue;
+            for (const rope::Collider& collider : world.state().colliders) {
+                const double off = surface_distance(collider.shape, world.state().position[i]).distance;
+                most = std::max(most, body.radius - off);
+            }
+        }
+    return most;
+}
+
+/// How near the axis of a rope comes to a point, metres.
+double nearest_segment(const World& world, const dvec3& point) {
+    double least = 1e9;
+    for (const rope::Link& link : world.state().links) {
+        const dvec3 a = world.state().position[link.a], by = world.state().position[link.b] - a;
+        const double t = std::clamp(glm::dot(point - a, by) / glm::dot(by, by), 0.0, 1.0);
+        least = std::min(least, glm::length(a + t * by - point));
+    }
+    return least;
+}
+
+struct Still {
+    const char* what;
+    Shape shape;
+};
+const Still still_shapes[] = {
+    {"sphere", Sphere{{0, 0, 0}, 0.3f}},
+    {"capsule", Capsule{{-0.5f, 0, 0}, {0.5f, 0.1f, 0}, 0.2f}},
+    {"plane", Plane{{0, 0, 0}, {0.1f, 1, 0}}},
+    {"box", Box{{0, 0, 0}, {0.4f, 0.2f, 0.3f}, glm::quat(0.9f, 0.1f, 0.2f, 0.3f)}},
+    {"sphere of no size", Sphere{{0, 0, 0}, 0.0f}},
+    {"capsule of no length", Capsule{{0, 0, 0}, {0, 0, 0}, 0.2f}},
+    {"capsule of no thickness", Capsule{{-0.5f, 0, 0}, {0.5f, 0, 0}, 0.0f}},
+    {"box of no size", Box{{0, 0, 0}, {0, 0, 0}, glm::quat(1, 0, 0, 0)}},
+    {"box of no thickness", Box{{0, 0, 0}, {0.5f, 0, 0.5f}, glm::quat(1, 0, 0, 0)}},
+};
+
+/// Dropped on it and started with its middle in it, particles on the centre, the axis and the edges; with a radius
+/// and without.
+TEST(RopeContact, NothingStaysInsideAnyKind) {
+    for (const Solver solver : all_solvers)
+        for (const Still& still : still_shapes)
+            for (const float height : {0.8f, 0.0f})
+                for (const float radius : {0.02f, 0.0f}) {
+                    World world = world_with({.solver = solver});
+                    world.add_collider("it", still.shape);
+                    world.add_rope({.name = "rope", .from = {-0.8f, height, 0}, .to = {0.8f, height, 0}, .segments = 20, .radius = radius});
+                    double worst = 0.0;
+                    run_substeps(world, 120, [&] { worst = std::max(worst, deepest(world)); });
+                    EXPECT_LE(worst, 1e-4) << name(solver) << ' ' << still.what << ' ' << height << ' ' << radius;
+                    EXPECT_TRUE(all_finite(world)) << name(solver) << ' ' << still.what;
+                }
+}
+
+TEST(RopeContact, NorAnyKindThatMoves) {
+    for (const Solver solver : all_solvers)
+        for (const Still& still : still_shapes) {
+            if (size(still.shape) == 0.0f) continue;
+            World world = world_with({.solver = solver});
+            world.add_rope({.name = "rope", .from = {-0.8f, 0.6f, 0}, .to = {0.8f, 0.6f, 0}, .segments = 20, .length = 1.8f, .pin_start = true, .pin_end = true});
+            world.add_collider("it", moved(still.shape, {0.1f, -1.0f, 0.03f}));
+            world.move_collider("it", {0.1f, 0.3f, 0.0f}, 0.4);
+            double worst = 0.0;
+            run_substeps(world, 240, [&] { worst = std::max(worst, deepest(world)); });
+            EXPECT_LE(worst, 1e-4) << name(solver) << ' ' << still.what;
+            EXPECT_TRUE(all_finite(world)) << name(solver) << ' ' << still.what;
+        }
+}
+
+/// It lies still on what it lies on, at its radius, and its links keep their lengths.
+TEST(RopeContact, LiesOnTheGround) {
+    for (const Solver solver : all_solvers) {
+        World world = world_with({.solver = solver, .damping = 0.5f});
+        world.add_collider("ground", Plane{});
+        world.add_rope({.name = "rope", .from = {0, 0.3f, 0}, .to = {1, 0.5f, 0}, .segments = 32, .radius = 0.03f});
+        run(world, 6.0);
+        for (std::size_t i = 0; i < world.size(); ++i) {
+            EXPECT_NEAR(world.position(i).y, 0.03, 1e-3) << name(solver);
+            EXPECT_LE(glm::length(glm::dvec3(world.velocity(i))), 5e-3) << name(solver);
+        }
+        // The solver leaves no error; what pushing out and friction add afterwards is little.
+        EXPECT_LE(world.stretch(*world.find("rope")), 1e-3) << name(solver);
+        EXPECT_LE(stretch(world), 5e-3) << name(solver);
+    }
+}
+
+TEST(RopeContact, DrapesOverASphere) {
+    World world = world_with({.damping = 0.5f});
+    world.add_collider("ball", Sphere{{0, 0, 0}, 0.4f});
+    world.add_rope({.name = "rope", .from = {-1, 0.45f, 0}, .to = {1, 0.45f, 0}, .segments = 64});
+    run(world, 8.0);
+    EXPECT_LE(deepest(world), 1e-4);
+    EXPECT_LE(world.stretch(*world.find("rope")), 1e-3);
+    EXPECT_LE(stretch(world), 5e-3);
+    EXPECT_NEAR(world.position(32).y, 0.42, 5e-3);         // over the top
+    EXPECT_NEAR(std::abs(world.position(0).x), 0.42, 0.05);  // hanging down on both sides
+    EXPECT_NEAR(std::abs(world.position(64).x), 0.42, 0.05);
+}
+
+/// Half its radius a substep: the fastest at which the spec asks a taut rope to be carried.
+TEST(RopeContact, AFastSphereCarriesATautRope) {
+    const float radius = 0.3f;
+    for (const Solver solver : all_solvers)
+        for (const float speed : {0.05f, 0.25f, 0.5f}) {
+            World world = world_with({.solver = solver});
+            world.add_rope({.name = "rope", .from = {-1, 0, 0}, .to = {1, 0, 0}, .segments = 32, .pin_start = true, .pin_end = true});
+            world.add_collider("ball", Sphere{{0, 0, 2.0f}, radius});
+            const double h = world.settings().substep;
+            const int steps = static_cast<int>(std::lround(2.6 / static_cast<double>(speed * radius)));
+            world.move_collider("ball", {0, 0, 2.0f - speed * radius * static_cast<float>(steps)}, h * steps);
+            double worst = 0.0;
+            bool through = false;
+            run_substeps(world, steps + 60, [&] {
+                worst = std::max(worst, deepest(world));
+                const double z = centre(world.find_collider("ball")->shape).z;
+                through = through || (z < -0.35 && world.state().position[16].z > z);
+            });
+            EXPECT_FALSE(through) << name(solver) << ' ' << speed;
+            EXPECT_LE(worst, 3e-4) << name(solver) << ' ' << speed;
+            EXPECT_TRUE(all_finite(world));
+        }
+}
+
+/// And one that lies loose is taken along with it.
+TEST(RopeContact, AFastSphereCarriesALooseRope) {
+    World world = world_with({.gravity = {0, 0, 0}});
+    world.add_rope({.name = "rope", .from = {-0.5f, 0, 0}, .to = {0.5f, 0, 0}, .segments = 32});
+    world.add_collider("ball", Sphere{{0, 0, 1.0f}, 0.2f});
+    world.move_collider("ball", {0, 0, -3.0f}, 40.0 / 240.0);  // 0.1 m a substep
+    run_substeps(world, 40, [] {});
+    EXPECT_LE(world.position(16).z, -3.2f + 1e-3f);
+    EXPECT_LE(deepest(world), 2e-4);
+}
+
+/// Smaller than a segment is long: the segment is kept out, not only its two particles.
+TEST(RopeContact, ASmallSphereDoesNotSlipThroughASegment) {
+    for (const Solver solver : all_solvers)
+        for (const float radius : {0.1f, 0.04f, 0.0f})
+            for (const float aside : {0.0f, 0.1f, 0.2f}) {
+                World world = world_with({.solver = solver});
+                world.add_rope({.name = "rope", .from = {-1, 0, 0}, .to = {1, 0, 0}, .segments = 4, .length = 2.2f, .pin_start = true, .pin_end = true});
+                run(world, 0.5);
+                const float low = static_cast<float>(lowest(world));
+                // Up from below, between particles 2 and 3 (or onto the middle), and on.
+                world.add_collider("ball", Sphere{{aside, low - 0.5f, 0}, radius});
+                world.move_collider("ball", {aside, low + 0.2f, 0}, 1.0);
+                double nearest = 1e9;
+                run_substeps(world, 300, [&] {
+                    nearest = std::min(nearest, nearest_segment(world, dvec3(centre(world.find_collider("ball")->shape))));
+                });
+                // Relaxation gives a little: the next segments pull back.
+                const double asked = static_cast<double>(radius) + 0.02;
+                EXPECT_GE(nearest, asked - 0.15 * asked) << name(solver) << ' ' << radius << ' ' << aside;
+                EXPECT_GT(world.position(2).y, low) << name(solver) << ' ' << radius << ' ' << aside;
+            }
+}
+
+/// The same for a thin rod and a thin plank across, which a segment could fall through.
+TEST(RopeContact, ASegmentHangsOverAThinRod) {
+    const Shape thin[] = {Capsule{{0.05f, 0, -1}, {0.05f, 0, 1}, 0.02f},
+                          Box{{0.05f, 0, 0}, {0.02f, 0.02f, 1.0f}, glm::quat(1, 0, 0, 0)}};
+    for (const Shape& shape : thin) {
+        World world = world_with({.damping = 1.0f, .friction = 5.0f});
+        world.add_collider("rod", shape);
+        world.add_rope({.name = "rope", .from = {-1, 0.1f, 0}, .to = {1, 0.1f, 0}, .segments = 5});
+        run(world, 4.0);
+        double highest = -1e9;
+        for (std::size_t i = 0; i < world.size(); ++i) highest = std::max(highest, world.state().position[i].y);
+        EXPECT_GT(highest, -0.4) << kind(shape);  // it hangs there still
+    }
+}
+
+/// Something fast is stopped on the side that it came from.
+TEST(RopeContact, AThrownRopeDoesNotFlyThrough) {
+    for (const float speed : {10.0f, 50.0f, 100.0f}) {
+        World world = world_with({.gravity = {0, 0, 0}});
+        world.add_collider("ball", Sphere{{0, 0, 0}, 0.3f});
+        world.add_rope({.name = "rope", .from = {-0.2f, 1, 0}, .to = {0.2f, 1, 0}, .segments = 8});
+        rope::State state = world.state();
+        state.moved_in = state.settings.substep;
+        for (dvec3& moved : state.moved) moved = {0, -static_cast<double>(speed) * state.moved_in, 0};
+        world = World(state);
+        double middle = 1.0;
+        run_substeps(world, static_cast<int>(300 / speed), [&] { middle = std::min(middle, world.state().position[4].y); });
+        EXPECT_GE(middle, 0.3) << speed;
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test

@@ -1,0 +1,232 @@
+// Ropes cut, pinned, attached, named and removed: numbers follow, and nothing else changes.
+#include "rope_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+using rope::Body;
+using rope::Sphere;
+using rope::State;
+using rope::World;
+
+World three_ropes() {
+    World world;
+    for (const char* name : {"a", "b", "c"}) {
+        const float x = static_cast<float>(name[0] - 'a');
+        world.add_rope({.name = name, .from = {x, 0, 0}, .to = {x, 1, 0}, .segments = 4, .pin_start = true, .pin_end = name[0] == 'c'});
+    }
+    return world;
+}
+
+/// What must hold of every world: that a new one takes its state.
+void expect_sound(const World& world) {
+    EXPECT_NO_THROW(World{world.state()});
+    for (const rope::Link& link : world.state().links) EXPECT_LT(std::max(link.a, link.b), world.size());
+}
+
+TEST(RopeEdit, CutPartsARope) {
+    World world = three_ropes();
+    EXPECT_EQ(world.cut("b", 1), "b 2");
+    const Body *first = world.find("b"), *second = world.find("b 2");
+    ASSERT_TRUE(first != nullptr && second != nullptr);
+    EXPECT_EQ(first->count, 2u);
+    EXPECT_EQ(second->count, 3u);
+    EXPECT_EQ(second->first, first->first + 2);
+    EXPECT_EQ(world.size(), 15u);
+    EXPECT_EQ(world.state().links.size(), 11u);
+    EXPECT_NEAR(world.length(*first), 0.25, 1e-6);
+    EXPECT_NEAR(world.length(*second), 0.5, 1e-6);
+    EXPECT_EQ(world.find("c")->first, 10u);
+    expect_sound(world);
+    // What nothing holds falls; the rest hangs on.
+    run(world, 0.5);
+    EXPECT_NEAR(world.position(world.particle("b", 0)).y, 0.0, 1e-6);
+    EXPECT_LT(world.position(world.particle("b 2", 1)).y, -0.3f);
+    EXPECT_EQ(world.cut("b 2", 0), "b 2 2");
+    EXPECT_EQ(world.cut("b", 0), "b 3");  // the first name that is free
+    EXPECT_EQ(world.find("b")->count, 1u);  // a single particle is a rope still
+    EXPECT_EQ(world.length(*world.find("b")), 0.0);
+    run(world, 0.5);
+    EXPECT_TRUE(all_finite(world));
+    expect_sound(world);
+}
+
+/// All of a rope hangs on its pin; after a cut only what is left of it.
+TEST(RopeEdit, TensionKnowsOfACut) {
+    World world = world_with({.damping = 2.0f});
+    world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {0, -1, 0}, .segments = 10, .pin_start = true});
+    run(world, 2.0);
+    EXPECT_NEAR(world.state().links[0].tension, 9.81, 0.01);
+    world.cut("rope", 4);
+    run(world, 4.0);
+    EXPECT_NEAR(world.state().links[0].tension, 0.4 * 9.81, 0.01);
+}
+
+TEST(RopeEdit, RemovingRenumbers) {
+    World world = three_ropes();
+    world.add_collider("ball", Sphere{{5, 0, 0}, 0.1f});
+    world.attach(world.particle("c", 2), "ball");
+    const State before = world.state();
+    world.remove("b");
+    EXPECT_EQ(world.size(), 10u);
+    EXPECT_EQ(world.find("b"), nullptr);
+    EXPECT_EQ(world.find("c")->first, 5u);
+    for (std::size_t i = 0; i < 5; ++i) {
+        EXPECT_EQ(world.state().position[i], before.position[i]);
+        EXPECT_EQ(world.state().position[5 + i], before.position[10 + i]);
+    }
+    EXPECT_TRUE(world.pinned(0) && world.pinned(5) && world.pinned(7) && world.pinned(9));
+    EXPECT_EQ(world.state().pins.size(), 4u);
+    EXPECT_EQ(world.state().pins[2].collider, "ball");
+    expect_sound(world);
+    run(world, 0.25);
+    EXPECT_LE(stretch(world, "c"), 1e-3);
+    world.remove("a"), world.remove("c");
+    EXPECT_EQ(world.size(), 0u);
+    EXPECT_TRUE(world.state().links.empty() && world.state().pins.empty() && world.state().bodies.empty());
+}
+
+/// A rope moves as it would have if there had never been the others.
+TEST(RopeEdit, RemovedOnesLeaveNoTrace) {
+    World with = three_ropes(), without;
+    without.add_rope({.name = "c", .from = {2, 0, 0}, .to = {2, 1, 0}, .segments = 4, .pin_start = true, .pin_end = true});
+    with.remove("a"), with.remove("b");
+    run(with, 1.0), run(without, 1.0);
+    EXPECT_TRUE(same_bits(with.state(), without.state()));
+}
+
+TEST(RopeEdit, APinIsTakenToItsGoalInItsTime) {
+    World world = three_ropes();
+    const std::size_t end = world.particle("a", 4);
+    EXPECT_FALSE(world.pinned(end));
+    world.pin(end, {0.5f, 0.5f, 0}, 0.5);
+    EXPECT_TRUE(world.pinned(end));
+    world.advance(0.25);
+    EXPECT_LE(distance(world.position(end), {0.25f, 0.75f, 0}), 1e-5);  // evenly
+    world.advance(0.25);
+    EXPECT_LE(distance(world.position(end), {0.5f, 0.5f, 0}), 1e-6);
+    run(world, 1.0);
+    EXPECT_LE(distance(world.position(end), {0.5f, 0.5f, 0}), 1e-6);
+    world.pin(end, {0, 1, 0});  // within the next substep
+    world.advance(1.0 / 240.0);
+    EXPECT_EQ(world.position(end), glm::vec3(0, 1, 0));
+    world.advance(0.1);  // that was 170 m/s: let go at once it would fly off with them
+    world.unpin(end);
+    EXPECT_FALSE(world.pinned(end));
+    run(world, 1.0);
+    EXPECT_LT(world.position(end).y, 0.5f);
+    EXPECT_EQ(world.state().pins.size(), 4u);
+}
+
+TEST(RopeEdit, AttachedParticlesMoveWithTheirCollider) {
+    World world = three_ropes();
+    world.add_collider("ball", Sphere{{0, 2, 0}, 0.1f});
+    const std::size_t end = world.particle("a", 4);
+    world.attach(end, "ball");
+    world.move_collider("ball", {0.25f, 1.75f, 0}, 0.5);
+    run(world, 0.5);
+    EXPECT_LE(distance(world.position(end), {0.25f, 0.75f, 0}), 1e-5);
+    world.set_collider("ball", Sphere{{0, 1.5f, 0}, 0.2f});
+    world.advance(1.0 / 240.0);
+    EXPECT_LE(distance(world.position(end), {0, 0.5f, 0}), 1e-5);
+    world.remove_collider("ball");
+    EXPECT_FALSE(world.pinned(end));  // let go
+    expect_sound(world);
+    run(world, 0.5);
+    EXPECT_TRUE(all_finite(world));
+}
+
+/// A name that comes out of the world itself is as good as any.
+TEST(RopeEdit, NamesMayComeFromTheWorldItself) {
+    World world = three_ropes();
+    world.add_collider("a ball with a name too long for any short string", Sphere{{5, 0, 0}, 0.1f});
+    world.attach(1, world.state().colliders[0].name);
+    for (std::size_t i = 2; i < 12; ++i) world.attach(i, world.state().pins[1].collider);
+    for (std::size_t i = 1; i < 12; ++i) EXPECT_EQ(world.state().pins[i].collider, world.state().colliders[0].name);
+    world.move_collider(world.state().colliders[0].name, {6, 0, 0});
+    world.cut(world.state().bodies[0].name, 1);
+    world.remove(world.state().bodies[0].name);
+    world.remove_collider(world.state().colliders[0].name);
+    EXPECT_TRUE(world.state().colliders.empty());
+    expect_sound(world);
+}
+
+TEST(RopeEdit, NamesAreFound) {
+    World world;
+    EXPECT_EQ(world.add_rope({}), "rope");
+    EXPECT_EQ(world.add_rope({}), "rope 2");
+    EXPECT_EQ(world.add_sheet({}), "sheet");
+    EXPECT_EQ(world.add_rope({.name = "rope 4"}), "rope 4");
+    EXPECT_EQ(world.add_rope({}), "rope 3");
+    EXPECT_EQ(world.add_rope({}), "rope 5");
+    world.remove("rope");
+    EXPECT_EQ(world.add_rope({}), "rope");
+    EXPECT_EQ(world.find("none"), nullptr);
+    EXPECT_EQ(world.find_collider("none"), nullptr);
+}
+
+TEST(RopeEdit, ClearLeavesOnlySettings) {
+    World world = three_ropes();
+    rope::Settings settings;
+    settings.iterations = 3;
+    world.set_settings(settings);
+    world.add_collider("ball", Sphere{});
+    run(world, 0.5);
+    world.clear();
+    EXPECT_EQ(world.size(), 0u);
+    EXPECT_TRUE(world.state().colliders.empty());
+    EXPECT_EQ(world.settings(), settings);
+    EXPECT_EQ(world.state().substeps, 0u);
+    run(world, 0.5);
+    EXPECT_EQ(world.add_rope({}), "rope");
+}
+
+/// Any order of edits leaves a world that holds together and goes on.
+TEST(RopeEdit, RandomEditsLeaveASoundWorld) {
+    Random random(81);
+    for (int round = 0; round < 20; ++round) {
+        World world = world_with({.solver = all_solvers[random.below(3)]});
+        for (int i = 0; i < 60; ++i) {
+            const auto& bodies = world.state().bodies;
+            const std::string body = bodies.empty() ? "" : bodies[random.below(bodies.size())].name;
+            const std::string ball = "ball " + std::to_string(random.below(3));
+            const bool is_there = world.find_collider(ball) != nullptr;
+            const std::size_t particle = world.size() > 0 ? random.below(world.size()) : 0;
+            switch (random.below(9)) {
+                case 0:
+                    world.add_rope({.name = "", .from = random.point(1), .to = random.point(1), .segments = 1 + static_cast<int>(random.below(9)), .pin_start = random.chance(2)});
+                    break;
+                case 1:
+                    if (random.chance(3)) world.add_sheet({.name = "", .corner = random.point(1), .columns = 3, .rows = 4, .tear = 0.05f});
+                    break;
+                case 2:
+                    if (!body.empty()) world.remove(body);
+                    break;
+                case 3:
+                    if (!body.empty() && world.find(body)->kind == Body::Kind::Rope && world.find(body)->count > 1)
+                        world.cut(body, random.below(world.find(body)->count - 1));
+                    break;
+                case 4:
+                    if (world.size() > 0) world.pin(particle, random.point(1), random.chance(2) ? 0.1 : 0.0);
+                    break;
+                case 5:
+                    if (world.size() > 0 && world.pinned(particle)) world.unpin(particle);
+                    break;
+                case 6:
+                    is_there ? world.remove_collider(ball) : world.add_collider(ball, Sphere{random.point(1), 0.2f});
+                    break;
+                case 7:
+                    if (is_there && world.size() > 0) world.attach(particle, ball);
+                    break;
+                default:
+                    if (is_there) world.move_collider(ball, random.point(1), 0.05);
+            }
+            world.advance(0.01);
+            ASSERT_NO_THROW(World{world.state()}) << round << ' ' << i;
+            ASSERT_TRUE(all_finite(world)) << round << ' ' << i;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test

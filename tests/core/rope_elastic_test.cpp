@@ -1,0 +1,126 @@
+// A soft rope is as soft as its material, whatever the iterations, the substep and the number of segments.
+#include "rope_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+using rope::Settings;
+using rope::Solver;
+using rope::World;
+
+constexpr double gravity = 9.81;
+
+Settings soft(Solver solver, float compliance, int iterations) {
+    return {.iterations = iterations, .solver = solver, .damping = 2.0f, .compliance = compliance};
+}
+
+/// Straight down from one end, 1 m of 1 kg/m, with nothing below. How much longer it gets, metres.
+double hangs_longer(const Settings& settings, int segments) {
+    World world = world_with(settings);
+    world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {0, -1, 0}, .segments = segments, .pin_start = true});
+    run(world, 12.0);
+    return -lowest(world) - 1.0;
+}
+
+/// Link k of n bears the n - k particles below it, each of m = 1/n: C m g / n times the sum of n - k, which
+/// comes to C m g (n + 1) / 2; for n without end that is C g / 2.
+double theory(float compliance, int segments) {
+    const double n = segments;
+    return static_cast<double>(compliance) * gravity * (n + 1.0) / (2.0 * n);
+}
+
+TEST(RopeElastic, HangsLongerByItsOwnWeight) {
+    for (const int segments : {1, 8, 32, 100}) {
+        for (const float compliance : {1e-3f, 1e-2f, 5e-2f}) {
+            const double expected = theory(compliance, segments);
+            EXPECT_NEAR(hangs_longer(soft(Solver::Direct, compliance, 16), segments) / expected, 1.0, 1e-3)
+                << segments << " segments, " << compliance;
+        }
+    }
+}
+
+TEST(RopeElastic, XpbdDoesOnceTheIterationsSuffice) {
+    for (const int segments : {1, 8, 16}) {
+        const double expected = theory(1e-2f, segments);
+        EXPECT_NEAR(hangs_longer(soft(Solver::Xpbd, 1e-2f, 200), segments) / expected, 1.0, 0.01) << segments;
+    }
+}
+
+TEST(RopeElastic, IterationsDoNotMatter) {
+    const double direct = hangs_longer(soft(Solver::Direct, 1e-2f, 2), 32);
+    for (const int iterations : {1, 4, 64}) {
+        EXPECT_NEAR(hangs_longer(soft(Solver::Direct, 1e-2f, iterations), 32) / direct, 1.0, 1e-4) << iterations;
+    }
+    const double xpbd = hangs_longer(soft(Solver::Xpbd, 1e-2f, 100), 8);
+    EXPECT_NEAR(hangs_longer(soft(Solver::Xpbd, 1e-2f, 400), 8) / xpbd, 1.0, 2e-3);
+}
+
+TEST(RopeElastic, NorDoesTheSubstep) {
+    for (const double substep : {1.0 / 60.0, 1.0 / 1000.0}) {
+        Settings settings = soft(Solver::Direct, 1e-2f, 16);
+        settings.substep = substep;
+        EXPECT_NEAR(hangs_longer(settings, 16) / theory(1e-2f, 16), 1.0, 1e-3) << substep;
+    }
+}
+
+/// Between two hands: the same curve for any number of segments, and the deeper the softer.
+TEST(RopeElastic, SagDoesNotHangOnTheNumberOfSegments) {
+    const auto sag = [](float compliance, int segments) {
+        World world = world_with(soft(Solver::Direct, compliance, 16));
+        hang_between(world, 1.0f, 1.1f, segments);
+        run(world, 12.0);
+        return -lowest(world);
+    };
+    const double fine = sag(2e-2f, 128), coarse = sag(2e-2f, 32);
+    EXPECT_NEAR(coarse / fine, 1.0, 0.002);
+    EXPECT_GT(fine, sag(2e-3f, 64) * 1.02);
+    EXPECT_NEAR(sag(1e-7f, 64) / sag(0.0f, 64), 1.0, 1e-4);  // no leap between a stiff rope and an unyielding one
+}
+
+/// Tension says what a link bears, in newtons: below link k hang n - k particles.
+TEST(RopeElastic, TensionIsWhatHangsBelow) {
+    for (const Solver solver : {Solver::Xpbd, Solver::Direct}) {
+        for (const float compliance : {0.0f, 1e-3f}) {
+            World world = world_with(soft(solver, compliance, solver == Solver::Xpbd ? 400 : 16));
+            world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {0, -1, 0}, .segments = 10, .density = 3.0f, .pin_start = true});
+            run(world, 8.0);
+            for (std::size_t k = 0; k < 10; ++k) {
+                const double expected = 0.3 * gravity * static_cast<double>(10 - k);
+                EXPECT_NEAR(world.state().links[k].tension / expected, 1.0, 0.01)
+                    << name(solver) << ' ' << compliance << ", link " << k;
+            }
+        }
+    }
+}
+
+/// A weight on a spring: 2 pi sqrt(m C L) a swing.
+TEST(RopeElastic, BouncesInTheTimeThatItMust) {
+    const float compliance = 2e-2f;
+    Settings settings = soft(Solver::Direct, compliance, 16);
+    settings.damping = 0.0f;
+    settings.substep = 1.0 / 960.0;
+    World world = world_with(settings);
+    world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {0, -1, 0}, .segments = 1, .pin_start = true});
+    const double rest = -1.0 - theory(compliance, 1), expected = 2.0 * pi * std::sqrt(world.state().mass[1] * static_cast<double>(compliance));
+    double before = -1.0, first = -1.0, last = 0.0, time = 0.0;
+    int swings = -1;
+    run_substeps(world, 2400, [&] {
+        time += settings.substep;
+        const double now = world.state().position[1].y;
+        if (before > rest && now <= rest) {
+            if (first < 0.0) first = time;
+            last = time, ++swings;
+        }
+        before = now;
+    });
+    ASSERT_GT(swings, 1);
+    EXPECT_NEAR((last - first) / swings / expected, 1.0, 0.01);
+}
+
+/// Relaxation does not know compliance.
+TEST(RopeElastic, RelaxationStaysAsItIs) {
+    EXPECT_EQ(hangs_longer(soft(Solver::Relaxation, 0.0f, 16), 8), hangs_longer(soft(Solver::Relaxation, 0.1f, 16), 8));
+}
+
+}  // namespace
+}  // namespace tendril::test

@@ -1,0 +1,105 @@
+// A rope that is let go has the energy that it has: it may lose some, and never gains any.
+#include "rope_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+using rope::Settings;
+using rope::World;
+
+/// Weight times length, the energy that a rope has to do with: what "0.1 %" is of.
+double scale(const World& world) {
+    double mass = 0.0;
+    for (const double each : world.state().mass) mass += each;
+    return mass * 9.81 * world.length(*world.find("rope"));
+}
+
+/// The most that energy was over its start in that many seconds, as a part of what there is of it.
+double most_gained(World& world, int seconds) {
+    run_substeps(world, 2, [] {});  // energy is by central differences, and so that of one substep ago
+    const double start = energy(world), of = scale(world);
+    double most = -1.0;
+    run_substeps(world, seconds * 240, [&] { most = std::max(most, (energy(world) - start) / of); });
+    EXPECT_TRUE(all_finite(world));
+    EXPECT_LE(stretch(world), 1e-3);
+    return most;
+}
+
+/// Level, with a bend in it so that it is nowhere in balance, at rest.
+World let_go(int segments, bool both_ends) {
+    World world = world_with({.damping = 0.0f});
+    world.add_rope({.name = "rope",
+                    .from = {0, 0, 0},
+                    .to = {both_ends ? 0.7f : 1.0f, 0, 0.2f},
+                    .segments = segments,
+                    .length = both_ends ? 1.3f : 1.05f,
+                    .pin_start = true,
+                    .pin_end = both_ends});
+    return world;
+}
+
+class RopeEnergy : public testing::TestWithParam<std::tuple<int, bool>> {};
+
+TEST_P(RopeEnergy, NeverGrowsInAMinute) {
+    const auto [segments, both_ends] = GetParam();
+    World world = let_go(segments, both_ends);
+    if (both_ends) {  // it hangs nearly still: wound up by a wind that then stops
+        Settings settings = world.settings();
+        settings.external = {3, 2, 4};
+        world.set_settings(settings);
+        run(world, 1.0);
+        settings.external = {0, 0, 0};
+        world.set_settings(settings);
+    }
+    EXPECT_LE(most_gained(world, 60), 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ropes, RopeEnergy,
+                         testing::Combine(testing::Values(16, 64, 256), testing::Bool()),
+                         [](const auto& of) {
+                             return std::to_string(std::get<0>(of.param)) +
+                                    (std::get<1>(of.param) ? "_both_ends" : "_one_end");
+                         });
+
+/// Thrown, turning, in free fall: nothing holds it and nothing may speed it up.
+TEST(RopeEnergyFree, NeitherDoesThatOfOneThrown) {
+    World world = world_with({.damping = 0.0f, .gravity = {0, 0, 0}});
+    world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 24, .length = 1.2f});
+    rope::State state = world.state();
+    state.moved_in = state.settings.substep;
+    Random random(43);
+    for (glm::dvec3& moved : state.moved) moved = glm::dvec3(random.point(2.0f)) * state.settings.substep;
+    world = World(state);
+    run_substeps(world, 240, [] {});  // lengths take what they must of it first
+    const double start = energy(world);
+    double most = 0.0;
+    run_substeps(world, 60 * 240, [&] { most = std::max(most, energy(world)); });
+    EXPECT_GT(start, 0.0);
+    EXPECT_LE(most / start, 1.001);
+    EXPECT_LE(stretch(world), 1e-3);
+}
+
+/// Nothing pushes from outside, so where the whole is does not change, nor how it moves.
+TEST(RopeEnergyFree, MomentumStays) {
+    for (const rope::Solver solver : all_solvers) {
+        World world = world_with({.solver = solver, .damping = 0.0f, .gravity = {0, 0, 0}});
+        world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 12, .length = 1.2f});
+        rope::State state = world.state();
+        state.moved_in = state.settings.substep;
+        Random random(44);
+        for (glm::dvec3& moved : state.moved) moved = glm::dvec3(random.point(1.0f)) * state.settings.substep;
+        const auto sum = [](const std::vector<glm::dvec3>& all) {
+            glm::dvec3 total(0.0);
+            for (const glm::dvec3& each : all) total += each;
+            return total;
+        };
+        const glm::dvec3 before = sum(state.moved);
+        world = World(state);
+        const glm::dvec3 from = sum(state.position);
+        run_substeps(world, 240, [] {});
+        EXPECT_LE(glm::length(sum(world.state().position) - from - 240.0 * before), 1e-3) << name(solver);
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test

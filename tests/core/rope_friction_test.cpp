@@ -1,0 +1,128 @@
+// Coulomb's law, and what follows from it for a rope around a post (Euler-Eytelwein).
+#include "rope_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+using rope::Capsule;
+using rope::Plane;
+using rope::Solver;
+using rope::World;
+
+/// Laid along a slope of so many radians and left alone; how far it slides in `seconds`.
+double slides(Solver solver, float friction, double angle, double seconds, bool across = false) {
+    World world = world_with({.solver = solver, .damping = 0.0f, .friction = friction});
+    const auto c = static_cast<float>(std::cos(angle)), s = static_cast<float>(std::sin(angle));
+    const glm::vec3 up{-s, c, 0}, along = across ? glm::vec3(0, 0, 1) : glm::vec3(c, s, 0);
+    world.add_collider("slope", Plane{{0, 0, 0}, up});
+    const glm::vec3 from = 0.02f * up;
+    world.add_rope({.name = "rope", .from = from, .to = from + along, .segments = 16});
+    const glm::vec3 start = world.position(8);
+    run(world, seconds);
+    return distance(world.position(8), start);
+}
+
+TEST(RopeFriction, HoldsOnASlopeUpToItsTangent) {
+    for (const Solver solver : all_solvers)
+        for (const bool across : {false, true})
+            for (const float friction : {0.2f, 0.5f, 1.0f}) {
+                const double angle = std::atan(static_cast<double>(friction));
+                EXPECT_LE(slides(solver, friction, angle - 0.02, 2.0, across), 0.002) << name(solver) << ' ' << friction;
+            }
+}
+
+/// And beyond it slides with what is left of its weight: g (sin - mu cos) t^2 / 2.
+TEST(RopeFriction, SlidesBeyond) {
+    for (const Solver solver : all_solvers)
+        for (const bool across : {false, true})
+            for (const float friction : {0.0f, 0.2f, 0.5f}) {
+                const double angle = std::atan(static_cast<double>(friction)) + 0.1;
+                const double expected = 0.5 * 9.81 * (std::sin(angle) - friction * std::cos(angle));
+                EXPECT_NEAR(slides(solver, friction, angle, 1.0, across) / expected, 1.0, 0.03)
+                    << name(solver) << ' ' << friction << (across ? " across" : " along");
+            }
+}
+
+/// What slides on level ground stops after v^2 / (2 mu g).
+TEST(RopeFriction, StopsWhatSlides) {
+    for (const Solver solver : all_solvers) {
+        World world = world_with({.solver = solver, .damping = 0.0f, .friction = 0.4f});
+        world.add_collider("ground", Plane{});
+        world.add_rope({.name = "rope", .from = {0, 0.02f, 0}, .to = {1, 0.02f, 0}, .segments = 16});
+        rope::State state = world.state();
+        state.moved_in = state.settings.substep;
+        for (glm::dvec3& moved : state.moved) moved = {2.0 * state.moved_in, 0, 0};
+        world = World(state);
+        run(world, 2.0);
+        EXPECT_NEAR((world.position(0).x) / (4.0 / (2.0 * 0.4 * 9.81)), 1.0, 0.03) << name(solver);
+    }
+}
+
+/// A collider that moves takes along what lies on it, if friction can; without friction it slides away below.
+TEST(RopeFriction, WhatMovesCarries) {
+    for (const float friction : {0.8f, 0.0f}) {
+        World world = world_with({.damping = 0.0f, .friction = friction});
+        world.add_collider("plank", rope::Box{{0, -0.1f, 0}, {2, 0.1f, 1}, {1, 0, 0, 0}});
+        world.add_rope({.name = "rope", .from = {-0.5f, 0.02f, 0}, .to = {0.5f, 0.02f, 0}, .segments = 16});
+        run(world, 0.25);
+        world.move_collider("plank", {1.0f, -0.1f, 0}, 1.0);
+        run(world, 1.0);
+        // The plank sets out at 1 m/s at once: until the rope is as fast it slips by v^2 / (2 mu g).
+        const double carried = friction > 0.0f ? 1.0 - 1.0 / (2.0 * 0.8 * 9.81) : 0.0;
+        EXPECT_NEAR(world.position(8).x, carried, 0.01) << friction;
+    }
+}
+
+/// How many times as much rope may hang on one side of a post of radius r as on the other, two metres in all, before
+/// it runs: Euler and Eytelwein's e^(mu pi), and what lies on the post is pressed on by its own weight:
+///     T' = rho g r cos + mu (T + rho g r sin) around it, so long = (short + k) e^(mu pi) + k, k = 2 mu r / (1 + mu^2)
+double most_ratio(double friction, double r) {
+    const double euler = std::exp(friction * pi), k = 2.0 * friction * r / (1.0 + friction * friction);
+    const double shorter = (2.0 - k - k * euler) / (1.0 + euler);
+    return (2.0 - shorter) / shorter;
+}
+
+/// Two metres hang down from a level post, `ratio` times as much on one side as on the other. How far it has run.
+double runs_off(Solver solver, float friction, double ratio, int segments, double seconds) {
+    World world = world_with({.iterations = 64, .solver = solver, .damping = 0.3f, .friction = friction});
+    const float radius = 0.08f;
+    world.add_collider("post", Capsule{{0, 0, -1}, {0, 0, 1}, radius});
+    // Laid round the upper half at the rope's own radius, straight down on both sides.
+    const double r = 0.1, hanging = 2.0, round = pi * r, left = hanging / (1.0 + ratio);
+    world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {1, 0, 0}, .segments = segments,
+                    .length = static_cast<float>(hanging + round), .radius = 0.02f});
+    rope::State state = world.state();
+    for (int i = 0; i <= segments; ++i) {
+        const double at = (hanging + round) * i / segments;
+        glm::dvec3& p = state.position[static_cast<std::size_t>(i)];
+        if (at < left) {
+            p = {-r, at - left, 0};
+        } else if (at < left + round) {
+            const double angle = (at - left) / r;
+            p = {-r * std::cos(angle), r * std::sin(angle), 0};
+        } else {
+            p = {r, left + round - at, 0};
+        }
+    }
+    world = World(state);
+    const double start = world.state().position[0].y;
+    run(world, seconds);
+    return world.state().position[0].y - start;
+}
+
+/// It settles by some millimetres first: it begins as a curve and is a polygon, which vibrates. That also costs up to
+/// an eighth of the friction.
+TEST(RopeFriction, APostHoldsUpToEulersRatio) {
+    for (const float friction : {0.1f, 0.2f, 0.3f, 0.5f}) {
+        const double holds = most_ratio(0.87 * friction, 0.1), slips = most_ratio(1.05 * friction, 0.1);
+        EXPECT_LE(std::abs(runs_off(Solver::Direct, friction, holds, 128, 2.0)), 0.012) << friction << ' ' << holds;
+        EXPECT_GE(std::abs(runs_off(Solver::Direct, friction, slips, 128, 2.0)), 0.05) << friction << ' ' << slips;
+    }
+}
+
+TEST(RopeFriction, WithoutAnyItRunsOff) {
+    EXPECT_GE(runs_off(Solver::Direct, 0.0f, 1.2, 128, 1.0), 0.3);
+}
+
+}  // namespace
+}  // namespace tendril::test

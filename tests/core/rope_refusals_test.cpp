@@ -1,0 +1,154 @@
+// What cannot be is refused with its name and its value, and the world stays as it was.
+#include <functional>
+
+#include "rope_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+using rope::Settings;
+using rope::World;
+
+World some_world() {
+    World world;
+    world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 4, .pin_start = true});
+    world.add_sheet({.name = "sheet", .columns = 3, .rows = 3});
+    world.add_collider("ball", rope::Sphere{{3, 0, 0}, 0.5f});
+    world.advance(0.1);
+    return world;
+}
+
+/// `call` throws either of the two, and says all of `words`.
+void expect_refused(World& world, const std::function<void()>& call, std::initializer_list<const char*> words) {
+    const rope::State before = world.state();
+    std::string message;
+    try {
+        call();
+        ADD_FAILURE() << "nothing was thrown; expected: " << *words.begin();
+    } catch (const std::invalid_argument& error) {
+        message = error.what();
+    } catch (const std::out_of_range& error) {
+        message = error.what();
+    }
+    for (const char* word : words) EXPECT_NE(message.find(word), std::string::npos) << message << " lacks " << word;
+    EXPECT_TRUE(same_bits(before, world.state())) << message;
+}
+
+TEST(RopeRefusals, OfSettings) {
+    World world = some_world();
+    const auto bad = [&](auto change, const char* what, const char* value) {
+        Settings settings;
+        change(settings);
+        expect_refused(world, [&] { world.set_settings(settings); }, {"set_settings", what, value});
+    };
+    for (const auto& [value, text] : {std::pair{0.0, "0"}, {-1.0, "-1"}, {1e-6, "e-"}, {0.2, "0.2"}, {double{nan}, "nan"}, {double{infinity}, "inf"}})
+        bad([v = value](Settings& s) { s.substep = v; }, "substep", text);
+    for (const int value : {0, -5, rope::max_iterations + 1, std::numeric_limits<int>::max()})
+        bad([&](Settings& s) { s.iterations = value; }, "iterations", std::to_string(value).c_str());
+    bad([](Settings& s) { s.solver = static_cast<rope::Solver>(7); }, "solver", "7");
+    for (const auto& [value, text] : {std::pair{-1.0f, "-1"}, {1e9f, "e"}, {nan, "nan"}, {infinity, "inf"}}) {
+        bad([v = value](Settings& s) { s.damping = v; }, "damping", text);
+        bad([v = value](Settings& s) { s.compliance = v; }, "compliance", text);
+        bad([v = value](Settings& s) { s.friction = v; }, "friction", text);
+        bad([v = value](Settings& s) { s.longest_frame = v; }, "longest_frame", text);
+        if (value == -1.0f) continue;  // these may be below zero
+        bad([v = value](Settings& s) { s.gravity.y = v; }, "gravity", text);
+        bad([v = value](Settings& s) { s.external.z = v; }, "external", text);
+        bad([v = value](Settings& s) { s.gravity_scale = v; }, "gravity_scale", text);
+    }
+    bad([](Settings& s) { s.longest_frame = 0.0f; }, "longest_frame", "0");
+    EXPECT_NO_THROW(world.set_settings({.substep = 0.1, .iterations = 10'000, .damping = 1e3f, .friction = 100.0f, .longest_frame = 10.0f}));
+}
+
+TEST(RopeRefusals, OfRopes) {
+    World world = some_world();
+    const auto bad = [&](const rope::RopeShape& shape, const char* what, const char* value) {
+        expect_refused(world, [&] { world.add_rope(shape); }, {"add_rope", what, value});
+    };
+    bad({.name = "rope"}, "name", "rope");
+    bad({.name = "sheet"}, "name", "sheet");
+    bad({.name = "", .from = {nan, 0, 0}}, "from", "nan");
+    bad({.name = "", .to = {0, infinity, 0}}, "to", "inf");
+    bad({.name = "", .to = {0, 0, -2e9f}}, "to", "-2e+09");
+    bad({.name = "", .segments = 0}, "segments", "0");
+    bad({.name = "", .segments = -3}, "segments", "-3");
+    bad({.name = "", .segments = 10'000'000}, "1000000", "100000");  // 10^7 + 1, and those that there are
+    bad({.name = "", .segments = std::numeric_limits<int>::max()}, "particles", "1000000");
+    for (const auto& [value, text] : {std::pair{-1.0f, "-1"}, {nan, "nan"}, {infinity, "inf"}}) {
+        bad({.name = "", .length = value}, "length", text);
+        bad({.name = "", .radius = value}, "radius", text);
+        bad({.name = "", .density = value}, "density", text);
+    }
+    bad({.name = "", .density = 0.0f}, "density", "0");
+}
+
+TEST(RopeRefusals, OfSheetsAndLocks) {
+    World world = some_world();
+    const auto sheet = [&](const rope::SheetShape& shape, const char* what, const char* value) {
+        expect_refused(world, [&] { world.add_sheet(shape); }, {"add_sheet", what, value});
+    };
+    sheet({.name = "rope"}, "name", "rope");
+    sheet({.name = "", .corner = {0, nan, 0}}, "corner", "nan");
+    sheet({.name = "", .along = {infinity, 0, 0}}, "along", "inf");
+    sheet({.name = "", .down = {0, 0, nan}}, "down", "nan");
+    sheet({.name = "", .columns = 1}, "columns", "1");
+    sheet({.name = "", .rows = 0}, "rows", "0");
+    sheet({.name = "", .columns = 2000, .rows = 2000}, "particles", "1000000");
+    sheet({.name = "", .columns = 2'000'000'000, .rows = 2'000'000'000}, "particles", "1000000");
+    sheet({.name = "", .density = 0.0f}, "density", "0");
+    sheet({.name = "", .shear = -1.0f}, "shear", "-1");
+    sheet({.name = "", .bend = nan}, "bend", "nan");
+    sheet({.name = "", .tear = -0.5f}, "tear", "-0.5");
+    const auto lock = [&](const rope::LockShape& shape, const char* what, const char* value) {
+        expect_refused(world, [&] { world.add_lock(shape); }, {"add_lock", what, value});
+    };
+    const std::vector<rope::LockShape::Root> one{{{0, 0, 0}, {0, 1, 0}}};
+    lock({.name = "", .roots = {}}, "roots", "0");
+    lock({.name = "", .roots = {{{nan, 0, 0}, {0, 1, 0}}}}, "position", "nan");
+    lock({.name = "", .roots = {{{0, 0, 0}, {0, 0, 0}}}}, "direction", "0");
+    lock({.name = "", .roots = one, .length = 0.0f}, "length", "0");
+    lock({.name = "", .roots = one, .segments = 1}, "segments", "1");
+    lock({.name = "", .roots = one, .segments = 2'000'000'000}, "particles", "1000000");
+    lock({.name = "", .roots = one, .bend = -1.0f}, "bend", "-1");
+    lock({.name = "", .roots = one, .attach = "nobody"}, "attach", "nobody");
+}
+
+TEST(RopeRefusals, OfEverythingElse) {
+    World world = some_world();
+    const auto refused = [&](const std::function<void()>& call, std::initializer_list<const char*> words) {
+        expect_refused(world, call, words);
+    };
+    refused([&] { world.remove("nobody"); }, {"remove", "nobody"});
+    refused([&] { world.particle("nobody", 0); }, {"particle", "nobody"});
+    refused([&] { world.particle("rope", 5); }, {"particle", "5"});
+    refused([&] { world.pin(14, {0, 0, 0}); }, {"pin", "14"});
+    refused([&] { world.pin(1, {nan, 0, 0}); }, {"pin", "nan"});
+    refused([&] { world.pin(1, {0, 0, 0}, -1.0); }, {"pin", "seconds", "-1"});
+    refused([&] { world.pin(1, {0, 0, 0}, double{nan}); }, {"pin", "seconds", "nan"});
+    refused([&] { world.attach(99, "ball"); }, {"attach", "99"});
+    refused([&] { world.attach(1, "nobody"); }, {"attach", "nobody"});
+    refused([&] { world.unpin(1); }, {"unpin", "1"});
+    refused([&] { world.unpin(99); }, {"unpin", "99"});
+    refused([&] { world.cut("nobody", 0); }, {"cut", "nobody"});
+    refused([&] { world.cut("sheet", 0); }, {"cut", "sheet"});
+    refused([&] { world.cut("rope", 4); }, {"cut", "4"});
+    refused([&] { world.add_collider("", rope::Sphere{}); }, {"add_collider", "name"});
+    refused([&] { world.add_collider("ball", rope::Sphere{}); }, {"add_collider", "ball"});
+    refused([&] { world.move_collider("nobody", {0, 0, 0}); }, {"move_collider", "nobody"});
+    refused([&] { world.move_collider("ball", {0, infinity, 0}); }, {"move_collider", "inf"});
+    refused([&] { world.move_collider("ball", {0, 0, 0}, -2.0); }, {"move_collider", "-2"});
+    refused([&] { world.set_collider("nobody", rope::Sphere{}); }, {"set_collider", "nobody"});
+    refused([&] { world.remove_collider("nobody"); }, {"remove_collider", "nobody"});
+    refused([&] { world.use_vector_unit("abacus"); }, {"use_vector_unit", "abacus"});
+}
+
+/// The largest scene that fits, fits; one particle more does not.
+TEST(RopeRefusals, AtTheLimitOfParticles) {
+    World world;
+    world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 999'999});
+    EXPECT_EQ(world.size(), rope::max_particles);
+    expect_refused(world, [&] { world.add_rope({.name = "", .segments = 1}); }, {"particles", "1000002"});
+}
+
+}  // namespace
+}  // namespace tendril::test

@@ -1,0 +1,159 @@
+// A world is its State: broken ones are refused, and one that is taken over goes on as if nothing had been.
+#include "rope_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+using rope::State;
+using rope::World;
+
+World busy_world(rope::Solver solver) {
+    World world = world_with({.solver = solver});
+    world.add_rope({.name = "rope", .from = {0, 2, 0}, .to = {1, 2, 0}, .segments = 24, .length = 1.4f, .pin_start = true});
+    world.add_sheet({.name = "sheet", .corner = {2, 2, 0}, .columns = 6, .rows = 6, .pins = rope::SheetShape::Pins::Corners});
+    world.add_collider("ball", rope::Sphere{{0.6f, 1.4f, 0}, 0.2f});
+    world.add_lock({.name = "lock", .roots = {{{0.6f, 1.6f, 0}, {0, 1, 0}}}, .segments = 6, .attach = "ball"});
+    world.add_collider("ground", rope::Plane{{0, 0, 0}, {0, 1, 0}});
+    world.move_collider("ball", {0.2f, 1.3f, 0}, 0.7);
+    world.pin(world.particle("rope", 24), {0.5f, 2.2f, 0.1f}, 0.6);
+    return world;
+}
+
+TEST(RopeState, ARoundTripGoesOnBitForBit) {
+    for (const rope::Solver solver : all_solvers) {
+        World world = busy_world(solver);
+        for (int turn = 0; turn < 4; ++turn) {
+            world.advance(0.1234);
+            World again(world.state());
+            EXPECT_TRUE(same_bits(world.state(), again.state()));
+            for (World* each : {&world, &again}) each->advance(0.2), each->advance(0.0007);
+            EXPECT_TRUE(same_bits(world.state(), again.state())) << name(solver) << ' ' << turn;
+        }
+    }
+}
+
+TEST(RopeState, CopiesAreOfTheirOwn) {
+    World world = busy_world(rope::Solver::Direct);
+    world.advance(0.2);
+    const World kept = world;
+    World copy = world, moved = std::move(copy);
+    world.advance(0.2), moved.advance(0.2);
+    EXPECT_TRUE(same_bits(world.state(), moved.state()));
+    EXPECT_FALSE(same_bits(world.state(), kept.state()));
+    world = kept;
+    world.advance(0.2);
+    EXPECT_TRUE(same_bits(world.state(), moved.state()));
+    copy = World();  // what was moved from can be used anew
+    copy.add_rope({});
+    copy.advance(0.1);
+    EXPECT_TRUE(all_finite(copy));
+}
+
+struct Broken {
+    const char* word;  ///< that the refusal has in it
+    void (*how)(State&);
+};
+
+TEST(RopeState, BrokenOnesAreRefused) {
+    const Broken all[] = {
+        {"substep", [](State& s) { s.settings.substep = 0.0; }},
+        {"gravity", [](State& s) { s.settings.gravity.x = nan; }},
+        {"as many", [](State& s) { s.moved.pop_back(); }},
+        {"as many", [](State& s) { s.before.emplace_back(); }},
+        {"as many", [](State& s) { s.mass.clear(); }},
+        {"position 3", [](State& s) { s.position[3].y = double{nan}; }},
+        {"position 0", [](State& s) { s.position[0].x = double{infinity}; }},
+        {"moved 2", [](State& s) { s.moved[2].z = double{nan}; }},
+        {"before 1", [](State& s) { s.before[1].x = -double{infinity}; }},
+        {"mass 4", [](State& s) { s.mass[4] = 0.0; }},
+        {"mass 5", [](State& s) { s.mass[5] = -1.0; }},
+        {"mass 6", [](State& s) { s.mass[6] = double{nan}; }},
+        {"no name", [](State& s) { s.bodies[0].name.clear(); }},
+        {"rope", [](State& s) { s.bodies[1].name = "rope"; }},
+        {"rope", [](State& s) { s.bodies[0].first = 1; }},
+        {"sheet", [](State& s) { s.bodies[1].count = 1000; }},
+        {"lock", [](State& s) { s.bodies[2].count = std::numeric_limits<std::size_t>::max(); }},
+        {"rope", [](State& s) { s.bodies[0].count = 0; }},
+        {"rows", [](State& s) { s.bodies[1].row = 5; }},
+        {"rows", [](State& s) { s.bodies[1].row = 0; }},
+        {"kind", [](State& s) { s.bodies[0].kind = static_cast<rope::Body::Kind>(9); }},
+        {"radius", [](State& s) { s.bodies[0].radius = -1.0f; }},
+        {"tear", [](State& s) { s.bodies[1].tear = nan; }},
+        {"no body", [](State& s) { s.bodies.pop_back(); }},
+        {"link 2", [](State& s) { s.links[2].a = 1'000'000; }},
+        {"link 3", [](State& s) { s.links[3].b = s.links[3].a; }},
+        {"rest", [](State& s) { s.links[0].rest = nan; }},
+        {"rest", [](State& s) { s.links[0].rest = -1.0f; }},
+        {"compliance", [](State& s) { s.links[0].compliance = infinity; }},
+        {"tension", [](State& s) { s.links[1].tension = infinity; }},
+        {"link 1", [](State& s) { s.links[1].kind = static_cast<rope::Link::Kind>(3); }},
+        {"pins", [](State& s) { std::swap(s.pins[0], s.pins[1]); }},
+        {"pins", [](State& s) { s.pins[1].particle = s.pins[0].particle; }},
+        {"pins", [](State& s) { s.pins.back().particle = 100'000; }},
+        {"goal", [](State& s) { s.pins[0].goal.x = double{nan}; }},
+        {"time", [](State& s) { s.pins[0].seconds = -1.0; }},
+        {"nobody", [](State& s) { s.pins[0].collider = "nobody"; }},
+        {"no name", [](State& s) { s.colliders[0].name.clear(); }},
+        {"ground", [](State& s) { s.colliders[0].name = "ground"; }},
+        {"radius", [](State& s) { std::get<rope::Sphere>(s.colliders[0].shape).radius = nan; }},
+        {"goal", [](State& s) { s.colliders[0].goal.x = double{nan}; }},
+        {"time", [](State& s) { s.colliders[0].seconds = double{nan}; }},
+        {"remainder", [](State& s) { s.remainder = -0.1; }},
+        {"remainder", [](State& s) { s.remainder = double{nan}; }},
+        {"moved_in", [](State& s) { s.moved_in = double{infinity}; }},
+    };
+    World good = busy_world(rope::Solver::Direct);
+    good.advance(0.1);
+    EXPECT_NO_THROW(World{good.state()});
+    int number = 0;
+    for (const Broken& each : all) {
+        State state = good.state();
+        each.how(state);
+        const std::string message = message_of<std::invalid_argument>([&] { World{state}; });
+        EXPECT_NE(message.find(each.word), std::string::npos) << number << ": " << message << " lacks " << each.word;
+        ++number;
+    }
+}
+
+/// However links are laid over particles: rings, stars, the same link twice, across bodies.
+TEST(RopeState, AnyGraphOfLinksWorks) {
+    Random random(91);
+    for (int round = 0; round < 60; ++round) {
+        World world = world_with({.solver = all_solvers[random.below(3)]});
+        world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 9, .pin_start = true});
+        world.add_rope({.name = "other", .from = {0, 0.1f, 0}, .to = {1, 0.2f, 0}, .segments = 9});
+        world.add_collider("ball", rope::Sphere{{0.5f, -0.5f, 0}, 0.2f});
+        State state = world.state();
+        for (int i = 0; i < 12; ++i) {
+            const auto a = static_cast<std::uint32_t>(random.below(20)), b = static_cast<std::uint32_t>(random.below(20));
+            if (a == b) continue;
+            rope::Link link{.a = a, .b = b, .rest = 0.1f + 0.4f * std::abs(random.around(1.0f))};
+            link.kind = static_cast<rope::Link::Kind>(random.below(3));
+            state.links.insert(state.links.begin() + static_cast<std::ptrdiff_t>(random.below(state.links.size())), link);
+        }
+        world = World(state);
+        for (int i = 0; i < 60; ++i) world.advance(1.0 / 60.0);
+        EXPECT_TRUE(all_finite(world)) << round;
+        // Lengths that contradict each other throw what is linked about under the direct solver; no other flies off.
+        if (world.settings().solver == rope::Solver::Direct) continue;
+        for (const glm::dvec3& p : world.state().position) EXPECT_LE(glm::length(p), 40.0) << round;
+    }
+}
+
+/// What a world has come to by itself it takes back, however heavy, wide or tight it is.
+TEST(RopeState, ItsOwnIsNotRefused) {
+    World tight;
+    tight.add_rope({.name = "rope", .to = {1, 0, 0}, .segments = 4, .length = 1e-12f, .pin_start = true, .pin_end = true});
+    World heavy;
+    heavy.add_rope({.name = "rope", .to = {1e6f, 0, 0}, .segments = 4, .density = 1e6f});
+    World wide;
+    wide.add_sheet({.name = "sheet", .corner = {-9e8f, 0, 0}, .along = {9e8f, 0, 0}, .down = {0, 1e8f, 0}, .columns = 3, .rows = 3});
+    for (World* world : {&tight, &heavy, &wide}) {
+        for (int i = 0; i < 30; ++i) world->advance(0.1);
+        EXPECT_TRUE(all_finite(*world));
+        EXPECT_NO_THROW(World{world->state()});
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test

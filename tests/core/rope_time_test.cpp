@@ -1,0 +1,158 @@
+// Time is simulated in fixed substeps: how it is cut into frames does not matter, and what is dropped is counted.
+#include "rope_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+using rope::Advance;
+using rope::Settings;
+using rope::Solver;
+using rope::World;
+
+/// Something of everything, in motion.
+World scene(Solver solver) {
+    World world = world_with({.solver = solver});
+    world.add_rope({.name = "rope", .from = {0, 2, 0}, .to = {1, 2, 0}, .segments = 24, .length = 1.4f, .pin_start = true});
+    world.add_sheet({.name = "sheet", .corner = {2, 2, 0}, .columns = 6, .rows = 6, .pins = rope::SheetShape::Pins::Corners});
+    world.add_collider("ball", rope::Sphere{{0.6f, 1.4f, 0}, 0.2f});
+    world.add_collider("ground", rope::Plane{{0, 0, 0}, {0, 1, 0}});
+    world.move_collider("ball", {0.2f, 1.3f, 0}, 0.5);
+    world.pin(world.particle("rope", 24), {0.5f, 2.2f, 0.1f}, 0.75);
+    return world;
+}
+
+double farthest_apart(const World& a, const World& b) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        most = std::max(most, glm::length(a.state().position[i] - b.state().position[i]));
+    return most;
+}
+
+TEST(RopeTime, ItsCutIntoFramesDoesNotMatter) {
+    for (const Solver solver : all_solvers) {
+        World whole = scene(solver), tenths = scene(solver);
+        for (int i = 0; i < 60; ++i) whole.advance(1.0 / 60.0);
+        for (int i = 0; i < 10; ++i) tenths.advance(1.0 / 10.0);
+        EXPECT_EQ(whole.state().substeps, 240u);
+        EXPECT_EQ(tenths.state().substeps, 240u);
+        EXPECT_LE(farthest_apart(whole, tenths), 1e-6) << name(solver);
+    }
+}
+
+TEST(RopeTime, NorDoRaggedCuts) {
+    Random random(51);
+    World whole = scene(Solver::Direct);
+    for (int i = 0; i < 60; ++i) whole.advance(1.0 / 60.0);
+    for (int round = 0; round < 8; ++round) {
+        World ragged = scene(Solver::Direct);
+        double left = 1.0;
+        while (left > 0.0) {
+            // From a microsecond to a quarter of a second; and calls with nothing in them.
+            double frame = std::pow(10.0, -6.0 + 5.398 * static_cast<double>(random.below(1001)) / 1000.0);
+            if (random.chance(5)) frame = 0.0;
+            frame = std::min(frame, left);
+            left -= frame;
+            ragged.advance(frame);
+        }
+        EXPECT_EQ(ragged.state().substeps, 240u);
+        EXPECT_LE(farthest_apart(whole, ragged), 1e-6);
+    }
+}
+
+/// An hour of frames of a sixtieth, none of which is a number that doubles have: no substep is lost or made up.
+TEST(RopeTime, AnHourHasAllItsSubsteps) {
+    World world;
+    for (int i = 0; i < 3600 * 60; ++i) world.advance(1.0 / 60.0);
+    EXPECT_EQ(world.state().substeps, 3600u * 240u);
+    EXPECT_EQ(world.state().dropped, 0u);
+}
+
+TEST(RopeTime, ASubstepIsDueWithinAMillionthOfItsLength) {
+    const double h = 1.0 / 240.0;
+    World world;
+    EXPECT_EQ(world.advance(h * (1.0 - 2e-6)).substeps, 0);
+    EXPECT_EQ(world.advance(h * 1.5e-6).substeps, 1);
+    EXPECT_EQ(world.advance(h * 0.5).substeps, 0);
+    EXPECT_EQ(world.advance(h * (0.5 - 0.5e-6)).substeps, 1);
+}
+
+TEST(RopeTime, WhatIsOverTheLongestFrameIsDroppedAndCounted) {
+    World world;
+    const Advance ten = world.advance(10.0);
+    EXPECT_EQ(ten.substeps, 60);  // a quarter of a second
+    EXPECT_EQ(ten.dropped, 9u * 240u + 180u);
+    EXPECT_EQ(world.state().substeps, 60u);
+    EXPECT_EQ(world.state().dropped, 2340u);
+    const Advance fits = world.advance(0.25);
+    EXPECT_EQ(fits.substeps, 60);
+    EXPECT_EQ(fits.dropped, 0u);
+
+    Settings settings;
+    settings.longest_frame = 1.0f;
+    world.set_settings(settings);
+    EXPECT_EQ(world.advance(1.5).dropped, 120u);
+    EXPECT_EQ(world.state().dropped, 2460u);
+}
+
+/// Less than a substep over in each of many frames is much time in the end: it is simulated or counted.
+TEST(RopeTime, NoTimeIsLostUnseen) {
+    World world;
+    const double over = 0.4 / 240.0;
+    for (int i = 0; i < 1000; ++i) world.advance(0.25 + over);
+    EXPECT_NEAR(static_cast<double>(world.state().substeps + world.state().dropped), 60'400.0, 1.0);
+
+    Settings slow;  // a substep longer than what a frame may take
+    slow.substep = 0.1, slow.longest_frame = 0.01f;
+    World other = world_with(slow);
+    for (int i = 0; i < 100; ++i) other.advance(1.0 / 60.0);
+    EXPECT_NEAR(static_cast<double>(other.state().substeps + other.state().dropped), 16.0, 1.0);
+}
+
+TEST(RopeTime, NoTimeIsNoStepAndBadTimeIsRefused) {
+    World world = scene(Solver::Direct);
+    world.advance(0.3 / 240.0);
+    const rope::State before = world.state();
+    EXPECT_EQ(world.advance(0.0).substeps, 0);
+    EXPECT_TRUE(same_bits(before, world.state()));
+    for (const auto& [seconds, text] : {std::pair{-1.0, "-1"}, {-1e-300, "-"}, {double{nan}, "nan"}, {double{infinity}, "inf"},
+                                        {-double{infinity}, "-inf"}}) {
+        const std::string message = message_of<std::invalid_argument>([&] { world.advance(seconds); });
+        EXPECT_NE(message.find("seconds"), std::string::npos) << message;
+        EXPECT_NE(message.find(text), std::string::npos) << message;
+        EXPECT_TRUE(same_bits(before, world.state()));
+    }
+}
+
+TEST(RopeTime, AnyAllowedSubstepWorks) {
+    for (const Solver solver : all_solvers) {
+        for (const double substep : {rope::min_substep, 1.0 / 3840.0, 1.0 / 60.0, 1.0 / 15.0, rope::max_substep}) {
+            World world = scene(solver);
+            Settings settings = world.settings();
+            settings.substep = substep;
+            world.set_settings(settings);
+            const int frames = substep < 1e-4 ? 1 : 120;
+            for (int i = 0; i < frames; ++i) world.advance(1.0 / 60.0);
+            EXPECT_TRUE(all_finite(world)) << name(solver) << ' ' << substep;
+            EXPECT_GT(lowest(world), -1e-4) << name(solver) << ' ' << substep;  // the ground holds
+        }
+    }
+}
+
+/// A substep that changes in flight changes no speed.
+TEST(RopeTime, SpeedOutlivesANewSubstep) {
+    World world = world_with({.damping = 0.0f, .gravity = {0, 0, 0}, .external = {1, 0, 0}});
+    world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {0, 1, 0}, .segments = 4});
+    run(world, 1.0);
+    Settings settings = world.settings();
+    const glm::vec3 speed = world.velocity(0);
+    settings.external = {0, 0, 0};
+    for (const double substep : {1.0 / 1000.0, 1.0 / 30.0, 1.0 / 240.0}) {
+        settings.substep = substep;
+        world.set_settings(settings);
+        run(world, 0.5);
+        EXPECT_NEAR(world.velocity(2).x, speed.x, 1e-5) << substep;
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test
