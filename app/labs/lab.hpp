@@ -53,6 +53,8 @@ class Lab {
     virtual std::string title() const = 0;  ///< "Chain"
     virtual std::shared_ptr<Part> blank() const = 0;
     virtual CameraPose first_view() const = 0;
+    /// What to try first: "Drag the orange ball."
+    virtual const char* invitation() const = 0;
     virtual void add_commands(CommandTable& table) const = 0;
 
     /// Whether time changes anything here now; a lab at rest lets the window idle.

@@ -168,13 +168,15 @@ void show_first_hint(const ShellFrame& frame) {
     const Rect& view = frame.layout.view;
     const Palette& colours = frame.colours();
     const float wrap = std::max(80.0f, view.size().x - 40.0f);
-    const auto size_of = [&](const char* text) { return ImGui::CalcTextSize(text, nullptr, false, wrap); };
-    const char* text = "Drag the orange ball. Right-drag turns the view. ? shows every key.";
-    if (size_of(text).y > 0.3f * view.size().y)
-        text = "Drag the orange ball.";  // large letters in a small view
+    const auto size_of = [&](const std::string& text) {
+        return ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+    };
+    const std::string first = frame.lab.invitation();
+    std::string text = first + " Right-drag turns the view. ? shows every key.";
+    if (size_of(text).y > 0.3f * view.size().y) text = first;  // large letters in a small view
     const ImVec2 at{view.centre().x - 0.5f * size_of(text).x, view.min.y + 22.0f * frame.layout.scale};
     ImGui::GetBackgroundDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at,
-                                            imgui_u32(colours.text, 0.85f), text, nullptr, wrap);
+                                            imgui_u32(colours.text, 0.85f), text.c_str(), nullptr, wrap);
 }
 
 void show_legend(const ShellFrame& frame) {

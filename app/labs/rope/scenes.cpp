@@ -30,7 +30,7 @@ const std::vector<RopeSceneEntry>& rope_scenes() {
     static const std::vector<RopeSceneEntry> list{
         {"drape", "Drape", drape_scene, view({0.0f, 1.05f, 0.0f}, -24.0f, 16.0f, 5.6f)},
         {"bridge", "Bridge", bridge_scene, view({0.0f, 0.85f, 0.0f}, -32.0f, 18.0f, 6.4f)},
-        {"pendulum", "Pendulums", pendulum_scene, view({0.0f, 0.75f, 0.0f}, -40.0f, 12.0f, 4.2f)},
+        {"pendulum", "Pendula", pendulum_scene, view({0.0f, 0.75f, 0.0f}, -40.0f, 12.0f, 4.2f)},
         {"well", "Well", well_scene, view({0.0f, 0.85f, 0.0f}, -28.0f, 16.0f, 4.6f)},
         {"cloth", "Cloth", cloth_scene, view({0.0f, 0.65f, 0.0f}, -28.0f, 24.0f, 4.6f)},
         {"hair", "Hair", hair_scene, view({0.0f, 1.2f, 0.0f}, -20.0f, 8.0f, 2.9f)}};
