@@ -36,7 +36,15 @@ class Edges {
     /// Between two faces that both are seen; lies a little before them, as it would drown in them.
     void crease(glm::vec3 a, glm::vec3 b, glm::vec3 normal, glm::vec3 colour);
 
+    /// A round piece so thin that one shade is enough for all of it. Pieces that go on in one another, with
+    /// the same tangent where they meet, show no seams, also where they are so thin that they fade.
+    void thread(glm::vec3 a, glm::vec3 b, glm::vec3 tangent_a, glm::vec3 tangent_b, float radius,
+                glm::vec3 colour);
+
   private:
+    float mitre(glm::vec3 point, glm::vec3 tangent, glm::vec3 direction) const;
+    Stroke& add(glm::vec3 a, glm::vec3 b, glm::vec3 normal, glm::vec3 colour);
+
     DrawList& list_;
     const Camera& camera_;
 };

@@ -1,0 +1,80 @@
+#include "app/view/tube_skin.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+namespace tendril::app {
+
+TubeSkin::TubeSkin(DrawList& list, const Camera& camera, int sides)
+    : list_(list),
+      edges_(list, camera),
+      sides_(static_cast<std::uint32_t>(std::clamp(sides, 3, most_sides))) {
+    for (std::uint32_t j = 0; j < sides_; ++j) {
+        const float angle = glm::two_pi<float>() * static_cast<float>(j) / static_cast<float>(sides_);
+        circle_[j] = {std::cos(angle), std::sin(angle)};
+    }
+}
+
+void TubeSkin::cover(std::span<const Ring> rings) {
+    constexpr float thin = 1.0f;
+    bool joined =
+        false;  // the band before this one is there, and with it the corners that this one begins at
+    std::uint32_t from = 0;
+    for (std::size_t i = 0; i + 1 < rings.size(); ++i) {
+        const Ring &a = rings[i], &b = rings[i + 1];
+        const bool seen = (a.outside & b.outside) == 0 && !b.first;
+        const bool is_thin = a.pixels < thin && b.pixels < thin;
+        if (!seen || is_thin) {
+            if (seen && a.lean == 0.0f && b.lean == 0.0f)
+                edges_.thread(a.centre, b.centre, a.axis, b.axis, a.tube_radius,
+                              0.5f * (a.colour + b.colour));
+            joined = false;
+            continue;
+        }
+        if (!joined) from = corners(a);
+        const std::uint32_t to = corners(b);
+        band(from, to, joined);
+        from = to;
+        joined = true;
+    }
+}
+
+/// Appends a ring's corners, and tells where they begin.
+std::uint32_t TubeSkin::corners(const Ring& ring) {
+    const std::uint32_t first = list_.mesh.next();
+    const float up = std::sin(ring.lean), out = std::cos(ring.lean);
+    for (std::uint32_t j = 0; j < sides_; ++j) {
+        const glm::vec3 away = circle_[j].x * ring.u + circle_[j].y * ring.v;
+        list_.mesh.vertices.push_back({.position = ring.centre + ring.radius * away,
+                                       .normal = out * away + up * ring.axis,
+                                       .colour = ring.colour,
+                                       .back = ring.colour});
+    }
+    return first;
+}
+
+void TubeSkin::band(std::uint32_t from, std::uint32_t to, bool joined) {
+    PerSide front{};
+    for (std::uint32_t j = 0; j < sides_; ++j) {
+        const std::uint32_t k = after(j);
+        const glm::vec3 corner = at(from + j);
+        front[j] = edges_.front(glm::cross(at(to + k) - corner, at(to + j) - at(from + k)), corner);
+        if (!front[j]) continue;
+        list_.mesh.triangle(from + j, from + k, to + j);
+        list_.mesh.triangle(to + j, from + k, to + k);
+    }
+    for (std::uint32_t j = 0; j < sides_; ++j) {
+        const std::uint32_t k = after(j);
+        if (front[j] != front[k]) edge(from + k, to + k);
+        if (joined && front[j] != front_[j]) edge(from + j, from + k);
+    }
+    front_ = front;
+}
+
+void TubeSkin::edge(std::uint32_t a, std::uint32_t b) {
+    const Vertex &p = list_.mesh.vertices[a], &q = list_.mesh.vertices[b];
+    edges_.outline(p.position, q.position, p.normal + q.normal, 0.5f * (p.colour + q.colour));
+}
+
+}  // namespace tendril::app
