@@ -26,6 +26,7 @@ class Sheet {
             vertex.normal = unit_or(vertex.normal, {0.0f, 0.0f, 1.0f});
         }
         edges();
+        edges_.join();
         shadows();
     }
 
@@ -112,9 +113,9 @@ class Sheet {
         const Vertex &p = vertex(a), &q = vertex(b);
         const glm::vec3 normal = p.normal + q.normal;
         if (nearer->front) {
-            edges_.outline(p.position, q.position, normal, 0.5f * (p.colour + q.colour));
+            edges_.outline(a, b, normal, 0.5f * (p.colour + q.colour));
         } else {
-            edges_.outline(p.position, q.position, -normal, 0.5f * (p.back + q.back));
+            edges_.outline(a, b, -normal, 0.5f * (p.back + q.back));
         }
     }
 

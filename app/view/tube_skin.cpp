@@ -4,7 +4,25 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "app/view/surface_support.hpp"
+
 namespace tendril::app {
+
+namespace {
+
+/// The normal of a ball where one sees the point that has `normal` on a ball `part` as large inside it. The
+/// mesh is smaller than the tube by its outline, which is not to be seen in its shading.
+glm::vec3 within(glm::vec3 normal, glm::vec3 sight, float part) {
+    const float towards = glm::dot(normal, sight);
+    const glm::vec3 across = part * (normal - towards * sight);
+    // Where flat sides stand for a round one, corners a little behind the outline count as on it.
+    constexpr float behind = -0.3f;
+    const float raised =
+        std::sqrt(std::max(1.0f - glm::dot(across, across), 0.0f)) + 2.0f * std::min(towards - behind, 0.0f);
+    return unit_or(across + raised * sight, normal);
+}
+
+}  // namespace
 
 TubeSkin::TubeSkin(DrawList& list, const Camera& camera, int sides)
     : list_(list),
@@ -38,16 +56,22 @@ void TubeSkin::cover(std::span<const Ring> rings) {
         from = to;
         joined = true;
     }
+    edges_.join();
 }
 
 /// Appends a ring's corners, and tells where they begin.
 std::uint32_t TubeSkin::corners(const Ring& ring) {
     const std::uint32_t first = list_.mesh.next();
     const float up = std::sin(ring.lean), out = std::cos(ring.lean);
+    const glm::vec3 sight = unit_or(edges_.to_eye(ring.centre), ring.u);
+    const float pixels = std::max(ring.pixels, 2.0f * Edges::width);
+    const float part = 1.0f - Edges::width / pixels;
+    // Where the outline is on the mean, most of it within the tube and its paler part beyond.
+    outwards_ = (1.0f - 0.3f * Edges::width / pixels) / part;
     for (std::uint32_t j = 0; j < sides_; ++j) {
         const glm::vec3 away = circle_[j].x * ring.u + circle_[j].y * ring.v;
         list_.mesh.vertices.push_back({.position = ring.centre + ring.radius * away,
-                                       .normal = out * away + up * ring.axis,
+                                       .normal = within(out * away + up * ring.axis, sight, part),
                                        .colour = ring.colour,
                                        .back = ring.colour});
     }
@@ -74,7 +98,9 @@ void TubeSkin::band(std::uint32_t from, std::uint32_t to, bool joined) {
 
 void TubeSkin::edge(std::uint32_t a, std::uint32_t b) {
     const Vertex &p = list_.mesh.vertices[a], &q = list_.mesh.vertices[b];
-    edges_.outline(p.position, q.position, p.normal + q.normal, 0.5f * (p.colour + q.colour));
+    const glm::vec3 sight = unit_or(edges_.to_eye(p.position), p.normal);
+    edges_.outline(a, b, within(0.5f * (p.normal + q.normal), sight, outwards_),
+                   0.5f * (p.colour + q.colour));
 }
 
 }  // namespace tendril::app

@@ -47,7 +47,8 @@ class TubeSkin {
     Edges edges_;
     std::uint32_t sides_;
     std::array<glm::vec2, most_sides> circle_{};
-    PerSide front_{};  ///< of the last band
+    PerSide front_{};        ///< of the last band
+    float outwards_ = 1.0f;  ///< how much farther out than the last ring the middle of its outline is
 };
 
 }  // namespace tendril::app
