@@ -78,25 +78,42 @@ std::uint32_t TubeSkin::corners(const Ring& ring) {
     return first;
 }
 
-void TubeSkin::band(std::uint32_t from, std::uint32_t to, bool joined) {
-    PerSide front{};
-    for (std::uint32_t j = 0; j < sides_; ++j) {
-        const std::uint32_t k = after(j);
-        const glm::vec3 corner = at(from + j);
-        front[j] = edges_.front(glm::cross(at(to + k) - corner, at(to + j) - at(from + k)), corner);
-        if (!front[j]) continue;
-        list_.mesh.triangle(from + j, from + k, to + j);
-        list_.mesh.triangle(to + j, from + k, to + k);
-    }
-    for (std::uint32_t j = 0; j < sides_; ++j) {
-        const std::uint32_t k = after(j);
-        if (front[j] != front[k]) edge(from + k, to + k);
-        if (joined && front[j] != front_[j]) edge(from + j, from + k);
-    }
-    front_ = front;
+/// Of the quadrangle a b d c.
+TubeSkin::Facing TubeSkin::facing(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
+    const glm::vec3 normal = glm::cross(at(d) - at(a), at(c) - at(b));
+    const std::vector<Vertex>& vertices = list_.mesh.vertices;
+    if (glm::dot(normal, vertices[a].normal + vertices[d].normal) < 0.0f) return Facing::Inside;
+    return edges_.front(normal, at(a)) ? Facing::Front : Facing::Away;
 }
 
-void TubeSkin::edge(std::uint32_t a, std::uint32_t b) {
+/// With its front to the eye where its normals point there. In a bend too sharp for the tube some triangles
+/// are inside out; of those a pixel may show where the others meet.
+void TubeSkin::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    const std::vector<Vertex>& v = list_.mesh.vertices;
+    const bool front = edges_.front(glm::cross(at(b) - at(a), at(c) - at(a)), at(a));
+    const bool wanted = edges_.front(v[a].normal + v[b].normal + v[c].normal, at(a));
+    list_.mesh.triangle(a, front == wanted ? b : c, front == wanted ? c : b);
+}
+
+void TubeSkin::band(std::uint32_t from, std::uint32_t to, bool joined) {
+    PerSide here{};
+    for (std::uint32_t j = 0; j < sides_; ++j) {
+        const std::uint32_t k = after(j);
+        here[j] = facing(from + j, from + k, to + j, to + k);
+        if (here[j] == Facing::Away) continue;
+        triangle(from + j, from + k, to + j);
+        triangle(to + j, from + k, to + k);
+    }
+    for (std::uint32_t j = 0; j < sides_; ++j) {
+        const std::uint32_t k = after(j);
+        edge(here[j], here[k], from + k, to + k);
+        if (joined) edge(here[j], last_[j], from + j, from + k);
+    }
+    last_ = here;
+}
+
+void TubeSkin::edge(Facing one, Facing other, std::uint32_t a, std::uint32_t b) {
+    if (one == other || one == Facing::Inside || other == Facing::Inside) return;
     const Vertex &p = list_.mesh.vertices[a], &q = list_.mesh.vertices[b];
     const glm::vec3 sight = unit_or(edges_.to_eye(p.position), p.normal);
     edges_.outline(a, b, within(0.5f * (p.normal + q.normal), sight, outwards_),

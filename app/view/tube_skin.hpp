@@ -35,11 +35,15 @@ class TubeSkin {
     void cover(std::span<const Ring> rings);
 
   private:
-    using PerSide = std::array<bool, most_sides>;
+    /// Where the tube bends more sharply than it is thick, the inner side of the bend lies inside the tube.
+    enum class Facing : std::uint8_t { Away, Front, Inside };
+    using PerSide = std::array<Facing, most_sides>;
 
     std::uint32_t corners(const Ring& ring);
     void band(std::uint32_t from, std::uint32_t to, bool joined);
-    void edge(std::uint32_t a, std::uint32_t b);
+    Facing facing(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
+    void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+    void edge(Facing one, Facing other, std::uint32_t a, std::uint32_t b);
     glm::vec3 at(std::uint32_t vertex) const { return list_.mesh.vertices[vertex].position; }
     std::uint32_t after(std::uint32_t side) const { return side + 1 == sides_ ? 0 : side + 1; }
 
@@ -47,7 +51,7 @@ class TubeSkin {
     Edges edges_;
     std::uint32_t sides_;
     std::array<glm::vec2, most_sides> circle_{};
-    PerSide front_{};        ///< of the last band
+    PerSide last_{};         ///< of the last band
     float outwards_ = 1.0f;  ///< how much farther out than the last ring the middle of its outline is
 };
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <glm/geometric.hpp>
 
 #include "app/io/image.hpp"
@@ -221,6 +222,29 @@ TEST_P(Meshes, ATubeLooksAsAStrokeDoes) {
             EXPECT_LT(std::abs(sum), 0.09f * total) << "radius " << pixels;
         }
     }
+}
+
+TEST_P(Meshes, ATubeOfSharpBendsDoesNotGlitterAsTheCameraTurns) {
+    Points centres;
+    for (int i = 0; i <= 40; ++i) {
+        const float t = static_cast<float>(i);
+        centres.emplace_back(0.04f * t - 0.8f + 0.1f * std::sin(0.5f * t), 0.2f * std::cos(0.9f * t),
+                             0.3f * std::sin(0.3f * t));
+    }
+    Image last;
+    float most = 0.0f;
+    for (int frame = 0; frame < 40; ++frame) {
+        const CameraPose pose{
+            .yaw = 0.2f + 0.0005f * static_cast<float>(frame), .pitch = 0.2f, .distance = 3.0f};
+        DrawList list;
+        tube(list, Camera(pose, viewport), centres, 0.15f, 16, Points{red});
+        const Image image = draw(list, pose);
+        for (std::size_t i = 0; i < last.rgba.size(); i += 4)
+            most = std::max(most, static_cast<float>(std::abs(image.rgba[i] - last.rgba[i])) / 255.0f);
+        last = image;
+    }
+    EXPECT_GT(most, 0.01f) << "something moves";
+    EXPECT_LT(most, 0.35f);
 }
 
 TEST_P(Meshes, EdgesOfASheetAreClean) {
