@@ -24,7 +24,7 @@ void shadow_of_box(DrawList& list, glm::vec3 centre, std::array<glm::vec3, 3> ax
               [](glm::vec3 a, glm::vec3 b) { return glm::length(a) > glm::length(b); });
     const float lengths[]{glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])};
     const float radius = std::max(lengths[2], lengths[1] / 8.0f);
-    const int bars = lengths[1] < 1.5f * radius ? 1 : static_cast<int>(std::ceil(lengths[1] / radius));
+    const int bars = lengths[1] > 1.5f * radius ? static_cast<int>(std::ceil(lengths[1] / radius)) : 1;
     const float inner = 1.0f - std::min(radius / std::max(lengths[0], 1e-30f), 1.0f);
     for (int i = 0; i < bars; ++i) {
         const float across = (2.0f * static_cast<float>(i) + 1.0f) / static_cast<float>(bars) - 1.0f;
