@@ -8,6 +8,7 @@ flat in vec4 fractions;
 flat in vec4 premultiplied;
 flat in vec4 style_and_axis;
 flat in vec4 edge;
+flat in vec2 mitre;
 
 uniform float orthographic;
 uniform float metres_per_pixel;
@@ -35,8 +36,9 @@ float nearest_ball() {
 
 void main() {
     bool is_edge = edge.w > 0.0;
-    // Edges end flat, so that where one goes on in the next no pixel is covered twice.
-    if (is_edge && (at.x < 0.0 || at.x > outline.x)) discard;
+    // Edges are cut off at their ends, so that where one goes on in the next no pixel is covered twice.
+    float before = at.x - mitre.x * at.y, beyond = at.x - outline.x - mitre.y * at.y;
+    if (is_edge && (before < -0.002 || beyond > 0.002)) discard;
 
     float foot = nearest_circle();
     float distance_ = length(at - vec2(foot, 0.0)) - outline.y - foot * outline.z;

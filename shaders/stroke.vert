@@ -9,6 +9,7 @@ layout(location = 1) in vec4 sizes;   // pixels: radius at a, and at b, which is
 layout(location = 2) in vec4 colour;  // straight alpha
 layout(location = 3) in vec2 style;   // lit, half the ring's width
 layout(location = 4) in vec4 facing;  // of an edge: the normal of its surface, as light.glsl takes it, and 1
+layout(location = 5) in vec2 cuts;    // of an edge: how its ends lean, at a and at b
 
 uniform vec2 framebuffer_size;
 uniform float pixels_per_metre;
@@ -21,6 +22,7 @@ flat out vec4 fractions;  // 1/m, 1/g (see the fragment shader), depths
 flat out vec4 premultiplied;
 flat out vec4 style_and_axis;
 flat out vec4 edge;
+flat out vec2 mitre;
 
 void main() {
     vec2 axis = ends.zw - ends.xy;
@@ -47,6 +49,7 @@ void main() {
     premultiplied = vec4(colour.rgb * colour.a, colour.a);
     style_and_axis = vec4(style, along);
     edge = facing;
+    mitre = cuts;
 
     float rim = 0.51 + style.y;
     vec2 low = vec2(-sizes.x - rim, -sizes.x - rim), high = vec2(len + sizes.y + rim, sizes.x + rim);

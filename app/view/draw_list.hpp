@@ -31,8 +31,11 @@ enum class Layer : std::uint8_t { Scene, Overlay };  ///< Overlay is drawn over 
 struct Stroke {
     glm::vec3 a{0.0f}, b{0.0f};
     float radius_a = 1.0f, radius_b = 1.0f;
-    glm::vec4 colour{1.0f};   ///< with an alpha of 0 it is not drawn, but still picked, and throws its shadow
-    glm::vec3 normal{0.0f};   ///< of the surface; only for Shade::Edge
+    glm::vec4 colour{1.0f};  ///< with an alpha of 0 it is not drawn, but still picked, and throws its shadow
+    glm::vec3 normal{0.0f};  ///< of the surface, unit, or the mean of several; only for Shade::Edge
+    /// How far the cuts at a and b lean over along the line, for each pixel across it to its left; only for
+    /// Shade::Edge.
+    glm::vec2 mitre{0.0f};
     float ring_width = 0.0f;  ///< pixels; only for Shade::Ring
     Unit unit = Unit::Metres;
     Shade shade = Shade::Lit;

@@ -46,7 +46,7 @@ std::array<std::int8_t, 4> facing(const Stroke& edge, const Camera& camera) {
         normal.z += along;
     }
     normal.z = std::max(normal.z, 0.0f);
-    normal *= 127.0f / std::max(glm::length(normal), 1e-6f);
+    normal *= 127.0f / std::max(glm::length(normal), 1.0f);
     const auto rounded = [](float value) {
         return static_cast<std::int8_t>(std::isfinite(value) ? std::lround(value) : 0);
     };
@@ -61,7 +61,8 @@ StrokePass::StrokePass()
                                            Attribute{4, GL_FLOAT, offsetof(Instance, radius_a)},
                                            Attribute{4, GL_UNSIGNED_BYTE, offsetof(Instance, colour)},
                                            Attribute{2, GL_FLOAT, offsetof(Instance, lit)},
-                                           Attribute{4, GL_BYTE, offsetof(Instance, facing)}}) {}
+                                           Attribute{4, GL_BYTE, offsetof(Instance, facing)},
+                                           Attribute{2, GL_FLOAT, offsetof(Instance, mitre)}}) {}
 
 void StrokePass::sort(const DrawList& list, const Camera& camera) {
     const StrokeProjector projector(camera);
@@ -92,13 +93,15 @@ StrokePass::Instance StrokePass::instance(const Stroke& stroke, const ProjectedS
                  .colour = {},
                  .lit = stroke.shade == Shade::Lit || stroke.shade == Shade::Edge ? 1.0f : 0.0f,
                  .ring = stroke.shade == Shade::Ring ? 0.5f * ratio * stroke.ring_width : 0.0f,
-                 .facing = {}};
+                 .facing = {},
+                 .mitre = stroke.mitre};
     if (stroke.shade == Shade::Edge) out.facing = facing(stroke, camera);
     // The shader wants the larger end first.
     if (out.radius_a < out.radius_b) {
         std::swap(out.a, out.b);
         std::swap(out.radius_a, out.radius_b);
         std::swap(out.depth_a, out.depth_b);
+        std::swap(out.mitre.x, out.mitre.y);
     }
     // Nothing is drawn thinner than a pixel; it fades instead, which is what a sharper screen would average
     // to.

@@ -30,6 +30,7 @@ class StrokePass {
         float lit;                          ///< 1: a solid in the light, 0: flat
         float ring;                         ///< half the ring's width; 0: not a ring
         std::array<std::int8_t, 4> facing;  ///< of an edge: the surface's normal as it is lit, and 1
+        glm::vec2 mitre;
     };
     /// What is drawn first comes first.
     struct Place {

@@ -26,6 +26,7 @@ class Sheet {
             vertex.normal = unit_or(vertex.normal, {0.0f, 0.0f, 1.0f});
         }
         edges();
+        edges_.join();
         shadows();
     }
 
@@ -40,6 +41,7 @@ class Sheet {
     std::uint32_t point(std::uint32_t column, std::uint32_t row) const {
         return first_ + row * columns_ + column;
     }
+    bool good(std::uint32_t column, std::uint32_t row) const { return good_[point(column, row) - first_]; }
     Vertex& vertex(std::uint32_t i) { return list_.mesh.vertices[i]; }
     glm::vec3 at(std::uint32_t i) const { return list_.mesh.vertices[i].position; }
 
@@ -112,26 +114,40 @@ class Sheet {
         const Vertex &p = vertex(a), &q = vertex(b);
         const glm::vec3 normal = p.normal + q.normal;
         if (nearer->front) {
-            edges_.outline(p.position, q.position, normal, 0.5f * (p.colour + q.colour));
+            edges_.outline(a, b, normal, 0.5f * (p.colour + q.colour));
         } else {
-            edges_.outline(p.position, q.position, -normal, 0.5f * (p.back + q.back));
+            edges_.outline(a, b, -normal, 0.5f * (p.back + q.back));
         }
     }
 
-    /// Bars along the rows, at most some twenty each way, as thick as the rows are apart.
+    /// A few bars, as thick as they are apart, since many thin ones would let too much of the sky through;
+    /// but close to the ground no thicker than their height, as the shadow there ends where the cloth does.
     void shadows() {
-        const std::uint32_t step = std::max(std::max(columns_, rows_) / 20u, 1u);
+        constexpr std::uint32_t bars = 7;
+        const std::uint32_t step = std::max((std::max(columns_, rows_) + bars - 1) / bars, 1u);
         for (std::uint32_t row = 0; row + 1 < rows_; row += step) {
             for (std::uint32_t column = 0; column + 1 < columns_; column += step) {
-                if (!half_at(column, row, false).whole && !half_at(column, row, true).whole) continue;
-                const std::uint32_t right = std::min(column + step, columns_ - 1),
-                                    down = std::min(row + step, rows_ - 1);
+                const std::uint32_t right = std::min(column + step, columns_ - 1);
+                const std::uint32_t down = std::min(row + step, rows_ - 1);
+                if (mostly_torn(column, row, right, down)) continue;
+                if (!good(column, row) || !good(right, row) || !good(column, down) || !good(right, down))
+                    continue;
                 const glm::vec3 a = at(point(column, row)), b = at(point(right, row));
                 const glm::vec3 c = at(point(column, down)), d = at(point(right, down));
-                cast(list_, 0.5f * (a + c), 0.5f * (b + d),
-                     0.25f * (glm::distance(a, c) + glm::distance(b, d)));
+                const float apart = 0.5f * (glm::distance(a, c) + glm::distance(b, d));
+                const float height = 0.25f * (a.y + b.y + c.y + d.y);
+                const float thin = 0.5f * apart / static_cast<float>(down - row);
+                cast(list_, 0.5f * (a + c), 0.5f * (b + d), std::clamp(0.7f * height, thin, 0.6f * apart));
             }
         }
+    }
+
+    bool mostly_torn(std::uint32_t left, std::uint32_t top, std::uint32_t right, std::uint32_t bottom) const {
+        std::uint32_t whole = 0;
+        for (std::uint32_t row = top; row < bottom; ++row)
+            for (std::uint32_t column = left; column < right; ++column)
+                whole += half_at(column, row, false).whole || half_at(column, row, true).whole;
+        return 2 * whole <= (right - left) * (bottom - top);
     }
 
     DrawList& list_;

@@ -24,7 +24,7 @@ void shadow_of_box(DrawList& list, glm::vec3 centre, std::array<glm::vec3, 3> ax
               [](glm::vec3 a, glm::vec3 b) { return glm::length(a) > glm::length(b); });
     const float lengths[]{glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])};
     const float radius = std::max(lengths[2], lengths[1] / 8.0f);
-    const int bars = lengths[1] < 1.5f * radius ? 1 : static_cast<int>(std::ceil(lengths[1] / radius));
+    const int bars = lengths[1] > 1.5f * radius ? static_cast<int>(std::ceil(lengths[1] / radius)) : 1;
     const float inner = 1.0f - std::min(radius / std::max(lengths[0], 1e-30f), 1.0f);
     for (int i = 0; i < bars; ++i) {
         const float across = (2.0f * static_cast<float>(i) + 1.0f) / static_cast<float>(bars) - 1.0f;
@@ -93,36 +93,75 @@ void box(DrawList& list, const Camera& camera, glm::vec3 centre, glm::vec3 half_
     }
 }
 
-void plane_patch(DrawList& list, const Camera& camera, glm::vec3 point, glm::vec3 normal, float radius,
-                 glm::vec3 colour) {
-    constexpr int corners = 96;
-    if (!can_be_built(point) || !can_be_built(normal) || !(radius > 0.0f && radius <= farthest_built)) return;
-    normal = unit_or(normal, {0.0f, 1.0f, 0.0f});
-    Edges edges(list, camera);
-    const bool ground = std::abs(normal.y) > 0.99999f && std::abs(point.y) < 1e-3f * radius;
-    const glm::vec3 side = std::abs(normal.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
-    const glm::vec3 u = glm::normalize(glm::cross(side, normal)), v = glm::cross(normal, u);
-    const std::uint32_t first = list.mesh.next();
-    const glm::vec3 seen = edges.front(normal, point) ? normal : -normal;
-    const auto rim = [&](int i) {
+namespace {
+
+/// A disc, seen from whichever side: its rim, and lines across it.
+class Patch {
+  public:
+    Patch(DrawList& list, const Camera& camera, glm::vec3 point, glm::vec3 normal, float radius)
+        : list_(list), edges_(list, camera), point_(point), normal_(normal), radius_(radius) {
+        // One axis level, as on a map of a slope.
+        u_ = unit_or(glm::cross(glm::vec3(0.0f, 1.0f, 0.0f), normal), {1.0f, 0.0f, 0.0f});
+        if (std::abs(normal.y) > 0.999f) u_ = glm::normalize(glm::vec3(1, 0, 0) - normal.x * normal);
+        v_ = glm::cross(normal, u_);
+        seen_ = edges_.front(normal, point) ? normal : -normal;
+    }
+
+    void fill(glm::vec3 colour) {
+        const std::uint32_t first = list_.mesh.next();
+        list_.mesh.vertices.push_back({point_, normal_, colour, colour});
+        for (std::uint32_t i = 0; i < corners; ++i) {
+            list_.mesh.vertices.push_back({rim(i), normal_, colour, colour});
+            list_.mesh.triangle(first, first + 1 + i, first + 1 + (i + 1) % corners);
+        }
+    }
+    void outline(glm::vec3 colour) {
+        for (std::uint32_t i = 0; i < corners; ++i) edges_.crease(rim(i), rim(i + 1), seen_, colour);
+    }
+    void lines(glm::vec3 colour) {
+        constexpr int each_way = 3;
+        for (int i = -each_way; i <= each_way; ++i) {
+            const float off = static_cast<float>(i) / static_cast<float>(each_way + 1);
+            const float reach = std::sqrt(1.0f - off * off);
+            edges_.crease(at(off, -reach), at(off, reach), seen_, colour);
+            edges_.crease(at(-reach, off), at(reach, off), seen_, colour);
+        }
+    }
+
+  private:
+    static constexpr std::uint32_t corners = 96;
+
+    glm::vec3 at(float u, float v) const { return point_ + radius_ * (u * u_ + v * v_); }
+    glm::vec3 rim(std::uint32_t i) const {
         const float angle =
             glm::two_pi<float>() * static_cast<float>(i % corners) / static_cast<float>(corners);
-        return point + radius * (std::cos(angle) * u + std::sin(angle) * v);
-    };
-    if (!ground) {
-        list.mesh.vertices.push_back({point, normal, colour, colour});
-        for (std::uint32_t i = 0; i < corners; ++i) {
-            list.mesh.vertices.push_back({rim(static_cast<int>(i)), normal, colour, colour});
-            list.mesh.triangle(first, first + 1 + i, first + 1 + (i + 1) % corners);
-        }
+        return at(std::cos(angle), std::sin(angle));
     }
-    for (int i = 0; i < corners; ++i) {
-        if (ground) {
-            list.line(rim(i), rim(i + 1), 1.5f, glm::vec4(colour, 1.0f));
-        } else {
-            edges.outline(rim(i), rim(i + 1), seen, colour);
-        }
+
+    DrawList& list_;
+    Edges edges_;
+    glm::vec3 point_, normal_, u_, v_, seen_;
+    float radius_;
+};
+
+}  // namespace
+
+void plane_patch(DrawList& list, const Camera& camera, glm::vec3 point, glm::vec3 normal, float radius,
+                 glm::vec3 colour) {
+    if (!can_be_built(point) || !can_be_built(normal) || !(radius > 0.0f && radius <= farthest_built)) return;
+    normal = unit_or(normal, {0.0f, 1.0f, 0.0f});
+    Patch patch(list, camera, point, normal, radius);
+    const bool ground = std::abs(normal.y) > 0.99999f && std::abs(point.y) < 1e-3f * radius;
+    if (ground) {
+        patch.outline(colour);
+        return;
     }
+    // Lines stand out a little, whichever theme the colour is from.
+    const float lightness = glm::dot(colour, glm::vec3(0.30f, 0.59f, 0.11f));
+    const glm::vec3 line = glm::mix(colour, glm::vec3(lightness < 0.5f ? 1.0f : 0.0f), 0.16f);
+    patch.fill(colour);
+    patch.lines(glm::mix(colour, line, 0.5f));
+    patch.outline(line);
 }
 
 }  // namespace tendril::app

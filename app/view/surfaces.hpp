@@ -17,9 +17,9 @@
 
 namespace tendril::app {
 
-/// A round tube along the smooth curve through `centres` (app/view/spline.hpp), with `sides` (3 to 64) around
-/// and half a ball at each end. `colours` has one for each centre, and changes evenly between them; where it
-/// is shorter the last one holds on.
+/// A round tube along the smooth curve through `centres` (app/view/spline.hpp), with `sides` (3 to 64)
+/// around, or fewer where that can't be seen, and half a ball at each end. `colours` has one for each centre,
+/// and changes evenly between them; where it is shorter the last one holds on.
 ///
 /// The curve is divided as finely as can be seen. Where the tube is thinner than two pixels it is strokes,
 /// which fade as they get thinner.

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <vector>
@@ -8,45 +7,23 @@
 #include "app/view/spline.hpp"
 #include "app/view/surface_support.hpp"
 #include "app/view/surfaces.hpp"
+#include "app/view/tube_skin.hpp"
 
 namespace tendril::app {
 namespace {
 
-constexpr int most_sides = 64;
-
-/// One circle of the tube. The half balls at its ends are circles too, which lean towards their poles.
-struct Ring {
-    glm::vec3 centre{0.0f};
-    glm::vec3 axis{0.0f}, u{0.0f}, v{0.0f};  ///< unit; the circle runs from u to v
-    float radius = 0.0f;
-    float lean = 0.0f;     ///< radians that the surface's normal leans towards the axis
-    float pixels = 0.0f;   ///< the tube's radius here
-    unsigned outside = 0;  ///< which borders of the view it is beyond, one bit each
-    glm::vec3 colour{1.0f};
-};
-
 class Tube {
   public:
-    Tube(DrawList& list, const Camera& camera, float radius, int sides)
-        : list_(list),
-          camera_(camera),
-          edges_(list, camera),
-          radius_(radius),
-          sides_(static_cast<std::uint32_t>(std::clamp(sides, 3, most_sides))) {
-        for (std::uint32_t j = 0; j < sides_; ++j) {
-            const float angle = glm::two_pi<float>() * static_cast<float>(j) / static_cast<float>(sides_);
-            circle_[j] = {std::cos(angle), std::sin(angle)};
-        }
-    }
+    Tube(DrawList& list, const Camera& camera, float radius)
+        : list_(list), camera_(camera), edges_(list, camera), radius_(radius) {}
 
-    void build(std::span<const glm::vec3> centres, std::span<const glm::vec3> colours) {
+    void build(std::span<const glm::vec3> centres, int sides, std::span<const glm::vec3> colours) {
         keep(centres, colours);
         if (points_.empty()) return;
         divide();
         set_frames(curve_);
         shadows();
-        rings();
-        skin();
+        skin(sides);
     }
 
   private:
@@ -57,8 +34,8 @@ class Tube {
             if (!can_be_built(centre)) continue;
             const glm::vec3 colour =
                 colours.empty() ? glm::vec3(1.0f) : colours[std::min(i, colours.size() - 1)];
-            const float least = std::max({0.25f * radius_, 0.5f * camera_.metres_per_pixel(centre),
-                                          1e-6f * glm::length(centre), 1e-9f});
+            const float least = std::max(
+                {0.25f * radius_, camera_.metres_per_pixel(centre), 1e-6f * glm::length(centre), 1e-9f});
             if (points_.empty() || glm::distance(points_.back(), centre) >= least) {
                 points_.push_back(centre);
                 colours_.push_back(colour);
@@ -124,18 +101,20 @@ class Tube {
                   .u = point.normal,
                   .v = glm::cross(point.tangent, point.normal),
                   .radius = std::max(radius_ - half_pixel, 0.1f * radius_),
+                  .tube_radius = radius_,
                   .pixels = radius_ * Edges::width / half_pixel,
                   .colour = colours_[i] + t * (colours_[next] - colours_[i])};
         ring.outside = outside(ring.centre, ring.pixels);
         return ring;
     }
 
-    /// Half a ball from its pole to where the tube begins or back.
-    void cap(const Ring& end, float side) {
-        const int count = std::clamp(static_cast<int>(sides_) / 4, 2, 12);
+    /// Half a ball, from its pole to where the tube begins or back.
+    void cap(const Ring& end, float side, int sides) {
+        const int count = std::clamp(sides / 4, 2, 12);
         for (int k = 0; k < count; ++k) {
             const int step = side < 0.0f ? count - k : k + 1;
             Ring ring = end;
+            ring.first = side < 0.0f && k == 0;
             ring.lean = side * glm::half_pi<float>() * static_cast<float>(step) / static_cast<float>(count);
             ring.centre += end.radius * std::sin(ring.lean) * end.axis;
             ring.radius = step == count ? 0.0f : end.radius * std::cos(ring.lean);
@@ -143,87 +122,43 @@ class Tube {
         }
     }
 
-    void rings() {
-        const Ring first = ring(curve_.front()), last = ring(curve_.back());
-        cap(first, -1.0f);
-        for (const CurvePoint& point : curve_) rings_.push_back(ring(point));
-        cap(last, 1.0f);
+    /// As many sides as can be told from a circle, and no more than wanted.
+    int sides(int wanted) const {
+        constexpr float pixels_off = 0.08f;
+        float widest = 0.0f;
+        for (const Ring& ring : circles_)
+            if (ring.outside == 0) widest = std::max(widest, ring.pixels);
+        // The middle of a side is off the circle by this much of the radius: 1 - cos(pi / n).
+        const float needed = glm::pi<float>() * std::sqrt(widest / (2.0f * pixels_off));
+        return std::min(wanted, std::max(static_cast<int>(std::min(needed, 1000.0f)) + 1, 6));
     }
 
-    /// Appends a ring's corners, and tells where they begin.
-    std::uint32_t corners(const Ring& ring) {
-        const std::uint32_t first = list_.mesh.next();
-        const float up = std::sin(ring.lean), out = std::cos(ring.lean);
-        for (std::uint32_t j = 0; j < sides_; ++j) {
-            const glm::vec3 away = circle_[j].x * ring.u + circle_[j].y * ring.v;
-            list_.mesh.vertices.push_back({.position = ring.centre + ring.radius * away,
-                                           .normal = out * away + up * ring.axis,
-                                           .colour = ring.colour,
-                                           .back = ring.colour});
+    void skin(int wanted) {
+        // Where the tube turns right back it ends and begins anew, as a circle can't follow.
+        constexpr float right_back = -0.2f;
+        for (const CurvePoint& point : curve_) circles_.push_back(ring(point));
+        const int count = sides(wanted);
+        for (std::size_t i = 0; i < circles_.size(); ++i) {
+            const bool last = i + 1 == circles_.size();
+            if (i == 0 || glm::dot(circles_[i - 1].axis, circles_[i].axis) < right_back)
+                cap(circles_[i], -1.0f, count);
+            rings_.push_back(circles_[i]);
+            if (last || glm::dot(circles_[i].axis, circles_[i + 1].axis) < right_back)
+                cap(circles_[i], 1.0f, count);
         }
-        return first;
-    }
-
-    /// From each ring to the next: nothing outside the view, a stroke where it is thin, else a band.
-    void skin() {
-        constexpr float thin = 1.0f;
-        bool joined = false;  // the last ring's corners are there, and the band before it
-        std::uint32_t from = 0;
-        for (std::size_t i = 0; i + 1 < rings_.size(); ++i) {
-            const Ring &a = rings_[i], &b = rings_[i + 1];
-            const bool seen = (a.outside & b.outside) == 0;
-            if (!seen || (a.pixels < thin && b.pixels < thin)) {
-                if (seen && a.lean == 0.0f && b.lean == 0.0f) stroke(a, b);
-                joined = false;
-                continue;
-            }
-            if (!joined) from = corners(a);
-            const std::uint32_t to = corners(b);
-            band(from, to, joined);
-            from = to;
-            joined = true;
-        }
-        if (curve_.size() == 1 && rings_[0].pixels < thin) stroke(rings_[0], rings_[0]);
-    }
-
-    void stroke(const Ring& a, const Ring& b) {
-        list_.bone(a.centre, b.centre, radius_, radius_, glm::vec4(0.5f * (a.colour + b.colour), 1.0f));
-    }
-
-    void band(std::uint32_t from, std::uint32_t to, bool joined) {
-        std::array<bool, most_sides> front{};
-        for (std::uint32_t j = 0; j < sides_; ++j) {
-            const std::uint32_t k = j + 1 == sides_ ? 0 : j + 1;
-            list_.mesh.triangle(from + j, from + k, to + j);
-            list_.mesh.triangle(to + j, from + k, to + k);
-            const glm::vec3 corner = at(from + j);
-            front[j] = edges_.front(glm::cross(at(to + k) - corner, at(to + j) - at(from + k)), corner);
-        }
-        for (std::uint32_t j = 0; j < sides_; ++j) {
-            const std::uint32_t k = j + 1 == sides_ ? 0 : j + 1;
-            if (front[j] != front[k]) edge(from + k, to + k);
-            if (joined && front[j] != front_before_[j]) edge(from + j, from + k);
-        }
-        front_before_ = front;
-    }
-
-    glm::vec3 at(std::uint32_t vertex) const { return list_.mesh.vertices[vertex].position; }
-
-    void edge(std::uint32_t a, std::uint32_t b) {
-        const Vertex &p = list_.mesh.vertices[a], &q = list_.mesh.vertices[b];
-        edges_.outline(p.position, q.position, p.normal + q.normal, 0.5f * (p.colour + q.colour));
+        TubeSkin(list_, camera_, count).cover(rings_);
+        constexpr float thin = 1.0f;  // then a skin has no caps
+        if (circles_.size() == 1 && circles_[0].pixels < thin)
+            list_.sphere(circles_[0].centre, radius_, Unit::Metres, glm::vec4(circles_[0].colour, 1.0f));
     }
 
     DrawList& list_;
     const Camera& camera_;
     Edges edges_;
     float radius_;
-    std::uint32_t sides_;
-    std::array<glm::vec2, most_sides> circle_{};
-    std::array<bool, most_sides> front_before_{};
     std::vector<glm::vec3> points_, colours_;
     std::vector<CurvePoint> curve_;
-    std::vector<Ring> rings_;
+    std::vector<Ring> circles_, rings_;  ///< along the curve; with caps
 };
 
 }  // namespace
@@ -231,7 +166,7 @@ class Tube {
 void tube(DrawList& list, const Camera& camera, std::span<const glm::vec3> centres, float radius, int sides,
           std::span<const glm::vec3> colours) {
     if (!(radius > 0.0f && radius <= farthest_built)) return;
-    Tube(list, camera, radius, sides).build(centres, colours);
+    Tube(list, camera, radius).build(centres, std::clamp(sides, 3, TubeSkin::most_sides), colours);
 }
 
 }  // namespace tendril::app

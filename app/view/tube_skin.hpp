@@ -1,0 +1,58 @@
+// The surface of a tube from the circles that it runs through: bands of triangles from each to the next, the
+// outline as this camera sees it, and threads where the tube is thin.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "app/view/edges.hpp"
+
+namespace tendril::app {
+
+/// One circle of a tube. The half balls at its ends are circles too, which lean towards their poles.
+struct Ring {
+    glm::vec3 centre{0.0f};
+    glm::vec3 axis{0.0f}, u{0.0f}, v{0.0f};  ///< unit; the circle runs from u to v
+    float radius = 0.0f;                     ///< of the circle, metres
+    float lean = 0.0f;                       ///< radians that the surface's normal leans towards the axis
+    float tube_radius = 0.0f;                ///< metres
+    float pixels = 0.0f;                     ///< the same
+    unsigned outside = 0;                    ///< which borders of the view it is beyond, one bit each
+    bool first = false;                      ///< nothing leads here from the ring before
+    glm::vec3 colour{1.0f};
+};
+
+class TubeSkin {
+  public:
+    static constexpr int most_sides = 64;
+
+    TubeSkin(DrawList& list, const Camera& camera, int sides);
+
+    /// What is turned away from the eye is left out: the tube is closed, so nobody can see it.
+    void cover(std::span<const Ring> rings);
+
+  private:
+    /// Where the tube bends more sharply than it is thick, the inner side of the bend lies inside the tube.
+    enum class Facing : std::uint8_t { Away, Front, Inside };
+    using PerSide = std::array<Facing, most_sides>;
+
+    std::uint32_t corners(const Ring& ring);
+    void band(std::uint32_t from, std::uint32_t to, bool joined);
+    Facing facing(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
+    void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+    void edge(Facing one, Facing other, std::uint32_t a, std::uint32_t b);
+    glm::vec3 at(std::uint32_t vertex) const { return list_.mesh.vertices[vertex].position; }
+    std::uint32_t after(std::uint32_t side) const { return side + 1 == sides_ ? 0 : side + 1; }
+
+    DrawList& list_;
+    Edges edges_;
+    std::uint32_t sides_;
+    std::array<glm::vec2, most_sides> circle_{};
+    PerSide last_{};         ///< of the last band
+    float outwards_ = 1.0f;  ///< how much farther out than the last ring the middle of its outline is
+};
+
+}  // namespace tendril::app
