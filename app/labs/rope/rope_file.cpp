@@ -5,6 +5,7 @@
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_names.hpp"
 #include "app/labs/rope/rope_part.hpp"
+#include "app/labs/rope/rope_time.hpp"
 #include "app/labs/rope/world_file.hpp"
 
 namespace tendril::app {
@@ -28,6 +29,11 @@ Swing load_swing(const Json& json, const std::string& where) {
     swing.middle = json_point(read("middle"), where + ".middle");
     swing.swing = json_point(read("swing"), where + ".swing");
     swing.period = json_number(read("period"), where + ".period", shortest_swing, longest_swing);
+    try {
+        require(swing);
+    } catch (const std::invalid_argument& error) {
+        fail(where, error.what());
+    }
     return swing;
 }
 

@@ -110,7 +110,11 @@ bool in_range(const rope::World& world) {
     const rope::State& state = world.state();
     for (std::size_t i = 0; i < world.size(); ++i)
         if (!inside(state.position[i]) || !inside(state.moved[i]) || !inside(state.before[i])) return false;
-    return true;
+    // As these are in a file too: what was torn apart that far is as good as gone.
+    return std::all_of(state.bodies.begin(), state.bodies.end(),
+                       [](const rope::Body& body) { return body.stretch <= max_magnitude; }) &&
+           std::all_of(state.links.begin(), state.links.end(),
+                       [](const rope::Link& link) { return std::isfinite(link.tension); });
 }
 
 }  // namespace tendril::app

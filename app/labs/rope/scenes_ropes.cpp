@@ -1,5 +1,6 @@
 // Scenes of ropes.
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
 #include "app/labs/rope/scenes.hpp"
@@ -23,10 +24,10 @@ RopeScene drape_scene() {
                     .pin_end = true});
     world.pin(world.particle("rope", 0), {-hands, height, 0}, 1.2);
     world.pin(world.particle("rope", 80), {hands, height, 0}, 1.2);
-    const float lengths[] = {1.7f, 1.4f, 1.9f, 1.5f};
-    const float places[] = {-0.5f, -0.25f, 0.25f, 0.5f};
-    for (int i = 0; i < 4; ++i) {
-        const float length = lengths[i], shift = 0.06f * static_cast<float>(i - 1);
+    const float lengths[] = {1.8f, 1.4f, 2.0f};
+    const float places[] = {-0.5f, 0.28f, 0.55f};
+    for (int i = 0; i < 3; ++i) {
+        const float length = lengths[i], shift = 0.05f * static_cast<float>(i - 1);
         world.add_rope({.name = "short " + std::to_string(i + 1),
                         .from = {0.8f + shift - 0.5f * length, 1.45f, places[i]},
                         .to = {0.8f + shift + 0.5f * length, 1.45f, places[i]},
@@ -36,7 +37,7 @@ RopeScene drape_scene() {
     return scene;
 }
 
-/// A deck and two hand ropes between four posts; a ball rolls to and fro over it.
+/// A deck of ropes and two hand ropes between four posts; a ball rolls to and fro over it.
 RopeScene bridge_scene() {
     RopeScene scene;
     rope::World& world = scene.world;
@@ -58,24 +59,23 @@ RopeScene bridge_scene() {
                         .pin_start = true,
                         .pin_end = true});
     }
-    constexpr int columns = 7, rows = 61;
-    const float half = side - 0.08f;
-    world.add_sheet({.name = "deck",
-                     .corner = {-from, deck, -half},
-                     .along = {0, 0, 2.0f * half},
-                     .down = {2.0f * from * 1.03f, 0, 0},
-                     .columns = columns,
-                     .rows = rows,
-                     .radius = 0.012f,
-                     .density = 2.0f,
-                     .pins = rope::SheetShape::Pins::Row});
-    for (int i = 0; i < columns; ++i) {
-        const float z = half * (2.0f * static_cast<float>(i) / (columns - 1) - 1.0f);
-        world.pin(world.particle("deck", static_cast<std::size_t>((rows - 1) * columns + i)), {from, deck, z},
-                  0.5);
+    constexpr int strands = 6;
+    const float half = side - 0.1f;
+    for (int i = 0; i < strands; ++i) {
+        const float z = half * (2.0f * static_cast<float>(i) / (strands - 1) - 1.0f);
+        world.add_rope({.name = "deck " + std::to_string(i + 1),
+                        .from = {-from, deck, z},
+                        .to = {from, deck, z},
+                        .segments = 64,
+                        .length = 2.0f * from * 1.01f,
+                        .radius = 0.025f,
+                        .density = 2.0f,
+                        .pin_start = true,
+                        .pin_end = true});
     }
-    world.add_collider("ball", rope::Sphere{{0.0f, 0.92f, 0.0f}, 0.22f});
-    scene.swings.push_back({"ball", {0.0f, 0.92f, 0.0f}, {1.2f, 0.0f, 0.0f}, 9.0f});
+    const glm::vec3 roll(0.0f, 0.92f, 0.0f);  // so low that the deck gives way under it
+    world.add_collider("ball", rope::Sphere{roll, 0.22f});
+    scene.swings.push_back({"ball", roll, {1.1f, 0.0f, 0.0f}, 9.0f});
     rope::Settings settings = world.settings();
     settings.damping = 0.6f;
     settings.friction = 0.2f;
@@ -100,7 +100,7 @@ RopeScene pendulum_scene() {
         const float period = seconds / static_cast<float>(slowest_swings + i);
         const float turn = period / glm::two_pi<float>();
         const float length = 9.81f * turn * turn;
-        const glm::vec3 pivot(apart * (static_cast<float>(i) - 0.5f * (count - 1)), beam, 0.0f);
+        const glm::vec3 pivot(apart * (static_cast<float>(i) - 0.5f * (count - 1)), beam - 0.01f, 0.0f);
         const std::string name = "pendulum " + std::to_string(i + 1);
         world.add_rope({.name = name,
                         .from = pivot,
@@ -136,12 +136,15 @@ RopeScene well_scene() {
             rope::Box{centre, {0.05f, 0.2f, 0.155f}, glm::angleAxis(-angle, glm::vec3(0, 1, 0))});
     }
     const glm::vec3 hand(-1.15f, 0.75f, 0.0f);
-    world.add_collider("hand", rope::Sphere{hand, 0.06f});
+    constexpr float fist = 0.06f;
+    world.add_collider("hand", rope::Sphere{hand, fist});
     // From the hand up to the drum, over it, and down into the shaft.
-    std::vector<glm::vec3> line{hand};
     const glm::vec3 axis(0, drum, 0);
     const float reach = glm::distance(hand, axis);
     const float touch = std::atan2(hand.y - axis.y, hand.x - axis.x) - std::acos(out / reach);
+    const glm::vec3 tangent = axis + out * glm::vec3(std::cos(touch), std::sin(touch), 0);
+    const glm::vec3 pull = glm::normalize(tangent - hand);
+    std::vector<glm::vec3> line{hand + (fist + rope_radius + 0.005f) * pull};
     constexpr int pieces = 24;
     const float over = touch < 0.0f ? touch + glm::two_pi<float>() : touch;
     for (int i = 0; i <= pieces; ++i) {
@@ -157,11 +160,11 @@ RopeScene well_scene() {
                     .radius = rope_radius,
                     .density = 0.4f});
     lay(world, "rope", line);
-    weigh_down(world, "rope", 4, 4.0);
+    weigh_down(world, "rope", 4, 0.5);
     world.attach(world.particle("rope", 0), "hand");
-    const glm::vec3 pull(0.22f, -0.22f, 0.0f);
-    scene.swings.push_back({"hand", hand, pull, 6.0f});
+    scene.swings.push_back({"hand", hand, 0.24f * pull, 6.0f});
     rope::Settings settings = world.settings();
+    settings.substep = 1.0 / 480.0;  // a weight over a drum wants finer steps
     settings.damping = 0.4f;
     settings.friction = 0.15f;
     world.set_settings(settings);

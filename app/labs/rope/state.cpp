@@ -14,7 +14,8 @@ Json body_state(const rope::World& world, const rope::Body& body, const std::vec
               {"length", world.length(body)},
               {"radius", number(body.radius)},
               {"particles", std::move(particles)},
-              {"stretch", world.stretch(body)},
+              {"stretch", number(body.stretch)},
+              {"length_error", world.length_error(body)},
               {"energy", world.energy(body)}};
     if (body.kind != rope::Body::Kind::Rope) json["row"] = body.row;
     return json;

@@ -106,6 +106,7 @@ Json save_body(const rope::Body& body) {
               {"first", body.first}, {"count", body.count},
               {"row", body.row},     {"radius", number(body.radius)}};
     if (body.tear != 0.0f) json["tear"] = number(body.tear);
+    if (body.stretch != 0.0f) json["stretch"] = number(body.stretch);
     return json;
 }
 
@@ -122,6 +123,7 @@ rope::Body load_body(const Json& json, const std::string& where) {
     body.row = size("row");
     body.radius = json_number(read("radius"), where + ".radius");
     if (json.contains("tear")) body.tear = json_number(json["tear"], where + ".tear");
+    if (json.contains("stretch")) body.stretch = json_number(json["stretch"], where + ".stretch");
     return body;
 }
 

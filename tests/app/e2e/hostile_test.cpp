@@ -85,6 +85,10 @@ class Monkey {
                 case ArgumentType::Boolean:
                     arguments[argument.name] = coin();
                     break;
+                case ArgumentType::NumberOrPoint:
+                    arguments[argument.name] = coin() ? any_number() : any_point();
+                    break;
+                case ArgumentType::Rotation:
                 case ArgumentType::Point:
                     arguments[argument.name] = any_point();
                     break;

@@ -1,0 +1,84 @@
+// Arguments that take more than one form.
+#include "app/document/command.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/app/support/test_part.hpp"
+
+namespace tendril::app {
+namespace {
+
+struct CommandArguments : testing::Test {
+    Workspace workspace = test::make_workspace();
+    CommandTable table;
+    bool was_point = false;
+    glm::vec3 pull{0.0f};
+    glm::quat turn{1.0f, 0.0f, 0.0f, 0.0f};
+
+    CommandArguments() {
+        table.add({.name = "test.pull",
+                   .arguments = {{.name = "by", .type = ArgumentType::NumberOrPoint, .low = -5, .high = 5}},
+                   .help = {},
+                   .apply = [this](Workspace&, const Arguments& a) {
+                       was_point = a.is_point("by");
+                       pull = was_point ? a.point("by") : glm::vec3(a.number("by"));
+                   }});
+        table.add({.name = "test.turn",
+                   .arguments = {{.name = "to", .type = ArgumentType::Rotation}},
+                   .help = {},
+                   .apply = [this](Workspace&, const Arguments& a) { turn = a.rotation("to"); }});
+    }
+    std::string refused(const char* name, const Json& arguments) {
+        try {
+            table.run(workspace, name, arguments);
+        } catch (const Refused& refusal) {
+            return refusal.what();
+        }
+        ADD_FAILURE() << arguments << " was accepted";
+        return {};
+    }
+};
+
+TEST_F(CommandArguments, ANumberOrAPoint) {
+    table.run(workspace, "test.pull", {{"by", 3}});
+    EXPECT_FALSE(was_point);
+    EXPECT_EQ(pull, glm::vec3(3));
+    table.run(workspace, "test.pull", {{"by", {1, 2, 9}}});
+    EXPECT_TRUE(was_point);
+    EXPECT_EQ(pull, glm::vec3(1, 2, 9));
+    const std::string rule = "test.pull: by must be a number or a point [x, y, z], got ";
+    EXPECT_EQ(refused("test.pull", {{"by", "3"}}), rule + "\"3\"");
+    EXPECT_EQ(refused("test.pull", {{"by", {1, 2}}}), rule + "[1,2]");
+    EXPECT_EQ(refused("test.pull", {{"by", 6}}), "test.pull: by must be at most 5.0, got 6");
+    EXPECT_EQ(refused("test.pull", {{"by", {1, 2, "z"}}}),
+              "test.pull: by must be three finite numbers of at most 1e9 in magnitude, got [1,2,\"z\"]");
+    refused("test.pull", {{"by", std::nan("")}});
+    refused("test.pull", {{"by", {0, HUGE_VAL, 0}}});
+    EXPECT_EQ(refused("test.pull", Json::object()),
+              "test.pull: by is missing (a number or a point [x, y, z])");
+}
+
+TEST_F(CommandArguments, ARotation) {
+    const float half = std::sqrt(0.5f);
+    table.run(workspace, "test.turn", {{"to", {0, 0, 90}}});
+    EXPECT_LT(glm::length(turn * glm::vec3(1, 0, 0) - glm::vec3(0, 1, 0)), 1e-6f);
+    table.run(workspace, "test.turn", {{"to", {90, 0, 90}}});  // about X first, then about Z
+    EXPECT_LT(glm::length(turn * glm::vec3(0, 1, 0) - glm::vec3(0, 0, 1)), 1e-6f);
+    table.run(workspace, "test.turn", {{"to", {half, 0, 0, half}}});
+    EXPECT_LT(glm::length(turn * glm::vec3(0, 1, 0) - glm::vec3(0, 0, 1)), 1e-6f);
+    table.run(workspace, "test.turn", {{"to", {0.7071, 0, 0, 0.7071}}});
+    EXPECT_NEAR(glm::length(turn), 1.0f, 1e-6f)
+        << "written with few digits, it is of unit length all the same";
+    EXPECT_EQ(refused("test.turn", {{"to", {0, 0, 0, 0}}}),
+              "test.turn: to must be a quaternion [x, y, z, w] of length 1, got [0,0,0,0]");
+    EXPECT_EQ(refused("test.turn", {{"to", 90}}),
+              "test.turn: to must be a unit quaternion [x, y, z, w] or angles in degrees [x, y, z], got 90");
+    refused("test.turn", {{"to", {0, 0}}});
+    refused("test.turn", {{"to", {0, std::nan(""), 0}}});
+    refused("test.turn", {{"to", {0, 0, 0, HUGE_VAL}}});
+}
+
+}  // namespace
+}  // namespace tendril::app

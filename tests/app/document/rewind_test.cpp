@@ -1,0 +1,146 @@
+#include "app/document/rewind.hpp"
+
+#include <gtest/gtest.h>
+
+#include "app/document/command.hpp"
+#include "tests/app/support/test_part.hpp"
+
+namespace tendril::app {
+namespace {
+
+using test::make_part;
+using test::TestPart;
+
+std::string title_at(const Rewind& rewind, std::uint64_t ticks_back) {
+    return dynamic_cast<const TestPart&>(*rewind.at(ticks_back).part).title;
+}
+
+void remember(Rewind& rewind, std::uint64_t from, std::uint64_t to, std::size_t floats = 0) {
+    for (std::uint64_t tick = from; tick <= to; ++tick)
+        rewind.remember(tick, make_part(std::to_string(tick), std::vector<float>(floats)));
+}
+
+TEST(Rewind, KeepsTheLastTenSeconds) {
+    Rewind rewind;
+    EXPECT_TRUE(rewind.empty());
+    remember(rewind, 0, 1000);
+    EXPECT_EQ(rewind.newest(), 1000u);
+    EXPECT_EQ(rewind.oldest(), 400u);
+    EXPECT_EQ(rewind.size(), 601u);
+    EXPECT_EQ(title_at(rewind, 0), "1000");
+    EXPECT_EQ(title_at(rewind, 123), "877");
+    EXPECT_EQ(title_at(rewind, 9999), "400");
+    rewind.clear();
+    EXPECT_TRUE(rewind.empty());
+    EXPECT_EQ(rewind.bytes(), 0u);
+}
+
+TEST(Rewind, ForgetsWhatCameAfterWhenTimeGoesOnFromAnEarlierMoment) {
+    Rewind rewind;
+    remember(rewind, 0, 100);
+    rewind.remember(40, make_part("again"));
+    EXPECT_EQ(rewind.newest(), 40u);
+    EXPECT_EQ(title_at(rewind, 0), "again");
+    EXPECT_EQ(title_at(rewind, 1), "39");
+    rewind.forget_from(10);
+    EXPECT_EQ(rewind.newest(), 9u);
+    rewind.forget_from(0);
+    EXPECT_TRUE(rewind.empty());
+}
+
+TEST(Rewind, StaysWithinItsBoundAndThinsEvenly) {
+    constexpr std::size_t bound = 1 << 20;
+    Rewind rewind(bound);
+    for (std::uint64_t tick = 0; tick <= 2000; ++tick) {
+        remember(rewind, tick, tick, 2000);  // 8 kB each: 130 have room
+        ASSERT_LE(rewind.bytes(), bound);
+        ASSERT_EQ(rewind.newest(), tick);
+    }
+    EXPECT_LE(rewind.newest() - rewind.oldest(), 600u);
+    EXPECT_GE(rewind.newest() - rewind.oldest(), 590u) << "ten seconds all the same";
+    EXPECT_GT(rewind.size(), 50u);
+    EXPECT_EQ(title_at(rewind, 0), "2000");
+    for (std::uint64_t back = 10; back < 590; ++back)
+        EXPECT_NEAR(std::stod(title_at(rewind, back)), 2000.0 - static_cast<double>(back), 8.0);
+
+    remember(rewind, 2001, 3200, 0);  // small again: every tick is kept again
+    EXPECT_EQ(rewind.size(), 601u);
+}
+
+TEST(Rewind, KeepsTheNewestHoweverLarge) {
+    Rewind rewind(100);
+    remember(rewind, 0, 5, 1000);
+    EXPECT_EQ(rewind.size(), 1u);
+    EXPECT_EQ(title_at(rewind, 3), "5");
+}
+
+/// A workspace whose open lab has run for a while, as the program lets it.
+struct Seek : testing::Test {
+    Workspace workspace = test::make_workspace();
+    CommandTable table;
+    Seek() {
+        add_workspace_commands(table);
+        table.add({.name = "arm.title",
+                   .arguments = {{.name = "title", .type = ArgumentType::Text}},
+                   .help = {},
+                   .apply = [](Workspace& w, const Arguments& a) {
+                       w.document.edit<TestPart>("arm").title = a.text("title");
+                   }});
+    }
+    void play(int ticks) {
+        for (int i = 0; i < ticks; ++i) {
+            workspace.rewind.remember(workspace.clock.tick, workspace.document.parts().at("arm"));
+            ++workspace.clock.tick;
+            workspace.document.edit<TestPart>("arm").title = std::to_string(workspace.clock.tick);
+        }
+    }
+    std::string seek(int ticks_back) {
+        table.run(workspace, "time.seek", {{"ticks_back", ticks_back}});
+        return title();
+    }
+    std::string title() { return workspace.document.get<TestPart>("arm").title; }
+};
+
+TEST_F(Seek, GoesBackAndForwardAndPauses) {
+    EXPECT_THROW(seek(1), Refused);
+    play(100);
+    EXPECT_EQ(seek(0), "100");
+    EXPECT_EQ(seek(30), "70");
+    EXPECT_FALSE(workspace.clock.playing);
+    EXPECT_EQ(workspace.clock.tick, 70u);
+    EXPECT_EQ(seek(10), "90") << "counted from the last moment, wherever one is";
+    EXPECT_EQ(seek(0), "100");
+    EXPECT_EQ(workspace.history.size(), 0u);
+}
+
+TEST_F(Seek, PlayingOnForgetsWhatCameAfter) {
+    play(100);
+    seek(60);
+    play(1);
+    EXPECT_EQ(title(), "41");
+    EXPECT_EQ(seek(0), "41");
+    EXPECT_EQ(seek(1), "40");
+    EXPECT_EQ(seek(600), "blank arm");
+}
+
+TEST_F(Seek, AnEditForgetsWhatCameAfterAndUndoEverything) {
+    play(100);
+    seek(60);
+    table.run(workspace, "arm.title", {{"title", "edited"}});
+    EXPECT_EQ(seek(0), "edited");
+    EXPECT_EQ(seek(5), "35");
+    EXPECT_EQ(seek(0), "edited");
+    table.run(workspace, "undo", Json::object());
+    EXPECT_TRUE(workspace.rewind.empty());
+    EXPECT_EQ(title(), "40");
+    play(3);
+    for (const char* command : {"scene.new", "lab.open"}) {
+        play(3);
+        EXPECT_FALSE(workspace.rewind.empty());
+        table.run(workspace, command, command[0] == 'l' ? Json{{"name", "rope"}} : Json::object());
+        EXPECT_TRUE(workspace.rewind.empty()) << command;
+    }
+}
+
+}  // namespace
+}  // namespace tendril::app

@@ -1,0 +1,150 @@
+// The Rope lab in the running program: dragged by the mouse, played back, and gone back in time.
+#include <glm/geometric.hpp>
+
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+using app::Json;
+
+ScriptText rope_lab(const char* scene = "drape") {
+    return ScriptText().command("lab.open", {{"name", "rope"}}).command("rope.preset", {{"name", scene}});
+}
+
+const Json& collider(const Json& state, const std::string& name) {
+    for (const Json& each : state.at("colliders"))
+        if (each.at("name") == name) return each;
+    throw std::runtime_error("there is no collider " + name);
+}
+
+/// A drag through points, in steps of a few pixels as a hand makes them, held at the end.
+ScriptText& slowly(ScriptText& script, glm::vec2 from, glm::vec2 to, int steps = 40) {
+    script.move(from).down();
+    for (int i = 1; i <= steps; ++i)
+        script.move(glm::mix(from, to, static_cast<float>(i) / static_cast<float>(steps)));
+    return script;
+}
+
+TEST(RopeInTheWindow, ABallDraggedThroughARopeCarriesIt) {
+    const ScriptText before = rope_lab().wait(90);
+    const Json start = state_after(before);
+    const glm::vec2 at = handle(start, "collider.ball");
+    ScriptText script = before;
+    slowly(script, at, at - glm::vec2(0, 120)).up().wait(5);
+    const Json state = state_after(script);
+    const double lifted = collider(state, "ball")["centre"][1].get<double>() -
+                          collider(start, "ball")["centre"][1].get<double>();
+    EXPECT_GT(lifted, 0.4);
+    const auto top = [](const Json& s) {
+        double highest = -9.0;
+        for (const Json& particle : s["ropes"][0]["particles"])
+            if (std::abs(particle["position"][0].get<double>() + 0.65) < 0.2)
+                highest = std::max(highest, particle["position"][1].get<double>());
+        return highest;
+    };
+    EXPECT_NEAR(top(state) - top(start), lifted, 0.1) << "the rope that lay on it went up with it";
+    EXPECT_EQ(state["substeps_dropped"], 0);
+
+    // The whole drag is one step.
+    const Json back = state_after(script.command("undo"));
+    EXPECT_NEAR(collider(back, "ball")["centre"][1].get<double>(), 0.95, 1e-6);
+}
+
+TEST(RopeInTheWindow, AParticleThatIsDraggedIsHeldUntilItIsDropped) {
+    const ScriptText before = rope_lab().wait(90);
+    const glm::vec2 at = handle(state_after(before), "rope.60");
+    ScriptText held = before;
+    slowly(held, at, at - glm::vec2(0, 80), 20).wait(20);
+    const Json pulled = state_after(held);
+    EXPECT_EQ(pulled["held"]["rope"], "rope");
+    EXPECT_EQ(state_after(ScriptText(held).up())["held"], nullptr);
+    EXPECT_EQ(state_after(ScriptText(held).key("escape"))["held"], nullptr);
+    EXPECT_EQ(state_after(ScriptText(held).line({{"focus", false}}))["held"], nullptr);
+    EXPECT_TRUE(
+        play(ScriptText(held).up().command("undo").command("undo", Json::object(), true)).outcome.exit_code ==
+        0)
+        << "only the preset can be undone";
+}
+
+TEST(RopeInTheWindow, ARecordingOfItAllEndsInTheSameState) {
+    const TempFolder folder;
+    const ScriptText begin = rope_lab("hair").wait(30);
+    const glm::vec2 head = handle(state_after(begin), "collider.head");
+    ScriptText script = begin;
+    script.command("rope.torture", {{"dial", 0.8}}).command("time.speed", {{"factor", 0.7}});
+    slowly(script, head, head + glm::vec2(60, -30), 25).up();
+    script.wait(30)
+        .command("time.seek", {{"ticks_back", 20}})
+        .command("time.play")
+        .wait(12)
+        .command("rope.settings", {{"solver", "xpbd"}, {"gravity", {1, -5, 0}}})
+        .wait(10)
+        .command("undo")
+        .wait(3)
+        .command("lab.open", {{"name", "chain"}})
+        .command("lab.open", {{"name", "rope"}})
+        .wait(3);
+    const std::string recording = (folder / "r.jsonl").string();
+    const Json recorded = play(script, {.more = {"--record", recording}}).state;
+    const auto replay = [&](const std::string& path) {
+        const std::string state = (folder / "s.json").string();
+        EXPECT_TRUE(succeeded(run_program({"--headless", "--script", path, "--state", state})));
+        return app::parse_json(read(state));
+    };
+    EXPECT_EQ(replay(recording), recorded);
+    // And one that begins in the midst of it, from a scene file.
+    const std::string scene = (folder / "scene.json").string();
+    state_after(ScriptText(begin)
+                    .command("rope.torture", {{"dial", 0.5}})
+                    .wait(7)
+                    .command("scene.save", {{"path", scene}}));
+    const Json from_file = play(ScriptText()
+                                    .wait(20)
+                                    .command("rope.collider.move", {{"name", "head"}, {"to", {0, 1.5, 0}}})
+                                    .wait(9),
+                                {.more = {scene, "--record", recording}})
+                               .state;
+    EXPECT_EQ(from_file["lab"], "rope");
+    EXPECT_EQ(replay(recording), from_file);
+}
+
+TEST(RopeInTheWindow, TimeGoesBackAndOnFromThere) {
+    ScriptText script = rope_lab("cloth").wait(100);
+    const Json then = state_after(script);
+    script.wait(50).command("time.seek", {{"ticks_back", 50}});
+    Json back = state_after(script);
+    EXPECT_EQ(back["time"]["playing"], false);
+    EXPECT_EQ(back["time"]["ticks_back"], 50);
+    EXPECT_EQ(back["time"]["remembered"], 150);
+    EXPECT_EQ(back["sheets"], then["sheets"]);
+    EXPECT_EQ(back["seconds"], then["seconds"]);
+
+    // What is looked at stays, and playing on comes to the same, as nothing was changed.
+    const Json again = state_after(ScriptText(script)
+                                       .command("rope.tool", {{"name", "cut"}})
+                                       .command("time.seek", {{"ticks_back", 100}})
+                                       .command("time.play")
+                                       .wait(50));
+    EXPECT_EQ(again["tool"], "cut");
+    EXPECT_EQ(again["sheets"], then["sheets"]);
+    EXPECT_EQ(again["time"]["ticks_back"], 0);
+    EXPECT_EQ(play(ScriptText().command("time.seek", {{"ticks_back", 1}}, true)).outcome.exit_code, 0);
+}
+
+TEST(RopeInTheWindow, EachLabHasItsOwnCamera) {
+    const Json chain = state_after(ScriptText().wait(1))["camera"];
+    const Json rope = state_after(rope_lab())["camera"];
+    EXPECT_NE(rope, chain);
+    EXPECT_EQ(play(ScriptText().wait(1), {.more = {"--lab", "rope"}}).state["camera"], rope);
+    const ScriptText turned = ScriptText()
+                                  .command("lab.open", {{"name", "rope"}})
+                                  .command("camera.set", {{"yaw_deg", 77}})
+                                  .command("lab.open", {{"name", "chain"}});
+    EXPECT_EQ(state_after(turned)["camera"], chain);
+    EXPECT_EQ(state_after(ScriptText(turned).command("lab.open", {{"name", "rope"}}))["camera"]["yaw_deg"],
+              77.0);
+}
+
+}  // namespace
+}  // namespace tendril::test

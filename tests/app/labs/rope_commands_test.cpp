@@ -1,0 +1,265 @@
+// The Rope lab's commands: what each does, and what --state says of it.
+#include "app/labs/rope/rope_time.hpp"
+#include "app/labs/rope/scenes.hpp"
+#include "tests/app/labs/rope_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+class RopeCommands : public RopeTest {};
+
+TEST_F(RopeCommands, AfterClearThereIsNoRopeAndNoCollider) {
+    run("rope.preset", {{"name", "hair"}});
+    run("rope.clear");
+    EXPECT_EQ(state().at("ropes"), Json::array());
+    EXPECT_EQ(state().at("locks"), Json::array());
+    EXPECT_EQ(state().at("colliders"), Json::array());
+    EXPECT_TRUE(part().swings.empty());
+    run("undo");
+    EXPECT_EQ(state().at("locks").size(), 1u);
+}
+
+TEST_F(RopeCommands, AddLaysARopeStraightOrHanging) {
+    run("rope.clear");
+    run("rope.add", {{"from", {0, 1, 0}}, {"to", {2, 1, 0}}});
+    run("rope.add", {{"from", {0, 1, 1}},
+                     {"to", {1, 1, 1}},
+                     {"name", "slack"},
+                     {"segments", 10},
+                     {"length", 1.5},
+                     {"radius", 0.05},
+                     {"pin_start", true},
+                     {"pin_end", true}});
+    const Json ropes = state().at("ropes");
+    ASSERT_EQ(ropes.size(), 2u);
+    EXPECT_EQ(ropes[0]["name"], "rope");
+    EXPECT_EQ(ropes[0]["particles"].size(), 33u);
+    EXPECT_NEAR(ropes[0]["length"].get<double>(), 2.0, 1e-6);
+    EXPECT_EQ(ropes[0]["particles"][16]["position"], Json::array({1.0, 1.0, 0.0}));
+    EXPECT_EQ(ropes[0]["particles"][0]["pinned"], false);
+    EXPECT_EQ(ropes[1]["name"], "slack");
+    EXPECT_EQ(ropes[1]["particles"][0]["pinned"], true);
+    EXPECT_EQ(ropes[1]["particles"][5]["pinned"], false);
+    EXPECT_EQ(ropes[1]["particles"][10]["pinned"], true);
+    EXPECT_NEAR(ropes[1]["length"].get<double>(), 1.5, 1e-5);
+    EXPECT_LT(ropes[1]["particles"][5]["position"][1].get<double>(), 0.6);
+    EXPECT_EQ(world().find("slack")->radius, 0.05f);
+    EXPECT_TRUE(ropes[0].contains("stretch") && ropes[0].contains("energy"));
+}
+
+TEST_F(RopeCommands, StateIsTheSpecsAndMore) {
+    const Json now = state();
+    for (const char* member : {"lab", "ropes", "sheets", "locks", "colliders", "substeps_dropped", "settings",
+                               "seconds", "speed", "tool", "selected", "held"})
+        EXPECT_TRUE(now.contains(member)) << member;
+    EXPECT_EQ(now["lab"], "rope");
+    run("rope.clear");
+    run("rope.collider.add", {{"name", "b"},
+                              {"kind", "box"},
+                              {"centre", {1, 2, 3}},
+                              {"half_extents", {1, 2, 3}},
+                              {"rotation", {0, 0, 90}}});
+    run("rope.collider.add",
+        {{"name", "c"}, {"kind", "capsule"}, {"a", {0, 0, 0}}, {"b", {2, 0, 0}}, {"radius", 0.5}});
+    run("rope.collider.add", {{"name", "p"}, {"kind", "plane"}, {"point", {0, 0, 0}}, {"normal", {0, 2, 0}}});
+    run("rope.collider.add", {{"name", "s"}, {"kind", "sphere"}, {"centre", {0, 1, 0}}, {"radius", 0.25}});
+    const Json colliders = state().at("colliders");
+    ASSERT_EQ(colliders.size(), 4u);
+    EXPECT_EQ(colliders[0]["kind"], "box");
+    EXPECT_NEAR(colliders[0]["rotation"][2].get<double>(), std::sqrt(0.5), 1e-6);
+    EXPECT_NEAR(colliders[0]["rotation"][3].get<double>(), std::sqrt(0.5), 1e-6);
+    EXPECT_EQ(colliders[1]["centre"], Json::array({1.0, 0.0, 0.0}));
+    EXPECT_EQ(colliders[2]["normal"], Json::array({0.0, 2.0, 0.0}));
+    EXPECT_EQ(colliders[3]["radius"], 0.25);
+}
+
+TEST_F(RopeCommands, PinTakesAParticleThereInOneTickAndUnpinLetsItFall) {
+    single_rope();
+    run("rope.pin", {{"rope", "rope"}, {"particle", 0}});
+    run("rope.pin", {{"rope", "rope"}, {"particle", 8}, {"at", {0.9, 2.1, 0}}});
+    EXPECT_NEAR(world().position(8).x, 1.0f, 1e-6f) << "it goes there while time passes";
+    wait(1);
+    EXPECT_NEAR(glm::distance(world().position(8), {0.9f, 2.1f, 0}), 0.0f, 1e-6f);
+    wait(60);
+    EXPECT_NEAR(glm::distance(world().position(0), {0, 2, 0}), 0.0f, 1e-6f);
+    run("rope.unpin", {{"rope", "rope"}, {"particle", 8}});
+    wait(30);
+    EXPECT_LT(world().position(8).y, 1.9f);
+    const std::size_t history = workspace.history.size();
+    run("rope.unpin", {{"rope", "rope"}, {"particle", 8}});
+    EXPECT_EQ(workspace.history.size(), history) << "what changes nothing leaves no step";
+}
+
+TEST_F(RopeCommands, WhileTimeStandsWhatIsMovedIsThereAtOnce) {
+    single_rope();
+    run("rope.collider.add", {{"name", "s"}, {"kind", "sphere"}, {"centre", {5, 5, 5}}, {"radius", 0.25}});
+    run("time.pause");
+    run("rope.pin", {{"rope", "rope"}, {"particle", 3}, {"at", {0, 3, 0}}});
+    run("rope.collider.move", {{"name", "s"}, {"to", {6, 5, 5}}});
+    EXPECT_EQ(world().position(3), glm::vec3(0, 3, 0));
+    EXPECT_EQ(state().at("colliders")[0]["centre"], Json::array({6.0, 5.0, 5.0}));
+}
+
+TEST_F(RopeCommands, CutPartsARopeAndWhatWasChosenFollows) {
+    single_rope(10);
+    run("rope.select", {{"rope", "rope"}, {"particle", 7}});
+    run("rope.cut", {{"rope", "rope"}, {"segment", 4}});
+    ASSERT_EQ(state().at("ropes").size(), 2u);
+    EXPECT_EQ(state().at("ropes")[0]["particles"].size(), 5u);
+    EXPECT_EQ(state().at("ropes")[1]["particles"].size(), 6u);
+    const Json chosen{{"rope", "rope 2"}, {"particle", 2}};
+    EXPECT_EQ(state().at("selected"), chosen);
+    run("rope.remove", {{"name", "rope 2"}});
+    EXPECT_EQ(state().at("selected"), nullptr);
+    EXPECT_EQ(state().at("ropes").size(), 1u);
+}
+
+TEST_F(RopeCommands, AColliderThatIsMovedCarriesARope) {
+    single_rope(32);
+    run("rope.pin", {{"rope", "rope"}, {"particle", 0}});
+    run("rope.pin", {{"rope", "rope"}, {"particle", 32}});
+    run("rope.collider.add", {{"name", "s"}, {"kind", "sphere"}, {"centre", {0.5, 1.7, 0}}, {"radius", 0.2}});
+    for (int i = 1; i <= 40; ++i) {
+        run("rope.collider.move", {{"name", "s"}, {"to", {0.5, 1.7 + 0.01 * i, 0}}}, 7);
+        wait(1);
+    }
+    EXPECT_NEAR(world().position(16).y, 1.7f + 0.4f + 0.2f + 0.02f, 0.02f);
+    EXPECT_EQ(workspace.history.undo_label(), "rope.collider.move");
+    run("undo");
+    EXPECT_NEAR(world().position(16).y, 2.0f, 1e-3f) << "a drag is one step";
+    run("rope.collider.remove", {{"name", "s"}});
+    EXPECT_EQ(state().at("colliders").size(), 0u);
+}
+
+TEST_F(RopeCommands, AColliderSwingsAboutItsMiddleAndNeverJumps) {
+    run("rope.clear");
+    run("rope.collider.add", {{"name", "s"}, {"kind", "sphere"}, {"centre", {1, 2, 0}}, {"radius", 0.2}});
+    const auto centre = [&] { return rope::centre(world().find_collider("s")->shape); };
+    wait(7);
+    run("rope.collider.swing", {{"name", "s"}, {"by", {0.5, 0, 0}}, {"period", 1}});
+    glm::vec3 last = centre();
+    float low = 9.0f, high = -9.0f;
+    for (int i = 0; i < 240; ++i) {
+        if (i == 100) run("rope.collider.swing", {{"name", "s"}, {"by", {0.3, 0, 0}}});
+        wait(1);
+        EXPECT_LT(glm::distance(centre(), last), 0.07f) << i;
+        last = centre();
+        if (i < 60) low = std::min(low, last.x), high = std::max(high, last.x);
+    }
+    EXPECT_NEAR(high - low, 1.0f, 0.01f);
+    EXPECT_NEAR(part().swings[0].period, 1.0f, 0.0f) << "kept when left out";
+    run("rope.collider.move", {{"name", "s"}, {"to", {5, 2, 0}}});
+    wait(1);
+    EXPECT_LT(glm::distance(centre(), {5, 2, 0}), 0.05f);
+    run("rope.collider.swing", {{"name", "s"}, {"by", {0, 0, 0}}});
+    EXPECT_TRUE(part().swings.empty());
+    wait(2);
+    last = centre();
+    wait(30);
+    EXPECT_EQ(centre(), last);
+}
+
+TEST_F(RopeCommands, SettingsKeepWhatIsLeftOut) {
+    run("rope.settings", {{"solver", "xpbd"}, {"iterations", 7}, {"substep", 0.001}, {"gravity", 1.5}});
+    run("rope.settings", {{"friction", 0.25}, {"damping", 0.5}, {"compliance", 1e-4}, {"gravity_scale", 2}});
+    Json settings = state().at("settings");
+    EXPECT_EQ(settings["solver"], "xpbd");
+    EXPECT_EQ(settings["iterations"], 7);
+    EXPECT_EQ(settings["substep"], 0.001) << "the very number, not a float's";
+    EXPECT_EQ(settings["gravity"], Json::array({0.0, -1.5, 0.0}));
+    EXPECT_EQ(settings["friction"], 0.25);
+    run("rope.settings", {{"gravity", {1, 2, 3}}, {"external", {0, 0, 4}}});
+    EXPECT_EQ(state().at("settings")["gravity"], Json::array({1.0, 2.0, 3.0}));
+    const std::size_t history = workspace.history.size();
+    run("rope.settings", {{"friction", 0.25}});
+    run("rope.settings");
+    EXPECT_EQ(workspace.history.size(), history);
+}
+
+TEST_F(RopeCommands, SheetsAndLocks) {
+    run("rope.clear");
+    run("rope.sheet.add", {{"corner", {0, 2, 0}},
+                           {"along", {1, 0, 0}},
+                           {"down", {0, -1, 0}},
+                           {"columns", 5},
+                           {"rows", 4},
+                           {"pins", "corners"}});
+    run("rope.collider.add", {{"name", "head"}, {"kind", "sphere"}, {"centre", {5, 2, 0}}, {"radius", 0.5}});
+    run("rope.lock.add", {{"attach", "head"}, {"strands", 20}, {"segments", 6}, {"spread", 0.6}});
+    run("rope.lock.add", {{"name", "tuft"}, {"centre", {9, 2, 0}}, {"strands", 3}, {"segments", 4}});
+    ASSERT_EQ(state().at("sheets").size(), 1u);
+    EXPECT_EQ(state().at("sheets")[0]["particles"].size(), 20u);
+    EXPECT_EQ(state().at("sheets")[0]["particles"][4]["pinned"], true);
+    ASSERT_EQ(state().at("locks").size(), 2u);
+    EXPECT_EQ(state().at("locks")[0]["particles"].size(), 140u);
+    for (int strand = 0; strand < 20; ++strand) {
+        const glm::vec3 root =
+            world().position(world().particle("lock", static_cast<std::size_t>(7 * strand)));
+        EXPECT_NEAR(glm::distance(root, {5, 2, 0}), 0.504f, 1e-4f);
+        EXPECT_GT(root.y, 2.0f) << "it grows on top";
+    }
+    run("rope.collider.move", {{"name", "head"}, {"to", {6, 2, 0}}});
+    wait(2);
+    EXPECT_NEAR(glm::distance(world().position(world().particle("lock", 0)), {6, 2, 0}), 0.504f, 1e-3f);
+}
+
+TEST_F(RopeCommands, WhatIsHeldIsLetGoAndLeavesNoStep) {
+    single_rope();
+    const std::size_t history = workspace.history.size();
+    workspace.saved = workspace.document;
+    run("rope.hold", {{"rope", "rope"}, {"particle", 4}, {"at", {0.5, 2.2, 0}}});
+    wait(1);
+    EXPECT_NEAR(glm::distance(world().position(4), {0.5f, 2.2f, 0}), 0.0f, 1e-6f);
+    run("rope.hold", {{"rope", "rope"}, {"particle", 5}, {"at", {0.6, 2.2, 0}}});
+    EXPECT_FALSE(world().pinned(4)) << "one hand holds one particle";
+    EXPECT_TRUE(world().pinned(5));
+    EXPECT_EQ(state().at("held")["particle"], 5);
+    run("rope.let_go");
+    EXPECT_FALSE(world().pinned(5));
+    run("rope.let_go");
+    EXPECT_EQ(workspace.history.size(), history);
+    EXPECT_FALSE(workspace.modified()) << "pulling at it is nothing that wants saving";
+    run("rope.hold", {{"rope", "rope"}, {"particle", 4}, {"at", {0.5, 2.2, 0}}});
+    run("rope.pin", {{"rope", "rope"}, {"particle", 4}});
+    run("rope.let_go");
+    EXPECT_TRUE(world().pinned(4)) << "pinned meanwhile, it stays so";
+}
+
+TEST_F(RopeCommands, LooksLeaveNoStepAndAreKept) {
+    run("rope.tool", {{"name", "cut"}});
+    run("rope.view", {{"stress", true}, {"sides", 24}});
+    run("rope.view", {{"particles", true}});
+    run("rope.select", {{"collider", "ball"}});
+    EXPECT_EQ(workspace.history.size(), 0u);
+    EXPECT_FALSE(workspace.modified());
+    EXPECT_EQ(part().tool, RopeTool::Cut);
+    EXPECT_EQ(part().view, (RopeView{.particles = true, .stress = true, .sides = 24}));
+    EXPECT_EQ(state().at("selected"), (Json{{"collider", "ball"}}));
+    run("rope.select");
+    EXPECT_EQ(state().at("selected"), nullptr);
+    run("rope.preset", {{"name", "cloth"}});
+    EXPECT_EQ(part().view.sides, 24);
+    run("rope.reset");
+    EXPECT_EQ(part().view, RopeView{});
+    EXPECT_EQ(state().at("ropes").size(), 4u);
+}
+
+/// Each scene stands, stays whole and in one place, and is seen.
+TEST_F(RopeCommands, ScenesHoldTogether) {
+    for (const RopeSceneEntry& entry : rope_scenes()) {
+        run("rope.preset", {{"name", entry.name}});
+        EXPECT_EQ(workspace.camera, entry.view);
+        wait(90);
+        double worst = 0.0;
+        for (const rope::Body& body : world().state().bodies) worst = std::max(worst, world().length_error(body));
+        EXPECT_LT(worst, 0.06) << entry.name;
+        const Bounds bounds = lab().bounds(workspace, false);
+        EXPECT_LT(bounds.radius, 4.0f) << entry.name;
+        EXPECT_LT(glm::length(bounds.centre), 3.0f) << entry.name;
+        EXPECT_EQ(world().state().dropped, 0u);
+        EXPECT_LE(lab().handles(workspace).size(), 1000u);
+    }
+}
+
+}  // namespace
+}  // namespace tendril::app

@@ -1,0 +1,168 @@
+// The Rope lab in scene files: bit for bit, and what is wrong in them told with its place.
+#include <bit>
+#include <random>
+
+#include "app/labs/rope/scenes.hpp"
+#include "tests/app/labs/rope_support.hpp"
+#include "tests/app/support/temp_folder.hpp"
+
+namespace tendril::app {
+namespace {
+
+using test::has;
+using test::message_of;
+
+class RopeFile : public RopeTest {
+  protected:
+    /// Loads a part; gives what is wrong with it.
+    std::string wrong(const Json& json) const {
+        return message_of([&] { part().load(json, "labs.rope"); });
+    }
+    /// The saved part with one value changed.
+    std::string wrong_with(const char* place, const Json& value) const {
+        Json json = part().save();
+        json[Json::json_pointer(place)] = value;
+        return wrong(json);
+    }
+};
+
+bool same_bits(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
+    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](const glm::dvec3& p, const glm::dvec3& q) {
+        return bits(p.x) == bits(q.x) && bits(p.y) == bits(q.y) && bits(p.z) == bits(q.z);
+    });
+}
+
+TEST_F(RopeFile, EverySceneComesBackBitForBitAndMovesOnTheSame) {
+    for (const RopeSceneEntry& entry : rope_scenes()) {
+        run("rope.preset", {{"name", entry.name}});
+        run("rope.torture", {{"dial", 0.3}});
+        run("rope.select", {{"collider", "ground"}});
+        run("rope.view", {{"stress", true}});
+        wait(37);
+        Workspace copy = make_blank_workspace(labs);
+        load_scene(copy, parse_json(json_to_text(save_scene(workspace))));
+        EXPECT_EQ(save_scene(copy).dump(), save_scene(workspace).dump());
+        for (int i = 0; i < 20; ++i) lab().step(workspace), lab().step(copy);
+        const RopePart &a = part(), &b = rope_part(copy);
+        EXPECT_TRUE(same_bits(a.world->state().position, b.world->state().position)) << entry.name;
+        EXPECT_TRUE(same_bits(a.world->state().moved, b.world->state().moved)) << entry.name;
+        EXPECT_EQ(a.save().dump(), b.save().dump());
+        EXPECT_TRUE(a.swings == b.swings && a.time == b.time && a.torture == b.torture && a.view == b.view);
+    }
+}
+
+TEST_F(RopeFile, ADragIsLetGo) {
+    single_rope();
+    run("rope.pin", {{"rope", "rope"}, {"particle", 0}});
+    run("rope.hold", {{"rope", "rope"}, {"particle", 4}, {"at", {0.5, 2.2, 0}}});
+    const auto loaded = std::dynamic_pointer_cast<RopePart>(part().load(part().save(), ""));
+    EXPECT_FALSE(loaded->hold);
+    EXPECT_TRUE(loaded->world->pinned(0));
+    EXPECT_FALSE(loaded->world->pinned(4));
+}
+
+TEST_F(RopeFile, ParticlesAreCompactRows) {
+    single_rope(2);
+    EXPECT_EQ(part().save()["world"]["particles"][1].size(), 4u) << "what never moved is short";
+    run("rope.reset");
+    wait(3);
+    const std::string text = json_to_text(save_scene(workspace));
+    std::size_t longest = 0, line = 0;
+    for (const char c : text) longest = std::max(longest, line = c == '\n' ? 0 : line + 1);
+    EXPECT_GT(longest, 100u) << "a row stands on one line";
+}
+
+TEST_F(RopeFile, SizesAreRefusedWithTheLimit) {
+    Json json = part().save();
+    const Json row = Json::array({0.0, 0.0, 0.0, 1.0});
+    json["world"]["particles"] = Json(10'000'000, row);
+    EXPECT_EQ(wrong(json), "labs.rope.world.particles: has 10000000 particles; the most is 100000");
+    json = part().save();
+    json["world"]["colliders"] = Json(1001, json["world"]["colliders"][0]);
+    EXPECT_EQ(wrong(json), "labs.rope.world.colliders: has 1001 colliders; the most is 1000");
+}
+
+TEST_F(RopeFile, WhatIsWrongIsToldWithItsPlace) {
+    single_rope(4);
+    run("rope.collider.add", {{"name", "s"}, {"kind", "sphere"}, {"centre", {0, 0, 0}}, {"radius", 1}});
+    run("rope.collider.swing", {{"name", "s"}, {"by", {2e8, 0, 0}}});
+    run("rope.pin", {{"rope", "rope"}, {"particle", 0}});
+    EXPECT_EQ(wrong(part().save()), "");
+    EXPECT_EQ(wrong(Json::array()), "labs.rope: expected an object, found []");
+    const std::vector<std::tuple<const char*, Json, const char*>> bad{
+        {"/time", -1, "labs.rope.time: expected a number from 0.0 to 1000000000.0, found -1"},
+        {"/tool", "glue", "labs.rope.tool: unknown tool \"glue\""},
+        {"/view/sides", 2, "labs.rope.view.sides: expected a whole number from 3 to 64, found 2"},
+        {"/torture/dial", 2, "labs.rope.torture.dial: expected a number from 0.0 to 1.0, found 2"},
+        {"/torture/frames", -1, "labs.rope.torture.frames: expected a whole number from 0 to"},
+        {"/selected", {{"collider", "x"}}, "labs.rope.selected.collider: there is no collider \"x\""},
+        {"/selected", {{"rope", "x"}, {"particle", 0}}, "labs.rope.selected.rope: there is no rope \"x\""},
+        {"/selected", {{"rope", "rope"}, {"particle", 5}}, "labs.rope.selected.particle: expected a whole"},
+        {"/swings/0/collider", "x", "labs.rope.swings.0.collider: there is no collider \"x\""},
+        {"/swings/0/period", 0, "labs.rope.swings.0.period: expected a number from 0.1 to 600.0, found 0"},
+        {"/swings/0/middle", {9e8, 0, 0}, "labs.rope.swings.0: it would swing farther than 1e9 m"},
+        {"/world/particles/2", {1, 2, 3}, "labs.rope.world.particles.2: expected a row of 4 or 10 numbers"},
+        {"/world/particles/2/1", "y", "labs.rope.world.particles.2: expected a number, found \"y\""},
+        {"/world/particles/2/3", 0, "labs.rope.world: World: mass 2 must be over 0"},
+        {"/world/links/1/0", 5, "labs.rope.world.links.1: expected a whole number from 0 to 4, found 5"},
+        {"/world/links/1/3", "glue", "labs.rope.world.links.1: unknown kind \"glue\""},
+        {"/world/bodies/0/kind", "goo", "labs.rope.world.bodies.0.kind: unknown kind \"goo\""},
+        {"/world/bodies/0/count", 4, "labs.rope.world: World: "},
+        {"/world/pins/0/particle", 5, "labs.rope.world.pins.0.particle: expected a whole number"},
+        {"/world/pins/0/goal", 5, "labs.rope.world.pins.0.goal: expected a point"},
+        {"/world/colliders/0/kind", "blob", "labs.rope.world.colliders.0.kind: unknown kind \"blob\""},
+        {"/world/colliders/0/radius", -1, "labs.rope.world: World: "},
+        {"/world/settings/solver", "magic", "labs.rope.world: unknown solver \"magic\""},
+        {"/world/settings/iterations", 0, "labs.rope.world.settings.iterations: expected a whole number"},
+        {"/world/settings/substep", 1, "labs.rope.world: World: "},
+        {"/world/remainder", -1, "labs.rope.world.remainder: expected a number from 0.0 to 10.0"},
+        {"/world/substeps", 1.5, "labs.rope.world.substeps: expected a whole number from 0 to"},
+    };
+    for (const auto& [place, value, reason] : bad)
+        EXPECT_TRUE(has(wrong_with(place, value), reason)) << place << ": " << wrong_with(place, value);
+}
+
+/// Every value in turn replaced by one of every kind: refused with a place, or read whole.
+TEST_F(RopeFile, WithAnyValueOfAnotherKindIsRefusedOrReadWhole) {
+    single_rope(3);
+    run("rope.pin", {{"rope", "rope"}, {"particle", 0}});
+    run("rope.collider.add", {{"name", "s"}, {"kind", "sphere"}, {"centre", {0, 0, 0}}, {"radius", 0.1}});
+    run("rope.collider.add", {{"name", "b"},
+                              {"kind", "box"},
+                              {"centre", {0, 0, 0}},
+                              {"half_extents", {1, 1, 1}},
+                              {"rotation", {9, 8, 7}}});
+    run("rope.collider.swing", {{"name", "s"}, {"by", {1, 0, 0}}});
+    run("rope.lock.add", {{"attach", "s"}, {"strands", 2}, {"segments", 2}});
+    run("rope.select", {{"rope", "rope"}, {"particle", 2}});
+    wait(2);
+    const Json scene = save_scene(workspace);
+    const Json flat = scene.at("labs").at("rope").flatten();
+    const std::vector<Json> others{nullptr,       true,          -1, 0, 2, 1e8, 3e9, 1e300, "text",
+                                   Json::array(), Json::object()};
+    int refusals = 0;
+    for (const auto& [place, value] : flat.items()) {
+        for (const Json& other : others) {
+            Json changed = scene;
+            changed["labs"]["rope"][Json::json_pointer(place)] = other;
+            Workspace loaded = make_blank_workspace(labs);
+            const std::string message = message_of([&] { load_scene(loaded, changed); });
+            if (message.empty()) {
+                const Json again = save_scene(loaded);
+                EXPECT_NO_THROW(load_scene(loaded, again)) << place << " as " << other;
+                EXPECT_EQ(save_scene(loaded).dump(), again.dump()) << place << " as " << other;
+                for (int i = 0; i < 2; ++i) lab().step(loaded);
+                EXPECT_NO_THROW(load_scene(loaded, save_scene(loaded))) << place << " as " << other;
+                continue;
+            }
+            ++refusals;
+            EXPECT_TRUE(message.starts_with("labs.rope")) << message;
+            EXPECT_FALSE(has(message, "json.exception")) << place << " as " << other;
+        }
+    }
+    EXPECT_GT(refusals, 500);
+}
+
+}  // namespace
+}  // namespace tendril::app

@@ -1,0 +1,164 @@
+// How time passes in the Rope lab: the same whatever it is cut into, slower or faster, and to rest.
+#include "app/labs/rope/rope_time.hpp"
+#include "app/labs/rope/scenes.hpp"
+#include "tests/app/labs/rope_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+class RopeTime : public RopeTest {
+  protected:
+    double farthest(const rope::World& a, const rope::World& b) const {
+        EXPECT_EQ(a.size(), b.size());
+        double most = 0.0;
+        for (std::size_t i = 0; i < a.size(); ++i)
+            most = std::max(most, glm::distance(a.state().position[i], b.state().position[i]));
+        return most;
+    }
+};
+
+TEST_F(RopeTime, IsTheSameEachTime) {
+    for (const char* scene : {"drape", "hair"}) {
+        run("rope.preset", {{"name", scene}});
+        wait(60);
+        const Json once = part().save();
+        run("rope.preset", {{"name", scene}});
+        wait(60);
+        EXPECT_EQ(part().save(), once);
+    }
+}
+
+TEST_F(RopeTime, UnevenFramesLeadToTheSameWorld) {
+    for (const char* scene : {"drape", "hair", "pendulum"}) {
+        run("rope.preset", {{"name", scene}});
+        std::vector<std::shared_ptr<const rope::World>> even{part().world};
+        for (int i = 0; i < 200; ++i) {
+            wait(1);
+            even.push_back(part().world);
+        }
+        run("rope.preset", {{"name", scene}});
+        run("rope.torture", {{"dial", 1}});
+        int compared = 0;
+        for (int i = 0; i < 200; ++i) {
+            wait(1);
+            for (const auto& world_then : even) {
+                if (world_then->state().substeps != world().state().substeps) continue;
+                EXPECT_LT(farthest(*world_then, world()), 1e-6) << scene << ", tick " << i;
+                ++compared;
+            }
+        }
+        EXPECT_GT(compared, 30) << scene;
+        EXPECT_EQ(world().state().dropped, 0u);
+    }
+}
+
+TEST_F(RopeTime, FramesAreFrom1To250Milliseconds) {
+    double shortest = 1.0, longest = 0.0;
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+        EXPECT_EQ(torture_frame(0.0f, i), tick_seconds);
+        EXPECT_NEAR(torture_frame(0.5f, i), tick_seconds, 0.06);
+        shortest = std::min(shortest, torture_frame(1.0f, i));
+        longest = std::max(longest, torture_frame(1.0f, i));
+    }
+    EXPECT_GE(shortest, 0.001);
+    EXPECT_LT(shortest, 0.0012);
+    EXPECT_LE(longest, 0.25);
+    EXPECT_GT(longest, 0.24);
+}
+
+TEST_F(RopeTime, TheDialTurnedBackOwesNothing) {
+    run("rope.torture", {{"dial", 1}});
+    wait(33);
+    run("rope.torture", {{"dial", 0}});
+    wait(1);
+    EXPECT_EQ(part().torture.owed, 0.0);
+    EXPECT_NEAR(part().time, 34 * tick_seconds, 1e-9);
+    EXPECT_EQ(world().state().substeps + world().state().dropped, 34u * 4u);
+}
+
+TEST_F(RopeTime, SlowMotionIsTheSameMotion) {
+    run("rope.preset", {{"name", "hair"}});
+    wait(40);
+    const rope::World full = world();
+    run("rope.preset", {{"name", "hair"}});
+    run("time.speed", {{"factor", 0.25}});
+    wait(160);
+    EXPECT_EQ(world().state().substeps, full.state().substeps);
+    EXPECT_LT(farthest(full, world()), 1e-6);
+    EXPECT_EQ(state().at("speed"), 0.25);
+    refused("time.speed", {{"factor", 0.01}});
+    refused("time.speed", {{"factor", 3}});
+}
+
+TEST_F(RopeTime, WhatLiesStillLetsTheWindowIdleUntilACommandComes) {
+    run("rope.clear");
+    run("rope.collider.add",
+        {{"name", "ground"}, {"kind", "plane"}, {"point", {0, 0, 0}}, {"normal", {0, 1, 0}}});
+    run("rope.add", {{"from", {0, 0.1, 0}}, {"to", {1, 0.1, 0}}});
+    int ticks = 0;
+    for (; lab().moving(workspace) && ticks < 1200; ++ticks) wait(1);
+    EXPECT_LT(ticks, 600);
+    EXPECT_GT(ticks, 60);
+    run("rope.view", {{"stress", true}});
+    run("rope.select", {{"rope", "rope"}, {"particle", 3}});
+    EXPECT_FALSE(lab().moving(workspace)) << "to look at it does not wake it";
+    run("rope.pin", {{"rope", "rope"}, {"particle", 3}, {"at", {0, 1, 0}}});
+    EXPECT_TRUE(lab().moving(workspace));
+    wait(200);
+    run("rope.collider.swing", {{"name", "ground"}, {"by", {0, 0.1, 0}}});
+    wait(300);
+    EXPECT_TRUE(lab().moving(workspace)) << "what swings never rests";
+}
+
+TEST_F(RopeTime, PassingIsNothingThatWantsSaving) {
+    wait(10);
+    EXPECT_FALSE(workspace.modified());
+    run("rope.torture", {{"dial", 0.5}});
+    wait(10);
+    EXPECT_TRUE(workspace.modified());
+}
+
+TEST_F(RopeTime, IsMeasuredInALiveWindowAlone) {
+    wait(3);
+    EXPECT_EQ(part().cost, 0.0f);
+    workspace.clock.measured = true;
+    wait(3);
+    EXPECT_GT(part().cost, 0.0f);
+    EXPECT_EQ(part().save().dump().find("cost"), std::string::npos);
+    EXPECT_EQ(state().dump().find("cost"), std::string::npos);
+}
+
+TEST_F(RopeTime, WhatFallsOffTheWorldStopsTime) {
+    single_rope();
+    run("rope.settings", {{"gravity", 10000}, {"gravity_scale", 1000}, {"damping", 0}});
+    for (int i = 0; i < 3000 && workspace.clock.playing; ++i) wait(1);
+    EXPECT_FALSE(workspace.clock.playing);
+    ASSERT_FALSE(workspace.ui.toasts.empty());
+    EXPECT_EQ(workspace.ui.toasts.back().text, "Time stands: something would get farther than 1e9 m");
+    EXPECT_NO_THROW(part().load(part().save(), ""));
+}
+
+TEST_F(RopeTime, TheChainTakesATickOnlyWhenOneHasPassed) {
+    run("lab.open", {{"name", "chain"}});
+    run("chain.motion", {{"path", "circle"}});
+    const Lab& chain = *labs.find("chain");
+    const auto ticks_in = [&](float speed, int ticks) {
+        run("time.speed", {{"factor", speed}});
+        const Json before = chain.blank()->save();
+        int passed = 0;
+        for (int i = 0; i < ticks; ++i) {
+            passed += workspace.clock.whole_ticks();
+            chain.step(workspace);
+            workspace.clock.passed += static_cast<double>(workspace.clock.speed);
+        }
+        return passed;
+    };
+    EXPECT_EQ(ticks_in(1.0f, 60), 60);
+    EXPECT_EQ(ticks_in(0.1f, 60), 6);
+    EXPECT_EQ(ticks_in(2.0f, 60), 120);
+    EXPECT_EQ(ticks_in(0.05f, 100), 5);
+    EXPECT_EQ(workspace.document.parts().at("chain")->save()["motion"]["ticks"], (60 + 6 + 120 + 5) % 240);
+}
+
+}  // namespace
+}  // namespace tendril::app
