@@ -12,6 +12,8 @@ namespace {
 
 constexpr int strand_sides = 6;          ///< nobody sees more on a hair
 constexpr float plane_radius = 3.0f;     ///< metres of an endless plane that are shown
+constexpr double heavy_from = 4.0;          ///< times the lightest particle of a rope
+constexpr double weight_density = 2500.0;   ///< kg/m^3: of stone
 constexpr glm::vec4 unseen{0.0f};        ///< of strokes that can be caught, but are drawn otherwise
 
 class Drawing {
@@ -32,6 +34,7 @@ class Drawing {
                 strands(body);
             }
         }
+        weights();
         catchable_links();
         particles();
         labels();
@@ -111,6 +114,24 @@ class Drawing {
                   colours.subspan(body.first, body.count));
         } else {
             sheet(list_, view_.camera, grid, cloth_front(view_.palette), view_.palette.link);
+        }
+    }
+
+    /// Particles that weigh far more than their neighbours are balls, as large as they are heavy: a pendulum's bob.
+    void weights() {
+        const std::vector<double>& mass = world_.state().mass;
+        for (const rope::Body& body : world_.state().bodies) {
+            if (body.kind != rope::Body::Kind::Rope) continue;
+            const auto first = mass.begin() + static_cast<std::ptrdiff_t>(body.first);
+            const double least = *std::min_element(first, first + static_cast<std::ptrdiff_t>(body.count));
+            for (std::size_t i = body.first; i < body.first + body.count; ++i) {
+                if (mass[i] < heavy_from * least) continue;
+                const auto radius = static_cast<float>(std::cbrt(0.75 * mass[i] / (3.14159265358979 * weight_density)));
+                if (radius <= body.radius) continue;
+                const PickId pick = particle_pick(i);
+                const glm::vec3 colour = lit(pick) ? view_.palette.accent : colours_[i];
+                solid(list_.sphere(positions_[i], radius, Unit::Metres, glm::vec4(colour, 1.0f)), pick);
+            }
         }
     }
 
