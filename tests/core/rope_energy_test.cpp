@@ -54,8 +54,7 @@ TEST_P(RopeEnergy, NeverGrowsInAMinute) {
     EXPECT_LE(most_gained(world, 60), 1e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Ropes, RopeEnergy,
-                         testing::Combine(testing::Values(16, 64, 256), testing::Bool()),
+INSTANTIATE_TEST_SUITE_P(Ropes, RopeEnergy, testing::Combine(testing::Values(16, 64, 256), testing::Bool()),
                          [](const auto& of) {
                              return std::to_string(std::get<0>(of.param)) +
                                     (std::get<1>(of.param) ? "_both_ends" : "_one_end");
