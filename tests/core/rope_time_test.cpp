@@ -130,7 +130,7 @@ TEST(RopeTime, NoTimeIsNoStepAndBadTimeIsRefused) {
                                         {double{nan}, "nan"},
                                         {double{infinity}, "inf"},
                                         {-double{infinity}, "-inf"}}) {
-        const std::string message = message_of<std::invalid_argument>([&] { world.advance(seconds); });
+        const std::string message = message_of<std::invalid_argument>([&, s = seconds] { world.advance(s); });
         EXPECT_NE(message.find("seconds"), std::string::npos) << message;
         EXPECT_NE(message.find(text), std::string::npos) << message;
         EXPECT_TRUE(same_bits(before, world.state()));
