@@ -146,12 +146,13 @@ TEST(RopeSheet, MayHaveHoles) {
 TEST(RopeLock, FollowsItsCollider) {
     for (const Solver solver : all_solvers) {
         World world = world_with({.solver = solver});
-        world.add_collider("head", rope::Sphere{{0, 0, 0}, 0.2f});
+        const glm::vec3 head(0.5f, -0.25f, 2.0f);
+        world.add_collider("head", rope::Sphere{head, 0.2f});
         rope::LockShape shape{.name = "hair", .length = 0.4f, .segments = 8, .attach = "head"};
         for (int i = 0; i < 5; ++i) {
             const float angle = 0.4f * static_cast<float>(i);
             const glm::vec3 out(std::sin(angle), std::cos(angle), 0);
-            shape.roots.push_back({0.21f * out, out});
+            shape.roots.push_back({head + 0.21f * out, out});
         }
         world.add_lock(shape);
         EXPECT_EQ(world.size(), 45u);
@@ -159,9 +160,9 @@ TEST(RopeLock, FollowsItsCollider) {
         EXPECT_NEAR(world.length(*world.find("hair")), 0.4, 1e-6);
         EXPECT_EQ(world.state().pins.size(), 10u);  // root and direction of each
         const rope::State start = world.state();
-        world.move_collider("head", {1, 0.5f, 0.25f}, 0.5);
+        world.move_collider("head", head + glm::vec3(1, 0.5f, 0.25f), 0.5);
         run_substeps(world, 240, [&] {
-            const glm::dvec3 by(centre(world.find_collider("head")->shape));
+            const glm::dvec3 by(centre(world.find_collider("head")->shape) - head);
             for (const rope::Pin& pin : world.state().pins) {
                 const glm::dvec3 expected = start.position[pin.particle] + by;
                 ASSERT_LE(glm::length(world.state().position[pin.particle] - expected), 1e-6);
