@@ -46,7 +46,7 @@ inline std::vector<double> race(
 
 inline bool claim(const char* what, double value, double least) {
     const bool holds = value >= least;
-    std::printf("%s  %-60s %.1f, at least %.1f\n", holds ? "PASS" : "FAIL", what, value, least);
+    std::printf("%s  %-60s %.2f, at least %.2f\n", holds ? "PASS" : "FAIL", what, value, least);
     return holds;
 }
 

@@ -1,5 +1,5 @@
-// A rope that hangs from both ends comes to rest as a catenary; plain relaxation does not quite, and by how much
-// is known.
+// A rope that hangs from both ends comes to rest as a catenary; plain relaxation does not quite, and by how
+// much is known.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -69,7 +69,8 @@ TEST(RopeCatenary, OfAnIndependentSource) {
         EXPECT_NEAR(hung.sag, catenary_sag(hung.span, hung.length), 1e-6);  // of theory there is only one
         const auto same = [&](const Hung& own) { return own.span == hung.span && own.length == hung.length; };
         const std::vector<Hung> own = own_cases();
-        if (std::none_of(own.begin(), own.end(), same)) cases.push_back(hung);  // the others are checked above
+        if (std::none_of(own.begin(), own.end(), same))
+            cases.push_back(hung);  // the others are checked above
     }
     check_defaults(cases);
 }
@@ -114,10 +115,12 @@ TEST(RopeCatenary, PlainRelaxationSagsByWhatItAlwaysDid) {
         double substep, too_much;
     };
     const Hung hung{1.0f, 1.1f, 64, catenary_sag(1.0, 1.1)};
-    for (const Measured& each :
-         {Measured{16, 1.0 / 240.0, 0.129}, Measured{64, 1.0 / 240.0, 0.036}, Measured{1, 1.0 / 3840.0, 0.009}}) {
-        World world = world_with(
-            {.substep = each.substep, .iterations = each.iterations, .solver = Solver::Relaxation, .damping = 1.0f});
+    for (const Measured& each : {Measured{16, 1.0 / 240.0, 0.129}, Measured{64, 1.0 / 240.0, 0.036},
+                                 Measured{1, 1.0 / 3840.0, 0.009}}) {
+        World world = world_with({.substep = each.substep,
+                                  .iterations = each.iterations,
+                                  .solver = Solver::Relaxation,
+                                  .damping = 1.0f});
         hang_between(world, hung.span, hung.length, hung.segments);
         run(world, 15.0);
         EXPECT_NEAR(sag_error(world, hung), each.too_much, 0.0006) << each.iterations << ' ' << each.substep;

@@ -52,7 +52,8 @@ std::vector<Shape> thin_shapes() {
 TEST(RopeCollider, HasAWayOutWhereThereIsNoTelling) {
     for (const Shape& shape : thin_shapes()) {
         const dvec3 middle(centre(shape));
-        for (const dvec3& off : {dvec3(0.0), dvec3(1e-300, 0, 0), dvec3(0, 1e-13, 0), dvec3(0, 0, -1e-9), dvec3(0, 0.5, 0)}) {
+        for (const dvec3& off :
+             {dvec3(0.0), dvec3(1e-300, 0, 0), dvec3(0, 1e-13, 0), dvec3(0, 0, -1e-9), dvec3(0, 0.5, 0)}) {
             const SurfaceDistance surface = surface_distance(shape, middle + off);
             EXPECT_TRUE(std::isfinite(surface.distance)) << kind(shape);
             EXPECT_NEAR(glm::length(surface.normal), 1.0, 1e-9) << kind(shape);
@@ -76,7 +77,8 @@ TEST(RopeCollider, TheWayOutEndsOnTheSurface) {
             // Nothing nearer in any direction.
             const dvec3 aside = point + dvec3(random.point(1.0f)) * (0.5 * std::abs(surface.distance));
             EXPECT_LE(std::abs(surface_distance(shape, aside).distance - surface.distance),
-                      glm::length(aside - point) + 1e-9) << kind(shape);
+                      glm::length(aside - point) + 1e-9)
+                << kind(shape);
         }
     }
 }
@@ -114,10 +116,12 @@ TEST(RopeCollider, RefusesWhatIsNone) {
     world.add_collider("there", Sphere{});
     for (const auto& [shape, what] : bad) {
         const rope::State before = world.state();
-        const std::string adding = message_of<std::invalid_argument>([&, s = shape] { world.add_collider("bad", s); });
+        const std::string adding =
+            message_of<std::invalid_argument>([&, s = shape] { world.add_collider("bad", s); });
         EXPECT_NE(adding.find(what), std::string::npos) << adding;
         EXPECT_NE(adding.find("add_collider"), std::string::npos) << adding;
-        const std::string setting = message_of<std::invalid_argument>([&, s = shape] { world.set_collider("there", s); });
+        const std::string setting =
+            message_of<std::invalid_argument>([&, s = shape] { world.set_collider("there", s); });
         EXPECT_NE(setting.find(what), std::string::npos) << setting;
         EXPECT_TRUE(same_bits(before, world.state()));
     }

@@ -56,8 +56,8 @@ const Still still_shapes[] = {
     {"box of no thickness", Box{{0, 0, 0}, {0.5f, 0, 0.5f}, glm::quat(1, 0, 0, 0)}},
 };
 
-/// Dropped on it and started with its middle in it, particles on the centre, the axis and the edges; with a radius
-/// and without.
+/// Dropped on it and started with its middle in it, particles on the centre, the axis and the edges; with a
+/// radius and without.
 TEST(RopeContact, NothingStaysInsideAnyKind) {
     for (const Solver solver : all_solvers)
         for (const Still& still : still_shapes)
@@ -65,10 +65,15 @@ TEST(RopeContact, NothingStaysInsideAnyKind) {
                 for (const float radius : {0.02f, 0.0f}) {
                     World world = world_with({.solver = solver});
                     world.add_collider("it", still.shape);
-                    world.add_rope({.name = "rope", .from = {-0.8f, height, 0}, .to = {0.8f, height, 0}, .segments = 20, .radius = radius});
+                    world.add_rope({.name = "rope",
+                                    .from = {-0.8f, height, 0},
+                                    .to = {0.8f, height, 0},
+                                    .segments = 20,
+                                    .radius = radius});
                     double worst = 0.0;
                     run_substeps(world, 120, [&] { worst = std::max(worst, deepest(world)); });
-                    EXPECT_LE(worst, 1e-4) << name(solver) << ' ' << still.what << ' ' << height << ' ' << radius;
+                    EXPECT_LE(worst, 1e-4)
+                        << name(solver) << ' ' << still.what << ' ' << height << ' ' << radius;
                     EXPECT_TRUE(all_finite(world)) << name(solver) << ' ' << still.what;
                 }
 }
@@ -78,7 +83,13 @@ TEST(RopeContact, NorAnyKindThatMoves) {
         for (const Still& still : still_shapes) {
             if (size(still.shape) == 0.0f) continue;
             World world = world_with({.solver = solver});
-            world.add_rope({.name = "rope", .from = {-0.8f, 0.6f, 0}, .to = {0.8f, 0.6f, 0}, .segments = 20, .length = 1.8f, .pin_start = true, .pin_end = true});
+            world.add_rope({.name = "rope",
+                            .from = {-0.8f, 0.6f, 0},
+                            .to = {0.8f, 0.6f, 0},
+                            .segments = 20,
+                            .length = 1.8f,
+                            .pin_start = true,
+                            .pin_end = true});
             world.add_collider("it", moved(still.shape, {0.1f, -1.0f, 0.03f}));
             world.move_collider("it", {0.1f, 0.3f, 0.0f}, 0.4);
             double worst = 0.0;
@@ -93,7 +104,8 @@ TEST(RopeContact, LiesOnTheGround) {
     for (const Solver solver : all_solvers) {
         World world = world_with({.solver = solver, .damping = 0.5f});
         world.add_collider("ground", Plane{});
-        world.add_rope({.name = "rope", .from = {0, 0.3f, 0}, .to = {1, 0.5f, 0}, .segments = 32, .radius = 0.03f});
+        world.add_rope(
+            {.name = "rope", .from = {0, 0.3f, 0}, .to = {1, 0.5f, 0}, .segments = 32, .radius = 0.03f});
         run(world, 6.0);
         for (std::size_t i = 0; i < world.size(); ++i) {
             EXPECT_NEAR(world.position(i).y, 0.03, 1e-3) << name(solver);
@@ -113,7 +125,7 @@ TEST(RopeContact, DrapesOverASphere) {
     EXPECT_LE(deepest(world), 1e-4);
     EXPECT_LE(world.stretch(*world.find("rope")), 1e-3);
     EXPECT_LE(stretch(world), 5e-3);
-    EXPECT_NEAR(world.position(32).y, 0.42, 5e-3);         // over the top
+    EXPECT_NEAR(world.position(32).y, 0.42, 5e-3);           // over the top
     EXPECT_NEAR(std::abs(world.position(0).x), 0.42, 0.05);  // hanging down on both sides
     EXPECT_NEAR(std::abs(world.position(64).x), 0.42, 0.05);
 }
@@ -124,7 +136,12 @@ TEST(RopeContact, AFastSphereCarriesATautRope) {
     for (const Solver solver : all_solvers)
         for (const float speed : {0.05f, 0.25f, 0.5f}) {
             World world = world_with({.solver = solver});
-            world.add_rope({.name = "rope", .from = {-1, 0, 0}, .to = {1, 0, 0}, .segments = 32, .pin_start = true, .pin_end = true});
+            world.add_rope({.name = "rope",
+                            .from = {-1, 0, 0},
+                            .to = {1, 0, 0},
+                            .segments = 32,
+                            .pin_start = true,
+                            .pin_end = true});
             world.add_collider("ball", Sphere{{0, 0, 2.0f}, radius});
             const double h = world.settings().substep;
             const int steps = static_cast<int>(std::lround(2.6 / static_cast<double>(speed * radius)));
@@ -159,7 +176,13 @@ TEST(RopeContact, ASmallSphereDoesNotSlipThroughASegment) {
         for (const float radius : {0.1f, 0.04f, 0.0f})
             for (const float aside : {0.0f, 0.1f, 0.2f}) {
                 World world = world_with({.solver = solver});
-                world.add_rope({.name = "rope", .from = {-1, 0, 0}, .to = {1, 0, 0}, .segments = 4, .length = 2.2f, .pin_start = true, .pin_end = true});
+                world.add_rope({.name = "rope",
+                                .from = {-1, 0, 0},
+                                .to = {1, 0, 0},
+                                .segments = 4,
+                                .length = 2.2f,
+                                .pin_start = true,
+                                .pin_end = true});
                 run(world, 0.5);
                 const float low = static_cast<float>(lowest(world));
                 // Up from below, between particles 2 and 3 (or onto the middle), and on.
@@ -167,7 +190,8 @@ TEST(RopeContact, ASmallSphereDoesNotSlipThroughASegment) {
                 world.move_collider("ball", {aside, low + 0.2f, 0}, 1.0);
                 double nearest = 1e9;
                 run_substeps(world, 300, [&] {
-                    nearest = std::min(nearest, nearest_segment(world, dvec3(centre(world.find_collider("ball")->shape))));
+                    nearest = std::min(
+                        nearest, nearest_segment(world, dvec3(centre(world.find_collider("ball")->shape))));
                 });
                 // Relaxation gives a little: the next segments pull back.
                 const double asked = static_cast<double>(radius) + 0.02;
@@ -186,7 +210,8 @@ TEST(RopeContact, ASegmentHangsOverAThinRod) {
         world.add_rope({.name = "rope", .from = {-1, 0.1f, 0}, .to = {1, 0.1f, 0}, .segments = 5});
         run(world, 4.0);
         double highest = -1e9;
-        for (std::size_t i = 0; i < world.size(); ++i) highest = std::max(highest, world.state().position[i].y);
+        for (std::size_t i = 0; i < world.size(); ++i)
+            highest = std::max(highest, world.state().position[i].y);
         EXPECT_GT(highest, -0.4) << kind(shape);  // it hangs there still
     }
 }
@@ -202,7 +227,8 @@ TEST(RopeContact, AThrownRopeDoesNotFlyThrough) {
         for (dvec3& moved : state.moved) moved = {0, -static_cast<double>(speed) * state.moved_in, 0};
         world = World(state);
         double middle = 1.0;
-        run_substeps(world, static_cast<int>(300 / speed), [&] { middle = std::min(middle, world.state().position[4].y); });
+        run_substeps(world, static_cast<int>(300 / speed),
+                     [&] { middle = std::min(middle, world.state().position[4].y); });
         EXPECT_GE(middle, 0.3) << speed;
     }
 }

@@ -13,7 +13,12 @@ World three_ropes() {
     World world;
     for (const char* name : {"a", "b", "c"}) {
         const float x = static_cast<float>(name[0] - 'a');
-        world.add_rope({.name = name, .from = {x, 0, 0}, .to = {x, 1, 0}, .segments = 4, .pin_start = true, .pin_end = name[0] == 'c'});
+        world.add_rope({.name = name,
+                        .from = {x, 0, 0},
+                        .to = {x, 1, 0},
+                        .segments = 4,
+                        .pin_start = true,
+                        .pin_end = name[0] == 'c'});
     }
     return world;
 }
@@ -43,7 +48,7 @@ TEST(RopeEdit, CutPartsARope) {
     EXPECT_NEAR(world.position(world.particle("b", 0)).y, 0.0, 1e-6);
     EXPECT_LT(world.position(world.particle("b 2", 1)).y, -0.3f);
     EXPECT_EQ(world.cut("b 2", 0), "b 2 2");
-    EXPECT_EQ(world.cut("b", 0), "b 3");  // the first name that is free
+    EXPECT_EQ(world.cut("b", 0), "b 3");    // the first name that is free
     EXPECT_EQ(world.find("b")->count, 1u);  // a single particle is a rope still
     EXPECT_EQ(world.length(*world.find("b")), 0.0);
     run(world, 0.5);
@@ -89,7 +94,8 @@ TEST(RopeEdit, RemovingRenumbers) {
 /// A rope moves as it would have if there had never been the others.
 TEST(RopeEdit, RemovedOnesLeaveNoTrace) {
     World with = three_ropes(), without;
-    without.add_rope({.name = "c", .from = {2, 0, 0}, .to = {2, 1, 0}, .segments = 4, .pin_start = true, .pin_end = true});
+    without.add_rope(
+        {.name = "c", .from = {2, 0, 0}, .to = {2, 1, 0}, .segments = 4, .pin_start = true, .pin_end = true});
     with.remove("a"), with.remove("b");
     run(with, 1.0), run(without, 1.0);
     EXPECT_TRUE(same_bits(with.state(), without.state()));
@@ -142,7 +148,8 @@ TEST(RopeEdit, NamesMayComeFromTheWorldItself) {
     world.add_collider("a ball with a name too long for any short string", Sphere{{5, 0, 0}, 0.1f});
     world.attach(1, world.state().colliders[0].name);
     for (std::size_t i = 2; i < 12; ++i) world.attach(i, world.state().pins[1].collider);
-    for (std::size_t i = 1; i < 12; ++i) EXPECT_EQ(world.state().pins[i].collider, world.state().colliders[0].name);
+    for (std::size_t i = 1; i < 12; ++i)
+        EXPECT_EQ(world.state().pins[i].collider, world.state().colliders[0].name);
     world.move_collider(world.state().colliders[0].name, {6, 0, 0});
     world.cut(world.state().bodies[0].name, 1);
     world.remove(world.state().bodies[0].name);
@@ -194,16 +201,23 @@ TEST(RopeEdit, RandomEditsLeaveASoundWorld) {
             const std::size_t particle = world.size() > 0 ? random.below(world.size()) : 0;
             switch (random.below(9)) {
                 case 0:
-                    world.add_rope({.name = "", .from = random.point(1), .to = random.point(1), .segments = 1 + static_cast<int>(random.below(9)), .pin_start = random.chance(2)});
+                    world.add_rope({.name = "",
+                                    .from = random.point(1),
+                                    .to = random.point(1),
+                                    .segments = 1 + static_cast<int>(random.below(9)),
+                                    .pin_start = random.chance(2)});
                     break;
                 case 1:
-                    if (random.chance(3)) world.add_sheet({.name = "", .corner = random.point(1), .columns = 3, .rows = 4, .tear = 0.05f});
+                    if (random.chance(3))
+                        world.add_sheet(
+                            {.name = "", .corner = random.point(1), .columns = 3, .rows = 4, .tear = 0.05f});
                     break;
                 case 2:
                     if (!body.empty()) world.remove(body);
                     break;
                 case 3:
-                    if (!body.empty() && world.find(body)->kind == Body::Kind::Rope && world.find(body)->count > 1)
+                    if (!body.empty() && world.find(body)->kind == Body::Kind::Rope &&
+                        world.find(body)->count > 1)
                         world.cut(body, random.below(world.find(body)->count - 1));
                     break;
                 case 4:
@@ -213,7 +227,8 @@ TEST(RopeEdit, RandomEditsLeaveASoundWorld) {
                     if (world.size() > 0 && world.pinned(particle)) world.unpin(particle);
                     break;
                 case 6:
-                    is_there ? world.remove_collider(ball) : world.add_collider(ball, Sphere{random.point(1), 0.2f});
+                    is_there ? world.remove_collider(ball)
+                             : world.add_collider(ball, Sphere{random.point(1), 0.2f});
                     break;
                 case 7:
                     if (is_there && world.size() > 0) world.attach(particle, ball);

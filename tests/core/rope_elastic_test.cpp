@@ -17,7 +17,8 @@ Settings soft(Solver solver, float compliance, int iterations) {
 /// Straight down from one end, 1 m of 1 kg/m, with nothing below. How much longer it gets, metres.
 double hangs_longer(const Settings& settings, int segments) {
     World world = world_with(settings);
-    world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {0, -1, 0}, .segments = segments, .pin_start = true});
+    world.add_rope(
+        {.name = "rope", .from = {0, 0, 0}, .to = {0, -1, 0}, .segments = segments, .pin_start = true});
     run(world, 12.0);
     return -lowest(world) - 1.0;
 }
@@ -49,7 +50,8 @@ TEST(RopeElastic, XpbdDoesOnceTheIterationsSuffice) {
 TEST(RopeElastic, IterationsDoNotMatter) {
     const double direct = hangs_longer(soft(Solver::Direct, 1e-2f, 2), 32);
     for (const int iterations : {1, 4, 64}) {
-        EXPECT_NEAR(hangs_longer(soft(Solver::Direct, 1e-2f, iterations), 32) / direct, 1.0, 1e-4) << iterations;
+        EXPECT_NEAR(hangs_longer(soft(Solver::Direct, 1e-2f, iterations), 32) / direct, 1.0, 1e-4)
+            << iterations;
     }
     const double xpbd = hangs_longer(soft(Solver::Xpbd, 1e-2f, 100), 8);
     EXPECT_NEAR(hangs_longer(soft(Solver::Xpbd, 1e-2f, 400), 8) / xpbd, 1.0, 2e-3);
@@ -74,7 +76,8 @@ TEST(RopeElastic, SagDoesNotHangOnTheNumberOfSegments) {
     const double fine = sag(2e-2f, 128), coarse = sag(2e-2f, 32);
     EXPECT_NEAR(coarse / fine, 1.0, 0.002);
     EXPECT_GT(fine, sag(2e-3f, 64) * 1.02);
-    EXPECT_NEAR(sag(1e-7f, 64) / sag(0.0f, 64), 1.0, 1e-4);  // no leap between a stiff rope and an unyielding one
+    EXPECT_NEAR(sag(1e-7f, 64) / sag(0.0f, 64), 1.0,
+                1e-4);  // no leap between a stiff rope and an unyielding one
 }
 
 /// Tension says what a link bears, in newtons: below link k hang n - k particles.
@@ -82,7 +85,12 @@ TEST(RopeElastic, TensionIsWhatHangsBelow) {
     for (const Solver solver : {Solver::Xpbd, Solver::Direct}) {
         for (const float compliance : {0.0f, 1e-3f}) {
             World world = world_with(soft(solver, compliance, solver == Solver::Xpbd ? 400 : 16));
-            world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {0, -1, 0}, .segments = 10, .density = 3.0f, .pin_start = true});
+            world.add_rope({.name = "rope",
+                            .from = {0, 0, 0},
+                            .to = {0, -1, 0},
+                            .segments = 10,
+                            .density = 3.0f,
+                            .pin_start = true});
             run(world, 8.0);
             for (std::size_t k = 0; k < 10; ++k) {
                 const double expected = 0.3 * gravity * static_cast<double>(10 - k);
@@ -101,7 +109,8 @@ TEST(RopeElastic, BouncesInTheTimeThatItMust) {
     settings.substep = 1.0 / 960.0;
     World world = world_with(settings);
     world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {0, -1, 0}, .segments = 1, .pin_start = true});
-    const double rest = -1.0 - theory(compliance, 1), expected = 2.0 * pi * std::sqrt(world.state().mass[1] * static_cast<double>(compliance));
+    const double rest = -1.0 - theory(compliance, 1),
+                 expected = 2.0 * pi * std::sqrt(world.state().mass[1] * static_cast<double>(compliance));
     double before = -1.0, first = -1.0, last = 0.0, time = 0.0;
     int swings = -1;
     run_substeps(world, 2400, [&] {
@@ -119,7 +128,8 @@ TEST(RopeElastic, BouncesInTheTimeThatItMust) {
 
 /// Relaxation does not know compliance.
 TEST(RopeElastic, RelaxationStaysAsItIs) {
-    EXPECT_EQ(hangs_longer(soft(Solver::Relaxation, 0.0f, 16), 8), hangs_longer(soft(Solver::Relaxation, 0.1f, 16), 8));
+    EXPECT_EQ(hangs_longer(soft(Solver::Relaxation, 0.0f, 16), 8),
+              hangs_longer(soft(Solver::Relaxation, 0.1f, 16), 8));
 }
 
 }  // namespace

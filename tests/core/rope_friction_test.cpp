@@ -27,7 +27,8 @@ TEST(RopeFriction, HoldsOnASlopeUpToItsTangent) {
         for (const bool across : {false, true})
             for (const float friction : {0.2f, 0.5f, 1.0f}) {
                 const double angle = std::atan(static_cast<double>(friction));
-                EXPECT_LE(slides(solver, friction, angle - 0.02, 2.0, across), 0.002) << name(solver) << ' ' << friction;
+                EXPECT_LE(slides(solver, friction, angle - 0.02, 2.0, across), 0.002)
+                    << name(solver) << ' ' << friction;
             }
 }
 
@@ -73,24 +74,31 @@ TEST(RopeFriction, WhatMovesCarries) {
     }
 }
 
-/// How many times as much rope may hang on one side of a post of radius r as on the other, two metres in all, before
-/// it runs: Euler and Eytelwein's e^(mu pi), and what lies on the post is pressed on by its own weight:
-///     T' = rho g r cos + mu (T + rho g r sin) around it, so long = (short + k) e^(mu pi) + k, k = 2 mu r / (1 + mu^2)
+/// How many times as much rope may hang on one side of a post of radius r as on the other, two metres in all,
+/// before it runs: Euler and Eytelwein's e^(mu pi), and what lies on the post is pressed on by its own
+/// weight:
+///     T' = rho g r cos + mu (T + rho g r sin) around it, so long = (short + k) e^(mu pi) + k, k = 2 mu r /
+///     (1 + mu^2)
 double most_ratio(double friction, double r) {
     const double euler = std::exp(friction * pi), k = 2.0 * friction * r / (1.0 + friction * friction);
     const double shorter = (2.0 - k - k * euler) / (1.0 + euler);
     return (2.0 - shorter) / shorter;
 }
 
-/// Two metres hang down from a level post, `ratio` times as much on one side as on the other. How far it has run.
+/// Two metres hang down from a level post, `ratio` times as much on one side as on the other. How far it has
+/// run.
 double runs_off(Solver solver, float friction, double ratio, int segments, double seconds) {
     World world = world_with({.iterations = 64, .solver = solver, .damping = 0.3f, .friction = friction});
     const float radius = 0.08f;
     world.add_collider("post", Capsule{{0, 0, -1}, {0, 0, 1}, radius});
     // Laid round the upper half at the rope's own radius, straight down on both sides.
     const double r = 0.1, hanging = 2.0, round = pi * r, left = hanging / (1.0 + ratio);
-    world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {1, 0, 0}, .segments = segments,
-                    .length = static_cast<float>(hanging + round), .radius = 0.02f});
+    world.add_rope({.name = "rope",
+                    .from = {0, 0, 0},
+                    .to = {1, 0, 0},
+                    .segments = segments,
+                    .length = static_cast<float>(hanging + round),
+                    .radius = 0.02f});
     rope::State state = world.state();
     for (int i = 0; i <= segments; ++i) {
         const double at = (hanging + round) * i / segments;
@@ -110,13 +118,15 @@ double runs_off(Solver solver, float friction, double ratio, int segments, doubl
     return world.state().position[0].y - start;
 }
 
-/// It settles by some millimetres first: it begins as a curve and is a polygon, which vibrates. That also costs up to
-/// an eighth of the friction.
+/// It settles by some millimetres first: it begins as a curve and is a polygon, which vibrates. That also
+/// costs up to an eighth of the friction.
 TEST(RopeFriction, APostHoldsUpToEulersRatio) {
     for (const float friction : {0.1f, 0.2f, 0.3f, 0.5f}) {
         const double holds = most_ratio(0.87 * friction, 0.1), slips = most_ratio(1.05 * friction, 0.1);
-        EXPECT_LE(std::abs(runs_off(Solver::Direct, friction, holds, 128, 2.0)), 0.012) << friction << ' ' << holds;
-        EXPECT_GE(std::abs(runs_off(Solver::Direct, friction, slips, 128, 2.0)), 0.05) << friction << ' ' << slips;
+        EXPECT_LE(std::abs(runs_off(Solver::Direct, friction, holds, 128, 2.0)), 0.012)
+            << friction << ' ' << holds;
+        EXPECT_GE(std::abs(runs_off(Solver::Direct, friction, slips, 128, 2.0)), 0.05)
+            << friction << ' ' << slips;
     }
 }
 

@@ -124,7 +124,8 @@ TEST(RopePendulum, DampingDoesNotHangOnTheSubstep) {
 
 /// Gravity, its scale and the wind are one acceleration: turned round, a pendulum stands on its head.
 TEST(RopePendulum, SwingsAboutWhereverIsDown) {
-    const Settings turned{.damping = 0.5f, .gravity = {0, -9.81f, 0}, .gravity_scale = 0.5f, .external = {4.905f, 0, 0}};
+    const Settings turned{
+        .damping = 0.5f, .gravity = {0, -9.81f, 0}, .gravity_scale = 0.5f, .external = {4.905f, 0, 0}};
     World world = pendulum(1.0f, 0.1f, turned);
     run(world, 40.0);
     const glm::vec3 end = world.position(1);

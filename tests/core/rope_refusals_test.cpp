@@ -19,7 +19,8 @@ World some_world() {
 }
 
 /// `call` throws either of the two, and says all of `words`.
-void expect_refused(World& world, const std::function<void()>& call, std::initializer_list<const char*> words) {
+void expect_refused(World& world, const std::function<void()>& call,
+                    std::initializer_list<const char*> words) {
     const rope::State before = world.state();
     std::string message;
     try {
@@ -30,7 +31,8 @@ void expect_refused(World& world, const std::function<void()>& call, std::initia
     } catch (const std::out_of_range& error) {
         message = error.what();
     }
-    for (const char* word : words) EXPECT_NE(message.find(word), std::string::npos) << message << " lacks " << word;
+    for (const char* word : words)
+        EXPECT_NE(message.find(word), std::string::npos) << message << " lacks " << word;
     EXPECT_TRUE(same_bits(before, world.state())) << message;
 }
 
@@ -41,7 +43,12 @@ TEST(RopeRefusals, OfSettings) {
         change(settings);
         expect_refused(world, [&] { world.set_settings(settings); }, {"set_settings", what, value});
     };
-    for (const auto& [value, text] : {std::pair{0.0, "0"}, {-1.0, "-1"}, {1e-6, "e-"}, {0.2, "0.2"}, {double{nan}, "nan"}, {double{infinity}, "inf"}})
+    for (const auto& [value, text] : {std::pair{0.0, "0"},
+                                      {-1.0, "-1"},
+                                      {1e-6, "e-"},
+                                      {0.2, "0.2"},
+                                      {double{nan}, "nan"},
+                                      {double{infinity}, "inf"}})
         bad([v = value](Settings& s) { s.substep = v; }, "substep", text);
     for (const int value : {0, -5, rope::max_iterations + 1, std::numeric_limits<int>::max()})
         bad([&](Settings& s) { s.iterations = value; }, "iterations", std::to_string(value).c_str());
@@ -57,7 +64,8 @@ TEST(RopeRefusals, OfSettings) {
         bad([v = value](Settings& s) { s.gravity_scale = v; }, "gravity_scale", text);
     }
     bad([](Settings& s) { s.longest_frame = 0.0f; }, "longest_frame", "0");
-    EXPECT_NO_THROW(world.set_settings({.substep = 0.1, .iterations = 10'000, .damping = 1e3f, .friction = 100.0f, .longest_frame = 10.0f}));
+    EXPECT_NO_THROW(world.set_settings(
+        {.substep = 0.1, .iterations = 10'000, .damping = 1e3f, .friction = 100.0f, .longest_frame = 10.0f}));
 }
 
 TEST(RopeRefusals, OfRopes) {

@@ -23,14 +23,17 @@ Shape some_shape(Random& random) {
             return rope::Sphere{at, random.chance(12) ? 0.0f : 0.05f + 0.35f * part(random)};
         case 3:
         case 4:
-            return rope::Capsule{at, random.chance(12) ? at : at + random.point(0.5f), 0.03f + 0.2f * part(random)};
+            return rope::Capsule{at, random.chance(12) ? at : at + random.point(0.5f),
+                                 0.03f + 0.2f * part(random)};
         case 5: {
             const glm::vec3 normal = random.point(1.0f) + glm::vec3(0, 1.1f, 0);
             return rope::Plane{{0, -0.8f, 0}, normal};
         }
         default:
-            return rope::Box{at, {0.05f + 0.3f * part(random), 0.05f + 0.3f * part(random), 0.05f + 0.3f * part(random)},
-                             glm::quat(random.around(1.0f), random.around(1.0f), random.around(1.0f), 1.5f)};
+            return rope::Box{
+                at,
+                {0.05f + 0.3f * part(random), 0.05f + 0.3f * part(random), 0.05f + 0.3f * part(random)},
+                glm::quat(random.around(1.0f), random.around(1.0f), random.around(1.0f), 1.5f)};
     }
 }
 
@@ -39,27 +42,43 @@ void add_some_body(World& world, Random& random) {
     const glm::vec3 at = random.point(0.8f);
     switch (random.below(6)) {
         case 0:
-            world.add_sheet({.name = "", .corner = at, .along = {0.5f, 0, 0}, .down = {0, -0.1f, 0.5f}, .columns = 4, .rows = 4, .radius = radius,
-                             .pins = random.chance(2) ? rope::SheetShape::Pins::Corners : rope::SheetShape::Pins::None});
+            world.add_sheet(
+                {.name = "",
+                 .corner = at,
+                 .along = {0.5f, 0, 0},
+                 .down = {0, -0.1f, 0.5f},
+                 .columns = 4,
+                 .rows = 4,
+                 .radius = radius,
+                 .pins = random.chance(2) ? rope::SheetShape::Pins::Corners : rope::SheetShape::Pins::None});
             return;
         case 1: {
             const bool held = !world.state().colliders.empty() && random.chance(2);
-            world.add_lock({.name = "", .roots = {{at, {0, -1, 0}}, {at + glm::vec3(0.05f, 0, 0), {1, -1, 0}}}, .length = 0.4f, .segments = 5,
-                            .radius = radius, .attach = held ? world.state().colliders.front().name : ""});
+            world.add_lock({.name = "",
+                            .roots = {{at, {0, -1, 0}}, {at + glm::vec3(0.05f, 0, 0), {1, -1, 0}}},
+                            .length = 0.4f,
+                            .segments = 5,
+                            .radius = radius,
+                            .attach = held ? world.state().colliders.front().name : ""});
             return;
         }
         default: {
             const glm::vec3 to = random.chance(10) ? at : at + random.point(0.8f);
             const auto distance_of = static_cast<float>(distance(at, to));
-            world.add_rope({.name = "", .from = at, .to = to, .segments = 1 + static_cast<int>(random.below(14)),
-                            .length = distance_of * (random.chance(3) ? 1.0f : 1.0f + part(random)), .radius = radius,
-                            .pin_start = random.chance(2), .pin_end = random.chance(4)});
+            world.add_rope({.name = "",
+                            .from = at,
+                            .to = to,
+                            .segments = 1 + static_cast<int>(random.below(14)),
+                            .length = distance_of * (random.chance(3) ? 1.0f : 1.0f + part(random)),
+                            .radius = radius,
+                            .pin_start = random.chance(2),
+                            .pin_end = random.chance(4)});
         }
     }
 }
 
 struct Found {
-    double depth = 0.0;      ///< over what is allowed, metres
+    double depth = 0.0;  ///< over what is allowed, metres
     std::string what = {};
 };
 
@@ -84,7 +103,8 @@ void look(const World& world, Random& random, Found& worst) {
                 const double depth = body.radius - surface_distance(collider.shape, at).distance;
                 const double allowed = std::max(1e-3 * static_cast<double>(size(collider.shape)), 1e-4);
                 if (depth - allowed <= worst.depth || !has_room(world, at, body.radius, random)) continue;
-                worst = {depth - allowed, body.name + ", particle " + std::to_string(i - body.first) + " in " + collider.name};
+                worst = {depth - allowed,
+                         body.name + ", particle " + std::to_string(i - body.first) + " in " + collider.name};
             }
         }
 }
@@ -98,7 +118,8 @@ void play(std::uint64_t seed, Found& worst) {
                               .compliance = random.chance(4) ? 1e-3f : 0.0f,
                               .friction = part(random)});
     const std::size_t colliders = 1 + random.below(4), bodies = 1 + random.below(2);
-    for (std::size_t i = 0; i < colliders; ++i) world.add_collider("collider " + std::to_string(i), some_shape(random));
+    for (std::size_t i = 0; i < colliders; ++i)
+        world.add_collider("collider " + std::to_string(i), some_shape(random));
     for (std::size_t i = 0; i < bodies; ++i) add_some_body(world, random);
     if (random.chance(3)) {  // right on a centre
         rope::State state = world.state();
@@ -109,7 +130,8 @@ void play(std::uint64_t seed, Found& worst) {
         for (std::size_t i = 0; i < colliders; ++i)
             if (random.chance(2)) {
                 const rope::Collider& collider = world.state().colliders[i];
-                world.move_collider(std::string(collider.name), centre(collider.shape) + random.point(0.5f), 0.25 * static_cast<double>(part(random)));
+                world.move_collider(std::string(collider.name), centre(collider.shape) + random.point(0.5f),
+                                    0.25 * static_cast<double>(part(random)));
             }
         for (int frame = 0; frame < 4; ++frame) {
             world.advance(1.0 / 60.0);
@@ -132,7 +154,8 @@ TEST_P(RopeScenes, NothingFreeStaysInside) {
         Found worst;
         play(seed, worst);
         if (worst.depth > 0.0 && ++failed <= 10) {
-            ADD_FAILURE() << "scene " << seed << ": " << worst.what << ", " << worst.depth << " m over what is allowed";
+            ADD_FAILURE() << "scene " << seed << ": " << worst.what << ", " << worst.depth
+                          << " m over what is allowed";
         }
     }
     EXPECT_EQ(failed, 0) << "of 2500";

@@ -9,10 +9,20 @@ using rope::World;
 
 World busy_world(rope::Solver solver) {
     World world = world_with({.solver = solver});
-    world.add_rope({.name = "rope", .from = {0, 2, 0}, .to = {1, 2, 0}, .segments = 24, .length = 1.4f, .pin_start = true});
-    world.add_sheet({.name = "sheet", .corner = {2, 2, 0}, .columns = 6, .rows = 6, .pins = rope::SheetShape::Pins::Corners});
+    world.add_rope({.name = "rope",
+                    .from = {0, 2, 0},
+                    .to = {1, 2, 0},
+                    .segments = 24,
+                    .length = 1.4f,
+                    .pin_start = true});
+    world.add_sheet({.name = "sheet",
+                     .corner = {2, 2, 0},
+                     .columns = 6,
+                     .rows = 6,
+                     .pins = rope::SheetShape::Pins::Corners});
     world.add_collider("ball", rope::Sphere{{0.6f, 1.4f, 0}, 0.2f});
-    world.add_lock({.name = "lock", .roots = {{{0.6f, 1.6f, 0}, {0, 1, 0}}}, .segments = 6, .attach = "ball"});
+    world.add_lock(
+        {.name = "lock", .roots = {{{0.6f, 1.6f, 0}, {0, 1, 0}}}, .segments = 6, .attach = "ball"});
     world.add_collider("ground", rope::Plane{{0, 0, 0}, {0, 1, 0}});
     world.move_collider("ball", {0.2f, 1.3f, 0}, 0.7);
     world.pin(world.particle("rope", 24), {0.5f, 2.2f, 0.1f}, 0.6);
@@ -110,7 +120,8 @@ TEST(RopeState, BrokenOnesAreRefused) {
         State state = good.state();
         each.how(state);
         const std::string message = message_of<std::invalid_argument>([&] { World{state}; });
-        EXPECT_NE(message.find(each.word), std::string::npos) << number << ": " << message << " lacks " << each.word;
+        EXPECT_NE(message.find(each.word), std::string::npos)
+            << number << ": " << message << " lacks " << each.word;
         ++number;
     }
 }
@@ -120,21 +131,25 @@ TEST(RopeState, AnyGraphOfLinksWorks) {
     Random random(91);
     for (int round = 0; round < 60; ++round) {
         World world = world_with({.solver = all_solvers[random.below(3)]});
-        world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 9, .pin_start = true});
+        world.add_rope(
+            {.name = "rope", .from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 9, .pin_start = true});
         world.add_rope({.name = "other", .from = {0, 0.1f, 0}, .to = {1, 0.2f, 0}, .segments = 9});
         world.add_collider("ball", rope::Sphere{{0.5f, -0.5f, 0}, 0.2f});
         State state = world.state();
         for (int i = 0; i < 12; ++i) {
-            const auto a = static_cast<std::uint32_t>(random.below(20)), b = static_cast<std::uint32_t>(random.below(20));
+            const auto a = static_cast<std::uint32_t>(random.below(20)),
+                       b = static_cast<std::uint32_t>(random.below(20));
             if (a == b) continue;
             rope::Link link{.a = a, .b = b, .rest = 0.1f + 0.4f * std::abs(random.around(1.0f))};
             link.kind = static_cast<rope::Link::Kind>(random.below(3));
-            state.links.insert(state.links.begin() + static_cast<std::ptrdiff_t>(random.below(state.links.size())), link);
+            state.links.insert(
+                state.links.begin() + static_cast<std::ptrdiff_t>(random.below(state.links.size())), link);
         }
         world = World(state);
         for (int i = 0; i < 60; ++i) world.advance(1.0 / 60.0);
         EXPECT_TRUE(all_finite(world)) << round;
-        // Lengths that contradict each other throw what is linked about under the direct solver; no other flies off.
+        // Lengths that contradict each other throw what is linked about under the direct solver; no other
+        // flies off.
         if (world.settings().solver == rope::Solver::Direct) continue;
         for (const glm::dvec3& p : world.state().position) EXPECT_LE(glm::length(p), 40.0) << round;
     }
@@ -143,11 +158,21 @@ TEST(RopeState, AnyGraphOfLinksWorks) {
 /// What a world has come to by itself it takes back, however heavy, wide or tight it is.
 TEST(RopeState, ItsOwnIsNotRefused) {
     World tight;
-    tight.add_rope({.name = "rope", .to = {1, 0, 0}, .segments = 4, .length = 1e-12f, .pin_start = true, .pin_end = true});
+    tight.add_rope({.name = "rope",
+                    .to = {1, 0, 0},
+                    .segments = 4,
+                    .length = 1e-12f,
+                    .pin_start = true,
+                    .pin_end = true});
     World heavy;
     heavy.add_rope({.name = "rope", .to = {1e6f, 0, 0}, .segments = 4, .density = 1e6f});
     World wide;
-    wide.add_sheet({.name = "sheet", .corner = {-9e8f, 0, 0}, .along = {9e8f, 0, 0}, .down = {0, 1e8f, 0}, .columns = 3, .rows = 3});
+    wide.add_sheet({.name = "sheet",
+                    .corner = {-9e8f, 0, 0},
+                    .along = {9e8f, 0, 0},
+                    .down = {0, 1e8f, 0},
+                    .columns = 3,
+                    .rows = 3});
     for (World* world : {&tight, &heavy, &wide}) {
         for (int i = 0; i < 30; ++i) world->advance(0.1);
         EXPECT_TRUE(all_finite(*world));

@@ -15,7 +15,8 @@
 
 namespace tendril::test {
 
-inline constexpr rope::Solver all_solvers[] = {rope::Solver::Relaxation, rope::Solver::Xpbd, rope::Solver::Direct};
+inline constexpr rope::Solver all_solvers[] = {rope::Solver::Relaxation, rope::Solver::Xpbd,
+                                               rope::Solver::Direct};
 inline constexpr double pi = 3.14159265358979323846;
 
 inline rope::World world_with(const rope::Settings& settings) {
@@ -93,15 +94,16 @@ bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
 /// Whether two worlds are in the same state to the last bit.
 inline bool same_bits(const rope::State& a, const rope::State& b) {
     const auto same_body = [](const rope::Body& x, const rope::Body& y) {
-        return x.name == y.name && x.kind == y.kind && x.first == y.first && x.count == y.count && x.row == y.row &&
-               x.radius == y.radius && x.tear == y.tear;
+        return x.name == y.name && x.kind == y.kind && x.first == y.first && x.count == y.count &&
+               x.row == y.row && x.radius == y.radius && x.tear == y.tear;
     };
     const auto same_link = [](const rope::Link& x, const rope::Link& y) {
-        return x.a == y.a && x.b == y.b && x.rest == y.rest && x.kind == y.kind && x.compliance == y.compliance &&
-               std::memcmp(&x.tension, &y.tension, sizeof x.tension) == 0;
+        return x.a == y.a && x.b == y.b && x.rest == y.rest && x.kind == y.kind &&
+               x.compliance == y.compliance && std::memcmp(&x.tension, &y.tension, sizeof x.tension) == 0;
     };
     const auto same_pin = [](const rope::Pin& x, const rope::Pin& y) {
-        return x.particle == y.particle && x.goal == y.goal && x.seconds == y.seconds && x.collider == y.collider;
+        return x.particle == y.particle && x.goal == y.goal && x.seconds == y.seconds &&
+               x.collider == y.collider;
     };
     const auto same_collider = [](const rope::Collider& x, const rope::Collider& y) {
         return x.name == y.name && x.shape.index() == y.shape.index() && centre(x.shape) == centre(y.shape) &&
@@ -113,7 +115,8 @@ inline bool same_bits(const rope::State& a, const rope::State& b) {
            std::equal(a.bodies.begin(), a.bodies.end(), b.bodies.begin(), b.bodies.end(), same_body) &&
            std::equal(a.links.begin(), a.links.end(), b.links.begin(), b.links.end(), same_link) &&
            std::equal(a.pins.begin(), a.pins.end(), b.pins.begin(), b.pins.end(), same_pin) &&
-           std::equal(a.colliders.begin(), a.colliders.end(), b.colliders.begin(), b.colliders.end(), same_collider);
+           std::equal(a.colliders.begin(), a.colliders.end(), b.colliders.begin(), b.colliders.end(),
+                      same_collider);
 }
 
 }  // namespace tendril::test

@@ -1,4 +1,5 @@
-// Time is simulated in fixed substeps: how it is cut into frames does not matter, and what is dropped is counted.
+// Time is simulated in fixed substeps: how it is cut into frames does not matter, and what is dropped is
+// counted.
 #include "rope_support.hpp"
 
 namespace tendril::test {
@@ -12,8 +13,17 @@ using rope::World;
 /// Something of everything, in motion.
 World scene(Solver solver) {
     World world = world_with({.solver = solver});
-    world.add_rope({.name = "rope", .from = {0, 2, 0}, .to = {1, 2, 0}, .segments = 24, .length = 1.4f, .pin_start = true});
-    world.add_sheet({.name = "sheet", .corner = {2, 2, 0}, .columns = 6, .rows = 6, .pins = rope::SheetShape::Pins::Corners});
+    world.add_rope({.name = "rope",
+                    .from = {0, 2, 0},
+                    .to = {1, 2, 0},
+                    .segments = 24,
+                    .length = 1.4f,
+                    .pin_start = true});
+    world.add_sheet({.name = "sheet",
+                     .corner = {2, 2, 0},
+                     .columns = 6,
+                     .rows = 6,
+                     .pins = rope::SheetShape::Pins::Corners});
     world.add_collider("ball", rope::Sphere{{0.6f, 1.4f, 0}, 0.2f});
     world.add_collider("ground", rope::Plane{{0, 0, 0}, {0, 1, 0}});
     world.move_collider("ball", {0.2f, 1.3f, 0}, 0.5);
@@ -59,7 +69,8 @@ TEST(RopeTime, NorDoRaggedCuts) {
     }
 }
 
-/// An hour of frames of a sixtieth, none of which is a number that doubles have: no substep is lost or made up.
+/// An hour of frames of a sixtieth, none of which is a number that doubles have: no substep is lost or made
+/// up.
 TEST(RopeTime, AnHourHasAllItsSubsteps) {
     World world;
     for (int i = 0; i < 3600 * 60; ++i) world.advance(1.0 / 60.0);
@@ -114,9 +125,12 @@ TEST(RopeTime, NoTimeIsNoStepAndBadTimeIsRefused) {
     const rope::State before = world.state();
     EXPECT_EQ(world.advance(0.0).substeps, 0);
     EXPECT_TRUE(same_bits(before, world.state()));
-    for (const auto& [seconds, text] : {std::pair{-1.0, "-1"}, {-1e-300, "-"}, {double{nan}, "nan"}, {double{infinity}, "inf"},
+    for (const auto& [seconds, text] : {std::pair{-1.0, "-1"},
+                                        {-1e-300, "-"},
+                                        {double{nan}, "nan"},
+                                        {double{infinity}, "inf"},
                                         {-double{infinity}, "-inf"}}) {
-        const std::string message = message_of<std::invalid_argument>([&] { world.advance(seconds); });
+        const std::string message = message_of<std::invalid_argument>([&, s = seconds] { world.advance(s); });
         EXPECT_NE(message.find("seconds"), std::string::npos) << message;
         EXPECT_NE(message.find(text), std::string::npos) << message;
         EXPECT_TRUE(same_bits(before, world.state()));
@@ -125,7 +139,8 @@ TEST(RopeTime, NoTimeIsNoStepAndBadTimeIsRefused) {
 
 TEST(RopeTime, AnyAllowedSubstepWorks) {
     for (const Solver solver : all_solvers) {
-        for (const double substep : {rope::min_substep, 1.0 / 3840.0, 1.0 / 60.0, 1.0 / 15.0, rope::max_substep}) {
+        for (const double substep :
+             {rope::min_substep, 1.0 / 3840.0, 1.0 / 60.0, 1.0 / 15.0, rope::max_substep}) {
             World world = scene(solver);
             Settings settings = world.settings();
             settings.substep = substep;

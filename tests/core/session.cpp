@@ -6,24 +6,27 @@
 #include "random.hpp"
 #include "tendril/chain/chain.hpp"
 #include "tendril/ik/solver.hpp"
+#include "tendril/rope/world.hpp"
 
 namespace tendril::test {
 namespace {
 
 class Fnv {
   public:
-    void add(float value) {
-        const auto bits = std::bit_cast<std::uint32_t>(value);
-        for (int shift = 0; shift < 32; shift += 8) {
-            hash_ = (hash_ ^ ((bits >> shift) & 0xffu)) * 0x100000001b3u;
-        }
-    }
+    void add(float value) { add_bytes(std::bit_cast<std::uint32_t>(value), 32); }
+    void add(double value) { add_bytes(std::bit_cast<std::uint64_t>(value), 64); }
     void add(const glm::vec3& point) {
         for (int axis = 0; axis < 3; ++axis) add(point[axis]);
     }
     std::uint64_t value() const { return hash_; }
 
   private:
+    void add_bytes(std::uint64_t bits, int count) {
+        for (int shift = 0; shift < count; shift += 8) {
+            hash_ = (hash_ ^ ((bits >> shift) & 0xffu)) * 0x100000001b3u;
+        }
+    }
+
     std::uint64_t hash_ = 0xcbf29ce484222325u;
 };
 
@@ -101,6 +104,72 @@ ik::Options some_options(const std::vector<ik::Limit>& limits, Random& random) {
     return options;
 }
 
+rope::Shape some_collider(Random& random) {
+    const glm::vec3 at = random.point(1.0f);
+    const float size = 0.125f + 0.0625f * static_cast<float>(random.below(5));
+    switch (random.below(3)) {
+        case 0:
+            return rope::Sphere{at, size};
+        case 1:
+            return rope::Capsule{at, at + random.point(0.5f), size};
+        default:
+            return rope::Box{at, {size, 0.25f, size}, glm::quat(0.5f, 0.5f, -0.5f, 0.5f)};
+    }
+}
+
+/// Ropes of two lengths, some whipping about, a sheet that tears, and hair on a ball.
+rope::World some_world(int number, Random& random) {
+    rope::Settings settings;
+    settings.solver = static_cast<rope::Solver>(number % 3);
+    settings.iterations = 2 + static_cast<int>(random.below(15));
+    settings.substep = random.chance(3) ? 1.0 / 64.0 : 1.0 / 256.0;
+    settings.friction = 0.25f * static_cast<float>(random.below(5));
+    if (random.chance(3)) settings.compliance = 0.0078125f;
+    rope::World world;
+    world.set_settings(settings);
+    world.add_collider("ground", rope::Plane{{0, -1, 0}, {0.25f, 1, 0}});
+    world.add_collider("ball", rope::Sphere{random.point(0.5f), 0.25f});
+    for (const char* name : {"one", "two"}) world.add_collider(name, some_collider(random));
+    for (int i = 0; i < 5; ++i) {
+        const glm::vec3 from = random.point(1.0f), to = from + random.point(1.0f);
+        world.add_rope({.from = from,
+                        .to = to,
+                        .segments = i < 3 ? 12 : 7,
+                        .length = 1.5f,
+                        .radius = 0.015625f,
+                        .pin_start = random.chance(2),
+                        .pin_end = random.chance(4)});
+    }
+    if (random.chance(2)) {
+        world.add_sheet({.corner = random.point(1.0f),
+                         .columns = 5,
+                         .rows = 4,
+                         .tear = random.chance(2) ? 0.0625f : 0.0f,
+                         .pins = rope::SheetShape::Pins::Corners});
+    }
+    const glm::vec3 root = centre(world.find_collider("ball")->shape) + glm::vec3(0, 0.25f, 0);
+    world.add_lock({.roots = {{root, {0, 1, 0}}, {root, {1, 1, 0}}}, .segments = 5, .attach = "ball"});
+    return world;
+}
+
+void disturb(rope::World& world, Random& random) {
+    const std::size_t particle = random.below(world.size());
+    switch (random.below(5)) {
+        case 0:
+            return world.pin(particle, random.point(1.0f), 0.125);
+        case 1:
+            if (world.pinned(particle)) world.unpin(particle);
+            return;
+        case 2:
+            if (world.find("rope 2")->count > 2) world.cut("rope 2", 1);
+            return;
+        case 3:
+            return world.move_collider("one", random.point(1.0f), 0.25);
+        default:
+            return world.move_collider("ball", random.point(0.5f), 0.125);
+    }
+}
+
 }  // namespace
 
 std::uint64_t session_hash() {
@@ -137,6 +206,23 @@ std::uint64_t solve_hash() {
             hash.add(static_cast<float>(report.iterations));
             hash.add(static_cast<float>(report.status));
             for (const glm::vec3& joint : joints) hash.add(joint);
+        }
+    }
+    return hash.value();
+}
+
+std::uint64_t rope_hash() {
+    Random random(20260103);
+    Fnv hash;
+    for (int i = 0; i < 60; ++i) {
+        rope::World world = some_world(i, random);
+        for (int turn = 0; turn < 12; ++turn) {
+            disturb(world, random);
+            world.advance(0.0625);
+            for (const glm::dvec3& point : world.state().position)
+                for (int axis = 0; axis < 3; ++axis) hash.add(point[axis]);
+            for (const rope::Link& link : world.state().links) hash.add(link.tension);
+            for (const rope::Body& body : world.state().bodies) hash.add(body.stretch);
         }
     }
     return hash.value();

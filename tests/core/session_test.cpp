@@ -12,4 +12,8 @@ TEST(Session, SolvesEndInTheSameBitsInEveryBuild) {
     EXPECT_EQ(solve_hash(), golden_solve_hash);
 }
 
+TEST(Session, RopesEndInTheSameBitsInEveryBuild) {
+    EXPECT_EQ(rope_hash(), golden_rope_hash);
+}
+
 }  // namespace tendril::test

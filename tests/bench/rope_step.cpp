@@ -1,0 +1,154 @@
+// What a substep of ropes costs: by particles, by colliders far and near, and for many ropes with and without
+// vector units.
+//
+//     tendril_bench_rope_step            the tables and one line per claim
+//     tendril_bench_rope_step --check    the same, and exit code 1 when a claim does not hold
+//
+// Claims: a rope of 1024 segments among 16 colliders takes under 1 ms a frame of 1/60 s; with 256 colliders
+// that are far off it takes at most half as long again as with none; vector units pay off for 200 ropes of 32
+// segments. Times are processor time.
+#include <cmath>
+#include <string>
+
+#include "measure.hpp"
+#include "tendril/ik/many.hpp"
+#include "tendril/rope/world.hpp"
+
+namespace {
+
+using namespace tendril::bench;
+namespace rope = tendril::rope;
+
+constexpr int repetitions = 9;
+constexpr double frame = 1.0 / 60.0;
+
+/// Hung between two points, four metres of it for each three that they are apart.
+rope::World hung(int segments) {
+    rope::World world;
+    const float span = 3.0f;
+    world.add_rope({.from = {0, 0, 0},
+                    .to = {span, 0, 0},
+                    .segments = segments,
+                    .length = 4.0f,
+                    .radius = 0.01f,
+                    .pin_start = true,
+                    .pin_end = true});
+    world.advance(0.1);  // sizes what it works with
+    return world;
+}
+
+/// Balls on a grid far below, or all along the rope, half of them touching it.
+void add_colliders(rope::World& world, int count, bool near) {
+    const std::size_t particles = world.size();
+    for (int i = 0; i < count; ++i) {
+        const auto n = static_cast<float>(i);
+        glm::vec3 at(n * 0.5f, -50.0f, std::fmod(n, 16.0f));
+        if (near) {
+            const auto along = static_cast<std::size_t>((i + 0.5) / count * static_cast<double>(particles));
+            at = world.position(along) - glm::vec3(0, i % 2 == 0 ? 0.05f : 0.12f, 0);
+        }
+        world.add_collider("ball " + std::to_string(i), rope::Sphere{at, 0.05f});
+    }
+    world.advance(0.1);
+}
+
+/// As many frames as take some milliseconds.
+int frames_for(int segments) {
+    return std::max(1, 16384 / segments);
+}
+
+void run_frames(rope::World& world, int frames) {
+    for (int i = 0; i < frames; ++i) world.advance(frame);
+}
+
+/// Microseconds a substep: of no collider, 16 and 256 far off, 16 and 256 near.
+std::vector<double> cost(int segments) {
+    std::vector<rope::World> worlds;
+    for (const auto& [count, near] :
+         {std::pair{0, false}, {16, false}, {256, false}, {16, true}, {256, true}}) {
+        worlds.push_back(hung(segments));
+        add_colliders(worlds.back(), count, near);
+    }
+    const int frames = frames_for(segments);
+    std::vector<std::function<void()>> runs;
+    for (rope::World& world : worlds) runs.push_back([&world, frames] { run_frames(world, frames); });
+    std::vector<double> micros;
+    for (const double seconds : race(runs, repetitions)) micros.push_back(seconds * 1e6 / (4.0 * frames));
+    return micros;
+}
+
+struct Gains {
+    double far = 0.0, frame_budget = 0.0;
+};
+
+Gains particle_table() {
+    std::printf(
+        "us a substep of 1/240 s, one rope, direct solver, by segments and colliders; medians of %d\n",
+        repetitions);
+    std::printf("%-12s%12s%12s%12s%12s%12s%18s\n", "", "none", "16 far", "256 far", "16 near", "256 near",
+                "ns a segment");
+    Gains gains;
+    for (const int segments : {64, 1024, 16384}) {
+        const std::vector<double> micros = cost(segments);
+        std::printf("%-12d", segments);
+        for (const double each : micros) std::printf("%12.2f", each);
+        std::printf("%18.1f\n", micros[0] * 1e3 / segments);
+        if (segments != 1024) continue;
+        gains.far = micros[0] / micros[2];
+        gains.frame_budget = 1000.0 / (4.0 * std::max(micros[1], micros[3]));
+    }
+    return gains;
+}
+
+void solver_table() {
+    std::printf("\nus a substep, 1024 segments, no collider\n");
+    for (const rope::Solver solver : {rope::Solver::Relaxation, rope::Solver::Xpbd, rope::Solver::Direct}) {
+        rope::World world = hung(1024);
+        rope::Settings settings = world.settings();
+        settings.solver = solver;
+        world.set_settings(settings);
+        const double seconds = race({[&] { run_frames(world, 16); }}, repetitions)[0];
+        std::printf("%-12s%12.2f   stretch %.1e\n", name(solver), seconds * 1e6 / 64.0,
+                    world.length_error(world.state().bodies[0]));
+    }
+}
+
+/// How many times as fast the widest unit is as none.
+double crowd_table() {
+    constexpr int ropes = 200, segments = 32;
+    rope::World start;
+    for (int i = 0; i < ropes; ++i) {
+        const auto x = static_cast<float>(i % 20), z = static_cast<float>(i / 20);
+        start.add_rope({.from = {x, 0, z},
+                        .to = {x + 0.5f, 0, z},
+                        .segments = segments,
+                        .length = 1.0f,
+                        .pin_start = true});
+    }
+    std::vector<std::string> names{"none"};
+    for (const std::string_view unit : tendril::ik::vector_units()) names.emplace_back(unit);
+    std::vector<rope::World> worlds(names.size(), start);
+    std::vector<std::function<void()>> runs;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        worlds[i].use_vector_unit(names[i]);
+        runs.push_back([&world = worlds[i]] { run_frames(world, 4); });
+    }
+    const std::vector<double> seconds = race(runs, repetitions);
+    std::printf("\nus a substep, %d ropes of %d segments, by vector unit\n", ropes, segments);
+    for (std::size_t i = 0; i < names.size(); ++i)
+        std::printf("%-12s%12.2f%8.2fx\n", names[i].c_str(), seconds[i] * 1e6 / 16.0,
+                    seconds[0] / seconds[i]);
+    return seconds[0] / *std::min_element(seconds.begin(), seconds.end());
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+    const Gains gains = particle_table();
+    solver_table();
+    const double units = crowd_table();
+    bool all = claim("1 ms over a frame of 1024 segments among 16 colliders", gains.frame_budget, 1.0);
+    all &= claim("time without colliders over that with 256 far ones", gains.far, 0.67);
+    all &= claim("200 ropes without vector units over with", units, 1.5);
+    return all || !has_flag(count, arguments, "--check") ? 0 : 1;
+}

@@ -1,0 +1,137 @@
+// The same bits with every vector unit and with none, and no memory taken while time passes.
+#include "memory.hpp"
+#include "rope_support.hpp"
+#include "tendril/ik/many.hpp"
+
+namespace tendril::test {
+namespace {
+
+using rope::Solver;
+using rope::World;
+
+/// Ropes of equal length side by side, so that registers are full, half full and alone; whips, contacts, a
+/// sheet.
+World wild_scene(const rope::Settings& settings) {
+    World world = world_with(settings);
+    Random random(101);
+    for (int i = 0; i < 19; ++i) {
+        const glm::vec3 from = random.point(1.0f) + glm::vec3(0, 1.5f, 0);
+        world.add_rope({.name = "",
+                        .from = from,
+                        .to = from + random.point(0.7f),
+                        .segments = i < 13 ? 12 : 7,
+                        .length = 1.3f,
+                        .pin_start = !random.chance(4)});
+    }
+    world.add_rope({.name = "stretched",
+                    .from = {2, 1, 0},
+                    .to = {4, 1, 0},
+                    .segments = 9,
+                    .length = 1.5f,
+                    .pin_start = true,
+                    .pin_end = true});
+    world.add_sheet({.name = "sheet",
+                     .corner = {0, 2, 0.5f},
+                     .columns = 7,
+                     .rows = 6,
+                     .pins = rope::SheetShape::Pins::Corners});
+    world.add_collider("ball", rope::Sphere{{0, 0.6f, 0}, 0.4f});
+    world.add_collider("rod", rope::Capsule{{-1, 0.3f, 0.4f}, {1, 0.4f, 0.5f}, 0.1f});
+    world.add_collider("box", rope::Box{{0.8f, 0.8f, -0.3f}, {0.2f, 0.3f, 0.2f}, {0.9f, 0.2f, 0.1f, 0.3f}});
+    world.add_collider("ground", rope::Plane{});
+    world.add_lock({.name = "lock",
+                    .roots = {{{0, 1.0f, 0}, {0, 1, 0}}, {{0.1f, 1, 0}, {0, 1, 0}}},
+                    .segments = 6,
+                    .attach = "ball"});
+    return world;
+}
+
+/// Pins jerked to and fro: what they hold cracks like a whip.
+void stir(World& world, Random& random) {
+    for (int i = 0; i < 3; ++i) {
+        const std::size_t which = random.below(world.state().pins.size());
+        const rope::Pin& pin = world.state().pins[which];
+        if (!pin.collider.empty()) continue;
+        world.pin(pin.particle, world.position(pin.particle) + random.point(0.3f), 0.05);
+    }
+    world.move_collider("ball", random.point(0.4f) + glm::vec3(0, 0.6f, 0), 0.1);
+}
+
+TEST(RopeBits, EveryVectorUnitHasTheSame) {
+    for (const rope::Settings& settings :
+         {rope::Settings{}, rope::Settings{.compliance = 1e-3f, .friction = 0.1f},
+          rope::Settings{.substep = 1.0 / 60.0, .damping = 0.0f}}) {
+        std::vector<World> worlds;
+        std::vector<std::string> units{"", "none"};
+        for (const std::string_view unit : ik::vector_units()) units.emplace_back(unit);
+        for (const std::string& unit : units) {
+            worlds.push_back(wild_scene(settings));
+            worlds.back().use_vector_unit(unit);
+            Random random(102);
+            for (int i = 0; i < 12; ++i) {
+                stir(worlds.back(), random);
+                worlds.back().advance(0.05);
+            }
+            EXPECT_TRUE(all_finite(worlds.back()));
+            EXPECT_TRUE(same_bits(worlds.front().state(), worlds.back().state())) << unit;
+        }
+    }
+}
+
+/// Whether a rope has company in its register or not.
+TEST(RopeBits, CompanyDoesNotMatter) {
+    for (const int others : {0, 1, 3, 7, 12}) {
+        World alone, together;
+        Random random(103);
+        const rope::RopeShape shape{.name = "it",
+                                    .from = {0, 0, 0},
+                                    .to = {0.6f, 0.3f, 0},
+                                    .segments = 12,
+                                    .length = 1.0f,
+                                    .pin_start = true};
+        alone.add_rope(shape);
+        for (int i = 0; i < others; ++i)
+            together.add_rope({.name = "",
+                               .from = random.point(1),
+                               .to = random.point(1),
+                               .segments = 12,
+                               .length = 3.0f,
+                               .pin_start = random.chance(2)});
+        together.add_rope(shape);
+        const std::size_t first = together.find("it")->first;
+        for (int i = 0; i < 20; ++i) {
+            const glm::vec3 to = random.point(0.3f);  // a whip
+            alone.pin(0, to, 0.03), together.pin(first, to, 0.03);
+            alone.advance(0.05), together.advance(0.05);
+        }
+        for (std::size_t i = 0; i < alone.size(); ++i)
+            EXPECT_EQ(alone.state().position[i], together.state().position[first + i]) << others << ' ' << i;
+    }
+}
+
+TEST(RopeBits, AUnitOutlivesACopy) {
+    World world = wild_scene({});
+    world.use_vector_unit("none");
+    World copy = world;
+    world.advance(0.2), copy.advance(0.2);
+    EXPECT_TRUE(same_bits(world.state(), copy.state()));
+}
+
+/// Once it has its shape; near colliders and far from them.
+TEST(RopeBits, TimePassesWithoutMemory) {
+    for (const Solver solver : all_solvers) {
+        World world = wild_scene({.solver = solver});
+        world.move_collider("ball", {30, 30, 30});
+        world.advance(0.05);
+        Random random(104);
+        int substeps = 0;
+        for (int i = 0; i < 20; ++i) {
+            stir(world, random);
+            without_memory([&] { substeps += world.advance(0.05).substeps; });
+        }
+        EXPECT_EQ(substeps, 240) << name(solver);
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test
