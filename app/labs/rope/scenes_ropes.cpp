@@ -34,6 +34,9 @@ RopeScene drape_scene() {
                         .segments = 36,
                         .radius = 0.016f});
     }
+    rope::Settings settings = world.settings();
+    settings.damping = 0.8f;  // what dangles comes to rest within half a minute
+    world.set_settings(settings);
     return scene;
 }
 
