@@ -163,7 +163,7 @@ RopeScene well_scene() {
                     .radius = rope_radius,
                     .density = 0.4f});
     lay(world, "rope", line);
-    weigh_down(world, "rope", 1, 2.0);
+    weigh_down(world, "rope", 1, 0.6);
     world.attach(world.particle("rope", 0), "hand");
     scene.swings.push_back({"hand", hand, 0.24f * pull, 6.0f});
     rope::Settings settings = world.settings();
