@@ -178,7 +178,7 @@ void World::attach(std::size_t particle, std::string_view collider) {
     pin(particle, position(particle));
     const auto place = pin_of(state_.pins, particle);
     place->goal = offset;
-    place->collider = collider;
+    place->collider = holder->name;  // the argument may be the name of a pin, which has moved
 }
 
 void World::unpin(std::size_t particle) {
