@@ -4,6 +4,7 @@
 
 #include "chain/checks.hpp"
 #include "rope/build.hpp"
+#include "rope/contact_shape.hpp"
 #include "rope/geometry.hpp"
 #include "rope/substep.hpp"
 
@@ -25,9 +26,11 @@ bool tear(State& state) {
     for (const Body& body : state.bodies)
         std::fill_n(limit.begin() + static_cast<std::ptrdiff_t>(body.first), body.count, body.tear);
     const auto torn = [&](const Link& link) {
-        const double longest = static_cast<double>(limit[link.a]);
+        if (limit[link.a] <= 0.0f) return false;
+        // A cell that is pulled askew makes its diagonal longer without anything being overstretched.
+        const double longest = static_cast<double>(limit[link.a]) + (link.kind == Link::Kind::Stretch ? 0.0 : 0.5);
         const double length = detail::length(state.position[link.b] - state.position[link.a]);
-        return longest > 0.0 && length > link.rest * (1.0 + longest);
+        return length > link.rest * (1.0 + longest);
     };
     return std::erase_if(state.links, torn) > 0;
 }
@@ -79,14 +82,15 @@ int Substep::run() {
 void Substep::move_colliders() {
     for (std::size_t i = 0; i < state_.colliders.size(); ++i) {
         Collider& collider = state_.colliders[i];
-        const dvec3 from(centre(collider.shape));
+        World::Scratch::Moving& moving = scratch_.colliders[i];
+        const glm::vec3 was = centre(collider.shape);
         const double part = part_of(h_, collider.seconds);
-        const Shape was = collider.shape;
-        if (const dvec3 to = from + part * (collider.goal - from); glm::vec3(to) != centre(was)) {
-            collider.shape = moved(was, glm::vec3(to));
-        }
-        scratch_.colliders[i].shape = collider.shape;
-        scratch_.colliders[i].by = dvec3(centre(collider.shape)) - from;
+        const dvec3 from(was), to = from + part * (collider.goal - from);
+        if (glm::vec3(to) != was) collider.shape = moved(collider.shape, glm::vec3(to));
+        moving.shape = &collider.shape;
+        moving.by = dvec3(centre(collider.shape)) - from;
+        moving.size = size(collider.shape);
+        detail::bounds(collider.shape, moving.by, moving.low, moving.high);
     }
 }
 

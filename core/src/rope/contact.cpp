@@ -38,10 +38,6 @@ void Substep::find_near() {
     scratch_.near.clear();
     std::fill(scratch_.body_near.begin(), scratch_.body_near.end(), std::uint8_t{0});
     if (state_.colliders.empty()) return;
-    for (World::Scratch::Moving& collider : scratch_.colliders) {
-        collider.size = size(collider.shape);
-        detail::bounds(collider.shape, collider.by, collider.low, collider.high);
-    }
     Bounds whole;
     scratch_.chunk_low.resize(plan_.chunks.size());
     scratch_.chunk_high.resize(plan_.chunks.size());
@@ -71,7 +67,7 @@ void Substep::find_near() {
         for (const std::uint32_t k : scratch_.close) {
             const World::Scratch::Moving& collider = scratch_.colliders[k];
             const bool meets = chunk.meets(collider.low, collider.high);
-            if (!meets || detail::beyond(collider.shape, chunk.low, chunk.high)) continue;
+            if (!meets || detail::beyond(*collider.shape, chunk.low, chunk.high)) continue;
             scratch_.near.push_back({c, k});
             scratch_.body_near[plan_.chunks[c].body] = 1;
         }
@@ -121,7 +117,9 @@ void Substep::push_particle(std::uint32_t i, std::uint32_t number, double radius
     if (scratch_.weight[i] == 0.0) return;
     const World::Scratch::Moving& collider = scratch_.colliders[number];
     dvec3& place = scratch_.place[i];
-    SurfaceDistance surface = surface_distance(collider.shape, place);
+    const double travelled = first ? detail::length(place - state_.position[i]) : 0.0;
+    if (collider.far_from(place, radius + travelled)) return;
+    SurfaceDistance surface = surface_distance(*collider.shape, place);
     if (first) {
         // As the collider sees it, from where it came. Something fast is stopped on the side that it came from.
         const dvec3 from = state_.position[i] + collider.by, way = place - from;
@@ -130,7 +128,7 @@ void Substep::push_particle(std::uint32_t i, std::uint32_t number, double radius
             const int looks = static_cast<int>(std::min(64.0, std::ceil(far / std::max(step, 1e-9))));
             for (int k = 0; k < looks; ++k) {
                 const dvec3 on_the_way = from + (static_cast<double>(k) / looks) * way;
-                const SurfaceDistance there = surface_distance(collider.shape, on_the_way);
+                const SurfaceDistance there = surface_distance(*collider.shape, on_the_way);
                 if (there.distance >= radius) continue;
                 place = on_the_way;
                 surface = there;
@@ -151,9 +149,9 @@ void Substep::push_link(const Link& link, std::uint32_t number, double radius) {
     const World::Scratch::Moving& collider = scratch_.colliders[number];
     if (link.rest <= collider.size) return;
     dvec3 &a = scratch_.place[link.a], &b = scratch_.place[link.b];
-    const double t = detail::nearest_on_line(collider.shape, a, b);
+    const double t = detail::nearest_on_line(*collider.shape, a, b);
     if (t <= 0.0 || t >= 1.0) return;
-    const SurfaceDistance surface = surface_distance(collider.shape, a + t * (b - a));
+    const SurfaceDistance surface = surface_distance(*collider.shape, a + t * (b - a));
     const double depth = radius - surface.distance;
     const double share_a = scratch_.weight[link.a] * (1.0 - t), share_b = scratch_.weight[link.b] * t;
     const double shares = share_a * (1.0 - t) + share_b * t;

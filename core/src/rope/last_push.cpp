@@ -22,14 +22,18 @@ struct Neighbours {
     const World::Scratch& scratch;
     std::span<const World::Scratch::Near> near;
 
+    /// Those that a ball may touch.
     template <class Visit>
-    void each(Visit visit) const {
-        for (const World::Scratch::Near& each : near) visit(scratch.colliders[each.collider].shape);
+    void each(const dvec3& at, double radius, Visit visit) const {
+        for (const World::Scratch::Near& each : near) {
+            const World::Scratch::Moving& collider = scratch.colliders[each.collider];
+            if (!collider.far_from(at, radius)) visit(*collider.shape);
+        }
     }
     /// How deep a ball is in the collider that it is deepest in; 0 where it is free.
     double depth(const dvec3& at, double radius) const {
         double deepest = 0.0;
-        each([&](const Shape& shape) {
+        each(at, radius, [&](const Shape& shape) {
             deepest = std::max(deepest, radius - surface_distance(shape, at).distance);
         });
         return deepest;
@@ -40,7 +44,7 @@ struct Neighbours {
 dvec3 least_move(const Neighbours& neighbours, const dvec3& at, double radius) {
     std::array<dvec3, 2> normal{};
     std::array<double, 2> depth{0.0, 0.0};
-    neighbours.each([&](const Shape& shape) {
+    neighbours.each(at, radius, [&](const Shape& shape) {
         const SurfaceDistance surface = surface_distance(shape, at);
         const double deep = radius - surface.distance;
         if (deep > depth[0]) {

@@ -35,10 +35,16 @@ struct World::Scratch {
     std::vector<std::uint8_t> body_lost;  ///< whether a body could not be solved
     std::vector<glm::dvec3> chunk_low, chunk_high;
     struct Moving {
-        Shape shape;         ///< at the end of the substep
+        const Shape* shape = nullptr;  ///< at the end of the substep
         glm::dvec3 by{0.0};  ///< in the substep
         glm::dvec3 low{0.0}, high{0.0};
         double size = 0.0;
+
+        /// Whether a ball is wholly beyond where the shape is or was in the substep.
+        bool far_from(const glm::dvec3& at, double radius) const {
+            return at.x + radius < low.x || at.y + radius < low.y || at.z + radius < low.z || at.x - radius > high.x ||
+                   at.y - radius > high.y || at.z - radius > high.z;
+        }
     };
     std::vector<Moving> colliders;
     std::vector<double> run_worst;  ///< of each run: relative length error after its last pass

@@ -126,8 +126,8 @@ class World {
     /// The largest relative length error of a body's stretch links as they are now. It has in it what pushing out of
     /// colliders added, which Body::stretch has not.
     double length_error(const Body& body) const noexcept;
-    /// Kinetic energy, by central differences, and potential, joules, as of one substep ago; potential is 0
-    /// where the coordinates are.
+    /// Kinetic energy, by central differences, and potential, joules, as of one substep ago; potential is 0 where the
+    /// coordinates are. What is in elastic links counts, as they are now.
     double energy(const Body& body) const noexcept;
     /// The sum of a body's rest lengths, metres; of a sheet and a lock that of one row or strand.
     double length(const Body& body) const noexcept;
