@@ -77,12 +77,11 @@ bool integer_slider(const char* name, int& value, int low, int high) {
     return changed;
 }
 
-bool point_field(const char* name, glm::vec3& value, float speed) {
-    constexpr float most = 1e9f;
+bool point_field(const char* name, glm::vec3& value, float speed, float most, const char* format) {
     bool changed = false;
     for (int i = 0; i < 3; ++i) {
         const std::string row = std::string(name) + " " + "xyz"[i];
-        changed |= number_field(row.c_str(), value[i], speed, -most, most, "%.3f m");
+        changed |= number_field(row.c_str(), value[i], speed, -most, most, format);
     }
     return changed;
 }

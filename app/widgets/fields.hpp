@@ -16,7 +16,8 @@ void note(const std::string& text);
 bool number_field(const char* name, float& value, float speed, float low, float high, const char* format);
 bool integer_field(const char* name, int& value, int low, int high);
 bool integer_slider(const char* name, int& value, int low, int high);
-bool point_field(const char* name, glm::vec3& value, float speed);
+bool point_field(const char* name, glm::vec3& value, float speed, float most = 1e9f,
+                 const char* format = "%.3f m");
 bool choice_field(const char* name, int& chosen, const char* const* titles, int count);
 /// One of several that exclude each other.
 bool option_button(const char* title, bool chosen);

@@ -41,7 +41,8 @@ class Plot {
             high_ = std::max(low_ + 1.0f, std::ceil(std::log10(std::max(most_y, axes.least_y)) - 1e-4f));
         } else if (least_y <= most_y) {
             // A curve that is all but level is shown so.
-            const float room = std::max(0.05f * (most_y - least_y), 1e-3f * std::max(std::abs(most_y), 1e-3f));
+            const float room =
+                std::max(0.05f * (most_y - least_y), 1e-3f * std::max(std::abs(most_y), 1e-3f));
             low_ = least_y - room;
             high_ = most_y + room;
         }
@@ -92,8 +93,9 @@ class Plot {
         const ImU32 line = ImGui::GetColorU32(ImGuiCol_Border, 0.7f);
         char text[24];
         const int rows = std::max(1, static_cast<int>((to_.y - from_.y) / (1.6f * ImGui::GetFontSize())));
-        const float step_y = logarithmic() ? std::max(1.0f, std::round(tick_step(high_ - low_, std::min(6, rows))))
-                                           : tick_step(high_ - low_, std::min(4, rows));
+        const float step_y = logarithmic()
+                                 ? std::max(1.0f, std::round(tick_step(high_ - low_, std::min(6, rows))))
+                                 : tick_step(high_ - low_, std::min(4, rows));
         const float first = logarithmic() ? low_ : std::ceil(low_ / step_y) * step_y;
         for (int i = 0; first + static_cast<float>(i) * step_y <= high_ + 1e-3f * step_y; ++i) {
             const float power = first + static_cast<float>(i) * step_y;
@@ -102,7 +104,8 @@ class Plot {
             if (logarithmic()) {
                 std::snprintf(text, sizeof text, "1e%d", static_cast<int>(power));
             } else {
-                std::snprintf(text, sizeof text, "%.3g", static_cast<double>(std::abs(power) < 1e-6f ? 0.0f : power));
+                std::snprintf(text, sizeof text, "%.3g",
+                              static_cast<double>(std::abs(power) < 1e-6f ? 0.0f : power));
             }
             const ImVec2 size = ImGui::CalcTextSize(text);
             list_->AddText({from_.x - size.x - 4.0f, at - 0.5f * size.y}, dim(), text);

@@ -24,8 +24,8 @@ std::uint64_t solve_hash();
 /// The same for ropes: what `rope_hash` gives.
 inline constexpr std::uint64_t golden_rope_hash = 0xe250b38906b78798u;
 
-/// Plays 60 worlds of ropes, a sheet and a lock of hair among colliders of every kind, by all three solvers, with
-/// edits in between, and hashes the bits of every particle and tension.
+/// Plays 60 worlds of ropes, a sheet and a lock of hair among colliders of every kind, by all three solvers,
+/// with edits in between, and hashes the bits of every particle and tension.
 std::uint64_t rope_hash();
 
 }  // namespace tendril::test

@@ -75,12 +75,12 @@ void race_plot(const Race& race, bool time, const Palette& palette) {
         curves.push_back(std::move(curve));
     }
     plot("race plot", curves,
-             {.x = time ? "microseconds" : "iterations",
-              .y = "tip to target, m",
-              .least_y = least_residual(race.tolerance),
-              .level = race.tolerance,
-              .whole_x = !time},
-             plot_lines);
+         {.x = time ? "microseconds" : "iterations",
+          .y = "tip to target, m",
+          .least_y = least_residual(race.tolerance),
+          .level = race.tolerance,
+          .whole_x = !time},
+         plot_lines);
 }
 
 }  // namespace
@@ -124,13 +124,13 @@ void microscope_rows(const ChainPart& part, const Palette& palette, Emit& emit) 
     const Curve curve{solver_title(trace.method), palette.accent, by_iteration(trace.residuals)};
     const float tolerance = reach_tolerance(part.reach, part.chain.reach());
     plot("error", {&curve, 1},
-             {.x = "iterations",
-              .y = "tip to target, m",
-              .least_y = least_residual(tolerance),
-              .level = tolerance,
-              .at_x = static_cast<float>(trace.iteration(step)),
-              .whole_x = true},
-             plot_lines);
+         {.x = "iterations",
+          .y = "tip to target, m",
+          .least_y = least_residual(tolerance),
+          .level = tolerance,
+          .at_x = static_cast<float>(trace.iteration(step)),
+          .whole_x = true},
+         plot_lines);
 }
 
 void race_rows(const Workspace& workspace, const Palette& palette, Emit& emit) {

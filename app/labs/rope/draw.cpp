@@ -1,6 +1,7 @@
 // The Rope lab's picture: tubes, cloth and hair, what they lie on, and where they are held.
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "app/labs/rope/rope_lab.hpp"
@@ -10,11 +11,11 @@
 namespace tendril::app {
 namespace {
 
-constexpr int strand_sides = 6;          ///< nobody sees more on a hair
-constexpr float plane_radius = 3.0f;     ///< metres of an endless plane that are shown
-constexpr double heavy_from = 4.0;          ///< times the lightest particle of a rope
-constexpr double weight_density = 2500.0;   ///< kg/m^3: of stone
-constexpr glm::vec4 unseen{0.0f};        ///< of strokes that can be caught, but are drawn otherwise
+constexpr int strand_sides = 6;            ///< nobody sees more on a hair
+constexpr float plane_radius = 3.0f;       ///< metres of an endless plane that are shown
+constexpr double heavy_from = 4.0;         ///< times the lightest particle of a rope
+constexpr double weight_density = 2500.0;  ///< kg/m^3: of stone
+constexpr glm::vec4 unseen{0.0f};          ///< of strokes that can be caught, but are drawn otherwise
 
 class Drawing {
   public:
@@ -46,11 +47,13 @@ class Drawing {
     bool chosen(const rope::Body& body) const {
         return part_.choice && part_.choice->collider.empty() && part_.choice->body == body.name;
     }
-    bool chosen(const rope::Body& body, std::size_t i) const { return chosen(body) && part_.choice->particle == i; }
+    bool chosen(const rope::Body& body, std::size_t i) const {
+        return chosen(body) && part_.choice->particle == i;
+    }
 
     glm::vec3 collider_colour(std::size_t i) const {
         const bool selected = part_.choice && part_.choice->collider == world_.state().colliders[i].name;
-        if (selected) return view_.palette.selection;
+        if (selected) return glm::mix(view_.palette.ghost, view_.palette.selection, 0.5f);
         return lit(collider_pick(i)) ? view_.palette.accent : view_.palette.ghost;
     }
 
@@ -61,7 +64,9 @@ class Drawing {
         if (const auto* sphere = std::get_if<rope::Sphere>(&shape)) {
             solid(list_.sphere(sphere->centre, sphere->radius, Unit::Metres, glm::vec4(colour, 1.0f)), pick);
         } else if (const auto* capsule = std::get_if<rope::Capsule>(&shape)) {
-            solid(list_.bone(capsule->a, capsule->b, capsule->radius, capsule->radius, glm::vec4(colour, 1.0f)), pick);
+            solid(
+                list_.bone(capsule->a, capsule->b, capsule->radius, capsule->radius, glm::vec4(colour, 1.0f)),
+                pick);
         } else if (const auto* block = std::get_if<rope::Box>(&shape)) {
             box(list_, view_.camera, block->centre, block->half_extents, block->rotation, colour);
             catchable_box(*block, pick);
@@ -100,7 +105,8 @@ class Drawing {
         const int sides = body.kind == rope::Body::Kind::Lock ? strand_sides : part_.view.sides;
         const std::span<const glm::vec3> points(positions_), colours(colours_);
         for (std::size_t at = body.first; at < body.first + body.count; at += body.row) {
-            tube(list_, view_.camera, points.subspan(at, body.row), body.radius, sides, colours.subspan(at, body.row));
+            tube(list_, view_.camera, points.subspan(at, body.row), body.radius, sides,
+                 colours.subspan(at, body.row));
         }
     }
 
@@ -117,7 +123,8 @@ class Drawing {
         }
     }
 
-    /// Particles that weigh far more than their neighbours are balls, as large as they are heavy: a pendulum's bob.
+    /// Particles that weigh far more than their neighbours are balls, as large as they are heavy: a
+    /// pendulum's bob.
     void weights() {
         const std::vector<double>& mass = world_.state().mass;
         for (const rope::Body& body : world_.state().bodies) {
@@ -126,7 +133,8 @@ class Drawing {
             const double least = *std::min_element(first, first + static_cast<std::ptrdiff_t>(body.count));
             for (std::size_t i = body.first; i < body.first + body.count; ++i) {
                 if (mass[i] < heavy_from * least) continue;
-                const auto radius = static_cast<float>(std::cbrt(0.75 * mass[i] / (3.14159265358979 * weight_density)));
+                const auto radius =
+                    static_cast<float>(std::cbrt(0.75 * mass[i] / (3.14159265358979 * weight_density)));
                 if (radius <= body.radius) continue;
                 const PickId pick = particle_pick(i);
                 const glm::vec3 colour = lit(pick) ? view_.palette.accent : colours_[i];
@@ -201,7 +209,8 @@ class Drawing {
         const rope::State& state = world_.state();
         for (std::size_t i = 0; i < state.colliders.size(); ++i) {
             const bool under_mouse = shown == collider_pick(i);
-            if (under_mouse || always) add(rope::centre(state.colliders[i].shape), state.colliders[i].name, under_mouse);
+            if (under_mouse || always)
+                add(rope::centre(state.colliders[i].shape), state.colliders[i].name, under_mouse);
         }
         for (const rope::Body& body : state.bodies)
             if (always) add(positions_[body.first], body.name, false);

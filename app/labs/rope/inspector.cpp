@@ -40,7 +40,8 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     }
     reading("speed", "%.3f m/s", static_cast<double>(glm::length(world.velocity(particle))));
     reading("tension", "%.2f N", static_cast<double>(tension_at(world, particle)));
-    reading(body.kind == rope::Body::Kind::Rope ? "rope's length" : "length of a row", "%.3f m", world.length(body));
+    reading(body.kind == rope::Body::Kind::Rope ? "rope's length" : "length of a row", "%.3f m",
+            world.length(body));
     if (row_button(pinned ? "Unpin" : "Pin", 3)) emit(pinned ? "rope.unpin" : "rope.pin", which);
     const bool rope = body.kind == rope::Body::Kind::Rope;
     if (row_button("Cut", 3, rope && body.count > 1, "Parts the rope behind this particle"))
@@ -66,11 +67,13 @@ void collider_rows(const RopePart& part, const rope::Collider& collider, Emit& e
     };
     if (point_field("swings by", by, 0.01f)) swing();
     if (swings && number_field("period", period, 0.02f, shortest_swing, longest_swing, "%.2f s")) swing();
-    if (row_button("Remove", 3, true, "Takes the collider away")) emit("rope.collider.remove", {{"name", collider.name}});
+    if (row_button("Remove", 3, true, "Takes the collider away"))
+        emit("rope.collider.remove", {{"name", collider.name}});
     end_row();
 }
 
-Curve curve(const char* name, glm::vec3 colour, const std::vector<RopeSample>& samples, float RopeSample::*value) {
+Curve curve(const char* name, glm::vec3 colour, const std::vector<RopeSample>& samples,
+            float RopeSample::*value) {
     Curve drawn{name, colour, {}};
     drawn.points.reserve(samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i)

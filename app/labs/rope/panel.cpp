@@ -20,7 +20,8 @@ void scene_rows(Emit& emit) {
         if (row_button(scene.title, 3)) emit("rope.preset", {{"name", scene.name}});
     end_row();
     if (row_button("Empty", 2, true, "Takes every rope and collider away")) emit("rope.clear");
-    if (row_button("Reset", 2, true, "Everything as at the first start; undo brings it back")) emit("rope.reset");
+    if (row_button("Reset", 2, true, "Everything as at the first start; undo brings it back"))
+        emit("rope.reset");
     end_row();
 }
 
@@ -62,7 +63,9 @@ void add_rows(const Workspace& workspace, Emit& emit) {
     };
     collider("Ball", "ball", "sphere", {{"centre", point(at)}, {"radius", 0.25}});
     collider("Bar", "bar", "capsule",
-             {{"a", point(at - glm::vec3(0, 0, 0.5f))}, {"b", point(at + glm::vec3(0, 0, 0.5f))}, {"radius", 0.1}});
+             {{"a", point(at - glm::vec3(0, 0, 0.5f))},
+              {"b", point(at + glm::vec3(0, 0, 0.5f))},
+              {"radius", 0.1}});
     collider("Box", "box", "box", {{"centre", point(at)}, {"half_extents", {0.25, 0.25, 0.25}}});
     end_row();
 }
@@ -70,7 +73,8 @@ void add_rows(const Workspace& workspace, Emit& emit) {
 const char* solver_help(rope::Solver solver) {
     switch (solver) {
         case rope::Solver::Relaxation:
-            return "One segment after the other, again and again. How far it stretches is a matter of iterations and "
+            return "One segment after the other, again and again. How far it stretches is a matter of "
+                   "iterations and "
                    "substep, not of the material.";
         case rope::Solver::Xpbd:
             return "As relaxation, but compliance is a material's, given enough iterations.";
@@ -81,9 +85,10 @@ const char* solver_help(rope::Solver solver) {
 }
 
 /// A row of rope.settings.
-void setting(const char* name, const char* key, float value, float speed, float low, float high, const char* format,
-             Emit& emit) {
-    if (number_field(name, value, speed, low, high, format)) emit.continuously("rope.settings", {{key, number(value)}});
+void setting(const char* name, const char* key, float value, float speed, float low, float high,
+             const char* format, Emit& emit) {
+    if (number_field(name, value, speed, low, high, format))
+        emit.continuously("rope.settings", {{key, number(value)}});
 }
 
 void solver_rows(const RopePart& part, Emit& emit) {
@@ -111,8 +116,12 @@ void world_rows(const RopePart& part, Emit& emit) {
     setting("damping", "damping", now.damping, 0.01f, 0.0f, 100.0f, "%.2f /s", emit);
     setting("friction", "friction", now.friction, 0.01f, 0.0f, 10.0f, "%.2f", emit);
     glm::vec3 gravity = now.gravity, wind = now.external;
-    if (point_field("gravity", gravity, 0.05f)) emit.continuously("rope.settings", {{"gravity", point(gravity)}});
-    if (point_field("wind", wind, 0.05f)) emit.continuously("rope.settings", {{"external", point(wind)}});
+    constexpr const char* unit = "%.2f m/s\xC2\xB2";
+    constexpr float most = rope::max_acceleration;
+    if (point_field("gravity", gravity, 0.05f, most, unit))
+        emit.continuously("rope.settings", {{"gravity", point(gravity)}});
+    if (point_field("wind", wind, 0.05f, most, unit))
+        emit.continuously("rope.settings", {{"external", point(wind)}});
 }
 
 void time_rows(const Workspace& workspace, Emit& emit) {
@@ -131,9 +140,11 @@ void time_rows(const Workspace& workspace, Emit& emit) {
 void view_rows(const RopePart& part, Emit& emit) {
     section("Show");
     if (option_button("Stress", part.view.stress)) emit("rope.view", {{"stress", !part.view.stress}});
-    if (option_button("Particles", part.view.particles)) emit("rope.view", {{"particles", !part.view.particles}});
+    if (option_button("Particles", part.view.particles))
+        emit("rope.view", {{"particles", !part.view.particles}});
     int sides = part.view.sides;
-    if (integer_slider("sides", sides, fewest_sides, most_sides)) emit.continuously("rope.view", {{"sides", sides}});
+    if (integer_slider("sides", sides, fewest_sides, most_sides))
+        emit.continuously("rope.view", {{"sides", sides}});
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ struct RopePart final : Part {
     std::optional<Hold> hold;
     Torture torture;
     RopeView view;
-    int quiet_ticks = 0;  ///< ticks in a row in which nothing moved to speak of
+    int quiet_ticks = 0;              ///< ticks in a row in which nothing moved to speak of
     std::vector<RopeSample> samples;  ///< of the last ticks. Not saved.
     /// What a tick's simulation took, microseconds; measured in a live window only. Not saved.
     float cost = 0.0f;

@@ -16,7 +16,8 @@ constexpr float least_strain = 1e-4f, full_strain = 0.1f;
 
 glm::vec3 stress_colour(float strain, const Palette& palette) {
     const float size = std::abs(strain);
-    const float share = std::log(std::max(size, least_strain) / least_strain) / std::log(full_strain / least_strain);
+    const float share =
+        std::log(std::max(size, least_strain) / least_strain) / std::log(full_strain / least_strain);
     return glm::mix(palette.joint, strain > 0.0f ? palette.limit : palette.head, std::min(share, 1.0f));
 }
 

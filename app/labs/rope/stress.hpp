@@ -9,8 +9,8 @@
 
 namespace tendril::app {
 
-/// Of something that is by this part of its length too long (or, below zero, too short): neutral up to 0.01 %,
-/// full from 10 % on.
+/// Of something that is by this part of its length too long (or, below zero, too short): neutral up to 0.01
+/// %, full from 10 % on.
 glm::vec3 stress_colour(float strain, const Palette& palette);
 
 /// One for each particle of a world: what its body is, or how its links are strained.

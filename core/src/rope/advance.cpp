@@ -28,7 +28,8 @@ bool tear(State& state) {
     const auto torn = [&](const Link& link) {
         if (limit[link.a] <= 0.0f) return false;
         // A cell that is pulled askew makes its diagonal longer without anything being overstretched.
-        const double longest = static_cast<double>(limit[link.a]) + (link.kind == Link::Kind::Stretch ? 0.0 : 0.5);
+        const double longest =
+            static_cast<double>(limit[link.a]) + (link.kind == Link::Kind::Stretch ? 0.0 : 0.5);
         const double length = detail::length(state.position[link.b] - state.position[link.a]);
         return length > link.rest * (1.0 + longest);
     };
@@ -132,7 +133,8 @@ void Substep::measure() {
         if (link.kind != Link::Kind::Stretch) continue;
         const double length = detail::length(scratch_.place[link.b] - scratch_.place[link.a]);
         const double error = link.rest > 0.0f ? std::abs(length / link.rest - 1.0) : length;
-        state_.bodies[b].stretch = std::max(state_.bodies[b].stretch, static_cast<float>(std::min(error, most)));
+        state_.bodies[b].stretch =
+            std::max(state_.bodies[b].stretch, static_cast<float>(std::min(error, most)));
     }
 }
 
@@ -161,7 +163,8 @@ void Substep::keep() {
 
 Advance World::advance(double seconds) {
     if (!(seconds >= 0.0 && seconds <= 1e9)) {
-        tendril::detail::refuse("advance", "seconds", "0 or more", tendril::detail::text(static_cast<float>(seconds)));
+        tendril::detail::refuse("advance", "seconds", "0 or more",
+                                tendril::detail::text(static_cast<float>(seconds)));
     }
     Advance done;
     const double substep = state_.settings.substep;

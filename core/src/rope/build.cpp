@@ -38,7 +38,8 @@ std::uint32_t add_particles(State& state, const std::vector<dvec3>& points, doub
 }
 
 void add_pin(State& state, std::size_t particle) {
-    state.pins.push_back({.particle = particle, .goal = state.position[particle], .seconds = 0.0, .collider = {}});
+    state.pins.push_back(
+        {.particle = particle, .goal = state.position[particle], .seconds = 0.0, .collider = {}});
 }
 
 double distance(const State& state, std::uint32_t a, std::uint32_t b) {
@@ -75,7 +76,8 @@ class Grid {
     }
     void bend(float compliance) {
         for (std::uint32_t r = 0; r < rows_; ++r)
-            for (std::uint32_t c = 0; c + 2 < columns_; ++c) link(c, r, c + 2, r, Link::Kind::Bend, compliance);
+            for (std::uint32_t c = 0; c + 2 < columns_; ++c)
+                link(c, r, c + 2, r, Link::Kind::Bend, compliance);
         for (std::uint32_t c = 0; c < columns_; ++c)
             for (std::uint32_t r = 0; r + 2 < rows_; ++r) link(c, r, c, r + 2, Link::Kind::Bend, compliance);
     }
@@ -116,7 +118,8 @@ void build(State& state, const RopeShape& shape, std::string name) {
     const double whole = shape.length ? *shape.length : length(to - from);
     const double each = whole / static_cast<double>(segments);
     const double mass = std::max(static_cast<double>(shape.density) * each, 1e-9);
-    const std::uint32_t first = add_particles(state, hang(from, to, whole, segments, down(state.settings)), mass);
+    const std::uint32_t first =
+        add_particles(state, hang(from, to, whole, segments, down(state.settings)), mass);
     for (std::uint32_t i = 0; i < segments; ++i) {
         state.links.push_back({.a = first + i, .b = first + i + 1, .rest = static_cast<float>(each)});
     }
@@ -142,7 +145,8 @@ void build(State& state, const SheetShape& shape, std::string name) {
     require_length(op, "shear", shape.shear);
     require_length(op, "bend", shape.bend);
     require_length(op, "tear", shape.tear);
-    const auto columns = static_cast<std::uint32_t>(shape.columns), rows = static_cast<std::uint32_t>(shape.rows);
+    const auto columns = static_cast<std::uint32_t>(shape.columns),
+               rows = static_cast<std::uint32_t>(shape.rows);
     const std::size_t count = static_cast<std::size_t>(columns) * rows;
     require_room(op, state, count);
 
@@ -150,10 +154,12 @@ void build(State& state, const SheetShape& shape, std::string name) {
     points.reserve(count);
     for (std::uint32_t r = 0; r < rows; ++r)
         for (std::uint32_t c = 0; c < columns; ++c)
-            points.push_back(dvec3(shape.corner) + (static_cast<double>(c) / (columns - 1)) * dvec3(shape.along) +
+            points.push_back(dvec3(shape.corner) +
+                             (static_cast<double>(c) / (columns - 1)) * dvec3(shape.along) +
                              (static_cast<double>(r) / (rows - 1)) * dvec3(shape.down));
     const double area = length(cross(dvec3(shape.along), dvec3(shape.down)));
-    const double mass = std::max(static_cast<double>(shape.density) * area / static_cast<double>(count), 1e-9);
+    const double mass =
+        std::max(static_cast<double>(shape.density) * area / static_cast<double>(count), 1e-9);
     const std::uint32_t first = add_particles(state, points, mass);
     Grid grid(state, first, columns, rows);
     grid.stretch();
@@ -168,7 +174,8 @@ void build(State& state, const SheetShape& shape, std::string name) {
                             .tear = shape.tear});
     for (std::uint32_t c = 0; c < columns; ++c) {
         const bool corner = c == 0 || c + 1 == columns;
-        const bool held = shape.pins == SheetShape::Pins::Row || (shape.pins == SheetShape::Pins::Corners && corner);
+        const bool held =
+            shape.pins == SheetShape::Pins::Row || (shape.pins == SheetShape::Pins::Corners && corner);
         if (held) add_pin(state, first + c);
     }
 }
@@ -189,7 +196,8 @@ void build(State& state, const LockShape& shape, std::string name) {
     const Collider* holder = nullptr;
     for (const Collider& collider : state.colliders)
         if (collider.name == shape.attach) holder = &collider;
-    if (!shape.attach.empty() && holder == nullptr) refuse(op, "attach", "the name of a collider", shape.attach);
+    if (!shape.attach.empty() && holder == nullptr)
+        refuse(op, "attach", "the name of a collider", shape.attach);
     const auto segments = static_cast<std::uint32_t>(shape.segments);
     const std::size_t row = static_cast<std::size_t>(segments) + 1, count = row * shape.roots.size();
     require_room(op, state, count);

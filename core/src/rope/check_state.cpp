@@ -39,7 +39,8 @@ void check_particles(const State& state) {
         if (!is_point(state.moved[i])) refuse(at("moved", i) + " is not finite or too large");
         if (!is_point(state.before[i])) refuse(at("before", i) + " is not finite or too large");
         // 1e9 kg/m on 1e9 m, or a square of that, is allowed.
-        if (!(state.mass[i] > 0.0 && state.mass[i] <= 1e30)) refuse(at("mass", i) + " must be over 0 and finite");
+        if (!(state.mass[i] > 0.0 && state.mass[i] <= 1e30))
+            refuse(at("mass", i) + " must be over 0 and finite");
     }
 }
 
@@ -88,8 +89,10 @@ void check_pins(const State& state) {
             refuse("pins must be of particles that there are, in their order, one each; got " +
                    std::to_string(pin.particle));
         }
-        if (!is_point(pin.goal)) refuse("the goal of the pin of " + at("particle", pin.particle) + " is not finite");
-        if (!is_amount(pin.seconds)) refuse("the time of the pin of " + at("particle", pin.particle) + " is not");
+        if (!is_point(pin.goal))
+            refuse("the goal of the pin of " + at("particle", pin.particle) + " is not finite");
+        if (!is_amount(pin.seconds))
+            refuse("the time of the pin of " + at("particle", pin.particle) + " is not");
         bool known = pin.collider.empty();
         for (const Collider& collider : state.colliders) known = known || collider.name == pin.collider;
         if (!known) refuse("a pin moves with \"" + pin.collider + "\", which is no collider");
@@ -101,7 +104,8 @@ void check_colliders(const State& state) {
     std::set<std::string> names;
     for (const Collider& collider : state.colliders) {
         if (collider.name.empty()) refuse("a collider has no name");
-        if (!names.insert(collider.name).second) refuse("there are two colliders named \"" + collider.name + "\"");
+        if (!names.insert(collider.name).second)
+            refuse("there are two colliders named \"" + collider.name + "\"");
         require(op, collider.shape);
         if (!is_point(collider.goal)) refuse("the goal of collider \"" + collider.name + "\" is not finite");
         if (!is_amount(collider.seconds)) refuse("the time of collider \"" + collider.name + "\" is not one");
@@ -117,7 +121,8 @@ void check(const State& state) {
     check_links(state);
     check_colliders(state);
     check_pins(state);
-    if (!is_amount(state.remainder) || state.remainder > max_substep) refuse("remainder must be 0 to a substep");
+    if (!is_amount(state.remainder) || state.remainder > max_substep)
+        refuse("remainder must be 0 to a substep");
     if (!is_amount(state.moved_in) || state.moved_in > max_substep) refuse("moved_in must be 0 to a substep");
 }
 

@@ -81,12 +81,14 @@ void check(const char* operation, const Plane& plane) {
 }
 void check(const char* operation, const Box& box) {
     tendril::detail::require_point(operation, "centre", box.centre);
-    for (int i = 0; i < 3; ++i) tendril::detail::require_length(operation, "half_extents", box.half_extents[i]);
+    for (int i = 0; i < 3; ++i)
+        tendril::detail::require_length(operation, "half_extents", box.half_extents[i]);
     const glm::quat& q = box.rotation;
     const double squared = static_cast<double>(q.x) * q.x + static_cast<double>(q.y) * q.y +
                            static_cast<double>(q.z) * q.z + static_cast<double>(q.w) * q.w;
     if (!(squared > 1e-12 && squared < 1e12)) {
-        refuse(operation, "rotation", "a quaternion of length 1", text(static_cast<float>(std::sqrt(squared))));
+        refuse(operation, "rotation", "a quaternion of length 1",
+               text(static_cast<float>(std::sqrt(squared))));
     }
 }
 

@@ -1,8 +1,8 @@
 // Keeping particles and links out of colliders while the solver works.
 //
 // What a collider has pushed a particle in a substep is remembered: its part along the normal bounds friction
-// (Coulomb's law, as displacements). What tension has drawn into the collider is part of it, so a rope around a
-// post grips it the harder the more it is drawn.
+// (Coulomb's law, as displacements). What tension has drawn into the collider is part of it, so a rope around
+// a post grips it the harder the more it is drawn.
 #include <algorithm>
 #include <limits>
 
@@ -27,8 +27,8 @@ struct Bounds {
     }
     void grow(double by) { low -= dvec3(by), high += dvec3(by); }
     bool meets(const dvec3& other_low, const dvec3& other_high) const {
-        return low.x <= other_high.x && low.y <= other_high.y && low.z <= other_high.z && high.x >= other_low.x &&
-               high.y >= other_low.y && high.z >= other_low.z;
+        return low.x <= other_high.x && low.y <= other_high.y && low.z <= other_high.z &&
+               high.x >= other_low.x && high.y >= other_low.y && high.z >= other_low.z;
     }
 };
 
@@ -91,7 +91,8 @@ void Substep::grip(std::uint32_t i) {
     const dvec3 rubbed = touch.push - pressed * touch.normal;
     const dvec3 slip = scratch_.place[i] - state_.position[i] - touch.carried;
     dvec3 wanted = rubbed - (slip - detail::dot(slip, touch.normal) * touch.normal);
-    const double size = detail::length(wanted), most = static_cast<double>(state_.settings.friction) * pressed;
+    const double size = detail::length(wanted),
+                 most = static_cast<double>(state_.settings.friction) * pressed;
     if (size > most) wanted = (most / size) * wanted;
     scratch_.place[i] += wanted - rubbed;
     touch.push = pressed * touch.normal + wanted;
@@ -121,7 +122,8 @@ void Substep::push_particle(std::uint32_t i, std::uint32_t number, double radius
     if (collider.far_from(place, radius + travelled)) return;
     SurfaceDistance surface = surface_distance(*collider.shape, place);
     if (first) {
-        // As the collider sees it, from where it came. Something fast is stopped on the side that it came from.
+        // As the collider sees it, from where it came. Something fast is stopped on the side that it came
+        // from.
         const dvec3 from = state_.position[i] + collider.by, way = place - from;
         const double far = detail::length(way), step = 0.5 * collider.size + radius;
         if (far > step && surface.distance < far + radius) {

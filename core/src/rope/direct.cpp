@@ -1,8 +1,8 @@
 // The direct solver: whole runs at once, as many side by side as a vector register has lanes.
 //
-// A run that nothing else is linked to first takes in the tension that it had, then one or two passes make its
-// lengths right. Where it moves too fast for that (a whip cracks), or would gain energy, it begins again with
-// what tension was found, pulling along where its links will be: that converges, and costs energy.
+// A run that nothing else is linked to first takes in the tension that it had, then one or two passes make
+// its lengths right. Where it moves too fast for that (a whip cracks), or would gain energy, it begins again
+// with what tension was found, pulling along where its links will be: that converges, and costs energy.
 //
 // Colliders push last. So what tension draws into them shows as depth, and friction is bounded by it: a rope
 // around a post holds as Euler and Eytelwein have it. The lengths that this costs are made good in the next
@@ -22,18 +22,18 @@ using detail::Order;
 using detail::Row;
 using glm::dvec3;
 
-constexpr double arrived = 1e-7;      ///< relative length error that is made no better
-constexpr double good_enough = 1e-4;  ///< a run with more begins again
+constexpr double arrived = 1e-7;        ///< relative length error that is made no better
+constexpr double good_enough = 1e-4;    ///< a run with more begins again
 constexpr double shared_enough = 1e-3;  ///< the same where runs share particles
-constexpr double hopeless = 0.02;     ///< a run with more in the end is relaxed instead
+constexpr double hopeless = 0.02;       ///< a run with more in the end is relaxed instead
 constexpr int beginnings = 6, rescue_passes = 16;
 /// Passes that runs which share particles take at least while something pushes them.
 constexpr int pushed_passes = 4;
-/// A run that others pull at may be asked for lengths that it cannot have, straight between two pins: its system is
-/// damped (Levenberg, Marquardt), or it would fling its particles about.
+/// A run that others pull at may be asked for lengths that it cannot have, straight between two pins: its
+/// system is damped (Levenberg, Marquardt), or it would fling its particles about.
 constexpr double shared_damping = 2e-2;
-/// Of a perfect pull along the mean so much is left out: it takes the jitter of single particles away within a
-/// second, and from a pendulum of a second's period a few percent of its energy in a minute.
+/// Of a perfect pull along the mean so much is left out: it takes the jitter of single particles away within
+/// a second, and from a pendulum of a second's period a few percent of its energy in a minute.
 constexpr double least_backward = 0.01;
 
 }  // namespace
@@ -56,7 +56,8 @@ int Substep::direct() {
         if (passes > 0 && (plan_.all_alone || settled)) break;
         satisfy_soft();
         worst = 0.0;
-        for (const World::Plan::Group& group : plan_.groups) worst = std::max(worst, solve_group(group, passes));
+        for (const World::Plan::Group& group : plan_.groups)
+            worst = std::max(worst, solve_group(group, passes));
         measure();
         push_out(passes == 0);
     }
@@ -65,8 +66,8 @@ int Substep::direct() {
     return passes;
 }
 
-/// A body that could not be solved (or cannot be: it is asked for the impossible) is relaxed: that always ends
-/// somewhere sensible.
+/// A body that could not be solved (or cannot be: it is asked for the impossible) is relaxed: that always
+/// ends somewhere sensible.
 void Substep::rescue() {
     bool any = false;
     std::fill(scratch_.body_lost.begin(), scratch_.body_lost.end(), std::uint8_t{0});
@@ -113,13 +114,14 @@ double Substep::solve_group(const World::Plan::Group& group, int iteration) {
 
 double Substep::solve_batch(const Batch& batch, int iteration) {
     const World::Plan::Run& first = plan_.runs[batch.run];
-    Block block{scratch_.block.data() + scratch_.block_offset, first.links, batch.single ? 1 : scratch_.unit.lanes};
+    Block block{scratch_.block.data() + scratch_.block_offset, first.links,
+                batch.single ? 1 : scratch_.unit.lanes};
     Order order;
     gather(block, batch);
     order.implicit = first.alone && iteration == 0;
     for (std::uint32_t lane = 0; lane < detail::most_lanes; ++lane) {
-        // Runs that share particles undo part of what the others did, and what colliders pushed has wrong lengths
-        // to begin with: there the plain direction serves best.
+        // Runs that share particles undo part of what the others did, and what colliders pushed has wrong
+        // lengths to begin with: there the plain direction serves best.
         const std::uint32_t body = plan_.runs[batch.run + std::min(lane, batch.count - 1)].body;
         const bool pushed = scratch_.body_near[body] != 0;
         order.backward[lane] = first.alone && !pushed ? least_backward : 1.0;
@@ -266,7 +268,8 @@ void Substep::limit_energy() {
             const dvec3 now = scratch_.place[i] - state_.position[i];
             kinetic += 0.5 * state_.mass[i] * detail::dot(now, now) / (h_ * h_);
         }
-        if (kinetic > 0.0) scratch_.run_scale[r] = std::sqrt(std::max(0.0, 1.0 - scratch_.run_gain[r] / kinetic));
+        if (kinetic > 0.0)
+            scratch_.run_scale[r] = std::sqrt(std::max(0.0, 1.0 - scratch_.run_gain[r] / kinetic));
     }
 }
 

@@ -8,15 +8,24 @@ namespace tendril::rope::detail {
 
 /// Rows of a node. A node is a particle of a run; its link leads to the next node.
 enum Row : std::size_t {
-    X, Y, Z,           ///< where it is
-    BaseX, BaseY, BaseZ,  ///< where it would be without any tension
-    OldX, OldY, OldZ,  ///< where it was one substep before the last; then: the unit direction of its link there
-    Weight,            ///< inverse mass; 0: it is held
-    Rest,              ///< of its link: length
-    Give,              ///< compliance, m/N, over h^2
-    Pull,              ///< tension times h^2
-    PullX, PullY, PullZ,  ///< the direction that its tension works in
-    Upper, Right,      ///< of the tridiagonal system
+    X,
+    Y,
+    Z,  ///< where it is
+    BaseX,
+    BaseY,
+    BaseZ,  ///< where it would be without any tension
+    OldX,
+    OldY,
+    OldZ,    ///< where it was one substep before the last; then: the unit direction of its link there
+    Weight,  ///< inverse mass; 0: it is held
+    Rest,    ///< of its link: length
+    Give,    ///< compliance, m/N, over h^2
+    Pull,    ///< tension times h^2
+    PullX,
+    PullY,
+    PullZ,  ///< the direction that its tension works in
+    Upper,
+    Right,  ///< of the tridiagonal system
     rows
 };
 
@@ -34,13 +43,13 @@ struct Block {
 
 /// What the solver does to a block. What it says is one value a lane.
 struct Order {
-    bool implicit = false;    ///< first take the tension that there is in implicitly
+    bool implicit = false;             ///< first take the tension that there is in implicitly
     double backward[most_lanes] = {};  ///< 0: pull along the mean of before and after; 1: after
     double passes[most_lanes] = {};    ///< at most
     double damping = 1e-9;             ///< of the system's diagonal, as a part of it
-    double tolerance = 1e-7;  ///< relative length error at which a lane is done
-    double worst[most_lanes];  ///< out: the largest relative length error
-    int taken = 0;             ///< out: passes taken
+    double tolerance = 1e-7;           ///< relative length error at which a lane is done
+    double worst[most_lanes];          ///< out: the largest relative length error
+    int taken = 0;                     ///< out: passes taken
 };
 
 using SolveBlock = void(const Block& block, Order& order);

@@ -1,13 +1,13 @@
-// The direct solver on a block, for a register of any width. Not installed; it is included once for each vector
-// unit.
+// The direct solver on a block, for a register of any width. Not installed; it is included once for each
+// vector unit.
 //
 // Let q_k be the direction in which link k pulls, n_k the one in which it lies, and w_k the inverse mass of
 // node k. To first order link k gets shorter by
 //
 //     -w_k (n_k q_{k-1}) t_{k-1} + (w_k + w_{k+1}) (n_k q_k) t_k - w_{k+1} (n_k q_{k+1}) t_{k+1}
 //
-// for pulls t: one tridiagonal system a run. No operation is fused, so every lane has the same bits with every
-// vector unit.
+// for pulls t: one tridiagonal system a run. No operation is fused, so every lane has the same bits with
+// every vector unit.
 #if defined(TENDRIL_ROPE_DIRECT_STEP_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENDRIL_ROPE_DIRECT_STEP_INL
 #undef TENDRIL_ROPE_DIRECT_STEP_INL
@@ -60,13 +60,19 @@ class BlockSolver {
     V3 load3(std::size_t node, std::size_t row) const {
         return {load(node, row), load(node, row + 1), load(node, row + 2)};
     }
-    void store(V value, std::size_t node, std::size_t row) const { hn::Store(value, d_, block_.at(node, row)); }
+    void store(V value, std::size_t node, std::size_t row) const {
+        hn::Store(value, d_, block_.at(node, row));
+    }
     void store3(const V3& value, std::size_t node, std::size_t row) const {
         store(value.x, node, row), store(value.y, node, row + 1), store(value.z, node, row + 2);
     }
     V set(double value) const { return hn::Set(d_, value); }
-    static V3 plus(const V3& a, const V3& b) { return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)}; }
-    static V3 minus(const V3& a, const V3& b) { return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)}; }
+    static V3 plus(const V3& a, const V3& b) {
+        return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+    }
+    static V3 minus(const V3& a, const V3& b) {
+        return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+    }
     static V3 times(V by, const V3& a) { return {hn::Mul(by, a.x), hn::Mul(by, a.y), hn::Mul(by, a.z)}; }
     static V dot(const V3& a, const V3& b) {
         return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
@@ -105,8 +111,8 @@ class BlockSolver {
         return hn::Min(half, hn::Div(set(1e8), hn::Max(both, set(1e-30))));
     }
 
-    /// Nodes move from their base by tensions along the old and the new directions. Tension has no way to push
-    /// sideways here: all three coordinates share one tridiagonal matrix.
+    /// Nodes move from their base by tensions along the old and the new directions. Tension has no way to
+    /// push sideways here: all three coordinates share one tridiagonal matrix.
     void take_implicitly(const Order& order) const {
         const V backward = hn::LoadU(d_, order.backward);
         const V ahead = hn::Add(set(1.0), backward), behind = hn::Sub(set(1.0), backward);
@@ -145,7 +151,8 @@ class BlockSolver {
         for (std::size_t k = 0; k < block_.links; ++k) {
             const V3 to = load3(k + 1, X), by = minus(to, from);
             const V rest = load(k, Rest);
-            const V error = hn::Sub(hn::Sub(hn::Sqrt(dot(by, by)), rest), hn::Mul(load(k, Give), load(k, Pull)));
+            const V error =
+                hn::Sub(hn::Sub(hn::Sqrt(dot(by, by)), rest), hn::Mul(load(k, Give), load(k, Pull)));
             worst = hn::Max(worst, hn::Div(hn::Abs(error), hn::Max(rest, set(1e-9))));
             from = to;
         }
@@ -176,7 +183,8 @@ class BlockSolver {
 
     void eliminate(const Order& order) const {
         const V zero = hn::Zero(d_), half = set(0.5), backward = hn::LoadU(d_, order.backward);
-        const V after = hn::Add(half, hn::Mul(half, backward)), before = hn::Sub(half, hn::Mul(half, backward));
+        const V after = hn::Add(half, hn::Mul(half, backward)),
+                before = hn::Sub(half, hn::Mul(half, backward));
         V upper_before = zero, right_before = zero;
         V3 pull_before{zero, zero, zero}, lies_before = pull_before;
         V3 from = load3(0, X);
@@ -202,12 +210,14 @@ class BlockSolver {
                 upper_ready = hn::Mul(up_before, upper_before);
                 store(upper_ready, k - 1, Upper);
             }
-            const V pivot = hn::Sub(hn::Add(diagonal, hn::Mul(set(order.damping), both)), hn::Mul(lower, upper_ready));
-            const V inverse = hn::Div(set(1.0), hn::Max(pivot, hn::Max(hn::Mul(set(1e-10), both), set(1e-30))));
+            const V pivot =
+                hn::Sub(hn::Add(diagonal, hn::Mul(set(order.damping), both)), hn::Mul(lower, upper_ready));
+            const V inverse =
+                hn::Div(set(1.0), hn::Max(pivot, hn::Max(hn::Mul(set(1e-10), both), set(1e-30))));
             // Between two nodes that are held there is nothing to solve.
             const auto fixed = hn::Le(both, zero);
-            right_before = hn::IfThenZeroElse(
-                fixed, hn::Mul(inverse, hn::Sub(error, hn::Mul(lower, right_before))));
+            right_before =
+                hn::IfThenZeroElse(fixed, hn::Mul(inverse, hn::Sub(error, hn::Mul(lower, right_before))));
             upper_before = hn::IfThenZeroElse(fixed, inverse);
             store(right_before, k, Right);
             pull_before = pull;

@@ -46,7 +46,8 @@ HWY_EXPORT(wide_lanes);
 VectorUnit unit_for(std::int64_t target) {
 #if HWY_TARGETS == HWY_STATIC_TARGET
     static_cast<void>(target);
-    return {HWY_STATIC_DISPATCH(solve_wide), HWY_STATIC_DISPATCH(solve_single), HWY_STATIC_DISPATCH(wide_lanes)()};
+    return {HWY_STATIC_DISPATCH(solve_wide), HWY_STATIC_DISPATCH(solve_single),
+            HWY_STATIC_DISPATCH(wide_lanes)()};
 #else
     hwy::ChosenTarget chosen;
     chosen.Update(target);

@@ -70,7 +70,8 @@ std::vector<dvec3> hang(const dvec3& from, const dvec3& to, double length_, std:
     std::vector<dvec3> points;
     points.reserve(segments + 1);
     if (!(length_ > distance * (1.0 + 1e-9))) {
-        for (std::size_t i = 0; i <= segments; ++i) points.push_back(from + (static_cast<double>(i) / count) * across);
+        for (std::size_t i = 0; i <= segments; ++i)
+            points.push_back(from + (static_cast<double>(i) / count) * across);
         points.back() = to;
         return points;
     }

@@ -9,7 +9,7 @@ namespace tendril::rope::detail {
 
 /// `segments` + 1 points from `from` to `to`: straight, or where `length` is more than the distance on a
 /// parabola along `down` (unit), so that neighbours are length / segments apart.
-std::vector<glm::dvec3> hang(const glm::dvec3& from, const glm::dvec3& to, double length, std::size_t segments,
-                             const glm::dvec3& down);
+std::vector<glm::dvec3> hang(const glm::dvec3& from, const glm::dvec3& to, double length,
+                             std::size_t segments, const glm::dvec3& down);
 
 }  // namespace tendril::rope::detail

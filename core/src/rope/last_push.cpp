@@ -40,7 +40,8 @@ struct Neighbours {
     }
 };
 
-/// The least move that brings a ball out of the two half spaces that it is deepest in; of one, where that does.
+/// The least move that brings a ball out of the two half spaces that it is deepest in; of one, where that
+/// does.
 dvec3 least_move(const Neighbours& neighbours, const dvec3& at, double radius) {
     std::array<dvec3, 2> normal{};
     std::array<double, 2> depth{0.0, 0.0};

@@ -42,8 +42,10 @@ double World::energy(const Body& body) const noexcept {
     }
     for (const Link& link : state_.links) {
         if (!within(body, link)) continue;
-        const bool stretches = link.kind == Link::Kind::Stretch && state_.settings.solver != Solver::Relaxation;
-        const double give = link.compliance + (stretches ? static_cast<double>(state_.settings.compliance) * link.rest : 0.0);
+        const bool stretches =
+            link.kind == Link::Kind::Stretch && state_.settings.solver != Solver::Relaxation;
+        const double give =
+            link.compliance + (stretches ? static_cast<double>(state_.settings.compliance) * link.rest : 0.0);
         energy += 0.5 * give * link.tension * link.tension;
     }
     return energy;

@@ -48,9 +48,10 @@ World::Plan::Plan(const State& state) {
     group_runs(state.position.size());
     cut_into_chunks(state);
     name_bodies(state);
-    all_alone = soft.empty() &&
-                std::all_of(runs.begin(), runs.end(), [](const Run& run) { return run.alone; });
-    tears = std::any_of(state.bodies.begin(), state.bodies.end(), [](const Body& b) { return b.tear > 0.0f; });
+    all_alone =
+        soft.empty() && std::all_of(runs.begin(), runs.end(), [](const Run& run) { return run.alone; });
+    tears =
+        std::any_of(state.bodies.begin(), state.bodies.end(), [](const Body& b) { return b.tear > 0.0f; });
 }
 
 void World::Plan::group_runs(std::size_t particles) {
@@ -59,7 +60,8 @@ void World::Plan::group_runs(std::size_t particles) {
         const Run& run = runs[i];
         const auto number = static_cast<std::uint32_t>(groups.size());
         bool joins = i > 0 && runs[i - 1].links == run.links && runs[i - 1].alone == run.alone;
-        for (std::uint32_t k = 0; joins && k <= run.links; ++k) joins = taken[nodes[run.first_node + k]] != number;
+        for (std::uint32_t k = 0; joins && k <= run.links; ++k)
+            joins = taken[nodes[run.first_node + k]] != number;
         if (!joins) groups.push_back({.first_run = i, .runs = 0, .alone = run.alone});
         ++groups.back().runs;
         for (std::uint32_t k = 0; k <= run.links; ++k)
@@ -79,9 +81,10 @@ void World::Plan::cut_into_chunks(const State& state) {
     for (std::uint32_t b = 0; b < state.bodies.size(); ++b) {
         const Body& body = state.bodies[b];
         for (std::size_t at = 0; at < body.count; at += chunk_size) {
-            chunks.push_back({.first = static_cast<std::uint32_t>(body.first + at),
-                              .count = static_cast<std::uint32_t>(std::min<std::size_t>(chunk_size, body.count - at)),
-                              .body = b});
+            chunks.push_back(
+                {.first = static_cast<std::uint32_t>(body.first + at),
+                 .count = static_cast<std::uint32_t>(std::min<std::size_t>(chunk_size, body.count - at)),
+                 .body = b});
         }
     }
     // Stretch links by the chunk that they begin in.

@@ -20,30 +20,30 @@ struct Touch {
 };
 
 struct World::Scratch {
-    std::vector<glm::dvec3> place;   ///< where each particle is as yet
-    std::vector<glm::dvec3> base;    ///< where it would be if nothing held it
-    std::vector<double> weight;      ///< inverse mass; 0: pinned
-    std::vector<double> pull;        ///< of each link: tension times h^2
+    std::vector<glm::dvec3> place;  ///< where each particle is as yet
+    std::vector<glm::dvec3> base;   ///< where it would be if nothing held it
+    std::vector<double> weight;     ///< inverse mass; 0: pinned
+    std::vector<double> pull;       ///< of each link: tension times h^2
     std::vector<Touch> touch;
     std::vector<std::uint32_t> touched;  ///< particles with a touch
     struct Near {
         std::uint32_t chunk, collider;
     };
-    std::vector<Near> near;            ///< chunk by chunk
-    std::vector<std::uint32_t> close;  ///< colliders that anything is near
+    std::vector<Near> near;               ///< chunk by chunk
+    std::vector<std::uint32_t> close;     ///< colliders that anything is near
     std::vector<std::uint8_t> body_near;  ///< whether any collider is near a body
     std::vector<std::uint8_t> body_lost;  ///< whether a body could not be solved
     std::vector<glm::dvec3> chunk_low, chunk_high;
     struct Moving {
         const Shape* shape = nullptr;  ///< at the end of the substep
-        glm::dvec3 by{0.0};  ///< in the substep
+        glm::dvec3 by{0.0};            ///< in the substep
         glm::dvec3 low{0.0}, high{0.0};
         double size = 0.0;
 
         /// Whether a ball is wholly beyond where the shape is or was in the substep.
         bool far_from(const glm::dvec3& at, double radius) const {
-            return at.x + radius < low.x || at.y + radius < low.y || at.z + radius < low.z || at.x - radius > high.x ||
-                   at.y - radius > high.y || at.z - radius > high.z;
+            return at.x + radius < low.x || at.y + radius < low.y || at.z + radius < low.z ||
+                   at.x - radius > high.x || at.y - radius > high.y || at.z - radius > high.z;
         }
     };
     std::vector<Moving> colliders;

@@ -26,8 +26,11 @@ auto named(List& list, std::string_view name) {
 }
 
 /// `wanted`, if it is free; where none is wanted, the first that is: "rope", "rope 2", ...
-std::string free_name(const State& state, const char* operation, const std::string& wanted, const std::string& kind) {
-    const auto is_free = [&](const std::string& name) { return named(state.bodies, name) == state.bodies.end(); };
+std::string free_name(const State& state, const char* operation, const std::string& wanted,
+                      const std::string& kind) {
+    const auto is_free = [&](const std::string& name) {
+        return named(state.bodies, name) == state.bodies.end();
+    };
     if (!wanted.empty()) {
         if (!is_free(wanted)) refuse(operation, "name", "one that no other body has", quoted(wanted));
         return wanted;
@@ -89,7 +92,8 @@ void World::set_settings(const Settings& settings) {
 void World::use_vector_unit(std::string_view name) {
     const bool single = name == "none";
     const detail::VectorUnit unit = detail::vector_unit(single ? "" : name);
-    if (unit.solve == nullptr) refuse("use_vector_unit", "name", "one of ik::vector_units(), or \"none\"", quoted(name));
+    if (unit.solve == nullptr)
+        refuse("use_vector_unit", "name", "one of ik::vector_units(), or \"none\"", quoted(name));
     if (!scratch_) scratch_ = std::make_unique<Scratch>();
     scratch_->unit = single ? detail::VectorUnit{unit.single, unit.single, 1} : unit;
     scratch_->unit_name = name;
@@ -191,8 +195,9 @@ void World::unpin(std::size_t particle) {
 }
 
 bool World::pinned(std::size_t particle) const noexcept {
-    const auto place = std::lower_bound(state_.pins.begin(), state_.pins.end(), particle,
-                                        [](const Pin& pin, std::size_t number) { return pin.particle < number; });
+    const auto place =
+        std::lower_bound(state_.pins.begin(), state_.pins.end(), particle,
+                         [](const Pin& pin, std::size_t number) { return pin.particle < number; });
     return place != state_.pins.end() && place->particle == particle;
 }
 
@@ -224,7 +229,8 @@ void World::add_collider(std::string name, const Shape& shape) {
         refuse("add_collider", "name", "one that no other collider has", quoted(name));
     }
     require("add_collider", shape);
-    state_.colliders.push_back({.name = std::move(name), .shape = shape, .goal = glm::dvec3(centre(shape)), .seconds = 0.0});
+    state_.colliders.push_back(
+        {.name = std::move(name), .shape = shape, .goal = glm::dvec3(centre(shape)), .seconds = 0.0});
     reshaped();
 }
 

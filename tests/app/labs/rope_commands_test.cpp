@@ -251,7 +251,8 @@ TEST_F(RopeCommands, ScenesHoldTogether) {
         EXPECT_EQ(workspace.camera, entry.view);
         wait(90);
         double worst = 0.0;
-        for (const rope::Body& body : world().state().bodies) worst = std::max(worst, world().length_error(body));
+        for (const rope::Body& body : world().state().bodies)
+            worst = std::max(worst, world().length_error(body));
         EXPECT_LT(worst, 0.06) << entry.name;
         const Bounds bounds = lab().bounds(workspace, false);
         EXPECT_LT(bounds.radius, 4.0f) << entry.name;

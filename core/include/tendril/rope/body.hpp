@@ -22,8 +22,9 @@ struct Body {
     float radius = 0.02f;  ///< metres: how far from colliders its particles are kept, and how thick it is
     /// Relative length at which a link of a sheet tears, 0.1 for 10 % over its rest; 0: never.
     float tear = 0.0f;
-    /// The largest relative length error of its stretch links, |length / rest - 1| (or the length, where a rest is
-    /// 0), as the solver left it last. What pushing out of colliders adds afterwards is not the solver's.
+    /// The largest relative length error of its stretch links, |length / rest - 1| (or the length, where a
+    /// rest is 0), as the solver left it last. What pushing out of colliders adds afterwards is not the
+    /// solver's.
     float stretch = 0.0f;
 };
 
@@ -59,9 +60,9 @@ struct SheetShape {
     glm::vec3 down{0.0f, -1.0f, 0.0f};  ///< from the corner to the last row
     int columns = 24, rows = 24;        ///< particles, 2 or more each
     float radius = 0.01f;
-    float density = 0.2f;            ///< kg/m^2, over 0
+    float density = 0.2f;               ///< kg/m^2, over 0
     float shear = 1e-4f, bend = 1e-2f;  ///< compliance of shear and bend links, m/N
-    float tear = 0.0f;               ///< relative length at which links tear; 0: never
+    float tear = 0.0f;                  ///< relative length at which links tear; 0: never
     enum class Pins : std::uint8_t { None, Corners, Row } pins = Pins::None;  ///< of the first row
 };
 

@@ -31,13 +31,14 @@ using Shape = std::variant<Sphere, Capsule, Plane, Box>;
 
 /// Point on the surface that is nearest, as seen from a point.
 struct SurfaceDistance {
-    double distance = 0.0;            ///< metres, below zero inside
+    double distance = 0.0;             ///< metres, below zero inside
     glm::dvec3 normal{0.0, 1.0, 0.0};  ///< unit, outwards; a fixed one where there is no telling
 };
 /// For any point and any shape that require() takes; never NaN.
 SurfaceDistance surface_distance(const Shape& shape, const glm::dvec3& point) noexcept;
 
-/// The point that moves with a shape: the centre of a sphere or box, the middle of a capsule, a plane's point.
+/// The point that moves with a shape: the centre of a sphere or box, the middle of a capsule, a plane's
+/// point.
 glm::vec3 centre(const Shape& shape) noexcept;
 /// The same shape with that point elsewhere.
 Shape moved(const Shape& shape, const glm::vec3& centre) noexcept;
@@ -53,7 +54,7 @@ void require(const char* operation, const Shape& shape);
 
 struct Collider {
     std::string name;
-    Shape shape;         ///< where it is now
+    Shape shape;           ///< where it is now
     glm::dvec3 goal{0.0};  ///< where its centre is going
     double seconds = 0.0;  ///< of simulated time until it is there; 0: it stays
 };

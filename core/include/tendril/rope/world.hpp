@@ -53,8 +53,8 @@ struct State {
     std::vector<double> mass;        ///< kg, over 0
     std::vector<Pin> pins;           ///< by particle
     std::vector<Collider> colliders;
-    double remainder = 0.0;            ///< seconds that are not simulated yet
-    double moved_in = 0.0;             ///< seconds in which `moved` was moved; 0: nothing has moved yet
+    double remainder = 0.0;  ///< seconds that are not simulated yet
+    double moved_in = 0.0;   ///< seconds in which `moved` was moved; 0: nothing has moved yet
     std::uint64_t substeps = 0, dropped = 0;
 };
 
@@ -93,8 +93,8 @@ class World {
     /// The number of a body's particle. Throws where there is no such body or particle.
     std::size_t particle(std::string_view body, std::size_t index) const;
 
-    /// Holds a particle and takes it to `at` evenly in the next `seconds` of simulated time; 0: within the next
-    /// substep.
+    /// Holds a particle and takes it to `at` evenly in the next `seconds` of simulated time; 0: within the
+    /// next substep.
     void pin(std::size_t particle, const glm::vec3& at, double seconds = 0.0);
     /// Holds a particle where it is, moving with a collider.
     void attach(std::size_t particle, std::string_view collider);
@@ -106,8 +106,8 @@ class World {
     std::string cut(std::string_view rope, std::size_t segment);
 
     void add_collider(std::string name, const Shape& shape);
-    /// Takes a collider to `to` evenly in the next `seconds` of simulated time, 0: within the next substep; it
-    /// carries what it meets.
+    /// Takes a collider to `to` evenly in the next `seconds` of simulated time, 0: within the next substep;
+    /// it carries what it meets.
     void move_collider(std::string_view name, const glm::vec3& to, double seconds = 0.0);
     void set_collider(std::string_view name, const Shape& shape);  ///< there at once
     /// What is attached to it is let go.
@@ -123,16 +123,17 @@ class World {
     glm::vec3 velocity(std::size_t particle) const noexcept;
     /// Body::stretch.
     double stretch(const Body& body) const noexcept { return body.stretch; }
-    /// The largest relative length error of a body's stretch links as they are now. It has in it what pushing out of
-    /// colliders added, which Body::stretch has not.
+    /// The largest relative length error of a body's stretch links as they are now. It has in it what pushing
+    /// out of colliders added, which Body::stretch has not.
     double length_error(const Body& body) const noexcept;
-    /// Kinetic energy, by central differences, and potential, joules, as of one substep ago; potential is 0 where the
-    /// coordinates are. What is in elastic links counts, as they are now.
+    /// Kinetic energy, by central differences, and potential, joules, as of one substep ago; potential is 0
+    /// where the coordinates are. What is in elastic links counts, as they are now.
     double energy(const Body& body) const noexcept;
     /// The sum of a body's rest lengths, metres; of a sheet and a lock that of one row or strand.
     double length(const Body& body) const noexcept;
 
-    /// One of ik::vector_units(), or "none", for comparing; the widest where left empty. The bits are the same.
+    /// One of ik::vector_units(), or "none", for comparing; the widest where left empty. The bits are the
+    /// same.
     void use_vector_unit(std::string_view name);
 
     struct Plan;     // of the library's own
