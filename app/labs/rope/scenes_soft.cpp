@@ -17,7 +17,8 @@ RopeScene cloth_scene() {
                      .columns = 32,
                      .rows = 32,
                      .radius = 0.012f,
-                     .density = 0.3f});
+                     .density = 0.3f,
+                     .tear = 0.3f});
     rope::Settings settings = world.settings();
     settings.damping = 0.6f;
     world.set_settings(settings);
