@@ -31,7 +31,7 @@ struct Clock {
     int whole_ticks() const;
 };
 
-inline constexpr float slowest = 0.05f, fastest = 2.0f;
+inline constexpr double slowest = 0.05, fastest = 2.0;
 
 enum class ToastKind { Info, Refusal };
 

@@ -12,6 +12,10 @@ void step_through(Workspace& workspace, bool back) {
                          : workspace.history.redo(workspace.document, &workspace.path);
     if (!document) throw Refused(back ? "nothing to undo" : "nothing to redo");
     workspace.document = std::move(*document);
+    const auto parts = workspace.document.parts();
+    for (const auto& [lab, part] : parts) {
+        if (auto instead = part->brought_back()) workspace.document.set(lab, std::move(instead));
+    }
     workspace.rewind.clear();
 }
 

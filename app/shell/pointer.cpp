@@ -44,6 +44,8 @@ void emit_camera(Emit& emit, const CameraPose& from, const CameraPose& to) {
 }  // namespace
 
 void Pointer::take(const Event* event, const Input& input, const Scene& scene, Emit& emit) {
+    // What was caught in another lab means nothing in this one.
+    if (caught_ != no_pick && caught_in_ != &scene.lab) release(scene, emit);
     if (event != nullptr) {
         if (const auto* button = std::get_if<MousePress>(event)) {
             if (button->down && doing_ == Doing::Nothing && !scene.over_panel) press(*button, input, scene);
@@ -68,7 +70,7 @@ void Pointer::take(const Event* event, const Input& input, const Scene& scene, E
 }
 
 void Pointer::release(const Scene& scene, Emit& emit) {
-    if (doing_ == Doing::Drag) scene.lab.drop(scene.workspace, caught_, emit);
+    if (doing_ == Doing::Drag) caught_in_->drop(scene.workspace, caught_, emit);
     doing_ = Doing::Nothing;
     caught_ = no_pick;
 }
@@ -85,6 +87,7 @@ void Pointer::press(const MousePress& press, const Input& input, const Scene& sc
     if (press.button != MouseButton::Left) return;
     doing_ = Doing::Press;
     caught_ = hovered_ = pick(scene.drawn, scene.camera, input.mouse(), slack * scene.scale);
+    caught_in_ = &scene.lab;
     if (caught_ == no_pick) return;
     caught_position_ = scene.lab.position_of(scene.workspace, caught_);
     const auto pixel = scene.camera.project(caught_position_);

@@ -47,7 +47,8 @@ class Plot {
             high_ = most_y + room;
         }
         const float text = ImGui::GetFontSize();
-        from_ = {at.x + ImGui::CalcTextSize("1e-6").x + 0.4f * text, at.y + 1.2f * text};
+        from_ = {at.x + ImGui::CalcTextSize(logarithmic() ? "1e-6" : "000.00").x + 0.4f * text,
+                 at.y + 1.2f * text};
         to_ = {at.x + size.x - 0.6f * text, at.y + size.y - 2.4f * text};
     }
 
@@ -104,8 +105,10 @@ class Plot {
             if (logarithmic()) {
                 std::snprintf(text, sizeof text, "1e%d", static_cast<int>(power));
             } else {
-                std::snprintf(text, sizeof text, "%.3g",
-                              static_cast<double>(std::abs(power) < 1e-6f ? 0.0f : power));
+                // As many digits as tell one mark from the next.
+                const int digits = std::clamp(static_cast<int>(std::ceil(-std::log10(step_y) - 1e-4f)), 0, 6);
+                const double value = std::abs(power) < 1e-3f * step_y ? 0.0 : static_cast<double>(power);
+                std::snprintf(text, sizeof text, "%.*f", digits, value);
             }
             const ImVec2 size = ImGui::CalcTextSize(text);
             list_->AddText({from_.x - size.x - 4.0f, at - 0.5f * size.y}, dim(), text);

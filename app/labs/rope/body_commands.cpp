@@ -91,7 +91,9 @@ void pin(RopeEdit& edit, const Arguments& given) {
 
 void unpin(RopeEdit& edit, const Arguments& given) {
     const NamedParticle named = named_particle(edit.seen(), given);
-    if (!edit.seen().pinned(named.particle)) return;
+    if (!edit.seen().pinned(named.particle)) {
+        throw Refused("particle " + std::to_string(named.index) + " of \"" + named.body + "\" is not pinned");
+    }
     if (edit.part.hold == Hold{named.body, named.index}) edit.part.hold.reset();
     edit.world().unpin(named.particle);
 }
@@ -158,7 +160,7 @@ void add_adding_commands(CommandTable& table) {
          integer_argument("strands", "32 when left out", 1, most_particles),
          number_argument("spread", "the patch's radius, metres; 0.1 when left out", 0.0, 1e9),
          number_argument("length", "metres; 0.5 when left out", 0.0, 1e9),
-         integer_argument("segments", "of a strand; 16 when left out", 1, most_particles - 1),
+         integer_argument("segments", "of a strand; 16 when left out", 2, most_particles - 1),
          number_argument("radius", "metres; 0.004 when left out", 0.0, 1e9),
          number_argument("density", "kg/m; 0.05 when left out", 0.0, 1e9),
          number_argument("bend", "compliance, m/N", 0.0, 1e9)},

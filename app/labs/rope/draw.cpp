@@ -81,16 +81,17 @@ class Drawing {
         stroke.shadow = true;
         stroke.pick = pick;
     }
-    /// A capsule along the longest side: near enough to be caught by.
+    /// Capsules along all but its thinnest sides: near enough to be caught by.
     void catchable_box(const rope::Box& block, PickId pick) {
         const glm::vec3 half = block.half_extents;
-        int axis = half.x >= half.y && half.x >= half.z ? 0 : half.y >= half.z ? 1 : 2;
-        glm::vec3 along(0.0f);
-        const float thick = std::min(half[(axis + 1) % 3], half[(axis + 2) % 3]);
-        along[axis] = half[axis] - std::min(thick, half[axis]);
-        along = block.rotation * along;
-        Stroke& stroke = list_.bone(block.centre - along, block.centre + along, thick, thick, unseen);
-        stroke.pick = pick;
+        const float thick = std::min({half.x, half.y, half.z});
+        for (int axis = 0; axis < 3; ++axis) {
+            if (half[axis] == thick && axis > 0) continue;
+            glm::vec3 along(0.0f);
+            along[axis] = half[axis] - thick;
+            along = block.rotation * along;
+            list_.bone(block.centre - along, block.centre + along, thick, thick, unseen).pick = pick;
+        }
     }
 
     void mark_choice() {
@@ -157,7 +158,9 @@ class Drawing {
             const glm::vec3 from = positions_[link.a], to = positions_[link.b], middle = 0.5f * (from + to);
             catchable(from, cuts ? to : middle, body.radius, link.a);
             if (!cuts) catchable(middle, to, body.radius, link.b);
-            if (cuts && view_.hovered == particle_pick(link.a) && body.kind == rope::Body::Kind::Rope) {
+            const bool last = link.b + 1 == body.first + body.count && view_.hovered == particle_pick(link.b);
+            const bool hit = view_.hovered == particle_pick(link.a) || last;
+            if (cuts && hit && body.kind == rope::Body::Kind::Rope) {
                 const float thick = 1.15f * body.radius;
                 list_.bone(from, to, thick, thick, glm::vec4(view_.palette.limit, 1.0f));
             }

@@ -130,6 +130,9 @@ void time_rows(const Workspace& workspace, Emit& emit) {
     float percent = 100.0f * workspace.clock.speed;
     if (number_field("speed", percent, 0.5f, 5.0f, 200.0f, "%.0f %%"))
         emit.continuously("time.speed", {{"factor", number(percent / 100.0f)}});
+    float longest = 1000.0f * part.world->settings().longest_frame;
+    if (number_field("longest frame", longest, 1.0f, 1.0f, 1000.0f, "%.0f ms"))
+        emit.continuously("rope.settings", {{"longest_frame", number(longest / 1000.0f)}});
     float dial = 100.0f * part.torture.dial;
     if (number_field("torture", dial, 0.5f, 0.0f, 100.0f, "%.0f %%"))
         emit.continuously("rope.torture", {{"dial", number(dial / 100.0f)}});
@@ -139,9 +142,9 @@ void time_rows(const Workspace& workspace, Emit& emit) {
 
 void view_rows(const RopePart& part, Emit& emit) {
     section("Show");
-    if (option_button("Stress", part.view.stress)) emit("rope.view", {{"stress", !part.view.stress}});
-    if (option_button("Particles", part.view.particles))
-        emit("rope.view", {{"particles", !part.view.particles}});
+    bool stress = part.view.stress, particles = part.view.particles;
+    if (ImGui::Checkbox("Stress as colour", &stress)) emit("rope.view", {{"stress", stress}});
+    if (ImGui::Checkbox("Particles", &particles)) emit("rope.view", {{"particles", particles}});
     int sides = part.view.sides;
     if (integer_slider("sides", sides, fewest_sides, most_sides))
         emit.continuously("rope.view", {{"sides", sides}});
@@ -171,8 +174,9 @@ void RopeLab::timeline(const Workspace& workspace, Emit& emit) const {
     // The strip is ten seconds long from the beginning: what is not there yet is to its right.
     const auto first = past.oldest();
     const int ticks = static_cast<int>(Rewind::most_ticks) + 1;
-    const int newest = static_cast<int>(past.newest() - first);
-    const auto tick_now = std::clamp(workspace.clock.tick, first, past.newest());
+    const auto last = std::max(past.newest(), workspace.clock.tick);
+    const int newest = static_cast<int>(last - first);
+    const auto tick_now = std::clamp(workspace.clock.tick, first, last);
     int now = static_cast<int>(tick_now - first);
     if (app::timeline("past", now, ticks, tick_seconds))
         emit.continuously("time.seek", {{"ticks_back", std::max(0, newest - now)}});

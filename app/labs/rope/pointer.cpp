@@ -12,6 +12,13 @@ Json of_particle(const ParticlePlace& place) {
     return Json{{"rope", place.body->name}, {"particle", place.index}};
 }
 
+/// The collider that a particle is attached to; null where there is none.
+const rope::Collider* holder_of(const rope::World& world, std::size_t particle) {
+    for (const rope::Pin& pin : world.state().pins)
+        if (pin.particle == particle && !pin.collider.empty()) return world.find_collider(pin.collider);
+    return nullptr;
+}
+
 }  // namespace
 
 const rope::Collider* picked_collider(const rope::World& world, PickId pick) {
@@ -69,6 +76,13 @@ void RopeLab::drag(const Workspace& workspace, PickId pick, glm::vec3 to, Emit& 
     }
     const auto place = picked_particle(*part.world, pick);
     if (!place) return;
+    if (const rope::Collider* holder = holder_of(*part.world, place->body->first + place->index)) {
+        // What is attached moves with what holds it.
+        const glm::vec3 by = to - part.world->position(place->body->first + place->index);
+        emit.continuously("rope.collider.move",
+                          {{"name", holder->name}, {"to", point(rope::centre(holder->shape) + by)}});
+        return;
+    }
     const bool held = part.hold == Hold{place->body->name, place->index};
     const bool pinned = !held && part.world->pinned(place->body->first + place->index);
     Json arguments = of_particle(*place);
@@ -117,8 +131,12 @@ std::string RopeLab::hint(const Workspace& workspace, PickId pick) const {
         case RopeTool::Pin:
             return name + ": click pins it, or lets it go.";
         case RopeTool::Cut:
-            return name + ": click cuts here.";
+            if (place->body->kind == rope::Body::Kind::Rope && place->body->count > 1)
+                return name + ": click cuts here.";
+            break;
     }
+    if (const rope::Collider* holder = holder_of(*part.world, place->body->first + place->index))
+        return name + " (attached to " + holder->name + "): drag moves both.";
     const bool pinned = part.world->pinned(place->body->first + place->index);
     return name + (pinned ? " (pinned): drag moves its pin." : ": drag pulls it. Click selects it.");
 }

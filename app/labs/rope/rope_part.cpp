@@ -24,7 +24,16 @@ RopePart first_ropes() {
     return part;
 }
 
-/// What is chosen and how it is shown stays; what a drag held then is let go, since no drag holds it now.
+std::shared_ptr<const Part> RopePart::brought_back() const {
+    if (!hold) return nullptr;
+    auto part = std::make_shared<RopePart>(*this);
+    RopeEdit edit(*part, Clock{});
+    let_go(edit);
+    return part;
+}
+
+/// What is chosen, how it is shown and how it is simulated stays; what a drag held then is let go, since no
+/// drag holds it now.
 std::shared_ptr<const Part> RopePart::at_moment(std::shared_ptr<const Part> then) const {
     auto part = std::make_shared<RopePart>(dynamic_cast<const RopePart&>(*then));
     RopeEdit edit(*part, Clock{});
@@ -32,6 +41,8 @@ std::shared_ptr<const Part> RopePart::at_moment(std::shared_ptr<const Part> then
     part->tool = tool;
     part->view = view;
     part->choice = choice;
+    part->torture.dial = torture.dial;
+    if (edit.seen().settings() != world->settings()) edit.world().set_settings(world->settings());
     part->cost = cost;
     forget_missing(*part);
     return part;

@@ -87,6 +87,7 @@ struct RopePart final : Part {
     std::shared_ptr<Part> clone() const override { return std::make_shared<RopePart>(*this); }
     Json save() const override;
     std::shared_ptr<Part> load(const Json& json, const std::string& where) const override;
+    std::shared_ptr<const Part> brought_back() const override;
     std::shared_ptr<const Part> at_moment(std::shared_ptr<const Part> then) const override;
     std::size_t bytes() const override;
 };

@@ -8,6 +8,7 @@
 #include <glm/vector_relational.hpp>
 #include <stdexcept>
 #include <tendril/chain/segment.hpp>
+#include <utility>
 
 #include "app/labs/rope/rope_names.hpp"
 
@@ -69,6 +70,7 @@ void pass_time(RopePart& part, double seconds) {
             torture.frame = torture_frame(torture.dial, ++torture.frames);
         }
     }
+    world->trim();  // going back in time keeps hundreds of them
     part.world = std::move(world);
 }
 

@@ -18,7 +18,8 @@ glm::vec3 stress_colour(float strain, const Palette& palette) {
     const float size = std::abs(strain);
     const float share =
         std::log(std::max(size, least_strain) / least_strain) / std::log(full_strain / least_strain);
-    return glm::mix(palette.joint, strain > 0.0f ? palette.limit : palette.head, std::min(share, 1.0f));
+    return glm::mix(palette.joint, strain > 0.0f ? palette.limit : palette.head,
+                    std::pow(std::min(share, 1.0f), 1.6f));
 }
 
 glm::vec3 cloth_front(const Palette& palette) {

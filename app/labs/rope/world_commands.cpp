@@ -7,6 +7,7 @@ namespace tendril::app {
 namespace {
 
 void clear(RopeEdit& edit, const Arguments&) {
+    if (edit.seen().state().bodies.empty() && edit.seen().state().colliders.empty()) return;
     edit.world().clear();
     forget_missing(edit.part);
 }
@@ -46,6 +47,7 @@ void settings(RopeEdit& edit, const Arguments& given) {
     if (given.has("external")) wanted.external = given.point("external");
     if (given.has("compliance")) wanted.compliance = given.number("compliance");
     if (given.has("friction")) wanted.friction = given.number("friction");
+    if (given.has("longest_frame")) wanted.longest_frame = given.number("longest_frame");
     if (wanted != edit.seen().settings()) edit.world().set_settings(wanted);
 }
 
@@ -70,7 +72,9 @@ std::vector<Argument> settings_arguments() {
         point_argument("external", false, "m/s^2 beside gravity: a wind"),
         number_argument("compliance", "strain per newton; relaxation does not know it", 0.0,
                         rope::max_compliance),
-        number_argument("friction", "between ropes and colliders", 0.0, rope::max_friction)};
+        number_argument("friction", "between ropes and colliders", 0.0, rope::max_friction),
+        number_argument("longest_frame", "seconds that a frame simulates at most; the rest is dropped", 0.001,
+                        10.0)};
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ void load_particle(rope::State& state, const Json& row, const std::string& where
     state.position.push_back(point_at(0));
     state.moved.push_back(moved ? point_at(3) : glm::dvec3(0.0));
     state.before.push_back(moved ? point_at(6) : glm::dvec3(0.0));
-    state.mass.push_back(json_real(row.back(), where));
+    state.mass.push_back(json_real(row.back(), where, 0.0, 1e30));
 }
 
 /// [a, b, rest, "stretch", compliance, tension]; zeros at its end are left out.

@@ -22,14 +22,14 @@ double part_of(double h, double& seconds) {
 
 /// Links that are longer than their sheet bears are gone; whether there were any.
 bool tear(State& state) {
-    std::vector<float> limit(state.position.size(), 0.0f);
-    for (const Body& body : state.bodies)
-        std::fill_n(limit.begin() + static_cast<std::ptrdiff_t>(body.first), body.count, body.tear);
+    std::size_t b = 0;  // links of a body lie together, nearly always
     const auto torn = [&](const Link& link) {
-        if (limit[link.a] <= 0.0f) return false;
+        while (link.a < state.bodies[b].first) --b;
+        while (link.a - state.bodies[b].first >= state.bodies[b].count) ++b;
+        const float limit = state.bodies[b].tear;
+        if (limit <= 0.0f) return false;
         // A cell that is pulled askew makes its diagonal longer without anything being overstretched.
-        const double longest =
-            static_cast<double>(limit[link.a]) + (link.kind == Link::Kind::Stretch ? 0.0 : 0.5);
+        const double longest = static_cast<double>(limit) + (link.kind == Link::Kind::Stretch ? 0.0 : 0.5);
         const double length = detail::length(state.position[link.b] - state.position[link.a]);
         return length > link.rest * (1.0 + longest);
     };
@@ -50,6 +50,10 @@ void prepare(World::Scratch& scratch, const State& state, const World::Plan& pla
     scratch.body_lost.assign(state.bodies.size(), 0);
     scratch.pull.resize(state.links.size());
     scratch.colliders.resize(state.colliders.size());
+    scratch.close.reserve(state.colliders.size());
+    scratch.chunk_low.resize(plan.chunks.size());
+    scratch.chunk_high.resize(plan.chunks.size());
+    scratch.near.reserve(4 * plan.chunks.size());
     scratch.run_worst.assign(plan.runs.size(), 0.0);
     scratch.run_gain.assign(plan.runs.size(), 0.0);
     scratch.run_scale.assign(plan.runs.size(), 1.0);

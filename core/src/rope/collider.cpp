@@ -49,8 +49,7 @@ SurfaceDistance of(const Box& box, const dvec3& point) {
         if (over > inside) inside = over, face = i;
         beyond[i] = std::copysign(std::max(over, 0.0), local[i]);
     }
-    if (inside > 0.0) {
-        const double distance = detail::length(beyond);
+    if (const double distance = detail::length(beyond); inside > 0.0 && distance > 1e-150) {
         return {distance, axes.to_world((1.0 / distance) * beyond)};
     }
     dvec3 normal(0.0);

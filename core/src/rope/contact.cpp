@@ -39,8 +39,6 @@ void Substep::find_near() {
     std::fill(scratch_.body_near.begin(), scratch_.body_near.end(), std::uint8_t{0});
     if (state_.colliders.empty()) return;
     Bounds whole;
-    scratch_.chunk_low.resize(plan_.chunks.size());
-    scratch_.chunk_high.resize(plan_.chunks.size());
     for (std::size_t c = 0; c < plan_.chunks.size(); ++c) {
         const World::Plan::Chunk& chunk = plan_.chunks[c];
         Bounds bounds;

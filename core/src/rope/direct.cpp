@@ -125,7 +125,8 @@ double Substep::solve_batch(const Batch& batch, int iteration) {
         const std::uint32_t body = plan_.runs[batch.run + std::min(lane, batch.count - 1)].body;
         const bool pushed = scratch_.body_near[body] != 0;
         order.backward[lane] = first.alone && !pushed ? least_backward : 1.0;
-        order.passes[lane] = !first.alone ? 1.0 : pushed ? 4.0 : 2.0;
+        const int most = !first.alone ? 1 : pushed ? 4 : 2;
+        order.passes[lane] = std::min(most, state_.settings.iterations);
     }
     if (!first.alone) order.damping = shared_damping;
     order.tolerance = arrived;

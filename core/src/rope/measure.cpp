@@ -13,6 +13,35 @@ bool within(const Body& body, const Link& link) {
     return link.a >= body.first && link.a - body.first < body.count;
 }
 
+/// Of a stretch link, relative to its rest; 0 of the others.
+double error_of(const State& state, const Link& link) {
+    if (link.kind != Link::Kind::Stretch) return 0.0;
+    const double length = detail::length(state.position[link.b] - state.position[link.a]);
+    const double rest = link.rest;
+    return rest > 0.0 ? std::abs(length / rest - 1.0) : length;
+}
+
+double particle_energy(const State& state, std::size_t first, std::size_t count) {
+    const glm::dvec3 acceleration = detail::acceleration(state.settings);
+    const double rate = state.moved_in > 0.0 ? 0.5 / state.moved_in : 0.0;
+    double energy = 0.0;
+    for (std::size_t i = first; i < first + count; ++i) {
+        const glm::dvec3 velocity = rate * (state.moved[i] + state.before[i]);
+        const glm::dvec3 then = state.position[i] - state.moved[i];
+        energy += state.mass[i] * (0.5 * detail::dot(velocity, velocity) - detail::dot(acceleration, then));
+    }
+    return energy;
+}
+
+/// Relaxation knows no compliance of stretch links.
+double link_energy(const Settings& settings, const Link& link) {
+    const bool stretch = link.kind == Link::Kind::Stretch;
+    if (stretch && settings.solver == Solver::Relaxation) return 0.0;
+    const double give =
+        link.compliance + (stretch ? static_cast<double>(settings.compliance) * link.rest : 0.0);
+    return 0.5 * give * link.tension * link.tension;
+}
+
 }  // namespace
 
 glm::vec3 World::velocity(std::size_t particle) const noexcept {
@@ -22,32 +51,27 @@ glm::vec3 World::velocity(std::size_t particle) const noexcept {
 
 double World::length_error(const Body& body) const noexcept {
     double worst = 0.0;
-    for (const Link& link : state_.links) {
-        if (link.kind != Link::Kind::Stretch || !within(body, link)) continue;
-        const double length = detail::length(state_.position[link.b] - state_.position[link.a]);
-        const double rest = link.rest;
-        worst = std::max(worst, rest > 0.0 ? std::abs(length / rest - 1.0) : length);
-    }
+    for (const Link& link : state_.links)
+        if (within(body, link)) worst = std::max(worst, error_of(state_, link));
+    return worst;
+}
+
+double World::length_error() const noexcept {
+    double worst = 0.0;
+    for (const Link& link : state_.links) worst = std::max(worst, error_of(state_, link));
     return worst;
 }
 
 double World::energy(const Body& body) const noexcept {
-    const glm::dvec3 acceleration = detail::acceleration(state_.settings);
-    const double rate = state_.moved_in > 0.0 ? 0.5 / state_.moved_in : 0.0;
-    double energy = 0.0;
-    for (std::size_t i = body.first; i < body.first + body.count; ++i) {
-        const glm::dvec3 velocity = rate * (state_.moved[i] + state_.before[i]);
-        const glm::dvec3 then = state_.position[i] - state_.moved[i];
-        energy += state_.mass[i] * (0.5 * detail::dot(velocity, velocity) - detail::dot(acceleration, then));
-    }
-    for (const Link& link : state_.links) {
-        if (!within(body, link)) continue;
-        const bool stretches =
-            link.kind == Link::Kind::Stretch && state_.settings.solver != Solver::Relaxation;
-        const double give =
-            link.compliance + (stretches ? static_cast<double>(state_.settings.compliance) * link.rest : 0.0);
-        energy += 0.5 * give * link.tension * link.tension;
-    }
+    double energy = particle_energy(state_, body.first, body.count);
+    for (const Link& link : state_.links)
+        if (within(body, link)) energy += link_energy(state_.settings, link);
+    return energy;
+}
+
+double World::energy() const noexcept {
+    double energy = particle_energy(state_, 0, state_.position.size());
+    for (const Link& link : state_.links) energy += link_energy(state_.settings, link);
     return energy;
 }
 

@@ -1,5 +1,7 @@
 #include "tendril/rope/settings.hpp"
 
+#include <cmath>
+
 #include "chain/checks.hpp"
 
 namespace tendril::rope {

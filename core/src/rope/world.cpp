@@ -75,7 +75,8 @@ World& World::operator=(World&&) noexcept = default;
 World::~World() = default;
 
 void World::built() noexcept {
-    state_.bodies.back().stretch = static_cast<float>(length_error(state_.bodies.back()));
+    const double stretch = length_error(state_.bodies.back());
+    state_.bodies.back().stretch = static_cast<float>(std::min(stretch, static_cast<double>(max_magnitude)));
     reshaped();
 }
 
@@ -98,6 +99,15 @@ void World::use_vector_unit(std::string_view name) {
     scratch_->unit = single ? detail::VectorUnit{unit.single, unit.single, 1} : unit;
     scratch_->unit_name = name;
     scratch_->fresh = true;
+}
+
+void World::trim() noexcept {
+    if (!scratch_) return;
+    const std::string name = scratch_->unit_name;
+    const detail::VectorUnit unit = scratch_->unit;
+    *scratch_ = Scratch{};
+    scratch_->unit_name = name;
+    scratch_->unit = unit;
 }
 
 void World::clear() noexcept {
@@ -243,6 +253,7 @@ Collider& World::collider(const char* operation, std::string_view name) {
 void World::move_collider(std::string_view name, const glm::vec3& to, double seconds) {
     Collider& moving = collider("move_collider", name);
     tendril::detail::require_point("move_collider", "to", to);
+    require("move_collider", moved(moving.shape, to));
     require_time("move_collider", seconds);
     moving.goal = glm::dvec3(to);
     moving.seconds = seconds;
@@ -257,9 +268,9 @@ void World::set_collider(std::string_view name, const Shape& shape) {
 }
 
 void World::remove_collider(std::string_view name) {
-    collider("remove_collider", name);
-    std::erase_if(state_.pins, [&](const Pin& pin) { return pin.collider == name; });
-    state_.colliders.erase(named(state_.colliders, name));
+    const std::string gone = collider("remove_collider", name).name;  // `name` may be part of what is erased
+    std::erase_if(state_.pins, [&](const Pin& pin) { return pin.collider == gone; });
+    std::erase_if(state_.colliders, [&](const Collider& each) { return each.name == gone; });
     reshaped();
 }
 

@@ -20,7 +20,8 @@ struct Body {
     /// Particles in a row of a sheet, in a strand of a lock; `count` for a rope.
     std::size_t row = 0;
     float radius = 0.02f;  ///< metres: how far from colliders its particles are kept, and how thick it is
-    /// Relative length at which a link of a sheet tears, 0.1 for 10 % over its rest; 0: never.
+    /// Relative length at which a stretch link of a sheet tears, 0.1 for 10 % over its rest; 0: never. What
+    /// only shapes the sheet tears at half a length more.
     float tear = 0.0f;
     /// The largest relative length error of its stretch links, |length / rest - 1| (or the length, where a
     /// rest is 0), as the solver left it last. What pushing out of colliders adds afterwards is not the

@@ -14,7 +14,8 @@
 // every vector unit.
 //
 // Editing calls throw std::invalid_argument or std::out_of_range with the value in the message and leave the
-// world as it was. advance() allocates nothing once a world has its shape.
+// world as it was. advance() allocates nothing once a world has its shape, unless more colliders are near than
+// ever before.
 #pragma once
 
 #include <cstddef>
@@ -62,7 +63,7 @@ struct State {
 struct Advance {
     int substeps = 0;
     std::uint64_t dropped = 0;  ///< substeps that there was no time for
-    int passes = 0;             ///< of the solver, over all substeps
+    int passes = 0;  ///< of the solver over all links, in all substeps; Direct may look at one run more often
 };
 
 class World {
@@ -114,6 +115,9 @@ class World {
     void remove_collider(std::string_view name);
     const Collider* find_collider(std::string_view name) const noexcept;
 
+    /// Frees the memory that advance() works with, for a world that is only kept: many times its state's.
+    void trim() noexcept;
+
     /// Lets `seconds` pass, 0 or more; what is over settings().longest_frame is dropped and counted.
     Advance advance(double seconds);
 
@@ -126,9 +130,11 @@ class World {
     /// The largest relative length error of a body's stretch links as they are now. It has in it what pushing
     /// out of colliders added, which Body::stretch has not.
     double length_error(const Body& body) const noexcept;
+    double length_error() const noexcept;  ///< of all bodies
     /// Kinetic energy, by central differences, and potential, joules, as of one substep ago; potential is 0
     /// where the coordinates are. What is in elastic links counts, as they are now.
     double energy(const Body& body) const noexcept;
+    double energy() const noexcept;  ///< of all bodies
     /// The sum of a body's rest lengths, metres; of a sheet and a lock that of one row or strand.
     double length(const Body& body) const noexcept;
 
