@@ -32,7 +32,25 @@ glm::ivec2 read_size(const std::string& text) {
 
 void list_commands() {
     const Labs labs;
-    static constexpr const char* types[] = {"number", "integer", "boolean", "text", "[x, y, z]"};
+    const auto type_text = [](ArgumentType type) {
+        switch (type) {
+            case ArgumentType::Number:
+                return "number";
+            case ArgumentType::Integer:
+                return "integer";
+            case ArgumentType::Boolean:
+                return "boolean";
+            case ArgumentType::Text:
+                return "text";
+            case ArgumentType::Point:
+                return "[x, y, z]";
+            case ArgumentType::NumberOrPoint:
+                return "number or [x, y, z]";
+            case ArgumentType::Rotation:
+                return "[x, y, z, w] or [x, y, z] in degrees";
+        }
+        return "";
+    };
     const CommandTable table = make_command_table(labs);
     for (const Command& command : table.all()) {
         std::printf("%s\n    %s\n", usage(command).c_str(), command.help.c_str());
@@ -40,7 +58,7 @@ void list_commands() {
             std::string choices;
             for (const auto& choice : argument.choices) choices += (choices.empty() ? ": " : ", ") + choice;
             std::printf("    %-18s %s%s; %s%s\n", argument.name.c_str(),
-                        types[static_cast<int>(argument.type)], argument.required ? "" : ", optional",
+                        type_text(argument.type), argument.required ? "" : ", optional",
                         argument.help.c_str(), choices.c_str());
         }
     }

@@ -63,7 +63,8 @@ TEST(RopeCatenary, OfAnIndependentSource) {
     std::ifstream file(path);
     if (!file) GTEST_SKIP() << path << " is not there";
     std::vector<Hung> cases;
-    for (const auto& json : nlohmann::json::parse(file).at("catenary")) {
+    const nlohmann::json reference = nlohmann::json::parse(file);
+    for (const auto& json : reference.at("catenary")) {
         const Hung hung{json.at("span").get<float>(), json.at("length").get<float>(),
                         json.at("segments").get<int>(), json.at("sag").get<double>()};
         EXPECT_NEAR(hung.sag, catenary_sag(hung.span, hung.length), 1e-6);  // of theory there is only one
