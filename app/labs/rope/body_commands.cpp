@@ -91,9 +91,7 @@ void pin(RopeEdit& edit, const Arguments& given) {
 
 void unpin(RopeEdit& edit, const Arguments& given) {
     const NamedParticle named = named_particle(edit.seen(), given);
-    if (!edit.seen().pinned(named.particle)) {
-        throw Refused("particle " + std::to_string(named.index) + " of \"" + named.body + "\" is not pinned");
-    }
+    if (!edit.seen().pinned(named.particle)) return;
     if (edit.part.hold == Hold{named.body, named.index}) edit.part.hold.reset();
     edit.world().unpin(named.particle);
 }
