@@ -121,15 +121,7 @@ Outcome run_program(const std::vector<std::string>& arguments, const Environment
     const TempFolder config;
     Environment environment{{"XDG_CONFIG_HOME", config.path().string()}};
     environment.insert(environment.end(), changes.begin(), changes.end());
-    // The leak checker itself crashes now and then while the software rasteriser's threads end (on a busy
-    // machine once in some ten runs): that says nothing of the program.
-    constexpr int attempts = 8;
-    for (int i = 1;; ++i) {
-        Outcome outcome = Process(program_command(arguments), environment).wait();
-        const bool crashed =
-            outcome.err.find("LeakSanitizer has encountered a fatal error") != outcome.err.npos;
-        if (!crashed || i == attempts) return outcome;
-    }
+    return Process(program_command(arguments), environment).wait();
 }
 
 int count_lines(const std::string& text) {
