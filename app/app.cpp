@@ -194,7 +194,7 @@ void App::step_lab() {
     Clock& clock = workspace_.clock;
     if (lab().moving(workspace_)) {
         if (lab().rewinds())
-            workspace_.rewind.remember(clock.tick, workspace_.document.parts().at(workspace_.lab));
+            workspace_.remember_moment();
         lab().step(workspace_);
     }
     ++clock.tick;

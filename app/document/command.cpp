@@ -170,6 +170,7 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
 
     const Document before = workspace.document;  // parts are shared: a few pointers
     const std::filesystem::path path = workspace.path;
+    const std::uint64_t edition = workspace.edition;
     const bool modified = workspace.modified();
     try {
         command->apply(workspace, Arguments(arguments));
@@ -178,8 +179,12 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
         throw Refused(refusal_text(command->name, error.what()));
     }
     if (workspace.document == before) return;
-    if (command->effect == Effect::Edit) {
+    const bool edits = command->effect == Effect::Edit;
+    if (edits) {
         workspace.rewind.forget_from(workspace.clock.tick);  // what came of it, as it was before, came not
+        ++workspace.edition;
+    }
+    if (edits || workspace.edition != edition) {
         const bool moved = workspace.path != path;
         workspace.history.push(before, command->name, gesture, moved ? std::optional(path) : std::nullopt);
     } else if (command->effect == Effect::Look && !modified) {

@@ -22,11 +22,11 @@ class Part {
     /// A new part from what save() gave, bit for bit. Throws std::runtime_error naming `where` and what is
     /// wrong.
     virtual std::shared_ptr<Part> load(const Json& json, const std::string& where) const = 0;
-    /// `then`, this lab's part as it was at another moment, looked at as this one is: what is chosen and how
-    /// it is shown does not go back in time.
     /// Itself as undo and redo bring it back, where that differs: nobody drags now what was dragged then.
     /// Null where it does not.
     virtual std::shared_ptr<const Part> brought_back() const { return nullptr; }
+    /// `then`, this lab's part as it was at another moment, looked at as this one is: what is chosen and how
+    /// it is shown does not go back in time.
     virtual std::shared_ptr<const Part> at_moment(std::shared_ptr<const Part> then) const { return then; }
     /// Rough size in memory, for the history's bound.
     virtual std::size_t bytes() const = 0;

@@ -5,13 +5,13 @@
 
 namespace tendril::app {
 
-void Rewind::remember(std::uint64_t tick, std::shared_ptr<const Part> part) {
+void Rewind::remember(std::uint64_t tick, std::uint64_t edition, std::shared_ptr<const Part> part) {
     forget_from(tick);
     // Until now it was the newest, and kept as that alone.
     if (!moments_.empty() && moments_.back().tick % stride_ != 0) drop_last();
     while (!moments_.empty() && moments_.front().tick + most_ticks < tick) drop_oldest();
     const std::size_t size = part->bytes();
-    moments_.push_back({tick, std::move(part), size});
+    moments_.push_back({tick, edition, std::move(part), size});
     bytes_ += size;
     thin();
 }

@@ -18,6 +18,7 @@ class Rewind {
 
     struct Moment {
         std::uint64_t tick = 0;
+        std::uint64_t edition = 0;  ///< the workspace's then
         std::shared_ptr<const Part> part;
         std::size_t bytes = 0;
     };
@@ -26,7 +27,7 @@ class Rewind {
 
     /// The part as it is at a tick. What was remembered of that tick and of later ones is forgotten: time
     /// goes on from here.
-    void remember(std::uint64_t tick, std::shared_ptr<const Part> part);
+    void remember(std::uint64_t tick, std::uint64_t edition, std::shared_ptr<const Part> part);
     void forget_from(std::uint64_t tick);
     void clear();
 

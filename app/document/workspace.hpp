@@ -64,6 +64,7 @@ struct Workspace {
     std::map<std::string, CameraPose> cameras;  ///< of the labs that were open before
     Clock clock;
     Rewind rewind;
+    std::uint64_t edition = 0;  ///< which of the changes that can be undone was the last; counted
     History history;
     Settings settings;
     UiState ui;
@@ -75,6 +76,8 @@ struct Workspace {
     const CameraPose& first_view_of(const std::string& name) const;
     /// Time and cameras as they are for a scene that has just begun.
     void start_anew();
+    /// For time.seek, before the open lab takes a tick.
+    void remember_moment() { rewind.remember(clock.tick, edition, document.parts().at(lab)); }
     bool modified() const { return document != saved; }
     void toast(std::string text, ToastKind kind = ToastKind::Info);
 };

@@ -141,16 +141,17 @@ void add_dialog_commands(CommandTable& table) {
                }});
 }
 
-/// Goes back (or forward again) to the moment that is remembered nearest.
+/// Goes back (or forward again) to the moment that is remembered nearest. Where something was changed between
+/// the two, so does the workspace's edition.
 void seek(Workspace& w, const Arguments& given) {
     if (w.rewind.empty()) throw Refused("there is no earlier moment to go back to");
-    const auto& now = w.document.parts().at(w.lab);
-    if (w.clock.tick > w.rewind.newest()) w.rewind.remember(w.clock.tick, now);
+    if (w.clock.tick > w.rewind.newest()) w.remember_moment();
     const Rewind::Moment& moment = w.rewind.at(static_cast<std::uint64_t>(given.integer("ticks_back")));
     w.clock.playing = false;
     if (moment.tick == w.clock.tick) return;
     w.clock.tick = moment.tick;
-    w.document.set(w.lab, now->at_moment(moment.part));
+    w.edition = moment.edition;
+    w.document.set(w.lab, w.document.parts().at(w.lab)->at_moment(moment.part));
 }
 
 void add_time_commands(CommandTable& table) {
@@ -183,7 +184,9 @@ void add_time_commands(CommandTable& table) {
                               .help = "ticks of 1/60 s before the last one",
                               .low = 0,
                               .high = Rewind::most_ticks}},
-               .help = "Pauses, and shows an earlier moment; time goes on from there",
+               .help =
+                   "Pauses, and shows an earlier moment; time goes on from there. Going back over a change "
+                   "can be undone",
                .effect = Effect::Look,
                .apply = seek});
 }

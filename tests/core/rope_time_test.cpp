@@ -105,6 +105,19 @@ TEST(RopeTime, WhatIsOverTheLongestFrameIsDroppedAndCounted) {
     EXPECT_EQ(world.state().dropped, 2460u);
 }
 
+TEST(RopeTime, SoIsWhatIsOverTheMostSubsteps) {
+    World some = scene(Solver::Direct), all = scene(Solver::Direct);
+    const Advance cut = some.advance(0.1 + 0.3 / 240.0, 10);
+    EXPECT_EQ(cut.substeps, 10);
+    EXPECT_EQ(cut.dropped, 14u);
+    EXPECT_EQ(some.advance(0.7 / 240.0, 10).substeps, 1) << "what is less than a substep was kept";
+    all.advance(11.0 / 240.0);
+    EXPECT_EQ(farthest_apart(some, all), 0.0);
+    EXPECT_EQ(some.state().dropped, 14u);
+    EXPECT_EQ(some.advance(1.0, 0).dropped, 240u) << "those over the longest frame and these, each once";
+    EXPECT_EQ(some.advance(0.05).substeps, 12);
+}
+
 /// Less than a substep over in each of many frames is much time in the end: it is simulated or counted.
 TEST(RopeTime, NoTimeIsLostUnseen) {
     World world;

@@ -11,41 +11,58 @@ namespace {
 
 struct Kind {
     const char* name;
+    rope::Shape shape;
     std::vector<std::string_view> needs, takes;
 };
 
 const std::vector<Kind>& kinds() {
-    static const std::vector<Kind> list{{"sphere", {"centre", "radius"}, {}},
-                                        {"capsule", {"a", "b", "radius"}, {}},
-                                        {"plane", {"point", "normal"}, {}},
-                                        {"box", {"centre", "half_extents"}, {"rotation"}}};
+    static const std::vector<Kind> list{{"sphere", rope::Sphere{}, {"centre", "radius"}, {}},
+                                        {"capsule", rope::Capsule{}, {"a", "b", "radius"}, {}},
+                                        {"plane", rope::Plane{}, {"point", "normal"}, {}},
+                                        {"box", rope::Box{}, {"centre", "half_extents"}, {"rotation"}}};
     return list;
 }
 
-/// What a kind needs must be given, and what it does not have must not.
-void check_kind(const Kind& kind, const Arguments& given) {
-    const auto has = [](const std::vector<std::string_view>& list, std::string_view name) {
-        return std::find(list.begin(), list.end(), name) != list.end();
-    };
-    for (const char* name : {"centre", "radius", "a", "b", "point", "normal", "half_extents", "rotation"}) {
-        if (has(kind.needs, name) && !given.has(name))
+const Kind& kind_of(std::string_view name) {
+    return *std::find_if(kinds().begin(), kinds().end(), [&](const Kind& kind) { return name == kind.name; });
+}
+
+bool has(const std::vector<std::string_view>& list, std::string_view name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+void check_needs(const Kind& kind, const Arguments& given) {
+    for (const std::string_view name : kind.needs) {
+        if (!given.has(std::string(name).c_str()))
             throw Refused(std::string(name) + " is missing; a " + kind.name + " needs it");
-        if (!has(kind.needs, name) && !has(kind.takes, name) && given.has(name))
-            throw Refused(std::string("a ") + kind.name + " has no " + name);
     }
 }
 
-rope::Shape shape_of(const Arguments& given) {
-    const std::string name = given.text("kind");
-    const auto kind =
-        std::find_if(kinds().begin(), kinds().end(), [&](const Kind& k) { return name == k.name; });
-    check_kind(*kind, given);
-    if (name == "sphere") return rope::Sphere{given.point("centre"), given.number("radius")};
-    if (name == "capsule") return rope::Capsule{given.point("a"), given.point("b"), given.number("radius")};
-    if (name == "plane") return rope::Plane{given.point("point"), given.point("normal")};
-    rope::Box box{.centre = given.point("centre"), .half_extents = given.point("half_extents")};
-    if (given.has("rotation")) box.rotation = given.rotation("rotation");
-    return box;
+/// A shape of that kind with what is given in place of what it had. Refuses what the kind does not have.
+rope::Shape changed(rope::Shape shape, const Kind& kind, const Arguments& given) {
+    for (const char* name : {"centre", "radius", "a", "b", "point", "normal", "half_extents", "rotation"}) {
+        if (!has(kind.needs, name) && !has(kind.takes, name) && given.has(name))
+            throw Refused(std::string("a ") + kind.name + " has no " + name);
+    }
+    const auto take = [&](const char* name, glm::vec3& value) {
+        if (given.has(name)) value = given.point(name);
+    };
+    if (auto* sphere = std::get_if<rope::Sphere>(&shape)) {
+        take("centre", sphere->centre);
+        if (given.has("radius")) sphere->radius = given.number("radius");
+    } else if (auto* capsule = std::get_if<rope::Capsule>(&shape)) {
+        take("a", capsule->a);
+        take("b", capsule->b);
+        if (given.has("radius")) capsule->radius = given.number("radius");
+    } else if (auto* plane = std::get_if<rope::Plane>(&shape)) {
+        take("point", plane->point);
+        take("normal", plane->normal);
+    } else if (auto* box = std::get_if<rope::Box>(&shape)) {
+        take("centre", box->centre);
+        take("half_extents", box->half_extents);
+        if (given.has("rotation")) box->rotation = given.rotation("rotation");
+    }
+    return shape;
 }
 
 Swing* swing_of(RopePart& part, const std::string& collider) {
@@ -64,9 +81,20 @@ void centre_on(Swing& swing, glm::vec3 at, double time) {
 void add(RopeEdit& edit, const Arguments& given) {
     const std::string name = given.text("name");
     if (name.empty()) throw Refused("name must not be empty");
-    const rope::Shape shape = shape_of(given);
+    const Kind& kind = kind_of(given.text("kind"));
+    check_needs(kind, given);
+    const rope::Shape shape = changed(kind.shape, kind, given);
     check_collider_room(edit.seen());
     edit.world().add_collider(name, shape);
+}
+
+void set(RopeEdit& edit, const Arguments& given) {
+    const rope::Collider& collider = collider_of(edit.seen(), given.text("name"));
+    const rope::Shape shape = changed(collider.shape, kind_of(rope::kind(collider.shape)), given);
+    if (shape == collider.shape) return;
+    if (Swing* swing = swing_of(edit.part, collider.name))
+        centre_on(*swing, rope::centre(shape), edit.part.time);
+    edit.world().set_collider(collider.name, shape);
 }
 
 void move(RopeEdit& edit, const Arguments& given) {
@@ -109,25 +137,31 @@ Argument name_argument() {
 }  // namespace
 
 void add_collider_commands(CommandTable& table) {
+    const auto with_shape = [](std::vector<Argument> arguments) {
+        for (const Argument& argument :
+             {point_argument("centre", false, "of a sphere or box"),
+              number_argument("radius", "of a sphere or capsule, metres", 0.0, 1e9),
+              point_argument("a", false, "a capsule's end"), point_argument("b", false, "its other end"),
+              point_argument("point", false, "on a plane"),
+              point_argument("normal", false, "of a plane, outwards"),
+              point_argument("half_extents", false, "of a box, metres"),
+              Argument{.name = "rotation",
+              .type = ArgumentType::Rotation,
+              .required = false,
+              .help = "of a box: [x, y, z, w], or degrees about X, Y and Z"}})
+            arguments.push_back(argument);
+        return arguments;
+    };
     table.add(
         rope_command("rope.collider.add",
-                     {text_argument("name", true, "its own"),
-                      choice_argument("kind", true,
-                                      "sphere: centre, radius; capsule: a, b, radius; plane: point, normal; "
-                                      "box: centre, half_extents, rotation",
-                                      names(kinds(), [](const Kind& k) { return k.name; })),
-                      point_argument("centre", false, "of a sphere or box"),
-                      number_argument("radius", "of a sphere or capsule, metres", 0.0, 1e9),
-                      point_argument("a", false, "a capsule's end"),
-                      point_argument("b", false, "its other end"),
-                      point_argument("point", false, "on a plane"),
-                      point_argument("normal", false, "of a plane, outwards"),
-                      point_argument("half_extents", false, "of a box, metres"),
-                      {.name = "rotation",
-                       .type = ArgumentType::Rotation,
-                       .required = false,
-                       .help = "of a box: [x, y, z, w], or degrees about X, Y and Z"}},
+                     with_shape({text_argument("name", true, "its own"),
+                                 choice_argument("kind", true,
+                                                 "sphere: centre, radius; capsule: a, b, radius; "
+                                                 "plane: point, normal; box: centre, half_extents, rotation",
+                                                 names(kinds(), [](const Kind& k) { return k.name; }))}),
                      "Adds a body that ropes cannot enter", add));
+    table.add(rope_command("rope.collider.set", with_shape({name_argument()}),
+                           "Gives a collider another place, size or rotation at once", set));
     table.add(rope_command("rope.collider.move",
                            {name_argument(), point_argument("to", true, "where its centre goes, metres")},
                            "Moves a collider; it carries what it meets", move));

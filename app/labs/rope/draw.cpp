@@ -240,7 +240,7 @@ std::vector<LegendRow> RopeLab::legend(const Workspace& workspace) const {
     const Palette& colours = palette(workspace.settings.theme);
     std::vector<LegendRow> rows{{"pinned", colours.target}, {"selection", colours.selection}};
     if (rope_part(workspace).view.stress) {
-        rows.push_back({"its length", colours.joint});
+        rows.push_back({"its length", stress_colour(0.0f, colours)});
         rows.push_back({"1 % too long", stress_colour(0.01f, colours)});
         rows.push_back({"10 % too long", stress_colour(0.1f, colours)});
         rows.push_back({"10 % too short", stress_colour(-0.1f, colours)});

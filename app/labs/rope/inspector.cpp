@@ -1,6 +1,9 @@
 // What is selected in the Rope lab, and how the simulation goes.
 #include <algorithm>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "app/labs/rope/panels.hpp"
 #include "app/labs/rope/rope_names.hpp"
@@ -50,12 +53,41 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     end_row();
 }
 
+/// What a kind of collider has beside its place.
+void shape_rows(const rope::Collider& collider, Emit& emit) {
+    const auto set = [&](const char* key, Json value) {
+        emit.continuously("rope.collider.set", {{"name", collider.name}, {key, std::move(value)}});
+    };
+    const auto radius_row = [&](float radius) {
+        if (number_field("radius", radius, 0.002f, 0.0f, 1e3f, "%.3f m")) set("radius", number(radius));
+    };
+    if (const auto* sphere = std::get_if<rope::Sphere>(&collider.shape)) radius_row(sphere->radius);
+    if (const auto* capsule = std::get_if<rope::Capsule>(&collider.shape)) {
+        glm::vec3 a = capsule->a, b = capsule->b;
+        if (point_field("one end", a, 0.01f)) set("a", point(a));
+        if (point_field("other end", b, 0.01f)) set("b", point(b));
+        radius_row(capsule->radius);
+    }
+    if (const auto* plane = std::get_if<rope::Plane>(&collider.shape)) {
+        glm::vec3 normal = plane->normal;
+        if (point_field("normal", normal, 0.01f, 1.0f, "%.3f") && glm::length(normal) > 1e-3f)
+            set("normal", point(normal));
+    }
+    if (const auto* box = std::get_if<rope::Box>(&collider.shape)) {
+        glm::vec3 half = box->half_extents;
+        if (point_field("half size", half, 0.005f, 1e3f)) set("half_extents", point(glm::abs(half)));
+        glm::vec3 turned = glm::degrees(glm::eulerAngles(box->rotation));
+        if (point_field("turned", turned, 0.5f, 360.0f, "%.1f\xC2\xB0")) set("rotation", point(turned));
+    }
+}
+
 void collider_rows(const RopePart& part, const rope::Collider& collider, Emit& emit) {
     reading("collider", "%s", collider.name.c_str());
     reading("kind", "%s", rope::kind(collider.shape));
     glm::vec3 at = rope::centre(collider.shape);
     if (point_field("at", at, 0.01f))
         emit.continuously("rope.collider.move", {{"name", collider.name}, {"to", point(at)}});
+    shape_rows(collider, emit);
     const auto found = std::find_if(part.swings.begin(), part.swings.end(),
                                     [&](const Swing& swing) { return swing.collider == collider.name; });
     const bool swings = found != part.swings.end();

@@ -1,6 +1,9 @@
 #include "app/labs/rope/rope_edit.hpp"
 
 #include <algorithm>
+#include <stdexcept>
+
+#include "app/labs/rope/rope_time.hpp"
 
 namespace tendril::app {
 
@@ -46,6 +49,7 @@ Command rope_command(const char* name, std::vector<Argument> arguments, const ch
                     workspace.document = before;
                     return;
                 }
+                if (part.world != old.world) check_work(*part.world);
                 if (part.world != old.world || part.swings != old.swings) part.quiet_ticks = 0;
             }};
 }
@@ -69,6 +73,14 @@ void check_collider_room(const rope::World& world) {
         throw Refused("that would make " + std::to_string(all) + " colliders; the most is " +
                       std::to_string(max_lab_colliders));
     }
+}
+
+void check_work(const rope::World& world) {
+    const std::uint64_t work = work_of_substep(world);
+    if (work <= max_lab_work) return;
+    throw std::length_error("a substep would take " + std::to_string(world.state().links.size()) + " links " +
+                            std::to_string(world.settings().iterations) + " times, " + std::to_string(work) +
+                            " in all; the most is " + std::to_string(max_lab_work));
 }
 
 const rope::Body& body_of(const rope::World& world, const std::string& name) {

@@ -41,6 +41,8 @@ bool same(const RopePart& a, const RopePart& b);
 /// Throws Refused where there would be too many, before there are.
 void check_particle_room(const rope::World& world, std::size_t more);
 void check_collider_room(const rope::World& world);
+/// Throws std::length_error where a substep of it would take too long.
+void check_work(const rope::World& world);
 /// Throws Refused where there is none of that name.
 const rope::Body& body_of(const rope::World& world, const std::string& name);
 const rope::Collider& collider_of(const rope::World& world, const std::string& name);

@@ -143,6 +143,7 @@ std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where)
         part->torture = load_torture(read("torture"), where + ".torture");
         place = where + ".world";
         part->world = std::make_shared<const rope::World>(load_world(read("world"), place));
+        check_work(*part->world);
         part->swings = load_swings(read("swings"), where + ".swings", *part->world);
         part->choice = load_choice(read("selected"), where + ".selected", *part->world);
     } catch (const std::logic_error& error) {  // the core's own words, told where in the file

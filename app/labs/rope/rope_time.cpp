@@ -31,12 +31,16 @@ void aim(const RopePart& part, rope::World& world, double time) {
         world.move_collider(swing.collider, swing_point(swing, time), tick_seconds);
 }
 
+void advance(rope::World& world, double seconds) {
+    world.advance(seconds, max_lab_work / std::max(work_of_substep(world), std::uint64_t{1}));
+}
+
 /// A frame of the lab. While something swings it is cut where ticks of the lab's own time end, and aimed
 /// there: so the swing is the same however its time is cut.
 void pass_frame(RopePart& part, rope::World& world, double seconds) {
     constexpr double rounding = 1e-6;  // of a tick
     if (part.swings.empty()) {
-        world.advance(seconds);
+        advance(world, seconds);
         part.time += seconds;
         return;
     }
@@ -46,7 +50,7 @@ void pass_frame(RopePart& part, rope::World& world, double seconds) {
         const double next = ((at_tick ? std::round(ticks) : std::floor(ticks)) + 1.0) * tick_seconds;
         if (at_tick) aim(part, world, next);
         const double piece = std::min(seconds, next - part.time);
-        world.advance(piece);
+        advance(world, piece);
         part.time += piece;
         seconds -= piece;
     }
@@ -72,6 +76,10 @@ void pass_time(RopePart& part, double seconds) {
     }
     world->trim();  // going back in time keeps hundreds of them
     part.world = std::move(world);
+}
+
+std::uint64_t work_of_substep(const rope::World& world) {
+    return world.state().links.size() * static_cast<std::uint64_t>(world.settings().iterations);
 }
 
 double torture_frame(float dial, std::uint32_t number) {

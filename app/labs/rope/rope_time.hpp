@@ -9,6 +9,8 @@ namespace tendril::app {
 
 /// Lets `seconds` pass in the lab. The world that comes of it does not depend on how they are cut.
 void pass_time(RopePart& part, double seconds);
+/// Of a world's substep, for max_lab_work: counted, not measured, so that every machine drops the same.
+std::uint64_t work_of_substep(const rope::World& world);
 
 /// Seconds of the torture dial's frame of that number: a tick at dial 0, anything from 1 to 250 ms at 1.
 double torture_frame(float dial, std::uint32_t number);

@@ -18,8 +18,9 @@ glm::vec3 stress_colour(float strain, const Palette& palette) {
     const float size = std::abs(strain);
     const float share =
         std::log(std::max(size, least_strain) / least_strain) / std::log(full_strain / least_strain);
-    return glm::mix(palette.joint, strain > 0.0f ? palette.limit : palette.head,
-                    std::pow(std::min(share, 1.0f), 1.6f));
+    // From a gray that is lighter than both, in either theme.
+    const glm::vec3 none = glm::mix(palette.ghost, glm::vec3(1.0f), 0.35f);
+    return glm::mix(none, strain > 0.0f ? palette.limit : palette.head, std::min(share, 1.0f));
 }
 
 glm::vec3 cloth_front(const Palette& palette) {

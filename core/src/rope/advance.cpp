@@ -165,7 +165,7 @@ void Substep::keep() {
     state_.moved_in = h_;
 }
 
-Advance World::advance(double seconds) {
+Advance World::advance(double seconds, std::uint64_t most_substeps) {
     if (!(seconds >= 0.0 && seconds <= 1e9)) {
         tendril::detail::refuse("advance", "seconds", "0 or more",
                                 tendril::detail::text(static_cast<float>(seconds)));
@@ -173,17 +173,24 @@ Advance World::advance(double seconds) {
     Advance done;
     const double substep = state_.settings.substep;
     // Only whole substeps are dropped: what is less is not lost, or it would never be counted.
+    constexpr double rounding = 1e-6;  // of a substep
     const double over = std::max(0.0, seconds - static_cast<double>(state_.settings.longest_frame));
-    done.dropped = static_cast<std::uint64_t>(over / substep + 1e-6);
-    state_.dropped += done.dropped;
+    done.dropped = static_cast<std::uint64_t>(over / substep + rounding);
     state_.remainder += std::max(0.0, seconds - static_cast<double>(done.dropped) * substep);
-    while (state_.remainder >= substep * (1.0 - 1e-6)) {
+    const auto due = static_cast<std::uint64_t>(state_.remainder / substep + rounding);
+    if (due > most_substeps) {
+        const std::uint64_t more = due - most_substeps;
+        state_.remainder = std::max(0.0, state_.remainder - static_cast<double>(more) * substep);
+        done.dropped += more;
+    }
+    state_.dropped += done.dropped;
+    while (state_.remainder >= substep * (1.0 - rounding)) {
         state_.remainder = std::max(0.0, state_.remainder - substep);
         if (!plan_) plan_ = std::make_shared<const Plan>(state_);
         if (!scratch_) scratch_ = std::make_unique<Scratch>();
         if (scratch_->fresh) prepare(*scratch_, state_, *plan_);
         Substep step(state_, *plan_, *scratch_);
-        step.measures = state_.remainder < substep * (1.0 - 1e-6);
+        step.measures = state_.remainder < substep * (1.0 - rounding);
         done.passes += step.run();
         ++done.substeps;
         ++state_.substeps;

@@ -17,7 +17,7 @@ std::string title_at(const Rewind& rewind, std::uint64_t ticks_back) {
 
 void remember(Rewind& rewind, std::uint64_t from, std::uint64_t to, std::size_t floats = 0) {
     for (std::uint64_t tick = from; tick <= to; ++tick)
-        rewind.remember(tick, make_part(std::to_string(tick), std::vector<float>(floats)));
+        rewind.remember(tick, 0, make_part(std::to_string(tick), std::vector<float>(floats)));
 }
 
 TEST(Rewind, KeepsTheLastTenSeconds) {
@@ -38,7 +38,7 @@ TEST(Rewind, KeepsTheLastTenSeconds) {
 TEST(Rewind, ForgetsWhatCameAfterWhenTimeGoesOnFromAnEarlierMoment) {
     Rewind rewind;
     remember(rewind, 0, 100);
-    rewind.remember(40, make_part("again"));
+    rewind.remember(40, 0, make_part("again"));
     EXPECT_EQ(rewind.newest(), 40u);
     EXPECT_EQ(title_at(rewind, 0), "again");
     EXPECT_EQ(title_at(rewind, 1), "39");
@@ -89,7 +89,7 @@ struct Seek : testing::Test {
     }
     void play(int ticks) {
         for (int i = 0; i < ticks; ++i) {
-            workspace.rewind.remember(workspace.clock.tick, workspace.document.parts().at("arm"));
+            workspace.remember_moment();
             ++workspace.clock.tick;
             workspace.document.edit<TestPart>("arm").title = std::to_string(workspace.clock.tick);
         }
@@ -121,6 +121,35 @@ TEST_F(Seek, PlayingOnForgetsWhatCameAfter) {
     EXPECT_EQ(seek(0), "41");
     EXPECT_EQ(seek(1), "40");
     EXPECT_EQ(seek(600), "blank arm");
+}
+
+TEST_F(Seek, GoingBackOverAnEditCanBeUndone) {
+    play(50);
+    table.run(workspace, "arm.title", {{"title", "edited"}});
+    play(50);
+    EXPECT_EQ(seek(10), "90");
+    EXPECT_EQ(workspace.history.size(), 1u) << "nothing was changed between 90 and 100";
+    EXPECT_EQ(seek(60), "40");
+    EXPECT_EQ(workspace.history.size(), 2u);
+    EXPECT_EQ(workspace.history.undo_label(), "time.seek");
+    EXPECT_EQ(seek(70), "30");
+    EXPECT_EQ(workspace.history.size(), 2u) << "already before it";
+    play(1);  // forgets all that came after; undo does not
+    table.run(workspace, "undo", Json::object());
+    EXPECT_EQ(title(), "90");
+    table.run(workspace, "undo", Json::object());
+    EXPECT_EQ(title(), "50") << "as it was before the edit";
+}
+
+TEST_F(Seek, ADragOverAnEditIsOneStep) {
+    play(50);
+    table.run(workspace, "arm.title", {{"title", "edited"}});
+    play(50);
+    for (const int back : {40, 60, 45, 70}) table.run(workspace, "time.seek", {{"ticks_back", back}}, 7);
+    EXPECT_EQ(workspace.history.size(), 2u);
+    EXPECT_EQ(title(), "30");
+    table.run(workspace, "undo", Json::object());
+    EXPECT_EQ(title(), "60");
 }
 
 TEST_F(Seek, AnEditForgetsWhatCameAfterAndUndoEverything) {

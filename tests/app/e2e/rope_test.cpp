@@ -132,6 +132,15 @@ TEST(RopeInTheWindow, TimeGoesBackAndOnFromThere) {
     EXPECT_EQ(play(ScriptText().command("time.seek", {{"ticks_back", 1}}, true)).outcome.exit_code, 0);
 }
 
+TEST(RopeInTheWindow, WhatWasAddedSinceTheMomentOneGoesBackToComesWithUndo) {
+    ScriptText script = rope_lab("cloth").wait(30);
+    script.command("rope.add", {{"name", "new"}, {"from", {0, 2, 0}}, {"to", {1, 2, 0}}}).wait(30);
+    script.command("time.seek", {{"ticks_back", 50}});
+    EXPECT_EQ(state_after(script)["ropes"].size(), 0u);
+    script.command("time.play").wait(5).command("undo");
+    EXPECT_EQ(state_after(script)["ropes"][0]["name"], "new");
+}
+
 TEST(RopeInTheWindow, EachLabHasItsOwnCamera) {
     const Json chain = state_after(ScriptText().wait(1))["camera"];
     const Json rope = state_after(rope_lab())["camera"];

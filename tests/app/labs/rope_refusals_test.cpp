@@ -74,6 +74,25 @@ TEST_F(RopeRefusals, AKindOfColliderTakesWhatItHas) {
     refused("rope.collider.add", {{"name", "s"}, {"kind", "torus"}});
 }
 
+TEST_F(RopeRefusals, AColliderIsGivenWhatItsKindHas) {
+    run("rope.preset", {{"name", "drape"}});
+    EXPECT_EQ(refused("rope.collider.set", {{"name", "x"}, {"radius", 1}}),
+              "rope.collider.set: there is no collider \"x\"");
+    EXPECT_EQ(refused("rope.collider.set", {{"name", "ball"}, {"half_extents", right}}),
+              "rope.collider.set: a sphere has no half_extents");
+    refused("rope.collider.set", {{"name", "ball"}, {"radius", -0.5}});
+    refused("rope.collider.set", {{"name", "ground"}, {"normal", origin}});
+}
+
+TEST_F(RopeRefusals, WhatWouldTakeTooLongIsRefusedWithItsSize) {
+    single_rope(8000);
+    EXPECT_EQ(refused("rope.settings", {{"iterations", 10'000}}),
+              "rope.settings: a substep would take 8000 links 10000 times, 80000000 in all; the most is "
+              "50000000");
+    run("rope.settings", {{"iterations", 6000}});
+    refused("rope.add", {{"from", origin}, {"to", right}, {"segments", 1000}});
+}
+
 TEST_F(RopeRefusals, TooManyAreRefusedWithTheNumberAndTheLimit) {
     single_rope(8);
     EXPECT_EQ(refused("rope.add", {{"from", origin}, {"to", right}, {"segments", 10'000'000}}),

@@ -52,6 +52,15 @@ TEST_F(RopeTime, UnevenFramesLeadToTheSameWorld) {
     }
 }
 
+/// However fine the substeps are, a tick ends; the time that there was no room for is counted.
+TEST_F(RopeTime, ATickTakesSoMuchWorkAndNoMore) {
+    single_rope(50);
+    run("rope.settings", {{"substep", 1e-5}, {"iterations", 10'000}, {"solver", "relaxation"}});
+    wait(1);
+    EXPECT_EQ(world().state().substeps, max_lab_work / (50 * 10'000));
+    EXPECT_NEAR(static_cast<double>(world().state().substeps + world().state().dropped), 1e5 / 60.0, 1.0);
+}
+
 TEST_F(RopeTime, FramesAreFrom1To250Milliseconds) {
     double shortest = 1.0, longest = 0.0;
     for (std::uint32_t i = 0; i < 1000; ++i) {

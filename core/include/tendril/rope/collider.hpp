@@ -11,21 +11,25 @@ namespace tendril::rope {
 struct Sphere {
     glm::vec3 centre{0.0f};
     float radius = 0.5f;  ///< metres, 0 or more
+    bool operator==(const Sphere&) const = default;
 };
 /// All within `radius` of the line from a to b.
 struct Capsule {
     glm::vec3 a{0.0f}, b{0.0f, 1.0f, 0.0f};
     float radius = 0.25f;
+    bool operator==(const Capsule&) const = default;
 };
 /// All behind a plane.
 struct Plane {
     glm::vec3 point{0.0f};
     glm::vec3 normal{0.0f, 1.0f, 0.0f};  ///< of any length but 0
+    bool operator==(const Plane&) const = default;
 };
 struct Box {
     glm::vec3 centre{0.0f};
     glm::vec3 half_extents{0.5f};  ///< metres, each 0 or more
     glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
+    bool operator==(const Box&) const = default;
 };
 using Shape = std::variant<Sphere, Capsule, Plane, Box>;
 

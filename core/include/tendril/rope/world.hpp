@@ -118,8 +118,9 @@ class World {
     /// Frees the memory that advance() works with, for a world that is only kept: many times its state's.
     void trim() noexcept;
 
-    /// Lets `seconds` pass, 0 or more; what is over settings().longest_frame is dropped and counted.
-    Advance advance(double seconds);
+    /// Lets `seconds` pass, 0 or more; what is over settings().longest_frame, or over so many substeps, is
+    /// dropped and counted.
+    Advance advance(double seconds, std::uint64_t most_substeps = std::uint64_t{1} << 40);
 
     std::size_t size() const noexcept { return state_.position.size(); }
     glm::vec3 position(std::size_t particle) const noexcept { return glm::vec3(state_.position[particle]); }
