@@ -155,7 +155,7 @@ void App::take_shortcut(Emit& emit) {
         if (workspace_.history.is_open(gesture_)) emit("undo");
         return;
     }
-    const Shortcut* shortcut = find_shortcut(chord);
+    const Shortcut* shortcut = find_shortcut(chord, workspace_.lab);
     // A key that is held repeats what goes on step by step, but turns nothing on and off again.
     if (shortcut != nullptr && input_.repeated() && !shortcut->repeats) return;
     if (shortcut == nullptr || (ui_.wants_text() && !shortcut->while_typing)) return;

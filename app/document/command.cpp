@@ -105,8 +105,12 @@ void check_value(const Argument& argument, const Json& value, const std::string&
             break;
     }
     const double number = value.get<double>();
-    if (number < argument.low) refuse("at least " + plain(argument.low));
-    if (number > argument.high) refuse("at most " + plain(argument.high));
+    const auto bound = [&](double limit) {
+        const bool whole = argument.type == ArgumentType::Integer;
+        return whole ? std::to_string(static_cast<long long>(limit)) : plain(limit);
+    };
+    if (number < argument.low) refuse("at least " + bound(argument.low));
+    if (number > argument.high) refuse("at most " + bound(argument.high));
 }
 
 void check_arguments(const Command& command, const Json& given) {
@@ -132,8 +136,11 @@ void check_arguments(const Command& command, const Json& given) {
 /// "chain.remove: index 9 is out of range": the library's messages begin with its own name for the operation,
 /// which the command's name already says.
 std::string refusal_text(const std::string& command, std::string what) {
-    const std::string operation = command.substr(command.rfind('.') + 1) + ": ";
-    if (what.starts_with(operation)) what.erase(0, operation.size());
+    const std::string operation = what.substr(0, what.find(": "));
+    const bool word = operation.find_first_not_of("abcdefghijklmnopqrstuvwxyz_") == std::string::npos;
+    const bool named =
+        operation.find('_') != std::string::npos || operation == command.substr(command.rfind('.') + 1);
+    if (word && named && operation.size() < what.size()) what.erase(0, operation.size() + 2);
     return command + ": " + what;
 }
 
@@ -169,7 +176,7 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
     check_arguments(*command, arguments);
 
     const Document before = workspace.document;  // parts are shared: a few pointers
-    const std::filesystem::path path = workspace.path;
+    const Place from = workspace.place();
     const std::uint64_t edition = workspace.edition;
     const bool modified = workspace.modified();
     try {
@@ -179,15 +186,16 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
         throw Refused(refusal_text(command->name, error.what()));
     }
     if (workspace.document == before) return;
+    if (command->effect == Effect::Replace) return;
     const bool edits = command->effect == Effect::Edit;
     if (edits) {
         workspace.rewind.forget_from(workspace.clock.tick);  // what came of it, as it was before, came not
         ++workspace.edition;
     }
-    if (edits || workspace.edition != edition) {
-        const bool moved = workspace.path != path;
-        workspace.history.push(before, command->name, gesture, moved ? std::optional(path) : std::nullopt);
-    } else if (command->effect == Effect::Look && !modified) {
+    if (workspace.edition != edition) {
+        workspace.history.push(before.without(workspace.document), command->name, gesture, from,
+                               workspace.place());
+    } else if (!modified) {
         workspace.saved = workspace.document;  // choosing something is nothing that wants saving
     }
 }

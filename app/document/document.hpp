@@ -49,6 +49,15 @@ class Document {
         parts_[lab] = std::move(copy);
         return part;
     }
+    /// Those of its parts that are not the very same in another document.
+    Document without(const Document& other) const {
+        Document rest = *this;
+        std::erase_if(rest.parts_, [&](const auto& entry) {
+            const auto found = other.parts_.find(entry.first);
+            return found != other.parts_.end() && found->second == entry.second;
+        });
+        return rest;
+    }
     bool operator==(const Document&) const = default;  ///< the very same parts, not merely equal ones
 
   private:

@@ -7,33 +7,61 @@ namespace tendril::app {
 History::History(std::size_t max_entries, std::size_t max_bytes)
     : max_entries_(max_entries), max_bytes_(max_bytes) {}
 
-void History::push(const Document& before, const std::string& label, Gesture gesture,
-                   std::optional<std::filesystem::path> path) {
+void History::push(const Document& before, const std::string& label, Gesture gesture, const Place& from,
+                   const Place& to) {
     drop(future_);
     const bool same_gesture = gesture != 0 && gesture == open_gesture_;
     open_gesture_ = gesture;
     if (same_gesture) return;
-    append(past_, before, label, past_.empty() ? nullptr : &past_.back().document, std::move(path));
+    Entry entry{before, label, from, to};
+    if (from.camera == to.camera) entry.from.camera = entry.to.camera = std::nullopt;
+    append(past_, std::move(entry), past_.empty() ? nullptr : &past_.back().document);
     trim();
 }
 
-std::optional<Document> History::undo(const Document& current, std::filesystem::path* path) {
+std::optional<Document> History::undo(const Document& current, Place* place) {
     auto entry = take(past_);
     if (!entry) return std::nullopt;
-    if (entry->path && path != nullptr) std::swap(*entry->path, *path);
-    append(future_, current, entry->label, &entry->document, std::move(entry->path));
+    Document back = exchange(*entry, current);
+    go(entry->from, entry->to, place);
+    append(future_, std::move(*entry), &back);
     trim();
-    return std::move(entry->document);
+    return back;
 }
 
-std::optional<Document> History::redo(const Document& current, std::filesystem::path* path) {
+std::optional<Document> History::redo(const Document& current, Place* place) {
     auto entry = take(future_);
     if (!entry) return std::nullopt;
-    if (entry->path && path != nullptr) std::swap(*entry->path, *path);
-    append(past_, current, entry->label, past_.empty() ? nullptr : &past_.back().document,
-           std::move(entry->path));
+    Document forward = exchange(*entry, current);
+    go(entry->to, entry->from, place);
+    append(past_, std::move(*entry), past_.empty() ? nullptr : &past_.back().document);
     trim();
-    return std::move(entry->document);
+    return forward;
+}
+
+/// `current` with the entry's parts; the entry has what they were in `current`.
+Document History::exchange(Entry& entry, const Document& current) {
+    Document result = current;
+    Document instead;
+    for (const auto& [lab, part] : entry.document.parts()) {
+        const auto now = current.parts().find(lab);
+        if (now != current.parts().end()) instead.set(lab, now->second);
+        result.set(lab, part);
+    }
+    entry.document = std::move(instead);
+    return result;
+}
+
+/// To where the change is to be seen at its one end; its other end is where things are now.
+void History::go(Place& target, Place& origin, Place* place) {
+    if (place == nullptr) return;
+    if (target.path != origin.path) {
+        origin.path = place->path;
+        place->path = target.path;
+    }
+    if (target.camera) origin.camera = place->camera;
+    place->camera = target.camera;
+    place->lab = target.lab;
 }
 
 void History::clear() {
@@ -51,11 +79,10 @@ std::optional<History::Entry> History::take(Entries& entries) {
     return entry;
 }
 
-void History::append(Entries& entries, const Document& document, const std::string& label,
-                     const Document* older, std::optional<std::filesystem::path> path) {
-    const std::size_t bytes = own_bytes(document, older);
-    entries.push_back({document, label, bytes, std::move(path)});
-    bytes_ += bytes;
+void History::append(Entries& entries, Entry entry, const Document* older) {
+    entry.bytes = own_bytes(entry.document, older);
+    bytes_ += entry.bytes;
+    entries.push_back(std::move(entry));
 }
 
 /// What `document` holds that the one before it in time does not.

@@ -1,5 +1,6 @@
-// Undo and redo: whole documents (they share what did not change), one entry per gesture, bounded memory: the
-// oldest entries go first, and only the nearest step may exceed the bound alone.
+// Undo and redo: the parts that a command changed, as they were before; what other labs have become since
+// stays. One entry per gesture, bounded memory: the oldest entries go first, and only the nearest step may
+// exceed the bound alone.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "app/document/camera_pose.hpp"
 #include "app/document/document.hpp"
 
 namespace tendril::app {
@@ -16,20 +18,26 @@ namespace tendril::app {
 /// Commands of one drag share a gesture and so one undo entry; 0 is a gesture of its own.
 using Gesture = std::uint64_t;
 
+/// Where a change is to be seen: it goes back and forward with the change, where the change moved it.
+struct Place {
+    std::string lab;
+    std::filesystem::path path;        ///< the scene's file
+    std::optional<CameraPose> camera;  ///< given back only where the change moved it
+};
+
 class History {
   public:
     explicit History(std::size_t max_entries = 1000, std::size_t max_bytes = 256u << 20);
 
-    /// Remembers `before`, the document as it was before the command `label` changed it, and forgets what
+    /// Remembers `before`, the parts that the command `label` changed as they were before, and forgets what
     /// could be redone. Further pushes of the same nonzero gesture add nothing, until an undo or redo comes
     /// between.
-    /// `path` is the file that the scene had before, where the command changed that as well.
-    void push(const Document& before, const std::string& label, Gesture gesture,
-              std::optional<std::filesystem::path> path = std::nullopt);
-    /// Gives the document to go back to (or forward to) from `current`; nothing at the end. `path`, if given,
-    /// is the scene's file now, and becomes what it was.
-    std::optional<Document> undo(const Document& current, std::filesystem::path* path = nullptr);
-    std::optional<Document> redo(const Document& current, std::filesystem::path* path = nullptr);
+    void push(const Document& before, const std::string& label, Gesture gesture, const Place& from = {},
+              const Place& to = {});
+    /// Gives the document to go back to (or forward to) from `current`; nothing at the end. `place`, if
+    /// given, is where things are now, and becomes where the change is to be seen.
+    std::optional<Document> undo(const Document& current, Place* place = nullptr);
+    std::optional<Document> redo(const Document& current, Place* place = nullptr);
     void clear();
 
     bool can_undo() const { return !past_.empty(); }
@@ -45,17 +53,18 @@ class History {
 
   private:
     struct Entry {
-        Document document;
+        Document document;  ///< of the parts that changed
         std::string label;
+        Place from, to;         ///< before the change and after it
         std::size_t bytes = 0;  ///< of what it does not share with the document before it in time
-        std::optional<std::filesystem::path> path{};
     };
     using Entries = std::deque<Entry>;
 
     static std::size_t own_bytes(const Document& document, const Document* older);
-    void append(Entries& entries, const Document& document, const std::string& label, const Document* older,
-                std::optional<std::filesystem::path> path);
+    void append(Entries& entries, Entry entry, const Document* older);
     std::optional<Entry> take(Entries& entries);
+    static Document exchange(Entry& entry, const Document& current);
+    static void go(Place& target, Place& origin, Place* place);
     void drop(Entries& entries);
     void drop_oldest();
     void drop_last();

@@ -78,6 +78,7 @@ struct Workspace {
     void start_anew();
     /// For time.seek, before the open lab takes a tick.
     void remember_moment() { rewind.remember(clock.tick, edition, document.parts().at(lab)); }
+    Place place() const { return {lab, path, camera}; }
     bool modified() const { return document != saved; }
     void toast(std::string text, ToastKind kind = ToastKind::Info);
 };

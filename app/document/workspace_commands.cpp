@@ -8,15 +8,21 @@ namespace tendril::app {
 namespace {
 
 void step_through(Workspace& workspace, bool back) {
-    auto document = back ? workspace.history.undo(workspace.document, &workspace.path)
-                         : workspace.history.redo(workspace.document, &workspace.path);
+    Place place = workspace.place();
+    auto document = back ? workspace.history.undo(workspace.document, &place)
+                         : workspace.history.redo(workspace.document, &place);
     if (!document) throw Refused(back ? "nothing to undo" : "nothing to redo");
     workspace.document = std::move(*document);
     const auto parts = workspace.document.parts();
     for (const auto& [lab, part] : parts) {
         if (auto instead = part->brought_back()) workspace.document.set(lab, std::move(instead));
     }
-    workspace.rewind.clear();
+    // One sees what was undone.
+    workspace.path = place.path;
+    if (!place.lab.empty()) workspace.open_lab(place.lab);
+    if (place.camera) workspace.camera = *place.camera;
+    workspace.rewind.forget_from(workspace.clock.tick);
+    ++workspace.edition;
 }
 
 void add_history_commands(CommandTable& table) {

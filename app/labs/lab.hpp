@@ -61,6 +61,10 @@ class Lab {
     virtual bool moving(const Workspace& workspace) const = 0;
     /// One tick of tick_seconds, in which clock.speed times as much passes in the lab.
     virtual void step(Workspace& workspace) const = 0;
+    /// What the clock in the top bar shows: seconds that have passed in the lab.
+    virtual double seconds(const Workspace& workspace) const {
+        return static_cast<double>(workspace.clock.tick) * tick_seconds;
+    }
     /// Whether its last seconds are remembered, to go back in time.
     virtual bool rewinds() const { return false; }
 

@@ -77,7 +77,7 @@ void menu(const ShellFrame& frame, Emit& emit) {
     Section open = Section::Scene;
     bool first = true;
     for (const Shortcut& shortcut : shortcuts()) {
-        if (!shortcut.in_menu) continue;
+        if (!shortcut.in_menu || (!shortcut.lab.empty() && shortcut.lab != frame.workspace.lab)) continue;
         if (first || shortcut.section != open) {
             if (!first) ImGui::Separator();
             ImGui::TextDisabled("%s", section_title(shortcut.section));
@@ -148,7 +148,7 @@ void time_controls(const ShellFrame& frame, float from, float to, Emit& emit) {
         emit("time.step");
     if (!with_time) return;
     char time[32];
-    std::snprintf(time, sizeof time, "%8.2f s", static_cast<double>(clock.tick) * tick_seconds);
+    std::snprintf(time, sizeof time, "%8.2f s", frame.lab.seconds(frame.workspace));
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     const bool runs = clock.playing && frame.lab.moving(frame.workspace);

@@ -19,6 +19,11 @@ Shortcut row(const char* chord, const char* command, Json arguments, const char*
             repeats};
 }
 
+Shortcut in_lab(const char* lab, Shortcut shortcut) {
+    shortcut.lab = lab;
+    return shortcut;
+}
+
 constexpr MouseBinding mouse_bindings[] = {
     {MouseButton::Right, false, false, MouseAction::Orbit},
     {MouseButton::Left, false, true, MouseAction::Orbit},
@@ -73,7 +78,10 @@ const std::vector<Shortcut>& shortcuts() {
         row("ctrl+z", "undo", Json::object(), "Undo", Section::Edit),
         row("ctrl+shift+z", "redo", Json::object(), "Redo", Section::Edit),
         row("ctrl+y", "redo", Json::object(), "Redo", Section::Edit, false),
-        row("delete", "chain.remove_selected", Json::object(), "Remove the selected segment", Section::Edit),
+        in_lab("chain", row("delete", "chain.remove_selected", Json::object(), "Remove the selected segment",
+                            Section::Edit)),
+        in_lab("rope", row("delete", "rope.remove_selected", Json::object(),
+                           "Remove the selected rope or collider", Section::Edit)),
         row("f", "camera.frame", {{"what", "selection"}}, "Frame selection", Section::View),
         row("home", "camera.frame", {{"what", "all"}}, "Frame all", Section::View),
         row("1", "camera.view", {{"name", "front"}}, "Front", Section::View),
@@ -86,12 +94,14 @@ const std::vector<Shortcut>& shortcuts() {
         row("f9", "view.panels", Json::object(), "Fold panels", Section::View),
         row("space", "time.toggle", Json::object(), "Play or pause", Section::Time),
         row(".", "time.step", Json::object(), "One tick", Section::Time),
-        row("right", "microscope.step", {{"by", 1}}, "Microscope: a step on", Section::Microscope, false),
-        row("left", "microscope.step", {{"by", -1}}, "Microscope: a step back", Section::Microscope, false),
-        row("shift+right", "microscope.step", {{"iterations", 1}}, "Microscope: an iteration on",
-            Section::Microscope, false),
-        row("shift+left", "microscope.step", {{"iterations", -1}}, "Microscope: an iteration back",
-            Section::Microscope, false),
+        in_lab("chain", row("right", "microscope.step", {{"by", 1}}, "Microscope: a step on",
+                            Section::Microscope, false)),
+        in_lab("chain", row("left", "microscope.step", {{"by", -1}}, "Microscope: a step back",
+                            Section::Microscope, false)),
+        in_lab("chain", row("shift+right", "microscope.step", {{"iterations", 1}},
+                            "Microscope: an iteration on", Section::Microscope, false)),
+        in_lab("chain", row("shift+left", "microscope.step", {{"iterations", -1}},
+                            "Microscope: an iteration back", Section::Microscope, false)),
         row("?", "view.help", Json::object(), "Keys and mouse", Section::Help),
         row("f1", "view.help", Json::object(), "Keys and mouse", Section::Help, false, true),
         row("ctrl+k", "view.palette", Json::object(), "Find a command", Section::Help, true, true),
@@ -101,9 +111,10 @@ const std::vector<Shortcut>& shortcuts() {
     return table;
 }
 
-const Shortcut* find_shortcut(const Chord& chord) {
-    const auto found = std::find_if(shortcuts().begin(), shortcuts().end(),
-                                    [&](const Shortcut& shortcut) { return shortcut.chord == chord; });
+const Shortcut* find_shortcut(const Chord& chord, std::string_view lab) {
+    const auto found = std::find_if(shortcuts().begin(), shortcuts().end(), [&](const Shortcut& shortcut) {
+        return shortcut.chord == chord && (shortcut.lab.empty() || shortcut.lab == lab);
+    });
     return found == shortcuts().end() ? nullptr : &*found;
 }
 

@@ -24,11 +24,13 @@ struct Shortcut {
     bool in_menu = true;
     bool while_typing = false;  ///< works although a text field has the keyboard
     bool repeats = false;       ///< goes on while the key is held
+    std::string lab{};          ///< works in this lab alone; empty: in all of them
 };
 
 /// A row with the same command as an earlier one is another key for it.
 const std::vector<Shortcut>& shortcuts();
-const Shortcut* find_shortcut(const Chord& chord);
+/// Of that key in a lab.
+const Shortcut* find_shortcut(const Chord& chord, std::string_view lab);
 /// "Ctrl+Z", of the first row with that command; empty where it has no key.
 std::string keys_for(std::string_view command);
 

@@ -129,6 +129,17 @@ void reading(const char* name, const char* format, ...) {
     text_flush_right(text);
 }
 
+void explain(const char* text) {
+    const float left = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMin().x;
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    if (!ImGui::IsWindowHovered() || !ImGui::IsMouseHoveringRect({left, low.y}, high)) return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(22.0f * ImGui::GetFontSize());
+    ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
 bool row_button(const char* title, int of, bool enabled, const char* tooltip) {
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float whole = ImGui::GetWindowContentRegionMax().x - ImGui::GetWindowContentRegionMin().x;

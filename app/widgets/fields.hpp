@@ -29,6 +29,9 @@ void reading(const char* name, const char* format, ...)
 #endif
     ;
 
+/// What the row above means, while the mouse rests on it.
+void explain(const char* text);
+
 /// A button as wide as its share of the row: `of` buttons to a row, or fewer where they would be too small.
 bool row_button(const char* title, int of, bool enabled = true, const char* tooltip = nullptr);
 

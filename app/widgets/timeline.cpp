@@ -52,6 +52,11 @@ class Strip {
         const float half = 0.5f * ImGui::CalcTextSize(text).x;
         list_->AddText({std::clamp(x - half, at_.x, at_.x + width_ - 2.0f * half), at_.y}, dim, text);
     }
+    /// What lies ahead of the head.
+    void ahead(float share) {
+        list_->AddLine({from_, base_}, {from_ + span_ * share, base_},
+                       ImGui::GetColorU32(ImGuiCol_CheckMark, 0.45f), 2.0f * unit());
+    }
     void head(float share) {
         const float x = from_ + span_ * share;
         const ImU32 accent = ImGui::GetColorU32(ImGuiCol_CheckMark);
@@ -68,7 +73,7 @@ class Strip {
 
 }  // namespace
 
-bool timeline(const char* id, int& tick, int ticks, double seconds) {
+bool timeline(const char* id, int& tick, int ticks, double seconds, int known) {
     Strip strip(id);
     const int before = tick;
     if (const float share = strip.dragged(); share >= 0.0f) {
@@ -82,6 +87,7 @@ bool timeline(const char* id, int& tick, int ticks, double seconds) {
         std::snprintf(text, sizeof text, "%.3g s", t);
         strip.mark(static_cast<float>(t / whole), text);
     }
+    if (known > tick) strip.ahead(static_cast<float>(known) / static_cast<float>(ticks));
     strip.head(static_cast<float>(tick) / static_cast<float>(ticks));
     return tick != before;
 }

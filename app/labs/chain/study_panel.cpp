@@ -149,7 +149,10 @@ void race_rows(const Workspace& workspace, const Palette& palette, Emit& emit) {
     ImGui::Checkbox("Against time", &time);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Measured here and now, the least of several runs");
     bool apart = study.side_by_side;
-    if (ImGui::Checkbox("Side by side", &apart)) emit("race.side_by_side", {{"on", apart}});
+    if (ImGui::Checkbox("Side by side", &apart)) {
+        emit("race.side_by_side", {{"on", apart}});
+        emit("camera.frame", {{"what", "all"}});
+    }
     start_buttons("race.open", emit);
     end_row();
     if (row_button("Copy numbers as CSV", 1, true, "Every solver's residual at each iteration"))

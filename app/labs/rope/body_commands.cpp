@@ -80,6 +80,16 @@ void remove(RopeEdit& edit, const Arguments& given) {
     forget_missing(edit.part);
 }
 
+void remove_selected(RopeEdit& edit, const Arguments&) {
+    const std::optional<RopeChoice> choice = edit.part.choice;
+    if (!choice) throw Refused("nothing is selected");
+    if (choice->collider.empty())
+        edit.world().remove(choice->body);
+    else
+        edit.world().remove_collider(choice->collider);
+    forget_missing(edit.part);
+}
+
 void pin(RopeEdit& edit, const Arguments& given) {
     const NamedParticle named = named_particle(edit.seen(), given);
     if (edit.part.hold == Hold{named.body, named.index}) edit.part.hold.reset();  // now it is held for good
@@ -171,6 +181,8 @@ void add_body_commands(CommandTable& table) {
     add_adding_commands(table);
     table.add(rope_command("rope.remove", {text_argument("name", true, "of a rope, sheet or lock")},
                            "Removes a rope, sheet or lock", remove));
+    table.add(rope_command("rope.remove_selected", {},
+                           "Removes the rope, sheet, lock or collider that is selected", remove_selected));
     table.add(rope_command("rope.pin",
                            {rope_argument(true, "which"), particle_argument(true, "which"),
                             point_argument("at", false, "metres; where it is when left out")},

@@ -182,10 +182,11 @@ class Drawing {
                 const bool alone = body.count == 1;  // what is left of a rope that was cut at its end
                 const bool selected = chosen(body, i), under_mouse = !cuts && lit(pick);
                 if (!(pinned[particle] || selected || under_mouse || part_.view.particles || alone)) continue;
-                const glm::vec3 colour = selected           ? view_.palette.selection
-                                         : pinned[particle] ? view_.palette.target
-                                         : under_mouse      ? view_.palette.accent
-                                                            : view_.palette.joint;
+                const glm::vec3 colour = selected            ? view_.palette.selection
+                                         : pinned[particle]  ? view_.palette.target
+                                         : under_mouse       ? view_.palette.accent
+                                         : part_.view.stress ? colours_[particle]
+                                                             : view_.palette.joint;
                 Stroke& ball = list_.sphere(positions_[particle], ball_radius(body, particle), Unit::Pixels,
                                             glm::vec4(colour, 1.0f));
                 ball.pick = pick;

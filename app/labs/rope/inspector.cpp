@@ -1,4 +1,6 @@
 // What is selected in the Rope lab, and how the simulation goes.
+#include <imgui.h>
+
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -6,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/labs/rope/panels.hpp"
+#include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_names.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/plot.hpp"
@@ -26,10 +29,13 @@ float tension_at(const rope::World& world, std::size_t particle) {
 void particle_rows(const RopePart& part, const rope::Body& body, std::size_t index, Emit& emit) {
     const rope::World& world = *part.world;
     const std::size_t particle = body.first + index;
-    const bool pinned = world.pinned(particle);
+    const bool held = held_particle(part) == particle, pinned = world.pinned(particle) && !held;
     const Json which{{"rope", body.name}, {"particle", index}};
     reading("of", "%s", body.name.c_str());
-    reading("particle", "%zu of %zu%s", index, body.count, pinned ? ", pinned" : "");
+    reading("particle", "%zu of 0 to %zu%s", index, body.count - 1,
+            pinned ? ", pinned"
+            : held ? ", held"
+                   : "");
     glm::vec3 at = world.position(particle);
     if (pinned) {
         if (point_field("at", at, 0.01f)) {
@@ -105,11 +111,12 @@ void collider_rows(const RopePart& part, const rope::Collider& collider, Emit& e
 }
 
 Curve curve(const char* name, glm::vec3 colour, const std::vector<RopeSample>& samples,
-            float RopeSample::*value) {
+            float RopeSample::*value, float scale) {
     Curve drawn{name, colour, {}};
     drawn.points.reserve(samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i)
-        drawn.points.push_back({static_cast<float>(i) * static_cast<float>(tick_seconds), samples[i].*value});
+        drawn.points.push_back(
+            {static_cast<float>(i) * static_cast<float>(tick_seconds), scale * (samples[i].*value)});
     return drawn;
 }
 
@@ -135,19 +142,30 @@ void number_rows(const Workspace& workspace, const Palette& palette) {
     reading("particles", "%zu", state.position.size());
     const RopeSample last = part.samples.empty() ? RopeSample{} : part.samples.back();
     reading("stretch", "%.4f %%", 100.0 * static_cast<double>(last.stretch));
-    reading("with contacts", "%.4f %%", 100.0 * static_cast<double>(last.error));
+    explain(
+        "How far the segment that is worst is from its length, as the solver left it, before colliders "
+        "pushed for the last time.");
+    reading("length error", "%.4f %%", 100.0 * static_cast<double>(last.error));
+    explain("The same as one sees it: with what the last push out of colliders has added.");
     reading("energy", "%.3f J", static_cast<double>(last.energy));
-    reading("time", "%.2f s", part.time);
     reading("substeps dropped", "%llu", static_cast<unsigned long long>(state.dropped));
+    explain(
+        "Time that was let go, rather than fall behind: frames over the longest frame, and more work than a "
+        "tick has room for.");
     if (workspace.clock.measured && part.cost > 0.0f)
         reading("time a frame", "%.0f us", static_cast<double>(part.cost));
     if (part.quiet_ticks > 0) note("At rest.");
     if (part.samples.size() < 2) return;
     section("Last ten seconds");
-    const Curve stretches[] = {curve("with contacts", palette.ghost, part.samples, &RopeSample::error),
-                               curve("stretch", palette.limit, part.samples, &RopeSample::stretch)};
-    plot("stretch", stretches, {.x = "s", .y = "stretch, and with contacts", .least_y = 1e-8f}, 9.0f);
-    const Curve energy[] = {curve("energy", palette.accent, part.samples, &RopeSample::energy)};
+    colour_mark(palette.limit);
+    ImGui::TextDisabled("stretch");
+    ImGui::SameLine(0.0f, ImGui::GetFontSize());
+    colour_mark(palette.ghost);
+    ImGui::TextDisabled("length error");
+    const Curve errors[] = {curve("length error", palette.ghost, part.samples, &RopeSample::error, 100.0f),
+                            curve("stretch", palette.limit, part.samples, &RopeSample::stretch, 100.0f)};
+    plot("stretch", errors, {.x = "s", .y = "%", .least_y = 1e-6f}, 9.0f);
+    const Curve energy[] = {curve("energy", palette.accent, part.samples, &RopeSample::energy, 1.0f)};
     plot("energy", energy, {.x = "s", .y = "energy, J", .least_y = 0.0f}, 9.0f);
 }
 

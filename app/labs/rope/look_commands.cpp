@@ -1,4 +1,4 @@
-// What is chosen, held and shown: it leaves no step to undo.
+// What is chosen, held and shown. But for what a drag does to a rope, it leaves no step to undo.
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_names.hpp"
 
@@ -52,7 +52,7 @@ void add_look_commands(CommandTable& table) {
     table.add(rope_command("rope.hold",
                            {rope_argument(true, "which"), particle_argument(true, "which; a free one"),
                             point_argument("at", true, "metres")},
-                           "Holds a free particle, as a drag does, until rope.let_go", hold, Effect::Look));
+                           "Holds a free particle, as a drag does, until rope.let_go", hold));
     table.add(rope_command(
         "rope.let_go", {}, "Lets go of what rope.hold holds",
         [](RopeEdit& edit, const Arguments&) { let_go(edit); }, Effect::Look));

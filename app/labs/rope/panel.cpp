@@ -36,61 +36,6 @@ void tool_rows(const RopePart& part, Emit& emit) {
                                     : "Drag any particle of a rope, and any collider.");
 }
 
-/// "ball", "ball 2", ...: the first name that no collider has.
-std::string free_name(const rope::World& world, const std::string& kind) {
-    std::string name = kind;
-    for (int i = 2; world.find_collider(name) != nullptr; ++i) name = kind + " " + std::to_string(i);
-    return name;
-}
-
-void add_rows(const Workspace& workspace, Emit& emit) {
-    section("Add");
-    const RopePart& part = rope_part(workspace);
-    const glm::vec3 at = workspace.camera.target;
-    if (row_button("Rope", 3, true, "A rope that hangs between two pins")) {
-        emit("rope.add", {{"from", point(at + glm::vec3(-0.6f, 0.6f, 0.0f))},
-                          {"to", point(at + glm::vec3(0.6f, 0.6f, 0.0f))},
-                          {"length", 1.7},
-                          {"segments", 48},
-                          {"pin_start", true},
-                          {"pin_end", true}});
-    }
-    if (row_button("Cloth", 3, true, "A cloth that hangs by two corners")) {
-        emit("rope.sheet.add", {{"corner", point(at + glm::vec3(-0.5f, 0.8f, 0.0f))},
-                                {"along", {1, 0, 0}},
-                                {"down", {0, -0.6, 0.8}},
-                                {"pins", "corners"}});
-    }
-    const RopeChoice* const choice = part.choice ? &*part.choice : nullptr;
-    const bool on_collider = choice != nullptr && !choice->collider.empty();
-    if (row_button("Hair", 3, true, "A lock of hair: on the selected collider, or from a point")) {
-        Json arguments{{"strands", 48}, {"length", 0.6}};
-        if (on_collider)
-            arguments["attach"] = choice->collider;
-        else
-            arguments["centre"] = point(at + glm::vec3(0.0f, 0.5f, 0.0f));
-        emit("rope.lock.add", std::move(arguments));
-    }
-    end_row();
-    const auto collider = [&](const char* title, const char* name, const char* kind, Json shape) {
-        if (!row_button(title, 4, true,
-                        name == std::string("floor") ? "A plane at the height of the grid"
-                                                     : "A collider in the middle of the view"))
-            return;
-        Json arguments{{"name", free_name(*part.world, name)}, {"kind", kind}};
-        arguments.update(shape);
-        emit("rope.collider.add", std::move(arguments));
-    };
-    collider("Ball", "ball", "sphere", {{"centre", point(at)}, {"radius", 0.25}});
-    collider("Bar", "bar", "capsule",
-             {{"a", point(at - glm::vec3(0, 0, 0.5f))},
-              {"b", point(at + glm::vec3(0, 0, 0.5f))},
-              {"radius", 0.1}});
-    collider("Box", "box", "box", {{"centre", point(at)}, {"half_extents", {0.25, 0.25, 0.25}}});
-    collider("Floor", "floor", "plane", {{"point", {0, 0, 0}}, {"normal", {0, 1, 0}}});
-    end_row();
-}
-
 const char* solver_help(rope::Solver solver) {
     switch (solver) {
         case rope::Solver::Relaxation:
@@ -177,7 +122,7 @@ void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
     const RopePart& part = rope_part(workspace);
     scene_rows(emit);
     tool_rows(part, emit);
-    add_rows(workspace, emit);
+    adding_rows(workspace, emit);
     solver_rows(part, emit);
     world_rows(part, emit);
     time_rows(workspace, emit);
@@ -199,7 +144,7 @@ void RopeLab::timeline(const Workspace& workspace, Emit& emit) const {
     const int newest = static_cast<int>(last - first);
     const auto tick_now = std::clamp(workspace.clock.tick, first, last);
     int now = static_cast<int>(tick_now - first);
-    if (app::timeline("past", now, ticks, tick_seconds))
+    if (app::timeline("past", now, ticks, tick_seconds, newest))
         emit.continuously("time.seek", {{"ticks_back", std::max(0, newest - now)}});
 }
 

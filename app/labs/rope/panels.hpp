@@ -1,4 +1,4 @@
-// The pieces that the Rope lab's inspector is put together from.
+// The pieces that the Rope lab's panels are put together from.
 #pragma once
 
 #include "app/labs/rope/rope_part.hpp"
@@ -7,6 +7,8 @@
 
 namespace tendril::app {
 
+/// Buttons that add ropes, cloths, hair and colliders.
+void adding_rows(const Workspace& workspace, Emit& emit);
 /// What is selected, and what can be done to it.
 void selection_rows(const Workspace& workspace, Emit& emit);
 /// How the simulation goes: numbers, and curves of the last ten seconds.

@@ -1,6 +1,7 @@
 // What the mouse takes hold of in this lab, and what comes of it.
 #include <algorithm>
 
+#include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 
 namespace tendril::app {
@@ -110,7 +111,7 @@ void RopeLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
     if (part.tool == RopeTool::Pin) {
         const bool pinned = world.pinned(place->body->first + place->index);
         emit(pinned ? "rope.unpin" : "rope.pin", of_particle(*place));
-    } else if (part.tool == RopeTool::Cut && place->body->kind == rope::Body::Kind::Rope) {
+    } else if (part.tool == RopeTool::Cut) {  // of what cannot be cut the command says so
         const std::size_t segment = std::min(place->index, std::max<std::size_t>(place->body->count, 2) - 2);
         emit("rope.cut", {{"rope", place->body->name}, {"segment", segment}});
     }
@@ -131,13 +132,14 @@ std::string RopeLab::hint(const Workspace& workspace, PickId pick) const {
         case RopeTool::Pin:
             return name + ": click pins it, or lets it go.";
         case RopeTool::Cut:
-            if (place->body->kind == rope::Body::Kind::Rope && place->body->count > 1)
-                return name + ": click cuts here.";
+            if (place->body->kind != rope::Body::Kind::Rope) return name + ": only ropes can be cut.";
+            if (place->body->count > 1) return name + ": click cuts here.";
             break;
     }
     if (const rope::Collider* holder = holder_of(*part.world, place->body->first + place->index))
         return name + " (attached to " + holder->name + "): drag moves both.";
-    const bool pinned = part.world->pinned(place->body->first + place->index);
+    const std::size_t particle = place->body->first + place->index;
+    const bool pinned = part.world->pinned(particle) && held_particle(part) != particle;
     return name + (pinned ? " (pinned): drag moves its pin." : ": drag pulls it. Click selects it.");
 }
 

@@ -20,16 +20,12 @@ rope::World& RopeEdit::world() {
 
 void RopeEdit::move_pin(std::size_t particle, const glm::vec3& at) {
     world().pin(particle, at, seconds_);
-    if (seconds_ > 0.0) return;
-    rope::State state = world().state();
-    state.position[particle] = glm::dvec3(at);
-    state.moved[particle] = state.before[particle] = glm::dvec3(0.0);
-    world() = rope::World(std::move(state));
+    if (seconds_ == 0.0) give_way(part, world());
 }
 
 void RopeEdit::move_collider(const std::string& name, const glm::vec3& to) {
     world().move_collider(name, to, seconds_);
-    if (seconds_ == 0.0) world().set_collider(name, rope::moved(world().find_collider(name)->shape, to));
+    if (seconds_ == 0.0) give_way(part, world());
 }
 
 Command rope_command(const char* name, std::vector<Argument> arguments, const char* help,

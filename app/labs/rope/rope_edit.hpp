@@ -22,7 +22,7 @@ class RopeEdit {
     const rope::World& seen() const { return *part.world; }
     rope::World& world();
     /// Each gets there in the length of one tick, so that it carries evenly what it meets; while time stands,
-    /// at once.
+    /// at once, and what it meets gives way.
     void move_pin(std::size_t particle, const glm::vec3& at);
     void move_collider(const std::string& name, const glm::vec3& to);
 

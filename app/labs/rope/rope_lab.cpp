@@ -49,14 +49,8 @@ void include(const rope::Shape& shape, glm::vec3& low, glm::vec3& high) {
 }
 
 void take_sample(RopePart& part) {
-    const rope::World& world = *part.world;
-    RopeSample sample;
-    for (const rope::Body& body : world.state().bodies)
-        sample.stretch = std::max(sample.stretch, body.stretch);
-    sample.error = static_cast<float>(world.length_error());
-    sample.energy = static_cast<float>(world.energy());
     if (part.samples.size() >= most_rope_samples) part.samples.erase(part.samples.begin());
-    part.samples.push_back(sample);
+    part.samples.push_back(sample_of(*part.world));
 }
 
 std::optional<Bounds> choice_bounds(const RopePart& part) {

@@ -78,6 +78,37 @@ void pass_time(RopePart& part, double seconds) {
     part.world = std::move(world);
 }
 
+void give_way(RopePart& part, rope::World& world) {
+    const rope::State was = world.state();
+    rope::State still = was;
+    still.settings = {.damping = rope::max_rate, .gravity = glm::vec3(0.0f)};
+    std::fill(still.moved.begin(), still.moved.end(), glm::dvec3(0.0));
+    std::fill(still.before.begin(), still.before.end(), glm::dvec3(0.0));
+    still.remainder = still.moved_in = 0.0;
+    for (rope::Link& link : still.links) link.tension = 0.0f;
+    rope::World moved(std::move(still));
+    constexpr double steps = 8.0;  // a large move is not made good in one
+    moved.advance(steps * moved.settings().substep);
+
+    rope::State now = moved.state();
+    now.settings = was.settings;
+    now.moved = was.moved, now.before = was.before;
+    now.remainder = was.remainder, now.moved_in = was.moved_in;
+    now.substeps = was.substeps, now.dropped = was.dropped;
+    if (now.links.size() == was.links.size()) now.links = was.links;  // none was torn
+    world = rope::World(std::move(now));
+    if (!part.samples.empty()) part.samples.back() = sample_of(world);
+}
+
+RopeSample sample_of(const rope::World& world) {
+    RopeSample sample;
+    for (const rope::Body& body : world.state().bodies)
+        sample.stretch = std::max(sample.stretch, body.stretch);
+    sample.error = static_cast<float>(world.length_error());
+    sample.energy = static_cast<float>(world.energy());
+    return sample;
+}
+
 std::uint64_t work_of_substep(const rope::World& world) {
     return world.state().links.size() * static_cast<std::uint64_t>(world.settings().iterations);
 }

@@ -228,26 +228,64 @@ TEST_F(RopeCommands, SheetsAndLocks) {
     EXPECT_NEAR(glm::distance(world().position(world().particle("lock", 0)), {6, 2, 0}), 0.504f, 1e-3f);
 }
 
-TEST_F(RopeCommands, WhatIsHeldIsLetGoAndLeavesNoStep) {
+TEST_F(RopeCommands, WhatIsHeldIsLetGoAndADragIsOneStep) {
     single_rope();
     const std::size_t history = workspace.history.size();
-    workspace.saved = workspace.document;
-    run("rope.hold", {{"rope", "rope"}, {"particle", 4}, {"at", {0.5, 2.2, 0}}});
+    const glm::vec3 was = world().position(4);
+    run("rope.hold", {{"rope", "rope"}, {"particle", 4}, {"at", {0.5, 2.2, 0}}}, 7);
     wait(1);
     EXPECT_NEAR(glm::distance(world().position(4), {0.5f, 2.2f, 0}), 0.0f, 1e-6f);
-    run("rope.hold", {{"rope", "rope"}, {"particle", 5}, {"at", {0.6, 2.2, 0}}});
+    run("rope.hold", {{"rope", "rope"}, {"particle", 5}, {"at", {0.6, 2.2, 0}}}, 7);
     EXPECT_FALSE(world().pinned(4)) << "one hand holds one particle";
     EXPECT_TRUE(world().pinned(5));
     EXPECT_EQ(state().at("held")["particle"], 5);
     run("rope.let_go");
     EXPECT_FALSE(world().pinned(5));
     run("rope.let_go");
-    EXPECT_EQ(workspace.history.size(), history);
-    EXPECT_FALSE(workspace.modified()) << "pulling at it is nothing that wants saving";
+    EXPECT_EQ(workspace.history.size(), history + 1) << "letting go is none";
+    run("undo");
+    EXPECT_EQ(world().position(4), was);
     run("rope.hold", {{"rope", "rope"}, {"particle", 4}, {"at", {0.5, 2.2, 0}}});
     run("rope.pin", {{"rope", "rope"}, {"particle", 4}});
     run("rope.let_go");
     EXPECT_TRUE(world().pinned(4)) << "pinned meanwhile, it stays so";
+}
+
+TEST_F(RopeCommands, WhileTimeStandsARopeGivesWayToWhatIsDragged) {
+    single_rope(20);
+    run("rope.pin", {{"rope", "rope"}, {"particle", 0}});
+    wait(30);
+    run("time.pause");
+    const double length_error = world().length_error();
+    const glm::vec3 fast = world().velocity(12);
+    const std::uint64_t substeps = world().state().substeps;
+    run("rope.hold", {{"rope", "rope"}, {"particle", 20}, {"at", {0.3, 2.5, 0.2}}});
+    EXPECT_NEAR(glm::distance(world().position(20), {0.3f, 2.5f, 0.2f}), 0.0f, 1e-6f);
+    EXPECT_LT(world().length_error(), std::max(length_error, 0.01)) << "all of it came along";
+    EXPECT_EQ(world().velocity(12), fast) << "and none of it was set in motion";
+    EXPECT_EQ(world().state().substeps, substeps);
+    EXPECT_NEAR(static_cast<double>(part().samples.back().error), world().length_error(), 1e-6);
+
+    run("rope.collider.add", {{"name", "s"}, {"kind", "sphere"}, {"centre", {0, 5, 0}}, {"radius", 0.2}});
+    run("rope.collider.move", {{"name", "s"}, {"to", point(world().position(10))}});
+    for (std::size_t i = 1; i < 20; ++i)
+        EXPECT_GT(
+            rope::surface_distance(world().find_collider("s")->shape, world().state().position[i]).distance,
+            0.019)
+            << i;
+}
+
+TEST_F(RopeCommands, WhatIsSelectedIsRemoved) {
+    single_rope();
+    EXPECT_EQ(refused("rope.remove_selected"), "rope.remove_selected: nothing is selected");
+    run("rope.collider.add", {{"name", "s"}, {"kind", "sphere"}, {"centre", {0, 5, 0}}, {"radius", 0.2}});
+    run("rope.select", {{"collider", "s"}});
+    run("rope.remove_selected");
+    EXPECT_EQ(world().find_collider("s"), nullptr);
+    EXPECT_FALSE(part().choice);
+    run("rope.select", {{"rope", "rope"}, {"particle", 3}});
+    run("rope.remove_selected");
+    EXPECT_EQ(world().size(), 0u);
 }
 
 TEST_F(RopeCommands, LooksLeaveNoStepAndAreKept) {

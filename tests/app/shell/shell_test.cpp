@@ -19,19 +19,23 @@ TEST(Shortcuts, EachRunsACommandOfTheTableAndNoTwoShareAKey) {
     std::vector<std::string> seen;
     for (const Shortcut& shortcut : shortcuts()) {
         ASSERT_NE(table.find(shortcut.command), nullptr) << shortcut.command;
-        const std::string chord = chord_name(shortcut.chord);
+        const std::string chord = shortcut.lab + " " + chord_name(shortcut.chord);
         EXPECT_EQ(std::count(seen.begin(), seen.end(), chord), 0) << chord;
         seen.push_back(chord);
-        EXPECT_EQ(find_shortcut(shortcut.chord), &shortcut);
+        for (const auto& lab : labs.all()) {
+            const bool here = shortcut.lab.empty() || shortcut.lab == lab->name();
+            EXPECT_EQ(find_shortcut(shortcut.chord, lab->name()) == &shortcut, here) << chord;
+        }
         EXPECT_NE(shortcuts_markdown().find(shortcut.title), std::string::npos);
         if (shortcut.command == "undo" || shortcut.command == "redo") continue;  // nothing to take back yet
         Workspace workspace = make_blank_workspace(labs);
         table.run(workspace, "microscope.open", Json::object());  // some need something to work on
         table.run(workspace, "chain.select", {{"index", 1}});
+        table.run(workspace, "rope.select", {{"collider", "ball"}});
         EXPECT_NO_THROW(table.run(workspace, shortcut.command, shortcut.arguments)) << shortcut.command;
     }
     EXPECT_EQ(keys_for("undo"), "Ctrl+Z");
-    EXPECT_EQ(find_shortcut(*chord_from_name("ctrl+alt+f12")), nullptr);
+    EXPECT_EQ(find_shortcut(*chord_from_name("ctrl+alt+f12"), "chain"), nullptr);
 }
 
 TEST(Shortcuts, TheMouseTurnsAndShiftsTheView) {
