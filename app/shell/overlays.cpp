@@ -77,8 +77,10 @@ void show_help(const ShellFrame& frame, Emit& emit) {
         key_table("Mouse", mouse, [] {
             for (const auto& help : mouse_help()) key_row(help.gesture, help.effect);
         });
-        key_table("Time", mouse, [] { keys_of(Section::Time); });
-        key_table("Microscope", mouse, [] { keys_of(Section::Microscope); });
+        key_table("Time", mouse, [] {
+            keys_of(Section::Time);
+            keys_of(Section::Microscope);
+        });
         key_table("Help", mouse, [] { keys_of(Section::Help); });
         ImGui::TableNextColumn();
         key_table("Scene", keys, [] { keys_of(Section::Scene); });

@@ -78,10 +78,10 @@ const std::vector<Shortcut>& shortcuts() {
         row("ctrl+z", "undo", Json::object(), "Undo", Section::Edit),
         row("ctrl+shift+z", "redo", Json::object(), "Redo", Section::Edit),
         row("ctrl+y", "redo", Json::object(), "Redo", Section::Edit, false),
-        in_lab("chain", row("delete", "chain.remove_selected", Json::object(), "Remove the selected segment",
+        in_lab("chain", row("delete", "chain.remove_selected", Json::object(), "Remove what is selected",
                             Section::Edit)),
-        in_lab("rope", row("delete", "rope.remove_selected", Json::object(),
-                           "Remove the selected rope or collider", Section::Edit)),
+        in_lab("rope", row("delete", "rope.remove_selected", Json::object(), "Remove what is selected",
+                           Section::Edit)),
         row("f", "camera.frame", {{"what", "selection"}}, "Frame selection", Section::View),
         row("home", "camera.frame", {{"what", "all"}}, "Frame all", Section::View),
         row("1", "camera.view", {{"name", "front"}}, "Front", Section::View),
@@ -135,7 +135,9 @@ std::optional<MouseAction> mouse_action(MouseButton button, bool shift, bool alt
 std::string all_keys_for(const Shortcut& wanted) {
     std::string keys;
     for (const auto& shortcut : shortcuts()) {
-        if (shortcut.title == wanted.title) keys += (keys.empty() ? "" : ", ") + chord_label(shortcut.chord);
+        const std::string key = chord_label(shortcut.chord);
+        if (shortcut.title != wanted.title || keys == key) continue;  // the same key in another lab
+        keys += (keys.empty() ? "" : ", ") + key;
     }
     return keys;
 }

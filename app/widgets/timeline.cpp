@@ -44,13 +44,17 @@ class Strip {
         if (!ImGui::IsItemActive()) return -1.0f;
         return std::clamp((ImGui::GetIO().MousePos.x - from_) / span_, 0.0f, 1.0f);
     }
+    /// Leaves the text out where it would run into the one before.
     void mark(float share, const char* text) {
         const float x = from_ + span_ * share;
         const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
         list_->AddLine({x, base_ - 5.0f * unit()}, {x, base_}, dim);
         if (text == nullptr) return;
-        const float half = 0.5f * ImGui::CalcTextSize(text).x;
-        list_->AddText({std::clamp(x - half, at_.x, at_.x + width_ - 2.0f * half), at_.y}, dim, text);
+        const float wide = ImGui::CalcTextSize(text).x;
+        const float left = std::max(at_.x, std::min(x - 0.5f * wide, at_.x + width_ - wide));
+        if (left < free_from_) return;
+        list_->AddText({left, at_.y}, dim, text);
+        free_from_ = left + wide + 6.0f * unit();
     }
     /// What lies ahead of the head.
     void ahead(float share) {
@@ -69,6 +73,7 @@ class Strip {
     ImDrawList* list_;
     ImVec2 at_{};
     float height_, width_, from_, span_, base_;
+    float free_from_ = -1e9f;  ///< where the next text may begin
 };
 
 }  // namespace
@@ -101,15 +106,12 @@ bool step_timeline(const char* id, int& step, const std::vector<int>& ends) {
         if (ends.empty() || ends.back() == 0) step = 0;
     }
     // A mark where each iteration ends, as many with their numbers as there is room for.
-    float free_from = -1e9f;
     for (std::size_t i = 0; i < ends.size(); ++i) {
         const float share = static_cast<float>(ends[i]) / static_cast<float>(last);
         char text[32];
         std::snprintf(text, sizeof text, i == 0 ? "start" : "iteration %zu", i);
-        const float half = 0.5f * ImGui::CalcTextSize(text).x, x = share * strip.span();
-        const bool room = x - half > free_from && !(i > 0 && ends[i] == ends[i - 1]);
-        strip.mark(share, room ? text : nullptr);
-        if (room) free_from = x + half + 6.0f * Strip::unit();
+        const bool empty = i > 0 && ends[i] == ends[i - 1];
+        strip.mark(share, empty ? nullptr : text);
     }
     strip.head(static_cast<float>(step) / static_cast<float>(last));
     return step != before;

@@ -86,7 +86,7 @@ class Adding {
         const auto row = [&](const char* title, const char* name, const char* kind, Shape shape) {
             const bool plane = std::string(kind) == "plane";
             const char* const tip =
-                plane ? "A plane at the height of the grid" : "A collider in the middle of the view";
+                plane ? "A plane at the height of the grid" : "A collider near the middle of the view";
             if (row_button(title, 4, true, tip)) collider(name, kind, shape(free_place(workspace_)));
         };
         row("Ball", "ball", "sphere", [](glm::vec3 at) {

@@ -82,7 +82,7 @@ void shape_rows(const rope::Collider& collider, Emit& emit) {
     if (const auto* box = std::get_if<rope::Box>(&collider.shape)) {
         glm::vec3 half = box->half_extents;
         if (point_field("half size", half, 0.005f, 1e3f)) set("half_extents", point(glm::abs(half)));
-        glm::vec3 turned = glm::degrees(glm::eulerAngles(box->rotation));
+        glm::vec3 turned = glm::degrees(glm::eulerAngles(box->rotation)) + 0.0f;  // no -0
         if (point_field("turned", turned, 0.5f, 360.0f, "%.1f\xC2\xB0")) set("rotation", point(turned));
     }
 }
@@ -158,9 +158,11 @@ void number_rows(const Workspace& workspace, const Palette& palette) {
     if (part.samples.size() < 2) return;
     section("Last ten seconds");
     colour_mark(palette.limit);
+    ImGui::AlignTextToFramePadding();
     ImGui::TextDisabled("stretch");
     ImGui::SameLine(0.0f, ImGui::GetFontSize());
     colour_mark(palette.ghost);
+    ImGui::AlignTextToFramePadding();
     ImGui::TextDisabled("length error");
     const Curve errors[] = {curve("length error", palette.ghost, part.samples, &RopeSample::error, 100.0f),
                             curve("stretch", palette.limit, part.samples, &RopeSample::stretch, 100.0f)};
