@@ -1,0 +1,88 @@
+// The same into the Rope lab: nothing that is not finite gets in, no rope loses a particle that nobody took,
+// and undo leads back to what was there.
+#include "app/labs/rope/rope_lab.hpp"
+#include "tests/app/e2e/monkey.hpp"
+
+namespace tendril::test {
+namespace {
+
+using namespace app;
+
+Monkey monkey_in(App& app, unsigned seed) {
+    std::vector<std::string> names{"time.step", "time.seek", "time.play",    "time.pause", "time.speed",
+                                   "undo",      "redo",      "camera.frame", "lab.open"};
+    for (const Command& command : app.commands().all())
+        if (command.name.starts_with("rope.")) names.push_back(command.name);
+    return Monkey(app, seed, std::move(names),
+                  {"rope", "rope 2", "short 1", "sheet", "lock", "ball", "bar", "ground", "", "\xFF"});
+}
+
+void expect_finite_world(const rope::World& world) {
+    const rope::State& state = world.state();
+    for (std::size_t i = 0; i < world.size(); ++i)
+        for (const glm::dvec3& v : {state.position[i], state.moved[i], state.before[i]})
+            for (int axis = 0; axis < 3; ++axis) ASSERT_TRUE(std::isfinite(v[axis])) << i;
+    std::size_t particles = 0;
+    for (const rope::Body& body : state.bodies) particles += body.count;
+    ASSERT_EQ(particles, world.size());
+}
+
+/// What stays whatever time does: names, sizes, settings.
+Json lasting(App& app) {
+    const rope::State& state = rope_part(app.workspace()).world->state();
+    Json bodies = Json::array(), colliders = Json::array();
+    for (const rope::Body& body : state.bodies) bodies.push_back({body.name, body.count, body.row});
+    for (const rope::Collider& collider : state.colliders) colliders.push_back(collider.name);
+    return {bodies, colliders, state.settings.iterations, state.settings.substep, state.settings.friction};
+}
+
+class HostileRopes : public testing::TestWithParam<unsigned> {};
+
+TEST_P(HostileRopes, events_and_commands_break_nothing) {
+    const auto window = open_offscreen({1280, 720});
+    App app(*window);
+    app.run({"lab.open", {{"name", "rope"}}});
+    app.start_recording();
+    const Json start = lasting(app);
+    Monkey monkey = monkey_in(app, GetParam());
+    for (int i = 0; i < 400 && !HasFatalFailure(); ++i) {
+        monkey.act();
+        expect_finite_world(*rope_part(app.workspace()).world);
+        if (i % 25 == 0) expect_finite(app.state(), "state");
+        if (i % 100 == 0) app.draw();
+        ASSERT_FALSE(app.quit());
+    }
+    app.run({"time.pause", Json::object()});
+    int steps = 0;
+    while (app.workspace().history.can_undo() && steps++ < 2000) app.run({"undo", Json::object()});
+    EXPECT_GT(steps, 10);
+    EXPECT_EQ(lasting(app), start);
+    EXPECT_NO_THROW(parse_script(app.recording(), app.commands()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, HostileRopes, testing::Values(1u, 2u, 3u, 4u));
+
+TEST(HostileRopesReplay, ends_where_the_recording_did) {
+    const auto window = open_offscreen({1280, 720});
+    std::string recording;
+    Json recorded;
+    {
+        App app(*window);
+        app.run({"lab.open", {{"name", "rope"}}});
+        app.start_recording();
+        Monkey monkey = monkey_in(app, 7);
+        for (int i = 0; i < 300; ++i) monkey.act();
+        recorded = app.state();
+        recording = app.recording();
+    }
+    window->resize({1280, 720});
+    App app(*window);
+    Script script = parse_script(recording, app.commands());
+    app.start_from(*script.start);
+    Player player(std::move(script));
+    while (!player.done()) player.advance(app);
+    EXPECT_EQ(app.state(), recorded);
+}
+
+}  // namespace
+}  // namespace tendril::test

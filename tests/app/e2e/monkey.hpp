@@ -1,0 +1,170 @@
+// Somebody who presses everything: random events and commands, many of them hostile, into a running program.
+#pragma once
+
+#include <cmath>
+#include <glm/common.hpp>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "app/app.hpp"
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+
+using namespace app;
+
+class Monkey {
+  public:
+    /// It runs commands of those names, and where a text is wanted it says one of those words.
+    Monkey(App& app, unsigned seed, std::vector<std::string> names, std::vector<std::string> words)
+        : app_(app), random_(seed), names_(std::move(names)), words_(std::move(words)) {}
+
+    void act() {
+        if (below(3) == 0) {
+            command();
+        } else {
+            const app::Event event = this->event();
+            app_.tick(&event);
+        }
+    }
+
+  private:
+    int below(int end) { return static_cast<int>(random_() % static_cast<unsigned>(end)); }
+    const std::string& one_of(const std::vector<std::string>& list) {
+        return list[static_cast<std::size_t>(below(static_cast<int>(list.size())))];
+    }
+    bool coin() { return below(2) == 0; }
+    float between(float low, float high) { return std::uniform_real_distribution<float>(low, high)(random_); }
+
+    /// A number as people type them, and now and then one that nobody should.
+    Json any_number() {
+        static const std::vector<Json> hostile{0.0,
+                                               -1.0,
+                                               1e9,
+                                               -1e9,
+                                               1e10,
+                                               1e-40,
+                                               1e300,
+                                               -0.0,
+                                               "one",
+                                               nullptr,
+                                               true,
+                                               Json::array(),
+                                               std::numeric_limits<double>::quiet_NaN(),
+                                               std::numeric_limits<double>::infinity()};
+        if (below(8) == 0) return hostile[static_cast<std::size_t>(below(static_cast<int>(hostile.size())))];
+        return number(between(0.0f, 3.0f));
+    }
+    Json any_index() { return below(8) == 0 ? any_number() : Json(below(10)); }
+    Json any_point() {
+        if (below(12) == 0) return any_number();
+        Json point = Json::array();
+        for (int i = 0; i < 3; ++i)
+            point.push_back(below(15) == 0 ? any_number() : Json(number(between(-9.0f, 9.0f))));
+        return point;
+    }
+
+    void command() {
+        const std::string& name = one_of(names_);
+        if (name.ends_with(".clear") && below(6) != 0) return;
+        Json arguments = Json::object();
+        for (const Argument& argument : app_.commands().find(name)->arguments) {
+            if (!argument.required && coin()) continue;
+            if (below(20) == 0) continue;
+            switch (argument.type) {
+                case ArgumentType::Number:
+                    arguments[argument.name] = any_number();
+                    break;
+                case ArgumentType::Integer:
+                    arguments[argument.name] = any_index();
+                    break;
+                case ArgumentType::Boolean:
+                    arguments[argument.name] = coin();
+                    break;
+                case ArgumentType::NumberOrPoint:
+                    arguments[argument.name] = coin() ? any_number() : any_point();
+                    break;
+                case ArgumentType::Rotation:
+                case ArgumentType::Point:
+                    arguments[argument.name] = any_point();
+                    break;
+                case ArgumentType::Text:
+                    arguments[argument.name] =
+                        one_of(argument.choices.empty() || below(8) == 0 ? words_ : argument.choices);
+                    break;
+            }
+        }
+        try {
+            app_.run({name, arguments});
+        } catch (const Refused& refusal) {
+            EXPECT_STRNE(refusal.what(), "");
+        }
+    }
+
+    glm::vec2 any_place() {
+        if (below(4) == 0) return {between(-3000.0f, 5000.0f), between(-3000.0f, 5000.0f)};
+        const Json state = app_.state();
+        const Json& handles = state.at("handles");
+        if (handles.empty()) return {between(280.0f, 1000.0f), between(50.0f, 690.0f)};
+        const Json& chosen = handles.at(static_cast<std::size_t>(below(static_cast<int>(handles.size()))));
+        if (!chosen.at("pixel").is_array() || coin())
+            return {between(280.0f, 1000.0f), between(50.0f, 690.0f)};
+        // As far as a mouse can go, however far the handle is.
+        return glm::clamp(handle(state, chosen.at("name").get<std::string>()), -5000.0f, 5000.0f);
+    }
+
+    Event event() {
+        const auto key = [&] { return static_cast<Key>(1 + below(static_cast<int>(Key::Count) - 1)); };
+        switch (below(16)) {
+            case 0:
+            case 1:
+            case 2:
+            case 3:
+            case 4:
+            case 5:
+                return MouseMove{any_place()};
+            case 6:
+            case 7:
+            case 8:
+                return MousePress{MouseButton::Left, coin()};
+            case 9:
+                return MousePress{static_cast<MouseButton>(below(3)), coin()};
+            case 10:
+                return MouseWheel{below(10) == 0 ? between(-1e9f, 1e9f) : between(-3.0f, 3.0f)};
+            case 11:
+                return KeyChange{key(), coin()};
+            case 12:
+                return harmless(KeyTap{{key(), below(4) == 0, below(4) == 0, below(4) == 0}});
+            case 13:
+                return TextInput{coin() ? "1.5" : "\xC3\xA4\xFF"};
+            case 14:
+                return below(5) == 0 ? Event(Resize{{1 + below(1600), 1 + below(1000)}})
+                                     : Event(Focus{coin()});
+            default:
+                return Drop{{"/no/such/scene.json"}};
+        }
+    }
+    /// Files are not the monkey's: what it would save it would save among ours.
+    Event harmless(const KeyTap& tap) {
+        const Key key = tap.chord.key;
+        if (key == Key::S || key == Key::O || key == Key::N || key == Key::Q || key == Key::Enter)
+            return Focus{true};
+        return tap;
+    }
+
+    App& app_;
+    std::mt19937 random_;
+    std::vector<std::string> names_, words_;
+};
+
+inline void expect_finite(const Json& json, const std::string& where) {
+    if (json.is_structured()) {
+        for (const auto& [key, value] : json.items()) expect_finite(value, where + "." + key);
+    } else if (json.is_number()) {
+        EXPECT_TRUE(std::isfinite(json.get<double>())) << where;
+    }
+}
+
+}  // namespace tendril::test
