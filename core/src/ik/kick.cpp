@@ -8,34 +8,9 @@
 namespace tendril::ik::detail {
 namespace {
 
-constexpr float bow =
-    0.2f;  ///< how far the first bone is turned one way and the last the other, about radians
-
-/// From the root to what is furthest from it: no other choice is as little bent by rounding.
-glm::vec3 line_of(const Problem& problem) noexcept {
-    glm::vec3 line = minus(problem.target, problem.root());
-    for (const glm::vec3& joint : problem.joints) {
-        const glm::vec3 arm = minus(joint, problem.root());
-        if (dot(arm, arm) > dot(line, line)) line = arm;
-    }
-    const float far = length(line);
-    return far > FLT_MIN ? times(line, 1.0f / far) : problem.room.rest_directions.front();
-}
-
 bool is_near_line(const glm::vec3& arm, const glm::vec3& line, float near) noexcept {
     const glm::vec3 off = cross(arm, line);
     return dot(off, off) <= near * near;
-}
-
-/// At right angles to the line, towards the pole if it shows a side.
-glm::vec3 side_of(const Problem& problem, const glm::vec3& line) noexcept {
-    if (problem.options.pole) {
-        const glm::vec3 arm = minus(*problem.options.pole, problem.root());
-        const glm::vec3 off = minus(arm, times(line, dot(arm, line)));
-        const float far = length(off);
-        if (far > 1e-5f * problem.room.reach) return times(off, 1.0f / far);
-    }
-    return perpendicular(line);
 }
 
 /// Each bone is turned towards `by(i)`, given for a bone of length 1, and laid on from the root.
@@ -56,15 +31,34 @@ void turn_bones(Problem& problem, int iteration, Watch watch, By by) noexcept {
     watch.next_step();
 }
 
-/// -1 to 1, without a pattern that a shape could fit.
+}  // namespace
+
+glm::vec3 line_of(const Problem& problem) noexcept {
+    glm::vec3 line = minus(problem.target, problem.root());
+    for (const glm::vec3& joint : problem.joints) {
+        const glm::vec3 arm = minus(joint, problem.root());
+        if (dot(arm, arm) > dot(line, line)) line = arm;
+    }
+    const float far = length(line);
+    return far > FLT_MIN ? times(line, 1.0f / far) : problem.room.rest_directions.front();
+}
+
+glm::vec3 side_of(const Problem& problem, const glm::vec3& line) noexcept {
+    if (problem.options.pole) {
+        const glm::vec3 arm = minus(*problem.options.pole, problem.root());
+        const glm::vec3 off = minus(arm, times(line, dot(arm, line)));
+        const float far = length(off);
+        if (far > 1e-5f * problem.room.reach) return times(off, 1.0f / far);
+    }
+    return perpendicular(line);
+}
+
 float scattered(std::size_t bone, std::uint32_t salt) noexcept {
     auto bits = static_cast<std::uint32_t>(bone) * 0x9e3779b9u + salt * 0x85ebca6bu;
     bits = (bits ^ (bits >> 16)) * 0x7feb352du;
     bits = (bits ^ (bits >> 15)) * 0x846ca68bu;
     return static_cast<float>((bits ^ (bits >> 16)) >> 8) * 0x1p-23f - 1.0f;
 }
-
-}  // namespace
 
 bool is_on_one_line(const Problem& problem) noexcept {
     const float near = 1e-5f * problem.room.reach;
@@ -93,7 +87,7 @@ void kick_off_the_line(Problem& problem, Watch watch) noexcept {
         const float size = problem.lengths()[i];
         const float middle = (before + 0.5f * size) / problem.room.reach;
         before += size;
-        return times(side, bow * (1.0f - 2.0f * middle));
+        return times(side, kick_bow * (1.0f - 2.0f * middle));
     });
 }
 
@@ -102,7 +96,7 @@ void shake(Problem& problem, int turn, Watch watch) noexcept {
     const auto salt = static_cast<std::uint32_t>(turn) * 3u;
     turn_bones(problem, problem.iteration, watch, [&](std::size_t i) {
         const glm::vec3 by{scattered(i, salt + 1), scattered(i, salt + 2), scattered(i, salt + 3)};
-        return times(by, bow);
+        return times(by, kick_bow);
     });
 }
 

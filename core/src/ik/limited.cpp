@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "ik/limited_hold.hpp"
+#include "ik/limited_kick.hpp"
 #include "ik/limited_methods.hpp"
 #include "ik/limited_pole.hpp"
 #include "ik/limited_pose.hpp"
@@ -14,6 +16,7 @@ namespace {
 
 constexpr float orientation_tolerance = 1e-3f;  ///< radians
 constexpr float straight_tolerance = 1e-4f;     ///< of the reach
+constexpr int most_kicks = 4;                   ///< out of singular poses
 
 /// Out of reach, too near for the longest bone, or neither; and what no pose can better.
 struct Reachable {
@@ -69,37 +72,35 @@ bool lie_on_line(Problem& problem, const Reachable& can, Watch watch) noexcept {
     return true;
 }
 
-/// Whether any joint stands at its limit. A hinge always does, for two of its three axes are held.
-bool touches(const Problem& problem) noexcept {
-    const LimitedRoom& room = problem.room.limited;
-    for (std::size_t i = 0; i < problem.bones(); ++i) {
-        const LimitedJoint& joint = room.limits[i];
-        if (joint.hinge() || is_at_limit(joint, angles_of(joint, local_turn(problem.room.rotations, i)))) {
-            return true;
-        }
-    }
-    return false;
-}
-
 /// For the methods that have no second try: they stall when the best has hardly become better for long.
 class Progress {
   public:
-    explicit Progress(float error) noexcept : mark_(error) {}
-    void note(float best) noexcept {
-        since_ = best < 0.999f * mark_ ? 0 : since_ + 1;
-        if (since_ == 0) mark_ = best;
+    explicit Progress(float error) noexcept : mark_(error), best_(error) {}
+    void note(float error) noexcept {
+        best_ = std::min(best_, error);
+        since_ = best_ < 0.999f * mark_ ? 0 : since_ + 1;
+        if (since_ == 0) mark_ = best_;
+    }
+    /// After the chain was bent by hand: what came before no longer counts.
+    void start_again(float error) noexcept {
+        mark_ = best_ = error;
+        since_ = 0;
     }
     bool stalled() const noexcept { return since_ >= 20; }
 
   private:
     float mark_;
+    float best_;  ///< since the chain was last bent by hand
     int since_ = 0;
 };
 
-Status status_of(const Problem& problem, const Reachable& can, bool stalled) noexcept {
+Status status_of(Problem& problem, const Reachable& can, bool stalled) noexcept {
     if (arrived(problem, can)) return can.status;
     if (!stalled) return Status::IterationLimit;
-    return touches(problem) ? Status::Limited : Status::Stalled;
+    // As near as floats come, and out of reach about as near as a chain comes that is still straightening.
+    const float reach = problem.room.reach;
+    const float there = can.status == Status::Converged ? 1e-5f * reach : can.residual + 1e-3f * reach;
+    return limits_hold(problem, std::max(problem.tolerance, there)) ? Status::Limited : Status::Stalled;
 }
 
 /// What the loop knows besides the pose: room.limited.nearest has the error `best`.
@@ -161,20 +162,33 @@ bool search(Problem& problem, Course& course, Watch watch) noexcept {
     return search.stalled();
 }
 
+/// Bends a chain from which no way leads on, until one does. Whether it was bent.
+template <class Watch>
+bool leave_singular(Problem& problem, int& kicks, Watch watch) noexcept {
+    const int before = kicks;
+    while (kicks < most_kicks && is_singular(problem)) kick_within_limits(problem, kicks++, watch);
+    return kicks > before;
+}
+
 /// The same by a method that has no second try.
 template <class Watch>
 bool go_on(Method method, Problem& problem, Course& course, Watch watch) noexcept {
     Progress progress(course.best);
+    bool stalled = false;
+    int kicks = method == Method::FabrikPlain ? most_kicks : 0;
     while (problem.iteration < problem.options.max_iterations) {
-        const bool over = arrived(problem, course.can) || progress.stalled();
-        if (over && !problem.options.every_iteration) break;
+        const bool there = arrived(problem, course.can);
+        stalled = stalled || progress.stalled();
+        const bool waits = !there && (problem.iteration == 0 || progress.stalled());
+        if (waits && leave_singular(problem, kicks, watch)) progress.start_again(error_of(problem));
+        if ((there || progress.stalled()) && !problem.options.every_iteration) break;
         ++problem.iteration;
         limited_iteration(method, problem, watch);
         note_if_nearer(problem, course);
-        progress.note(course.best);
+        progress.note(error_of(problem));
         tell(problem, watch);
     }
-    return progress.stalled();
+    return stalled || progress.stalled();
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 namespace tendril::ik::detail {
 namespace {
 
-constexpr float first_damping = 1e-3f, least_damping = 1e-8f, most_damping = 1.0f;
 constexpr int slow_iterations = 3;
 constexpr float slow = 0.02f;        ///< progress by less than this part of what is left is little
 constexpr float crawling = 0.002f;   ///< the same while the nearest pose is polished
@@ -61,23 +60,6 @@ void draw(const Problem& problem, std::uint64_t& state, float part) noexcept {
         room.trial.rotations[i] = unit(compose(parent, turn_of(joint, angles)));
     }
     lay(problem, room.trial);
-}
-
-/// One try within limits by least squares, with more and more damping; whether it came nearer.
-template <class Watch>
-bool descend(Problem& problem, float& damping, float& error, Watch watch) noexcept {
-    for (int attempt = 0; attempt < 2; ++attempt) {
-        limited_step(problem, Descent::Damped, damping);
-        const float then = error_of(problem, problem.room.limited.trial);
-        if (then < error) {
-            assume(problem, problem.room.limited.trial, Phase::Gradient, watch);
-            error = then;
-            damping = std::max(0.3f * damping, least_damping);
-            return true;
-        }
-        damping = std::min(5.0f * damping, most_damping);
-    }
-    return false;
 }
 
 }  // namespace

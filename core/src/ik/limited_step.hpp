@@ -21,4 +21,12 @@ enum class Descent {
 /// Makes room.limited.trial from the pose of the problem. `damping` in reach squared.
 void limited_step(Problem& problem, Descent descent, float damping) noexcept;
 
+inline constexpr float first_damping = 1e-3f;
+
+/// A damped step that is only taken where it brings the tip nearer, or else one with more damping; whether
+/// either did. `error` is that of the pose and stays so; `damping` falls with success and grows with failure
+/// (Levenberg 1944, Marquardt 1963).
+template <class Watch>
+bool descend(Problem& problem, float& damping, float& error, Watch watch) noexcept;
+
 }  // namespace tendril::ik::detail

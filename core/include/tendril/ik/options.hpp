@@ -21,8 +21,9 @@ enum class Status : std::uint8_t {
     Stretched,       ///< the target is out of reach and the chain lies straight towards it; or the soft zone
                      ///< keeps it short of the target by more than the tolerance
     TooClose,        ///< the target is nearer than the longest bone lets the tip fold
-    Limited,         ///< the joint limits keep the tip away
-    Stalled,         ///< further iterations would change nothing: ten in a row did not
+    Limited,         ///< the joint limits keep the tip away: a descent within them ends short of the target,
+                     ///< at limits without which it would go on. By another way there may be one that arrives
+    Stalled,         ///< further iterations of this method would change nothing, and no limit is to blame
     IterationLimit,  ///< still on its way when the iterations were used up
     InvalidInput     ///< a number that is not finite or out of range: nothing was moved
 };

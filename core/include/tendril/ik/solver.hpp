@@ -11,8 +11,9 @@
 //
 // Before the first iteration, in O(n): what is out of reach or too close is answered at once, and a chain
 // that lies on one line with its target, where no method would bend it, is given a small bow, always the same
-// (but not for Method::FabrikPlain, which stalls there). A solve that would end worse than it began, or than
-// it once was, ends with the nearest pose that it met.
+// (but not for Method::FabrikPlain, which stalls there); within limits to a side to which its joints may
+// bend, and also later where it stalls on a line. A solve that would end worse than it began, or than it once
+// was, ends with the nearest pose that it met.
 //
 // Cost: O(n) an iteration for every method.
 //
