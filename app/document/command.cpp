@@ -137,11 +137,23 @@ void check_arguments(const Command& command, const Json& given) {
 /// which the command's name already says.
 std::string refusal_text(const std::string& command, std::string what) {
     const std::string operation = what.substr(0, what.find(": "));
-    const bool word = operation.find_first_not_of("abcdefghijklmnopqrstuvwxyz_") == std::string::npos;
-    const bool named =
-        operation.find('_') != std::string::npos || operation == command.substr(command.rfind('.') + 1);
-    if (word && named && operation.size() < what.size()) what.erase(0, operation.size() + 2);
+    if (operation.find_first_not_of("abcdefghijklmnopqrstuvwxyz_") != std::string::npos ||
+        operation.size() == what.size())
+        return command + ": " + what;
+    const std::string own = "_" + command.substr(command.rfind('.') + 1) + "_";
+    if (("_" + operation + "_").find(own) != std::string::npos) what.erase(0, operation.size() + 2);
     return command + ": " + what;
+}
+
+/// For undo, seen where it happened: in the lab of the part that changed, whichever is open.
+void remember(Workspace& workspace, const Document& changed, const Command& command, Gesture gesture,
+              Place from) {
+    Place to = workspace.place();
+    if (from.lab == to.lab && changed.parts().size() == 1 && changed.parts().begin()->first != to.lab) {
+        from.lab = to.lab = changed.parts().begin()->first;
+        from.camera = to.camera = std::nullopt;
+    }
+    workspace.history.push(changed, command.name, gesture, from, to);
 }
 
 }  // namespace
@@ -177,7 +189,6 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
 
     const Document before = workspace.document;  // parts are shared: a few pointers
     const Place from = workspace.place();
-    const std::uint64_t edition = workspace.edition;
     const bool modified = workspace.modified();
     try {
         command->apply(workspace, Arguments(arguments));
@@ -187,14 +198,10 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
     }
     if (workspace.document == before) return;
     if (command->effect == Effect::Replace) return;
-    const bool edits = command->effect == Effect::Edit;
-    if (edits) {
+    if (command->effect == Effect::Edit) {
         workspace.rewind.forget_from(workspace.clock.tick);  // what came of it, as it was before, came not
         ++workspace.edition;
-    }
-    if (workspace.edition != edition) {
-        workspace.history.push(before.without(workspace.document), command->name, gesture, from,
-                               workspace.place());
+        remember(workspace, before.without(workspace.document), *command, gesture, from);
     } else if (!modified) {
         workspace.saved = workspace.document;  // choosing something is nothing that wants saving
     }

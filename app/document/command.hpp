@@ -62,7 +62,7 @@ class Arguments {
 enum class Effect {
     Edit,     ///< changes the document; can be undone
     Look,     ///< changes what is seen or chosen, in the document or around it; no undo entry
-    Replace,  ///< replaces the document and looks after the history itself
+    Replace,  ///< replaces the document, or moves it in time, and looks after the history itself
 };
 
 struct Command {

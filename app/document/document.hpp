@@ -1,7 +1,6 @@
 // What a person makes and saves: a plain value holding one part per lab. It knows no lab by name.
 //
-// Parts are shared between copies and never changed in place, so a copy of a document costs a few pointers;
-// undo keeps whole documents.
+// Parts are shared between copies and never changed in place, so a copy of a document costs a few pointers.
 #pragma once
 
 #include <cstddef>

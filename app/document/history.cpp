@@ -14,7 +14,14 @@ void History::push(const Document& before, const std::string& label, Gesture ges
     open_gesture_ = gesture;
     if (same_gesture) return;
     Entry entry{before, label, from, to};
-    if (from.camera == to.camera) entry.from.camera = entry.to.camera = std::nullopt;
+    if (from.path == to.path) {
+        entry.from.path.reset();
+        entry.to.path.reset();
+    }
+    if (from.lab == to.lab && from.camera == to.camera) {
+        entry.from.camera.reset();
+        entry.to.camera.reset();
+    }
     append(past_, std::move(entry), past_.empty() ? nullptr : &past_.back().document);
     trim();
 }
@@ -55,13 +62,9 @@ Document History::exchange(Entry& entry, const Document& current) {
 /// To where the change is to be seen at its one end; its other end is where things are now.
 void History::go(Place& target, Place& origin, Place* place) {
     if (place == nullptr) return;
-    if (target.path != origin.path) {
-        origin.path = place->path;
-        place->path = target.path;
-    }
-    if (target.camera) origin.camera = place->camera;
-    place->camera = target.camera;
-    place->lab = target.lab;
+    if (target.path) origin.path = place->path;
+    if (target.camera && place->lab == origin.lab) origin.camera = place->camera;
+    *place = target;
 }
 
 void History::clear() {

@@ -18,11 +18,11 @@ namespace tendril::app {
 /// Commands of one drag share a gesture and so one undo entry; 0 is a gesture of its own.
 using Gesture = std::uint64_t;
 
-/// Where a change is to be seen: it goes back and forward with the change, where the change moved it.
+/// Where a change is to be seen: its lab, and what else of these the change moved.
 struct Place {
     std::string lab;
-    std::filesystem::path path;        ///< the scene's file
-    std::optional<CameraPose> camera;  ///< given back only where the change moved it
+    std::optional<std::filesystem::path> path;  ///< the scene's file
+    std::optional<CameraPose> camera;           ///< of the lab
 };
 
 class History {
@@ -31,7 +31,7 @@ class History {
 
     /// Remembers `before`, the parts that the command `label` changed as they were before, and forgets what
     /// could be redone. Further pushes of the same nonzero gesture add nothing, until an undo or redo comes
-    /// between.
+    /// between. `from` and `to` are where things were before the command and after it.
     void push(const Document& before, const std::string& label, Gesture gesture, const Place& from = {},
               const Place& to = {});
     /// Gives the document to go back to (or forward to) from `current`; nothing at the end. `place`, if
@@ -40,6 +40,8 @@ class History {
     std::optional<Document> redo(const Document& current, Place* place = nullptr);
     void clear();
 
+    /// Whether undo would bring back these very parts.
+    bool leads_to(const Document& parts) const { return !past_.empty() && past_.back().document == parts; }
     bool can_undo() const { return !past_.empty(); }
     bool can_redo() const { return !future_.empty(); }
     /// What undo (redo) would take back (bring again); empty at the end.

@@ -1,6 +1,5 @@
 // The open lab's last ten seconds, to go back in time: its part at every tick, or, where they grow too large,
-// at every second, fourth, ... of them. They are none of the document's: undo knows nothing of them, and no
-// file holds them.
+// at every second, fourth, ... of them. They are none of the document's, and no file holds them.
 #pragma once
 
 #include <cstddef>

@@ -18,11 +18,17 @@ void step_through(Workspace& workspace, bool back) {
         if (auto instead = part->brought_back()) workspace.document.set(lab, std::move(instead));
     }
     // One sees what was undone.
-    workspace.path = place.path;
+    if (place.path) workspace.path = *place.path;
     if (!place.lab.empty()) workspace.open_lab(place.lab);
     if (place.camera) workspace.camera = *place.camera;
-    workspace.rewind.forget_from(workspace.clock.tick);
-    ++workspace.edition;
+    Rewind& rewind = workspace.rewind;
+    if (!rewind.empty() && rewind.at(0).part == workspace.document.parts().at(workspace.lab)) {
+        workspace.clock.tick = rewind.newest();  // to where one went back in time from
+        workspace.edition = rewind.at(0).edition;
+    } else {
+        rewind.forget_from(workspace.clock.tick);
+        ++workspace.edition;
+    }
 }
 
 void add_history_commands(CommandTable& table) {
@@ -147,17 +153,26 @@ void add_dialog_commands(CommandTable& table) {
                }});
 }
 
-/// Goes back (or forward again) to the moment that is remembered nearest. Where something was changed between
-/// the two, so does the workspace's edition.
+/// Goes back (or forward again) to the moment that is remembered nearest. To go back over a change is a
+/// change itself: undoing it leads to where one came from.
 void seek(Workspace& w, const Arguments& given) {
     if (w.rewind.empty()) throw Refused("there is no earlier moment to go back to");
+    const bool modified = w.modified();
     if (w.clock.tick > w.rewind.newest()) w.remember_moment();
+    const Rewind::Moment& newest = w.rewind.at(0);
     const Rewind::Moment& moment = w.rewind.at(static_cast<std::uint64_t>(given.integer("ticks_back")));
     w.clock.playing = false;
     if (moment.tick == w.clock.tick) return;
+    if (w.edition == newest.edition && moment.edition != newest.edition) {
+        Document before;
+        before.set(w.lab, newest.part);
+        if (!w.history.leads_to(before)) w.history.push(before, "time.seek", 0, w.place(), w.place());
+    }
+    const bool over_a_change = w.edition != moment.edition;
     w.clock.tick = moment.tick;
     w.edition = moment.edition;
     w.document.set(w.lab, w.document.parts().at(w.lab)->at_moment(moment.part));
+    if (!modified && !over_a_change) w.saved = w.document;
 }
 
 void add_time_commands(CommandTable& table) {

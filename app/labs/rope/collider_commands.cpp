@@ -92,9 +92,10 @@ void set(RopeEdit& edit, const Arguments& given) {
     const rope::Collider& collider = collider_of(edit.seen(), given.text("name"));
     const rope::Shape shape = changed(collider.shape, kind_of(rope::kind(collider.shape)), given);
     if (shape == collider.shape) return;
-    if (Swing* swing = swing_of(edit.part, collider.name))
+    Swing* const swing = swing_of(edit.part, collider.name);
+    if (swing != nullptr && rope::centre(shape) != rope::centre(collider.shape))
         centre_on(*swing, rope::centre(shape), edit.part.time);
-    edit.world().set_collider(collider.name, shape);
+    edit.set_collider(std::string(collider.name), shape);
 }
 
 void move(RopeEdit& edit, const Arguments& given) {

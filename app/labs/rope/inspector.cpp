@@ -82,8 +82,13 @@ void shape_rows(const rope::Collider& collider, Emit& emit) {
     if (const auto* box = std::get_if<rope::Box>(&collider.shape)) {
         glm::vec3 half = box->half_extents;
         if (point_field("half size", half, 0.005f, 1e3f)) set("half_extents", point(glm::abs(half)));
-        glm::vec3 turned = glm::degrees(glm::eulerAngles(box->rotation)) + 0.0f;  // no -0
-        if (point_field("turned", turned, 0.5f, 360.0f, "%.1f\xC2\xB0")) set("rotation", point(turned));
+        // Turned on about its own axes: the angles that it is told by meet at a pole, a box does not.
+        const glm::vec3 was = glm::degrees(glm::eulerAngles(box->rotation)) + 0.0f;  // no -0
+        glm::vec3 turned = was;
+        if (point_field("turned", turned, 0.5f, 360.0f, "%.1f\xC2\xB0")) {
+            const glm::quat q = box->rotation * glm::quat(glm::radians(turned - was));
+            set("rotation", Json::array({number(q.x), number(q.y), number(q.z), number(q.w)}));
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "app/labs/rope/give_way.hpp"
 #include "app/labs/rope/rope_time.hpp"
 
 namespace tendril::app {
@@ -19,13 +20,22 @@ rope::World& RopeEdit::world() {
 }
 
 void RopeEdit::move_pin(std::size_t particle, const glm::vec3& at) {
-    world().pin(particle, at, seconds_);
-    if (seconds_ == 0.0) give_way(part, world());
+    move([&](rope::World& moved, double seconds) { moved.pin(particle, at, seconds); });
 }
 
 void RopeEdit::move_collider(const std::string& name, const glm::vec3& to) {
-    world().move_collider(name, to, seconds_);
-    if (seconds_ == 0.0) give_way(part, world());
+    move([&](rope::World& moved, double seconds) { moved.move_collider(name, to, seconds); });
+}
+
+void RopeEdit::set_collider(const std::string& name, const rope::Shape& shape) {
+    move([&](rope::World& moved, double) { moved.set_collider(name, shape); });
+}
+
+void RopeEdit::move(const std::function<void(rope::World&, double)>& send) {
+    if (seconds_ > 0.0)
+        send(world(), seconds_);
+    else
+        give_way(part, world(), send);
 }
 
 Command rope_command(const char* name, std::vector<Argument> arguments, const char* help,
@@ -74,9 +84,9 @@ void check_collider_room(const rope::World& world) {
 void check_work(const rope::World& world) {
     const std::uint64_t work = work_of_substep(world);
     if (work <= max_lab_work) return;
-    throw std::length_error("a substep would take " + std::to_string(world.state().links.size()) + " links " +
-                            std::to_string(world.settings().iterations) + " times, " + std::to_string(work) +
-                            " in all; the most is " + std::to_string(max_lab_work));
+    throw std::length_error("a substep of " + std::to_string(world.state().links.size()) + " links and " +
+                            std::to_string(world.settings().iterations) + " iterations would take " +
+                            std::to_string(work) + " steps; the most is " + std::to_string(max_lab_work));
 }
 
 const rope::Body& body_of(const rope::World& world, const std::string& name) {

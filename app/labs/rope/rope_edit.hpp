@@ -1,6 +1,7 @@
 // What the files of this lab's commands share.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,8 +26,11 @@ class RopeEdit {
     /// at once, and what it meets gives way.
     void move_pin(std::size_t particle, const glm::vec3& at);
     void move_collider(const std::string& name, const glm::vec3& to);
+    void set_collider(const std::string& name, const rope::Shape& shape);  ///< there at once
 
   private:
+    void move(const std::function<void(rope::World& world, double seconds)>& send);
+
     std::shared_ptr<rope::World> copy_;
     double seconds_;  ///< of the world that the next tick takes; 0 while time stands
 };

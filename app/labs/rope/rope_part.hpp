@@ -16,7 +16,8 @@ namespace tendril::app {
 inline constexpr const char* rope_lab = "rope";
 inline constexpr std::size_t max_lab_particles = 100'000;  ///< more would make too large a scene file
 inline constexpr std::size_t max_lab_colliders = 1'000;
-/// Links times iterations: of a tick, what is over is dropped; a substep that takes more is refused.
+/// Links times iterations, and what else is looked at in a substep: of a tick, what is over is dropped; a
+/// world of which one substep takes more is refused.
 inline constexpr std::uint64_t max_lab_work = 50'000'000;
 
 /// What a click in the scene does to what it hits.

@@ -31,16 +31,21 @@ void aim(const RopePart& part, rope::World& world, double time) {
         world.move_collider(swing.collider, swing_point(swing, time), tick_seconds);
 }
 
-void advance(rope::World& world, double seconds) {
-    world.advance(seconds, max_lab_work / std::max(work_of_substep(world), std::uint64_t{1}));
+/// Lets time pass in a world, and takes what that takes from the work that there is still room for.
+void advance(rope::World& world, double seconds, std::uint64_t& room) {
+    const std::uint64_t each = std::max(work_of_substep(world), std::uint64_t{1});
+    // One always fits: else a world that is too large would stand still without a word.
+    const std::uint64_t most = std::max(room / each, std::uint64_t{room == max_lab_work});
+    const rope::Advance done = world.advance(seconds, most);
+    room -= std::min(room, each * static_cast<std::uint64_t>(done.substeps));
 }
 
 /// A frame of the lab. While something swings it is cut where ticks of the lab's own time end, and aimed
 /// there: so the swing is the same however its time is cut.
-void pass_frame(RopePart& part, rope::World& world, double seconds) {
+void pass_frame(RopePart& part, rope::World& world, double seconds, std::uint64_t& room) {
     constexpr double rounding = 1e-6;  // of a tick
     if (part.swings.empty()) {
-        advance(world, seconds);
+        advance(world, seconds, room);
         part.time += seconds;
         return;
     }
@@ -50,7 +55,7 @@ void pass_frame(RopePart& part, rope::World& world, double seconds) {
         const double next = ((at_tick ? std::round(ticks) : std::floor(ticks)) + 1.0) * tick_seconds;
         if (at_tick) aim(part, world, next);
         const double piece = std::min(seconds, next - part.time);
-        advance(world, piece);
+        advance(world, piece, room);
         part.time += piece;
         seconds -= piece;
     }
@@ -60,44 +65,23 @@ void pass_frame(RopePart& part, rope::World& world, double seconds) {
 
 void pass_time(RopePart& part, double seconds) {
     auto world = std::make_shared<rope::World>(*part.world);
+    std::uint64_t room = max_lab_work;
     Torture& torture = part.torture;
     if (torture.dial == 0.0f) {
-        if (torture.owed > 0.0) pass_frame(part, *world, std::exchange(torture.owed, 0.0));
+        if (torture.owed > 0.0) pass_frame(part, *world, std::exchange(torture.owed, 0.0), room);
         torture.frame = 0.0;
-        pass_frame(part, *world, seconds);
+        pass_frame(part, *world, seconds, room);
     } else {
         torture.owed += seconds;
         if (torture.frame == 0.0) torture.frame = torture_frame(torture.dial, torture.frames);
         while (torture.owed >= torture.frame) {
             torture.owed -= torture.frame;
-            pass_frame(part, *world, torture.frame);
+            pass_frame(part, *world, torture.frame, room);
             torture.frame = torture_frame(torture.dial, ++torture.frames);
         }
     }
     world->trim();  // going back in time keeps hundreds of them
     part.world = std::move(world);
-}
-
-void give_way(RopePart& part, rope::World& world) {
-    const rope::State was = world.state();
-    rope::State still = was;
-    still.settings = {.damping = rope::max_rate, .gravity = glm::vec3(0.0f)};
-    std::fill(still.moved.begin(), still.moved.end(), glm::dvec3(0.0));
-    std::fill(still.before.begin(), still.before.end(), glm::dvec3(0.0));
-    still.remainder = still.moved_in = 0.0;
-    for (rope::Link& link : still.links) link.tension = 0.0f;
-    rope::World moved(std::move(still));
-    constexpr double steps = 8.0;  // a large move is not made good in one
-    moved.advance(steps * moved.settings().substep);
-
-    rope::State now = moved.state();
-    now.settings = was.settings;
-    now.moved = was.moved, now.before = was.before;
-    now.remainder = was.remainder, now.moved_in = was.moved_in;
-    now.substeps = was.substeps, now.dropped = was.dropped;
-    if (now.links.size() == was.links.size()) now.links = was.links;  // none was torn
-    world = rope::World(std::move(now));
-    if (!part.samples.empty()) part.samples.back() = sample_of(world);
 }
 
 RopeSample sample_of(const rope::World& world) {
@@ -110,7 +94,11 @@ RopeSample sample_of(const rope::World& world) {
 }
 
 std::uint64_t work_of_substep(const rope::World& world) {
-    return world.state().links.size() * static_cast<std::uint64_t>(world.settings().iterations);
+    const rope::State& state = world.state();
+    const auto attached = static_cast<std::uint64_t>(std::count_if(
+        state.pins.begin(), state.pins.end(), [](const rope::Pin& pin) { return !pin.collider.empty(); }));
+    return state.links.size() * static_cast<std::uint64_t>(state.settings.iterations) +
+           state.position.size() + (1 + attached) * state.colliders.size();
 }
 
 double torture_frame(float dial, std::uint32_t number) {

@@ -7,14 +7,12 @@
 
 namespace tendril::app {
 
-/// Lets `seconds` pass in the lab. The world that comes of it does not depend on how they are cut.
+/// Lets `seconds` pass in the lab. The world that comes of it does not depend on how they are cut, as long as
+/// none are dropped: there is room for max_lab_work.
 void pass_time(RopePart& part, double seconds);
 /// Of a world's substep, for max_lab_work: counted, not measured, so that every machine drops the same.
 std::uint64_t work_of_substep(const rope::World& world);
 
-/// While time stands: pins and colliders go where they are sent, and everything else gives way to them
-/// without being moved in any other way. How fast it was stays.
-void give_way(RopePart& part, rope::World& world);
 RopeSample sample_of(const rope::World& world);
 
 /// Seconds of the torture dial's frame of that number: a tick at dial 0, anything from 1 to 250 ms at 1.

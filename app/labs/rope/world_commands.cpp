@@ -29,7 +29,7 @@ void take_scene(Workspace& workspace, const Arguments& given) {
     part.hold.reset();
     part.quiet_ticks = 0;
     part.samples.clear();
-    workspace.camera = entry.view;
+    (workspace.lab == rope_lab ? workspace.camera : workspace.cameras[rope_lab]) = entry.view;
 }
 
 void settings(RopeEdit& edit, const Arguments& given) {

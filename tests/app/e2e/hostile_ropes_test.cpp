@@ -9,12 +9,14 @@ namespace {
 using namespace app;
 
 Monkey monkey_in(App& app, unsigned seed) {
-    std::vector<std::string> names{"time.step", "time.seek", "time.play",    "time.pause", "time.speed",
-                                   "undo",      "redo",      "camera.frame", "lab.open"};
+    std::vector<std::string> names{"time.step",  "time.seek", "time.play",  "time.pause",
+                                   "time.speed", "undo",      "redo",       "camera.frame",
+                                   "lab.open",   "chain.add", "chain.pull", "scene.new"};
     for (const Command& command : app.commands().all())
         if (command.name.starts_with("rope.")) names.push_back(command.name);
-    return Monkey(app, seed, std::move(names),
-                  {"rope", "rope 2", "short 1", "sheet", "lock", "ball", "bar", "ground", "", "\xFF"});
+    return Monkey(
+        app, seed, std::move(names),
+        {"rope", "rope 2", "short 1", "sheet", "lock", "ball", "bar", "ground", "chain", "", "\xFF"});
 }
 
 void expect_finite_world(const rope::World& world) {

@@ -155,6 +155,10 @@ TEST(RopeInTheWindow, UndoBringsTheLabAndTheViewAndLeavesOtherLabsAsTheyAre) {
     EXPECT_EQ(state_after(ScriptText(hair).command("undo"))["camera"], drape["camera"]);
     EXPECT_EQ(state_after(ScriptText(hair).command("undo").command("redo"))["camera"],
               state_after(hair)["camera"]);
+    ScriptText from_chain = ScriptText(hair).command("lab.open", {{"name", "chain"}}).command("undo");
+    EXPECT_EQ(state_after(from_chain)["camera"], drape["camera"]);
+    from_chain.command("lab.open", {{"name", "chain"}}).command("redo");
+    EXPECT_EQ(state_after(from_chain)["camera"], state_after(hair)["camera"]) << "and not the chain's";
 }
 
 TEST(RopeInTheWindow, ButtonsAddWhatTheySay) {

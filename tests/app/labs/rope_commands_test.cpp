@@ -275,6 +275,37 @@ TEST_F(RopeCommands, WhileTimeStandsARopeGivesWayToWhatIsDragged) {
             << i;
 }
 
+TEST_F(RopeCommands, WhatIsNotDraggedStaysAsItIsWhileTimeStands) {
+    run("rope.preset", {{"name", "drape"}});
+    run("rope.settings", {{"solver", "xpbd"}, {"compliance", 0.01}});
+    run("rope.collider.swing", {{"name", "bar"}, {"by", {0, 0, 0.5}}});
+    wait(50);
+    run("rope.collider.move", {{"name", "ball"}, {"to", {-0.6, 1.2, 0}}});
+    run("time.pause");
+    const rope::State was = world().state();
+    EXPECT_GT(world().length_error(), 0.01) << "it is stretched";
+    run("rope.hold", {{"rope", "short 1"}, {"particle", 36}, {"at", {1.6, 1.5, -0.5}}});
+    const rope::State& now = world().state();
+    const rope::Body& dragged = *world().find("short 1");
+    for (std::size_t i = 0; i < world().size(); ++i) {
+        if (i >= dragged.first && i < dragged.first + dragged.count) continue;
+        ASSERT_LT(glm::distance(now.position[i], was.position[i]), 1e-5) << i;
+    }
+    for (std::size_t i = 0; i < was.colliders.size(); ++i) {
+        EXPECT_EQ(now.colliders[i].shape, was.colliders[i].shape);
+        EXPECT_EQ(now.colliders[i].goal, was.colliders[i].goal);
+        EXPECT_EQ(now.colliders[i].seconds, was.colliders[i].seconds);
+    }
+    ASSERT_EQ(now.links.size(), was.links.size());
+    for (std::size_t i = 0; i < was.links.size(); ++i) EXPECT_EQ(now.links[i].rest, was.links[i].rest);
+    EXPECT_EQ(now.settings, was.settings);
+
+    run("rope.collider.set", {{"name", "ball"}, {"radius", 0.5}});
+    const rope::Shape& ball = world().find_collider("ball")->shape;
+    for (std::size_t i = 1; i < 80; ++i)
+        EXPECT_GT(rope::surface_distance(ball, world().state().position[i]).distance, 0.019) << i;
+}
+
 TEST_F(RopeCommands, WhatIsSelectedIsRemoved) {
     single_rope();
     EXPECT_EQ(refused("rope.remove_selected"), "rope.remove_selected: nothing is selected");

@@ -87,8 +87,8 @@ TEST_F(RopeRefusals, AColliderIsGivenWhatItsKindHas) {
 TEST_F(RopeRefusals, WhatWouldTakeTooLongIsRefusedWithItsSize) {
     single_rope(8000);
     EXPECT_EQ(refused("rope.settings", {{"iterations", 10'000}}),
-              "rope.settings: a substep would take 8000 links 10000 times, 80000000 in all; the most is "
-              "50000000");
+              "rope.settings: a substep of 8000 links and 10000 iterations would take 80008001 steps; the "
+              "most is 50000000");
     run("rope.settings", {{"iterations", 6000}});
     refused("rope.add", {{"from", origin}, {"to", right}, {"segments", 1000}});
 }

@@ -57,7 +57,7 @@ TEST_F(RopeTime, ATickTakesSoMuchWorkAndNoMore) {
     single_rope(50);
     run("rope.settings", {{"substep", 1e-5}, {"iterations", 10'000}, {"solver", "relaxation"}});
     wait(1);
-    EXPECT_EQ(world().state().substeps, max_lab_work / (50 * 10'000));
+    EXPECT_EQ(world().state().substeps, max_lab_work / work_of_substep(world()));
     EXPECT_NEAR(static_cast<double>(world().state().substeps + world().state().dropped), 1e5 / 60.0, 1.0);
 }
 

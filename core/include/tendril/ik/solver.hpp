@@ -15,7 +15,8 @@
 // bend, and also later where it stalls on a line. A solve that would end worse than it began, or than it once
 // was, ends with the nearest pose that it met.
 //
-// Cost: O(n) an iteration for every method.
+// Cost: O(n) an iteration for every method; where limits stop one short, a few more to tell Limited from
+// Stalled.
 //
 // Bones keep their lengths as in chain.hpp, except that Method::TwoBone may stretch them.
 #pragma once
