@@ -57,6 +57,60 @@ TEST(History, forgets_what_could_be_redone_when_something_else_is_done) {
     EXPECT_EQ(title_of(*history.undo(document_of("3"))), "1");
 }
 
+/// Two labs, the one changing by itself while the other is edited and undone.
+TEST(History, brings_back_only_what_the_command_changed) {
+    History history;
+    Document now = document_of("before");
+    now.set("rope", make_part("at rest"));
+    const Document before = now;
+    now.edit<TestPart>("arm").title = "after";
+    history.push(before.without(now), "arm.title", 0);
+    now.edit<TestPart>("rope").title = "swinging";
+
+    now = *history.undo(now);
+    EXPECT_EQ(title_of(now), "before");
+    EXPECT_EQ(now.get<TestPart>("rope").title, "swinging");
+    now.edit<TestPart>("rope").title = "swinging on";
+    now = *history.redo(now);
+    EXPECT_EQ(title_of(now), "after");
+    EXPECT_EQ(now.get<TestPart>("rope").title, "swinging on");
+}
+
+TEST(History, says_where_a_change_is_to_be_seen) {
+    const CameraPose near{.distance = 2.0f}, far{.distance = 20.0f}, other{.distance = 7.0f};
+    History history;
+    history.push(document_of("0"), "rope.preset", 0, {"rope", "a.json", near}, {"rope", "a.json", far});
+
+    Place place{"chain", "a.json", other};  // somebody looks at another lab meanwhile
+    const Document back = *history.undo(document_of("1"), &place);
+    EXPECT_EQ(place.lab, "rope");
+    EXPECT_EQ(place.camera, near);
+    EXPECT_EQ(place.path, std::nullopt) << "it moved no file";
+    place = {"chain", "b.json", other};
+    history.redo(back, &place);
+    EXPECT_EQ(place.lab, "rope");
+    EXPECT_EQ(place.camera, far) << "and not what was seen in the other lab";
+
+    place = {"rope", "b.json", other};  // turned since: redo leads to that
+    const Document again = *history.undo(document_of("1"), &place);
+    EXPECT_EQ(place.camera, near);
+    history.redo(again, &place);
+    EXPECT_EQ(place.camera, other);
+}
+
+TEST(History, a_change_of_the_scene_takes_its_file_along) {
+    History history;
+    history.push(document_of("0"), "scene.open", 0, {"rope", "a.json", CameraPose{}},
+                 {"chain", "b.json", CameraPose{}});
+    Place place{"chain", "renamed.json", CameraPose{}};
+    const Document back = *history.undo(document_of("1"), &place);
+    EXPECT_EQ(place.lab, "rope");
+    EXPECT_EQ(place.path, "a.json");
+    EXPECT_TRUE(place.camera) << "of another lab, though it is the same pose";
+    history.redo(back, &place);
+    EXPECT_EQ(place.path, "renamed.json") << "as it was saved meanwhile";
+}
+
 TEST(History, holds_one_entry_for_a_gesture) {
     History history;
     history.push(document_of("0"), "chain.target", 7);

@@ -167,4 +167,25 @@ inline void expect_finite(const Json& json, const std::string& where) {
     }
 }
 
+/// What `act` did and recorded, played again into another program, ends in the same state.
+template <class Act>
+void expect_replay_ends_the_same(Act act) {
+    const auto window = open_offscreen({1280, 720});
+    std::string recording;
+    Json recorded;
+    {
+        App app(*window);
+        act(app);
+        recorded = app.state();
+        recording = app.recording();
+    }
+    window->resize({1280, 720});
+    App app(*window);
+    Script script = parse_script(recording, app.commands());
+    app.start_from(*script.start);
+    Player player(std::move(script));
+    while (!player.done()) player.advance(app);
+    EXPECT_EQ(app.state(), recorded);
+}
+
 }  // namespace tendril::test
