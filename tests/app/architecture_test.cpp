@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 using Strings = std::vector<std::string>;
 
 const Strings app_rooms{"document", "window", "view", "io", "widgets", "labs", "shell", "script", "batch"};
-const Strings core_rooms{"chain", "ik", "rope", "signal", "rig", "humanoid"};
+const Strings core_rooms{"math", "chain", "ik", "rope", "signal", "rig", "humanoid"};
 const Strings window_parts{"GL/", "glad/", "GLFW/", "EGL/", "imgui", "backends/"};
 
 struct Source {

@@ -1,0 +1,219 @@
+// Which joint limit holds the tip back: from the best pose within all limits every joint that stands at its
+// own is freed in turn. For the joint that helps most, the room that it needs is then found by halving.
+#include <algorithm>
+#include <cmath>
+
+#include "ik/limits/loop.hpp"
+#include "ik/limits/pose.hpp"
+#include "ik/solve/parts.hpp"
+#include "ik/solve/validate.hpp"
+
+namespace tendril::ik {
+
+using namespace detail;
+
+namespace {
+
+constexpr int iterations = 60;
+constexpr float fine = 1e-4f;        ///< of the reach: what counts as there
+constexpr float noticeable = 1e-3f;  ///< of the distance that was left: what counts as nearer
+
+/// How a joint stands after the solve with some limits, and how far the tip is then.
+struct Outcome {
+    float error = 0.0f;
+    JointAngles angles;
+};
+
+/// All the room that a joint can have on the side on which it stands at its limit. Both sides at once would
+/// let it turn the other way round to the same place.
+Limit opened(Limit limit, const JointAngles& angles) noexcept {
+    const bool hinge = limit.kind == JointKind::Hinge;
+    float& most = hinge ? limit.max : limit.twist_max;
+    float& least = hinge ? limit.min : limit.twist_min;
+    const float angle = hinge ? angles.up : angles.twist;
+    const bool upper = angle >= most - 2.0f * at_bound, lower = angle <= least + 2.0f * at_bound;
+    if (upper) most = pi;
+    if (lower && !upper) least = -pi;
+    limit.up = limit.down = limit.left = limit.right = pi;
+    return limit;
+}
+
+/// For a joint without any room, the other side.
+Limit mirrored(Limit limit) noexcept {
+    const bool hinge = limit.kind == JointKind::Hinge;
+    (hinge ? limit.max : limit.twist_max) = hinge ? limit.min : limit.twist_min;
+    (hinge ? limit.min : limit.twist_min) = -pi;
+    limit.up = limit.down = limit.left = limit.right = pi;
+    return limit;
+}
+
+/// Room for these angles: all of it for `part` = 1, none beyond the limit's own for 0.
+Limit widened(Limit limit, const JointAngles& angles, float part) noexcept {
+    const auto up_to = [part](float& bound, float angle) {
+        bound += part * std::max(std::min(angle, pi) - bound, 0.0f);
+    };
+    const auto down_to = [part](float& bound, float angle) {
+        bound += part * std::min(std::max(angle, -pi) - bound, 0.0f);
+    };
+    if (limit.kind == JointKind::Hinge) {
+        up_to(limit.max, angles.up);
+        down_to(limit.min, angles.up);
+        return limit;
+    }
+    constexpr float diagonal = 1.42f;  // an ellipse with these half-axes has the angles inside
+    up_to(limit.up, diagonal * angles.up);
+    up_to(limit.down, -diagonal * angles.up);
+    up_to(limit.left, diagonal * angles.left);
+    up_to(limit.right, -diagonal * angles.left);
+    up_to(limit.twist_max, angles.twist);
+    down_to(limit.twist_min, angles.twist);
+    return limit;
+}
+
+/// Solves on from the pose that is to be explained, with one limit replaced.
+Outcome outcome(Workspace& room, std::span<glm::vec3> joints, glm::vec3 target, const Options& options,
+                std::size_t joint, const Limit& limit) noexcept {
+    LimitedRoom& limited = room.limited;
+    std::copy(limited.kept.joints.begin(), limited.kept.joints.end(), joints.begin());
+    std::copy(limited.kept.rotations.begin(), limited.kept.rotations.end(), room.rotations.begin());
+    std::copy(options.limits.begin(), options.limits.end(), limited.freed.begin());
+    limited.freed[joint] = limit;
+    Options freed;
+    freed.max_iterations = iterations;
+    freed.limits = limited.freed;
+    freed.tip_orientation = options.tip_orientation;
+    Problem problem{joints, target, fine * room.reach, freed, room};
+    run_limited(Method::Fabrik, problem, Unwatched());
+    const glm::quat turn = local_turn(room.rotations, joint);
+    return {error_of(problem), angles_of(limited.limits[joint], turn)};
+}
+
+Hold hinge_hold(const Limit& limit, float angle) noexcept {
+    Hold hold;
+    hold.bound = angle > limit.max ? Bound::Max : Bound::Min;
+    hold.limit = angle > limit.max ? limit.max : limit.min;
+    hold.needed = angle;
+    return hold;
+}
+
+/// The one of a cone's numbers that these angles exceed most.
+Hold cone_hold(const LimitedJoint& joint, const JointAngles& angles) noexcept {
+    const JointAngles inside = within(joint, angles);
+    const float up = std::abs(angles.up - inside.up), left = std::abs(angles.left - inside.left);
+    const float twist = std::abs(angles.twist - inside.twist);
+    Hold hold;
+    if (twist >= up && twist >= left) {
+        hold.bound = angles.twist > inside.twist ? Bound::TwistMax : Bound::TwistMin;
+        hold.limit = inside.twist, hold.needed = angles.twist;
+    } else if (up >= left) {
+        hold.bound = angles.up > inside.up ? Bound::Up : Bound::Down;
+        hold.limit = std::abs(inside.up), hold.needed = std::abs(angles.up);
+    } else {
+        hold.bound = angles.left > inside.left ? Bound::Left : Bound::Right;
+        hold.limit = std::abs(inside.left), hold.needed = std::abs(angles.left);
+    }
+    return hold;
+}
+
+/// The least room with which the tip still comes as near as with all of it: halving.
+Outcome least(Workspace& room, std::span<glm::vec3> joints, glm::vec3 target, const Options& options,
+              std::size_t joint, Outcome most) noexcept {
+    float low = 0.0f, high = 1.0f;
+    const JointAngles all = most.angles;
+    for (int i = 0; i < 8; ++i) {
+        const float part = 0.5f * (low + high);
+        const Outcome some =
+            outcome(room, joints, target, options, joint, widened(options.limits[joint], all, part));
+        if (some.error <= std::max(most.error, 2.0f * fine * room.reach)) {
+            high = part;
+            most.angles = some.angles;
+        } else {
+            low = part;
+        }
+    }
+    return most;
+}
+
+struct Candidate {
+    std::size_t joint = no_joint;
+    Outcome outcome;
+    float over = 0.0f;  ///< by how much it leaves its limit
+};
+
+/// The outcome of freeing a joint; of its two sides, where it stands at both.
+Outcome freed(Workspace& room, std::span<glm::vec3> joints, glm::vec3 target, const Options& options,
+              std::size_t i, const JointAngles& angles) noexcept {
+    const Limit& limit = options.limits[i];
+    const Outcome one = outcome(room, joints, target, options, i, opened(limit, angles));
+    const bool hinge = limit.kind == JointKind::Hinge;
+    const float width = hinge ? limit.max - limit.min : limit.twist_max - limit.twist_min;
+    if (width > 4.0f * at_bound) return one;
+    const Outcome other = outcome(room, joints, target, options, i, mirrored(limit));
+    return other.error < one.error ? other : one;
+}
+
+/// The joint whose freeing brings the tip nearest; where several bring it there, the one that needs least.
+Candidate best_candidate(Workspace& room, std::span<glm::vec3> joints, glm::vec3 target,
+                         const Options& options, float start) noexcept {
+    Candidate best;
+    const float there = fine * room.reach;
+    for (std::size_t i = 0; i < options.limits.size(); ++i) {
+        const LimitedJoint joint = limited_joint(options.limits[i], room.rest_directions[i]);
+        const JointAngles angles = angles_of(joint, local_turn(room.limited.kept.rotations, i));
+        if (!is_at_limit(joint, angles)) continue;
+        const Outcome result = freed(room, joints, target, options, i, angles);
+        const float over = excess_of(joint, result.angles);
+        if (over <= 2.0f * at_bound || result.error >= start * (1.0f - noticeable)) continue;
+        const bool nearer = std::max(result.error, there) < std::max(best.outcome.error, there);
+        const bool as_near = result.error <= there && best.outcome.error <= there && over < best.over;
+        if (best.joint == no_joint || nearer || as_near) best = {i, result, over};
+    }
+    return best;
+}
+
+/// A method that gave up early may stand at limits that hold nothing. So the default one goes on first, as
+/// far as the limits let it; from there on they are freed. The error that is left.
+float best_within_limits(Workspace& room, std::span<glm::vec3> joints, glm::vec3 target,
+                         const Options& options) noexcept {
+    Options all;
+    all.max_iterations = iterations;
+    all.limits = options.limits;
+    all.tip_orientation = options.tip_orientation;
+    Problem problem{joints, target, fine * room.reach, all, room};
+    run_limited(Method::Fabrik, problem, Unwatched());
+    save(problem, room.limited.kept);
+    return error_of(problem);
+}
+
+}  // namespace
+
+std::optional<Hold> Solver::explain(Method method, std::span<const glm::vec3> joints, glm::vec3 target,
+                                    const Options& options) noexcept {
+    Workspace& room = parts_->room;
+    if (options.limits.empty() || bones() == 0 || joints.size() != bones() + 1) return std::nullopt;
+    if (method > Method::TwoBone || !are_points(joints) || !are_points({&target, 1})) return std::nullopt;
+    if (!are_valid(options, bones()) || !fit(options.limits, room.rest_directions)) return std::nullopt;
+
+    const bool remembers_pole = room.pole.valid;
+    std::copy(room.rotations.begin(), room.rotations.end(), room.limited.given.begin());
+    const std::span<glm::vec3> work = room.joints;
+    std::copy(joints.begin(), joints.end(), work.begin());
+    const float start = best_within_limits(room, work, target, options);
+    const Candidate found = best_candidate(room, work, target, options, start);
+    std::optional<Hold> hold;
+    if (found.joint != no_joint) {
+        const std::size_t i = found.joint;
+        const LimitedJoint joint = limited_joint(options.limits[i], room.rest_directions[i]);
+        const JointAngles angles = least(room, work, target, options, i, found.outcome).angles;
+        hold = joint.hinge() ? hinge_hold(options.limits[i], angles.up) : cone_hold(joint, angles);
+        hold->joint = i;
+        hold->kind = joint.kind;
+        hold->enough = found.outcome.error <=
+                       std::max(options.tolerance.value_or(1e-3f * reach()), 2.0f * fine * reach());
+    }
+    std::copy(room.limited.given.begin(), room.limited.given.end(), room.rotations.begin());
+    room.pole.valid = remembers_pole;
+    return hold;
+}
+
+}  // namespace tendril::ik

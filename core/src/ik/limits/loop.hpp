@@ -1,0 +1,14 @@
+// A solve with joint limits, by any method. Not installed.
+#pragma once
+
+#include "ik/solve/problem.hpp"
+#include "tendril/ik/solver.hpp"
+
+namespace tendril::ik::detail {
+
+/// options.limits has one limit for each bone, each without fault. Moves the joints and room.rotations; after
+/// it every joint is within its limit, and the tip no further from the target than at the start.
+template <class Watch>
+Report run_limited(Method method, Problem& problem, Watch watch) noexcept;
+
+}  // namespace tendril::ik::detail

@@ -1,0 +1,124 @@
+#include "ik/limits/perturbation.hpp"
+
+#include "ik/limits/jacobian.hpp"
+#include "ik/limits/pose.hpp"
+#include "ik/solve/perturbation.hpp"
+
+namespace tendril::ik::detail {
+namespace {
+
+constexpr float least_part = 0.1f;  ///< of the bow, for a joint before a short bone
+constexpr float alike = 1e-4f;      ///< errors nearer to each other than this, of the reach
+
+/// Angles changed by a turn of so much about (up, left), as far as the limit lets them.
+JointAngles changed(const LimitedJoint& joint, const JointAngles& angles, float up, float left) noexcept {
+    return within(joint, {angles.up + up, angles.left + left, angles.twist});
+}
+
+float moved_by(const JointAngles& from, const JointAngles& to) noexcept {
+    const float up = to.up - from.up, left = to.left - from.left;
+    return std::sqrt(up * up + left * left);
+}
+
+/// The first of these that has half the room it wants, or the one with the most room: as given, the other way
+/// round, and for what swings two ways also at right angles to that.
+JointAngles bent(const LimitedJoint& joint, const JointAngles& angles, float up, float left) noexcept {
+    const float ways[4][2] = {{up, left}, {-up, -left}, {-left, up}, {left, -up}};
+    const float wanted = std::sqrt(up * up + left * left);
+    JointAngles best = angles;
+    for (int i = 0; i < (joint.hinge() ? 2 : 4); ++i) {
+        const JointAngles there = changed(joint, angles, ways[i][0], ways[i][1]);
+        if (moved_by(angles, there) > moved_by(angles, best)) best = there;
+        if (moved_by(angles, best) >= 0.5f * wanted) break;
+    }
+    return best;
+}
+
+/// The turn of a joint against the one before it, bent by `by`, a turn in the world.
+glm::quat bent_turn(const Problem& problem, std::size_t i, const glm::vec3& by) noexcept {
+    const LimitedRoom& room = problem.room.limited;
+    const LimitedJoint& joint = room.limits[i];
+    const glm::quat turn = local_turn(problem.room.rotations, i);
+    const glm::vec3 own = rotated(conjugate(parent_of(problem.room.rotations, i)), by);
+    if (joint.free()) {
+        const glm::vec3 half = times(own, 0.5f);
+        return unit(compose(unit_quaternion(1.0f, half.x, half.y, half.z), turn));
+    }
+    const JointAngles angles = angles_of(joint, turn);
+    // A hinge has one way to bend: it goes there whatever the plane of the bow, which gives only the side.
+    if (joint.hinge()) {
+        const float size = length(by);
+        return turn_of(joint, bent(joint, angles, dot(own, joint.axis) < 0.0f ? -size : size, 0.0f));
+    }
+    return turn_of(joint, bent(joint, angles, dot(own, joint.axis), dot(own, joint.side)));
+}
+
+/// From the root to the tip; a chain that ends where it begins shows the line to its target instead.
+glm::vec3 line_to_bend(const Problem& problem) noexcept {
+    const glm::vec3 arm = minus(problem.joints.back(), problem.root());
+    const float far = length(arm);
+    return far > 1e-3f * problem.room.reach ? times(arm, 1.0f / far) : line_of(problem);
+}
+
+void lay_bent(const Problem& problem, std::size_t i, const glm::vec3& by) noexcept {
+    std::vector<glm::quat>& rotations = problem.room.limited.trial.rotations;
+    rotations[i] = unit(compose(parent_of(rotations, i), bent_turn(problem, i, by)));
+}
+
+/// The first bone one way, the others back, so that the tip stays near the line.
+void bow(const Problem& problem, const glm::vec3& about) noexcept {
+    for (std::size_t i = 0; i < problem.bones(); ++i) {
+        const float part = 2.0f * problem.lengths()[i] / problem.room.reach;
+        lay_bent(problem, i, times(about, i == 0 ? kick_bow : -kick_bow * std::max(part, least_part)));
+    }
+    lay(problem, problem.room.limited.trial);
+}
+
+void scatter(const Problem& problem, const glm::vec3& line, const glm::vec3& side, int number) noexcept {
+    const auto salt = static_cast<std::uint32_t>(number) * 2u;
+    const glm::vec3 about = cross(line, side);
+    for (std::size_t i = 0; i < problem.bones(); ++i) {
+        lay_bent(
+            problem, i,
+            times(plus(times(about, scattered(i, salt)), times(side, scattered(i, salt + 1))), kick_bow));
+    }
+    lay(problem, problem.room.limited.trial);
+}
+
+}  // namespace
+
+bool is_singular(Problem& problem) noexcept {
+    linearize(problem);
+    const Wanted wanted = wanted_of(problem);
+    const float asked = dot(wanted.move, wanted.move) + dot(wanted.turn, wanted.turn);
+    for (std::size_t i = 0; i < problem.bones(); ++i) {
+        const JointAngles g = change_of(problem.room.limited, i, wanted);
+        if (g.up * g.up + g.left * g.left + g.twist * g.twist > singular * singular * asked) return false;
+    }
+    return true;
+}
+
+template <class Watch>
+void kick_within_limits(Problem& problem, int turn, Watch watch) noexcept {
+    LimitedRoom& room = problem.room.limited;
+    const glm::vec3 line = line_to_bend(problem), side = side_of(problem, line);
+    const glm::vec3 sides[] = {side, times(side, -1.0f), cross(line, side), cross(side, line)};
+    const auto bend = [&](int way) {
+        turn == 0 ? bow(problem, cross(line, sides[way])) : scatter(problem, line, side, 4 * turn + way);
+        return error_of(problem, room.trial);
+    };
+    int best = 0;
+    float least = bend(0);
+    for (int way = 1; way < 4; ++way) {
+        // Of ways that are as good the first is taken: rounding must not choose the side.
+        const float error = bend(way);
+        if (error < least - alike * problem.room.reach) best = way, least = error;
+    }
+    bend(best);
+    assume(problem, room.trial, Phase::Prepare, watch);
+}
+
+template void kick_within_limits(Problem&, int, Unwatched) noexcept;
+template void kick_within_limits(Problem&, int, Watched) noexcept;
+
+}  // namespace tendril::ik::detail

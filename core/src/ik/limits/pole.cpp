@@ -1,0 +1,76 @@
+#include "ik/limits/pole.hpp"
+
+#include "ik/limits/pose.hpp"
+#include "ik/pole/pole.hpp"
+
+namespace tendril::ik::detail {
+namespace {
+
+/// By how much a pose was turned about a line through the root to become another: seen at the joint that is
+/// furthest off the line.
+float angle_between(const Problem& problem, const LimitedPose& before, const glm::vec3& line) noexcept {
+    float furthest = 0.0f, angle = 0.0f;
+    for (std::size_t i = 1; i < problem.bones(); ++i) {
+        const glm::vec3 from = minus(before.joints[i], problem.root()),
+                        to = minus(problem.joints[i], problem.root());
+        const glm::vec3 off = minus(from, times(line, dot(from, line)));
+        if (dot(off, off) <= furthest) continue;
+        furthest = dot(off, off);
+        angle = std::atan2(dot(line, cross(off, to)), dot(off, to));
+    }
+    return angle;
+}
+
+/// Turns the pose in `before` about the line, into `trial`; whether the root's joint allows it.
+bool turns(Problem& problem, const glm::vec3& line, float angle) noexcept {
+    LimitedRoom& room = problem.room.limited;
+    const glm::quat by = rotation_about(line, angle);
+    for (std::size_t i = 0; i < problem.bones(); ++i) {
+        room.trial.rotations[i] = unit(compose(by, room.before.rotations[i]));
+    }
+    return excess_of(room.limits[0], angles_of(room.limits[0], room.trial.rotations[0])) <= at_bound;
+}
+
+void turn_as_far_as_allowed(Problem& problem, const glm::vec3& line, float angle) noexcept {
+    if (turns(problem, line, angle)) return;
+    float least = 0.0f, most = 1.0f;
+    for (int i = 0; i < 10; ++i) {
+        const float part = 0.5f * (least + most);
+        (turns(problem, line, part * angle) ? least : most) = part;
+    }
+    turns(problem, line, least * angle);
+}
+
+}  // namespace
+
+void expect_pole(Problem& problem) noexcept {
+    if (problem.options.pole) problem.room.pole.allowance = pole_allowance(problem);
+}
+
+template <class Watch>
+void face_pole_within_limits(Problem& problem, Watch watch) noexcept {
+    LimitedRoom& room = problem.room.limited;
+    save(problem, room.before);
+    Options options = problem.options;
+    options.pole_turn = PoleTurn::WholeChain;
+    Problem whole{problem.joints, problem.target, problem.tolerance, options, problem.room};
+    face_pole(whole, Unwatched());
+    const glm::vec3 span = minus(room.before.joints[problem.bones()], problem.root());
+    const float size = length(span);
+    const glm::vec3 line = size > 0.0f ? times(span, 1.0f / size) : span;
+    const float angle = size > 0.0f ? angle_between(problem, room.before, line) : 0.0f;
+    std::copy(room.before.joints.begin(), room.before.joints.end(), problem.joints.begin());
+    if (std::abs(angle) <= at_bound) return;
+    turn_as_far_as_allowed(problem, line, angle);
+    lay(problem, room.trial);
+    // Laid anew, the tip is off by rounding; no turn is worth more than that.
+    const float allowed = std::max(error_of(problem, room.before), problem.tolerance);
+    if (error_of(problem, room.trial) > allowed + 1e-6f * problem.room.reach) return;
+    assume(problem, room.trial, Phase::Pole, watch);
+    remember_pose(problem);
+}
+
+template void face_pole_within_limits(Problem&, Unwatched) noexcept;
+template void face_pole_within_limits(Problem&, Watched) noexcept;
+
+}  // namespace tendril::ik::detail

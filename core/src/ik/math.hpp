@@ -1,0 +1,13 @@
+// The algebra that solvers use, without its qualification. Not installed.
+#pragma once
+
+#include "math/point.hpp"
+#include "math/rotation.hpp"
+#include "math/vector.hpp"
+#include "math/wide.hpp"
+
+namespace tendril::ik::detail {
+
+using namespace tendril::math;
+
+}  // namespace tendril::ik::detail

@@ -1,0 +1,69 @@
+#include "ik/methods/fabrik.hpp"
+
+#include "ik/math.hpp"
+#include "ik/methods/spread.hpp"
+
+namespace tendril::ik::detail {
+namespace {
+
+constexpr glm::vec3 fallback{1.0f, 0.0f, 0.0f};  ///< where two joints coincide and show no direction
+
+/// Under this many the step that fits the span costs more than the pulls, so every other iteration does
+/// without.
+constexpr std::size_t few_bones = 8;
+
+template <class Watch>
+void pull_from_tip(Problem& problem, Watch watch) noexcept {
+    const std::span<glm::vec3> joints = problem.joints;
+    const std::span<const float> lengths = problem.lengths();
+    glm::vec3 at = problem.target;
+    watch.moved(problem.iteration, Phase::FromTip, problem.bones(), no_joint, joints.back(), at);
+    watch.next_step();
+    joints.back() = at;
+    for (std::size_t i = problem.bones(); i-- > 0;) {
+        at = step(at, joints[i], lengths[i], fallback);
+        watch.moved(problem.iteration, Phase::FromTip, i, i + 1, joints[i], at);
+        watch.next_step();
+        joints[i] = at;
+    }
+}
+
+template <class Watch>
+void pull_from_root(Problem& problem, const glm::vec3& root, Watch watch) noexcept {
+    const std::span<glm::vec3> joints = problem.joints;
+    const std::span<const float> lengths = problem.lengths();
+    glm::vec3 at = root;
+    watch.moved(problem.iteration, Phase::FromRoot, 0, no_joint, joints.front(), at);
+    watch.next_step();
+    joints.front() = at;
+    for (std::size_t i = 1; i < joints.size(); ++i) {
+        at = step(at, joints[i], lengths[i - 1], fallback);
+        watch.moved(problem.iteration, Phase::FromRoot, i, i - 1, joints[i], at);
+        watch.next_step();
+        joints[i] = at;
+    }
+}
+
+}  // namespace
+
+template <class Watch>
+void fabrik_iteration(Problem& problem, Watch watch) noexcept {
+    const glm::vec3 root = problem.root();
+    pull_from_tip(problem, watch);
+    pull_from_root(problem, root, watch);
+}
+
+template <class Watch>
+void fast_fabrik_iteration(Problem& problem, Watch watch) noexcept {
+    fabrik_iteration(problem, watch);
+    const bool its_turn = problem.bones() >= few_bones || problem.iteration % 2 == 0;
+    const float residual = distance(problem.joints.back(), problem.target);
+    if (its_turn && !(residual <= problem.tolerance)) spread(problem, residual, watch);
+}
+
+template void fabrik_iteration(Problem&, Unwatched) noexcept;
+template void fabrik_iteration(Problem&, Watched) noexcept;
+template void fast_fabrik_iteration(Problem&, Unwatched) noexcept;
+template void fast_fabrik_iteration(Problem&, Watched) noexcept;
+
+}  // namespace tendril::ik::detail

@@ -1,0 +1,139 @@
+#include "ik/methods/jacobian.hpp"
+
+#include <algorithm>
+#include <cfloat>
+
+#include "ik/math.hpp"
+#include "ik/methods/turns.hpp"
+#include "math/symmetric3.hpp"
+
+namespace tendril::ik::detail {
+namespace {
+
+constexpr double longest_error = 0.5;    ///< of the reach
+constexpr double largest_turn = 1.0;     ///< radians
+constexpr double small_singular = 0.4;   ///< of the reach: from here down the SVD is damped
+constexpr double least_damping = 1e-12;  ///< of the trace of J J', so that it can be inverted
+
+/// All in units of the reach, so that no size of chain overflows.
+struct Linear {
+    Symmetric3 jj;     ///< J J', the sum of |r|^2 I - r r' over the joints
+    glm::dvec3 error;  ///< from tip to target, cut
+    double damping;    ///< l^2
+};
+
+Linear linear(const Problem& problem, double unit) noexcept {
+    Symmetric3 m;
+    const glm::dvec3 tip = wide(problem.joints.back());
+    for (std::size_t i = 0; i < problem.bones(); ++i) {
+        const glm::dvec3 r = times(minus(tip, wide(problem.joints[i])), unit);
+        const double x = r.x * r.x, y = r.y * r.y, z = r.z * r.z;
+        m.xx += y + z;
+        m.yy += x + z;
+        m.zz += x + y;
+        m.xy -= r.x * r.y;
+        m.xz -= r.x * r.z;
+        m.yz -= r.y * r.z;
+    }
+    glm::dvec3 error = times(minus(wide(problem.target), tip), unit);
+    const double size = length(error);
+    if (size > longest_error) error = times(error, longest_error / size);
+    const double l = static_cast<double>(problem.options.damping);
+    return {m, error, std::max(l * l * std::min(size, 1.0), least_damping * trace(m))};
+}
+
+glm::dvec3 transpose(const Linear& at) noexcept {
+    const glm::dvec3 moved = product(at.jj, at.error);
+    const double squared = dot(moved, moved);
+    return squared > 0.0 ? times(at.error, dot(at.error, moved) / squared) : glm::dvec3(0.0);
+}
+
+glm::dvec3 damped(Linear at) noexcept {
+    at.jj.xx += at.damping;
+    at.jj.yy += at.damping;
+    at.jj.zz += at.damping;
+    return at.jj.xx > 0.0 ? solution(at.jj, at.error) : glm::dvec3(0.0);
+}
+
+glm::dvec3 filtered(const Linear& at) noexcept {
+    const Eigen3 e = eigen(at.jj);
+    glm::dvec3 result(0.0);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double squared = std::max(e.values[k], 0.0);
+        const double small = std::max(1.0 - squared / (small_singular * small_singular), 0.0);
+        const double divisor = squared + at.damping * small;
+        if (divisor > 0.0) result = plus(result, times(e.vectors[k], dot(e.vectors[k], at.error) / divisor));
+    }
+    return result;
+}
+
+/// The rotation by |turn| radians about `turn`, at most largest_turn. Series instead of sine and cosine:
+/// exact to a float this near to zero, and the same with every C library.
+glm::quat exponential(const glm::dvec3& turn) noexcept {
+    const double h = 0.25 * dot(turn, turn);  // square of half the angle
+    const double sine = 0.5 * (1.0 - h / 6.0 * (1.0 - h / 20.0 * (1.0 - h / 42.0 * (1.0 - h / 72.0))));
+    const double cosine = 1.0 - h / 2.0 * (1.0 - h / 12.0 * (1.0 - h / 30.0 * (1.0 - h / 56.0)));
+    const glm::vec3 axis = narrow(times(turn, sine));
+    return unit_quaternion(static_cast<float>(cosine), axis.x, axis.y, axis.z);
+}
+
+/// Joint i turns by r x force.
+void find_turns(Problem& problem, const glm::dvec3& force, double unit) noexcept {
+    const glm::dvec3 tip = wide(problem.joints.back());
+    const auto turn = [&](std::size_t i) {
+        return cross(times(minus(tip, wide(problem.joints[i])), unit), force);
+    };
+    double largest = 0.0;
+    for (std::size_t i = 0; i < problem.bones(); ++i) {
+        const glm::dvec3 t = turn(i);
+        largest = std::max(largest, dot(t, t));
+    }
+    largest = std::sqrt(largest);
+    const double scale = largest > largest_turn ? largest_turn / largest : 1.0;
+    for (std::size_t i = 0; i < problem.bones(); ++i) {
+        problem.room.turns[i] = exponential(times(turn(i), scale));
+    }
+}
+
+template <class Watch, class Method>
+void iteration(Problem& problem, Method method, Watch watch) noexcept {
+    if (!(problem.room.reach > FLT_MIN)) return;
+    const double unit = 1.0 / static_cast<double>(problem.room.reach);
+    const glm::dvec3 force = method(linear(problem, unit));
+    if (!(dot(force, force) > 0.0)) return;
+    find_turns(problem, force, unit);
+    if constexpr (Watch::watching) {
+        std::copy(problem.joints.begin(), problem.joints.end(), problem.room.old.begin());
+    }
+    carry_out_turns(problem);
+    if constexpr (Watch::watching) {
+        for (std::size_t i = 1; i < problem.joints.size(); ++i) {
+            watch.moved(problem.iteration, Phase::Gradient, i, i - 1, problem.room.old[i], problem.joints[i]);
+        }
+        watch.next_step();
+    }
+}
+
+}  // namespace
+
+template <class Watch>
+void jacobian_transpose_iteration(Problem& problem, Watch watch) noexcept {
+    iteration(problem, transpose, watch);
+}
+template <class Watch>
+void dls_iteration(Problem& problem, Watch watch) noexcept {
+    iteration(problem, damped, watch);
+}
+template <class Watch>
+void svd_dls_iteration(Problem& problem, Watch watch) noexcept {
+    iteration(problem, filtered, watch);
+}
+
+template void jacobian_transpose_iteration(Problem&, Unwatched) noexcept;
+template void jacobian_transpose_iteration(Problem&, Watched) noexcept;
+template void dls_iteration(Problem&, Unwatched) noexcept;
+template void dls_iteration(Problem&, Watched) noexcept;
+template void svd_dls_iteration(Problem&, Unwatched) noexcept;
+template void svd_dls_iteration(Problem&, Watched) noexcept;
+
+}  // namespace tendril::ik::detail

@@ -1,0 +1,177 @@
+#include "ik/methods/two_bone.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "chain/checks.hpp"
+#include "ik/math.hpp"
+#include "ik/pole/pole.hpp"
+#include "tendril/ik/two_bone.hpp"
+
+namespace tendril::ik {
+namespace {
+
+using namespace detail;
+
+constexpr double equal = 1e-6;    ///< of the reach: what floats leave of a sum of lengths
+constexpr double no_side = 1e-6;  ///< of the reach: offsets below it are rounding
+
+/// The triangle of root, mid and tip, in metres.
+struct Triangle {
+    double scale = 1.0;   ///< of both bones
+    double along = 0.0;   ///< from root to mid, on the line to the target
+    double height = 0.0;  ///< of mid above that line
+    double span = 0.0;    ///< from root to tip, on that line
+    bool reaches = true;  ///< whether that is all the way
+    Status status = Status::Converged;
+};
+
+Triangle triangle(double upper, double lower, double distance, const TwoBoneOptions& options) noexcept {
+    Triangle t;
+    const double reach = upper + lower;
+    const double start = static_cast<double>(options.start_stretch_ratio) * reach;
+    if (distance > start && start > 0.0) {
+        t.scale = std::min(distance / start, static_cast<double>(options.max_stretch_scale));
+        // Bones that differ in length grow apart too: not so far that they fold no nearer than the target.
+        const double folded = std::abs(upper - lower);
+        if (folded <= distance && folded * t.scale > distance) t.scale = distance / folded;
+    }
+    const double a = upper * t.scale, b = lower * t.scale;
+    const double most = a + b, least = std::abs(a - b);
+    t.span = std::clamp(distance, least, most);
+    t.reaches = t.span == distance;
+    if (distance > most + equal * reach) t.status = Status::Stretched;
+    if (distance < least - equal * reach) t.status = Status::TooClose;
+    // Both as products of differences, so that nothing cancels out near full reach or when folded.
+    t.along = t.span > 0.0 ? 0.5 * (t.span + (a - b) * (a + b) / t.span) : 0.0;
+    const double squared = (a - t.along) * (a + t.along);
+    t.height = t.span > 0.0 ? std::sqrt(std::max(squared, 0.0)) : a;
+    return t;
+}
+
+/// The limb as given, from its root.
+struct Given {
+    glm::dvec3 mid, tip, target;
+    double reach;
+};
+
+/// Where the limb points: at the target, or, where that is the root, to where it did.
+glm::dvec3 line_of(const Given& given) noexcept {
+    if (const auto ahead = direction_of(given.target, 0.0)) return *ahead;
+    if (const auto present = direction_of(given.tip, no_side * given.reach)) return *present;
+    // Folded upon itself: any line at right angles to the bones.
+    if (const auto bone = direction_of(given.mid, 0.0)) return perpendicular(*bone);
+    return {1.0, 0.0, 0.0};
+}
+
+/// `v` at right angles to `from`, turned by the least rotation that takes `from` to `to`.
+glm::dvec3 carried(const glm::dvec3& v, const glm::dvec3& from, const glm::dvec3& to) noexcept {
+    const double w = 1.0 + dot(from, to);
+    if (w < 1e-12) return v;  // half a turn, about v itself
+    return minus(v, times(plus(from, to), dot(v, to) / w));
+}
+
+/// The side to which the limb bends now, carried to its new line; none for a straight one.
+std::optional<glm::dvec3> present_side(const Given& given, const glm::dvec3& line) noexcept {
+    const double least = no_side * given.reach;
+    const auto from = direction_of(given.tip, least);
+    if (!from) return direction_of(across(given.mid, line), least);
+    const auto side = direction_of(across(given.mid, *from), least);
+    if (!side) return std::nullopt;
+    return direction_of(across(carried(*side, *from, line), line), 0.0);
+}
+
+glm::dvec3 turned(const glm::dvec3& side, const glm::dvec3& line, double angle) noexcept {
+    return plus(times(side, std::cos(angle)), times(cross(line, side), std::sin(angle)));
+}
+
+/// The side to which the limb shall bend. `most`: by how many radians it may differ from the present one when
+/// there is a pole.
+glm::dvec3 side_of(const Given& given, const glm::dvec3& line, const TwoBoneOptions& options,
+                   const glm::dvec3& root, double most) noexcept {
+    const auto present = present_side(given, line);
+    const auto twist = static_cast<double>(options.twist);
+    std::optional<glm::dvec3> pole;
+    if (options.pole) {
+        const glm::dvec3 arm = minus(wide(*options.pole), root);
+        pole = direction_of(across(arm, line), no_side * std::max(given.reach, length(arm)));
+    }
+    // A pole on the line has been faced before, and turned by the twist then.
+    if (options.pole && !pole && present) return *present;
+    const glm::dvec3 start = pole ? *pole : present ? *present : perpendicular(line);
+    const glm::dvec3 wanted = twist != 0.0 ? turned(start, line, twist) : start;
+    if (!pole || !present) return wanted;
+    const double angle = std::atan2(dot(cross(*present, wanted), line), dot(*present, wanted));
+    return std::abs(angle) <= most ? wanted : turned(*present, line, std::copysign(most, angle));
+}
+
+/// `allowance`: how far the pole may move the middle joint, metres.
+TwoBoneResult solve(const TwoBone& limb, const glm::vec3& target, const TwoBoneOptions& options,
+                    double allowance) noexcept {
+    const glm::dvec3 root = wide(limb.root);
+    const double upper = static_cast<double>(limb.upper), lower = static_cast<double>(limb.lower);
+    const Given given{minus(wide(limb.mid), root), minus(wide(limb.tip), root), minus(wide(target), root),
+                      upper + lower};
+    const Triangle t = triangle(upper, lower, length(given.target), options);
+    const glm::dvec3 line = line_of(given);
+    const double most = t.height > 0.0 ? allowance / t.height : allowance;
+    const glm::dvec3 side = side_of(given, line, options, root, most);
+    const glm::dvec3 mid = plus(times(line, t.along), times(side, t.height));
+    TwoBoneResult result;
+    result.status = t.status;
+    result.mid = narrow(plus(root, mid));
+    result.tip = t.reaches ? target : narrow(plus(root, times(line, t.span)));
+    result.scale = static_cast<float>(t.scale);
+    result.residual = static_cast<float>(length(minus(wide(result.tip), wide(target))));
+    return result;
+}
+
+bool is_within(float value, float least, float most) noexcept {
+    return value >= least && value <= most;  // false for NaN
+}
+
+bool are_valid(const TwoBone& limb, const glm::vec3& target, const TwoBoneOptions& options) noexcept {
+    using tendril::detail::is_point;
+    return is_point(limb.root) && is_point(limb.mid) && is_point(limb.tip) && is_point(target) &&
+           is_within(limb.upper, 0.0f, max_magnitude) && is_within(limb.lower, 0.0f, max_magnitude) &&
+           (!options.pole || is_point(*options.pole)) && options.start_stretch_ratio > 0.0f &&
+           options.start_stretch_ratio <= 1.0f && is_within(options.max_stretch_scale, 1.0f, 100.0f) &&
+           is_within(options.twist, -max_magnitude, max_magnitude);
+}
+
+}  // namespace
+
+TwoBoneResult two_bone(const TwoBone& limb, glm::vec3 target, const TwoBoneOptions& options) noexcept {
+    if (!are_valid(limb, target, options)) return {Status::InvalidInput, limb.mid, limb.tip, 1.0f, 0.0f};
+    return solve(limb, target, options, std::numeric_limits<double>::infinity());
+}
+
+namespace detail {
+
+template <class Watch>
+Report two_bone_solve(Problem& problem, Watch watch) noexcept {
+    if (problem.bones() != 2) return {Status::InvalidInput, 0, 0.0f};
+    const Options& options = problem.options;
+    const std::span<glm::vec3> joints = problem.joints;
+    const TwoBone limb{joints[0], joints[1], joints[2], problem.lengths()[0], problem.lengths()[1]};
+    const double allowance = options.pole ? pole_allowance(problem) : std::numeric_limits<double>::infinity();
+    const TwoBoneResult result = solve(
+        limb, problem.target,
+        {options.pole, options.start_stretch_ratio, options.max_stretch_scale, options.twist}, allowance);
+    watch.moved(problem.iteration, Phase::Analytic, 1, 0, joints[1], result.mid);
+    watch.moved(problem.iteration, Phase::Analytic, 2, 1, joints[2], result.tip);
+    watch.next_step();
+    joints[1] = result.mid;
+    joints[2] = result.tip;
+    remember_pose(problem);
+    const bool there = result.residual <= problem.tolerance && result.status == Status::Converged;
+    return {there ? Status::Converged : result.status, problem.iteration, result.residual};
+}
+
+template Report two_bone_solve(Problem&, Unwatched) noexcept;
+template Report two_bone_solve(Problem&, Watched) noexcept;
+
+}  // namespace detail
+}  // namespace tendril::ik

@@ -1,0 +1,273 @@
+#include "ik/pole/pole.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "ik/math.hpp"
+
+namespace tendril::ik::detail {
+namespace {
+
+constexpr double free_part = 5e-4;  ///< of the reach, each solve
+constexpr double follow = 20.0;     ///< times what has changed
+constexpr double jump = 0.02;       ///< of the reach: what changed more has jumped
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+constexpr int most_sweeps = 64;    ///< of EachJoint
+constexpr double settled = 1e-3;   ///< radians
+constexpr double straight = 0.01;  ///< of the reach: no joint further off the line
+constexpr double no_side = 1e-6;   ///< of the reach: offsets below it are rounding
+
+/// Which way, and how far, the chain is off a line through its root.
+struct Bend {
+    glm::dvec3 side{0.0};  ///< sum of the offsets, each weighted by its part of the chain
+    double furthest = 0.0;
+};
+
+Bend bend_of(const Problem& problem, const glm::dvec3& line) noexcept {
+    const glm::dvec3 root = wide(problem.root());
+    const double whole = 2.0 * static_cast<double>(problem.room.reach);
+    Bend bend;
+    for (std::size_t i = 1; i < problem.bones(); ++i) {
+        const glm::dvec3 offset = across(minus(wide(problem.joints[i]), root), line);
+        const double beside =
+            static_cast<double>(problem.lengths()[i - 1]) + static_cast<double>(problem.lengths()[i]);
+        bend.side = plus(bend.side, times(offset, beside / whole));
+        bend.furthest = std::max(bend.furthest, length(offset));
+    }
+    return bend;
+}
+
+/// The angle about `line` from one side to another, -pi to pi; what lies along the line is left out.
+double angle_about(const glm::dvec3& line, const glm::dvec3& from, const glm::dvec3& to) noexcept {
+    return std::atan2(dot(cross(from, to), line), dot(from, to) - dot(from, line) * dot(to, line));
+}
+
+/// `v` turned about a unit axis.
+struct Turn {
+    glm::dvec3 axis;
+    double sine, cosine;
+
+    Turn(const glm::dvec3& about, double angle) noexcept
+        : axis(about), sine(std::sin(angle)), cosine(std::cos(angle)) {}
+    glm::dvec3 operator()(const glm::dvec3& v) const noexcept {
+        const glm::dvec3 along = times(axis, dot(axis, v));
+        return plus(along, plus(times(minus(v, along), cosine), times(cross(axis, v), sine)));
+    }
+};
+
+/// No further than the allowance lets a point at `arm` from the axis go.
+double limited(double angle, double arm, double allowance) noexcept {
+    if (std::abs(angle) * arm <= allowance) return angle;
+    return std::copysign(allowance / arm, angle);
+}
+
+/// The arc of length 1 and radius 1 / 2h spans sin(h) / h; h for a span of 0 to 1. Newton's steps on a
+/// function that is convex from the start on to the root.
+double half_angle_of_arc(double span) noexcept {
+    double h = std::sqrt(6.0 * std::max(1.0 - span, 0.0));
+    for (int step = 0; step < 6 && h > 1e-6; ++step) {
+        h -= (std::sin(h) - span * h) / (std::cos(h) - span);
+    }
+    return h;
+}
+
+/// The pole as seen from `from`; none where it is on the line, as far as one can tell.
+std::optional<glm::dvec3> pole_side(const Problem& problem, const glm::dvec3& from,
+                                    const glm::dvec3& line) noexcept {
+    const glm::dvec3 arm = minus(wide(*problem.options.pole), from);
+    const double least = 10.0 * no_side * static_cast<double>(problem.room.reach);
+    return direction_of(across(arm, line), std::max(least, no_side * length(arm)));
+}
+
+/// The angle about `line` by which the whole chain faces its pole, as far as the allowance goes.
+double whole_angle(Problem& problem, const glm::dvec3& line) noexcept {
+    const Bend bend = bend_of(problem, line);
+    const double least = no_side * static_cast<double>(problem.room.reach);
+    const std::optional<glm::dvec3> to = pole_side(problem, wide(problem.root()), line);
+    if (!to || !direction_of(bend.side, least)) return 0.0;
+    const double angle =
+        limited(angle_about(line, bend.side, *to), bend.furthest, problem.room.pole.allowance);
+    problem.room.pole.allowance -= std::abs(angle) * bend.furthest;
+    return angle;
+}
+
+template <class Watch>
+void place(Problem& problem, std::size_t joint, std::size_t about, const glm::dvec3& at,
+           Watch watch) noexcept {
+    const glm::vec3 from = problem.joints[joint];
+    problem.joints[joint] = narrow(at);
+    watch.moved(problem.iteration, Phase::Pole, joint, about, from, problem.joints[joint]);
+}
+
+/// The chain as one stiff piece about its root. Bones are laid to their lengths on the way: solves that move
+/// a chain in no other way would let them drift.
+template <class Watch>
+void carry(Problem& problem, const Turn& turn, Watch watch) noexcept {
+    glm::vec3 before = problem.root();
+    for (std::size_t i = 0; i < problem.bones(); ++i) {
+        const glm::dvec3 bone = turn(minus(wide(problem.joints[i + 1]), wide(before)));
+        const double size = length(bone), wanted = static_cast<double>(problem.lengths()[i]);
+        before = problem.joints[i + 1];
+        const glm::dvec3 laid = size > 0.0 ? times(bone, wanted / size) : glm::dvec3(wanted, 0.0, 0.0);
+        place(problem, i + 1, 0, plus(wide(problem.joints[i]), laid), watch);
+    }
+    watch.next_step();
+}
+
+/// All but root and tip about a line through the root.
+template <class Watch>
+void roll(Problem& problem, const Turn& turn, Watch watch) noexcept {
+    const glm::dvec3 root = wide(problem.root());
+    for (std::size_t i = 1; i < problem.bones(); ++i) {
+        place(problem, i, 0, plus(root, turn(minus(wide(problem.joints[i]), root))), watch);
+    }
+    watch.next_step();
+}
+
+template <class Watch>
+void face_with_whole_chain(Problem& problem, Watch watch) noexcept {
+    const double least = no_side * static_cast<double>(problem.room.reach);
+    const std::optional<glm::dvec3> line =
+        direction_of(minus(wide(problem.joints.back()), wide(problem.root())), least);
+    if (!line) return;
+    const double angle = whole_angle(problem, *line);
+    if (angle != 0.0) roll(problem, Turn(*line, angle), watch);
+}
+
+/// One joint about the line through its neighbours; how far it was turned, radians.
+template <class Watch>
+double face_with_joint(Problem& problem, std::size_t joint, Watch watch) noexcept {
+    const double least = no_side * static_cast<double>(problem.room.reach);
+    std::vector<glm::dvec3>& joints = problem.room.pole.wide_joints;
+    const glm::dvec3 before = joints[joint - 1];
+    const std::optional<glm::dvec3> line = direction_of(minus(joints[joint + 1], before), least);
+    if (!line) return 0.0;
+    const glm::dvec3 arm = minus(joints[joint], before), offset = across(arm, *line);
+    const std::optional<glm::dvec3> to = pole_side(problem, before, *line);
+    if (!to || !direction_of(offset, least)) return 0.0;
+    const double angle =
+        limited(angle_about(*line, offset, *to), length(offset), problem.room.pole.allowance);
+    if (angle == 0.0) return 0.0;
+    joints[joint] = plus(before, Turn(*line, angle)(arm));
+    place(problem, joint, joint - 1, joints[joint], watch);
+    watch.next_step();
+    return std::abs(angle);
+}
+
+template <class Watch>
+void face_with_each_joint(Problem& problem, Watch watch) noexcept {
+    // In double throughout: a float would be rounded in every sweep, and bones would drift.
+    std::transform(problem.joints.begin(), problem.joints.end(), problem.room.pole.wide_joints.begin(), wide);
+    const int sweeps = problem.room.pole.allowance < unlimited ? 1 : most_sweeps;
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+        double largest = 0.0;
+        for (std::size_t i = 1; i < problem.bones(); ++i) {
+            largest = std::max(largest, face_with_joint(problem, i, watch));
+        }
+        if (largest < settled) return;
+    }
+}
+
+}  // namespace
+
+template <class Watch>
+bool bow_to_pole(Problem& problem, Watch watch) noexcept {
+    if (!problem.options.pole) return false;
+    const double reach = static_cast<double>(problem.room.reach);
+    const glm::dvec3 root = wide(problem.root()), arm = minus(wide(problem.target), root);
+    const std::optional<glm::dvec3> line = direction_of(arm, no_side * reach);
+    if (!line || bend_of(problem, *line).furthest > straight * reach) return false;
+    const std::optional<glm::dvec3> side = pole_side(problem, root, *line);
+    if (!side) return false;
+    const double half = half_angle_of_arc(length(arm) / reach);
+    double before = 0.0;
+    glm::dvec3 at = root;
+    for (std::size_t i = 0; i < problem.bones(); ++i) {
+        const auto size = static_cast<double>(problem.lengths()[i]);
+        const double angle = half * (1.0 - (2.0 * before + size) / reach);
+        before += size;
+        at = plus(at, times(plus(times(*line, std::cos(angle)), times(*side, std::sin(angle))), size));
+        place(problem, i + 1, i, at, watch);
+    }
+    watch.next_step();
+    return true;
+}
+
+double pole_allowance(const Problem& problem) noexcept {
+    const PoleRoom& last = problem.room.pole;
+    if (!last.valid || last.turn != problem.options.pole_turn) return unlimited;
+    const glm::vec3 root = problem.root();
+    double joints = 0.0;
+    for (std::size_t i = 1; i < problem.joints.size(); ++i) {
+        const glm::dvec3 by = minus(wide(minus(problem.joints[i], root)), wide(last.joints[i]));
+        joints = std::max(joints, dot(by, by));
+    }
+    const double changed = std::sqrt(joints) +
+                           length(minus(wide(minus(problem.target, root)), wide(last.target))) +
+                           length(minus(wide(minus(*problem.options.pole, root)), wide(last.pole)));
+    const double reach = static_cast<double>(problem.room.reach);
+    const double twisted = std::abs(static_cast<double>(problem.options.twist - last.twist)) * reach;
+    const double all = changed + twisted;
+    return all <= jump * reach ? free_part * reach + follow * all : unlimited;
+}
+
+void remember_pose(Problem& problem) noexcept {
+    PoleRoom& room = problem.room.pole;
+    if (!problem.options.pole) {
+        room.valid = false;
+        return;
+    }
+    const glm::vec3 root = problem.root();
+    room.valid = true;
+    room.turn = problem.options.pole_turn;
+    room.pole = minus(*problem.options.pole, root);
+    room.target = minus(problem.target, root);
+    room.twist = problem.options.twist;
+    for (std::size_t i = 0; i < problem.joints.size(); ++i) room.joints[i] = minus(problem.joints[i], root);
+    room.allowance = unlimited;
+}
+
+template <class Watch>
+void carry_to_pole(Problem& problem, Watch watch) noexcept {
+    if (!problem.options.pole) {
+        problem.room.pole.valid = false;
+        return;
+    }
+    problem.room.pole.allowance = pole_allowance(problem);
+    const double least = 1e-4 * static_cast<double>(problem.room.reach);
+    const glm::dvec3 root = wide(problem.root());
+    const std::optional<glm::dvec3> from = direction_of(minus(wide(problem.joints.back()), root), least);
+    const std::optional<glm::dvec3> to = direction_of(minus(wide(problem.target), root), least);
+    if (!from || !to) return;
+    const glm::dvec3 normal = cross(*from, *to);
+    const double sine = length(normal);
+    // Opposite directions: any axis at right angles will do, and rounding has chosen one.
+    const glm::dvec3 axis = sine > 1e-9 ? times(normal, 1.0 / sine) : perpendicular(*from);
+    const double angle = std::atan2(sine, dot(*from, *to));
+    if (angle > 1e-9) carry(problem, Turn(axis, angle), watch);
+    if (problem.options.pole_turn == PoleTurn::EachJoint) return;
+    const double about = whole_angle(problem, *to);
+    if (about != 0.0) carry(problem, Turn(*to, about), watch);
+}
+
+template <class Watch>
+void face_pole(Problem& problem, Watch watch) noexcept {
+    if (problem.options.pole && problem.options.pole_turn == PoleTurn::EachJoint) {
+        face_with_each_joint(problem, watch);
+    } else if (problem.options.pole) {
+        face_with_whole_chain(problem, watch);
+    }
+    remember_pose(problem);
+}
+
+template void carry_to_pole(Problem&, Unwatched) noexcept;
+template void carry_to_pole(Problem&, Watched) noexcept;
+template bool bow_to_pole(Problem&, Unwatched) noexcept;
+template bool bow_to_pole(Problem&, Watched) noexcept;
+template void face_pole(Problem&, Unwatched) noexcept;
+template void face_pole(Problem&, Watched) noexcept;
+
+}  // namespace tendril::ik::detail

@@ -1,0 +1,174 @@
+// One solve: prepared, iterated by its method, turned to its pole, reported.
+#include "ik/solve/loop.hpp"
+
+#include <algorithm>
+
+#include "ik/limits/loop.hpp"
+#include "ik/math.hpp"
+#include "ik/methods/ccd.hpp"
+#include "ik/methods/fabrik.hpp"
+#include "ik/methods/jacobian.hpp"
+#include "ik/methods/two_bone.hpp"
+#include "ik/pole/pole.hpp"
+#include "ik/solve/convergence.hpp"
+#include "ik/solve/perturbation.hpp"
+#include "ik/solve/prepare.hpp"
+#include "ik/solve/reachability.hpp"
+#include "ik/solve/soft_reach.hpp"
+#include "ik/solve/tip.hpp"
+
+namespace tendril::ik::detail {
+namespace {
+
+template <class Watch>
+void iterate(Method method, Problem& problem, Watch watch) noexcept {
+    switch (method) {
+        case Method::Fabrik:
+            return fast_fabrik_iteration(problem, watch);
+        case Method::FabrikPlain:
+            return fabrik_iteration(problem, watch);
+        case Method::Ccd:
+            return ccd_iteration(problem, watch);
+        case Method::JacobianTranspose:
+            return jacobian_transpose_iteration(problem, watch);
+        case Method::Dls:
+            return dls_iteration(problem, watch);
+        case Method::SvdDls:
+            return svd_dls_iteration(problem, watch);
+        case Method::TwoBone:
+            return;  // does not iterate
+    }
+}
+
+void save(Problem& problem) noexcept {
+    std::copy(problem.joints.begin(), problem.joints.end(), problem.room.best.begin());
+}
+
+template <class Watch>
+void restore(Problem& problem, Watch watch) noexcept {
+    for (std::size_t i = 1; i < problem.joints.size(); ++i) {
+        watch.moved(problem.iteration, Phase::Keep, i, no_joint, problem.joints[i], problem.room.best[i]);
+        problem.joints[i] = problem.room.best[i];
+    }
+    watch.next_step();
+}
+
+float residual_of(const Problem& problem) noexcept {
+    return distance(problem.joints.back(), problem.target);
+}
+
+/// `goal` is the target that was asked for; where the reach is soft the chain follows another.
+template <class Watch>
+void tell(const Problem& problem, const glm::vec3& goal, float residual, Watch watch) noexcept {
+    const std::span<float> told = problem.options.residuals;
+    const auto iteration = static_cast<std::size_t>(problem.iteration);
+    if (!Watch::watching && iteration > told.size()) return;
+    if (goal != problem.target) residual = distance(problem.joints.back(), goal);
+    if (iteration >= 1 && iteration <= told.size()) told[iteration - 1] = residual;
+    watch.iteration_done(problem.iteration, residual);
+}
+
+template <class Watch>
+Progress prepare(Method method, Problem& problem, Watch watch) noexcept {
+    Progress progress(residual_of(problem));
+    save(problem);
+    snap_back(problem, watch);
+    const bool there = residual_of(problem) <= problem.tolerance;
+    const bool bowed = !there && bow_to_pole(problem, watch);
+    const bool kicks = !there && !bowed && method != Method::FabrikPlain;
+    if (kicks && is_on_one_line(problem)) kick_off_the_line(problem, watch);
+    progress.start_again(residual_of(problem));
+    return progress;
+}
+
+template <class Watch>
+Report iterations(Method method, Problem& problem, const glm::vec3& goal, Watch watch) noexcept {
+    const Options& options = problem.options;
+    Progress progress = prepare(method, problem, watch);
+    float residual = residual_of(problem);
+    tell(problem, goal, residual, watch);
+    while (problem.iteration < options.max_iterations) {
+        const bool there = residual <= problem.tolerance;
+        if (!there && progress.wants_a_shake(method)) {
+            shake(problem, progress.count_shake(), watch);
+            progress.start_again(residual_of(problem));
+        }
+        if ((there || progress.stalled()) && !options.every_iteration) break;
+        ++problem.iteration;
+        iterate(method, problem, watch);
+        residual = residual_of(problem);
+        tell(problem, goal, residual, watch);
+        const bool goes_on = residual > problem.tolerance || options.every_iteration;
+        if (progress.note(residual, problem.room.reach) && goes_on) save(problem);
+    }
+    if (residual > problem.tolerance && progress.best() < residual) {
+        restore(problem, watch);
+        residual = progress.best();
+    }
+    const Status status = residual <= problem.tolerance ? Status::Converged
+                          : progress.stalled()          ? Status::Stalled
+                                                        : Status::IterationLimit;
+    return {status, problem.iteration, residual};
+}
+
+template <class Watch>
+Report closed_form(Problem& problem, const glm::vec3& goal, Watch watch) noexcept {
+    tell(problem, goal, residual_of(problem), watch);
+    problem.iteration = 1;
+    const Report report = two_bone_solve(problem, watch);
+    tell(problem, goal, report.residual, watch);
+    return report;
+}
+
+template <class Watch>
+Report solve_reached(Method method, Problem& problem, const glm::vec3& goal, Watch watch) noexcept {
+    if (!problem.options.limits.empty()) return run_limited(method, problem, watch);
+    if (method == Method::TwoBone) return closed_form(problem, goal, watch);
+    auto report = answer_beyond_reach(problem, watch);
+    if (report) {
+        tell(problem, goal, report->residual, watch);
+    } else {
+        carry_to_pole(problem, watch);
+        report = iterations(method, problem, goal, watch);
+    }
+    face_pole(problem, watch);  // about the line from root to tip, so the residual stays
+    return *report;
+}
+
+/// Where the chain goes if the reach is soft. Two bones that may stretch reach further.
+glm::vec3 eased_target(Method method, const Problem& problem) noexcept {
+    const float scale = method == Method::TwoBone ? problem.options.max_stretch_scale : 1.0f;
+    const float zone = problem.options.soft_zone, reach = problem.room.reach * scale;
+    const float far = exact_distance(problem.root(), problem.target);
+    const float nearest = 2.0f * problem.room.longest - problem.room.reach;
+    const float eased = eased_distance(far, reach, nearest, zone);
+    if (zone == 0.0f || eased >= far) return problem.target;
+    return moved(problem.root(), minus(problem.target, problem.root()), eased / far);
+}
+
+}  // namespace
+
+template <class Watch>
+Report run(Method method, Problem& problem, Watch watch) noexcept {
+    const bool turned = problem.options.tip_orientation && problem.bones() > 0;
+    if (turned && problem.options.limits.empty()) return run_turned(method, problem, watch);
+    lay_to_lengths(problem, watch);
+    const glm::vec3 goal = problem.target;
+    problem.target = eased_target(method, problem);
+    Report report = solve_reached(method, problem, goal, watch);
+    if (problem.target != goal) {
+        report.residual = exact_distance(problem.joints.back(), goal);
+        const bool there = report.residual <= problem.tolerance;
+        // What it was asked for is what counts, not the eased target that it came to.
+        const bool eased = report.status == Status::Converged || report.status == Status::TooClose;
+        if (there) report.status = Status::Converged;
+        if (!there && eased) report.status = Status::Stretched;
+        problem.target = goal;
+    }
+    return report;
+}
+
+template Report run(Method, Problem&, Unwatched) noexcept;
+template Report run(Method, Problem&, Watched) noexcept;
+
+}  // namespace tendril::ik::detail

@@ -1,0 +1,13 @@
+// What is inside a Solver. Not installed.
+#pragma once
+
+#include "ik/solve/problem.hpp"
+#include "tendril/ik/solver.hpp"
+
+namespace tendril::ik {
+
+struct Solver::Parts {
+    detail::Workspace room;
+};
+
+}  // namespace tendril::ik

@@ -1,0 +1,108 @@
+#include "ik/solve/perturbation.hpp"
+
+#include <cfloat>
+#include <cstdint>
+
+#include "ik/math.hpp"
+
+namespace tendril::ik::detail {
+namespace {
+
+bool is_near_line(const glm::vec3& arm, const glm::vec3& line, float near) noexcept {
+    const glm::vec3 off = cross(arm, line);
+    return dot(off, off) <= near * near;
+}
+
+/// Each bone is turned towards `by(i)`, given for a bone of length 1, and laid on from the root.
+template <class Watch, class By>
+void turn_bones(Problem& problem, int iteration, Watch watch, By by) noexcept {
+    const std::span<glm::vec3> joints = problem.joints;
+    glm::vec3 old = problem.root();
+    for (std::size_t i = 0; i < problem.bones(); ++i) {
+        const float size = problem.lengths()[i];
+        const glm::vec3 bone = plus(minus(joints[i + 1], old), times(by(i), size));
+        old = joints[i + 1];
+        const float squared = dot(bone, bone);
+        const float scale = squared > FLT_MIN ? size / std::sqrt(squared) : 0.0f;
+        joints[i + 1] = squared > FLT_MIN ? moved(joints[i], bone, scale)
+                                          : moved(joints[i], problem.room.rest_directions[i], size);
+        watch.moved(iteration, Phase::Prepare, i + 1, i, old, joints[i + 1]);
+    }
+    watch.next_step();
+}
+
+}  // namespace
+
+glm::vec3 line_of(const Problem& problem) noexcept {
+    glm::vec3 line = minus(problem.target, problem.root());
+    for (const glm::vec3& joint : problem.joints) {
+        const glm::vec3 arm = minus(joint, problem.root());
+        if (dot(arm, arm) > dot(line, line)) line = arm;
+    }
+    const float far = length(line);
+    return far > FLT_MIN ? times(line, 1.0f / far) : problem.room.rest_directions.front();
+}
+
+glm::vec3 side_of(const Problem& problem, const glm::vec3& line) noexcept {
+    if (problem.options.pole) {
+        const glm::vec3 arm = minus(*problem.options.pole, problem.root());
+        const glm::vec3 off = minus(arm, times(line, dot(arm, line)));
+        const float far = length(off);
+        if (far > 1e-5f * problem.room.reach) return times(off, 1.0f / far);
+    }
+    return perpendicular(line);
+}
+
+float scattered(std::size_t bone, std::uint32_t salt) noexcept {
+    auto bits = static_cast<std::uint32_t>(bone) * 0x9e3779b9u + salt * 0x85ebca6bu;
+    bits = (bits ^ (bits >> 16)) * 0x7feb352du;
+    bits = (bits ^ (bits >> 15)) * 0x846ca68bu;
+    return static_cast<float>((bits ^ (bits >> 16)) >> 8) * 0x1p-23f - 1.0f;
+}
+
+bool is_on_one_line(const Problem& problem) noexcept {
+    const float near = 1e-5f * problem.room.reach;
+    const glm::vec3 first = minus(problem.target, problem.root());
+    // Most chains are bent: three points tell, the line through the others is not needed.
+    if (const float far = length(first); far > 0.1f * problem.room.reach) {
+        const glm::vec3 line = times(first, 1.0f / far);
+        for (const glm::vec3& joint : problem.joints) {
+            // Measured against a shorter line the same joints may seem further off.
+            if (!is_near_line(minus(joint, problem.root()), line, 20.0f * near)) return false;
+        }
+    }
+    const glm::vec3 line = line_of(problem);
+    if (!is_near_line(first, line, near)) return false;
+    for (const glm::vec3& joint : problem.joints) {
+        if (!is_near_line(minus(joint, problem.root()), line, near)) return false;
+    }
+    return true;
+}
+
+template <class Watch>
+void kick_off_the_line(Problem& problem, Watch watch) noexcept {
+    const glm::vec3 side = side_of(problem, line_of(problem));
+    float before = 0.0f;
+    turn_bones(problem, problem.iteration, watch, [&](std::size_t i) {
+        const float size = problem.lengths()[i];
+        const float middle = (before + 0.5f * size) / problem.room.reach;
+        before += size;
+        return times(side, kick_bow * (1.0f - 2.0f * middle));
+    });
+}
+
+template <class Watch>
+void shake(Problem& problem, int turn, Watch watch) noexcept {
+    const auto salt = static_cast<std::uint32_t>(turn) * 3u;
+    turn_bones(problem, problem.iteration, watch, [&](std::size_t i) {
+        const glm::vec3 by{scattered(i, salt + 1), scattered(i, salt + 2), scattered(i, salt + 3)};
+        return times(by, kick_bow);
+    });
+}
+
+template void kick_off_the_line(Problem&, Unwatched) noexcept;
+template void kick_off_the_line(Problem&, Watched) noexcept;
+template void shake(Problem&, int, Unwatched) noexcept;
+template void shake(Problem&, int, Watched) noexcept;
+
+}  // namespace tendril::ik::detail

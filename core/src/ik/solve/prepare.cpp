@@ -1,0 +1,71 @@
+#include "ik/solve/prepare.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ik/math.hpp"
+
+namespace tendril::ik::detail {
+namespace {
+
+double largest_coordinate(const glm::vec3& p) noexcept {
+    return static_cast<double>(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}));
+}
+
+/// As exactly as a Chain keeps it: to the invariant of chain.hpp, further out to the spacing of floats.
+bool is_at_length(const glm::vec3& from, const glm::vec3& to, float length) noexcept {
+    const double x = static_cast<double>(to.x) - static_cast<double>(from.x);
+    const double y = static_cast<double>(to.y) - static_cast<double>(from.y);
+    const double z = static_cast<double>(to.z) - static_cast<double>(from.z);
+    const double wanted = static_cast<double>(length);
+    double allowed = 1e-4 * std::max(1.0, wanted);
+    const double furthest = std::max(largest_coordinate(from), largest_coordinate(to));
+    if (furthest > 1e3) allowed += furthest * static_cast<double>(std::numeric_limits<float>::epsilon());
+    return std::abs(std::sqrt(x * x + y * y + z * z) - wanted) <= allowed;
+}
+
+template <class Watch>
+void place(Problem& problem, std::size_t joint, const glm::vec3& to, Watch watch) noexcept {
+    watch.moved(0, Phase::Prepare, joint, joint - 1, problem.joints[joint], to);
+    watch.next_step();
+    problem.joints[joint] = to;
+}
+
+}  // namespace
+
+template <class Watch>
+void lay_to_lengths(Problem& problem, Watch watch) noexcept {
+    const std::span<glm::vec3> joints = problem.joints;
+    const std::span<const float> lengths = problem.lengths();
+    std::size_t i = 1;
+    while (i < joints.size() && is_at_length(joints[i - 1], joints[i], lengths[i - 1])) ++i;
+    if (i == joints.size()) return;
+    glm::vec3 given_before = joints[i - 1];
+    for (; i < joints.size(); ++i) {
+        const glm::vec3 given = joints[i], &at = joints[i - 1], &rest = problem.room.rest_directions[i - 1];
+        const bool shows_direction = !coincide(given_before, given);
+        const glm::vec3 fallback = i > 1 ? tendril::math::direction(joints[i - 2], at, rest) : rest;
+        place(problem, i, step(at, shows_direction ? given : at, lengths[i - 1], fallback), watch);
+        given_before = given;
+    }
+}
+
+template <class Watch>
+void snap_back(Problem& problem, Watch watch) noexcept {
+    const float part = problem.options.snap_back;
+    if (part == 0.0f) return;
+    for (std::size_t i = 1; i < problem.joints.size(); ++i) {
+        const float length = problem.lengths()[i - 1];
+        const glm::vec3 &at = problem.joints[i - 1], &rest = problem.room.rest_directions[i - 1];
+        const glm::vec3 old = problem.joints[i], resting = moved(at, rest, length);
+        place(problem, i, step(at, moved(old, minus(resting, old), part), length, rest), watch);
+    }
+}
+
+template void lay_to_lengths(Problem&, Unwatched) noexcept;
+template void lay_to_lengths(Problem&, Watched) noexcept;
+template void snap_back(Problem&, Unwatched) noexcept;
+template void snap_back(Problem&, Watched) noexcept;
+
+}  // namespace tendril::ik::detail

@@ -1,0 +1,18 @@
+// What is done to a pose before the first iteration. Not installed.
+#pragma once
+
+#include "ik/solve/problem.hpp"
+
+namespace tendril::ik::detail {
+
+/// From the first bone on that is not at its length, as far as chain.hpp allows, every joint is laid to it.
+/// A joint given at the point of the one before it goes straight on, or along its rest direction where
+/// nothing came before.
+template <class Watch>
+void lay_to_lengths(Problem& problem, Watch watch) noexcept;
+
+/// Each joint is blended by options.snap_back towards its rest direction from the one before.
+template <class Watch>
+void snap_back(Problem& problem, Watch watch) noexcept;
+
+}  // namespace tendril::ik::detail

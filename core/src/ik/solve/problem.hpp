@@ -1,0 +1,92 @@
+// One solve, as the methods see it. Not installed.
+//
+// A method is a function `void iteration(Problem&, Watch)`, compiled twice: with Unwatched, where the calls
+// to the observer vanish, and with Watched. The loop around it (solver.cpp) checks input and reachability,
+// kicks a chain off the line, counts, and says how it ended.
+#pragma once
+
+#include <cstddef>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "ik/limits/workspace.hpp"
+#include "ik/pole/workspace.hpp"
+#include "tendril/ik/observer.hpp"
+#include "tendril/ik/options.hpp"
+
+namespace tendril::ik::detail {
+
+/// What is made when the solver is, so that nothing is made later.
+struct Workspace {
+    std::vector<float> lengths;              ///< n
+    std::vector<glm::vec3> rest_directions;  ///< n, unit vectors
+    std::vector<glm::quat> rotations;        ///< n, in the world, from rest
+    std::vector<glm::vec3> best;             ///< n + 1: the nearest to the target that the loop has seen
+    std::vector<glm::vec3> old;              ///< n + 1: for a method's own use
+    std::vector<glm::quat> turns;            ///< n: the same
+    std::vector<glm::vec3> joints;           ///< n + 1: those of a Chain while it is solved
+    LimitedRoom limited;                     ///< for solves with limits
+    PoleRoom pole;                           ///< for solves with a pole
+    float reach = 0.0f;
+    float longest = 0.0f;
+
+    /// Room for so many bones; they rest along +X and are not turned.
+    void resize(std::size_t bones) {
+        lengths.resize(bones);
+        rest_directions.resize(bones, glm::vec3(1.0f, 0.0f, 0.0f));
+        rotations.resize(bones, glm::quat(1.0f, 0.0f, 0.0f, 0.0f));
+        best.resize(bones + 1);
+        old.resize(bones + 1);
+        turns.resize(bones);
+        joints.resize(bones + 1);
+        limited.resize(bones);
+        pole.resize(bones);
+    }
+};
+
+struct Problem {
+    std::span<glm::vec3> joints;  ///< n + 1; the first stays
+    glm::vec3 target;
+    float tolerance;
+    const Options& options;
+    Workspace& room;
+    glm::vec3 goal = target;  ///< what was asked for; the target is nearer where the reach is soft
+    int iteration = 0;        ///< the one that runs, from 1
+
+    std::size_t bones() const noexcept { return joints.size() - 1; }
+    std::span<const float> lengths() const noexcept {
+        return std::span<const float>(room.lengths).first(bones());
+    }
+    glm::vec3 root() const noexcept { return joints.front(); }
+};
+
+struct Unwatched {
+    static constexpr bool watching = false;
+    void moved(int, Phase, std::size_t, std::size_t, const glm::vec3&, const glm::vec3&) noexcept {}
+    void next_step() noexcept {}
+    void iteration_done(int, float) noexcept {}
+};
+
+class Watched {
+  public:
+    static constexpr bool watching = true;
+    Watched(Observer& observer, int& order) noexcept : observer_(&observer), order_(&order) {}
+    /// Part of the step that is being taken; see next_step.
+    void moved(int iteration, Phase phase, std::size_t joint, std::size_t neighbour, const glm::vec3& from,
+               const glm::vec3& to) noexcept {
+        observer_->step({iteration, phase, *order_, joint, neighbour, from, to});
+    }
+    /// What was reported since the last call was one step.
+    void next_step() noexcept { ++*order_; }
+    void iteration_done(int iteration, float residual) noexcept {
+        observer_->iteration_done(iteration, residual);
+    }
+
+  private:
+    Observer* observer_;
+    int* order_;
+};
+
+}  // namespace tendril::ik::detail

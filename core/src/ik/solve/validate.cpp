@@ -1,0 +1,62 @@
+#include "ik/solve/validate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "chain/checks.hpp"
+
+namespace tendril::ik::detail {
+namespace {
+
+/// False for NaN too.
+bool within(float value, float least, float most) noexcept {
+    return value >= least && value <= most;
+}
+
+bool over_zero(float value, float most) noexcept {
+    return value > 0.0f && value <= most;
+}
+
+bool limits_are_valid(std::span<const Limit> limits, std::size_t bones) noexcept {
+    if (!limits.empty() && limits.size() != bones) return false;
+    return true;
+}
+
+}  // namespace
+
+bool are_points(std::span<const glm::vec3> points) noexcept {
+    return std::all_of(points.begin(), points.end(), tendril::detail::is_point);
+}
+
+bool is_unit(const glm::quat& q) noexcept {
+    return within(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z, 0.998f, 1.002f);
+}
+
+bool are_valid(const Options& options, std::size_t bones) noexcept {
+    if (options.tolerance && !within(*options.tolerance, 0.0f, max_magnitude)) return false;
+    if (options.max_iterations < 1 || options.max_iterations > 1'000'000) return false;
+    if (!limits_are_valid(options.limits, bones)) return false;
+    if (options.pole && !tendril::detail::is_point(*options.pole)) return false;
+    if (options.pole_turn > PoleTurn::EachJoint) return false;
+    if (!within(options.snap_back, 0.0f, 1.0f)) return false;
+    if (options.tip_orientation && !is_unit(*options.tip_orientation)) return false;
+    if (!within(options.soft_zone, 0.0f, 1.0f)) return false;
+    if (!over_zero(options.damping, 10.0f)) return false;
+    if (!over_zero(options.start_stretch_ratio, 1.0f)) return false;
+    if (!within(options.max_stretch_scale, 1.0f, 100.0f)) return false;
+    return within(options.twist, -max_magnitude, max_magnitude);
+}
+
+bool fit(std::span<const Limit> limits, std::span<const glm::vec3> rest_directions) noexcept {
+    if (limits.empty()) return true;
+    return std::equal(
+        limits.begin(), limits.end(), rest_directions.begin(), rest_directions.end(),
+        [](const Limit& limit, const glm::vec3& rest) { return fault(limit, rest) == nullptr; });
+}
+
+bool takes(Method method, std::size_t bones) noexcept {
+    if (method > Method::TwoBone) return false;
+    return method != Method::TwoBone || bones == 2;
+}
+
+}  // namespace tendril::ik::detail

@@ -1,0 +1,60 @@
+// Points of floats, and the one step that chains and solvers are made of. Not installed.
+//
+// Why no GLM functions: they are inline, so a program that was compiled with other floating-point options
+// could lend the library its copies of them when it is linked. Plain arithmetic in this order gives the same
+// bits everywhere.
+//
+// Why no check for overflow: what comes in is at most 1e9, and a float that grows by steps of at most 1e9
+// stops growing at 2^54, where the spacing of floats is 2^31 and half of it exceeds the step. So no
+// coordinate ever passes 2^54, no difference 2^55, and the sum of three squares stays under 1e34; a float
+// holds 3e38.
+#pragma once
+
+#include <cfloat>
+#include <cmath>
+#include <glm/vec3.hpp>
+
+namespace tendril::math {
+
+/// Points nearer to each other than the root of this (0.35 mm) coincide: there is no direction between them.
+inline constexpr float coincidence = FLT_EPSILON;
+
+static inline float squared_distance(const glm::vec3& a, const glm::vec3& b) noexcept {
+    const float x = b.x - a.x, y = b.y - a.y, z = b.z - a.z;
+    return x * x + y * y + z * z;
+}
+
+static inline float distance(const glm::vec3& a, const glm::vec3& b) noexcept {
+    return std::sqrt(squared_distance(a, b));
+}
+
+static inline bool coincide(const glm::vec3& a, const glm::vec3& b) noexcept {
+    return squared_distance(a, b) < coincidence;
+}
+
+/// `origin + direction * by`
+static inline glm::vec3 moved(const glm::vec3& origin, const glm::vec3& direction, float by) noexcept {
+    return {origin.x + direction.x * by, origin.y + direction.y * by, origin.z + direction.z * by};
+}
+
+/// Unit vector from `a` to `b`, or `fallback` where they coincide.
+static inline glm::vec3 direction(const glm::vec3& a, const glm::vec3& b,
+                                  const glm::vec3& fallback) noexcept {
+    const float squared = squared_distance(a, b);
+    if (squared < coincidence) return fallback;
+    const float inverse = 1.0f / std::sqrt(squared);
+    return {(b.x - a.x) * inverse, (b.y - a.y) * inverse, (b.z - a.z) * inverse};
+}
+
+/// Where `old` ends up when it must be `length` from `anchor`: on the line from `anchor` through it, or along
+/// `fallback` where the two coincide.
+static inline glm::vec3 step(const glm::vec3& anchor, const glm::vec3& old, float length,
+                             const glm::vec3& fallback) noexcept {
+    const float x = old.x - anchor.x, y = old.y - anchor.y, z = old.z - anchor.z;
+    const float squared = x * x + y * y + z * z;
+    if (squared < coincidence) return moved(anchor, fallback, length);
+    const float scale = length / std::sqrt(squared);
+    return {anchor.x + x * scale, anchor.y + y * scale, anchor.z + z * scale};
+}
+
+}  // namespace tendril::math

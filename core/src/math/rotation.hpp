@@ -1,0 +1,57 @@
+// Vectors and unit quaternions in plain arithmetic, for the reason that point.hpp gives. Not installed.
+#pragma once
+
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include "math/vector.hpp"
+
+namespace tendril::math {
+
+/// Some unit vector at right angles to `a`, which must not be zero; the same for the same `a`.
+static inline glm::vec3 perpendicular(const glm::vec3& a) noexcept {
+    // Away from the axis that `a` has least of, so that the product is never small.
+    const float x = std::abs(a.x), y = std::abs(a.y), z = std::abs(a.z);
+    const glm::vec3 away = y <= x && y <= z ? glm::vec3(0, 1, 0)
+                           : z <= x         ? glm::vec3(0, 0, 1)
+                                            : glm::vec3(1, 0, 0);
+    const glm::vec3 side = minus(away, times(a, dot(away, a) / dot(a, a)));
+    return times(side, 1.0f / length(side));
+}
+
+static inline glm::quat unit_quaternion(float w, float x, float y, float z) noexcept {
+    const float scale = 1.0f / std::sqrt(w * w + x * x + y * y + z * z);
+    return {w * scale, x * scale, y * scale, z * scale};
+}
+static inline glm::quat conjugate(const glm::quat& q) noexcept {
+    return {q.w, -q.x, -q.y, -q.z};
+}
+/// First `b`, then `a`.
+static inline glm::quat compose(const glm::quat& a, const glm::quat& b) noexcept {
+    return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+            a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+}
+static inline glm::vec3 rotated(const glm::quat& q, const glm::vec3& v) noexcept {
+    const glm::vec3 axis{q.x, q.y, q.z};
+    const glm::vec3 t = times(cross(axis, v), 2.0f);
+    return plus(plus(v, times(t, q.w)), cross(axis, t));
+}
+/// About a unit axis, radians.
+static inline glm::quat rotation_about(const glm::vec3& axis, float angle) noexcept {
+    const float s = std::sin(0.5f * angle);
+    return {std::cos(0.5f * angle), axis.x * s, axis.y * s, axis.z * s};
+}
+/// The least rotation that takes one unit vector to another; half a turn about `perpendicular(from)` where
+/// they are opposite.
+static inline glm::quat least_rotation(const glm::vec3& from, const glm::vec3& to) noexcept {
+    const float w = 1.0f + dot(from, to);
+    if (w < 1e-6f) {
+        const glm::vec3 axis = perpendicular(from);
+        return {0.0f, axis.x, axis.y, axis.z};
+    }
+    const glm::vec3 axis = cross(from, to);
+    return unit_quaternion(w, axis.x, axis.y, axis.z);
+}
+
+}  // namespace tendril::math
