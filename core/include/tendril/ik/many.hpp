@@ -29,6 +29,7 @@
 #include <string_view>
 
 #include "tendril/ik/options.hpp"
+#include "tendril/tasks.hpp"
 
 namespace tendril::ik {
 
@@ -43,6 +44,8 @@ struct ManyOptions {
     /// call, so only as many as have something to do. A program with jobs of its own rather keeps one Batch a
     /// job.
     int threads = 1;
+    /// Who runs the threads' parts; the library's own threads where left out.
+    Tasks tasks{};
     /// One of vector_units(), for comparing; the widest where left empty.
     std::string_view vector_unit{};
 };

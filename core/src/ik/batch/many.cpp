@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "chain/checks.hpp"
 #include "ik/batch/work.hpp"
 #include "ik/solve/validate.hpp"
+#include "math/tasks.hpp"
 
 namespace tendril::ik {
 
@@ -19,7 +19,6 @@ using namespace detail;
 namespace {
 
 constexpr std::size_t max_chains = std::size_t{1} << 31, max_bones = 1'000'000;
-constexpr int max_threads = 256;
 /// Starting a thread takes as long as some ten thousand bones do.
 constexpr std::size_t bones_a_thread = 8192;
 
@@ -168,24 +167,6 @@ float Batch::reach(std::size_t chain) const {
     return parts_->block(chain).at(Row::Reach, chain % block_lanes);
 }
 
-namespace {
-
-/// Each in a room of its own. Where a thread cannot be had, the others do its work.
-void run_in(std::span<const std::unique_ptr<WorkRoom>> rooms, Work& work) noexcept {
-    std::vector<std::thread> threads;
-    try {
-        threads.reserve(rooms.size() - 1);
-        for (std::size_t i = 1; i < rooms.size(); ++i) {
-            threads.emplace_back([&work, &room = *rooms[i]] { work.run(room); });
-        }
-    } catch (...) {
-    }
-    work.run(*rooms[0]);
-    for (std::thread& thread : threads) thread.join();
-}
-
-}  // namespace
-
 void solve_many(Batch& batch, std::span<const glm::vec3> targets, std::span<Report> reports,
                 const ManyOptions& options) noexcept {
     Batch::Parts& parts = *batch.parts_;
@@ -196,14 +177,17 @@ void solve_many(Batch& batch, std::span<const glm::vec3> targets, std::span<Repo
     scalar.max_iterations = options.max_iterations;
     scalar.every_iteration = options.every_iteration;
     const bool fits = targets.size() == parts.chains && (reports.empty() || reports.size() == parts.chains);
-    const bool threads = options.threads >= 1 && options.threads <= max_threads;
+    const bool threads =
+        options.threads >= 1 && options.threads <= static_cast<int>(tendril::detail::max_threads);
     if (!fits || !threads || unit == nullptr || !are_valid(scalar, parts.bones)) {
         std::fill(reports.begin(), reports.end(), Report{Status::InvalidInput, 0, 0.0f});
         return;
     }
     Work work(parts.blocks.get(), parts.chains, parts.bones, targets, reports, scalar, *unit, parts.late);
     const std::size_t rooms = parts.rooms_for(options.threads);
-    run_in(std::span(parts.rooms).first(rooms), work);
+    const auto count = static_cast<std::uint32_t>(rooms);
+    const auto piece = [&](std::uint32_t index) noexcept { work.run(*parts.rooms[index]); };
+    tendril::detail::run_pieces(options.tasks, count, count, piece);
 }
 
 }  // namespace tendril::ik

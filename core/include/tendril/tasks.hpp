@@ -1,0 +1,31 @@
+// How a call spreads its work over threads: on the job system that the program has, or on threads of its own.
+//
+// An engine sets `run` to a few lines that hand the pieces to its own workers, as with the enqueueTask
+// callback of Box2D v3. The library then starts no thread:
+//
+//     void run_on_jobs(void* user, tendril::TaskFunction task, void* context, std::uint32_t count) {
+//         static_cast<Jobs*>(user)->parallel_for(count, [=](std::uint32_t index) { task(context, index); });
+//     }
+//     solve_many(batch, targets, reports, {.threads = 8, .tasks = {run_on_jobs, &jobs}});
+//
+// Results never depend on it: every order of the pieces, on any number of threads, gives the same bits.
+#pragma once
+
+#include <cstdint>
+
+namespace tendril {
+
+/// One piece of a call's work. It does not throw, and never waits for another piece.
+using TaskFunction = void (*)(void* context, std::uint32_t index) noexcept;
+
+struct Tasks {
+    /// Calls `task(context, i)` once for each i from 0 to count - 1 and returns when all of them have
+    /// returned: in any order, on any threads, side by side or one after another. Must not throw. Null: the
+    /// library starts threads for the call and joins them before it returns, which costs some 20 µs a thread;
+    /// where the system has none to give, the calling thread does their part.
+    void (*run)(void* user, TaskFunction task, void* context, std::uint32_t count) = nullptr;
+    /// Handed to `run` as it is.
+    void* user = nullptr;
+};
+
+}  // namespace tendril
