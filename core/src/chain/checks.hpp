@@ -1,4 +1,5 @@
-// What may come into the library, and the words with which it is refused. Not installed.
+// Refusals by exception, for the rooms that do not answer with a Result yet; math/checks.hpp takes their place.
+// Not installed.
 #pragma once
 
 #include <cmath>
@@ -7,20 +8,10 @@
 #include <string>
 #include <string_view>
 
+#include "math/checks.hpp"
 #include "tendril/chain/segment.hpp"
 
 namespace tendril::detail {
-
-// Each comparison is false for NaN, so NaN is never in range.
-inline bool is_length(float value) noexcept {
-    return value >= 0.0f && value <= max_magnitude;
-}
-inline bool is_coordinate(float value) noexcept {
-    return std::abs(value) <= max_magnitude;
-}
-inline bool is_point(const glm::vec3& point) noexcept {
-    return is_coordinate(point.x) && is_coordinate(point.y) && is_coordinate(point.z);
-}
 
 /// The shortest text that reads back as the same float; `nan`, `inf` or `-inf` where it is not finite.
 std::string text(float value);

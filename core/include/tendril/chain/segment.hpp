@@ -1,14 +1,11 @@
-// One segment of a chain, and the range of every number that may come in.
+// One segment of a chain.
 #pragma once
 
 #include <glm/vec3.hpp>
 
-namespace tendril {
+#include "tendril/magnitude.hpp"
 
-/// The largest coordinate and the largest length that are accepted, in metres. Results are accurate within
-/// 1e3 m of the origin: further out, floats stand too far apart (64 m at this limit), and only finiteness is
-/// promised.
-inline constexpr float max_magnitude = 1e9f;
+namespace tendril {
 
 /// A point of a chain and its distance to the point before it.
 struct Segment {

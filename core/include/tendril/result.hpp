@@ -1,0 +1,106 @@
+// How an editing call answers: fine, or a code and a message that names the argument and its value.
+//
+// Nothing in the library throws, and it can be compiled without exceptions and RTTI. A call that is refused
+// has changed nothing. Neither type allocates: the message is kept in place, cut off where it is too long.
+//
+//     if (const Result result = chain.insert(9, 1.0f); !result) log(result.message());
+//     // "insert: index 9 is out of range, the chain has 4 segments"
+//
+//     Expected<ik::Solver> solver = ik::Solver::make(lengths);
+//     if (!solver) return log(solver.message());
+//     solver->solve(...);
+//
+// A precondition is another matter: reading `*expected` where there is no value is an error in the program,
+// not in its input. It ends the program with the message on stderr.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+namespace tendril {
+
+enum class ErrorCode : std::uint8_t {
+    None,             ///< fine
+    InvalidArgument,  ///< a number that is not finite or out of its range, a list of the wrong size
+    OutOfRange,       ///< an index or a handle of something that is not there
+    NotFound,         ///< a name that nothing has
+    AlreadyExists     ///< a name that something has already
+};
+/// "InvalidArgument"
+const char* name(ErrorCode code) noexcept;
+
+/// What came of a call that may be refused.
+class [[nodiscard]] Result {
+  public:
+    /// Longest message in bytes; what is over is cut off between characters.
+    static constexpr std::size_t max_message = 199;
+
+    /// Fine.
+    Result() noexcept { message_[0] = '\0'; }
+    /// Refused; `code` is not None.
+    Result(ErrorCode code, std::string_view message) noexcept;
+    Result(const Result& other) noexcept;
+    Result& operator=(const Result& other) noexcept;
+
+    bool ok() const noexcept { return code_ == ErrorCode::None; }
+    explicit operator bool() const noexcept { return ok(); }
+    ErrorCode code() const noexcept { return code_; }
+    /// `insert: index 9 is out of range, the chain has 4 segments`; empty where all is fine.
+    const char* message() const noexcept { return message_; }
+
+  private:
+    ErrorCode code_ = ErrorCode::None;
+    char message_[max_message + 1];
+};
+
+namespace detail {
+/// Writes the message to stderr and ends the program.
+[[noreturn]] void no_value(const char* message) noexcept;
+}  // namespace detail
+
+/// A T, or why there is none.
+template <class T>
+class [[nodiscard]] Expected {
+  public:
+    Expected(T value) : held_(std::in_place_index<0>, std::move(value)) {}
+    /// `error` is not ok().
+    Expected(const Result& error) noexcept : held_(std::in_place_index<1>, error) {}
+
+    bool ok() const noexcept { return held_.index() == 0; }
+    explicit operator bool() const noexcept { return ok(); }
+    /// Fine where there is a value.
+    Result error() const noexcept {
+        const Result* error = std::get_if<1>(&held_);
+        return error ? *error : Result();
+    }
+    ErrorCode code() const noexcept { return ok() ? ErrorCode::None : std::get_if<1>(&held_)->code(); }
+    /// Empty where there is a value.
+    const char* message() const noexcept { return ok() ? "" : std::get_if<1>(&held_)->message(); }
+
+    /// The value, which must be there.
+    T& value() & noexcept { return *held(); }
+    const T& value() const& noexcept { return *held(); }
+    T&& value() && noexcept { return std::move(*held()); }
+    T& operator*() & noexcept { return *held(); }
+    const T& operator*() const& noexcept { return *held(); }
+    T&& operator*() && noexcept { return std::move(*held()); }
+    T* operator->() noexcept { return held(); }
+    const T* operator->() const noexcept { return held(); }
+
+  private:
+    T* held() noexcept {
+        if (!ok()) detail::no_value(message());
+        return std::get_if<0>(&held_);
+    }
+    const T* held() const noexcept {
+        if (!ok()) detail::no_value(message());
+        return std::get_if<0>(&held_);
+    }
+
+    std::variant<T, Result> held_;
+};
+
+}  // namespace tendril

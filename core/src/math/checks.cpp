@@ -1,0 +1,120 @@
+#include "math/checks.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <initializer_list>
+
+namespace tendril::detail {
+namespace {
+
+/// A message as it grows; what does not fit is left out.
+class Message {
+  public:
+    Message& add(std::string_view text) noexcept {
+        const std::size_t size = std::min(text.size(), sizeof buffer_ - size_);
+        if (size > 0) std::memcpy(buffer_ + size_, text.data(), size);
+        size_ += size;
+        return *this;
+    }
+    Message& add(const Argument& argument) noexcept {
+        add(argument.name);
+        if (argument.index != no_index) add("[").add(Shown(argument.index).text()).add("]");
+        return argument.member.empty() ? *this : add(".").add(argument.member);
+    }
+    Message& add(const char* text) noexcept { return add(std::string_view(text)); }
+    Result as(ErrorCode code) const noexcept { return {code, {buffer_, size_}}; }
+
+  private:
+    char buffer_[2 * Result::max_message];
+    std::size_t size_ = 0;
+};
+
+template <class Number>
+std::string_view written(char (&buffer)[32], Number value) noexcept {
+    const auto end = std::to_chars(buffer, buffer + sizeof buffer, value);
+    return {buffer, static_cast<std::size_t>(end.ptr - buffer)};
+}
+
+constexpr std::string_view coordinate_range = "finite and at most 1e9 in magnitude";
+constexpr std::string_view length_range = "finite, at least 0 and at most 1e9";
+
+}  // namespace
+
+// Never "-nan": the sign of a NaN says nothing.
+Shown::Shown(float value) noexcept : text_(std::isnan(value) ? "nan" : written(buffer_, value)) {}
+Shown::Shown(double value) noexcept : text_(std::isnan(value) ? "nan" : written(buffer_, value)) {}
+Shown::Shown(int value) noexcept : text_(written(buffer_, value)) {}
+Shown::Shown(std::size_t value) noexcept : text_(written(buffer_, value)) {}
+
+Result refused(std::string_view operation, const Argument& argument, std::string_view requirement,
+               const Shown& value) noexcept {
+    Message message;
+    message.add(operation)
+        .add(": ")
+        .add(argument)
+        .add(" must be ")
+        .add(requirement)
+        .add(", got ")
+        .add(value.text());
+    return message.as(ErrorCode::InvalidArgument);
+}
+
+Result check_length(std::string_view operation, const Argument& argument, float value) noexcept {
+    return is_length(value) ? Result() : refused(operation, argument, length_range, value);
+}
+
+Result check_point(std::string_view operation, const Argument& argument, const glm::vec3& value) noexcept {
+    if (is_point(value)) return {};
+    constexpr std::string_view axes[] = {"x", "y", "z"};
+    std::size_t axis = 0;
+    while (is_coordinate(value[static_cast<int>(axis)])) ++axis;
+    const float found = value[static_cast<int>(axis)];
+    if (argument.member.empty()) {
+        return refused(operation, {argument.name, argument.index, axes[axis]}, coordinate_range, found);
+    }
+    Message message;
+    message.add(operation)
+        .add(": ")
+        .add(argument)
+        .add(".")
+        .add(axes[axis])
+        .add(" must be ")
+        .add(coordinate_range)
+        .add(", got ")
+        .add(Shown(found).text());
+    return message.as(ErrorCode::InvalidArgument);
+}
+
+Result check_index(std::string_view operation, std::size_t index, std::size_t size, std::string_view whole,
+                   std::string_view part) noexcept {
+    if (index < size) return {};
+    Message message;
+    message.add(operation)
+        .add(": index ")
+        .add(Shown(index).text())
+        .add(" is out of range, ")
+        .add(whole)
+        .add(" has ")
+        .add(Shown(size).text())
+        .add(" ")
+        .add(part)
+        .add((size == 1 ? "" : "s"));
+    return message.as(ErrorCode::OutOfRange);
+}
+
+Result check_count(std::string_view operation, const Argument& argument, std::size_t count,
+                   std::size_t wanted) noexcept {
+    if (count == wanted) return {};
+    Message message;
+    message.add(operation)
+        .add(": ")
+        .add(argument)
+        .add(" must be ")
+        .add(Shown(wanted).text())
+        .add(" in number, got ")
+        .add(Shown(count).text());
+    return message.as(ErrorCode::InvalidArgument);
+}
+
+}  // namespace tendril::detail

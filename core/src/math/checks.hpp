@@ -1,0 +1,79 @@
+// What may come into the library, and the words with which it is refused. Not installed.
+//
+// Each check answers with a Result, fine or the refusal; a function that has several to make writes
+//
+//     if (const Result bad = check_point("forward", "target", target); !bad) return bad;
+//
+// Nothing here allocates, and no text is made where nothing is wrong.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <string_view>
+
+#include "tendril/magnitude.hpp"
+#include "tendril/result.hpp"
+
+namespace tendril::detail {
+
+// Each comparison is false for NaN, so NaN is never in range.
+inline bool is_length(float value) noexcept {
+    return value >= 0.0f && value <= max_magnitude;
+}
+inline bool is_coordinate(float value) noexcept {
+    return std::abs(value) <= max_magnitude;
+}
+inline bool is_point(const glm::vec3& point) noexcept {
+    return is_coordinate(point.x) && is_coordinate(point.y) && is_coordinate(point.z);
+}
+
+inline constexpr std::size_t no_index = static_cast<std::size_t>(-1);
+
+/// How a message names what was given: `target`, `joints[3]`, `segments[3].position`.
+struct Argument {
+    Argument(const char* what) noexcept : name(what) {}
+    Argument(std::string_view what, std::size_t at = no_index, std::string_view part = {}) noexcept
+        : name(what), index(at), member(part) {}
+    std::string_view name;
+    std::size_t index = no_index;
+    std::string_view member{};
+};
+
+/// A value, as a message shows it: numbers by the shortest text that reads back as the same, NaN without
+/// sign.
+class Shown {
+  public:
+    Shown(float value) noexcept;
+    Shown(double value) noexcept;
+    Shown(int value) noexcept;
+    Shown(std::size_t value) noexcept;
+    /// The text itself; must outlive this.
+    Shown(const char* text) noexcept : text_(text) {}
+    Shown(std::string_view text) noexcept : text_(text) {}
+    Shown(const Shown&) = delete;
+    Shown& operator=(const Shown&) = delete;
+    std::string_view text() const noexcept { return text_; }
+
+  private:
+    char buffer_[32];
+    std::string_view text_;
+};
+
+/// `operation: argument must be requirement, got value`
+Result refused(std::string_view operation, const Argument& argument, std::string_view requirement,
+               const Shown& value) noexcept;
+
+/// Metres, finite and 0 to max_magnitude.
+Result check_length(std::string_view operation, const Argument& argument, float value) noexcept;
+/// Metres, each coordinate finite and at most max_magnitude in magnitude.
+Result check_point(std::string_view operation, const Argument& argument, const glm::vec3& value) noexcept;
+/// index < size; `whole` and `part` are what is counted: `the chain has 8 segments`.
+Result check_index(std::string_view operation, std::size_t index, std::size_t size,
+                   std::string_view whole = "the chain", std::string_view part = "segment") noexcept;
+/// A list of `wanted` elements.
+Result check_count(std::string_view operation, const Argument& argument, std::size_t count,
+                   std::size_t wanted) noexcept;
+
+}  // namespace tendril::detail

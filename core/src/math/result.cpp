@@ -1,0 +1,60 @@
+#include "tendril/result.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace tendril {
+namespace {
+
+/// The first byte of a UTF-8 character, not one of those that follow.
+bool begins_character(char byte) noexcept {
+    return (static_cast<unsigned char>(byte) & 0xc0u) != 0x80u;
+}
+
+}  // namespace
+
+const char* name(ErrorCode code) noexcept {
+    switch (code) {
+        case ErrorCode::None:
+            return "None";
+        case ErrorCode::InvalidArgument:
+            return "InvalidArgument";
+        case ErrorCode::OutOfRange:
+            return "OutOfRange";
+        case ErrorCode::NotFound:
+            return "NotFound";
+        case ErrorCode::AlreadyExists:
+            return "AlreadyExists";
+    }
+    return "";
+}
+
+Result::Result(ErrorCode code, std::string_view message) noexcept : code_(code) {
+    std::size_t size = std::min(message.size(), max_message);
+    while (size < message.size() && size > 0 && !begins_character(message[size])) --size;
+    if (size > 0) std::memcpy(message_, message.data(), size);
+    message_[size] = '\0';
+}
+
+Result::Result(const Result& other) noexcept : code_(other.code_) {
+    std::memcpy(message_, other.message_, std::strlen(other.message_) + 1);
+}
+
+Result& Result::operator=(const Result& other) noexcept {
+    if (this == &other) return *this;
+    code_ = other.code_;
+    std::memcpy(message_, other.message_, std::strlen(other.message_) + 1);
+    return *this;
+}
+
+namespace detail {
+
+void no_value(const char* message) noexcept {
+    std::fprintf(stderr, "tendril: a value was read where there is none: %s\n", message);
+    std::abort();
+}
+
+}  // namespace detail
+}  // namespace tendril

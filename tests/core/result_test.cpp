@@ -1,0 +1,71 @@
+// How calls are refused: the types that say so, and their words.
+#include "tendril/result.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+
+namespace tendril::test {
+namespace {
+
+TEST(Result, is_fine_unless_something_is_wrong) {
+    const Result fine;
+    EXPECT_TRUE(fine);
+    EXPECT_EQ(fine.code(), ErrorCode::None);
+    EXPECT_STREQ(fine.message(), "");
+    const Result bad(ErrorCode::OutOfRange, "index 9");
+    EXPECT_FALSE(bad);
+    EXPECT_EQ(bad.code(), ErrorCode::OutOfRange);
+    EXPECT_STREQ(bad.message(), "index 9");
+    EXPECT_STREQ(name(bad.code()), "OutOfRange");
+}
+
+TEST(Result, is_copied_with_its_message) {
+    const Result bad(ErrorCode::NotFound, "no such body");
+    Result copy;
+    copy = bad;
+    EXPECT_EQ(copy.code(), bad.code());
+    EXPECT_STREQ(copy.message(), "no such body");
+    const Result& itself = copy;
+    copy = itself;
+    EXPECT_STREQ(copy.message(), "no such body");
+    copy = Result();
+    EXPECT_TRUE(copy);
+    EXPECT_STREQ(copy.message(), "");
+}
+
+TEST(Result, cuts_a_long_message_between_characters) {
+    std::string text(Result::max_message - 1, 'a');
+    text += "\xc3\xa9 and more";  // a character of two bytes across the end
+    const Result bad(ErrorCode::InvalidArgument, text);
+    EXPECT_EQ(std::string(bad.message()), std::string(Result::max_message - 1, 'a'));
+    const std::string whole(Result::max_message, 'b');
+    EXPECT_EQ(Result(ErrorCode::InvalidArgument, whole).message(), whole);
+}
+
+TEST(Expected, holds_a_value_or_the_reason_why_not) {
+    Expected<std::unique_ptr<int>> value(std::make_unique<int>(7));
+    ASSERT_TRUE(value);
+    EXPECT_TRUE(value.error().ok());
+    EXPECT_STREQ(value.message(), "");
+    EXPECT_EQ(**value, 7);
+    const std::unique_ptr<int> taken = std::move(value).value();
+    EXPECT_EQ(*taken, 7);
+
+    const Expected<int> none(Result(ErrorCode::AlreadyExists, "twice"));
+    EXPECT_FALSE(none);
+    EXPECT_EQ(none.code(), ErrorCode::AlreadyExists);
+    EXPECT_STREQ(none.message(), "twice");
+    EXPECT_STREQ(none.error().message(), "twice");
+}
+
+TEST(ExpectedDeathTest, ends_the_program_where_a_value_is_read_that_is_not_there) {
+    const Expected<int> none(Result(ErrorCode::AlreadyExists, "twice"));
+    EXPECT_DEATH(static_cast<void>(*none), "a value was read where there is none: twice");
+}
+
+}  // namespace
+}  // namespace tendril::test
