@@ -10,7 +10,7 @@ namespace tendril::test {
 
 using ik::Batch;
 using ik::ManyOptions;
-using ik::Report;
+using ik::ManyReport;
 using ik::Status;
 
 /// Chains as they are before a solve, and what to solve them for.
@@ -39,18 +39,18 @@ inline Crowd some_crowd(std::size_t chains, std::size_t bones, Random& random, f
     return crowd;
 }
 
-inline Batch batch_of(const Crowd& crowd) {
-    Batch batch(crowd.size(), crowd.bones());
+inline Batch batch_of(const Crowd& crowd, int threads = 1) {
+    Batch batch = *Batch::make(crowd.size(), crowd.bones(), threads);
     for (std::size_t i = 0; i < crowd.size(); ++i) {
-        batch.set_lengths(i, crowd.lengths[i]);
-        batch.set_joints(i, crowd.joints[i]);
+        EXPECT_TRUE(batch.set_lengths(i, crowd.lengths[i]));
+        EXPECT_TRUE(batch.set_joints(i, crowd.joints[i]));
     }
     return batch;
 }
 
 struct Answer {
     std::vector<Joints> joints;
-    std::vector<Report> reports;
+    std::vector<ManyReport> reports;
 };
 
 /// Nothing where they are equal to the bit; else the first chain that is not.
@@ -64,20 +64,24 @@ inline std::string difference(const Answer& a, const Answer& b) {
 
 inline std::vector<Joints> joints_of(const Batch& batch) {
     std::vector<Joints> joints(batch.size(), Joints(batch.bones() + 1));
-    for (std::size_t i = 0; i < batch.size(); ++i) batch.joints(i, joints[i]);
+    for (std::size_t i = 0; i < batch.size(); ++i) EXPECT_TRUE(batch.copy_joints(i, joints[i]));
     return joints;
 }
 
-inline Answer solve_many(const Crowd& crowd, const ManyOptions& options) {
-    Batch batch = batch_of(crowd);
-    Answer answer{{}, std::vector<Report>(crowd.size())};
+inline Answer solve_many(const Crowd& crowd, const ManyOptions& options, int threads = 1) {
+    Batch batch = batch_of(crowd, threads);
+    Answer answer{{}, std::vector<ManyReport>(crowd.size())};
     ik::solve_many(batch, crowd.targets, answer.reports, options);
     answer.joints = joints_of(batch);
     return answer;
 }
 
+inline ManyReport many_report(const ik::Report& report) {
+    return {report.status, false, report.iterations, report.residual};
+}
+
 inline Answer solve_each(const Crowd& crowd, const ManyOptions& many,
-                         ik::Method method = ik::Method::FabrikPlain) {
+                         ik::Method method = ik::Method::Fabrik) {
     ik::Options options;
     options.tolerance = many.tolerance;
     options.max_iterations = many.max_iterations;
@@ -86,7 +90,7 @@ inline Answer solve_each(const Crowd& crowd, const ManyOptions& many,
     for (std::size_t i = 0; i < crowd.size(); ++i) {
         Joints joints = crowd.joints[i];
         ik::Solver solver(crowd.lengths[i]);
-        answer.reports.push_back(solver.solve(method, joints, crowd.targets[i], options));
+        answer.reports.push_back(many_report(solver.solve(method, joints, crowd.targets[i], options)));
         answer.joints.push_back(std::move(joints));
     }
     return answer;

@@ -1,4 +1,4 @@
-// solve_many against the scalar solver: the same pulls, whatever the vector unit, the number of threads, and
+// solve_many against the scalar solver: the same bits, whatever the vector unit, the number of threads, and
 // the company that a chain is in.
 #include "ik_many_support.hpp"
 
@@ -46,8 +46,8 @@ TEST(SolveMany, AToleranceThatFloatsCannotKeepStalls) {
     const ManyOptions options{.tolerance = 0.0f, .max_iterations = 2000};
     const Answer many = solve_many(crowd, options);
     expect_same(crowd, many, solve_each(crowd, options), 1e-4);
-    const auto stalled = [](const Report& report) { return report.status == Status::Stalled; };
-    EXPECT_GT(std::count_if(many.reports.begin(), many.reports.end(), stalled), 50);
+    const auto stalled = [](const ManyReport& report) { return report.status == Status::Stalled; };
+    EXPECT_GT(std::count_if(many.reports.begin(), many.reports.end(), stalled), 5);
 }
 
 TEST(SolveMany, FarFromTheOriginChainsAreSolvedAsTheScalarSolverSolvesThem) {
@@ -109,13 +109,93 @@ TEST(SolveMany, EveryNumberOfThreadsGivesTheSameBits) {
     const ManyOptions options{.max_iterations = 1000};
     const Answer one = solve_many(crowd, options);
     expect_same(crowd, one, solve_each(crowd, options), 1e-4);
-    for (int threads = 2; threads <= 4; ++threads) {
-        ManyOptions with = options;
-        with.threads = threads;
-        for (int again = 0; again < 3; ++again)
-            EXPECT_EQ(difference(solve_many(crowd, with), one), "") << threads;
+    for (const int threads : {2, 3, 4, 256}) {
+        for (int again = 0; again < 3; ++again) {
+            EXPECT_EQ(difference(solve_many(crowd, options, threads), one), "") << threads;
+        }
     }
-    EXPECT_EQ(difference(solve_many(crowd, {.max_iterations = 1000, .threads = 256}), one), "");
+}
+
+/// Chains with their peculiarities: bones of no length, one bone that outweighs the others, joints that
+/// coincide, poses that are straight or folded nearly on the target's line.
+Crowd hostile_crowd(std::size_t chains, std::size_t bones, Random& random) {
+    Crowd crowd;
+    for (std::size_t i = 0; i < chains; ++i) {
+        Lengths lengths = some_lengths(bones, random);
+        if (random.chance(4)) lengths[random.below(bones)] = 0.0f;
+        if (random.chance(4)) lengths[random.below(bones)] *= 6.0f;
+        const glm::vec3 root = random.point(random.chance(8) ? 500.0f : 4.0f), along = some_direction(random);
+        Joints pose = some_pose(lengths, random, root);
+        if (random.chance(3)) pose = straight_joints(lengths, along, root);
+        if (random.chance(6)) pose[1 + random.below(bones)] += random.point(1e-3f);
+        if (random.chance(6)) pose[1 + random.below(bones)] = pose[random.below(bones)];
+        const glm::vec3 to = random.chance(3) ? along : some_direction(random);
+        const float far = random.chance(4) ? part(random) * 1e-2f : between(random, 0.0f, 1.05f);
+        crowd.add(lengths, pose, root + to * (far * static_cast<float>(reach_of(lengths))));
+    }
+    return crowd;
+}
+
+TEST(SolveMany, HostileChainsAreSolvedAsTheScalarSolverSolvesThem) {
+    Random random(21);
+    for (const std::size_t bones : {1u, 2u, 3u, 7u, 8u, 12u, 31u}) {
+        const Crowd crowd = hostile_crowd(1500, bones, random);
+        for (const ManyOptions& options :
+             {ManyOptions{}, ManyOptions{.max_iterations = 3}, ManyOptions{.tolerance = 1e-5f},
+              ManyOptions{.max_iterations = 12, .every_iteration = true}}) {
+            SCOPED_TRACE(std::to_string(bones) + " bones, at most " + std::to_string(options.max_iterations));
+            const Answer many = solve_many(crowd, options), each = solve_each(crowd, options);
+            expect_same(crowd, many, each, 1e-4);
+            std::size_t iterated = 0, equal = 0;
+            for (std::size_t i = 0; i < crowd.size(); ++i) {
+                const Status status = many.reports[i].status;
+                // What lies straight or folded was worked out in float.
+                if (status == Status::Stretched || status == Status::TooClose) continue;
+                ++iterated;
+                equal += same_bits(many.joints[i], each.joints[i]) ? 1 : 0;
+            }
+            EXPECT_GE(equal, iterated * 999 / 1000);
+        }
+    }
+}
+
+TEST(SolveMany, TheSummaryCountsWhatTheReportsSay) {
+    Random random(22);
+    Crowd crowd = hostile_crowd(2000, 6, random);
+    for (std::size_t i = 0; i < crowd.size(); i += 7) crowd.targets[i].z = nan;
+    for (const int threads : {1, 3}) {
+        Batch batch = batch_of(crowd, threads);
+        std::vector<ManyReport> reports(crowd.size());
+        const ik::ManySummary summary = ik::solve_many(batch, crowd.targets, reports);
+        ik::ManySummary counted;
+        for (const ManyReport& report : reports) {
+            counted.invalid += report.status == Status::InvalidInput ? 1 : 0;
+            counted.scalar_fallbacks += report.scalar_fallback ? 1 : 0;
+        }
+        EXPECT_EQ(summary, counted);
+        EXPECT_EQ(summary.invalid, (crowd.size() + 6) / 7);
+    }
+}
+
+TEST(SolveMany, JointsThatArePutBackGoOnWithTheSameBits) {
+    Random random(23);
+    const Crowd crowd = some_crowd(500, 7, random, 0.0f, 1.1f);
+    Batch batch = batch_of(crowd);
+    std::vector<std::vector<glm::vec3>> path(100, crowd.targets);
+    for (std::size_t tick = 1; tick < path.size(); ++tick) {
+        for (std::size_t i = 0; i < crowd.size(); ++i)
+            path[tick][i] = path[tick - 1][i] + random.point(0.05f);
+    }
+    ik::solve_many(batch, crowd.targets);  // some pose from the middle of a life
+    Joints before(crowd.size() * 8), first(before.size()), second(before.size());
+    ASSERT_TRUE(batch.copy_joints(before));
+    for (const auto& targets : path) ik::solve_many(batch, targets);
+    ASSERT_TRUE(batch.copy_joints(first));
+    ASSERT_TRUE(batch.set_joints(before));
+    for (const auto& targets : path) ik::solve_many(batch, targets);
+    ASSERT_TRUE(batch.copy_joints(second));
+    EXPECT_TRUE(same_bits(first, second));
+    EXPECT_FALSE(same_bits(before, first));
 }
 
 TEST(SolveMany, AWholeCrowdOfStragglersIsSolved) {
@@ -175,13 +255,13 @@ TEST(SolveMany, ChainsOnTheLineWithTheirTargetComeOffIt) {
 }
 
 TEST(SolveMany, ATargetThatComesAndGoesOnOneLineIsFollowed) {
-    Batch batch(200, 6);
-    std::vector<Report> reports(batch.size());
+    Batch batch = *Batch::make(200, 6);
+    std::vector<ManyReport> reports(batch.size());
     for (int frame = 0; frame < 60; ++frame) {
         const float far = 6.5f + 3.0f * std::sin(0.37f * static_cast<float>(frame));
         const std::vector<glm::vec3> targets(batch.size(), glm::vec3(0, far, 0));
         ik::solve_many(batch, targets, reports);
-        for (const Report& report : reports) {
+        for (const ManyReport& report : reports) {
             ASSERT_EQ(report.status, far > 6.0f ? Status::Stretched : Status::Converged) << "at " << far;
         }
     }

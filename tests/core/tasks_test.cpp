@@ -37,7 +37,7 @@ TEST(Tasks, SolveManyRunsOnTheProgramsOwnWorkersAndGivesTheSameBits) {
     for (const bool backwards : {false, true}) {
         for (const bool aside : {false, true}) {
             Jobs jobs{.backwards = backwards, .aside = aside};
-            const Answer answer = solve_many(crowd, {.threads = 4, .tasks = {run_on_jobs, &jobs}});
+            const Answer answer = solve_many(crowd, {.tasks = {run_on_jobs, &jobs}}, 4);
             EXPECT_EQ(jobs.calls, 1);
             EXPECT_EQ(jobs.pieces, 4u);
             EXPECT_EQ(difference(answer, expected), "");
@@ -49,7 +49,7 @@ TEST(Tasks, ASingleThreadNeedsNoCallback) {
     Random random(42);
     const Crowd crowd = some_crowd(500, 10, random);
     Jobs jobs;
-    solve_many(crowd, {.threads = 1, .tasks = {run_on_jobs, &jobs}});
+    solve_many(crowd, {.tasks = {run_on_jobs, &jobs}});
     EXPECT_EQ(jobs.calls, 0);
 }
 

@@ -24,11 +24,11 @@ int main() {
                 static_cast<double>(tail.x), static_cast<double>(tail.y), static_cast<double>(tail.z));
 
     // What the library uses inside is linked too: vector units and threads.
-    tendril::ik::Batch batch(8, 4);
+    tendril::ik::Batch batch = *tendril::ik::Batch::make(8, 4, 2);
     const std::vector<glm::vec3> targets(batch.size(), glm::vec3(1, 2, 1));
-    std::vector<tendril::ik::Report> reports(batch.size());
-    tendril::ik::solve_many(batch, targets, reports, {.threads = 2});
-    const auto arrived = std::count_if(reports.begin(), reports.end(), [](const tendril::ik::Report& report) {
+    std::vector<tendril::ik::ManyReport> reports(batch.size());
+    tendril::ik::solve_many(batch, targets, reports);
+    const auto arrived = std::count_if(reports.begin(), reports.end(), [](const tendril::ik::ManyReport& report) {
         return report.status == tendril::ik::Status::Converged;
     });
     std::printf("%d of %zu tips arrived\n", static_cast<int>(arrived), batch.size());

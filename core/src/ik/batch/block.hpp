@@ -1,6 +1,7 @@
-// How a Batch keeps its chains: in blocks of 128, each a table of floats with a row for every coordinate of
-// every joint and a column ("lane") for every chain. The rows of a block lie one after the other, so a block
-// stays in the nearest cache while it is solved. Not installed.
+// How a Batch keeps its chains: in blocks of 64, each a table of floats with a row for every coordinate of
+// every joint and a column ("lane") for every chain, so that one register holds the same coordinate of many
+// chains. What only a solve needs (residuals, counts, the best pose) is in a second table that a thread uses
+// for one block after the other: it stays in the nearest cache. Not installed.
 #pragma once
 
 #include <cstddef>
@@ -11,53 +12,72 @@
 
 namespace tendril::ik::detail {
 
-/// Eight registers of AVX-512, sixteen of AVX2: enough side by side that none waits for its own square root.
-inline constexpr std::size_t block_lanes = 128;
+/// Four registers of AVX-512, eight of AVX2: enough side by side that none waits for its own square root.
+inline constexpr std::size_t block_lanes = 64;
 
-/// What is known of a chain besides its joints and lengths: one row each, after theirs.
+/// What a solve knows of a chain besides its joints and lengths: one row each.
 enum class Row : std::size_t {
-    Reach,
-    Longest,
     TargetX,
     TargetY,
     TargetZ,
     Tolerance,
     Residual,
-    Nearest,     ///< the least residual so far
-    Idle,        ///< iterations since that was last beaten
-    Iterations,  ///< whole numbers up to 1 000 000, which a float holds
-    Active,      ///< 1: pulled, 0: left alone
-    Start        ///< what the look before the first pull found, see Start below
+    Best,     ///< the smallest residual of the whole solve; the rows of the best pose have its joints
+    Nearest,  ///< the smallest since the last perturbation
+    Last,     ///< the one before
+    Idle,     ///< iterations without progress, and without much of it: as in convergence.hpp
+    Slow,
+    Perturbations,  ///< how many so far
+    Iterations,     ///< whole numbers up to 1 000 000, which a float holds
+    Activity,
+    Class
 };
-inline constexpr std::size_t info_rows = 12;
+inline constexpr std::size_t state_rows = 14;
 
-/// Iterations without a nearer tip until a solve has stalled; as in loop.cpp.
-inline constexpr int stall_patience = 10;
+/// In Row::Activity.
+enum class Activity : std::uint8_t {
+    Done,     ///< left alone
+    Active,   ///< iterates
+    Perturb,  ///< waits for a perturbation, then iterates
+};
 
-/// In Row::Start.
-enum class Start : std::uint8_t {
-    Plain,     ///< reachable, bent and at its lengths: can be pulled
-    Straight,  ///< out of reach, and already laid straight
-    Careful,   ///< some special case, or too near to one to tell in float: the scalar code looks at it
-    Invalid    ///< some coordinate is out of range
+/// In Row::Class: what the look at a chain before its first iteration found.
+enum class Class : std::uint8_t {
+    Reachable,  ///< iterates
+    Straight,   ///< out of reach, and already laid straight
+    Folded,     ///< too close, and already folded back along its longest bone
+    Collinear,  ///< reachable, but maybe on one line with its target: the scalar code decides and perturbs
+    Scalar,     ///< too near to some bound to tell in float: the scalar solver takes it
+    Invalid     ///< some coordinate is out of range
 };
 
 /// One block; the rows belong to somebody else.
 class Block {
   public:
-    Block(float* rows, std::size_t bones) noexcept : rows_(rows), bones_(bones) {}
+    Block(float* rows, float* state, std::size_t bones) noexcept
+        : rows_(rows), state_(state), bones_(bones) {}
 
-    static std::size_t rows(std::size_t bones) noexcept { return 3 * (bones + 1) + bones + info_rows; }
-    static std::size_t floats(std::size_t bones) noexcept { return rows(bones) * block_lanes; }
+    /// Of the chains themselves: joints, lengths, reach and longest bone.
+    static std::size_t chain_rows(std::size_t bones) noexcept { return 3 * (bones + 1) + bones + 2; }
+    static std::size_t chain_floats(std::size_t bones) noexcept { return chain_rows(bones) * block_lanes; }
+    static std::size_t state_floats(std::size_t bones) noexcept {
+        return (state_rows + 3 * bones) * block_lanes;
+    }
 
     std::size_t bones() const noexcept { return bones_; }
     /// Three rows: x, y and z.
     float* joint(std::size_t index) const noexcept { return rows_ + 3 * index * block_lanes; }
     float* length(std::size_t bone) const noexcept { return joint(bones_ + 1) + bone * block_lanes; }
-    float* row(Row which) const noexcept {
-        return length(bones_) + static_cast<std::size_t>(which) * block_lanes;
-    }
+    float* reach() const noexcept { return length(bones_); }
+    float* longest() const noexcept { return reach() + block_lanes; }
+
+    float* row(Row which) const noexcept { return state_ + static_cast<std::size_t>(which) * block_lanes; }
     float& at(Row which, std::size_t lane) const noexcept { return row(which)[lane]; }
+    float* target() const noexcept { return row(Row::TargetX); }
+    /// Three rows of the best pose so far, from joint 1 on.
+    float* best(std::size_t index) const noexcept {
+        return state_ + (state_rows + 3 * (index - 1)) * block_lanes;
+    }
 
     glm::vec3 point(std::size_t joint_index, std::size_t lane) const noexcept {
         const float* const p = joint(joint_index) + lane;
@@ -67,26 +87,30 @@ class Block {
         float* const p = joint(joint_index) + lane;
         p[0] = to.x, p[block_lanes] = to.y, p[2 * block_lanes] = to.z;
     }
-    glm::vec3 target(std::size_t lane) const noexcept {
+    glm::vec3 target_of(std::size_t lane) const noexcept {
         return {at(Row::TargetX, lane), at(Row::TargetY, lane), at(Row::TargetZ, lane)};
     }
-    void set_target(std::size_t lane, const glm::vec3& to) const noexcept {
-        at(Row::TargetX, lane) = to.x, at(Row::TargetY, lane) = to.y, at(Row::TargetZ, lane) = to.z;
+    Class class_of(std::size_t lane) const noexcept {
+        return static_cast<Class>(static_cast<int>(at(Row::Class, lane)));
     }
-    Start start(std::size_t lane) const noexcept {
-        return static_cast<Start>(static_cast<int>(at(Row::Start, lane)));
+    Activity activity(std::size_t lane) const noexcept {
+        return static_cast<Activity>(static_cast<int>(at(Row::Activity, lane)));
+    }
+    void set_activity(std::size_t lane, Activity to) const noexcept {
+        at(Row::Activity, lane) = static_cast<float>(to);
     }
 
   private:
     float* rows_;
+    float* state_;
     std::size_t bones_;
 };
 
-/// Memory for blocks, aligned as the widest register wants it.
-class BlockMemory {
+/// Memory for rows, aligned as the widest register wants it.
+class Rows {
   public:
-    BlockMemory() = default;
-    explicit BlockMemory(std::size_t floats)
+    Rows() = default;
+    explicit Rows(std::size_t floats)
         : floats_(static_cast<float*>(::operator new(floats * sizeof(float), alignment))) {}
     float* get() const noexcept { return floats_.get(); }
 

@@ -1,14 +1,14 @@
-// Steps of FABRIK for a whole register of chains, and for the rows of a block. Not installed; it is included
-// once for each vector unit.
+// Points of a whole register of chains, and the step of FABRIK for the rows of a block. Not installed; it is
+// included once for each vector unit.
 //
-// Every step is the scalar step of math/point.hpp, operation for operation: no fused multiply-add, no
+// Every operation is the scalar one of math/point.hpp, in the same order: no fused multiply-add, no
 // approximated root. So each lane has the bits that the scalar solver gives. It costs little: while the
 // divider works on one register, the other operations are done for the next.
-#if defined(TENDRIL_IK_MANY_STEP_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef TENDRIL_IK_MANY_STEP_INL
-#undef TENDRIL_IK_MANY_STEP_INL
+#if defined(TENDRIL_IK_BATCH_STEP_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENDRIL_IK_BATCH_STEP_INL
+#undef TENDRIL_IK_BATCH_STEP_INL
 #else
-#define TENDRIL_IK_MANY_STEP_INL
+#define TENDRIL_IK_BATCH_STEP_INL
 #endif
 
 #include <hwy/highway.h>
@@ -22,44 +22,89 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Floats = hn::CappedTag<float, 16>;  // so that whole registers fill a block
-using Vec = hn::Vec<Floats>;
+using Lanes = hn::Vec<Floats>;
 using Mask = hn::Mask<Floats>;
 
-HWY_INLINE Vec load(const float* from) {
+HWY_INLINE Lanes load(const float* from) {
     return hn::Load(Floats(), from);
 }
-HWY_INLINE Vec all(float value) {
+HWY_INLINE void store(Lanes value, float* to) {
+    hn::Store(value, Floats(), to);
+}
+HWY_INLINE Lanes all(float value) {
     return hn::Set(Floats(), value);
 }
+HWY_INLINE Lanes zero() {
+    return hn::Zero(Floats());
+}
 HWY_INLINE Mask none() {
-    return hn::MaskFromVec(hn::Zero(Floats()));
+    return hn::MaskFromVec(zero());
 }
-HWY_INLINE Vec squares(Vec x, Vec y, Vec z) {
-    return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
+HWY_INLINE bool any(Mask mask) {
+    return !hn::AllFalse(Floats(), mask);
 }
-/// `from` and `to` are the rows of points.
-HWY_INLINE Vec squared_distance(const float* from, const float* to) {
-    return squares(hn::Sub(load(to), load(from)), hn::Sub(load(to + block_lanes), load(from + block_lanes)),
-                   hn::Sub(load(to + 2 * block_lanes), load(from + 2 * block_lanes)));
+template <class Enum>
+HWY_INLINE Mask equals(const float* row, Enum value) {
+    return hn::Eq(load(row), all(static_cast<float>(value)));
+}
+
+/// A point or direction of each chain of a register.
+struct Points {
+    Lanes x, y, z;
+};
+HWY_INLINE Points load_points(const float* rows) {
+    return {load(rows), load(rows + block_lanes), load(rows + 2 * block_lanes)};
+}
+HWY_INLINE void store_points(const Points& p, float* rows) {
+    store(p.x, rows), store(p.y, rows + block_lanes), store(p.z, rows + 2 * block_lanes);
+}
+HWY_INLINE Points select(Mask mask, const Points& yes, const Points& no) {
+    return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
+            hn::IfThenElse(mask, yes.z, no.z)};
+}
+HWY_INLINE Points plus(const Points& a, const Points& b) {
+    return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+HWY_INLINE Points minus(const Points& a, const Points& b) {
+    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+HWY_INLINE Points times(const Points& a, Lanes by) {
+    return {hn::Mul(a.x, by), hn::Mul(a.y, by), hn::Mul(a.z, by)};
+}
+HWY_INLINE Points moved(const Points& origin, const Points& direction, Lanes by) {
+    return plus(origin, times(direction, by));
+}
+HWY_INLINE Lanes dot(const Points& a, const Points& b) {
+    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+HWY_INLINE Points cross(const Points& a, const Points& b) {
+    return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
+            hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
+}
+HWY_INLINE Lanes length(const Points& a) {
+    return hn::Sqrt(dot(a, a));
+}
+HWY_INLINE Lanes squared_distance(const float* from, const float* to) {
+    const Points apart = minus(load_points(to), load_points(from));
+    return dot(apart, apart);
+}
+/// From the tip to the target.
+HWY_INLINE Lanes residual_of(const Block& block, std::size_t i) {
+    return hn::Sqrt(squared_distance(block.joint(block.bones()) + i, block.target() + i));
 }
 
 /// Where there is no direction between two joints: that of the bone before, or +X where that has none either.
 /// `before` is null where there is none.
-HWY_INLINE void straight_on(const float* before, const float* from, Mask close, Vec size, Vec& px, Vec& py,
-                            Vec& pz) {
-    const Vec ax = load(from), ay = load(from + block_lanes), az = load(from + 2 * block_lanes);
-    Vec x = all(1.0f), y = hn::Zero(Floats()), z = y;
+HWY_INLINE Points straight_on(const float* before, const Points& from, Mask close, Lanes size,
+                              const Points& otherwise) {
+    Points along{all(1.0f), zero(), zero()};
     if (before != nullptr) {
-        const Vec squared = squared_distance(before, from), least = all(tendril::math::coincidence);
-        const Mask shows = hn::Ge(squared, least);
-        const Vec inverse = hn::Div(all(1.0f), hn::Sqrt(hn::Max(squared, least)));
-        x = hn::IfThenElse(shows, hn::Mul(hn::Sub(ax, load(before)), inverse), x);
-        y = hn::IfThenElse(shows, hn::Mul(hn::Sub(ay, load(before + block_lanes)), inverse), y);
-        z = hn::IfThenElse(shows, hn::Mul(hn::Sub(az, load(before + 2 * block_lanes)), inverse), z);
+        const Points apart = minus(from, load_points(before));
+        const Lanes squared = dot(apart, apart), least = all(math::coincidence);
+        const Lanes inverse = hn::Div(all(1.0f), hn::Sqrt(hn::Max(squared, least)));
+        along = select(hn::Ge(squared, least), times(apart, inverse), along);
     }
-    px = hn::IfThenElse(close, hn::Add(ax, hn::Mul(x, size)), px);
-    py = hn::IfThenElse(close, hn::Add(ay, hn::Mul(y, size)), py);
-    pz = hn::IfThenElse(close, hn::Add(az, hn::Mul(z, size)), pz);
+    return select(close, moved(from, along, size), otherwise);
 }
 
 /// The rows that a step reads and writes.
@@ -70,48 +115,26 @@ struct StepRows {
     const float* before = nullptr;
 };
 
-/// In the active lanes, or in all of them.
+/// In all lanes of a register, or in those that are active.
 template <bool some>
-HWY_INLINE void step(const StepRows& rows, const float* active, std::size_t lanes) {
-    const Floats d;
-    const Vec coincidence = all(tendril::math::coincidence);
-    for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
-        const float* const from = rows.from + i;
-        float* const to = rows.to + i;
-        const Vec ax = load(from), ay = load(from + block_lanes), az = load(from + 2 * block_lanes);
-        const Vec ox = load(to), oy = load(to + block_lanes), oz = load(to + 2 * block_lanes);
-        const Vec x = hn::Sub(ox, ax), y = hn::Sub(oy, ay), z = hn::Sub(oz, az);
-        const Vec squared = squares(x, y, z), size = load(rows.length + i);
-        const Vec scale = hn::Div(size, hn::Sqrt(hn::Max(squared, coincidence)));
-        Vec px = hn::Add(ax, hn::Mul(x, scale)), py = hn::Add(ay, hn::Mul(y, scale)),
-            pz = hn::Add(az, hn::Mul(z, scale));
-        const Mask close = hn::Lt(squared, coincidence);
-        if (HWY_UNLIKELY(!hn::AllFalse(d, close))) {
-            straight_on(rows.before ? rows.before + i : nullptr, from, close, size, px, py, pz);
-        }
-        if constexpr (some) {
-            const Mask moves = hn::Gt(load(active + i), hn::Zero(d));
-            px = hn::IfThenElse(moves, px, ox);
-            py = hn::IfThenElse(moves, py, oy);
-            pz = hn::IfThenElse(moves, pz, oz);
-        }
-        hn::Store(px, d, to);
-        hn::Store(py, d, to + block_lanes);
-        hn::Store(pz, d, to + 2 * block_lanes);
+HWY_INLINE void step(const StepRows& rows, const float* activity, std::size_t i) {
+    const Lanes coincidence = all(math::coincidence);
+    const Points from = load_points(rows.from + i), old = load_points(rows.to + i);
+    const Points apart = minus(old, from);
+    const Lanes squared = dot(apart, apart), size = load(rows.length + i);
+    const Lanes scale = hn::Div(size, hn::Sqrt(hn::Max(squared, coincidence)));
+    Points to = moved(from, apart, scale);
+    const Mask close = hn::Lt(squared, coincidence);
+    if (HWY_UNLIKELY(any(close))) {
+        to = straight_on(rows.before ? rows.before + i : nullptr, from, close, size, to);
     }
+    if constexpr (some) to = select(equals(activity + i, Activity::Active), to, old);
+    store_points(to, rows.to + i);
 }
 
-/// In the active lanes.
-HWY_INLINE void put_on_target(const Block& block, std::size_t joint, std::size_t lanes) {
-    const Floats d;
-    const float *const target = block.row(Row::TargetX), *const active = block.row(Row::Active);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        float* const to = block.joint(joint) + axis * block_lanes;
-        for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
-            const Mask moves = hn::Gt(load(active + i), hn::Zero(d));
-            hn::Store(hn::IfThenElse(moves, load(target + axis * block_lanes + i), load(to + i)), d, to + i);
-        }
-    }
+/// Copies the points of some lanes.
+HWY_INLINE void copy_points(Mask lanes, const float* from, float* to) {
+    store_points(select(lanes, load_points(from), load_points(to)), to);
 }
 
 }  // namespace HWY_NAMESPACE

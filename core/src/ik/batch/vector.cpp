@@ -5,7 +5,7 @@
 
 #include "tendril/ik/many.hpp"
 
-#define HWY_DISABLED_TARGETS HWY_AVX3_DL  // as in many_look.cpp and many_pull.cpp
+#define HWY_DISABLED_TARGETS HWY_AVX3_DL  // as in the files that it dispatches to
 #include <hwy/highway.h>
 
 namespace tendril::ik {
@@ -25,7 +25,9 @@ struct Units {
         for (; targets != 0 && count < names.size(); targets &= targets - 1) {
             const std::int64_t target = targets & -targets;
             names[count] = hwy::TargetName(target);
-            units[count++] = {look_with(target), pull_with(target)};
+            units[count].classify = classify_with(target);
+            units[count].iterate = iterate_with(target);
+            transfers_with(target, units[count++]);
         }
     }
 };

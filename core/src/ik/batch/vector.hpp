@@ -3,35 +3,62 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
 #include <string_view>
 
 #include "ik/batch/block.hpp"
+#include "tendril/ik/many.hpp"
 
 namespace tendril::ik::detail {
 
-struct PullOrder {
+struct Order {
     int iterations;      ///< at most so many now
     int max_iterations;  ///< and so many in all, counted in Row::Iterations
     bool every;          ///< whether chains go on that have arrived
+    float* shapes;       ///< scratch, shape_floats of it
+};
+/// The bones of four shapes of one register of chains.
+inline std::size_t shape_floats(std::size_t bones) noexcept {
+    return 4 * 3 * bones * 16;
+}
+
+/// How many chains still iterate, and whether any of them waits for a perturbation first.
+struct Left {
+    std::size_t active = 0;
+    bool perturb = false;
 };
 
-// Both work on the first `lanes` lanes and what is left of the last register beyond them, where none may be
-// active, and return how many chains are active then.
+// All work on the first `lanes` lanes and what is left of the last register beyond them.
 
-/// Reads joints, lengths and targets; lays what is loose to its lengths and what is out of reach straight;
-/// writes Row::Start, and all from Row::Residual on: Active is 1 where Plain and not there yet.
-using Look = std::size_t(const Block& block, std::size_t lanes, bool every);
-/// Pulls the active lanes; those that have arrived, stalled or used up their iterations become inactive.
-using Pull = std::size_t(const Block& block, std::size_t lanes, const PullOrder& order);
+/// Reads joints, lengths and targets; lays what is loose to its lengths, what is out of reach straight and
+/// what is too close folded; writes the state from Row::Residual on.
+using Classify = Left(const Block& block, std::size_t lanes, bool every);
+/// Iterates the active lanes until they are done, wait for a perturbation or the order's iterations are used
+/// up.
+using Iterate = Left(const Block& block, std::size_t lanes, const Order& order);
+/// Targets and tolerances of the first `lanes` lanes; a negative tolerance stands for 1e-3 of the reach.
+using SetTargets = void(const Block& block, std::size_t lanes, const glm::vec3* targets, float tolerance);
+/// Between chains one after the other and the lanes of a block.
+using SetJoints = void(const Block& block, std::size_t lanes, const glm::vec3* joints);
+using GetJoints = void(const Block& block, std::size_t lanes, glm::vec3* joints);
+/// Whether all coordinates are finite and at most max_magnitude.
+using AreValid = bool(const float* coordinates, std::size_t count);
 
 struct VectorUnit {
-    Look* look = nullptr;
-    Pull* pull = nullptr;
+    Classify* classify = nullptr;
+    Iterate* iterate = nullptr;
+    SetTargets* set_targets = nullptr;
+    SetJoints* set_joints = nullptr;
+    GetJoints* get_joints = nullptr;
+    AreValid* are_valid = nullptr;
 };
 
 /// As compiled for one of Highway's targets.
-Look* look_with(std::int64_t target) noexcept;
-Pull* pull_with(std::int64_t target) noexcept;
+Classify* classify_with(std::int64_t target) noexcept;
+Iterate* iterate_with(std::int64_t target) noexcept;
+/// Fills in the other four.
+void transfers_with(std::int64_t target, VectorUnit& unit) noexcept;
 
 /// Null for a name that is not among vector_units().
 const VectorUnit* vector_unit_named(std::string_view name) noexcept;

@@ -2,170 +2,191 @@
 
 #include <algorithm>
 
+#include "ik/math.hpp"
 #include "ik/solve/loop.hpp"
 #include "ik/solve/perturbation.hpp"
-#include "ik/solve/prepare.hpp"
 
 namespace tendril::ik::detail {
 namespace {
 
-// Chosen by measuring (tests/bench/ik_many.cpp). To move a chain costs as much as some ten iterations of it.
-constexpr std::size_t few = block_lanes / 2;    ///< fewer active chains than these leave their block
-constexpr int short_burst = 2, long_burst = 4;  ///< iterations between two looks at who is done: in blocks,
-                                                ///< and among those that take long
+// Chosen by measuring (tests/bench/ik_many.cpp). To move a chain into the tile costs as much as some three
+// iterations of it.
+constexpr std::size_t few = block_lanes / 2;  ///< fewer active chains than these leave their block
+constexpr int tile_burst = 2;                 ///< iterations between two looks at who in the tile is done
 
-void copy_lane(const Block& from, std::size_t from_lane, const Block& to, std::size_t to_lane,
-               std::size_t first_row, std::size_t rows) noexcept {
-    const float* source = from.joint(0) + first_row * block_lanes + from_lane;
-    float* out = to.joint(0) + first_row * block_lanes + to_lane;
-    for (std::size_t row = 0; row < rows; ++row) out[row * block_lanes] = source[row * block_lanes];
+/// Where the accelerated step has its turn in every iteration, nearly all chains need only one.
+int first_burst(std::size_t bones) noexcept {
+    return bones >= 8 ? 1 : 2;
+}
+
+void copy_column(const float* from, float* to, std::size_t rows) noexcept {
+    for (std::size_t row = 0; row < rows; ++row) to[row * block_lanes] = from[row * block_lanes];
+}
+
+void copy_lane(const Block& from, std::size_t from_lane, const Block& to, std::size_t to_lane) noexcept {
+    const std::size_t bones = from.bones();
+    copy_column(from.joint(0) + from_lane, to.joint(0) + to_lane, Block::chain_rows(bones));
+    copy_column(from.target() + from_lane, to.target() + to_lane, state_rows + 3 * bones);
+}
+
+float residual_of(const Problem& problem) noexcept {
+    return distance(problem.joints.back(), problem.target);
+}
+
+/// After a perturbation: as Progress::start_again (convergence.hpp).
+void start_again(const Block& block, std::size_t lane, const Problem& problem) noexcept {
+    const float residual = residual_of(problem);
+    for (std::size_t i = 1; i < problem.joints.size(); ++i) block.set_point(i, lane, problem.joints[i]);
+    block.at(Row::Nearest, lane) = block.at(Row::Last, lane) = residual;
+    block.at(Row::Idle, lane) = block.at(Row::Slow, lane) = 0.0f;
 }
 
 }  // namespace
 
-WorkRoom::WorkRoom(std::size_t bones) : tile(Block::floats(bones)) {
+Scratch::Scratch(std::size_t bones)
+    : state(Block::state_floats(bones)), shapes(shape_floats(bones)), tile(bones) {
+    // Lanes that are not used take part in the passes: nothing in them may be what is not a number.
+    std::fill_n(state.get(), Block::state_floats(bones), 0.0f);
+    std::fill_n(tile.rows.get(), Block::chain_floats(bones), 0.0f);
+    std::fill_n(tile.state.get(), Block::state_floats(bones), 0.0f);
     scalar.resize(bones);
 }
 
-void Stragglers::push(std::span<const std::uint32_t> chains) noexcept {
-    const std::lock_guard lock(mutex_);
-    for (const std::uint32_t chain : chains) list_[last_++] = chain;
+void Work::run(Scratch& scratch) noexcept {
+    const std::size_t blocks = (in_.chains + block_lanes - 1) / block_lanes;
+    for (std::size_t index; (index = next_block_.fetch_add(1)) < blocks;) solve_block(index, scratch);
+    run_tile(0, scratch);
 }
 
-std::size_t Stragglers::pop(std::span<std::uint32_t> out) noexcept {
-    const std::lock_guard lock(mutex_);
-    const std::size_t count = std::min(out.size(), last_ - first_);
-    for (std::size_t i = 0; i < count; ++i) out[i] = list_[first_++];
-    return count;
-}
-
-void Work::run(WorkRoom& room) noexcept {
-    const std::size_t blocks = (chains_ + block_lanes - 1) / block_lanes;
-    for (std::size_t index; (index = next_block_.fetch_add(1)) < blocks;) solve_block(index, room);
-    solve_stragglers(room);
-}
-
-void Work::set_up(const Block& block, std::size_t first, std::size_t lanes) const noexcept {
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const float of_reach = 1e-3f * block.at(Row::Reach, lane);
-        block.at(Row::Tolerance, lane) = options_.tolerance.value_or(of_reach);
-        block.set_target(lane, targets_[first + lane]);
+void Work::solve_block(std::size_t index, Scratch& scratch) noexcept {
+    const Block block = this->block(index, scratch.state.get());
+    const std::size_t first = index * block_lanes, lanes = std::min(block_lanes, in_.chains - first);
+    in_.unit.set_targets(block, lanes, &in_.targets[first], in_.options.tolerance.value_or(-1.0f));
+    const Left left = in_.unit.classify(block, lanes, in_.options.every_iteration);
+    for (std::size_t lane = 0; left.perturb && lane < lanes; ++lane) {
+        if (block.class_of(lane) == Class::Collinear) leave_line(block, lane, scratch);
     }
-}
-
-void Work::solve_block(std::size_t index, WorkRoom& room) noexcept {
-    const Block block = this->block(index);
-    const std::size_t first = index * block_lanes, lanes = std::min(block_lanes, chains_ - first);
-    set_up(block, first, lanes);
-    pull_block(block, lanes, unit_.look(block, lanes, options_.every_iteration));
-
-    std::array<std::uint32_t, block_lanes> late;
-    std::size_t late_count = 0;
+    if (left.active > 0) iterate_block(block, lanes, scratch);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const std::size_t chain = first + lane;
-        if (block.start(lane) == Start::Careful) {
-            solve_careful(block, lane, chain, room);
-        } else if (block.at(Row::Active, lane) > 0.0f) {
-            late[late_count++] = static_cast<std::uint32_t>(chain);
+        if (block.class_of(lane) == Class::Scalar) {
+            solve_scalar(block, lane, first + lane, scratch);
+        } else if (block.activity(lane) != Activity::Done) {
+            put_into_tile(block, lane, first + lane, scratch);
         } else {
-            report(block, lane, chain);
+            report(block, lane, first + lane);
         }
     }
-    if (late_count > 0) stragglers_.push({late.data(), late_count});
 }
 
 /// Where a few keep a whole block waiting they are left active: they go on elsewhere, together with those of
 /// other blocks.
-void Work::pull_block(const Block& block, std::size_t lanes, std::size_t active) const noexcept {
-    const bool alone = options_.every_iteration || chains_ <= block_lanes;
-    const PullOrder order{alone ? options_.max_iterations : short_burst, options_.max_iterations,
-                          options_.every_iteration};
-    if (active > 0) active = unit_.pull(block, lanes, order);
-    while (active > few) active = unit_.pull(block, lanes, order);
+void Work::iterate_block(const Block& block, std::size_t lanes, Scratch& scratch) const noexcept {
+    const bool alone = in_.options.every_iteration || in_.chains <= block_lanes;
+    std::size_t active = 0;
+    do {
+        active = iterate(block, lanes, alone ? in_.options.max_iterations : first_burst(in_.bones), scratch)
+                     .active;
+    } while (active > (alone ? 0 : few));
 }
 
-/// Line traps, folded chains and whatever floats cannot tell from them: rare, and so left to the scalar code.
-void Work::solve_careful(const Block& block, std::size_t lane, std::size_t chain,
-                         WorkRoom& room) const noexcept {
-    for (std::size_t i = 0; i <= bones_; ++i) room.scalar.joints[i] = block.point(i, lane);
-    for (std::size_t i = 0; i < bones_; ++i) room.scalar.lengths[i] = block.length(i)[lane];
-    room.scalar.reach = block.at(Row::Reach, lane);
-    room.scalar.longest = block.at(Row::Longest, lane);
-    Problem problem{room.scalar.joints, block.target(lane), block.at(Row::Tolerance, lane), options_,
-                    room.scalar};
-    lay_to_lengths(problem, Unwatched());
-    const Method method = is_on_one_line(problem) ? Method::Fabrik : Method::FabrikPlain;
-    const Report answer = ik::detail::run(method, problem, Unwatched());
-    for (std::size_t i = 1; i <= bones_; ++i) block.set_point(i, lane, room.scalar.joints[i]);
-    if (!reports_.empty()) reports_[chain] = answer;
+/// Iterations of a block or a tile, perturbations among them.
+Left Work::iterate(const Block& block, std::size_t lanes, int iterations, Scratch& scratch) const noexcept {
+    const Order order{iterations, in_.options.max_iterations, in_.options.every_iteration,
+                      scratch.shapes.get()};
+    const Left left = in_.unit.iterate(block, lanes, order);
+    for (std::size_t lane = 0; left.perturb && lane < lanes; ++lane) {
+        if (block.activity(lane) == Activity::Perturb) perturb(block, lane, scratch);
+    }
+    return left;
 }
 
-void Work::put_into_tile(const Block& tile, std::size_t lane, std::size_t chain) const noexcept {
-    copy_lane(block(chain / block_lanes), chain % block_lanes, tile, lane, 0, Block::rows(bones_));
+/// One chain, as the scalar code takes it.
+Problem Work::take_out(const Block& block, std::size_t lane, Workspace& scalar) const noexcept {
+    for (std::size_t i = 0; i <= in_.bones; ++i) scalar.joints[i] = block.point(i, lane);
+    for (std::size_t i = 0; i < in_.bones; ++i) scalar.lengths[i] = block.length(i)[lane];
+    scalar.reach = block.reach()[lane];
+    scalar.longest = block.longest()[lane];
+    return {scalar.joints, block.target_of(lane), block.at(Row::Tolerance, lane), in_.options, scalar};
 }
 
-void Work::take_from_tile(const Block& tile, std::size_t lane, std::size_t chain) const noexcept {
-    copy_lane(tile, lane, block(chain / block_lanes), chain % block_lanes, 3, 3 * bones_);  // not the root
-    report(tile, lane, chain);
+/// What loop.cpp does with a chain that stalls.
+void Work::perturb(const Block& block, std::size_t lane, Scratch& scratch) const noexcept {
+    Problem problem = take_out(block, lane, scratch.scalar);
+    float& count = block.at(Row::Perturbations, lane);
+    shake(problem, static_cast<int>(count), Unwatched());
+    count += 1.0f;
+    start_again(block, lane, problem);
+    block.set_activity(lane, Activity::Active);
 }
 
-/// Whenever chains in the tile are done, others take their lanes.
-void Work::solve_stragglers(WorkRoom& room) noexcept {
-    const Block tile(room.tile.get(), bones_);
-    std::size_t used = 0;  // lanes
-    while ((used = refill(tile, used, room)) > 0) {
-        unit_.pull(tile, used, {long_burst, options_.max_iterations, false});
+/// What loop.cpp does before the first iteration with a chain that lies on one line with its target.
+void Work::leave_line(const Block& block, std::size_t lane, Scratch& scratch) const noexcept {
+    Problem problem = take_out(block, lane, scratch.scalar);
+    if (!is_on_one_line(problem)) return;
+    kick_off_the_line(problem, Unwatched());
+    start_again(block, lane, problem);
+    block.at(Row::Residual, lane) = block.at(Row::Last, lane);
+    const bool there = block.at(Row::Residual, lane) <= problem.tolerance;
+    if (there && !in_.options.every_iteration) block.set_activity(lane, Activity::Done);
+}
+
+void Work::solve_scalar(const Block& block, std::size_t lane, std::size_t chain, Scratch& scratch) noexcept {
+    Problem problem = take_out(block, lane, scratch.scalar);
+    const Report answer = ik::detail::run(Method::Fabrik, problem, Unwatched());
+    for (std::size_t i = 1; i <= in_.bones; ++i) block.set_point(i, lane, scratch.scalar.joints[i]);
+    scalar_fallbacks_.fetch_add(1, std::memory_order_relaxed);
+    if (in_.reports.empty()) return;
+    in_.reports[chain] = {answer.status, true, answer.iterations, answer.residual};
+}
+
+void Work::put_into_tile(const Block& from, std::size_t lane, std::size_t chain, Scratch& scratch) noexcept {
+    Tile& tile = scratch.tile;
+    if (tile.used == block_lanes) run_tile(block_lanes / 2, scratch);
+    copy_lane(from, lane, tile.block, tile.used);
+    tile.chains[tile.used++] = static_cast<std::uint32_t>(chain);
+}
+
+/// Until no more than so many of its chains are left.
+void Work::run_tile(std::size_t most_left, Scratch& scratch) noexcept {
+    Tile& tile = scratch.tile;
+    while (tile.used > most_left) {
+        iterate(tile.block, tile.used, tile_burst, scratch);
+        clear_done(tile);
     }
 }
 
-/// Takes out what is done and puts in what waits; what is left then lies in the first lanes, as many as are
-/// returned.
-std::size_t Work::refill(const Block& tile, std::size_t used, WorkRoom& room) noexcept {
-    const auto is_done = [&](std::size_t lane) { return !(tile.at(Row::Active, lane) > 0.0f); };
-    std::array<std::size_t, block_lanes> free;
-    std::size_t free_count = 0;
-    for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-        if (lane < used && !is_done(lane)) continue;
-        if (lane < used) take_from_tile(tile, lane, room.chains[lane]);
-        free[free_count++] = lane;
+/// Chains that are done go home, and the last ones take their lanes.
+void Work::clear_done(Tile& tile) noexcept {
+    for (std::size_t lane = 0; lane < tile.used;) {
+        if (tile.block.activity(lane) != Activity::Done) {
+            ++lane;
+            continue;
+        }
+        const std::size_t chain = tile.chains[lane];
+        const Block home = block(chain / block_lanes, nullptr);
+        copy_column(tile.block.joint(1) + lane, home.joint(1) + chain % block_lanes, 3 * in_.bones);
+        report(tile.block, lane, chain);
+        if (lane != --tile.used) {
+            copy_lane(tile.block, tile.used, tile.block, lane);
+            tile.chains[lane] = tile.chains[tile.used];
+        }
+        tile.block.set_activity(tile.used, Activity::Done);
     }
-    std::array<std::uint32_t, block_lanes> fresh;
-    const std::size_t added = stragglers_.pop({fresh.data(), free_count});
-    for (std::size_t i = 0; i < added; ++i) {
-        put_into_tile(tile, free[i], fresh[i]);
-        room.chains[free[i]] = fresh[i];
-        used = std::max(used, free[i] + 1);
-    }
-    for (std::size_t i = added; i < free_count; ++i) {
-        while (used > 0 && is_done(used - 1)) --used;
-        if (free[i] >= used) break;
-        --used;
-        copy_lane(tile, used, tile, free[i], 0, Block::rows(bones_));
-        room.chains[free[i]] = room.chains[used];
-        tile.at(Row::Active, used) = 0.0f;
-    }
-    return used;
 }
 
-void Work::report(const Block& block, std::size_t lane, std::size_t chain) const noexcept {
-    if (reports_.empty()) return;
-    Report& report = reports_[chain];
-    report.iterations = static_cast<int>(block.at(Row::Iterations, lane));
-    report.residual = block.at(Row::Residual, lane);
-    switch (block.start(lane)) {
-        case Start::Invalid:
-            report = {Status::InvalidInput, 0, 0.0f};
-            return;
-        case Start::Straight:
-            report.status = Status::Stretched;
-            return;
-        case Start::Plain:
-        case Start::Careful:
-            const bool stalled = block.at(Row::Idle, lane) >= static_cast<float>(stall_patience);
-            report.status = report.residual <= block.at(Row::Tolerance, lane) ? Status::Converged
-                            : stalled                                         ? Status::Stalled
-                                                                              : Status::IterationLimit;
-    }
+void Work::report(const Block& block, std::size_t lane, std::size_t chain) noexcept {
+    const Class found = block.class_of(lane);
+    if (found == Class::Invalid) invalid_.fetch_add(1, std::memory_order_relaxed);
+    if (in_.reports.empty()) return;
+    ManyReport& report = in_.reports[chain];
+    const float residual = block.at(Row::Residual, lane);
+    const bool there = residual <= block.at(Row::Tolerance, lane);
+    const bool stalled = block.at(Row::Idle, lane) >= 10.0f;  // as in convergence.hpp
+    Status status = there ? Status::Converged : stalled ? Status::Stalled : Status::IterationLimit;
+    if (found == Class::Straight) status = Status::Stretched;
+    if (found == Class::Folded) status = Status::TooClose;
+    report = {status, false, static_cast<int>(block.at(Row::Iterations, lane)), residual};
+    if (found == Class::Invalid) report = {Status::InvalidInput, false, 0, 0.0f};
 }
 
 }  // namespace tendril::ik::detail

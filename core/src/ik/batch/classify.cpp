@@ -1,0 +1,239 @@
+// What solve_many does before the first iteration: which chains can iterate at all, and which must be laid
+// first.
+//
+// Highway compiles this file once for each vector unit: it includes it again and again, each time with
+// another HWY_NAMESPACE.
+#include "ik/batch/vector.hpp"
+#include "tendril/chain/segment.hpp"
+
+// Adds nothing for floats, and some versions do not compile with it as the baseline (-march=native).
+#define HWY_DISABLED_TARGETS HWY_AVX3_DL
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "ik/batch/classify.cpp"
+#include <hwy/foreach_target.h>  // before highway.h
+#include <hwy/highway.h>
+
+#include "ik/batch/step-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace tendril::ik::detail {
+namespace HWY_NAMESPACE {
+
+/// Metres: from there on floats stand too far apart for the invariant of chain.hpp.
+constexpr float far_out = 1e3f;
+// Of what a bone may be off: between these two a float cannot tell, for rounding is a three-hundredth of it.
+constexpr float surely_fits = 0.95f, surely_loose = 1.05f;
+
+HWY_INLINE Lanes largest(const Points& p, Lanes so_far) {
+    return hn::Max(hn::Max(so_far, hn::Abs(p.x)), hn::Max(hn::Abs(p.y), hn::Abs(p.z)));
+}
+
+/// Whether every bone of a register of chains is surely at its length, and no joint too far out. One pass
+/// without a root: |d^2 - l^2| <= 0.9 l a means that d is within 0.9 a of l.
+HWY_INLINE bool surely_fit(const Block& block, std::size_t i) {
+    Points from = load_points(block.joint(0) + i);
+    const Lanes furthest = hn::Add(largest(from, zero()), load(block.reach() + i));
+    Mask fits = hn::Le(furthest, all(0.99f * max_magnitude));
+    for (std::size_t bone = 0; bone < block.bones(); ++bone) {
+        const Points to = load_points(block.joint(bone + 1) + i), apart = minus(to, from);
+        const Lanes size = load(block.length(bone) + i);
+        const Lanes off = hn::Abs(hn::Sub(dot(apart, apart), hn::Mul(size, size)));
+        const Lanes allowed = hn::Mul(hn::Mul(hn::Max(all(1.0f), size), size), all(0.9f * 1e-4f));
+        fits = hn::And(fits, hn::Le(off, allowed));
+        from = to;
+    }
+    return hn::AllTrue(Floats(), fits);
+}
+
+/// By how much a bone is off its length, and how much lay_to_lengths (prepare.cpp) lets pass.
+HWY_INLINE void compare(const Block& block, std::size_t bone, std::size_t i, Lanes& off, Lanes& allowed) {
+    const float *const from = block.joint(bone) + i, *const to = block.joint(bone + 1) + i;
+    const Lanes size = load(block.length(bone) + i);
+    off = hn::Abs(hn::Sub(hn::Sqrt(squared_distance(from, to)), size));
+    const Lanes ends = largest(load_points(to), largest(load_points(from), zero()));
+    const Mask beyond = hn::Gt(ends, all(far_out));
+    allowed = hn::Add(hn::Mul(hn::Max(all(1.0f), size), all(1e-4f)),
+                      hn::IfThenElseZero(beyond, hn::Mul(ends, all(FLT_EPSILON))));
+}
+
+struct Fit {
+    Mask valid, loose, unclear;
+};
+/// The same bone by bone, where some bone does not surely fit.
+HWY_INLINE Fit fit_of(const Block& block, std::size_t i) {
+    Fit fit{none(), none(), none()};
+    Lanes far = largest(load_points(block.joint(0) + i), zero());
+    for (std::size_t bone = 0; bone < block.bones(); ++bone) {
+        Lanes off, allowed;
+        compare(block, bone, i, off, allowed);
+        far = largest(load_points(block.joint(bone + 1) + i), far);
+        fit.loose = hn::Or(fit.loose, hn::Gt(off, hn::Mul(allowed, all(surely_loose))));
+        const Mask unclear = hn::AndNot(fit.loose, hn::Ge(off, hn::Mul(allowed, all(surely_fits))));
+        const Lanes squared = squared_distance(block.joint(bone) + i, block.joint(bone + 1) + i);
+        const Mask blind = hn::And(fit.loose, hn::Lt(squared, all(math::coincidence)));
+        fit.unclear = hn::Or(fit.unclear, hn::Or(unclear, blind));
+    }
+    fit.valid = hn::Le(far, all(max_magnitude));
+    return fit;
+}
+
+/// Writes Row::Class for one register of chains. All thresholds leave room for the rounding of floats: what
+/// is nearer than that is left to the scalar code. True where some bone of a reachable chain is loose.
+HWY_INLINE bool classify_register(const Block& block, std::size_t i, Mask used) {
+    const Lanes reach = load(block.reach() + i), longest = load(block.longest() + i);
+    const Lanes rim = hn::Mul(reach, all(1e-5f));
+    const Points target = load_points(block.target() + i);
+    const Lanes distance = hn::Sqrt(squared_distance(block.joint(0) + i, block.target() + i));
+    // So far out that no joint comes to coincide with the target.
+    const Mask beyond = hn::Gt(distance, hn::Add(hn::Add(reach, rim), all(1e-3f)));
+    const Mask within = hn::Lt(distance, hn::Sub(reach, rim));
+    const Lanes nearest = hn::Sub(hn::Add(longest, longest), reach);
+    const Mask unfolded = hn::Gt(distance, hn::Add(nearest, rim));
+    // Nearer to the root than a thousandth of what is left, the line to fold along is the chain's own.
+    const Mask folded =
+        hn::And(hn::Lt(distance, hn::Sub(nearest, rim)), hn::Gt(distance, hn::Mul(nearest, all(1.1e-3f))));
+    // False for what is not a number.
+    const auto is_within = [](Lanes x) { return hn::Le(hn::Abs(x), all(max_magnitude)); };
+    Mask valid = hn::And(used, is_within(target.x));
+    valid = hn::And(valid, hn::And(is_within(target.y), is_within(target.z)));
+    Mask reachable = hn::And(within, unfolded), loose = none();
+    if (!surely_fit(block, i)) {
+        const Fit fit = fit_of(block, i);
+        valid = hn::And(valid, fit.valid);
+        reachable = hn::AndNot(fit.unclear, reachable);
+        loose = fit.loose;
+    }
+    const auto code = [](Class value) { return all(static_cast<float>(value)); };
+    Lanes found = hn::IfThenElse(reachable, code(Class::Reachable), code(Class::Scalar));
+    found = hn::IfThenElse(folded, code(Class::Folded), found);
+    found = hn::IfThenElse(beyond, code(Class::Straight), found);
+    found = hn::IfThenElse(valid, found, code(Class::Invalid));
+    store(found, block.row(Row::Class) + i);
+    return any(hn::And(loose, equals(block.row(Row::Class) + i, Class::Reachable)));
+}
+
+/// From the first loose bone on, where the target is reachable: what lay_to_lengths does.
+HWY_INLINE void lay_loose(const Block& block, std::size_t i) {
+    float* const activity = block.row(Row::Activity);
+    store(zero(), activity + i);
+    for (std::size_t bone = 0; bone < block.bones(); ++bone) {
+        Lanes off, allowed;
+        compare(block, bone, i, off, allowed);
+        const Mask fails = hn::Gt(off, hn::Mul(allowed, all(surely_loose)));
+        const Mask lay = hn::And(fails, equals(block.row(Row::Class) + i, Class::Reachable));
+        store(hn::IfThenElse(lay, all(static_cast<float>(Activity::Active)), load(activity + i)),
+              activity + i);
+        const float* const before = bone > 0 ? block.joint(bone - 1) : nullptr;
+        step<true>({block.joint(bone), block.joint(bone + 1), block.length(bone), before}, activity, i);
+    }
+}
+
+/// Every joint straight towards the target from where the one before has come to lie, so that the roundings
+/// of many joints do not add up to a bend.
+HWY_INLINE void lay_straight(const Block& block, std::size_t i, Mask lanes) {
+    const Points target = load_points(block.target() + i);
+    Points at = load_points(block.joint(0) + i);
+    for (std::size_t bone = 0; bone < block.bones(); ++bone) {
+        const Points ahead = minus(target, at);
+        const Lanes squared = hn::Max(dot(ahead, ahead), all(math::coincidence));
+        at = moved(at, ahead, hn::Div(load(block.length(bone) + i), hn::Sqrt(squared)));
+        float* const joint = block.joint(bone + 1) + i;
+        store_points(select(lanes, at, load_points(joint)), joint);
+    }
+}
+
+/// The longest bone towards the target, all others back.
+HWY_INLINE void lay_folded(const Block& block, std::size_t i, Mask lanes) {
+    Points at = load_points(block.joint(0) + i);
+    Points along = minus(load_points(block.target() + i), at);
+    along = times(along, hn::Div(all(1.0f), hn::Max(length(along), all(FLT_MIN))));
+    const Lanes longest = load(block.longest() + i);
+    Mask passed = none();
+    for (std::size_t bone = 0; bone < block.bones(); ++bone) {
+        const Lanes size = load(block.length(bone) + i);
+        const Mask ahead = hn::AndNot(passed, hn::Eq(size, longest));
+        passed = hn::Or(passed, ahead);
+        at = moved(at, along, hn::IfThenElse(ahead, size, hn::Neg(size)));
+        float* const joint = block.joint(bone + 1) + i;
+        store_points(select(lanes, at, load_points(joint)), joint);
+    }
+}
+
+/// Whether all joints of a chain may lie on one line with its target. Where they do, to 1e-5 of the reach
+/// (perturbation.cpp), the product of no arm with the target's arm is over twice that and what rounding adds.
+/// One joint off the line is enough, so as a rule a look at the last two or three ends it.
+HWY_INLINE Mask may_be_collinear(const Block& block, std::size_t i, Mask lanes) {
+    const Points root = load_points(block.joint(0) + i);
+    const Points target = minus(load_points(block.target() + i), root);
+    const Lanes reach = load(block.reach() + i), near = hn::Mul(hn::Mul(reach, reach), all(4e-5f));
+    for (std::size_t joint = block.bones(); joint > 0 && any(lanes); --joint) {
+        const Lanes off = length(cross(minus(load_points(block.joint(joint) + i), root), target));
+        lanes = hn::And(lanes, hn::Le(off, near));
+    }
+    return lanes;
+}
+
+/// The state that a register's chains begin with.
+HWY_INLINE void begin(const Block& block, std::size_t i) {
+    const Lanes residual = residual_of(block, i);
+    for (const Row row : {Row::Residual, Row::Best, Row::Nearest, Row::Last}) {
+        store(residual, block.row(row) + i);
+    }
+    for (const Row row : {Row::Idle, Row::Slow, Row::Perturbations, Row::Iterations}) {
+        store(zero(), block.row(row) + i);
+    }
+    for (std::size_t joint = 1; joint <= block.bones(); ++joint) {
+        store_points(load_points(block.joint(joint) + i), block.best(joint) + i);
+    }
+}
+
+Left classify(const Block& block, std::size_t lanes, bool every) {
+    const Floats d;
+    Left left;
+    for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
+        float* const found = block.row(Row::Class) + i;
+        const Mask used = hn::FirstN(d, lanes - i);  // the lanes beyond count as invalid
+        if (classify_register(block, i, used)) lay_loose(block, i);
+        if (const Mask straight = equals(found, Class::Straight); any(straight)) {
+            lay_straight(block, i, straight);
+        }
+        if (const Mask folded = equals(found, Class::Folded); any(folded)) lay_folded(block, i, folded);
+        begin(block, i);
+        const Mask there = hn::Le(load(block.row(Row::Residual) + i), load(block.row(Row::Tolerance) + i));
+        const Mask reachable = equals(found, Class::Reachable);
+        const Mask collinear = may_be_collinear(block, i, hn::AndNot(there, reachable));
+        if (any(collinear)) {
+            store(hn::IfThenElse(collinear, all(static_cast<float>(Class::Collinear)), load(found)), found);
+            left.perturb = true;
+        }
+        const Mask active = every ? reachable : hn::AndNot(there, reachable);
+        store(hn::IfThenElseZero(active, all(static_cast<float>(Activity::Active))),
+              block.row(Row::Activity) + i);
+        left.active += hn::CountTrue(d, active);
+    }
+    return left;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tendril::ik::detail
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tendril::ik::detail {
+namespace {
+HWY_EXPORT(classify);
+}
+
+Classify* classify_with(std::int64_t target) noexcept {
+#if HWY_TARGETS == HWY_STATIC_TARGET
+    static_cast<void>(target);
+    return HWY_STATIC_DISPATCH(classify);
+#else
+    hwy::ChosenTarget chosen;
+    chosen.Update(target);
+    return HWY_DISPATCH_TABLE(classify)[chosen.GetIndex()];
+#endif
+}
+
+}  // namespace tendril::ik::detail
+#endif
