@@ -78,6 +78,24 @@ TEST(RopeBits, EveryVectorUnitHasTheSame) {
     }
 }
 
+/// All of a rope in one point: its system is singular, and what the direct solver makes of it no number.
+TEST(RopeBits, ARopeInOnePointIsFiniteInEveryUnit) {
+    for (const int segments : {7, 18, 31}) {
+        World first;
+        first.add_rope({.from = {1, 2, 3}, .to = {1, 2, 3}, .segments = segments, .pin_start = true});
+        for (const std::string_view unit : ik::vector_units()) {
+            World world = first;
+            world.use_vector_unit(unit);
+            World widest = first;
+            for (int i = 0; i < 120; ++i) {
+                world.advance(1.0 / 240.0), widest.advance(1.0 / 240.0);
+                ASSERT_TRUE(all_finite(world)) << unit << ' ' << segments << ' ' << i;
+                ASSERT_TRUE(same_bits(world.state(), widest.state())) << unit << ' ' << segments << ' ' << i;
+            }
+        }
+    }
+}
+
 /// Whether a rope has company in its register or not.
 TEST(RopeBits, CompanyDoesNotMatter) {
     for (const int others : {0, 1, 3, 7, 12}) {

@@ -178,5 +178,37 @@ TEST(RopeState, ItsOwnIsNotRefused) {
     }
 }
 
+/// The world has an edge: what falls or is flung over it stops there, and can be saved.
+TEST(RopeState, ItsOwnIsNotRefusedAtTheEdgeOfTheWorld) {
+    World world = world_with({.substep = 0.1, .gravity = {1e4f, -1e4f, 0}, .gravity_scale = 1e3f});
+    world.add_rope({.name = "rope", .from = {-9e8f, 9e8f, 9e8f}, .to = {-9e8f, 9e8f, 9e8f}, .segments = 5});
+    world.add_sheet({.name = "sheet", .corner = {9e8f, 0, 0}, .columns = 3, .rows = 3});
+    world.add_collider("ball", rope::Sphere{{9.9e8f, 9.9e8f, 9.9e8f}, 1.0f});
+    world.add_collider("rod", rope::Capsule{{1e9f, 0, 0}, {1e9f, 1e9f, 1.0f}, 1.0f});
+    for (int i = 0; i < 60; ++i) {
+        if (i == 20) world.attach(0, "ball");  // twice as far off as anything is from the origin
+        if (i == 30) world.set_settings({.substep = 1e-5, .longest_frame = 1e-3f});
+        if (i == 40) world.set_settings({.substep = 0.1});  // what was done in 1e-5 s goes on in 0.1 s
+        if (i == 50) world.move_collider("rod", {1e9f, -5e8f, 0}, 0.5);
+        world.advance(0.1);
+        EXPECT_TRUE(all_finite(world)) << i;
+        EXPECT_NO_THROW(World{world.state()}) << i;
+    }
+}
+
+TEST(RopeState, BodiesThatWouldReachOverTheEdgeAreRefused) {
+    World world;
+    const auto refused = [&](auto add) {
+        const std::string message = message_of<std::invalid_argument>(add);
+        EXPECT_NE(message.find("1e9"), std::string::npos) << message;
+        EXPECT_EQ(world.size(), 0u);
+        EXPECT_TRUE(world.state().links.empty() && world.state().bodies.empty());
+    };
+    refused([&] { world.add_rope({.from = {-1e9f, 0, 0}, .to = {1e9f, 0, 0}, .segments = 1}); });
+    refused([&] { world.add_rope({.from = {0, -1e9f, 0}, .to = {1, -1e9f, 0}, .length = 1e9f}); });
+    refused([&] { world.add_sheet({.corner = {9e8f, 0, 0}, .along = {9e8f, 0, 0}}); });
+    refused([&] { world.add_lock({.roots = {{{0, -1e9f, 0}, {0, -1, 0}}}}); });
+}
+
 }  // namespace
 }  // namespace tendril::test

@@ -1,9 +1,11 @@
 // How time passes: fixed substeps, each of which moves what is free on and lets a solver put it right.
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
 #include "chain/checks.hpp"
 #include "rope/build.hpp"
+#include "rope/check_state.hpp"
 #include "rope/contact_shape.hpp"
 #include "rope/geometry.hpp"
 #include "rope/substep.hpp"
@@ -36,6 +38,34 @@ bool tear(State& state) {
     return std::erase_if(state.links, torn) > 0;
 }
 
+/// Whether every coordinate is at most `most`; false where one is no number.
+bool within(const dvec3& v, double most) {
+    return std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most;
+}
+
+/// Displacements and velocities that a world's own numbers never exceed.
+dvec3 bounded(const dvec3& displacement) {
+    if (within(displacement, detail::max_displacement)) return displacement;
+    return glm::clamp(displacement, dvec3(-detail::max_displacement), dvec3(detail::max_displacement));
+}
+
+/// Where a particle ends up: the world has an edge, max_magnitude from the origin each way, where what flies
+/// further stops. Where the solver found no number, it stays where it was. Zeros lose their sign, which would
+/// tell how many ropes were solved side by side.
+dvec3 landed(const dvec3& place, const dvec3& was) {
+    constexpr double edge = max_magnitude;
+    if (within(place, edge)) return place + dvec3(0.0);
+    const bool number = std::isfinite(place.x) && std::isfinite(place.y) && std::isfinite(place.z);
+    return number ? glm::clamp(place, dvec3(-edge), dvec3(edge)) : was;
+}
+
+/// Newtons, of a Lagrange multiplier over h^2.
+float tension_of(double pull, double square) {
+    constexpr double most = 1e30;
+    const double tension = pull / square;
+    return std::isfinite(tension) ? static_cast<float>(std::clamp(tension, -most, most)) + 0.0f : 0.0f;
+}
+
 /// Sizes everything for a world, so that nothing is allocated later.
 void prepare(World::Scratch& scratch, const State& state, const World::Plan& plan) {
     if (scratch.unit.solve == nullptr) scratch.unit = detail::vector_unit("");
@@ -66,22 +96,32 @@ void prepare(World::Scratch& scratch, const State& state, const World::Plan& pla
 
 }  // namespace
 
-Substep::Substep(State& state, const World::Plan& plan, World::Scratch& scratch)
+Substep::Substep(State& state, const World::Plan& plan, World::Scratch& scratch, Advance& report)
     : state_(state),
       plan_(plan),
       scratch_(scratch),
+      report_(report),
       h_(state.settings.substep),
       acceleration_(detail::acceleration(state.settings)) {}
 
-int Substep::run() {
+void Substep::run() {
     move_colliders();
     move_particles();
     find_near();
     const Solver solver = state_.settings.solver;
-    const int passes = solver == Solver::Direct ? direct() : relax(solver == Solver::Xpbd);
+    report_.passes += solver == Solver::Direct ? direct() : relax(solver == Solver::Xpbd);
     push_out_for_good();
     keep();
-    return passes;
+    ++report_.substeps;
+    ++state_.substeps;
+}
+
+/// The settings' iterations, or fewer where they would look at more than max_pass_work links and contacts.
+int Substep::passes_allowed() const {
+    std::size_t work = state_.links.size() + 1;
+    for (const World::Scratch::Near& near : scratch_.near) work += plan_.chunks[near.chunk].count;
+    const auto most = std::max(static_cast<std::size_t>(unbounded_passes), max_pass_work / work);
+    return static_cast<int>(std::min(static_cast<std::size_t>(state_.settings.iterations), most));
 }
 
 void Substep::move_colliders() {
@@ -91,7 +131,7 @@ void Substep::move_colliders() {
         const glm::vec3 was = centre(collider.shape);
         const double part = part_of(h_, collider.seconds);
         const dvec3 from(was), to = from + part * (collider.goal - from);
-        if (glm::vec3(to) != was) collider.shape = moved(collider.shape, glm::vec3(to));
+        if (glm::vec3(to) != was) collider.shape = detail::kept_in(moved(collider.shape, glm::vec3(to)));
         moving.shape = &collider.shape;
         moving.by = dvec3(centre(collider.shape)) - from;
         moving.size = size(collider.shape);
@@ -144,9 +184,10 @@ void Substep::measure() {
 
 void Substep::keep() {
     for (std::size_t i = 0; i < state_.position.size(); ++i) {
-        state_.before[i] = state_.moved[i];
-        state_.moved[i] = scratch_.place[i] - state_.position[i];
-        state_.position[i] = scratch_.place[i];
+        const dvec3 place = landed(scratch_.place[i], state_.position[i]);
+        state_.before[i] = bounded(state_.moved[i]);
+        state_.moved[i] = place - state_.position[i];
+        state_.position[i] = place;
     }
     for (std::size_t r = 0; r < plan_.runs.size(); ++r) {
         if (scratch_.run_scale[r] == 1.0) continue;
@@ -158,7 +199,7 @@ void Substep::keep() {
         scratch_.run_scale[r] = 1.0;
     }
     for (std::size_t i = 0; i < state_.links.size(); ++i) {
-        state_.links[i].tension = static_cast<float>(scratch_.pull[i] / (h_ * h_));
+        state_.links[i].tension = tension_of(scratch_.pull[i], h_ * h_);
     }
     for (const std::uint32_t i : scratch_.touched) scratch_.touch[i] = Touch{};
     scratch_.touched.clear();
@@ -183,17 +224,16 @@ Advance World::advance(double seconds, std::uint64_t most_substeps) {
         state_.remainder = std::max(0.0, state_.remainder - static_cast<double>(more) * substep);
         done.dropped += more;
     }
-    state_.dropped += done.dropped;
+    constexpr auto countable = std::uint64_t{1} << 53;  // by a file's numbers
+    state_.dropped = std::min(state_.dropped + done.dropped, countable);
     while (state_.remainder >= substep * (1.0 - rounding)) {
         state_.remainder = std::max(0.0, state_.remainder - substep);
         if (!plan_) plan_ = std::make_shared<const Plan>(state_);
         if (!scratch_) scratch_ = std::make_unique<Scratch>();
         if (scratch_->fresh) prepare(*scratch_, state_, *plan_);
-        Substep step(state_, *plan_, *scratch_);
+        Substep step(state_, *plan_, *scratch_, done);
         step.measures = state_.remainder < substep * (1.0 - rounding);
-        done.passes += step.run();
-        ++done.substeps;
-        ++state_.substeps;
+        step.run();
         if (plan_->tears && tear(state_)) reshaped();
     }
     return done;

@@ -27,39 +27,63 @@ void require_room(const char* operation, const State& state, std::size_t more) {
            std::to_string(state.position.size() + more));
 }
 
-/// Adds particles at rest.
-std::uint32_t add_particles(State& state, const std::vector<dvec3>& points, double mass) {
-    const std::size_t first = state.position.size(), size = first + points.size();
-    state.position.insert(state.position.end(), points.begin(), points.end());
-    state.moved.resize(size, dvec3(0.0));
-    state.before.resize(size, dvec3(0.0));
-    state.mass.resize(size, mass);
-    return static_cast<std::uint32_t>(first);
+/// A body that is not yet in a state: its particles are numbered from 0.
+struct Draft {
+    Body body;
+    std::vector<dvec3> points;
+    double mass = 0.0;  ///< kg, of each particle
+    std::vector<Link> links;
+    std::vector<Pin> pins;
+
+    void pin(std::size_t particle) {
+        pins.push_back({.particle = particle, .goal = points[particle], .seconds = 0.0, .collider = {}});
+    }
+    void link(std::uint32_t a, std::uint32_t b, double rest, Link::Kind kind, float compliance) {
+        links.push_back({.a = a,
+                         .b = b,
+                         .rest = static_cast<float>(rest),
+                         .kind = kind,
+                         .compliance = compliance});
+    }
+    /// As long as its particles are apart.
+    void link(std::uint32_t a, std::uint32_t b, Link::Kind kind, float compliance) {
+        link(a, b, length(points[b] - points[a]), kind, compliance);
+    }
+};
+
+/// The new particles are at rest.
+void append(State& state, const char* operation, Draft draft) {
+    constexpr double edge = max_magnitude;
+    for (const dvec3& p : draft.points) {
+        if (std::abs(p.x) <= edge && std::abs(p.y) <= edge && std::abs(p.z) <= edge) continue;
+        refuse(operation, "every particle", "at most 1e9 m from the origin each way", "one further out");
+    }
+    for (const Link& link : draft.links) {
+        if (link.rest > max_magnitude)
+            refuse(operation, "every link", "at most 1e9 m long", text(link.rest));
+    }
+    const std::size_t first = state.position.size(), count = draft.points.size();
+    state.position.insert(state.position.end(), draft.points.begin(), draft.points.end());
+    state.moved.resize(first + count, dvec3(0.0));
+    state.before.resize(first + count, dvec3(0.0));
+    state.mass.resize(first + count, draft.mass);
+    for (Link& link : draft.links) {
+        link.a += static_cast<std::uint32_t>(first);
+        link.b += static_cast<std::uint32_t>(first);
+    }
+    state.links.insert(state.links.end(), draft.links.begin(), draft.links.end());
+    for (Pin& pin : draft.pins) pin.particle += first;
+    state.pins.insert(state.pins.end(), draft.pins.begin(), draft.pins.end());
+    draft.body.first = first;
+    draft.body.count = count;
+    state.bodies.push_back(std::move(draft.body));
 }
 
-void add_pin(State& state, std::size_t particle) {
-    state.pins.push_back(
-        {.particle = particle, .goal = state.position[particle], .seconds = 0.0, .collider = {}});
-}
-
-double distance(const State& state, std::uint32_t a, std::uint32_t b) {
-    return length(state.position[b] - state.position[a]);
-}
-
-/// A link as long as its particles are apart.
-void add_link(State& state, std::uint32_t a, std::uint32_t b, Link::Kind kind, float compliance) {
-    state.links.push_back({.a = a,
-                           .b = b,
-                           .rest = static_cast<float>(distance(state, a, b)),
-                           .kind = kind,
-                           .compliance = compliance});
-}
-
-/// Grid coordinates of a sheet's links.
+/// The links of a cloth.
 class Grid {
   public:
-    Grid(State& state, std::uint32_t first, std::uint32_t columns, std::uint32_t rows)
-        : state_(state), first_(first), columns_(columns), rows_(rows) {}
+    Grid(Draft& draft, std::uint32_t columns, std::uint32_t rows)
+        : draft_(draft), columns_(columns), rows_(rows) {}
 
     void stretch() {
         for (std::uint32_t r = 0; r < rows_; ++r)
@@ -85,11 +109,11 @@ class Grid {
   private:
     void link(std::uint32_t c, std::uint32_t r, std::uint32_t to_c, std::uint32_t to_r, Link::Kind kind,
               float compliance) {
-        add_link(state_, first_ + r * columns_ + c, first_ + to_r * columns_ + to_c, kind, compliance);
+        draft_.link(r * columns_ + c, to_r * columns_ + to_c, kind, compliance);
     }
 
-    State& state_;
-    std::uint32_t first_, columns_, rows_;
+    Draft& draft_;
+    std::uint32_t columns_, rows_;
 };
 
 }  // namespace
@@ -118,19 +142,17 @@ void build(State& state, const RopeShape& shape, std::string name) {
     const double whole = shape.length ? *shape.length : length(to - from);
     const double each = whole / static_cast<double>(segments);
     const double mass = std::max(static_cast<double>(shape.density) * each, 1e-9);
-    const std::uint32_t first =
-        add_particles(state, hang(from, to, whole, segments, down(state.settings)), mass);
-    for (std::uint32_t i = 0; i < segments; ++i) {
-        state.links.push_back({.a = first + i, .b = first + i + 1, .rest = static_cast<float>(each)});
-    }
-    state.bodies.push_back({.name = std::move(name),
-                            .kind = Body::Kind::Rope,
-                            .first = first,
-                            .count = segments + 1,
-                            .row = segments + 1,
-                            .radius = shape.radius});
-    if (shape.pin_start) add_pin(state, first);
-    if (shape.pin_end) add_pin(state, first + segments);
+    Draft draft;
+    draft.points = hang(from, to, whole, segments, down(state.settings));
+    draft.mass = mass;
+    for (std::uint32_t i = 0; i < segments; ++i) draft.link(i, i + 1, each, Link::Kind::Stretch, 0.0f);
+    draft.body.name = std::move(name);
+    draft.body.kind = Body::Kind::Rope;
+    draft.body.row = segments + 1;
+    draft.body.radius = shape.radius;
+    if (shape.pin_start) draft.pin(0);
+    if (shape.pin_end) draft.pin(segments);
+    append(state, op, std::move(draft));
 }
 
 void build(State& state, const SheetShape& shape, std::string name) {
@@ -150,34 +172,31 @@ void build(State& state, const SheetShape& shape, std::string name) {
     const std::size_t count = static_cast<std::size_t>(columns) * rows;
     require_room(op, state, count);
 
-    std::vector<dvec3> points;
-    points.reserve(count);
+    Draft draft;
+    draft.points.reserve(count);
     for (std::uint32_t r = 0; r < rows; ++r)
         for (std::uint32_t c = 0; c < columns; ++c)
-            points.push_back(dvec3(shape.corner) +
-                             (static_cast<double>(c) / (columns - 1)) * dvec3(shape.along) +
-                             (static_cast<double>(r) / (rows - 1)) * dvec3(shape.down));
+            draft.points.push_back(dvec3(shape.corner) +
+                                   (static_cast<double>(c) / (columns - 1)) * dvec3(shape.along) +
+                                   (static_cast<double>(r) / (rows - 1)) * dvec3(shape.down));
     const double area = length(cross(dvec3(shape.along), dvec3(shape.down)));
-    const double mass =
-        std::max(static_cast<double>(shape.density) * area / static_cast<double>(count), 1e-9);
-    const std::uint32_t first = add_particles(state, points, mass);
-    Grid grid(state, first, columns, rows);
+    draft.mass = std::max(static_cast<double>(shape.density) * area / static_cast<double>(count), 1e-9);
+    Grid grid(draft, columns, rows);
     grid.stretch();
     grid.shear(shape.shear);
     grid.bend(shape.bend);
-    state.bodies.push_back({.name = std::move(name),
-                            .kind = Body::Kind::Sheet,
-                            .first = first,
-                            .count = count,
-                            .row = columns,
-                            .radius = shape.radius,
-                            .tear = shape.tear});
+    draft.body.name = std::move(name);
+    draft.body.kind = Body::Kind::Sheet;
+    draft.body.row = columns;
+    draft.body.radius = shape.radius;
+    draft.body.tear = shape.tear;
     for (std::uint32_t c = 0; c < columns; ++c) {
         const bool corner = c == 0 || c + 1 == columns;
         const bool held =
             shape.pins == SheetShape::Pins::Row || (shape.pins == SheetShape::Pins::Corners && corner);
-        if (held) add_pin(state, first + c);
+        if (held) draft.pin(c);
     }
+    append(state, op, std::move(draft));
 }
 
 void build(State& state, const LockShape& shape, std::string name) {
@@ -203,38 +222,37 @@ void build(State& state, const LockShape& shape, std::string name) {
     require_room(op, state, count);
 
     const double each = static_cast<double>(shape.length) / segments;
-    std::vector<dvec3> points;
-    points.reserve(count);
+    Draft draft;
+    draft.points.reserve(count);
     for (const LockShape::Root& root : shape.roots)
         for (std::uint32_t i = 0; i <= segments; ++i)
-            points.push_back(dvec3(root.position) + (each * i) * unit(dvec3(root.direction)));
-    const std::uint32_t first = add_particles(state, points, std::max(shape.density * each, 1e-9));
+            draft.points.push_back(dvec3(root.position) + (each * i) * unit(dvec3(root.direction)));
+    draft.mass = std::max(shape.density * each, 1e-9);
     const auto strands = static_cast<std::uint32_t>(shape.roots.size());
     for (std::uint32_t s = 0; s < strands; ++s)
         for (std::uint32_t i = 0; i < segments; ++i) {
-            const std::uint32_t a = first + s * (segments + 1) + i;
-            state.links.push_back({.a = a, .b = a + 1, .rest = static_cast<float>(each)});
+            const std::uint32_t a = s * (segments + 1) + i;
+            draft.link(a, a + 1, each, Link::Kind::Stretch, 0.0f);
         }
     for (std::uint32_t s = 0; s < strands; ++s)
         for (std::uint32_t i = 0; i + 2 <= segments; ++i) {
-            const std::uint32_t a = first + s * (segments + 1) + i;
-            add_link(state, a, a + 2, Link::Kind::Bend, shape.bend);
+            const std::uint32_t a = s * (segments + 1) + i;
+            draft.link(a, a + 2, Link::Kind::Bend, shape.bend);
         }
-    state.bodies.push_back({.name = std::move(name),
-                            .kind = Body::Kind::Lock,
-                            .first = first,
-                            .count = count,
-                            .row = row,
-                            .radius = shape.radius});
+    draft.body.name = std::move(name);
+    draft.body.kind = Body::Kind::Lock;
+    draft.body.row = row;
+    draft.body.radius = shape.radius;
     // The first link of a strand is held whole: so it keeps its direction.
-    for (std::size_t at = first; at < first + count; at += row) {
+    for (std::size_t at = 0; at < count; at += row) {
         for (const std::size_t particle : {at, at + 1}) {
-            add_pin(state, particle);
+            draft.pin(particle);
             if (holder == nullptr) continue;
-            state.pins.back().collider = holder->name;
-            state.pins.back().goal -= dvec3(centre(holder->shape));
+            draft.pins.back().collider = holder->name;
+            draft.pins.back().goal -= dvec3(centre(holder->shape));
         }
     }
+    append(state, op, std::move(draft));
 }
 
 }  // namespace tendril::rope::detail

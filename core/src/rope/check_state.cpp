@@ -19,8 +19,15 @@ std::string at(const char* list, std::size_t index) {
     return std::string(list) + " " + std::to_string(index);
 }
 
+bool is_within(const glm::dvec3& p, double most) {
+    return std::abs(p.x) <= most && std::abs(p.y) <= most && std::abs(p.z) <= most;
+}
 bool is_point(const glm::dvec3& p) {
-    return std::abs(p.x) <= max_magnitude && std::abs(p.y) <= max_magnitude && std::abs(p.z) <= max_magnitude;
+    return is_within(p, max_magnitude);
+}
+/// Between two points.
+bool is_offset(const glm::dvec3& p) {
+    return is_within(p, max_displacement);
 }
 bool is_amount(double value) {
     return value >= 0.0 && value <= max_magnitude;
@@ -36,8 +43,8 @@ void check_particles(const State& state) {
     }
     for (std::size_t i = 0; i < size; ++i) {
         if (!is_point(state.position[i])) refuse(at("position", i) + " is not finite or too far out");
-        if (!is_point(state.moved[i])) refuse(at("moved", i) + " is not finite or too large");
-        if (!is_point(state.before[i])) refuse(at("before", i) + " is not finite or too large");
+        if (!is_offset(state.moved[i])) refuse(at("moved", i) + " is not finite or too large");
+        if (!is_offset(state.before[i])) refuse(at("before", i) + " is not finite or too large");
         // 1e9 kg/m on 1e9 m, or a square of that, is allowed.
         if (!(state.mass[i] > 0.0 && state.mass[i] <= 1e30))
             refuse(at("mass", i) + " must be over 0 and finite");
@@ -89,7 +96,7 @@ void check_pins(const State& state) {
             refuse("pins must be of particles that there are, in their order, one each; got " +
                    std::to_string(pin.particle));
         }
-        if (!is_point(pin.goal))
+        if (!(pin.collider.empty() ? is_point(pin.goal) : is_offset(pin.goal)))
             refuse("the goal of the pin of " + at("particle", pin.particle) + " is not finite");
         if (!is_amount(pin.seconds))
             refuse("the time of the pin of " + at("particle", pin.particle) + " is not");

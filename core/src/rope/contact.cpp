@@ -5,6 +5,7 @@
 // a post grips it the harder the more it is drawn.
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "rope/contact_shape.hpp"
 #include "rope/geometry.hpp"
@@ -100,6 +101,7 @@ void Substep::push_out(bool first) {
     for (const World::Scratch::Near& near : scratch_.near) {
         const World::Plan::Chunk& chunk = plan_.chunks[near.chunk];
         const double radius = state_.bodies[chunk.body].radius;
+        report_.work += chunk.count;
         for (std::uint32_t i = chunk.first; i < chunk.first + chunk.count; ++i) {
             push_particle(i, near.collider, radius, first);
         }
@@ -126,6 +128,7 @@ void Substep::push_particle(std::uint32_t i, std::uint32_t number, double radius
         const double far = detail::length(way), step = 0.5 * collider.size + radius;
         if (far > step && surface.distance < far + radius) {
             const int looks = static_cast<int>(std::min(64.0, std::ceil(far / std::max(step, 1e-9))));
+            report_.work += static_cast<std::uint64_t>(looks);
             for (int k = 0; k < looks; ++k) {
                 const dvec3 on_the_way = from + (static_cast<double>(k) / looks) * way;
                 const SurfaceDistance there = surface_distance(*collider.shape, on_the_way);
@@ -149,9 +152,13 @@ void Substep::push_link(const Link& link, std::uint32_t number, double radius) {
     const World::Scratch::Moving& collider = scratch_.colliders[number];
     if (link.rest <= collider.size) return;
     dvec3 &a = scratch_.place[link.a], &b = scratch_.place[link.b];
-    const double t = detail::nearest_on_line(*collider.shape, a, b);
-    if (t <= 0.0 || t >= 1.0) return;
-    const SurfaceDistance surface = surface_distance(*collider.shape, a + t * (b - a));
+    const dvec3 along = b - a;
+    if (collider.far_from(a + 0.5 * along, radius + 0.5 * detail::length(along))) return;
+    report_.work += detail::most_line_looks;
+    const std::optional<double> nearest = detail::nearest_between(*collider.shape, a, b, radius);
+    if (!nearest) return;
+    const double t = *nearest;
+    const SurfaceDistance surface = surface_distance(*collider.shape, a + t * along);
     const double depth = radius - surface.distance;
     const double share_a = scratch_.weight[link.a] * (1.0 - t), share_b = scratch_.weight[link.b] * t;
     const double shares = share_a * (1.0 - t) + share_b * t;

@@ -1,9 +1,11 @@
 #include "rope/contact_shape.hpp"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <limits>
 
 #include "rope/geometry.hpp"
+#include "tendril/chain/segment.hpp"
 
 namespace tendril::rope::detail {
 namespace {
@@ -26,6 +28,20 @@ double nearest_to(const dvec3& point, const dvec3& a, const dvec3& b) {
     const double squared = dot(by, by);
     return squared > 0.0 ? std::clamp(dot(point - a, by) / squared, 0.0, 1.0) : 0.0;
 }
+
+/// The distance to a convex shape along a line has one valley.
+struct ConvexLine {
+    const Shape& shape;
+    dvec3 from, by;
+
+    struct Point {
+        double t, distance, slope;
+    };
+    Point at(double t) const {
+        const SurfaceDistance surface = surface_distance(shape, from + t * by);
+        return {t, surface.distance, dot(surface.normal, by)};
+    }
+};
 
 }  // namespace
 
@@ -59,24 +75,38 @@ bool beyond(const Shape& shape, const dvec3& low, const dvec3& high) noexcept {
     return dot(deepest - dvec3(plane->point), normal) > 0.0;
 }
 
-double nearest_on_line(const Shape& shape, const dvec3& a, const dvec3& b) noexcept {
-    if (const auto* sphere = std::get_if<Sphere>(&shape)) return nearest_to(dvec3(sphere->centre), a, b);
-    if (std::holds_alternative<Plane>(shape)) return 0.0;  // an end is always as near
-    // The distance to a convex shape along a line has one valley: narrowed down by golden sections.
-    constexpr double golden = 0.6180339887498949;
-    double low = 0.0, high = 1.0;
-    const auto far = [&](double t) { return surface_distance(shape, a + t * (b - a)).distance; };
-    double left = high - golden, right = low + golden, at_left = far(left), at_right = far(right);
-    for (int i = 0; i < 28; ++i) {
-        if (at_left <= at_right) {
-            high = right, right = left, at_right = at_left;
-            left = high - golden * (high - low), at_left = far(left);
-        } else {
-            low = left, left = right, at_left = at_right;
-            right = low + golden * (high - low), at_right = far(right);
-        }
+std::optional<double> nearest_between(const Shape& shape, const dvec3& a, const dvec3& b,
+                                      double reach) noexcept {
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+        const double t = nearest_to(dvec3(sphere->centre), a, b);
+        return t > 0.0 && t < 1.0 ? std::optional(t) : std::nullopt;
     }
-    return 0.5 * (low + high);
+    if (std::holds_alternative<Plane>(shape)) return std::nullopt;  // an end is always as near
+    const ConvexLine line{shape, a, b - a};
+    ConvexLine::Point low = line.at(0.0), high = line.at(1.0);
+    if (!(low.slope < 0.0 && high.slope > 0.0)) return std::nullopt;
+    const double precise = 1e-9 * length(line.by);
+    for (int i = 2; i < most_line_looks; ++i) {
+        // Where the tangents at both ends cross is as low as the distance can be between them.
+        const double bend = high.slope - low.slope, width = high.t - low.t;
+        const double cross = (low.distance - high.distance + high.slope * width) / bend;
+        const double least = low.distance + low.slope * cross;
+        if (least > reach) return std::nullopt;
+        const bool low_is_less = low.distance <= high.distance;
+        if (std::min(low.distance, high.distance) - least <= precise) return low_is_less ? low.t : high.t;
+        // The crossing finds a corner, the slopes' secant the bottom of a curve.
+        const double step = i % 2 == 0 ? cross : -low.slope / bend * width;
+        const ConvexLine::Point middle = line.at(low.t + std::clamp(step, 0.001 * width, 0.999 * width));
+        (middle.slope < 0.0 ? low : high) = middle;
+    }
+    return low.distance <= high.distance ? low.t : high.t;
+}
+
+Shape kept_in(const Shape& shape) noexcept {
+    const auto* capsule = std::get_if<Capsule>(&shape);  // the others are where their centre is
+    if (capsule == nullptr) return shape;
+    const glm::vec3 edge(max_magnitude);
+    return Capsule{glm::clamp(capsule->a, -edge, edge), glm::clamp(capsule->b, -edge, edge), capsule->radius};
 }
 
 }  // namespace tendril::rope::detail

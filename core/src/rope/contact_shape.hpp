@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <optional>
 
 #include "tendril/rope/collider.hpp"
 
@@ -14,7 +15,13 @@ void bounds(const Shape& shape, const glm::dvec3& by, glm::dvec3& low, glm::dvec
 /// Whether a box along the axes lies wholly outside, for the shapes that their bounds say little about.
 bool beyond(const Shape& shape, const glm::dvec3& low, const glm::dvec3& high) noexcept;
 
-/// Where on the line from a (0) to b (1) the shape is nearest, or reaches deepest.
-double nearest_on_line(const Shape& shape, const glm::dvec3& a, const glm::dvec3& b) noexcept;
+inline constexpr int most_line_looks = 14;
+/// Where between the ends of the line from a (0) to b (1) a shape is nearest, or reaches deepest; no value where
+/// that is an end, or is further than `reach` away. Looks at most_line_looks distances at most.
+std::optional<double> nearest_between(const Shape& shape, const glm::dvec3& a, const glm::dvec3& b,
+                                      double reach) noexcept;
+
+/// The same shape with no coordinate over max_magnitude, which rounding can make it.
+Shape kept_in(const Shape& shape) noexcept;
 
 }  // namespace tendril::rope::detail

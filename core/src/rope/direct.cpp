@@ -50,17 +50,21 @@ int Substep::direct() {
         if (!run.alone) std::fill_n(scratch_.pull.begin() + run.first_link, run.links, 0.0);
     }
     const bool pushed = !scratch_.near.empty();
+    const int most = passes_allowed();
     int passes = 0;
-    for (double worst = 0.0; passes < state_.settings.iterations; ++passes) {
-        const bool settled = worst <= shared_enough && (!pushed || passes >= pushed_passes);
-        if (passes > 0 && (plan_.all_alone || settled)) break;
+    bool settled = false;
+    while (!settled && passes < most) {
+        report_.work += state_.links.size();
         satisfy_soft();
-        worst = 0.0;
+        double worst = 0.0;
         for (const World::Plan::Group& group : plan_.groups)
             worst = std::max(worst, solve_group(group, passes));
         measure();
         push_out(passes == 0);
+        ++passes;
+        settled = plan_.all_alone || (worst <= shared_enough && (!pushed || passes >= pushed_passes));
     }
+    if (!settled && most < state_.settings.iterations) ++report_.shortened;
     rescue();
     limit_energy();
     return passes;
@@ -86,6 +90,7 @@ void Substep::rescue() {
         }
     }
     for (int pass = 0; pass < rescue_passes; ++pass) {
+        report_.work += state_.links.size();
         for (const World::Plan::Run& run : plan_.runs) {
             if (scratch_.body_lost[run.body] == 0) continue;
             for (std::uint32_t k = run.first_link; k < run.first_link + run.links; ++k) {

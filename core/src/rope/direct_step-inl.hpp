@@ -67,6 +67,10 @@ class BlockSolver {
         store(value.x, node, row), store(value.y, node, row + 1), store(value.z, node, row + 2);
     }
     V set(double value) const { return hn::Set(d_, value); }
+    // The second where the first is no number, in every vector unit: Highway's own Max and Min leave that to
+    // the machine.
+    static V larger(V a, V b) { return hn::IfThenElse(hn::Gt(a, b), a, b); }
+    static V smaller(V a, V b) { return hn::IfThenElse(hn::Lt(a, b), a, b); }
     static V3 plus(const V3& a, const V3& b) {
         return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
     }
@@ -81,7 +85,7 @@ class BlockSolver {
     V3 unit(const V3& a, V& length) const {
         length = hn::Sqrt(dot(a, a));
         const auto none = hn::Lt(length, set(1e-30));
-        const V inverse = hn::Div(set(1.0), hn::Max(length, set(1e-30)));
+        const V inverse = hn::Div(set(1.0), larger(length, set(1e-30)));
         const V3 along = times(inverse, a);
         return {hn::IfThenElse(none, set(1.0), along.x), hn::IfThenZeroElse(none, along.y),
                 hn::IfThenZeroElse(none, along.z)};
@@ -99,16 +103,16 @@ class BlockSolver {
 
     /// How long a link is under the tension that there is.
     V stretched(std::size_t k) const {
-        const V longer = hn::Mul(load(k, Give), hn::Max(load(k, Pull), hn::Zero(d_)));
-        return hn::Max(hn::Add(load(k, Rest), longer), set(1e-9));
+        const V longer = hn::Mul(load(k, Give), larger(load(k, Pull), hn::Zero(d_)));
+        return larger(hn::Add(load(k, Rest), longer), set(1e-9));
     }
 
     /// Half of the tension there is, over the length: the force that a metre between the nodes makes. Its
     /// bound keeps a rope that cannot be as short as its pins ask from drowning all other digits.
     V stiffness(std::size_t k) const {
         const V both = hn::Add(load(k, Weight), load(k + 1, Weight));
-        const V half = hn::Div(hn::Mul(set(0.5), hn::Max(load(k, Pull), hn::Zero(d_))), stretched(k));
-        return hn::Min(half, hn::Div(set(1e8), hn::Max(both, set(1e-30))));
+        const V half = hn::Div(hn::Mul(set(0.5), larger(load(k, Pull), hn::Zero(d_))), stretched(k));
+        return smaller(half, hn::Div(set(1e8), larger(both, set(1e-30))));
     }
 
     /// Nodes move from their base by tensions along the old and the new directions. Tension has no way to
@@ -153,7 +157,9 @@ class BlockSolver {
             const V rest = load(k, Rest);
             const V error =
                 hn::Sub(hn::Sub(hn::Sqrt(dot(by, by)), rest), hn::Mul(load(k, Give), load(k, Pull)));
-            worst = hn::Max(worst, hn::Div(hn::Abs(error), hn::Max(rest, set(1e-9))));
+            // What is no number counts as hopeless.
+            const V part = hn::Div(hn::Abs(error), larger(rest, set(1e-9)));
+            worst = larger(worst, smaller(part, set(1e300)));
             from = to;
         }
         return worst;
@@ -213,7 +219,7 @@ class BlockSolver {
             const V pivot =
                 hn::Sub(hn::Add(diagonal, hn::Mul(set(order.damping), both)), hn::Mul(lower, upper_ready));
             const V inverse =
-                hn::Div(set(1.0), hn::Max(pivot, hn::Max(hn::Mul(set(1e-10), both), set(1e-30))));
+                hn::Div(set(1.0), larger(pivot, larger(hn::Mul(set(1e-10), both), set(1e-30))));
             // Between two nodes that are held there is nothing to solve.
             const auto fixed = hn::Le(both, zero);
             right_before =

@@ -7,6 +7,7 @@
 
 #include "rope/geometry.hpp"
 #include "rope/substep.hpp"
+#include "tendril/chain/segment.hpp"
 
 namespace tendril::rope {
 namespace {
@@ -16,15 +17,21 @@ using glm::dvec3;
 /// How far inside a particle may stay, metres: far less than what anybody may rely on.
 constexpr double tolerance = 1e-6;
 constexpr int rounds = 12;
+/// Distances that the search for a way out may look at in a substep: what it does not find by then is left
+/// inside and counted. A particle between two surfaces takes some hundred.
+constexpr std::size_t searches_per_particle = 64, fewest_searches = 8192;
 
 /// The colliders that one particle can reach.
 struct Neighbours {
     const World::Scratch& scratch;
     std::span<const World::Scratch::Near> near;
+    std::size_t& searches;  ///< that are left
+    std::uint64_t& looked;  ///< counts the distances that were looked at
 
     /// Those that a ball may touch.
     template <class Visit>
     void each(const dvec3& at, double radius, Visit visit) const {
+        looked += near.size();
         for (const World::Scratch::Near& each : near) {
             const World::Scratch::Moving& collider = scratch.colliders[each.collider];
             if (!collider.far_from(at, radius)) visit(*collider.shape);
@@ -62,10 +69,13 @@ dvec3 least_move(const Neighbours& neighbours, const dvec3& at, double radius) {
     return first > 0.0 ? first * normal[0] + second * normal[1] : depth[1] * normal[1];
 }
 
-/// Out along a line, as far as every collider on the way asks for; no number where there is no end.
-double way_out(const Neighbours& neighbours, const dvec3& from, const dvec3& along, double thickness) {
+/// Out along a line, as far as every collider on the way asks for; no number where that is `limit` or more, or
+/// the search takes too long.
+double way_out(const Neighbours& neighbours, const dvec3& from, const dvec3& along, double thickness,
+               double limit) {
     double way = 0.0;
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < 200 && way < limit && neighbours.searches >= neighbours.near.size(); ++i) {
+        neighbours.searches -= neighbours.near.size();
         const double depth = neighbours.depth(from + way * along, thickness + tolerance);
         if (depth <= 0.0) return way;
         way += depth + tolerance;
@@ -73,27 +83,36 @@ double way_out(const Neighbours& neighbours, const dvec3& from, const dvec3& alo
     return std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Where a ball is out of every collider; where there is no room for all of it, at least its middle is. Near
-/// `from`, if that is easily found.
-dvec3 outside(const Neighbours& neighbours, const dvec3& from, double radius) {
-    for (const double thickness : {radius, 0.0}) {
-        dvec3 at = from;
-        for (int i = 0; i < rounds; ++i) {
-            if (neighbours.depth(at, thickness) <= tolerance) return at;
-            at += least_move(neighbours, at, thickness);
-        }
-        if (neighbours.depth(at, thickness) <= tolerance) return at;
-        // Between surfaces that all but meet: the shortest way out of 26.
-        double shortest = std::numeric_limits<double>::infinity();
-        for (int k = 0; k < 27; ++k) {
-            if (k == 13) continue;
-            const dvec3 along = detail::unit(dvec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
-            const double way = way_out(neighbours, from, along, thickness);
-            if (way < shortest) shortest = way, at = from + way * along;
-        }
-        if (shortest < std::numeric_limits<double>::infinity()) return at;
+/// The shortest way out of 26, between surfaces that all but meet; false where none is found.
+bool search(const Neighbours& neighbours, const dvec3& from, double thickness, dvec3& at) {
+    double shortest = max_magnitude;
+    bool found = false;
+    for (int k = 0; k < 27; ++k) {
+        if (k == 13) continue;
+        const dvec3 along = detail::unit(dvec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
+        const double way = way_out(neighbours, from, along, thickness, shortest);
+        if (!(way < shortest)) continue;
+        shortest = way, at = from + way * along;
+        found = true;
     }
-    return from;
+    return found;
+}
+
+/// Brings a ball out of every collider; where there is no room for all of it, at least its middle. Near where
+/// it is, if that is easily found; false, and unmoved, where it is not found at all.
+bool bring_out(const Neighbours& neighbours, dvec3& place, double radius) {
+    for (const double thickness : {radius, 0.0}) {
+        dvec3 at = place;
+        bool out = neighbours.depth(at, thickness) <= tolerance;
+        for (int i = 0; i < rounds && !out; ++i) {
+            at += least_move(neighbours, at, thickness);
+            out = neighbours.depth(at, thickness) <= tolerance;
+        }
+        if (!out && !search(neighbours, place, thickness, at)) continue;
+        place = at;
+        return true;
+    }
+    return false;
 }
 
 }  // namespace
@@ -102,15 +121,16 @@ void Substep::push_out_for_good() {
     if (state_.colliders.empty()) return;
     find_near();
     const std::span<const World::Scratch::Near> near(scratch_.near);
+    std::size_t searches = std::max(fewest_searches, searches_per_particle * state_.position.size());
     for (std::size_t first = 0, end = 0; first < near.size(); first = end) {
         while (end < near.size() && near[end].chunk == near[first].chunk) ++end;
         const World::Plan::Chunk& chunk = plan_.chunks[near[first].chunk];
-        const Neighbours neighbours{scratch_, near.subspan(first, end - first)};
+        const Neighbours neighbours{scratch_, near.subspan(first, end - first), searches, report_.work};
         const double radius = state_.bodies[chunk.body].radius;
         for (std::uint32_t i = chunk.first; i < chunk.first + chunk.count; ++i) {
             dvec3& place = scratch_.place[i];
             if (scratch_.weight[i] == 0.0 || neighbours.depth(place, radius) <= tolerance) continue;
-            place = outside(neighbours, place, radius);
+            if (!bring_out(neighbours, place, radius)) ++report_.unresolved;
         }
     }
 }

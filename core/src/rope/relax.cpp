@@ -26,7 +26,9 @@ void Substep::satisfy_soft() {
 
 int Substep::relax(bool compliant) {
     std::fill(scratch_.pull.begin(), scratch_.pull.end(), 0.0);
-    for (int pass = 0; pass < state_.settings.iterations; ++pass) {
+    const int passes = passes_allowed();
+    for (int pass = 0; pass < passes; ++pass) {
+        report_.work += state_.links.size();
         push_out(pass == 0);
         for (std::uint32_t i = 0; i < state_.links.size(); ++i) {
             const Link& link = state_.links[i];
@@ -36,7 +38,8 @@ int Substep::relax(bool compliant) {
         satisfy_soft();
     }
     measure();
-    return state_.settings.iterations;
+    report_.shortened += passes < state_.settings.iterations ? 1 : 0;
+    return passes;
 }
 
 }  // namespace tendril::rope

@@ -7,11 +7,11 @@ namespace tendril::rope {
 
 class Substep {
   public:
-    Substep(State& state, const World::Plan& plan, World::Scratch& scratch);
+    /// What it did is added to `report`.
+    Substep(State& state, const World::Plan& plan, World::Scratch& scratch, Advance& report);
     /// Whether bodies are told how far they are stretched in the end.
     bool measures = false;
-    /// Gives back how many passes the solver took.
-    int run();
+    void run();
 
   private:
     // advance.cpp
@@ -19,6 +19,7 @@ class Substep {
     void move_particles();
     void measure();
     void keep();
+    int passes_allowed() const;
 
     // contact.cpp: looks for what is near, and keeps it out
     void find_near();
@@ -57,6 +58,7 @@ class Substep {
     State& state_;
     const World::Plan& plan_;
     World::Scratch& scratch_;
+    Advance& report_;
     double h_;
     glm::dvec3 acceleration_;
 };

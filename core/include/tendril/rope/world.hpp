@@ -64,6 +64,10 @@ struct Advance {
     int substeps = 0;
     std::uint64_t dropped = 0;  ///< substeps that there was no time for
     int passes = 0;  ///< of the solver over all links, in all substeps; Direct may look at one run more often
+    std::uint64_t work = 0;  ///< links solved and distances to colliders looked at: what the time goes into
+    int shortened = 0;             ///< substeps whose passes max_pass_work cut
+    std::uint64_t unresolved = 0;  ///< times a particle was left inside colliders: there was no way out, or
+                                   ///< looking for it took too long
 };
 
 class World {

@@ -1,0 +1,84 @@
+// The work of a substep has a bound, whatever the settings and wherever the colliders are.
+#include "rope_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+using rope::World;
+
+/// Links and contacts that a substep may look at: so many passes over everything, what a way out may take,
+/// and what links near thin colliders do.
+std::uint64_t most_work(const World& world) {
+    const std::size_t particles = world.size(), links = world.state().links.size();
+    const std::size_t pairs = world.state().colliders.size() * (particles + 14 * links);
+    const std::size_t passes = 2 * rope::unbounded_passes;
+    return passes * (links + pairs) + rope::max_pass_work + 256 * particles * world.state().colliders.size();
+}
+
+/// A rope and a cloth, 149 particles in all.
+World bodies(const rope::Settings& settings) {
+    World world = world_with(settings);
+    world.add_rope({.from = {-1, 0, 0}, .to = {1, 0, 0}, .segments = 48, .radius = 0.05f});
+    world.add_sheet({.corner = {-0.5f, 0.1f, 0}, .columns = 10, .rows = 10, .tear = 0.5f});
+    return world;
+}
+
+TEST(RopeWork, OfASubstepIsBounded) {
+    const std::vector<std::vector<rope::Shape>> traps{
+        // No room between two walls, none at all behind both, and no end to a rod.
+        {rope::Plane{{0, 0.01f, 0}, {0, -1, 0}}, rope::Plane{{0, -0.01f, 0}, {0, 1, 0}}},
+        {rope::Plane{{0, 5, 0}, {0, 1, 0}}, rope::Plane{{0, -5, 0}, {0, -1, 0}}},
+        {rope::Capsule{{-1e9f, 0, 0}, {1e9f, 0, 0}, 0.3f}, rope::Sphere{{0, 0, 0}, 0.5f}},
+        {rope::Box{{0, 0, 0}, {1e6f, 1e6f, 0.0f}}, rope::Box{{0, 0, 0}, {0.0f, 1e6f, 1e6f}}},
+        {rope::Capsule{{-1, 0, 0}, {1, 0.1f, 0}, 0.0f}, rope::Box{{0, 0, 0}, {1, 1e-6f, 1}}},
+    };
+    for (const rope::Solver solver : all_solvers) {
+        for (const int iterations : {1, 16, 10'000}) {
+            for (std::size_t trap = 0; trap < traps.size(); ++trap) {
+                World world = bodies({.iterations = iterations, .solver = solver});
+                for (const rope::Shape& shape : traps[trap])
+                    world.add_collider("trap " + std::to_string(world.state().colliders.size()), shape);
+                std::uint64_t most = 0;
+                for (int i = 0; i < 6; ++i) {
+                    const rope::Advance done = world.advance(world.settings().substep);
+                    ASSERT_EQ(done.substeps, 1);
+                    most = std::max(most, done.work);
+                }
+                EXPECT_LE(most, most_work(world)) << name(solver) << ' ' << iterations << ' ' << trap;
+                EXPECT_TRUE(all_finite(world));
+            }
+        }
+    }
+}
+
+/// What was left out is told.
+TEST(RopeWork, WhatTheBoundLeavesOutIsCounted) {
+    World world = bodies({.iterations = 10'000, .solver = rope::Solver::Relaxation});
+    EXPECT_EQ(world.advance(1.0 / 240.0).shortened, 1);
+    EXPECT_EQ(world.advance(0.0).shortened, 0);
+    World few = bodies({.iterations = rope::unbounded_passes, .solver = rope::Solver::Relaxation});
+    EXPECT_EQ(few.advance(1.0 / 60.0).shortened, 0);
+    EXPECT_EQ(few.advance(1.0 / 60.0).unresolved, 0u);
+    World shut = bodies({});
+    shut.add_collider("above", rope::Plane{{0, 6, 0}, {0, 1, 0}});  // everything is behind one of them
+    shut.add_collider("below", rope::Plane{{0, 5, 0}, {0, -1, 0}});
+    EXPECT_EQ(shut.advance(1.0 / 240.0).unresolved, shut.size());
+}
+
+/// What is given per substep is enough for what there is room for: a rope wedged between balls.
+TEST(RopeWork, WedgedParticlesStillFindTheirWayOut) {
+    World world;
+    world.add_rope({.from = {-1, 0.3f, 0}, .to = {1, 0.3f, 0}, .segments = 128, .radius = 0.01f});
+    for (int i = 0; i < 40; ++i) {
+        const auto n = static_cast<float>(i);
+        world.add_collider("ball " + std::to_string(i),
+                           rope::Sphere{{-1.0f + 0.05f * n, i % 2 == 0 ? 0.0f : 0.05f, 0}, 0.04f});
+    }
+    world.add_collider("ground", rope::Plane{});
+    std::uint64_t unresolved = 0;
+    for (int i = 0; i < 120; ++i) unresolved += world.advance(1.0 / 60.0).unresolved;
+    EXPECT_EQ(unresolved, 0u);
+}
+
+}  // namespace
+}  // namespace tendril::test
