@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "app/labs/chain/presets.hpp"
-#include "app/labs/kit/require.hpp"
 
 namespace tendril::app {
 namespace {
@@ -131,19 +130,17 @@ void reach_for(ChainPart& part, glm::vec3 target) {
     part.result.reset();
     switch (part.mode) {
         case ChainMode::Forward:
-            require_ok(part.chain.forward(target));
+            part.chain.forward(target);
             break;
         case ChainMode::Backward:
-            require_ok(part.chain.backward(target));
+            part.chain.backward(target);
             break;
         case ChainMode::Fixed:
-            require_ok(part.chain
-                           .fixed(target, {.iterations = iterations_of(part, ChainMode::Fixed),
-                                           .tolerance = part.tolerance})
-                           .outcome);
+            part.chain.fixed(
+                target, {.iterations = iterations_of(part, ChainMode::Fixed), .tolerance = part.tolerance});
             break;
         case ChainMode::WithIndex:
-            if (!part.chain.empty()) require_ok(part.chain.with_index(part.index, target));
+            if (!part.chain.empty()) part.chain.with_index(part.index, target);
             break;
         case ChainMode::Reach:
             part.study.rewind(part.chain, part.reach);

@@ -84,8 +84,8 @@ Outcome outcome(Workspace& room, std::span<glm::vec3> joints, glm::vec3 target, 
     freed.tip_orientation = options.tip_orientation;
     Problem problem{joints, target, fine * room.reach, freed, room};
     run_limited(Method::Fabrik, problem, Unwatched());
-    const glm::quat turn = local_turn(room.rotations, joint);
-    return {error_of(problem), angles_of(limited.limits[joint], turn)};
+    const glm::quat turn = limited.pose.turns[joint];
+    return {error_of(problem, limited.pose), angles_of(limited.limits[joint], turn)};
 }
 
 Hold hinge_hold(const Limit& limit, float angle) noexcept {
@@ -159,7 +159,7 @@ Candidate best_candidate(Workspace& room, std::span<glm::vec3> joints, glm::vec3
     const float there = fine * room.reach;
     for (std::size_t i = 0; i < options.limits.size(); ++i) {
         const LimitedJoint joint = limited_joint(options.limits[i], room.rest_directions[i]);
-        const JointAngles angles = angles_of(joint, local_turn(room.limited.kept.rotations, i));
+        const JointAngles angles = angles_of(joint, room.limited.kept.turns[i]);
         if (!is_at_limit(joint, angles)) continue;
         const Outcome result = freed(room, joints, target, options, i, angles);
         const float over = excess_of(joint, result.angles);
@@ -181,8 +181,8 @@ float best_within_limits(Workspace& room, std::span<glm::vec3> joints, glm::vec3
     all.tip_orientation = options.tip_orientation;
     Problem problem{joints, target, fine * room.reach, all, room};
     run_limited(Method::Fabrik, problem, Unwatched());
-    save(problem, room.limited.kept);
-    return error_of(problem);
+    room.limited.kept = room.limited.pose;
+    return error_of(problem, room.limited.pose);
 }
 
 }  // namespace

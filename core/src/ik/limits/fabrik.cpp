@@ -6,74 +6,79 @@ namespace tendril::ik::detail {
 namespace {
 
 template <class Watch>
-void place(Problem& problem, Phase phase, std::size_t joint, std::size_t neighbour, const glm::vec3& to,
-           Watch watch) noexcept {
-    watch.moved(problem.iteration, phase, joint, neighbour, problem.joints[joint], to);
+void place(const Problem& problem, Phase phase, std::size_t joint, std::size_t neighbour,
+           const glm::vec3& from, glm::vec3& place, const glm::vec3& to, Watch watch) noexcept {
+    watch.moved(problem.iteration, phase, joint, neighbour, from, to);
     watch.next_step();
-    problem.joints[joint] = to;
+    place = to;
 }
 
+/// From the tip, which goes to the target, to the root, which is left.
 template <class Watch>
-void pull_from_tip(Problem& problem, Watch watch) noexcept {
-    const std::span<glm::vec3> joints = problem.joints;
-    std::vector<glm::quat>& rotations = problem.room.rotations;
+void reach_backward(Problem& problem, Watch watch) noexcept {
+    const LimitedPose& from = problem.room.limited.pose;
+    LimitedPose& to = problem.room.limited.trial;
     const std::size_t last = problem.bones() - 1;
-    place(problem, Phase::FromTip, last + 1, no_joint, problem.target, watch);
+    place(problem, Phase::FromTip, last + 1, no_joint, from.joints[last + 1], to.joints[last + 1],
+          problem.target, watch);
     for (std::size_t i = last + 1; i-- > 0;) {
-        glm::vec3 along = bone_direction(problem, rotations[i], i);
-        if (i == last && problem.options.tip_orientation) {
-            rotations[i] = unit(*problem.options.tip_orientation);
-            along = bone_direction(problem, rotations[i], i);
-        } else {
-            along = tendril::math::direction(joints[i], joints[i + 1], along);
-            rotations[i] = carried(problem, rotations[i], i, along);
-        }
+        const glm::vec3 next = to.joints[i + 1];
         const float length = problem.lengths()[i];
-        place(problem, Phase::FromTip, i, i + 1, moved(joints[i + 1], along, -length), watch);
+        if (i == last && problem.options.tip_orientation) {
+            to.rotations[i] = unit(*problem.options.tip_orientation);
+            to.directions[i] = bone_direction(problem, to.rotations[i], i);
+        } else {
+            to.directions[i] = math::direction(from.joints[i], next, from.directions[i]);
+            to.rotations[i] = carried(from.rotations[i], from.directions[i], to.directions[i]);
+        }
+        place(problem, Phase::FromTip, i, i + 1, from.joints[i], to.joints[i],
+              moved(next, to.directions[i], -length), watch);
         if (i == last) continue;
-        glm::quat turn = compose(conjugate(rotations[i]), rotations[i + 1]);
-        if (!bring_within(problem.room.limited.limits[i + 1], turn)) continue;
-        rotations[i] = unit(compose(rotations[i + 1], conjugate(turn)));
-        along = bone_direction(problem, rotations[i], i);
-        place(problem, Phase::Limit, i, i + 1, moved(joints[i + 1], along, -length), watch);
+        glm::quat turn = compose(conjugate(to.rotations[i]), to.rotations[i + 1]);
+        if (!clamp(problem.room.limited.limits[i + 1], turn)) continue;
+        to.rotations[i] = nearly_unit(compose(to.rotations[i + 1], conjugate(turn)));
+        to.directions[i] = bone_direction(problem, to.rotations[i], i);
+        place(problem, Phase::Limit, i, i + 1, to.joints[i], to.joints[i],
+              moved(next, to.directions[i], -length), watch);
     }
 }
 
 template <class Watch>
-void pull_from_root(Problem& problem, const glm::vec3& root, Watch watch) noexcept {
-    const std::span<glm::vec3> joints = problem.joints;
-    std::vector<glm::quat>& rotations = problem.room.rotations;
-    place(problem, Phase::FromRoot, 0, no_joint, root, watch);
+void reach_forward(Problem& problem, Watch watch) noexcept {
+    LimitedPose& pose = problem.room.limited.trial;
+    place(problem, Phase::FromRoot, 0, no_joint, pose.joints[0], pose.joints[0], problem.root(), watch);
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        glm::vec3 along = bone_direction(problem, rotations[i], i);
-        if (i + 1 == problem.bones() && problem.options.tip_orientation) {
-            rotations[i] = unit(*problem.options.tip_orientation);
-            along = bone_direction(problem, rotations[i], i);
-        } else {
-            along = tendril::math::direction(joints[i], joints[i + 1], along);
-            rotations[i] = carried(problem, rotations[i], i, along);
-        }
+        const glm::vec3 before = pose.joints[i];
         const float length = problem.lengths()[i];
-        place(problem, Phase::FromRoot, i + 1, i, moved(joints[i], along, length), watch);
-        const glm::quat parent = parent_of(rotations, i);
-        glm::quat turn = compose(conjugate(parent), rotations[i]);
-        if (!bring_within(problem.room.limited.limits[i], turn)) continue;
-        rotations[i] = unit(compose(parent, turn));
-        along = bone_direction(problem, rotations[i], i);
-        place(problem, Phase::Limit, i + 1, i, moved(joints[i], along, length), watch);
+        if (i + 1 == problem.bones() && problem.options.tip_orientation) {
+            pose.rotations[i] = unit(*problem.options.tip_orientation);
+            pose.directions[i] = bone_direction(problem, pose.rotations[i], i);
+        } else {
+            const glm::vec3 old = pose.directions[i];
+            pose.directions[i] = math::direction(before, pose.joints[i + 1], old);
+            pose.rotations[i] = carried(pose.rotations[i], old, pose.directions[i]);
+        }
+        place(problem, Phase::FromRoot, i + 1, i, pose.joints[i + 1], pose.joints[i + 1],
+              moved(before, pose.directions[i], length), watch);
+        const glm::quat parent = parent_of(pose.rotations, i);
+        pose.turns[i] = compose(conjugate(parent), pose.rotations[i]);
+        if (!clamp(problem.room.limited.limits[i], pose.turns[i])) continue;
+        pose.rotations[i] = nearly_unit(compose(parent, pose.turns[i]));
+        pose.directions[i] = bone_direction(problem, pose.rotations[i], i);
+        place(problem, Phase::Limit, i + 1, i, pose.joints[i + 1], pose.joints[i + 1],
+              moved(before, pose.directions[i], length), watch);
     }
 }
 
 }  // namespace
 
 template <class Watch>
-void limited_pulls(Problem& problem, Watch watch) noexcept {
-    const glm::vec3 root = problem.root();
-    pull_from_tip(problem, watch);
-    pull_from_root(problem, root, watch);
+void limited_reaching(Problem& problem, Watch watch) noexcept {
+    reach_backward(problem, watch);
+    reach_forward(problem, watch);
 }
 
-template void limited_pulls(Problem&, Unwatched) noexcept;
-template void limited_pulls(Problem&, Watched) noexcept;
+template void limited_reaching(Problem&, Unwatched) noexcept;
+template void limited_reaching(Problem&, Watched) noexcept;
 
 }  // namespace tendril::ik::detail

@@ -1,14 +1,15 @@
-// FABRIK's two pulls within limits, after Aristidou, Chrysanthou and Lasenby (2016): wherever a bone is laid,
-// the turn between it and the bone that was laid before it is brought within the limit of their joint, so the
-// pull from the tip hands on to the root how the bones must be turned about themselves. Not installed.
+// FABRIK's two passes within limits, after Aristidou, Chrysanthou and Lasenby (2016): wherever a bone is
+// laid, the rotation between it and the bone that was laid before it is clamped to the limit of their joint,
+// so backward reaching hands on to the root how the bones must be twisted. Not installed.
 #pragma once
 
 #include "ik/solve/problem.hpp"
 
 namespace tendril::ik::detail {
 
-/// A pull from the tip and one from the root. After it every joint is within its limit.
+/// Backward and forward reaching, from workspace.pose to workspace.trial. Every joint of that is within its
+/// limit.
 template <class Watch>
-void limited_pulls(Problem& problem, Watch watch) noexcept;
+void limited_reaching(Problem& problem, Watch watch) noexcept;
 
 }  // namespace tendril::ik::detail

@@ -7,6 +7,101 @@
 namespace tendril::ik::detail {
 namespace {
 
+constexpr float flat = 1e-5f;  ///< half-angles under this leave no room
+
+HalfAngle half_of(float angle) noexcept {
+    return {std::max(std::cos(0.5f * angle), 0.0f), std::sin(0.5f * angle)};
+}
+
+/// The sine of half the angle from b to a; a need not have length 1.
+float beyond(const HalfAngle& a, const HalfAngle& b) noexcept {
+    return a.sine * b.cosine - a.cosine * b.sine;
+}
+
+bool in_range(const LimitedJoint& joint, const HalfAngle& a, float half_slack) noexcept {
+    return beyond(a, joint.high) <= half_slack && beyond(joint.low, a) <= half_slack;
+}
+
+/// The bound that is nearer the shorter way round the circle.
+HalfAngle nearer_bound(const LimitedJoint& joint, const HalfAngle& a) noexcept {
+    const auto near = [&](const HalfAngle& b) { return std::abs(a.cosine * b.cosine + a.sine * b.sine); };
+    return near(joint.high) >= near(joint.low) ? joint.high : joint.low;
+}
+
+/// A rotation split into one about a main axis (a hinge's own, or the bone for a twist), which comes first,
+/// and one about an axis (first, second) at right angles to it.
+struct Split {
+    HalfAngle about;
+    float first, second;  ///< the other's axis times the sine of half its angle
+    float cosine;         ///< of half its angle
+};
+
+Split split(const LimitedJoint& joint, const glm::quat& turn) noexcept {
+    const glm::vec3 vector{turn.x, turn.y, turn.z};
+    const float part = dot(vector, joint.hinge() ? joint.axis : joint.bone), sign = turn.w < 0 ? -1.0f : 1.0f;
+    const float size = std::sqrt(turn.w * turn.w + part * part);
+    const float scale = size >= 1e-6f ? sign / size : 0.0f;  // 0 after half a turn about the other
+    const float c = size >= 1e-6f ? scale * turn.w : 1.0f, s = scale * part;
+    const float x = sign * dot(vector, joint.hinge() ? joint.side : joint.axis);
+    const float y = sign * dot(vector, joint.hinge() ? joint.bone : joint.side);
+    if (joint.hinge()) return {{c, s}, c * x - s * y, c * y + s * x, size};
+    return {{c, s}, c * x + s * y, c * y - s * x, size};
+}
+
+/// angle / sin(angle / 2) of a swing, from the cosine of half its angle and the squared sine: no arc
+/// function. With y the squared sine of a quarter of the angle, angle^2 = 16 y (asin(sqrt y))^2 / y; the
+/// polynomial is that quotient's for 0 <= y <= 1/2, to 5e-7, by interpolation at Chebyshev's points.
+float angle_per_sine(float cosine, float squared_sine) noexcept {
+    const float inverse = 1.0f / (1.0f + cosine), y = 0.5f * squared_sine * inverse;
+    float p = 0.28755694f;
+    for (const float c : {-0.15858506f, 0.16761763f, 0.09793333f, 0.17920389f, 0.33328774f, 1.0000002f}) {
+        p = p * y + c;
+    }
+    return std::sqrt(8.0f * p * inverse);
+}
+
+/// The point of an ellipse that is nearest to (x, y), which lies outside; all of them positive or zero, the
+/// half-axes positive. It is (a a x / (t + a a), b b y / (t + b b)) for the one t >= 0 that puts it on the
+/// ellipse. Newton's steps on one over the distance from the centre (in the ellipse's units), which is all
+/// but straight in t: two or three are enough (More and Sorensen 1983).
+void nearest_on_ellipse(float a, float b, float& x, float& y) noexcept {
+    float t = std::max({a * x - a * a, b * y - b * b, 0.0f}), scale = 1.0f, u = 0.0f, v = 0.0f;
+    for (int i = 0; i < 10; ++i) {
+        const float p = 1.0f / (t + a * a), q = 1.0f / (t + b * b);
+        u = a * x * p, v = b * y * q;
+        const float squared = u * u + v * v, size = std::sqrt(squared);
+        scale = 1.0f / size;
+        if (size < 1.0f + 1e-5f) break;
+        t += (size - 1.0f) * squared / (u * u * p + v * v * q);
+    }
+    x = a * u * scale;
+    y = b * v * scale;
+}
+
+struct Swing {
+    float up, left;
+};
+
+float half_axis_up(const LimitedJoint& joint, const Swing& swing) noexcept {
+    return swing.up >= 0.0f ? joint.up : joint.down;
+}
+float half_axis_left(const LimitedJoint& joint, const Swing& swing) noexcept {
+    return swing.left >= 0.0f ? joint.left : joint.right;
+}
+
+/// The nearest swing in the cone.
+Swing within_cone(const LimitedJoint& joint, const Swing& swing) noexcept {
+    const float a = half_axis_up(joint, swing), b = half_axis_left(joint, swing);
+    float x = std::abs(swing.up), y = std::abs(swing.left);
+    if (a < flat || b < flat) {
+        x = a < flat ? 0.0f : std::min(x, a);
+        y = b < flat ? 0.0f : std::min(y, b);
+    } else if ((x / a) * (x / a) + (y / b) * (y / b) > 1.0f) {
+        nearest_on_ellipse(a, b, x, y);
+    }
+    return {swing.up >= 0.0f ? x : -x, swing.left >= 0.0f ? y : -y};
+}
+
 /// By how much an angle is over a range, the shorter way round the circle; negative below it.
 float over(float angle, float min, float max) noexcept {
     if (angle >= min && angle <= max) return 0.0f;
@@ -15,46 +110,107 @@ float over(float angle, float min, float max) noexcept {
     return above <= below ? above : -below;
 }
 
-float into(float angle, float min, float max) noexcept {
+float clamped(float angle, float min, float max) noexcept {
     const float by = over(angle, min, max);
     return by > 0.0f ? max : by < 0.0f ? min : angle;
 }
 
-/// Twice the angle whose sine and cosine are in this proportion, from -pi to pi.
-float doubled_angle(float sine, float cosine) noexcept {
-    return cosine < 0.0f ? 2.0f * std::atan2(-sine, -cosine) : 2.0f * std::atan2(sine, cosine);
+/// Twist first, then swing.
+glm::quat joined(const LimitedJoint& joint, const Split& parts) noexcept {
+    const float a = parts.first, b = parts.second, c = parts.about.cosine, s = parts.about.sine;
+    const glm::vec3 vector = plus(plus(times(joint.axis, a * c - b * s), times(joint.side, b * c + a * s)),
+                                  times(joint.bone, parts.cosine * s));
+    return {parts.cosine * c, vector.x, vector.y, vector.z};
 }
 
-/// The point of an ellipse that is nearest to (x, y), which lies outside; all of them positive or zero, the
-/// half-axes positive. It is (a a x / (t + a a), b b y / (t + b b)) for the one t >= 0 that puts it on the
-/// ellipse; the condition falls and is convex in t, so Newton's steps from below never pass it.
-void nearest_on_ellipse(float a, float b, float& x, float& y) noexcept {
-    float t = std::max(a * x - a * a, b * y - b * b);
-    for (int i = 0; i < 12; ++i) {
-        const float u = a * x / (t + a * a), v = b * y / (t + b * b);
-        const float value = u * u + v * v - 1.0f;
-        if (value < 1e-6f) break;
-        t += value / (2.0f * (u * u / (t + a * a) + v * v / (t + b * b)));
-    }
-    const float u = a * x / (t + a * a), v = b * y / (t + b * b);
-    const float scale = 1.0f / std::sqrt(u * u + v * v);
-    x = a * u * scale;
-    y = b * v * scale;
+void set_swing(Split& parts, const Swing& swing) noexcept {
+    const float angle = std::sqrt(swing.up * swing.up + swing.left * swing.left);
+    const float scale = angle < 1e-6f ? 0.5f : std::sin(0.5f * angle) / angle;
+    parts.first = swing.up * scale;
+    parts.second = swing.left * scale;
+    parts.cosine = std::cos(0.5f * angle);
 }
 
-constexpr float flat = 1e-5f;  ///< half-angles under this leave no room
+Swing swing_of(const Split& parts) noexcept {
+    const float squared = parts.first * parts.first + parts.second * parts.second;
+    const float scale = angle_per_sine(parts.cosine, squared);
+    return {parts.first * scale, parts.second * scale};
+}
 
-void into_cone(const LimitedJoint& joint, float& up, float& left) noexcept {
-    const float a = up >= 0.0f ? joint.up : joint.down, b = left >= 0.0f ? joint.left : joint.right;
-    float x = std::abs(up), y = std::abs(left);
-    if (a < flat || b < flat) {
-        x = a < flat ? 0.0f : std::min(x, a);
-        y = b < flat ? 0.0f : std::min(y, b);
-    } else if ((x / a) * (x / a) + (y / b) * (y / b) > 1.0f) {
-        nearest_on_ellipse(a, b, x, y);
+bool clamp_hinge(const LimitedJoint& joint, glm::quat& turn, float slack) noexcept {
+    const glm::vec3 vector{turn.x, turn.y, turn.z};
+    const float part = dot(vector, joint.axis);
+    HalfAngle about{turn.w, part};
+    if (about.cosine < 0.0f) about = {-about.cosine, -about.sine};
+    const float squared = about.cosine * about.cosine + about.sine * about.sine;
+    if (squared < 1e-12f) about = {1.0f, 0.0f};
+    const float off = dot(vector, joint.bone), tilt = dot(vector, joint.side);
+    if (in_range(joint, about, 0.5f * slack) && 4.0f * (off * off + tilt * tilt) <= slack * slack)
+        return false;
+    float scale = 1.0f;
+    if (!in_range(joint, about, 0.0f))
+        about = nearer_bound(joint, about);
+    else
+        scale = 1.0f / std::sqrt(about.cosine * about.cosine + about.sine * about.sine);
+    const float s = about.sine * scale;
+    turn = {about.cosine * scale, joint.axis.x * s, joint.axis.y * s, joint.axis.z * s};
+    return true;
+}
+
+/// A swing or a twist that may be over.
+bool clamp_parts(const LimitedJoint& joint, glm::quat& turn, float slack) noexcept {
+    Split parts = split(joint, turn);
+    const bool twisted = !in_range(joint, parts.about, 0.5f * slack);
+    bool swung = parts.first * parts.first + parts.second * parts.second > joint.round;
+    if (swung) {
+        const Swing swing = swing_of(parts), inside = within_cone(joint, swing);
+        const float up = swing.up - inside.up, left = swing.left - inside.left;
+        swung = up * up + left * left > slack * slack;
+        if (swung) set_swing(parts, inside);
     }
-    up = up >= 0.0f ? x : -x;
-    left = left >= 0.0f ? y : -y;
+    if (!swung && !twisted) return false;
+    if (twisted) parts.about = nearer_bound(joint, parts.about);
+    turn = joined(joint, parts);
+    return true;
+}
+
+/// The axis, in the parent's frame, about which to turn takes the swing along (up, left) fastest.
+glm::vec3 axis_along(const LimitedJoint& joint, const Split& parts, float up, float left) noexcept {
+    const float squared = parts.first * parts.first + parts.second * parts.second;
+    const glm::vec3 plain = plus(times(joint.axis, up), times(joint.side, left));
+    if (squared < 1e-10f) return plain;
+    const float sine = std::sqrt(squared), x = parts.first / sine, y = parts.second / sine;
+    const float out = up * x + left * y, round = left * x - up * y;  // along the swing and across it
+    const glm::vec3 about = plus(times(joint.axis, x), times(joint.side, y)),
+                    ahead = minus(times(joint.side, x), times(joint.axis, y));
+    const float angle = angle_per_sine(parts.cosine, squared) * sine;
+    const float s = 2.0f * sine * parts.cosine, c = 1.0f - 2.0f * squared;  // of the whole angle
+    const glm::vec3 across = times(minus(times(ahead, c), times(joint.bone, s)), round * angle / s);
+    const glm::vec3 axis = plus(times(about, out), across);
+    return times(axis, 1.0f / length(axis));
+}
+
+void add_swing_bounds(const LimitedJoint& joint, const Split& parts, Bounds& bounds) noexcept {
+    const Swing swing = swing_of(parts);
+    const float a = half_axis_up(joint, swing), b = half_axis_left(joint, swing);
+    const auto add = [&](float up, float left, bool both) {
+        bounds.add(axis_along(joint, parts, up, left), both);
+    };
+    const auto add_edges = [&](float angle, float plus_room, float minus_room, float up, float left) {
+        const bool over = angle >= plus_room - at_bound, under = -angle >= minus_room - at_bound;
+        if (over || under) add(over ? up : -up, over ? left : -left, over && under);
+    };
+    if (a >= flat && b >= flat) {
+        const float x = swing.up / a, y = swing.left / b, size = std::sqrt(x * x / (a * a) + y * y / (b * b));
+        if (x * x + y * y > 1.0f - 2.0f * at_bound) return add(x / (a * size), y / (b * size), false);
+    }
+    // Quarters without room have edges instead of a rim.
+    if (a < flat || b < flat || std::min(joint.up, joint.down) < flat) {
+        add_edges(swing.up, joint.up, joint.down, 1.0f, 0.0f);
+    }
+    if (a < flat || b < flat || std::min(joint.left, joint.right) < flat) {
+        add_edges(swing.left, joint.left, joint.right, 0.0f, 1.0f);
+    }
 }
 
 }  // namespace
@@ -79,44 +235,45 @@ LimitedJoint limited_joint(const Limit& limit, const glm::vec3& rest_direction) 
     joint.min = limit.min, joint.max = limit.max;
     joint.up = limit.up, joint.down = limit.down, joint.left = limit.left, joint.right = limit.right;
     joint.twist_min = limit.twist_min, joint.twist_max = limit.twist_max;
+    joint.low = half_of(joint.hinge() ? limit.min : limit.twist_min);
+    joint.high = half_of(joint.hinge() ? limit.max : limit.twist_max);
+    return joint;
+}
+
+LimitedJoint solvable_joint(const Limit& limit, const glm::vec3& rest_direction) noexcept {
+    LimitedJoint joint = limited_joint(limit, rest_direction);
+    float least = std::min({joint.up, joint.down, joint.left, joint.right});
+    if (least >= pi - at_bound && joint.twist_max - joint.twist_min >= 2.0f * pi - at_bound) {
+        joint.kind = joint.hinge() ? joint.kind : JointKind::Free;
+    }
+    constexpr float most = pi - 0.02f;
+    for (float* angle : {&joint.up, &joint.down, &joint.left, &joint.right}) *angle = std::min(*angle, most);
+    const float sine = std::sin(0.5f * std::max(std::min(least, most) - 2.0f * at_bound, 0.0f));
+    joint.round = sine * sine;
     return joint;
 }
 
 JointAngles angles_of(const LimitedJoint& joint, const glm::quat& turn) noexcept {
-    const glm::vec3 vector{turn.x, turn.y, turn.z};
-    const float x = dot(vector, joint.axis), y = dot(vector, joint.side), z = dot(vector, joint.bone);
-    // The part about one axis, as cosine and sine of half its angle; what is left is about the other two.
-    const float part = joint.hinge() ? x : z;
-    const float size = std::sqrt(turn.w * turn.w + part * part);
-    const float c = size < 1e-6f ? 1.0f : turn.w / size, s = size < 1e-6f ? 0.0f : part / size;
-    const float first = joint.hinge() ? y : x, second = joint.hinge() ? z : y;
-    const float a = joint.hinge() ? c * first - s * second : c * first + s * second;
-    const float b = joint.hinge() ? c * second + s * first : c * second - s * first;
-    const float sine = std::sqrt(a * a + b * b);
-    const float scale = sine < 1e-6f ? 2.0f : 2.0f * std::atan2(sine, size) / sine;
-    const float about = doubled_angle(s, c);
-    return joint.hinge() ? JointAngles{about, a * scale, b * scale}
-                         : JointAngles{a * scale, b * scale, about};
+    const Split parts = split(joint, turn);
+    const Swing swing = swing_of(parts);
+    const float about = 2.0f * std::atan2(parts.about.sine, parts.about.cosine);
+    return joint.hinge() ? JointAngles{about, swing.up, swing.left}
+                         : JointAngles{swing.up, swing.left, about};
 }
 
 glm::quat turn_of(const LimitedJoint& joint, const JointAngles& angles) noexcept {
     if (joint.hinge()) return rotation_about(joint.axis, angles.up);
-    const float angle = std::sqrt(angles.up * angles.up + angles.left * angles.left);
-    const float scale = angle < 1e-6f ? 0.5f : std::sin(0.5f * angle) / angle;
-    const float w = std::cos(0.5f * angle), a = angles.up * scale, b = angles.left * scale;
-    const float c = std::cos(0.5f * angles.twist), s = std::sin(0.5f * angles.twist);
-    const glm::vec3 vector = plus(plus(times(joint.axis, a * c - b * s), times(joint.side, b * c + a * s)),
-                                  times(joint.bone, w * s));
-    return unit_quaternion(w * c, vector.x, vector.y, vector.z);
+    Split parts{};
+    parts.about = {std::cos(0.5f * angles.twist), std::sin(0.5f * angles.twist)};
+    set_swing(parts, {angles.up, angles.left});
+    return joined(joint, parts);
 }
 
 JointAngles within(const LimitedJoint& joint, const JointAngles& angles) noexcept {
     if (joint.free()) return angles;
-    if (joint.hinge()) return {into(angles.up, joint.min, joint.max), 0.0f, 0.0f};
-    JointAngles inside = angles;
-    into_cone(joint, inside.up, inside.left);
-    inside.twist = into(angles.twist, joint.twist_min, joint.twist_max);
-    return inside;
+    if (joint.hinge()) return {clamped(angles.up, joint.min, joint.max), 0.0f, 0.0f};
+    const Swing swing = within_cone(joint, {angles.up, angles.left});
+    return {swing.up, swing.left, clamped(angles.twist, joint.twist_min, joint.twist_max)};
 }
 
 float excess_of(const LimitedJoint& joint, const JointAngles& angles) noexcept {
@@ -131,28 +288,47 @@ float excess_of(const LimitedJoint& joint, const JointAngles& angles) noexcept {
                     std::abs(over(angles.twist, joint.twist_min, joint.twist_max)));
 }
 
-bool bring_within(const LimitedJoint& joint, glm::quat& turn, float slack) noexcept {
-    if (joint.free()) return false;
-    const JointAngles angles = angles_of(joint, turn);
-    if (excess_of(joint, angles) <= slack) return false;
-    turn = turn_of(joint, within(joint, angles));
-    return true;
-}
-
 bool is_at_limit(const LimitedJoint& joint, const JointAngles& angles) noexcept {
-    if (joint.free()) return false;
-    const auto at = [](float angle, float min, float max) {
-        return max - min < 2.0f * pi - at_bound && (angle <= min + at_bound || angle >= max - at_bound);
-    };
-    if (joint.hinge()) return at(angles.up, joint.min, joint.max);
-    return at(angles.twist, joint.twist_min, joint.twist_max) || on_rim(joint, angles);
+    return bounds_of(joint, turn_of(joint, angles)).count > 0;
 }
 
-bool on_rim(const LimitedJoint& joint, const JointAngles& angles) noexcept {
-    const float a = std::max(angles.up >= 0.0f ? joint.up : joint.down, flat);
-    const float b = std::max(angles.left >= 0.0f ? joint.left : joint.right, flat);
-    const float x = angles.up / a, y = angles.left / b;
-    return x * x + y * y > 1.0f - 2.0f * at_bound;
+bool clamp(const LimitedJoint& joint, glm::quat& turn, float slack) noexcept {
+    if (joint.free()) return false;
+    if (joint.hinge()) return clamp_hinge(joint, turn, slack);
+    return !is_inside(joint, turn) && clamp_parts(joint, turn, slack);
+}
+
+bool is_inside(const LimitedJoint& joint, const glm::quat& turn) noexcept {
+    if (joint.free()) return true;
+    const glm::vec3 vector{turn.x, turn.y, turn.z};
+    HalfAngle about{turn.w, dot(vector, joint.hinge() ? joint.axis : joint.bone)};
+    if (about.cosine < 0.0f) about = {-about.cosine, -about.sine};
+    if (!in_range(joint, about, -at_bound)) return false;
+    if (joint.hinge()) return true;
+    const float x = dot(vector, joint.axis), y = dot(vector, joint.side);
+    return x * x + y * y <= joint.round;
+}
+
+Bounds bounds_of(const LimitedJoint& joint, const glm::quat& turn) noexcept {
+    Bounds bounds;
+    if (joint.free()) return bounds;
+    const Split parts = split(joint, turn);
+    const bool whole =
+        (joint.hinge() ? joint.max - joint.min : joint.twist_max - joint.twist_min) >= 2.0f * pi - at_bound;
+    const bool over = !whole && beyond(parts.about, joint.high) >= -0.5f * at_bound;
+    const bool under = !whole && beyond(joint.low, parts.about) >= -0.5f * at_bound;
+    if (over || under) {
+        glm::vec3 axis = joint.axis;
+        if (!joint.hinge()) {  // twist alone changes about the line halfway between the bone and its rest
+            axis = plus(joint.bone, rotated(turn, joint.bone));
+            axis = times(axis, 1.0f / length(axis));
+        }
+        bounds.add(over ? axis : times(axis, -1.0f), over && under);
+    }
+    if (!joint.hinge() && parts.first * parts.first + parts.second * parts.second >= joint.round) {
+        add_swing_bounds(joint, parts, bounds);
+    }
+    return bounds;
 }
 
 }  // namespace tendril::ik::detail

@@ -32,15 +32,19 @@ Reachable reachable(const Problem& problem) noexcept {
     return {};
 }
 
+float residual_of(const Problem& problem) noexcept {
+    return distance(problem.room.limited.pose.joints[problem.bones()], problem.target);
+}
+
 bool is_turned(const Problem& problem) noexcept {
     if (!problem.options.tip_orientation) return true;
-    const glm::vec3 turn = orientation_error(problem, problem.room.rotations);
+    const glm::vec3 turn = orientation_error(problem, problem.room.limited.pose);
     return length(turn) <= orientation_tolerance * 0.25f * problem.room.reach;
 }
 
 /// The tip is where it should be, or as near as any pose brings it.
 bool arrived(const Problem& problem, const Reachable& can) noexcept {
-    const float residual = distance(problem.joints.back(), problem.target);
+    const float residual = residual_of(problem);
     const float more = can.status == Status::Converged ? 0.0f : straight_tolerance * problem.room.reach;
     return residual <= std::max(problem.tolerance, can.residual + more) && is_turned(problem);
 }
@@ -50,25 +54,24 @@ bool arrived(const Problem& problem, const Reachable& can) noexcept {
 template <class Watch>
 bool lie_on_line(Problem& problem, const Reachable& can, Watch watch) noexcept {
     if (can.status == Status::Converged || problem.options.tip_orientation) return false;
-    LimitedPose& pose = problem.room.limited.trial;
-    save(problem, pose);
-    const glm::vec3 rest = bone_direction(problem, pose.rotations[0], 0);
-    const glm::vec3 ahead = tendril::math::direction(problem.root(), problem.target, rest);
+    LimitedRoom& room = problem.room.limited;
+    LimitedPose& pose = room.trial;
+    pose.joints[0] = problem.root();
+    const glm::vec3 ahead = math::direction(problem.root(), problem.target, room.pose.directions[0]);
     bool pointed = false;  // whether a longest bone has been met: the one that points ahead
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         const bool longest = !pointed && problem.lengths()[i] == problem.room.longest;
         pointed = pointed || longest;
         const bool forward = can.status == Status::Stretched || longest;
-        pose.rotations[i] = carried(problem, pose.rotations[i], i, times(ahead, forward ? 1.0f : -1.0f));
-        const glm::quat parent = parent_of(pose.rotations, i);
-        glm::quat turn = compose(conjugate(parent), pose.rotations[i]);
-        if (bring_within(problem.room.limited.limits[i], turn))
-            pose.rotations[i] = unit(compose(parent, turn));
+        const glm::quat turned =
+            carried(room.pose.rotations[i], room.pose.directions[i], times(ahead, forward ? 1.0f : -1.0f));
+        pose.turns[i] = compose(conjugate(parent_of(pose.rotations, i)), turned);
+        clamp(room.limits[i], pose.turns[i]);
+        extend_bone(problem, pose, i);
     }
-    lay(problem, pose);
     const float residual = distance(pose.joints[problem.bones()], problem.target);
     if (residual > can.residual + straight_tolerance * problem.room.reach) return false;
-    assume(problem, pose, Phase::Analytic, watch);
+    take_trial(problem, Phase::Analytic, watch);
     return true;
 }
 
@@ -110,37 +113,34 @@ struct Course {
 };
 
 void note_if_nearer(Problem& problem, Course& course) noexcept {
-    const float error = error_of(problem);
+    const float error = error_of(problem, problem.room.limited.pose);
     if (!(error < course.best)) return;
     course.best = error;
-    save(problem, problem.room.limited.nearest);
+    problem.room.limited.best = problem.room.limited.pose;
 }
 
 template <class Watch>
 Course prepare(Problem& problem, Watch watch) noexcept {
     expect_pole(problem);
     take_limits(problem);
-    settle(problem, watch);
-    Course course{reachable(problem), error_of(problem)};
-    save(problem, problem.room.limited.nearest);
+    take_pose(problem, watch);
+    Course course{reachable(problem), error_of(problem, problem.room.limited.pose)};
+    problem.room.limited.best = problem.room.limited.pose;
     if (problem.options.snap_back > 0.0f) {
+        commit(problem);
         snap_back(problem, watch);
-        settle(problem, watch);
+        take_pose(problem, watch);
     }
     lie_on_line(problem, course.can, watch);
     note_if_nearer(problem, course);
     return course;
 }
 
-float residual_of(const Problem& problem) noexcept {
-    return distance(problem.joints.back(), problem.target);
-}
-
 template <class Watch>
 void tell(const Problem& problem, Watch watch) noexcept {
     const std::span<float> told = problem.options.residuals;
     const auto done = static_cast<std::size_t>(problem.iteration);
-    const float residual = distance(problem.joints.back(), problem.goal);
+    const float residual = distance(problem.room.limited.pose.joints[problem.bones()], problem.goal);
     if (done >= 1 && done <= told.size()) told[done - 1] = residual;
     watch.iteration_done(problem.iteration, residual);
 }
@@ -148,13 +148,14 @@ void tell(const Problem& problem, Watch watch) noexcept {
 /// Whether it stalled.
 template <class Watch>
 bool search(Problem& problem, Course& course, Watch watch) noexcept {
-    LimitedSearch search(error_of(problem));
+    LimitedSearch search(error_of(problem, problem.room.limited.pose));
     while (problem.iteration < problem.options.max_iterations) {
         const bool over = arrived(problem, course.can) || search.exhausted();
         if (over && !problem.options.every_iteration) break;
         ++problem.iteration;
         search.iterate(problem, watch);
-        if (search.takes(error_of(problem), course.best, arrived(problem, course.can))) {
+        if (search.takes(error_of(problem, problem.room.limited.pose), course.best,
+                         arrived(problem, course.can))) {
             note_if_nearer(problem, course);
         }
         tell(problem, watch);
@@ -180,12 +181,13 @@ bool go_on(Method method, Problem& problem, Course& course, Watch watch) noexcep
         const bool there = arrived(problem, course.can);
         stalled = stalled || progress.stalled();
         const bool waits = !there && (problem.iteration == 0 || progress.stalled());
-        if (waits && leave_singular(problem, kicks, watch)) progress.start_again(error_of(problem));
+        if (waits && leave_singular(problem, kicks, watch))
+            progress.start_again(error_of(problem, problem.room.limited.pose));
         if ((there || progress.stalled()) && !problem.options.every_iteration) break;
         ++problem.iteration;
         limited_iteration(method, problem, watch);
         note_if_nearer(problem, course);
-        progress.note(error_of(problem));
+        progress.note(error_of(problem, problem.room.limited.pose));
         tell(problem, watch);
     }
     return stalled || progress.stalled();
@@ -197,8 +199,9 @@ template <class Watch>
 Report run_limited(Method method, Problem& problem, Watch watch) noexcept {
     if (!(problem.room.reach > 0.0f)) {
         take_limits(problem);
-        settle(problem, watch);
+        take_pose(problem, watch);
         tell(problem, watch);
+        commit(problem);
         const bool there = residual_of(problem) <= problem.tolerance;
         return {there ? Status::Converged : Status::Stretched, 0, residual_of(problem)};
     }
@@ -207,9 +210,11 @@ Report run_limited(Method method, Problem& problem, Watch watch) noexcept {
     const bool stalled =
         method == Method::Fabrik ? search(problem, course, watch) : go_on(method, problem, course, watch);
     const bool there = residual_of(problem) <= problem.tolerance && is_turned(problem);
-    if (!there && error_of(problem) != course.best) {
-        assume(problem, problem.room.limited.nearest, Phase::Keep, watch);
+    if (!there && error_of(problem, problem.room.limited.pose) != course.best) {
+        problem.room.limited.trial = problem.room.limited.best;
+        take_trial(problem, Phase::Keep, watch);
     }
+    commit(problem);
     face_pole_within_limits(problem, watch);
     return {status_of(problem, course.can, stalled), problem.iteration, residual_of(problem)};
 }

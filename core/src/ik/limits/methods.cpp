@@ -14,35 +14,31 @@ namespace {
 template <class Watch>
 void sweep(Problem& problem, Watch watch) noexcept {
     LimitedRoom& room = problem.room.limited;
-    std::vector<glm::quat>& rotations = room.trial.rotations;
-    glm::vec3 tip = problem.joints.back();
+    std::vector<glm::quat>& turns = room.trial.turns;
+    glm::vec3 tip = room.pose.joints[problem.bones()];
     for (std::size_t i = problem.bones(); i-- > 0;) {
-        const glm::vec3 at = problem.joints[i];
-        const glm::quat parent = parent_of(problem.room.rotations, i), old = problem.room.rotations[i];
+        const glm::vec3 at = room.pose.joints[i];
+        const glm::quat parent = parent_of(room.pose.rotations, i), old = room.pose.rotations[i];
         glm::quat wanted = old;
         if (i + 1 == problem.bones() && problem.options.tip_orientation) {
             wanted = *problem.options.tip_orientation;
         } else if (!coincide(at, tip) && !coincide(at, problem.target)) {
-            const glm::vec3 from = tendril::math::direction(at, tip, {}),
-                            to = tendril::math::direction(at, problem.target, {});
-            wanted = compose(least_rotation(from, to), old);
+            wanted = carried(old, math::direction(at, tip, {}), math::direction(at, problem.target, {}));
         }
-        rotations[i] = unit(compose(conjugate(parent), wanted));
-        bring_within(room.limits[i], rotations[i]);
-        const glm::quat by = unit(compose(compose(parent, rotations[i]), conjugate(old)));
+        turns[i] = unit(compose(conjugate(parent), wanted));
+        clamp(room.limits[i], turns[i]);
+        const glm::quat by = unit(compose(compose(parent, turns[i]), conjugate(old)));
         tip = plus(at, rotated(by, minus(tip, at)));
     }
-    for (std::size_t i = 0; i < problem.bones(); ++i) {
-        rotations[i] = unit(compose(parent_of(rotations, i), rotations[i]));
-    }
-    lay(problem, room.trial);
-    assume(problem, room.trial, Phase::Turn, watch);
+    extend(problem, room.trial);
+    take_trial(problem, Phase::Turn, watch);
 }
 
 /// The closed form, as if there were no limits, and then brought within them: the iterations that follow go
 /// on from there. The bones keep their lengths.
 template <class Watch>
 void close(Problem& problem, Watch watch) noexcept {
+    commit(problem);
     const std::span<glm::vec3> joints = problem.joints;
     const TwoBone limb{joints[0], joints[1], joints[2], problem.lengths()[0], problem.lengths()[1]};
     const TwoBoneResult result =
@@ -53,14 +49,17 @@ void close(Problem& problem, Watch watch) noexcept {
         joints[i] = to;
     }
     watch.next_step();
-    settle(problem, watch);
+    take_pose(problem, watch);
 }
 
 }  // namespace
 
 template <class Watch>
 void limited_iteration(Method method, Problem& problem, Watch watch) noexcept {
-    if (method == Method::FabrikPlain) return limited_pulls(problem, watch);
+    if (method == Method::FabrikPlain) {
+        limited_reaching(problem, watch);
+        return std::swap(problem.room.limited.pose, problem.room.limited.trial);
+    }
     if (method == Method::Ccd) return sweep(problem, watch);
     const bool closed = method == Method::TwoBone && problem.bones() == 2;
     if (closed && problem.iteration == 1 && !problem.options.tip_orientation) return close(problem, watch);
@@ -69,7 +68,7 @@ void limited_iteration(Method method, Problem& problem, Watch watch) noexcept {
                             : method == Method::SvdDls          ? Descent::Filtered
                                                                 : Descent::Damped;
     limited_step(problem, descent, damping);
-    assume(problem, problem.room.limited.trial, Phase::Gradient, watch);
+    take_trial(problem, Phase::Gradient, watch);
 }
 
 template void limited_iteration(Method, Problem&, Unwatched) noexcept;

@@ -46,20 +46,16 @@ JointAngles towards(const LimitedJoint& joint, const glm::quat& turn, const Join
                           between(now.twist, other.twist, part)});
 }
 
-/// Some pose within the limits, into room.trial; `part` of the way from the nearest one so far.
-void draw(const Problem& problem, std::uint64_t& state, float part) noexcept {
+/// Some pose within the limits, into `trial`; `part` of the way from the best one so far.
+void sample(const Problem& problem, std::uint64_t& state, float part) noexcept {
     LimitedRoom& room = problem.room.limited;
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         const LimitedJoint& joint = room.limits[i];
         JointAngles angles = drawn_angles(joint, state);
-        if (part < 1.0f) {
-            const glm::quat parent = parent_of(room.nearest.rotations, i);
-            angles = towards(joint, compose(conjugate(parent), room.nearest.rotations[i]), angles, part);
-        }
-        const glm::quat parent = parent_of(room.trial.rotations, i);
-        room.trial.rotations[i] = unit(compose(parent, turn_of(joint, angles)));
+        if (part < 1.0f) angles = towards(joint, room.best.turns[i], angles, part);
+        room.trial.turns[i] = turn_of(joint, angles);
     }
-    lay(problem, room.trial);
+    extend(problem, room.trial);
 }
 
 }  // namespace
@@ -78,26 +74,28 @@ bool LimitedSearch::takes(float error, float nearest, bool arrived) const noexce
 
 void LimitedSearch::draw_start(Problem& problem) noexcept {
     LimitedRoom& room = problem.room.limited;
-    if (tries_ == 0) home_ = error_of(problem, room.nearest) - clearly * problem.room.reach;
+    if (tries_ == 0) home_ = error_of(problem, room.best) - clearly * problem.room.reach;
     ++tries_;
     std::uint64_t state = static_cast<std::uint64_t>(tries_) * 7919u;
     const float part = tries_ <= near_tries ? 0.25f * static_cast<float>(tries_) : 1.0f;
     float best = 0.0f;
     for (int i = 0; i < drawn; ++i) {
-        draw(problem, state, part);
+        sample(problem, state, part);
         const float error = error_of(problem, room.trial);
         if (i > 0 && error >= best) continue;
         best = error;
-        std::swap(room.trial, room.before);
+        std::swap(room.trial, room.spare);
     }
+    std::swap(room.trial, room.spare);
 }
 
 template <class Watch>
-void LimitedSearch::start_from(Problem& problem, const LimitedPose& pose, Phase phase, Watch watch) noexcept {
-    assume(problem, pose, phase, watch);
+void LimitedSearch::start_from_trial(Problem& problem, Phase phase, Watch watch) noexcept {
+    take_trial(problem, phase, watch);
     damping_ = first_damping;
     slow_ = 0;
-    last_ = error_of(problem);
+    reaches_ = true;
+    last_ = error_of(problem, problem.room.limited.pose);
 }
 
 template <class Watch>
@@ -106,22 +104,27 @@ void LimitedSearch::iterate(Problem& problem, Watch watch) noexcept {
     const bool ends = problem.iteration + last_iterations > problem.options.max_iterations;
     if (!polishes_ && stalled() && (ends || (stalls() && tries_ >= most_tries))) {
         polishes_ = true;
-        start_from(problem, room.nearest, Phase::Keep, watch);
+        room.trial = room.best;
+        start_from_trial(problem, Phase::Keep, watch);
     } else if (!polishes_ && stalls()) {
         draw_start(problem);
-        start_from(problem, room.before, Phase::Prepare, watch);
+        start_from_trial(problem, Phase::Prepare, watch);
     }
-    const float start = error_of(problem);
-    save(problem, room.before);
-    limited_pulls(problem, watch);
-    float error = error_of(problem);
-    if (error > 0.5f * start) {
-        if (error > start) {
-            assume(problem, room.before, Phase::Keep, watch);
-            error = start;
+    const float start = last_;
+    float error = start;
+    if (reaches_) {
+        limited_reaching(problem, watch);
+        const float reached = error_of(problem, room.trial);
+        reaches_ = reached < 0.5f * start;
+        if (reached < start) {
+            std::swap(room.pose, room.trial);
+            last_ = reached;
+        } else {
+            report_moves(problem, room.trial, room.pose, Phase::Keep, watch);
         }
-        descend(problem, damping_, error, watch);
+        return;
     }
+    descend(problem, damping_, error, watch);
     // Far away from a target that cannot be reached, only so much is left as may still be gained.
     const float left = std::min(last_, 0.1f * problem.room.reach);
     slow_ = last_ - error < (polishes_ ? crawling : slow) * left ? slow_ + 1 : 0;

@@ -32,13 +32,14 @@ class LimitedSearch {
     bool stalls() const noexcept;
     void draw_start(Problem& problem) noexcept;
     template <class Watch>
-    void start_from(Problem& problem, const LimitedPose& pose, Phase phase, Watch watch) noexcept;
+    void start_from_trial(Problem& problem, Phase phase, Watch watch) noexcept;
 
     float damping_ = 1e-3f;  ///< in reach squared
     float last_;             ///< the error before
     float home_ = 0.0f;      ///< another start must lead to less than this
     int slow_ = 0;           ///< for how many iterations there was little progress
     int tries_ = 0;
+    bool reaches_ = true;    ///< FABRIK's passes bring the tip half way or more
     bool polishes_ = false;  ///< goes on from the nearest pose to the end
 };
 

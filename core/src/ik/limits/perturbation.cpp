@@ -1,6 +1,6 @@
 #include "ik/limits/perturbation.hpp"
 
-#include "ik/limits/jacobian.hpp"
+#include "ik/limits/freedom.hpp"
 #include "ik/limits/pose.hpp"
 #include "ik/solve/perturbation.hpp"
 
@@ -38,8 +38,8 @@ JointAngles bent(const LimitedJoint& joint, const JointAngles& angles, float up,
 glm::quat bent_turn(const Problem& problem, std::size_t i, const glm::vec3& by) noexcept {
     const LimitedRoom& room = problem.room.limited;
     const LimitedJoint& joint = room.limits[i];
-    const glm::quat turn = local_turn(problem.room.rotations, i);
-    const glm::vec3 own = rotated(conjugate(parent_of(problem.room.rotations, i)), by);
+    const glm::quat turn = room.pose.turns[i];
+    const glm::vec3 own = rotated(conjugate(parent_of(room.pose.rotations, i)), by);
     if (joint.free()) {
         const glm::vec3 half = times(own, 0.5f);
         return unit(compose(unit_quaternion(1.0f, half.x, half.y, half.z), turn));
@@ -55,14 +55,17 @@ glm::quat bent_turn(const Problem& problem, std::size_t i, const glm::vec3& by) 
 
 /// From the root to the tip; a chain that ends where it begins shows the line to its target instead.
 glm::vec3 line_to_bend(const Problem& problem) noexcept {
-    const glm::vec3 arm = minus(problem.joints.back(), problem.root());
-    const float far = length(arm);
-    return far > 1e-3f * problem.room.reach ? times(arm, 1.0f / far) : line_of(problem);
+    const LimitedPose& pose = problem.room.limited.pose;
+    for (const glm::vec3& end : {pose.joints[problem.bones()], problem.target}) {
+        const glm::vec3 arm = minus(end, problem.root());
+        const float far = length(arm);
+        if (far > 1e-3f * problem.room.reach) return times(arm, 1.0f / far);
+    }
+    return pose.directions[0];
 }
 
 void lay_bent(const Problem& problem, std::size_t i, const glm::vec3& by) noexcept {
-    std::vector<glm::quat>& rotations = problem.room.limited.trial.rotations;
-    rotations[i] = unit(compose(parent_of(rotations, i), bent_turn(problem, i, by)));
+    problem.room.limited.trial.turns[i] = bent_turn(problem, i, by);
 }
 
 /// The first bone one way, the others back, so that the tip stays near the line.
@@ -71,7 +74,7 @@ void bow(const Problem& problem, const glm::vec3& about) noexcept {
         const float part = 2.0f * problem.lengths()[i] / problem.room.reach;
         lay_bent(problem, i, times(about, i == 0 ? kick_bow : -kick_bow * std::max(part, least_part)));
     }
-    lay(problem, problem.room.limited.trial);
+    extend(problem, problem.room.limited.trial);
 }
 
 void scatter(const Problem& problem, const glm::vec3& line, const glm::vec3& side, int number) noexcept {
@@ -82,18 +85,18 @@ void scatter(const Problem& problem, const glm::vec3& line, const glm::vec3& sid
             problem, i,
             times(plus(times(about, scattered(i, salt)), times(side, scattered(i, salt + 1))), kick_bow));
     }
-    lay(problem, problem.room.limited.trial);
+    extend(problem, problem.room.limited.trial);
 }
 
 }  // namespace
 
 bool is_singular(Problem& problem) noexcept {
-    linearize(problem);
     const Wanted wanted = wanted_of(problem);
+    linearize(problem, wanted);
     const float asked = dot(wanted.move, wanted.move) + dot(wanted.turn, wanted.turn);
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        const JointAngles g = change_of(problem.room.limited, i, wanted);
-        if (g.up * g.up + g.left * g.left + g.twist * g.twist > singular * singular * asked) return false;
+        const glm::vec3 turn = turn_by(problem.room.limited.freedoms[i], wanted);
+        if (dot(turn, turn) > singular * singular * asked) return false;
     }
     return true;
 }
@@ -115,7 +118,7 @@ void kick_within_limits(Problem& problem, int turn, Watch watch) noexcept {
         if (error < least - alike * problem.room.reach) best = way, least = error;
     }
     bend(best);
-    assume(problem, room.trial, Phase::Prepare, watch);
+    take_trial(problem, Phase::Prepare, watch);
 }
 
 template void kick_within_limits(Problem&, int, Unwatched) noexcept;

@@ -21,14 +21,13 @@ float angle_between(const Problem& problem, const LimitedPose& before, const glm
     return angle;
 }
 
-/// Turns the pose in `before` about the line, into `trial`; whether the root's joint allows it.
+/// Turns the pose in `pose` about the line, into `trial`; whether the root's joint allows it.
 bool turns(Problem& problem, const glm::vec3& line, float angle) noexcept {
     LimitedRoom& room = problem.room.limited;
     const glm::quat by = rotation_about(line, angle);
-    for (std::size_t i = 0; i < problem.bones(); ++i) {
-        room.trial.rotations[i] = unit(compose(by, room.before.rotations[i]));
-    }
-    return excess_of(room.limits[0], angles_of(room.limits[0], room.trial.rotations[0])) <= at_bound;
+    room.trial.turns = room.pose.turns;
+    room.trial.turns[0] = unit(compose(by, room.pose.turns[0]));
+    return excess_of(room.limits[0], angles_of(room.limits[0], room.trial.turns[0])) <= at_bound;
 }
 
 void turn_as_far_as_allowed(Problem& problem, const glm::vec3& line, float angle) noexcept {
@@ -49,24 +48,25 @@ void expect_pole(Problem& problem) noexcept {
 
 template <class Watch>
 void face_pole_within_limits(Problem& problem, Watch watch) noexcept {
+    if (!problem.options.pole) return remember_pose(problem);
     LimitedRoom& room = problem.room.limited;
-    save(problem, room.before);
     Options options = problem.options;
     options.pole_turn = PoleTurn::WholeChain;
     Problem whole{problem.joints, problem.target, problem.tolerance, options, problem.room};
     face_pole(whole, Unwatched());
-    const glm::vec3 span = minus(room.before.joints[problem.bones()], problem.root());
+    const glm::vec3 span = minus(room.pose.joints[problem.bones()], problem.root());
     const float size = length(span);
     const glm::vec3 line = size > 0.0f ? times(span, 1.0f / size) : span;
-    const float angle = size > 0.0f ? angle_between(problem, room.before, line) : 0.0f;
-    std::copy(room.before.joints.begin(), room.before.joints.end(), problem.joints.begin());
+    const float angle = size > 0.0f ? angle_between(problem, room.pose, line) : 0.0f;
+    commit(problem);
     if (std::abs(angle) <= at_bound) return;
     turn_as_far_as_allowed(problem, line, angle);
-    lay(problem, room.trial);
+    extend(problem, room.trial);
     // Laid anew, the tip is off by rounding; no turn is worth more than that.
-    const float allowed = std::max(error_of(problem, room.before), problem.tolerance);
+    const float allowed = std::max(error_of(problem, room.pose), problem.tolerance);
     if (error_of(problem, room.trial) > allowed + 1e-6f * problem.room.reach) return;
-    assume(problem, room.trial, Phase::Pole, watch);
+    take_trial(problem, Phase::Pole, watch);
+    commit(problem);
     remember_pose(problem);
 }
 

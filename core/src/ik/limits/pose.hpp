@@ -3,7 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 
+#include "ik/limits/workspace.hpp"
 #include "ik/math.hpp"
 #include "ik/solve/problem.hpp"
 
@@ -12,6 +14,11 @@ namespace tendril::ik::detail {
 /// A rotation brought to length 1 again, which products lose slowly.
 static inline glm::quat unit(const glm::quat& q) noexcept {
     return unit_quaternion(q.w, q.x, q.y, q.z);
+}
+/// The same for one that has lost no more than a few products' rounding: a step of Newton's for the root.
+static inline glm::quat nearly_unit(const glm::quat& q) noexcept {
+    const float scale = 1.5f - 0.5f * (q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    return {q.w * scale, q.x * scale, q.y * scale, q.z * scale};
 }
 
 /// How the bone before is turned; the root's is the world.
@@ -24,15 +31,21 @@ static inline glm::quat local_turn(const std::vector<glm::quat>& rotations, std:
     return compose(conjugate(parent_of(rotations, bone)), rotations[bone]);
 }
 
+/// Turned on by the least rotation that takes one unit vector to another.
+static inline glm::quat carried(const glm::quat& rotation, const glm::vec3& from,
+                                const glm::vec3& to) noexcept {
+    const float w = 1.0f + dot(from, to);
+    if (w < 1e-3f) {  // all but opposite: half a turn, and on from there
+        const glm::vec3 half = perpendicular(from);
+        return carried(compose({0.0f, half.x, half.y, half.z}, rotation), times(from, -1.0f), to);
+    }
+    const glm::vec3 axis = cross(from, to);
+    return unit(compose({w, axis.x, axis.y, axis.z}, rotation));
+}
+
 static inline glm::vec3 bone_direction(const Problem& problem, const glm::quat& rotation,
                                        std::size_t bone) noexcept {
     return rotated(rotation, problem.room.limited.limits[bone].bone);
-}
-
-/// Turned on by the least rotation so that the bone points along `direction`.
-static inline glm::quat carried(const Problem& problem, const glm::quat& rotation, std::size_t bone,
-                                const glm::vec3& direction) noexcept {
-    return unit(compose(least_rotation(bone_direction(problem, rotation, bone), direction), rotation));
 }
 
 /// The vector along a rotation's axis whose length is its angle, the shorter way round.
@@ -41,34 +54,51 @@ glm::vec3 rotation_vector(const glm::quat& rotation) noexcept;
 /// How far the pose is from what is asked, metres: the distance of the tip, and with a tip orientation also
 /// the angle of the last bone, as if seen at a quarter of the reach.
 float error_of(const Problem& problem, const LimitedPose& pose) noexcept;
-float error_of(const Problem& problem) noexcept;
-/// The turn from how the last bone is turned to how it should be, times that quarter of the reach.
-glm::vec3 orientation_error(const Problem& problem, const std::vector<glm::quat>& rotations) noexcept;
+/// The rotation from how the last bone is turned to how it should be, times that quarter of the reach.
+glm::vec3 orientation_error(const Problem& problem, const LimitedPose& pose) noexcept;
 
-/// Lays the joints of a pose as its rotations say.
-void lay(const Problem& problem, LimitedPose& pose) noexcept;
-void save(const Problem& problem, LimitedPose& pose) noexcept;
+/// How far the joint that moved most is from where it was in another pose, metres.
+float furthest_moved(const Problem& problem, const LimitedPose& from, const LimitedPose& to) noexcept;
 
-/// At the start: makes the limits ready.
+/// Forward kinematics: rotations, directions and joints from `turns`. The root is the problem's.
+void extend(const Problem& problem, LimitedPose& pose) noexcept;
+/// One bone of it; those before it are done.
+static inline void extend_bone(const Problem& problem, LimitedPose& pose, std::size_t bone) noexcept {
+    pose.rotations[bone] = nearly_unit(compose(parent_of(pose.rotations, bone), pose.turns[bone]));
+    pose.directions[bone] = bone_direction(problem, pose.rotations[bone], bone);
+    pose.joints[bone + 1] = moved(pose.joints[bone], pose.directions[bone], problem.lengths()[bone]);
+}
+
+/// At the start: makes the limits ready, unless they are those of the last solve.
 void take_limits(Problem& problem) noexcept;
 
-/// Where joints were moved and rotations were not: the rotations are carried to where the joints are, each
-/// joint brought within its limit from the root on, and what hangs on it laid anew. What holds already is
-/// left as it is to the bit.
+/// Takes the problem's joints and rotations into workspace.pose. Where joints were moved and rotations were
+/// not, the rotations are carried to where the joints are, each joint is clamped from the root on, and what
+/// hangs on it laid anew. What holds already is left as it is to the bit.
 template <class Watch>
-void settle(Problem& problem, Watch watch) noexcept;
+void take_pose(Problem& problem, Watch watch) noexcept;
+/// Hands workspace.pose back to the problem.
+void commit(Problem& problem) noexcept;
 
-/// The pose becomes that of the solve, as one step.
+/// The joints that are elsewhere in another pose go there, as one step.
 template <class Watch>
-void assume(Problem& problem, const LimitedPose& pose, Phase phase, Watch watch) noexcept {
-    for (std::size_t i = 1; i < problem.joints.size(); ++i) {
-        const glm::vec3 from = problem.joints[i], to = pose.joints[i];
-        if (from.x == to.x && from.y == to.y && from.z == to.z) continue;
-        watch.moved(problem.iteration, phase, i, i - 1, from, to);
-        problem.joints[i] = to;
+void report_moves(const Problem& problem, const LimitedPose& from, const LimitedPose& to, Phase phase,
+                  Watch watch) noexcept {
+    if constexpr (Watch::watching) {
+        for (std::size_t i = 1; i <= problem.bones(); ++i) {
+            if (from.joints[i] == to.joints[i]) continue;
+            watch.moved(problem.iteration, phase, i, i - 1, from.joints[i], to.joints[i]);
+        }
+        watch.next_step();
     }
-    std::copy_n(pose.rotations.begin(), problem.bones(), problem.room.rotations.begin());
-    watch.next_step();
+}
+
+/// The pose becomes what `trial` holds.
+template <class Watch>
+void take_trial(Problem& problem, Phase phase, Watch watch) noexcept {
+    LimitedRoom& room = problem.room.limited;
+    report_moves(problem, room.pose, room.trial, phase, watch);
+    std::swap(room.pose, room.trial);
 }
 
 }  // namespace tendril::ik::detail

@@ -2,58 +2,47 @@
 
 #include <algorithm>
 
-#include "ik/limits/jacobian.hpp"
+#include "ik/limits/freedom.hpp"
 #include "ik/limits/pose.hpp"
 #include "ik/math.hpp"
-#include "math/matrix3.hpp"
 #include "math/symmetric3.hpp"
 
 namespace tendril::ik::detail {
 namespace {
 
-constexpr float least_damping = 1e-8f, most_damping = 1.0f;
+using namespace tendril::math;
 
-Wanted damped(const Problem& problem, const Wanted& wanted, float damping) noexcept {
-    const LimitedRoom& room = problem.room.limited;
-    Matrix3 moves = diagonal(damping), turns = diagonal(damping), both = diagonal(0.0f);
-    for (std::size_t i = 0; i < problem.bones(); ++i) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            add_product(moves, room.columns[i][k], room.columns[i][k]);
-            if (wanted.scale == 0.0f) continue;
-            const glm::vec3 turn = times(room.axes[i][k], wanted.scale);
-            add_product(turns, turn, turn);
-            add_product(both, room.columns[i][k], turn);
-        }
-    }
+constexpr float least_damping = 1e-6f, most_damping = 1.0f;
+
+Matrix3 damped(Matrix3 matrix, float damping) noexcept {
+    for (std::size_t k = 0; k < 3; ++k) matrix.at[k][k] += static_cast<double>(damping);
+    return matrix;
+}
+
+Wanted damped_step(const Normal& normal, const Wanted& wanted, float damping) noexcept {
+    const Matrix3 inverted = inverse(damped(normal.moves, damping));
     Wanted by = wanted;
-    if (wanted.scale == 0.0f) {
-        by.move = times(inverse(moves), wanted.move);
-        return by;
-    }
+    by.move = times(inverted, wanted.move);
+    if (wanted.scale == 0.0f) return by;
     // [moves both; both' turns] [by.move; by.turn] = [wanted.move; wanted.turn], the first eliminated.
-    const Matrix3 inverted = inverse(moves);
-    const Matrix3 carried_over = product(transposed(both), inverted);
-    by.turn = times(inverse(difference(turns, product(carried_over, both))),
+    const Matrix3 carried_over = product(transposed(normal.both), inverted);
+    by.turn = times(inverse(difference(damped(normal.turns, damping), product(carried_over, normal.both))),
                     minus(wanted.turn, times(carried_over, wanted.move)));
-    by.move = times(inverted, minus(wanted.move, times(both, by.turn)));
+    by.move = times(inverted, minus(wanted.move, times(normal.both, by.turn)));
     return by;
 }
 
 /// Damped only along eigenvectors of J J' whose singular value is small, as the solver without limits has it;
 /// with an orientation there are six rows, and all are damped.
-Wanted filtered(const Problem& problem, const Wanted& wanted, float damping) noexcept {
-    if (wanted.scale != 0.0f) return damped(problem, wanted, damping);
+Wanted filtered_step(const Normal& normal, const Wanted& wanted, float damping) noexcept {
+    if (wanted.scale != 0.0f) return damped_step(normal, wanted, damping);
     constexpr double small_singular = 0.4;
+    const auto& m = normal.moves.at;
     Symmetric3 jj;
-    for (std::size_t i = 0; i < problem.bones(); ++i) {
-        for (const glm::vec3& column : problem.room.limited.columns[i]) {
-            const double x = column.x, y = column.y, z = column.z;
-            jj.xx += x * x, jj.yy += y * y, jj.zz += z * z;
-            jj.xy += x * y, jj.xz += x * z, jj.yz += y * z;
-        }
-    }
+    jj.xx = m[0][0], jj.yy = m[1][1], jj.zz = m[2][2];
+    jj.xy = m[0][1], jj.xz = m[0][2], jj.yz = m[1][2];
     const Eigen3 e = eigen(jj);
-    const glm::dvec3 move{wanted.move.x, wanted.move.y, wanted.move.z};
+    const glm::dvec3 move = wide(wanted.move);
     glm::dvec3 by{0.0};
     for (std::size_t k = 0; k < 3; ++k) {
         const double squared = std::max(e.values[k], 0.0);
@@ -65,79 +54,64 @@ Wanted filtered(const Problem& problem, const Wanted& wanted, float damping) noe
 }
 
 /// The step along the gradient after which the error, were it linear, would be least.
-Wanted steepest(const Problem& problem, const Wanted& wanted) noexcept {
-    const LimitedRoom& room = problem.room.limited;
-    glm::vec3 move{0.0f}, turn{0.0f};
-    for (std::size_t i = 0; i < problem.bones(); ++i) {
-        const JointAngles change = change_of(room, i, wanted);
-        const float parts[] = {change.up, change.left, change.twist};
-        for (std::size_t k = 0; k < 3; ++k) {
-            move = plus(move, times(room.columns[i][k], parts[k]));
-            turn = plus(turn, times(room.axes[i][k], parts[k] * wanted.scale));
-        }
-    }
+Wanted steepest_step(const Normal& normal, const Wanted& wanted) noexcept {
+    const glm::vec3 move = plus(times(normal.moves, wanted.move), times(normal.both, wanted.turn)),
+                    turn =
+                        plus(times(transposed(normal.both), wanted.move), times(normal.turns, wanted.turn));
     const float size = dot(move, move) + dot(turn, turn);
     const float best = size > 0.0f ? (dot(move, wanted.move) + dot(turn, wanted.turn)) / size : 0.0f;
     return {times(wanted.move, best), times(wanted.turn, best), wanted.scale};
 }
 
-/// No angle changes by more than this at once; further the columns say nothing.
-float bounded(const Problem& problem, const Wanted& by) noexcept {
-    float most = 1.0f;
-    for (std::size_t i = 0; i < problem.bones(); ++i) {
-        const JointAngles change = change_of(problem.room.limited, i, by);
-        most = std::max({most, std::abs(change.up), std::abs(change.left), std::abs(change.twist)});
+/// Solved anew until no joint is pushed out of its limit.
+Wanted projected_step(Problem& problem, Descent descent, float damping, const Wanted& wanted,
+                      Normal& normal) noexcept {
+    Wanted by = wanted;
+    for (int pass = 0; pass < 4; ++pass) {
+        by = descent == Descent::Transpose  ? steepest_step(normal, wanted)
+             : descent == Descent::Filtered ? filtered_step(normal, wanted, damping)
+                                            : damped_step(normal, wanted, damping);
+        if (!activate(problem, by, normal)) break;
     }
-    return 1.0f / most;
+    return by;
 }
 
+/// Turns every joint, but none by more than a radian; further the matrix says nothing.
 void take(Problem& problem, const Wanted& by) noexcept {
     LimitedRoom& room = problem.room.limited;
-    const float scale = bounded(problem, by);
+    float most = 1.0f;
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        const JointAngles change = change_of(room, i, by);
-        const glm::quat parent = parent_of(room.trial.rotations, i);
-        const glm::quat old =
-            compose(conjugate(parent_of(problem.room.rotations, i)), problem.room.rotations[i]);
-        JointAngles angles = room.angles[i];
-        angles.up += scale * change.up;
-        angles.left += scale * change.left;
-        angles.twist += scale * change.twist;
-        glm::quat turn = old;
-        if (room.limits[i].free()) {
-            const glm::vec3 about = times(glm::vec3{change.up, change.left, change.twist}, 0.5f * scale);
-            const glm::vec3 own = rotated(conjugate(parent_of(problem.room.rotations, i)), about);
-            turn = compose(unit_quaternion(1.0f, own.x, own.y, own.z), old);
-        } else {
-            turn = turn_of(room.limits[i], within(room.limits[i], angles));
-        }
-        room.trial.rotations[i] = unit(compose(parent, turn));
+        const glm::vec3 turn = turn_by(room.freedoms[i], by);
+        most = std::max(most, dot(turn, turn));
     }
-    lay(problem, room.trial);
+    const float half = 0.5f / std::sqrt(most);
+    room.trial.joints[0] = problem.root();
+    for (std::size_t i = 0; i < problem.bones(); ++i) {
+        const glm::quat parent = parent_of(room.pose.rotations, i);
+        const glm::vec3 v = rotated(conjugate(parent), times(turn_by(room.freedoms[i], by), half));
+        room.trial.turns[i] = unit(compose({1.0f, v.x, v.y, v.z}, room.pose.turns[i]));
+        clamp(room.limits[i], room.trial.turns[i]);
+        extend_bone(problem, room.trial, i);
+    }
 }
 
 }  // namespace
 
 void limited_step(Problem& problem, Descent descent, float damping) noexcept {
-    linearize(problem);
     const Wanted wanted = wanted_of(problem);
-    Wanted by = wanted;
-    for (int pass = 0; pass < 4; ++pass) {
-        by = descent == Descent::Transpose  ? steepest(problem, wanted)
-             : descent == Descent::Filtered ? filtered(problem, wanted, damping)
-                                            : damped(problem, wanted, damping);
-        if (!hold_back(problem, by)) break;
-    }
-    take(problem, by);
+    Normal normal = linearize(problem, wanted);
+    take(problem, projected_step(problem, descent, damping, wanted, normal));
 }
 
 template <class Watch>
 bool descend(Problem& problem, float& damping, float& error, Watch watch) noexcept {
+    const Wanted wanted = wanted_of(problem);
+    Normal normal = linearize(problem, wanted);
     for (int attempt = 0; attempt < 2; ++attempt) {
-        limited_step(problem, Descent::Damped, damping);
+        take(problem, projected_step(problem, Descent::Damped, damping, wanted, normal));
         const float then = error_of(problem, problem.room.limited.trial);
         if (then < error) {
-            assume(problem, problem.room.limited.trial, Phase::Gradient, watch);
+            take_trial(problem, Phase::Gradient, watch);
             error = then;
             damping = std::max(0.3f * damping, least_damping);
             return true;

@@ -1,11 +1,10 @@
-// One damped least-squares step over the angles that the limits leave free. Not installed.
+// One damped least-squares step within limits. Not installed.
 //
-// Each joint has the angles of its limit: one for a hinge, two of swing and one of twist otherwise. A step
-// that would push a joint further out of its limit is taken along the limit instead (the hinge's angle stays,
-// the cone's swing slides along the rim), and the rest is solved anew without it; after Baerlocher and
-// Boulic, "An inverse kinematics architecture enforcing an arbitrary number of strict priority levels", The
-// Visual Computer 20(6), 2004. What is still over after the step is brought within, so the trial pose always
-// holds.
+// Active-set projection: a step that would push a joint out of its limit is taken along the limit instead
+// (a hinge's angle stays, a cone's swing slides along the rim), and the rest is solved anew without it; after
+// Baerlocher and Boulic, "An inverse kinematics architecture enforcing an arbitrary number of strict priority
+// levels", The Visual Computer 20(6), 2004. What is still over after the step is clamped, so the trial pose
+// is always within.
 #pragma once
 
 #include "ik/solve/problem.hpp"
@@ -18,7 +17,7 @@ enum class Descent {
     Transpose  ///< along J' e, as far as is best
 };
 
-/// Makes room.limited.trial from the pose of the problem. `damping` in reach squared.
+/// From workspace.pose to workspace.trial. `damping` in reach squared.
 void limited_step(Problem& problem, Descent descent, float damping) noexcept;
 
 inline constexpr float first_damping = 1e-3f;

@@ -1,0 +1,144 @@
+#include "ik/limits/freedom.hpp"
+
+#include "ik/limits/pose.hpp"
+
+namespace tendril::ik::detail {
+namespace {
+
+using math::Matrix3;
+
+/// matrix += by * a b'
+void add_product(Matrix3& matrix, const glm::dvec3& a, const glm::dvec3& b, double by) noexcept {
+    const double p[] = {by * a.x, by * a.y, by * a.z}, q[] = {b.x, b.y, b.z};
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) matrix.at[i][k] += p[i] * q[k];
+    }
+}
+
+/// What turning about a unit axis adds.
+void add_axis(Normal& normal, const glm::vec3& axis, const glm::vec3& arm, float scale, double by) noexcept {
+    const glm::dvec3 about = wide(axis), column = cross(about, wide(arm));
+    add_product(normal.moves, column, column, by);
+    if (scale == 0.0f) return;
+    add_product(normal.turns, about, about, by * static_cast<double>(scale * scale));
+    add_product(normal.both, column, about, by * static_cast<double>(scale));
+}
+
+/// The same for all three axes.
+void add_ball(Normal& normal, const glm::vec3& arm, float scale) noexcept {
+    const glm::dvec3 r = wide(arm);
+    const double xx = r.x * r.x, yy = r.y * r.y, zz = r.z * r.z;
+    auto& moves = normal.moves.at;
+    moves[0][0] += yy + zz, moves[1][1] += xx + zz, moves[2][2] += xx + yy;
+    moves[0][1] -= r.x * r.y, moves[0][2] -= r.x * r.z, moves[1][2] -= r.y * r.z;
+    moves[1][0] = moves[0][1], moves[2][0] = moves[0][2], moves[2][1] = moves[1][2];
+    if (scale == 0.0f) return;
+    const double s = static_cast<double>(scale);
+    for (std::size_t k = 0; k < 3; ++k) normal.turns.at[k][k] += s * s;
+    auto& both = normal.both.at;  // columns e_k x r
+    both[0][1] += s * r.z, both[0][2] -= s * r.y, both[1][2] += s * r.x;
+    both[1][0] -= s * r.z, both[2][0] += s * r.y, both[2][1] -= s * r.x;
+}
+
+/// Takes an axis from what the joint may do, and from the matrix; whether there was any of it.
+bool forbid(JointFreedom& freedom, const glm::vec3& axis, float scale, Normal& normal) noexcept {
+    if (!freedom.ball) {
+        if (freedom.count == 0) return false;
+        add_axis(normal, freedom.axes[0], freedom.arm, scale, -1.0);
+        freedom.count = 0;
+        return true;
+    }
+    glm::vec3 rest = axis;
+    for (int i = 0; i < freedom.count; ++i) {
+        const glm::vec3& old = freedom.axes[static_cast<std::size_t>(i)];
+        rest = minus(rest, times(old, dot(rest, old)));
+    }
+    const float size = length(rest);
+    if (size < 1e-3f || freedom.count == 3) return false;
+    rest = times(rest, 1.0f / size);
+    add_axis(normal, rest, freedom.arm, scale, -1.0);
+    freedom.axes[static_cast<std::size_t>(freedom.count++)] = rest;
+    return true;
+}
+
+}  // namespace
+
+Wanted wanted_of(const Problem& problem) noexcept {
+    Wanted wanted;
+    const LimitedPose& pose = problem.room.limited.pose;
+    const float unit_length = 1.0f / problem.room.reach;
+    wanted.move = times(minus(problem.target, pose.joints[problem.bones()]), unit_length);
+    // A target far out of reach says no more than its direction.
+    if (const float far = length(wanted.move); far > 1.0f) wanted.move = times(wanted.move, 1.0f / far);
+    if (problem.options.tip_orientation) {
+        wanted.turn = times(orientation_error(problem, pose), unit_length);
+        wanted.scale = 0.25f;
+    }
+    return wanted;
+}
+
+Normal linearize(Problem& problem, const Wanted& wanted) noexcept {
+    LimitedRoom& room = problem.room.limited;
+    const LimitedPose& pose = room.pose;
+    const glm::vec3 tip = pose.joints[problem.bones()];
+    const float unit_length = 1.0f / problem.room.reach;
+    Normal normal;
+    room.at_bounds = 0;
+    for (std::size_t i = 0; i < problem.bones(); ++i) {
+        const LimitedJoint& joint = room.limits[i];
+        JointFreedom& freedom = room.freedoms[i];
+        freedom.arm = times(minus(tip, pose.joints[i]), unit_length);
+        freedom.ball = !joint.hinge();
+        freedom.count = 0;
+        const glm::quat parent = parent_of(pose.rotations, i);
+        if (joint.hinge()) {
+            freedom.axes[0] = rotated(parent, joint.axis);
+            freedom.count = 1;
+            add_axis(normal, freedom.axes[0], freedom.arm, wanted.scale, 1.0);
+        } else {
+            add_ball(normal, freedom.arm, wanted.scale);
+        }
+        if (is_inside(joint, pose.turns[i])) continue;
+        freedom.bounds = bounds_of(joint, pose.turns[i]);
+        int open = 0;  // bounds on one side only
+        for (int k = 0; k < freedom.bounds.count; ++k) {
+            Bounds::Bound bound = freedom.bounds.at[k];
+            bound.outward = rotated(parent, bound.outward);
+            if (bound.both)
+                forbid(freedom, bound.outward, wanted.scale, normal);
+            else
+                freedom.bounds.at[open++] = bound;
+        }
+        freedom.bounds.count = open;
+        if (open > 0) room.bounded[room.at_bounds++] = i;
+    }
+    return normal;
+}
+
+glm::vec3 turn_by(const JointFreedom& freedom, const Wanted& by) noexcept {
+    if (freedom.ball && freedom.count == 3) return glm::vec3(0.0f);
+    const glm::vec3 whole = plus(cross(freedom.arm, by.move), times(by.turn, by.scale));
+    glm::vec3 some{0.0f};
+    for (int i = 0; i < freedom.count; ++i) {
+        const glm::vec3& axis = freedom.axes[static_cast<std::size_t>(i)];
+        some = plus(some, times(axis, dot(axis, whole)));
+    }
+    return freedom.ball ? minus(whole, some) : some;
+}
+
+bool activate(Problem& problem, const Wanted& by, Normal& normal) noexcept {
+    LimitedRoom& room = problem.room.limited;
+    bool any = false;
+    for (std::size_t n = 0; n < room.at_bounds; ++n) {
+        JointFreedom& freedom = room.freedoms[room.bounded[n]];
+        for (int k = 0; k < freedom.bounds.count; ++k) {
+            const glm::vec3 turn = turn_by(freedom, by), outward = freedom.bounds.at[k].outward;
+            const float push = dot(turn, outward);
+            if (push <= 0.0f || push * push <= 1e-8f * dot(turn, turn)) continue;
+            any = forbid(freedom, outward, by.scale, normal) || any;
+        }
+    }
+    return any;
+}
+
+}  // namespace tendril::ik::detail
