@@ -23,6 +23,7 @@
 namespace {
 
 using tendril::Chain;
+using tendril::bench::require;
 using tendril::bench::take_flag;
 
 constexpr std::size_t sizes[] = {10, 100, 1'000, 10'000, 100'000, 1'000'000};
@@ -42,7 +43,7 @@ float length_of(std::size_t i) {
 
 Chain make_chain(std::size_t count) {
     Chain chain;
-    for (std::size_t i = 0; i < count; ++i) chain.add(length_of(i));
+    for (std::size_t i = 0; i < count; ++i) require(chain.add(length_of(i)));
     return chain;
 }
 
@@ -83,10 +84,10 @@ void pull_plain(Plain& plain, const std::string& mode, glm::vec3 to) {
 }
 
 void pull_chain(Chain& chain, const std::string& mode, glm::vec3 to) {
-    if (mode == "forward") chain.forward(to);
-    if (mode == "backward") chain.backward(to);
-    if (mode == "with_index") chain.with_index(chain.size() / 2, to);
-    if (mode == "fixed") chain.fixed(to);
+    if (mode == "forward") require(chain.forward(to));
+    if (mode == "backward") require(chain.backward(to));
+    if (mode == "with_index") require(chain.with_index(chain.size() / 2, to));
+    if (mode == "fixed") require(chain.fixed(to).outcome);
 }
 
 void count_segments(benchmark::State& state, std::size_t count) {

@@ -4,12 +4,22 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <functional>
 #include <vector>
 
+#include "tendril/result.hpp"
+
 namespace tendril::bench {
+
+/// A benchmark whose calls are refused measures nothing.
+inline void require(const Result& result) {
+    if (result) return;
+    std::fprintf(stderr, "%s\n", result.message());
+    std::abort();
+}
 
 /// Of this process, all its threads together: what else runs on the machine does not count.
 inline double cpu_seconds() {

@@ -27,25 +27,32 @@ namespace tendril::test {
 namespace {
 
 TEST(ChainMemory, AFailedEditChangesNothing) {
-    Chain chain = Chain::from_segments({{{0, 0, 0}, 1}, {{1, 0, 0}, 1}, {{2, 0, 0}, 1}});  // no room to spare
+    Chain chain =
+        *Chain::from_segments({{{0, 0, 0}, 1}, {{1, 0, 0}, 1}, {{2, 0, 0}, 1}});  // no room to spare
     const Chain before = chain;
-    EXPECT_THROW(without_memory([&] { chain.add(1.0f); }), std::bad_alloc);
-    EXPECT_THROW(without_memory([&] { chain.add(Segment{{5, 5, 5}, 1}); }), std::bad_alloc);
-    EXPECT_THROW(without_memory([&] { chain.insert(0, 1.0f); }), std::bad_alloc);
-    EXPECT_THROW(without_memory([&] { chain.insert(2, 1.0f); }), std::bad_alloc);
-    EXPECT_THROW(without_memory([&] { chain.insert(1, Segment{{5, 5, 5}, 1}); }), std::bad_alloc);
+    EXPECT_THROW(without_memory([&] { static_cast<void>(chain.add(1.0f)); }), std::bad_alloc);
+    EXPECT_THROW(without_memory([&] {
+                     static_cast<void>(chain.add(Segment{{5, 5, 5}, 1}));
+                 }),
+                 std::bad_alloc);
+    EXPECT_THROW(without_memory([&] { static_cast<void>(chain.insert(0, 1.0f)); }), std::bad_alloc);
+    EXPECT_THROW(without_memory([&] { static_cast<void>(chain.insert(2, 1.0f)); }), std::bad_alloc);
+    EXPECT_THROW(without_memory([&] {
+                     static_cast<void>(chain.insert(1, Segment{{5, 5, 5}, 1}));
+                 }),
+                 std::bad_alloc);
     EXPECT_TRUE(same_bits(chain, before));
 }
 
 TEST(ChainMemory, PullsAndRemovalsNeedNone) {
     Chain chain = straight(50);
     without_memory([&] {
-        chain.forward({1, 2, 3});
-        chain.backward({3, 2, 1});
-        chain.fixed({1, 1, 1}, {.iterations = 5});
-        chain.with_index(20, {0, 9, 0});
-        chain.set_length(3, 2.0f);
-        chain.remove(7);
+        expect_ok(chain.forward({1, 2, 3}));
+        expect_ok(chain.backward({3, 2, 1}));
+        expect_ok(chain.fixed({1, 1, 1}, {.iterations = 5}).outcome);
+        expect_ok(chain.with_index(20, {0, 9, 0}));
+        expect_ok(chain.set_length(3, 2.0f));
+        expect_ok(chain.remove(7));
         chain.recalculate();
     });
     EXPECT_TRUE(Holds(chain));

@@ -19,6 +19,10 @@ namespace tendril::test {
 inline constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 inline constexpr float infinity = std::numeric_limits<float>::infinity();
 
+inline void expect_ok(const Result& result) {
+    EXPECT_TRUE(result) << result.message();
+}
+
 inline bool same_bits(glm::vec3 a, glm::vec3 b) {
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
@@ -94,14 +98,19 @@ inline void expect_positions(const Chain& chain, const std::vector<glm::vec3>& e
     EXPECT_TRUE(Holds(chain));
 }
 
+/// An empty chain with that default direction.
+inline Chain along(glm::vec3 default_direction) {
+    return *Chain::from_segments({}, default_direction);
+}
+
 /// A chain of `count` segments of `length`, straight along +X from the origin.
 inline Chain straight(std::size_t count, float length = 1.0f) {
     Chain chain;
-    for (std::size_t i = 0; i < count; ++i) chain.add(length);
+    for (std::size_t i = 0; i < count; ++i) expect_ok(chain.add(length));
     return chain;
 }
 
-/// The message with which `call` throws `Error`; a failure when it does not.
+/// The message with which `call` throws `Error`; a failure when it does not. For rooms that throw.
 template <class Error, class Call>
 std::string message_of(Call call) {
     try {

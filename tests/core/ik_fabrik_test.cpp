@@ -243,7 +243,7 @@ TEST(IkFabrik, AChainIsSolvedAsItsJointsAre) {
         Joints joints = some_pose(lengths, random);
         std::vector<Segment> segments{{joints.front(), 0.3f}};
         for (std::size_t j = 0; j < lengths.size(); ++j) segments.push_back({joints[j + 1], lengths[j]});
-        Chain chain = Chain::from_segments(segments);
+        Chain chain = *Chain::from_segments(segments);
         ik::Solver solver(chain);
         for (std::size_t j = 0; j < joints.size(); ++j) joints[j] = chain.position(j);
         const glm::vec3 target = random.point(4.0f);

@@ -3,6 +3,9 @@
 #include <bit>
 #include <vector>
 
+#include <cstdio>
+#include <cstdlib>
+
 #include "random.hpp"
 #include "tendril/chain/chain.hpp"
 #include "tendril/ik/solver.hpp"
@@ -10,6 +13,13 @@
 
 namespace tendril::test {
 namespace {
+
+/// Nothing here is refused; were it, the session would not be the same.
+void require(const Result& result) {
+    if (result) return;
+    std::fprintf(stderr, "%s\n", result.message());
+    std::abort();
+}
 
 class Fnv {
   public:
@@ -40,7 +50,7 @@ glm::vec3 some_point(const Chain& chain, Random& random) {
     return random.point(random.chance(50) ? 1048576.0f : 16.0f);
 }
 
-void edit(Chain& chain, Random& random) {
+Result edit(Chain& chain, Random& random) {
     const std::size_t index = chain.empty() ? 0 : random.below(chain.size());
     const bool full = chain.size() >= 48;
     switch (random.below(chain.empty() ? 2 : 6)) {
@@ -63,7 +73,7 @@ void edit(Chain& chain, Random& random) {
     }
 }
 
-void reach(Chain& chain, Random& random) {
+Result reach(Chain& chain, Random& random) {
     const glm::vec3 target = some_point(chain, random);
     switch (random.below(4)) {
         case 0:
@@ -71,8 +81,7 @@ void reach(Chain& chain, Random& random) {
         case 1:
             return chain.backward(target);
         case 2:
-            chain.fixed(target, {.iterations = 3});
-            return;
+            return chain.fixed(target, {.iterations = 3}).outcome;
         default:
             return chain.with_index(chain.empty() ? 0 : random.below(chain.size()), target);
     }
@@ -177,8 +186,11 @@ std::uint64_t session_hash() {
     Fnv hash;
     Chain chain;
     for (int i = 0; i < 20'000; ++i) {
-        if (i % 1000 == 0) chain = Chain(i % 2000 == 0 ? glm::vec3(1, 0, 0) : glm::vec3(0, -1, 0));
-        random.chance(2) ? edit(chain, random) : reach(chain, random);
+        if (i % 1000 == 0) {
+            chain = Chain();
+            require(chain.set_default_direction(i % 2000 == 0 ? glm::vec3(1, 0, 0) : glm::vec3(0, -1, 0)));
+        }
+        require(random.chance(2) ? edit(chain, random) : reach(chain, random));
         for (const Segment& segment : chain.segments()) {
             hash.add(segment.position);
         }

@@ -4,6 +4,8 @@
 
 #include "app/labs/chain/chain_part.hpp"
 
+#include "app/labs/kit/require.hpp"
+
 namespace tendril::app {
 
 Json ChainPart::save() const {
@@ -83,9 +85,9 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
         if (part->tolerance < 0.0f) throw std::runtime_error(where + ".tolerance must be at least 0");
         part->target = json_point(json_member(json, "target", where), where + ".target");
         part->motion = load_motion(json_member(json, "motion", where), where + ".motion");
-        part->chain = Chain::from_segments(
+        part->chain = require_value(Chain::from_segments(
             load_segments(json_member(json, "segments", where), where + ".segments"),
-            json_point(json_member(json, "default_direction", where), where + ".default_direction"));
+            json_point(json_member(json, "default_direction", where), where + ".default_direction")));
 
         const int last = std::max(0, static_cast<int>(part->chain.size()) - 1);
         part->index = static_cast<std::size_t>(

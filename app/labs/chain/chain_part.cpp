@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "app/labs/chain/presets.hpp"
+#include "app/labs/kit/require.hpp"
 
 namespace tendril::app {
 namespace {
@@ -130,17 +131,19 @@ void reach_for(ChainPart& part, glm::vec3 target) {
     part.result.reset();
     switch (part.mode) {
         case ChainMode::Forward:
-            part.chain.forward(target);
+            require_ok(part.chain.forward(target));
             break;
         case ChainMode::Backward:
-            part.chain.backward(target);
+            require_ok(part.chain.backward(target));
             break;
         case ChainMode::Fixed:
-            part.chain.fixed(
-                target, {.iterations = iterations_of(part, ChainMode::Fixed), .tolerance = part.tolerance});
+            require_ok(part.chain
+                           .fixed(target, {.iterations = iterations_of(part, ChainMode::Fixed),
+                                           .tolerance = part.tolerance})
+                           .outcome);
             break;
         case ChainMode::WithIndex:
-            if (!part.chain.empty()) part.chain.with_index(part.index, target);
+            if (!part.chain.empty()) require_ok(part.chain.with_index(part.index, target));
             break;
         case ChainMode::Reach:
             part.study.rewind(part.chain, part.reach);

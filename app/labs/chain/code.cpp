@@ -38,6 +38,10 @@ class ChainProgram {
     void line(std::string_view text) { (code_ += text) += '\n'; }
     /// A statement of main.
     void say(std::string_view text) { ((code_ += "    ") += text) += '\n'; }
+    /// A call that may be refused.
+    void say_checked(const std::string& call) {
+        say("if (const tendril::Result result = " + call + "; !result) std::puts(result.message());");
+    }
 
     ChainPart part_;
     std::string code_;
@@ -96,7 +100,7 @@ void ChainProgram::chain() {
     }
     say("// What has no direction of its own lies along this one.");
     say("const glm::vec3 default_direction" + braced(part_.chain.default_direction()) + ";");
-    say("tendril::Chain chain = tendril::Chain::from_segments(segments, default_direction);\n");
+    say("tendril::Chain chain = tendril::Chain::from_segments(segments, default_direction).value();\n");
     say("const glm::vec3 target" + braced(part_.target) + ";");
 }
 
@@ -110,17 +114,17 @@ void ChainProgram::move() {
 void ChainProgram::pull() {
     switch (part_.mode) {
         case ChainMode::Forward:
-            return say("chain.forward(target);");
+            return say_checked("chain.forward(target)");
         case ChainMode::Backward:
-            return say("chain.backward(target);");
+            return say_checked("chain.backward(target)");
         case ChainMode::Fixed:
-            return say("chain.fixed(target, {.iterations = " +
-                       std::to_string(iterations_of(part_, ChainMode::Fixed)) +
-                       ", .tolerance = " + literal(part_.tolerance) + "});");
+            return say_checked("chain.fixed(target, {.iterations = " +
+                               std::to_string(iterations_of(part_, ChainMode::Fixed)) +
+                               ", .tolerance = " + literal(part_.tolerance) + "}).outcome");
         case ChainMode::WithIndex:
             if (part_.chain.empty())
                 return say("static_cast<void>(target);  // an empty chain has none to pull");
-            return say("chain.with_index(" + std::to_string(part_.index) + ", target);");
+            return say_checked("chain.with_index(" + std::to_string(part_.index) + ", target)");
         case ChainMode::Reach:
             return say("static_cast<void>(target);  // fewer than two segments have no bone to turn");
     }

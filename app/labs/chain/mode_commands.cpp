@@ -1,6 +1,8 @@
 // How the chain follows, and where to.
 #include "app/labs/chain/command_support.hpp"
 
+#include "app/labs/kit/require.hpp"
+
 namespace tendril::app {
 namespace {
 
@@ -25,7 +27,7 @@ void set_mode(ChainPart& part, const Arguments& given) {
 
 void pull(ChainPart& part, const Arguments& given) {
     const glm::vec3 to = given.point("to");
-    part.chain.with_index(index_of(given), to);
+    require_ok(part.chain.with_index(index_of(given), to));
     part.target = to;
     part.result.reset();
     const Study::Kind kind = part.study.kind;

@@ -5,6 +5,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "app/labs/kit/require.hpp"
+
 namespace tendril::app {
 namespace {
 
@@ -102,12 +104,12 @@ const std::vector<Preset>& presets() {
 }
 
 Chain make_preset(const std::string& name, std::size_t count, std::uint32_t seed) {
-    if (name == "start") return Chain::from_segments(start(count));
-    if (name == "arm") return Chain::from_segments(arm(count));
-    if (name == "tentacle") return Chain::from_segments(tentacle(count));
-    if (name == "snake") return Chain::from_segments(snake(count));
-    if (name == "coil") return Chain::from_segments(coil(count));
-    if (name == "random") return Chain::from_segments(random_walk(count, seed));
+    if (name == "start") return require_value(Chain::from_segments(start(count)));
+    if (name == "arm") return require_value(Chain::from_segments(arm(count)));
+    if (name == "tentacle") return require_value(Chain::from_segments(tentacle(count)));
+    if (name == "snake") return require_value(Chain::from_segments(snake(count)));
+    if (name == "coil") return require_value(Chain::from_segments(coil(count)));
+    if (name == "random") return require_value(Chain::from_segments(random_walk(count, seed)));
     throw std::invalid_argument("unknown preset \"" + name + "\"");
 }
 

@@ -3,6 +3,7 @@
 
 #include "app/labs/chain/command_support.hpp"
 #include "app/labs/chain/presets.hpp"
+#include "app/labs/kit/require.hpp"
 
 namespace tendril::app {
 namespace {
@@ -31,16 +32,16 @@ void shape_changed(ChainPart& part) {
 }
 
 void set_length(ChainPart& part, const Arguments& given) {
-    part.chain.set_length(index_of(given), given.number("length"));
+    require_ok(part.chain.set_length(index_of(given), given.number("length")));
     part.result.reset();
 }
 
 void add(ChainPart& part, const Arguments& given) {
     check_room(part);
     if (given.has("position")) {
-        part.chain.add(Segment{given.point("position"), given.number("length")});
+        require_ok(part.chain.add(Segment{given.point("position"), given.number("length")}));
     } else {
-        part.chain.add(given.number("length"));
+        require_ok(part.chain.add(given.number("length")));
     }
     shape_changed(part);
     bone_inserted(part.reach, part.chain.size() - 1, part.chain.size());
@@ -50,9 +51,9 @@ void insert(ChainPart& part, const Arguments& given) {
     check_room(part);
     const std::size_t index = index_of(given);
     if (given.has("position")) {
-        part.chain.insert(index, Segment{given.point("position"), given.number("length")});
+        require_ok(part.chain.insert(index, Segment{given.point("position"), given.number("length")}));
     } else {
-        part.chain.insert(index, given.number("length"));
+        require_ok(part.chain.insert(index, given.number("length")));
     }
     // What points at a segment goes on pointing at it.
     if (part.selected && *part.selected >= index) ++*part.selected;
@@ -62,7 +63,7 @@ void insert(ChainPart& part, const Arguments& given) {
 }
 
 void remove_at(ChainPart& part, std::size_t index) {
-    part.chain.remove(index);
+    require_ok(part.chain.remove(index));
     shape_changed(part);
     bone_removed(part.reach, index, part.chain.size());
     if (part.selected && *part.selected > index) --*part.selected;
@@ -88,7 +89,8 @@ void remove_selected(ChainPart& part, const Arguments&) {
 
 void clear(ChainPart& part, const Arguments& given) {
     Chain empty;
-    if (given.has("default_direction")) empty.set_default_direction(given.point("default_direction"));
+    if (given.has("default_direction"))
+        require_ok(empty.set_default_direction(given.point("default_direction")));
     part.chain = empty;
     part.selected.reset();
     part.index = 0;

@@ -4,14 +4,15 @@
 #include <stdexcept>
 
 #include "app/labs/chain/chain_part.hpp"
+#include "app/labs/kit/require.hpp"
 
 namespace tendril::app {
 
 namespace {
 
 std::vector<glm::vec3> straight(const Chain& chain) {
-    Chain line(chain.default_direction());
-    for (const Segment& segment : chain.segments()) line.add(segment.length);
+    Chain line = require_value(Chain::from_segments({}, chain.default_direction()));
+    for (const Segment& segment : chain.segments()) require_ok(line.add(segment.length));
     std::vector<glm::vec3> joints = positions(line);
     for (glm::vec3& joint : joints) joint += chain.position(0);
     return joints;
@@ -53,7 +54,7 @@ void Study::close() {
 
 void Study::rewind(Chain& chain, ReachSettings& settings) const {
     if (!open()) return;
-    chain.set_positions(start);
+    require_ok(chain.set_positions(start));
     settings.rotations = settings.limits.empty() ? std::vector<glm::quat>() : start_rotations;
 }
 

@@ -8,33 +8,20 @@
 
 namespace tendril {
 
-Chain::Chain(glm::vec3 default_direction) {
-    set_default_direction(default_direction);
-}
-
-float Chain::length(std::size_t index) const {
-    detail::require_index("length", index, size());
-    return segments_[index].length;
-}
-
-glm::vec3 Chain::position(std::size_t index) const {
-    detail::require_index("position", index, size());
-    return segments_[index].position;
-}
-
 float Chain::reach() const noexcept {
     double sum = 0.0;  // a million short lengths would not add up in a float
     for (std::size_t i = 1; i < size(); ++i) sum += static_cast<double>(segments_[i].length);
     return static_cast<float>(sum);
 }
 
-void Chain::set_default_direction(glm::vec3 direction) {
-    detail::require_point("set_default_direction", "direction", direction);
+Result Chain::set_default_direction(glm::vec3 direction) {
+    if (const Result bad = detail::check_point("set_default_direction", "direction", direction); !bad)
+        return bad;
     const double x = direction.x, y = direction.y, z = direction.z;
     const double length = std::sqrt(x * x + y * y + z * z);
     if (std::abs(length - 1.0) > 1e-3) {
-        detail::refuse("set_default_direction", "direction", "a unit vector",
-                       "one of length " + detail::text(static_cast<float>(length)));
+        return detail::refused("set_default_direction", "direction", "a unit vector",
+                               {"one of length", length});
     }
     // A direction that is a unit vector as far as floats go is kept as it is: a saved one must come back the
     // same.
@@ -43,6 +30,7 @@ void Chain::set_default_direction(glm::vec3 direction) {
                      static_cast<float>(z / length)};
     }
     default_direction_ = direction;
+    return {};
 }
 
 bool Chain::has_point_at(glm::vec3 position) const noexcept {
@@ -58,8 +46,8 @@ void Chain::recalculate() noexcept {
     if (!empty()) detail::pull_towards_tail(segments_, 0, segments_.front().position, default_direction_);
 }
 
-void Chain::add(float length) {
-    detail::require_length("add", "length", length);
+Result Chain::add(float length) {
+    if (const Result bad = detail::check_length("add", "length", length); !bad) return bad;
     glm::vec3 position{0.0f};
     if (!empty()) {
         const std::size_t tail = size() - 1;
@@ -67,32 +55,35 @@ void Chain::add(float length) {
         position = detail::moved(segments_[tail].position, along, length);
     }
     segments_.push_back({position, length});
+    return {};
 }
 
-void Chain::add(const Segment& segment) {
-    detail::require_segment("add", "segment", segment);
+Result Chain::add(const Segment& segment) {
+    if (const Result bad = detail::check_segment("add", "segment", segment); !bad) return bad;
     if (has_point_at(segment.position)) return add(segment.length);
     segments_.push_back(segment);
     recalculate();
+    return {};
 }
 
-void Chain::insert(std::size_t index, const Segment& segment) {
-    detail::require_index("insert", index, size());
-    detail::require_segment("insert", "segment", segment);
+Result Chain::insert(std::size_t index, const Segment& segment) {
+    if (const Result bad = detail::check_index("insert", index, size()); !bad) return bad;
+    if (const Result bad = detail::check_segment("insert", "segment", segment); !bad) return bad;
     if (has_point_at(segment.position)) return insert(index, segment.length);
     segments_.insert(segments_.begin() + static_cast<std::ptrdiff_t>(index), segment);
     recalculate();
+    return {};
 }
 
-void Chain::insert(std::size_t index, float length) {
-    detail::require_index("insert", index, size());
-    detail::require_length("insert", "length", length);
+Result Chain::insert(std::size_t index, float length) {
+    if (const Result bad = detail::check_index("insert", index, size()); !bad) return bad;
+    if (const Result bad = detail::check_length("insert", "length", length); !bad) return bad;
     if (index == 0) {
         const glm::vec3 along = size() > 1 ? link_direction(0, 1) : default_direction_;
         const Segment& head = segments_.front();
         segments_.insert(segments_.begin(),
                          Segment{detail::moved(head.position, along, -head.length), length});
-        return;  // nothing else moves
+        return {};  // nothing else moves
     }
     const glm::vec3 along = link_direction(index - 1, index);
     const glm::vec3 position = detail::moved(segments_[index - 1].position, along, length);
@@ -101,19 +92,22 @@ void Chain::insert(std::size_t index, float length) {
         segments_[i].position = detail::moved(segments_[i].position, along, length);
     }
     recalculate();
+    return {};
 }
 
-void Chain::remove(std::size_t index) {
-    detail::require_index("remove", index, size());
+Result Chain::remove(std::size_t index) {
+    if (const Result bad = detail::check_index("remove", index, size()); !bad) return bad;
     segments_.erase(segments_.begin() + static_cast<std::ptrdiff_t>(index));
     recalculate();
+    return {};
 }
 
-void Chain::set_length(std::size_t index, float length) {
-    detail::require_index("set_length", index, size());
-    detail::require_length("set_length", "length", length);
+Result Chain::set_length(std::size_t index, float length) {
+    if (const Result bad = detail::check_index("set_length", index, size()); !bad) return bad;
+    if (const Result bad = detail::check_length("set_length", "length", length); !bad) return bad;
     segments_[index].length = length;
     recalculate();
+    return {};
 }
 
 }  // namespace tendril

@@ -5,6 +5,15 @@
 
 namespace tendril::detail {
 
+Result check_segment(std::string_view operation, const Argument& argument, const Segment& value) noexcept {
+    if (const Result bad =
+            check_point(operation, {argument.name, argument.index, "position"}, value.position);
+        !bad) {
+        return bad;
+    }
+    return check_length(operation, {argument.name, argument.index, "length"}, value.length);
+}
+
 std::string text(float value) {
     if (std::isnan(value)) return "nan";  // never "-nan": the sign of a NaN says nothing
     char buffer[32];

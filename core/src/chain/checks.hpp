@@ -1,5 +1,5 @@
-// Refusals by exception, for the rooms that do not answer with a Result yet; math/checks.hpp takes their place.
-// Not installed.
+// Refusals of what belongs to a chain, and those by exception for the rooms that do not answer with a Result
+// yet (math/checks.hpp takes their place). Not installed.
 #pragma once
 
 #include <cmath>
@@ -12,6 +12,9 @@
 #include "tendril/chain/segment.hpp"
 
 namespace tendril::detail {
+
+/// Position and length, each in its range; `argument` without member.
+Result check_segment(std::string_view operation, const Argument& argument, const Segment& value) noexcept;
 
 /// The shortest text that reads back as the same float; `nan`, `inf` or `-inf` where it is not finite.
 std::string text(float value);

@@ -61,28 +61,30 @@ void relay_from(std::span<Segment> segments, std::size_t first, const glm::vec3&
 
 }  // namespace
 
-Chain Chain::from_segments(std::vector<Segment> segments, glm::vec3 default_direction) {
+Expected<Chain> Chain::from_segments(std::vector<Segment> segments, glm::vec3 default_direction) {
     for (std::size_t i = 0; i < segments.size(); ++i) {
         if (detail::is_point(segments[i].position) && detail::is_length(segments[i].length)) continue;
-        detail::require_segment("from_segments", "segments[" + std::to_string(i) + "]", segments[i]);
+        return detail::check_segment("from_segments", {"segments", i}, segments[i]);
     }
-    Chain chain(default_direction);
+    Chain chain;
+    if (const Result bad = chain.set_default_direction(default_direction); !bad) return bad;
     chain.segments_ = std::move(segments);
     relay_from(chain.segments_, first_loose(chain.segments_), chain.default_direction_);
     return chain;
 }
 
-void Chain::set_positions(std::span<const glm::vec3> positions) {
-    if (positions.size() != size()) {
-        detail::refuse("set_positions", "positions", "as many as segments (" + std::to_string(size()) + ")",
-                       std::to_string(positions.size()));
+Result Chain::set_positions(std::span<const glm::vec3> positions) {
+    if (const Result bad = detail::check_count("set_positions", "positions", positions.size(), size());
+        !bad) {
+        return bad;
     }
     for (std::size_t i = 0; i < positions.size(); ++i) {
         if (detail::is_point(positions[i])) continue;
-        detail::require_point("set_positions", "positions[" + std::to_string(i) + "]", positions[i]);
+        return detail::check_point("set_positions", {"positions", i}, positions[i]);
     }
     for (std::size_t i = 0; i < positions.size(); ++i) segments_[i].position = positions[i];
     relay_from(segments_, first_loose(segments_), default_direction_);
+    return {};
 }
 
 }  // namespace tendril

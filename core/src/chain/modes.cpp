@@ -1,6 +1,4 @@
 // The four modes. Everything is checked first; after that nothing can fail, for the pull is noexcept.
-#include <stdexcept>
-
 #include "chain/checks.hpp"
 #include "chain/pull.hpp"
 #include "tendril/chain/chain.hpp"
@@ -10,28 +8,30 @@ namespace {
 
 constexpr int max_iterations = 100'000;
 
-void require_options(const FixedOptions& options) {
+Result check_options(const FixedOptions& options) noexcept {
     if (options.iterations < 1 || options.iterations > max_iterations) {
-        detail::refuse("fixed", "options.iterations", "1 to 100000", std::to_string(options.iterations));
+        return detail::refused("fixed", "options.iterations", "1 to 100000", options.iterations);
     }
-    detail::require_length("fixed", "options.tolerance", options.tolerance);
+    return detail::check_length("fixed", "options.tolerance", options.tolerance);
 }
 
 }  // namespace
 
-void Chain::forward(glm::vec3 target) {
-    detail::require_point("forward", "target", target);
+Result Chain::forward(glm::vec3 target) {
+    if (const Result bad = detail::check_point("forward", "target", target); !bad) return bad;
     if (!empty()) detail::pull_towards_tail(segments_, 0, target, default_direction_);
+    return {};
 }
 
-void Chain::backward(glm::vec3 target) {
-    detail::require_point("backward", "target", target);
+Result Chain::backward(glm::vec3 target) {
+    if (const Result bad = detail::check_point("backward", "target", target); !bad) return bad;
     if (!empty()) detail::pull_towards_head(segments_, size() - 1, target, default_direction_);
+    return {};
 }
 
 FixedResult Chain::fixed(glm::vec3 target, const FixedOptions& options) {
-    detail::require_point("fixed", "target", target);
-    require_options(options);
+    if (const Result bad = detail::check_point("fixed", "target", target); !bad) return {.outcome = bad};
+    if (const Result bad = check_options(options); !bad) return {.outcome = bad};
     if (empty()) return {};
 
     FixedResult result{0, detail::distance(segments_.front().position, target)};
@@ -46,12 +46,13 @@ FixedResult Chain::fixed(glm::vec3 target, const FixedOptions& options) {
     return result;
 }
 
-void Chain::with_index(std::size_t index, glm::vec3 target) {
-    if (!empty()) detail::require_index("with_index", index, size());
-    detail::require_point("with_index", "target", target);
-    if (empty()) return;
+Result Chain::with_index(std::size_t index, glm::vec3 target) {
+    if (const Result bad = detail::check_index("with_index", index, size()); !empty() && !bad) return bad;
+    if (const Result bad = detail::check_point("with_index", "target", target); !bad) return bad;
+    if (empty()) return {};
     detail::pull_towards_tail(segments_, index, target, default_direction_);
     detail::pull_towards_head(segments_, index, target, default_direction_);
+    return {};
 }
 
 }  // namespace tendril

@@ -31,7 +31,7 @@ class Message {
 };
 
 template <class Number>
-std::string_view written(char (&buffer)[32], Number value) noexcept {
+std::string_view written(char (&buffer)[64], Number value) noexcept {
     const auto end = std::to_chars(buffer, buffer + sizeof buffer, value);
     return {buffer, static_cast<std::size_t>(end.ptr - buffer)};
 }
@@ -46,6 +46,15 @@ Shown::Shown(float value) noexcept : text_(std::isnan(value) ? "nan" : written(b
 Shown::Shown(double value) noexcept : text_(std::isnan(value) ? "nan" : written(buffer_, value)) {}
 Shown::Shown(int value) noexcept : text_(written(buffer_, value)) {}
 Shown::Shown(std::size_t value) noexcept : text_(written(buffer_, value)) {}
+
+Shown::Shown(const char* before, double value) noexcept {
+    const Shown number(static_cast<float>(value));
+    const std::size_t size = std::min(std::strlen(before), sizeof buffer_ - 33);
+    std::memcpy(buffer_, before, size);
+    buffer_[size] = ' ';
+    std::memcpy(buffer_ + size + 1, number.text_.data(), number.text_.size());
+    text_ = {buffer_, size + 1 + number.text_.size()};
+}
 
 Result refused(std::string_view operation, const Argument& argument, std::string_view requirement,
                const Shown& value) noexcept {

@@ -49,6 +49,8 @@ class Shown {
     Shown(double value) noexcept;
     Shown(int value) noexcept;
     Shown(std::size_t value) noexcept;
+    /// `one of length 3`
+    Shown(const char* before, double value) noexcept;
     /// The text itself; must outlive this.
     Shown(const char* text) noexcept : text_(text) {}
     Shown(std::string_view text) noexcept : text_(text) {}
@@ -57,7 +59,7 @@ class Shown {
     std::string_view text() const noexcept { return text_; }
 
   private:
-    char buffer_[32];
+    char buffer_[64];
     std::string_view text_;
 };
 

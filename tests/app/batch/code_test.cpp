@@ -41,10 +41,10 @@ TEST(Code, every_float_has_its_own_literal) {
 
 TEST(Code, each_mode_makes_its_own_call) {
     const std::pair<ChainMode, const char*> calls[] = {
-        {ChainMode::Forward, "chain.forward(target);"},
-        {ChainMode::Backward, "chain.backward(target);"},
-        {ChainMode::Fixed, "chain.fixed(target, {.iterations = 9, .tolerance = 0.25f});"},
-        {ChainMode::WithIndex, "chain.with_index(4, target);"},
+        {ChainMode::Forward, "= chain.forward(target);"},
+        {ChainMode::Backward, "= chain.backward(target);"},
+        {ChainMode::Fixed, "= chain.fixed(target, {.iterations = 9, .tolerance = 0.25f}).outcome;"},
+        {ChainMode::WithIndex, "= chain.with_index(4, target);"},
         {ChainMode::Reach, "solver.solve(ik::Method::Fabrik, chain, target, options);"}};
     for (const auto& [mode, call] : calls) {
         ChainPart part = first_chain();
@@ -92,15 +92,15 @@ TEST(Code, chains_too_short_for_their_mode_are_left_alone) {
     part.mode = ChainMode::WithIndex;
     EXPECT_TRUE(lacks(chain_code(part), "with_index("));
     part.mode = ChainMode::Reach;
-    part.chain.add(1.0f);
+    ASSERT_TRUE(part.chain.add(1.0f));
     EXPECT_TRUE(lacks(chain_code(part), "solve("));
 }
 
 TEST(Code, long_chains_are_tables) {
     ChainPart part = reaching();
-    while (part.chain.size() < 64) part.chain.add(1.0f);
+    while (part.chain.size() < 64) ASSERT_TRUE(part.chain.add(1.0f));
     EXPECT_TRUE(lacks(chain_code(part), "segment_numbers"));
-    part.chain.add(1.0f);
+    ASSERT_TRUE(part.chain.add(1.0f));
     EXPECT_TRUE(
         has(chain_code(part), "static const float segment_numbers[] = {\n    0.0f, 0.0f, 0.0f, 1.0f,\n"));
 }

@@ -22,10 +22,9 @@
 // length would place it. So n segments added at one and the same point make a straight chain and not a
 // zigzag.
 //
-// Errors: std::invalid_argument for a number that is NaN, infinite or out of its range, std::out_of_range for
-// a bad index; the message names the operation, the argument and its value. Arguments are checked before
-// anything moves: after any exception, std::bad_alloc included, the chain is bit for bit what it was (the
-// strong guarantee).
+// Errors: InvalidArgument for a number that is NaN, infinite or out of its range, OutOfRange for a bad index;
+// the message names the operation, the argument and its value. Arguments are checked before anything moves: a
+// chain that refuses is bit for bit what it was, and so it is where there is no memory left for a segment.
 //
 // Units are metres. Coordinates that come in may be at most max_magnitude (1e9) in magnitude, lengths 0 to
 // 1e9. The same calls give the same bits under every compiler and optimisation that keeps IEEE arithmetic.
@@ -37,6 +36,7 @@
 #include <vector>
 
 #include "tendril/chain/segment.hpp"
+#include "tendril/result.hpp"
 
 namespace tendril {
 
@@ -58,24 +58,22 @@ struct FixedOptions {
 struct FixedResult {
     int iterations = 0;     ///< how often it reached; 0 for a chain of fewer than two segments
     float residual = 0.0f;  ///< metres from the head to the target; 0 for an empty chain
+    Result outcome{};       ///< fine, or why nothing has moved
 };
 
 class Chain {
   public:
     /// An empty chain whose default direction is +X.
     Chain() = default;
-    /// An empty chain. Throws as set_default_direction does.
-    explicit Chain(glm::vec3 default_direction);
 
     /// A chain of many segments at once, in O(n): what loads a saved one. Every position that lies at its
     /// length from the one before is kept bit for bit, up to the first that does not; from there on the chain
     /// is re-laid. (The distance may be off by what the invariant allows and, further out than 1e3 m, by the
     /// spacing of floats out there, so every chain that this class made comes back as it was.) In the part
     /// that is re-laid a segment at the same point as the one given before it has no direction of its own and
-    /// goes straight on, as in add(length). Throws std::invalid_argument for a bad length, coordinate or
-    /// direction.
-    static Chain from_segments(std::vector<Segment> segments,
-                               glm::vec3 default_direction = {1.0f, 0.0f, 0.0f});
+    /// goes straight on, as in add(length). InvalidArgument for a bad length, coordinate or direction.
+    static Expected<Chain> from_segments(std::vector<Segment> segments,
+                                         glm::vec3 default_direction = {1.0f, 0.0f, 0.0f});
 
     // ---- Reading
 
@@ -83,10 +81,11 @@ class Chain {
     bool empty() const noexcept { return segments_.empty(); }
     /// All segments, head first; valid until the next edit.
     std::span<const Segment> segments() const noexcept { return segments_; }
-    /// Metres from segment `index - 1`; throws std::out_of_range. That of index 0 is stored and ties nothing.
-    float length(std::size_t index) const;
-    /// Metres; throws std::out_of_range.
-    glm::vec3 position(std::size_t index) const;
+    /// Metres from segment `index - 1`; that of index 0 is stored and ties nothing. A bad index is what it is
+    /// for std::vector::at: std::out_of_range, and the end of a program that is built without exceptions.
+    float length(std::size_t index) const { return segments_.at(index).length; }
+    /// Metres; a bad index as above.
+    glm::vec3 position(std::size_t index) const { return segments_.at(index).position; }
     /// How far the tail can get from the head, in metres: the sum of all lengths but the first. O(n).
     float reach() const noexcept;
     glm::vec3 default_direction() const noexcept { return default_direction_; }
@@ -95,54 +94,54 @@ class Chain {
 
     // ---- Editing
 
-    /// The direction of whatever has none of its own; moves nothing. Throws std::invalid_argument unless it
-    /// is finite and its length within 1e-3 of 1; what is left of that error is divided away.
-    void set_default_direction(glm::vec3 direction);
+    /// The direction of whatever has none of its own; moves nothing. InvalidArgument unless it is
+    /// finite and its length within 1e-3 of 1; what is left of that error is divided away.
+    Result set_default_direction(glm::vec3 direction);
 
     /// Appends a segment straight on: along the direction of the last one, or along default_direction where
-    /// that has none; the first one at the origin. Throws std::invalid_argument.
-    void add(float length);
+    /// that has none; the first one at the origin. InvalidArgument.
+    Result add(float length);
     /// Appends a segment that lies from the tail towards `segment.position`, at `segment.length` (the first
-    /// one right there). Throws std::invalid_argument.
-    void add(const Segment& segment);
+    /// one right there). InvalidArgument.
+    Result add(const Segment& segment);
 
     /// Puts a segment before `index`, 0 <= index < size(), and re-lays. The new point lies from its
     /// predecessor towards `segment.position`; a new head lies right there, and the old head's length then
-    /// ties it to the new one. Throws std::out_of_range (always when empty: an empty chain takes `add` only),
-    /// std::invalid_argument.
-    void insert(std::size_t index, const Segment& segment);
+    /// ties it to the new one. OutOfRange (always when empty: an empty chain takes `add` only),
+    /// InvalidArgument.
+    Result insert(std::size_t index, const Segment& segment);
     /// Puts a segment before `index` and keeps the shape. The new point lies on the line from `index - 1` to
     /// `index`, and all later points are carried along that line by `length`. A new head (index 0) lies
     /// beyond the old one, in line with the first link, at the distance that the old head's length asks for;
-    /// nothing else moves. Throws std::out_of_range, std::invalid_argument.
-    void insert(std::size_t index, float length);
+    /// nothing else moves. OutOfRange, InvalidArgument.
+    Result insert(std::size_t index, float length);
 
-    /// Takes a segment out and re-lays from the (new) head. Throws std::out_of_range.
-    void remove(std::size_t index);
-    /// Changes a length and re-lays. Throws std::out_of_range, std::invalid_argument.
-    void set_length(std::size_t index, float length);
+    /// Takes a segment out and re-lays from the (new) head. OutOfRange.
+    Result remove(std::size_t index);
+    /// Changes a length and re-lays. OutOfRange, InvalidArgument.
+    Result set_length(std::size_t index, float length);
     /// Re-lays the chain: a forward pull with the head on its own place. Every operation leaves a chain that
     /// holds, so this moves nothing by more than rounding, but for links shorter than 0.35 mm: they turn to
     /// default_direction, as in any pull.
     void recalculate() noexcept;
     /// Takes a pose that was worked out elsewhere, one position a segment, as from_segments takes it: kept
-    /// bit for bit up to the first that is not at its length. Throws std::invalid_argument for a bad
-    /// coordinate or another number than size(); allocates nothing.
-    void set_positions(std::span<const glm::vec3> positions);
+    /// bit for bit up to the first that is not at its length. InvalidArgument for a bad coordinate or another
+    /// number than size(); allocates nothing.
+    Result set_positions(std::span<const glm::vec3> positions);
 
     // ---- The four modes. Each does nothing to an empty chain; targets are in metres.
-    // ---- A bad target is std::invalid_argument. The pinned point is bitwise what it was pinned to.
+    // ---- A bad target is InvalidArgument. The pinned point is bitwise what it was pinned to.
 
     /// The head goes to the target, the rest follows it.
-    void forward(glm::vec3 target);
+    Result forward(glm::vec3 target);
     /// The tail goes to the target, the rest follows it.
-    void backward(glm::vec3 target);
+    Result backward(glm::vec3 target);
     /// The head reaches for the target while the tail stays exactly where it is: forward to the target,
     /// backward to where the tail was, and so on until one of the options says stop. A single segment stays
     /// where it is.
-    FixedResult fixed(glm::vec3 target, const FixedOptions& options = {});
-    /// Segment `index` goes to the target, both sides follow. Throws std::out_of_range too (not when empty).
-    void with_index(std::size_t index, glm::vec3 target);
+    [[nodiscard]] FixedResult fixed(glm::vec3 target, const FixedOptions& options = {});
+    /// Segment `index` goes to the target, both sides follow. OutOfRange too (not when empty).
+    Result with_index(std::size_t index, glm::vec3 target);
 
   private:
     bool has_point_at(glm::vec3 position) const noexcept;

@@ -97,8 +97,7 @@ Report Solver::solve(Method method, Chain& chain, glm::vec3 target, const Option
     if (are_valid(options, bones())) kept.max_stretch_scale = 1.0f;
     const Report report = solve(method, joints, target, kept, observer);
     if (report.status == Status::InvalidInput) return report;
-    if (!are_points(joints)) return refused;  // a chain takes no joint that far out
-    chain.set_positions(joints);
+    if (!chain.set_positions(joints)) return refused;  // a chain takes no joint that far out
     return report;
 }
 
