@@ -7,6 +7,7 @@
 #include <tendril/version.hpp>
 
 #include "app/document/atomic_file.hpp"
+#include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/shell/labels_view.hpp"
 #include "app/shell/theme.hpp"
@@ -193,8 +194,7 @@ void App::run(const RunCommand& command) {
 void App::step_lab() {
     Clock& clock = workspace_.clock;
     if (lab().moving(workspace_)) {
-        if (lab().rewinds())
-            workspace_.remember_moment();
+        if (lab().rewinds()) workspace_.remember_moment();
         lab().step(workspace_);
     }
     ++clock.tick;

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "app/document/atomic_file.hpp"
+#include "app/document/json_complete.hpp"
 
 namespace tendril::app {
 namespace {

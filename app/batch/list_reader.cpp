@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/document/json_complete.hpp"
 #include "app/document/json_scan.hpp"
 
 namespace tendril::app {

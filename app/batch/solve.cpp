@@ -9,6 +9,7 @@
 #include "app/batch/cases.hpp"
 #include "app/batch/output.hpp"
 #include "app/batch/progress.hpp"
+#include "app/document/json_complete.hpp"
 #include "app/io/solver_json.hpp"
 
 namespace tendril::app {

@@ -1,5 +1,8 @@
 #include "app/document/autosave.hpp"
 
+#include <signal.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -10,14 +13,8 @@
 #include <utility>
 
 #include "app/document/atomic_file.hpp"
+#include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
-
-#ifdef _WIN32
-#include <process.h>
-#else
-#include <signal.h>
-#include <unistd.h>
-#endif
 
 namespace tendril::app {
 namespace fs = std::filesystem;
@@ -25,21 +22,9 @@ namespace {
 
 constexpr std::string_view name_start = "autosave-", name_end = ".json";
 
-int own_pid() {
-#ifdef _WIN32
-    return _getpid();
-#else
-    return ::getpid();
-#endif
-}
-
 bool is_running(int pid) {
-#ifdef _WIN32
-    return pid == own_pid();
-#else
     // A program of another user cannot be asked, but is there.
     return ::kill(pid, 0) == 0 || errno == EPERM;
-#endif
 }
 
 std::string name_for(int pid, const std::string& more = "") {
@@ -67,7 +52,7 @@ Autosave::Autosave(fs::path folder, Clock::duration interval)
     // it.
     std::error_code ignored;
     for (int i = 1; fs::exists(file(), ignored) && i < 1000; ++i) {
-        const fs::path aside = folder_ / name_for(own_pid(), std::string(".").append(std::to_string(i)));
+        const fs::path aside = folder_ / name_for(::getpid(), std::string(".").append(std::to_string(i)));
         if (!fs::exists(aside, ignored)) fs::rename(file(), aside, ignored);
     }
 }
@@ -81,7 +66,7 @@ void Autosave::end(Workspace& workspace, bool keep_unsaved) {
 }
 
 fs::path Autosave::file() const {
-    return folder_ / name_for(own_pid());
+    return folder_ / name_for(::getpid());
 }
 
 void Autosave::remove() {
@@ -148,7 +133,7 @@ void Autosave::recover(Workspace& workspace, const fs::path& file) {
 
 void Autosave::adopt(const fs::path& file) {
     std::error_code ignored;
-    fs::rename(file, file.parent_path() / name_for(own_pid()), ignored);
+    fs::rename(file, file.parent_path() / name_for(::getpid()), ignored);
 }
 
 }  // namespace tendril::app

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 
+#include "app/document/json_complete.hpp"
+
 namespace tendril::app {
 namespace {
 
@@ -157,6 +159,30 @@ void remember(Workspace& workspace, const Document& changed, const Command& comm
 }
 
 }  // namespace
+
+bool Arguments::has(const char* name) const {
+    return json_.contains(name);
+}
+
+float Arguments::number(const char* name) const {
+    return json_.at(name).get<float>();
+}
+
+int Arguments::integer(const char* name) const {
+    return json_.at(name).get<int>();
+}
+
+bool Arguments::boolean(const char* name) const {
+    return json_.at(name).get<bool>();
+}
+
+std::string Arguments::text(const char* name) const {
+    return json_.at(name).get<std::string>();
+}
+
+bool Arguments::is_point(const char* name) const {
+    return json_.at(name).is_array();
+}
 
 glm::vec3 Arguments::point(const char* name) const {
     const Json& value = json_.at(name);

@@ -45,14 +45,14 @@ struct Argument {
 class Arguments {
   public:
     explicit Arguments(const Json& json) : json_(json) {}
-    bool has(const char* name) const { return json_.contains(name); }
-    float number(const char* name) const { return json_.at(name).get<float>(); }
-    int integer(const char* name) const { return json_.at(name).get<int>(); }
-    bool boolean(const char* name) const { return json_.at(name).get<bool>(); }
-    std::string text(const char* name) const { return json_.at(name).get<std::string>(); }
+    bool has(const char* name) const;
+    float number(const char* name) const;
+    int integer(const char* name) const;
+    bool boolean(const char* name) const;
+    std::string text(const char* name) const;
     glm::vec3 point(const char* name) const;
-    bool is_point(const char* name) const { return json_.at(name).is_array(); }  ///< of a NumberOrPoint
-    glm::quat rotation(const char* name) const;                                  ///< of unit length
+    bool is_point(const char* name) const;       ///< of a NumberOrPoint
+    glm::quat rotation(const char* name) const;  ///< of unit length
 
   private:
     const Json& json_;

@@ -9,6 +9,9 @@
 #include <memory>
 #include <numbers>
 #include <system_error>
+#include <utility>
+
+#include "app/document/json_complete.hpp"
 
 namespace tendril::app {
 namespace {
@@ -72,7 +75,11 @@ void write_indented(std::string& out, const Json& json, std::size_t indent) {
 
 }  // namespace
 
-Json number(float value) {
+SharedJson::SharedJson() : SharedJson(Json::object()) {}
+SharedJson::SharedJson(const Json& json) : json_(std::make_shared<const Json>(json)) {}
+SharedJson::SharedJson(Json&& json) : json_(std::make_shared<const Json>(std::move(json))) {}
+
+double shortest_decimal(float value) {
     std::array<char, 32> digits{};
     const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
     double shortest = 0.0;
@@ -80,6 +87,10 @@ Json number(float value) {
     // Readers round twice, to double and then to float. Where that would miss the float, all its digits are
     // kept.
     return static_cast<float>(shortest) == value ? shortest : static_cast<double>(value);
+}
+
+Json number(float value) {
+    return shortest_decimal(value);
 }
 
 Json point(glm::vec3 p) {

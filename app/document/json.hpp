@@ -1,5 +1,8 @@
 // JSON as the program reads and writes it: key order kept, floats by their shortest exact decimals, and
-// hostile files refused before they are taken in.
+// hostile files refused before they are read in.
+//
+// The type is only declared here, so that headers which name it stay cheap to include. A source that looks
+// into a value, makes one or returns one includes json_complete.hpp.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +10,8 @@
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <nlohmann/json.hpp>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -16,12 +20,27 @@ namespace tendril::app {
 
 using Json = nlohmann::ordered_json;
 
+/// A value that never changes and that copies share: JSON as a member where the type is only declared.
+class SharedJson {
+  public:
+    SharedJson();  ///< an empty object
+    SharedJson(const Json& json);
+    SharedJson(Json&& json);
+    const Json& operator*() const { return *json_; }
+    const Json* operator->() const { return json_.get(); }
+    operator const Json&() const { return *json_; }
+
+  private:
+    std::shared_ptr<const Json> json_;
+};
+
 inline constexpr std::size_t max_file_bytes = 64u << 20;
 inline constexpr int max_json_depth = 64;
 
 /// The number whose decimals are the fewest that read back as this very float: 0.1f gives 0.1.
 /// The value must be finite.
-Json number(float value);
+double shortest_decimal(float value);
+Json number(float value);  ///< the same, as JSON
 Json point(glm::vec3 p);
 Json pixel(glm::vec2 p);
 /// An angle as files hold it, in degrees; json_degrees gives back the very same radians.

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <vector>
 
-#include "app/document/json.hpp"
+#include "app/document/json_complete.hpp"
 #include "app/document/json_scan.hpp"
 
 namespace tendril::app {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/document/atomic_file.hpp"
+#include "app/document/json_complete.hpp"
 
 namespace tendril::app {
 namespace {

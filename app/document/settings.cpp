@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/document/json_complete.hpp"
+
 namespace tendril::app {
 namespace {
 
@@ -100,7 +102,7 @@ Settings load_settings(const Json& json, std::vector<std::string>& complaints) {
 
 std::filesystem::path config_folder() {
     for (const auto& [variable, below] : std::initializer_list<std::pair<const char*, const char*>>{
-             {"XDG_CONFIG_HOME", "tendril"}, {"HOME", ".config/tendril"}, {"APPDATA", "tendril"}})
+             {"XDG_CONFIG_HOME", "tendril"}, {"HOME", ".config/tendril"}})
         if (auto folder = folder_from(variable, below); !folder.empty()) return folder;
     return {};
 }

@@ -32,7 +32,7 @@ Json save_settings(const Settings& settings);
 /// never stops the program; each such value is named in `complaints`.
 Settings load_settings(const Json& json, std::vector<std::string>& complaints);
 
-/// $XDG_CONFIG_HOME/tendril, else ~/.config/tendril, else %APPDATA%\tendril; empty where none is known.
+/// $XDG_CONFIG_HOME/tendril, else ~/.config/tendril; empty where neither is known.
 std::filesystem::path config_folder();
 
 }  // namespace tendril::app

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <span>
 
+#include "app/document/json_complete.hpp"
+
 namespace tendril::app {
 namespace {
 

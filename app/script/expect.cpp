@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/document/json_complete.hpp"
 #include "app/script/script.hpp"
 
 namespace tendril::app {
@@ -62,9 +63,9 @@ bool holds(const Expect& expect, const Json& found) {
         case Measure::Near:
             return distance(found, expect.value) <= expect.within;
         case Measure::Below:
-            return found.is_number() && found.get<double>() < expect.value.get<double>();
+            return found.is_number() && found.get<double>() < expect.value->get<double>();
         case Measure::Above:
-            return found.is_number() && found.get<double>() > expect.value.get<double>();
+            return found.is_number() && found.get<double>() > expect.value->get<double>();
     }
     return false;
 }

@@ -1,5 +1,7 @@
 #include "app/script/player.hpp"
 
+#include "app/document/json_complete.hpp"
+
 namespace tendril::app {
 namespace {
 

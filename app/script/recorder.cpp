@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "app/document/json_complete.hpp"
+
 namespace tendril::app {
 namespace {
 

@@ -5,6 +5,8 @@
 #include <initializer_list>
 #include <stdexcept>
 
+#include "app/document/json_complete.hpp"
+
 namespace tendril::app {
 namespace {
 
@@ -170,8 +172,8 @@ RecordingStart recording_start(const Json& line) {
                          .lab = json_text(json_member(line, "lab", ""), "lab"),
                          .scene = json_member(line, "scene", ""),
                          .settings = json_member(line, "settings", "")};
-    if (!start.scene.is_object()) fail("scene: expected an object, found " + json_summary(start.scene));
-    if (!start.settings.is_object())
+    if (!start.scene->is_object()) fail("scene: expected an object, found " + json_summary(start.scene));
+    if (!start.settings->is_object())
         fail("settings: expected an object, found " + json_summary(start.settings));
     if (line.contains("path")) start.path = json_text(line["path"], "path");
     if (line.contains("modified")) start.modified = json_bool(line["modified"], "modified");

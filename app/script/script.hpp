@@ -15,7 +15,7 @@ namespace tendril::app {
 
 struct RunCommand {
     std::string name;
-    Json arguments;
+    SharedJson arguments{};
     bool expect_refusal = false;
 };
 struct Wait {
@@ -33,7 +33,7 @@ struct WriteState {
 struct Expect {
     enum class Measure { Equals, Near, Below, Above } measure = Measure::Equals;
     std::string path;
-    Json value;
+    SharedJson value;
     double within = 1e-4;  ///< for Near
 };
 
@@ -54,8 +54,8 @@ struct RecordingStart {
     std::string version;  ///< of the program that wrote it
     glm::ivec2 size{0};
     std::string lab;
-    Json scene;
-    Json settings;
+    SharedJson scene;
+    SharedJson settings;
     std::string path{};     ///< the scene's file, empty while it had none
     bool modified = false;  ///< it had changes that were not saved
     float scale = 1.0f;     ///< the window's own wish for the size of text and widgets

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/document/json_complete.hpp"
 #include "app/shell/shortcuts.hpp"
 #include "app/widgets/text.hpp"
 
@@ -69,7 +70,7 @@ void begin_palette(std::size_t commands, glm::vec2 screen, float scale) {
 TypedCommand read_typed_command(const std::string& line) {
     const auto words = pieces(line);
     if (words.empty()) throw std::runtime_error("no command");
-    TypedCommand typed{.name = words.front()};
+    Json arguments = Json::object();
     for (std::size_t i = 1; i < words.size(); ++i) {
         const std::size_t equals = words[i].find('=');
         if (equals == 0 || equals == std::string::npos) {
@@ -77,9 +78,9 @@ TypedCommand read_typed_command(const std::string& line) {
         }
         const std::string value = words[i].substr(equals + 1);
         Json parsed = Json::parse(value, nullptr, false);
-        typed.arguments[words[i].substr(0, equals)] = parsed.is_discarded() ? Json(value) : std::move(parsed);
+        arguments[words[i].substr(0, equals)] = parsed.is_discarded() ? Json(value) : std::move(parsed);
     }
-    return typed;
+    return {words.front(), std::move(arguments)};
 }
 
 std::vector<const Command*> search_commands(const CommandTable& table, const std::string& query) {
@@ -134,7 +135,7 @@ void CommandPalette::run(const CommandTable& table, const Command* chosen, Emit&
         if (table.find(typed.name) == nullptr)
             throw std::runtime_error("there is no command \"" + typed.name + "\"");
         emit("view.palette", {{"open", false}});
-        emit(typed.name, typed.arguments);
+        emit.typed(typed.name, typed.arguments);
     } catch (const std::runtime_error& error) {
         complaint_ = error.what();
     }

@@ -14,7 +14,7 @@ namespace tendril::app {
 /// text.
 struct TypedCommand {
     std::string name;
-    Json arguments = Json::object();
+    SharedJson arguments;
 };
 /// Throws std::runtime_error naming the piece that it cannot read.
 TypedCommand read_typed_command(const std::string& line);

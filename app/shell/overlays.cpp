@@ -111,7 +111,7 @@ void show_settings(const ShellFrame& frame, Emit& emit) {
     reading("text size", "%.0f %%", static_cast<double>(settings.text_scale) * 100.0);
     const auto step = [&](const char* title, float by) {
         const float scaled = std::clamp(settings.text_scale + by, 0.5f, 3.0f);
-        if (row_button(title, 2)) emit("view.text_scale", {{"scale", number(scaled)}});
+        if (row_button(title, 2)) emit("view.text_scale", {{"scale", scaled}});
     };
     step("Smaller", -0.1f);
     step("Larger", 0.1f);
@@ -127,7 +127,7 @@ void show_recovery(const ShellFrame& frame, Emit& emit) {
     note("Tendril ended before this work was saved:");
     ImGui::TextWrapped("%s", offers.front().string().c_str());
     ImGui::Spacing();
-    const Json path{{"path", offers.front().string()}};
+    const ArgumentList path{{"path", offers.front().string()}};
     if (row_button("Recover it", 2)) emit("scene.recover", path);
     if (row_button("Delete it", 2)) emit("scene.discard", path);
     ImGui::End();

@@ -32,13 +32,13 @@ std::optional<glm::vec3> on_line(const Ray& ray, glm::vec3 through, glm::vec3 ax
 
 /// The command that puts the camera there.
 void emit_camera(Emit& emit, const CameraPose& from, const CameraPose& to) {
-    Json arguments = Json::object();
-    if (to.target != from.target) arguments["target"] = point(to.target);
-    if (to.yaw != from.yaw) arguments["yaw_deg"] = number(glm::degrees(to.yaw));
+    ArgumentList arguments;
+    if (to.target != from.target) arguments.push_back({"target", to.target});
+    if (to.yaw != from.yaw) arguments.push_back({"yaw_deg", glm::degrees(to.yaw)});
     if (to.pitch != from.pitch)
-        arguments["pitch_deg"] = number(std::clamp(glm::degrees(to.pitch), -90.0f, 90.0f));
-    if (to.distance != from.distance) arguments["distance"] = number(to.distance);
-    if (!arguments.empty()) emit.continuously("camera.set", std::move(arguments));
+        arguments.push_back({"pitch_deg", std::clamp(glm::degrees(to.pitch), -90.0f, 90.0f)});
+    if (to.distance != from.distance) arguments.push_back({"distance", to.distance});
+    if (!arguments.empty()) emit.continuously("camera.set", arguments);
 }
 
 }  // namespace

@@ -44,8 +44,8 @@ void panel_edge(const Rect& rect, bool left, float scale, Emit& emit) {
             emit("view.panels", {{left ? "left" : "right", false}});
             return;
         }
-        emit.continuously("view.panel_width", {{"side", left ? "left" : "right"},
-                                               {"width", number(std::clamp(width, 180.0f, 520.0f))}});
+        emit.continuously("view.panel_width",
+                          {{"side", left ? "left" : "right"}, {"width", std::clamp(width, 180.0f, 520.0f)}});
     }
 }
 

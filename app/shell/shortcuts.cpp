@@ -5,8 +5,8 @@
 namespace tendril::app {
 namespace {
 
-Shortcut row(const char* chord, const char* command, Json arguments, const char* title, Section section,
-             bool in_menu = true, bool while_typing = false) {
+Shortcut row(const char* chord, const char* command, ArgumentList arguments, const char* title,
+             Section section, bool in_menu = true, bool while_typing = false) {
     const std::string_view name = command;
     const bool repeats = name == "undo" || name == "redo" || name == "time.step" || name == "microscope.step";
     return {*chord_from_name(chord),
@@ -70,30 +70,28 @@ const char* section_title(Section section) {
 
 const std::vector<Shortcut>& shortcuts() {
     static const std::vector<Shortcut> table{
-        row("ctrl+n", "scene.new", Json::object(), "New scene", Section::Scene),
-        row("ctrl+o", "scene.open_dialog", Json::object(), "Open...", Section::Scene),
+        row("ctrl+n", "scene.new", {}, "New scene", Section::Scene),
+        row("ctrl+o", "scene.open_dialog", {}, "Open...", Section::Scene),
         row("ctrl+s", "scene.save_dialog", {{"ask", false}}, "Save", Section::Scene),
         row("ctrl+shift+s", "scene.save_dialog", {{"ask", true}}, "Save as...", Section::Scene),
-        row("ctrl+q", "quit", Json::object(), "Quit", Section::Scene, true, true),
-        row("ctrl+z", "undo", Json::object(), "Undo", Section::Edit),
-        row("ctrl+shift+z", "redo", Json::object(), "Redo", Section::Edit),
-        row("ctrl+y", "redo", Json::object(), "Redo", Section::Edit, false),
-        in_lab("chain", row("delete", "chain.remove_selected", Json::object(), "Remove what is selected",
-                            Section::Edit)),
-        in_lab("rope", row("delete", "rope.remove_selected", Json::object(), "Remove what is selected",
-                           Section::Edit)),
+        row("ctrl+q", "quit", {}, "Quit", Section::Scene, true, true),
+        row("ctrl+z", "undo", {}, "Undo", Section::Edit),
+        row("ctrl+shift+z", "redo", {}, "Redo", Section::Edit),
+        row("ctrl+y", "redo", {}, "Redo", Section::Edit, false),
+        in_lab("chain", row("delete", "chain.remove_selected", {}, "Remove what is selected", Section::Edit)),
+        in_lab("rope", row("delete", "rope.remove_selected", {}, "Remove what is selected", Section::Edit)),
         row("f", "camera.frame", {{"what", "selection"}}, "Frame selection", Section::View),
         row("home", "camera.frame", {{"what", "all"}}, "Frame all", Section::View),
         row("1", "camera.view", {{"name", "front"}}, "Front", Section::View),
         row("3", "camera.view", {{"name", "side"}}, "Side", Section::View),
         row("7", "camera.view", {{"name", "top"}}, "Top", Section::View),
-        row("5", "camera.orthographic", Json::object(), "Orthographic", Section::View),
-        row("b", "view.segments", Json::object(), "Bones or spheres", Section::View),
-        row("l", "view.labels", Json::object(), "Labels always", Section::View),
-        row("t", "view.theme", Json::object(), "Light or dark", Section::View),
-        row("f9", "view.panels", Json::object(), "Fold panels", Section::View),
-        row("space", "time.toggle", Json::object(), "Play or pause", Section::Time),
-        row(".", "time.step", Json::object(), "One tick", Section::Time),
+        row("5", "camera.orthographic", {}, "Orthographic", Section::View),
+        row("b", "view.segments", {}, "Bones or spheres", Section::View),
+        row("l", "view.labels", {}, "Labels always", Section::View),
+        row("t", "view.theme", {}, "Light or dark", Section::View),
+        row("f9", "view.panels", {}, "Fold panels", Section::View),
+        row("space", "time.toggle", {}, "Play or pause", Section::Time),
+        row(".", "time.step", {}, "One tick", Section::Time),
         in_lab("chain", row("right", "microscope.step", {{"by", 1}}, "Microscope: a step on",
                             Section::Microscope, false)),
         in_lab("chain", row("left", "microscope.step", {{"by", -1}}, "Microscope: a step back",
@@ -102,11 +100,11 @@ const std::vector<Shortcut>& shortcuts() {
                             "Microscope: an iteration on", Section::Microscope, false)),
         in_lab("chain", row("shift+left", "microscope.step", {{"iterations", -1}},
                             "Microscope: an iteration back", Section::Microscope, false)),
-        row("?", "view.help", Json::object(), "Keys and mouse", Section::Help),
-        row("f1", "view.help", Json::object(), "Keys and mouse", Section::Help, false, true),
-        row("ctrl+k", "view.palette", Json::object(), "Find a command", Section::Help, true, true),
-        row("ctrl+,", "view.settings", Json::object(), "Settings", Section::Help),
-        row("escape", "view.close", Json::object(), "Close, or let go", Section::Help, false, true),
+        row("?", "view.help", {}, "Keys and mouse", Section::Help),
+        row("f1", "view.help", {}, "Keys and mouse", Section::Help, false, true),
+        row("ctrl+k", "view.palette", {}, "Find a command", Section::Help, true, true),
+        row("ctrl+,", "view.settings", {}, "Settings", Section::Help),
+        row("escape", "view.close", {}, "Close, or let go", Section::Help, false, true),
     };
     return table;
 }

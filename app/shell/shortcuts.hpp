@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/document/json.hpp"
+#include "app/document/argument_list.hpp"
 #include "app/window/event.hpp"
 
 namespace tendril::app {
@@ -18,7 +18,7 @@ const char* section_title(Section section);
 struct Shortcut {
     Chord chord;
     std::string command;
-    Json arguments = Json::object();
+    ArgumentList arguments{};
     std::string title;  ///< as the menu has it
     Section section = Section::View;
     bool in_menu = true;

@@ -5,24 +5,22 @@
 #include <utility>
 #include <vector>
 
-#include "app/document/json.hpp"
+#include "app/document/argument_list.hpp"
 
 namespace tendril::app {
 
 struct Emitted {
     std::string name;
-    Json arguments;
+    SharedJson arguments;
     bool continuous = false;  ///< one of many in a drag: shares the drag's undo entry
 };
 
 class Emit {
   public:
-    void operator()(std::string name, Json arguments = Json::object()) {
-        commands_.push_back({std::move(name), std::move(arguments), false});
-    }
-    void continuously(std::string name, Json arguments) {
-        commands_.push_back({std::move(name), std::move(arguments), true});
-    }
+    void operator()(std::string name, const ArgumentList& arguments = {});
+    void continuously(std::string name, const ArgumentList& arguments = {});
+    /// A command that a person typed, its arguments as they stand in a script.
+    void typed(std::string name, SharedJson arguments);
     std::vector<Emitted> take() { return std::exchange(commands_, {}); }
 
   private:

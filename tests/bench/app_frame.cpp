@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "app/app.hpp"
+#include "app/document/json_complete.hpp"
 
 namespace tendril::app {
 namespace {
@@ -24,8 +25,8 @@ struct DraggedCoil {
     int step = 0;
 
     explicit DraggedCoil(int segments) {
-        app.run({.name = "chain.preset", .arguments = {{"name", "coil"}, {"count", segments}}});
-        app.run({.name = "camera.frame", .arguments = {{"what", "all"}}});
+        app.run({.name = "chain.preset", .arguments = Json{{"name", "coil"}, {"count", segments}}});
+        app.run({.name = "camera.frame", .arguments = Json{{"what", "all"}}});
         const Json state = app.state();
         const Json pixel = state.at("handles").at(0).at("pixel");
         from = {pixel[0].get<float>(), pixel[1].get<float>()};

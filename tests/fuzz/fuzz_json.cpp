@@ -1,6 +1,6 @@
 // Our parser reads what the JSON library reads, to the same value, except what is nested too deep; and a line
 // is found for any path.
-#include "app/document/json.hpp"
+#include "app/document/json_complete.hpp"
 #include "tests/fuzz/check.hpp"
 
 using namespace tendril::app;

@@ -1,5 +1,6 @@
 // A scene is refused by a std::runtime_error and changes nothing, or it is loaded whole: it saves and loads
 // back to the same, and its labs can show it and let time pass.
+#include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/labs/labs.hpp"
 #include "app/labs/rope/rope_part.hpp"

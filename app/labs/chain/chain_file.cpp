@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "app/document/json_complete.hpp"
 #include "app/labs/chain/chain_part.hpp"
 
 #include "app/labs/kit/require.hpp"

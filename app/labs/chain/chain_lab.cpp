@@ -69,11 +69,11 @@ void ChainLab::drag(const Workspace& workspace, PickId pick, glm::vec3 to, Emit&
     if (moves_target && part.motion.path != Motion::Path::Still)
         emit.continuously("chain.motion", {{"path", "still"}});
     if (pick == target_pick) {
-        emit.continuously("chain.target", {{"to", point(to)}});
+        emit.continuously("chain.target", {{"to", to}});
     } else if (pick == pole_pick) {
-        emit.continuously("chain.pole", {{"to", point(to)}});
+        emit.continuously("chain.pole", {{"to", to}});
     } else if (!part.study.open()) {
-        emit.continuously("chain.pull", {{"index", picked_segment(pick)}, {"to", point(to)}});
+        emit.continuously("chain.pull", {{"index", picked_segment(pick)}, {"to", to}});
     }
 }
 

@@ -1,4 +1,5 @@
 // What a person takes along: text on the clipboard.
+#include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/labs/chain/code.hpp"
 #include "app/labs/chain/command_support.hpp"

@@ -24,10 +24,10 @@ void selection_rows(const ChainPart& part, Emit& emit) {
     const glm::vec3 at = part.chain.position(i);
     reading("segment", "%zu%s", i, i == 0 ? " (head)" : i + 1 == part.chain.size() ? " (tail)" : "");
     glm::vec3 to = at;
-    if (point_field("at", to, 0.01f)) emit.continuously("chain.pull", {{"index", i}, {"to", point(to)}});
+    if (point_field("at", to, 0.01f)) emit.continuously("chain.pull", {{"index", i}, {"to", to}});
     float length = part.chain.length(i);
     if (number_field("length", length, 0.01f, 0.0f, 1000.0f, "%.3f m")) {
-        emit.continuously("chain.set_length", {{"index", i}, {"length", number(length)}});
+        emit.continuously("chain.set_length", {{"index", i}, {"length", length}});
     }
     if (i == 0) note("The head's length ties nothing; it counts once something is inserted before it.");
     reading("to the target", "%.3f m", static_cast<double>(glm::distance(at, part.target)));

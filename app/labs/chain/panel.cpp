@@ -23,7 +23,7 @@ void mode_rows(const ChainPart& part, Emit& emit) {
     }
     note(mode_help(part.mode));
 
-    const auto with = [&](const char* name, Json value) {
+    const auto with = [&](const char* name, ArgumentValue value) {
         emit.continuously("chain.mode", {{"mode", mode_name(part.mode)}, {name, std::move(value)}});
     };
     if (part.mode == ChainMode::WithIndex && !part.chain.empty()) {
@@ -35,14 +35,14 @@ void mode_rows(const ChainPart& part, Emit& emit) {
         if (integer_field("iterations", iterations, 1, max_iterations)) with("iterations", iterations);
         float tolerance = part.tolerance;
         if (number_field("tolerance", tolerance, 0.0005f, 0.0f, 10.0f, "%.4f m"))
-            with("tolerance", number(tolerance));
+            with("tolerance", tolerance);
     }
 }
 
 void segment_rows(const ChainPart& part, Emit& emit) {
     section("Segments");
     number_field("new length", next_length(), 0.01f, 0.0f, 1000.0f, "%.3f m");
-    const Json length = number(next_length());
+    const float length = next_length();
     if (row_button("Add", 3, true, "Appends a segment at the tail")) emit("chain.add", {{"length", length}});
     if (row_button("Insert", 3, part.selected.has_value(), "Inserts a segment before the selected one")) {
         emit("chain.insert", {{"index", *part.selected}, {"length", length}});
@@ -54,7 +54,7 @@ void segment_rows(const ChainPart& part, Emit& emit) {
         float selected = part.chain.length(*part.selected);
         const std::string name = "length of " + std::to_string(*part.selected);
         if (number_field(name.c_str(), selected, 0.01f, 0.0f, 1000.0f, "%.3f m")) {
-            emit.continuously("chain.set_length", {{"index", *part.selected}, {"length", number(selected)}});
+            emit.continuously("chain.set_length", {{"index", *part.selected}, {"length", selected}});
         }
     } else {
         note(part.chain.empty() ? "Add a segment, or begin with one of these."
@@ -65,7 +65,7 @@ void segment_rows(const ChainPart& part, Emit& emit) {
 void target_rows(const ChainPart& part, bool playing, Emit& emit) {
     section("Target");
     glm::vec3 target = part.target;
-    if (point_field("target", target, 0.01f)) emit.continuously("chain.target", {{"to", point(target)}});
+    if (point_field("target", target, 0.01f)) emit.continuously("chain.target", {{"to", target}});
 
     static constexpr const char* titles[] = {"stands still", "in a circle", "in a figure eight", "along X"};
     int path = static_cast<int>(part.motion.path);
@@ -75,7 +75,7 @@ void target_rows(const ChainPart& part, bool playing, Emit& emit) {
     if (part.motion.path == Motion::Path::Still) return;
     if (!playing) note("Time is paused: Space lets it run.");
     const auto with = [&](const char* name, float value) {
-        emit.continuously("chain.motion", {{"path", motion_name(part.motion.path)}, {name, number(value)}});
+        emit.continuously("chain.motion", {{"path", motion_name(part.motion.path)}, {name, value}});
     };
     float radius = part.motion.radius, period = part.motion.period;
     if (number_field("radius", radius, 0.01f, 0.0f, 1000.0f, "%.2f m")) with("radius", radius);

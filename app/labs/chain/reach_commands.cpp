@@ -1,6 +1,7 @@
 // Reach mode: the solver, its limits and its pole.
 #include <stdexcept>
 
+#include "app/document/json_complete.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/chain/command_support.hpp"
 

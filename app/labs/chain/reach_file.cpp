@@ -2,6 +2,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "app/document/json_complete.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/chain/chain_part.hpp"
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <glm/trigonometric.hpp>
 
+#include "app/document/json_complete.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/chain/panels.hpp"
 #include "app/widgets/fields.hpp"
@@ -75,7 +76,7 @@ void limit_rows(const ChainPart& part, Emit& emit) {
         if (!json.contains(row.key)) continue;
         float angle = json.at(row.key).get<float>();
         if (number_field(row.title, angle, 0.5f, row.low, 180.0f, "%.1f deg")) {
-            emit.continuously("chain.limit", {{"index", joint}, {row.key, number(angle)}});
+            emit.continuously("chain.limit", {{"index", joint}, {row.key, angle}});
         }
     }
     static constexpr const char* axes[] = {"X", "Y", "Z", "another"};
@@ -88,7 +89,7 @@ void limit_rows(const ChainPart& part, Emit& emit) {
     if (choice_field("axis", axis, axes, axis == 3 ? 4 : 3) && axis < 3) {
         glm::vec3 unit(0.0f);
         unit[axis] = 1.0f;
-        emit("chain.limit", {{"index", joint}, {"axis", point(unit)}});
+        emit("chain.limit", {{"index", joint}, {"axis", unit}});
     }
     note("What it turns about upwards; angles are counted from the chain in line.");
 }

@@ -8,7 +8,7 @@
 namespace tendril::app {
 namespace {
 
-void with(Emit& emit, const char* name, Json value) {
+void with(Emit& emit, const char* name, ArgumentValue value) {
     emit.continuously("chain.solver", {{name, std::move(value)}});
 }
 
@@ -17,26 +17,23 @@ void stop_rows(const ReachSettings& reach, float length, Emit& emit) {
     if (integer_field("iterations", iterations, 1, max_iterations)) with(emit, "iterations", iterations);
     float tolerance = reach_tolerance(reach, length);
     if (number_field("tolerance", tolerance, 0.0002f, 0.0f, 10.0f, "%.4f m"))
-        with(emit, "tolerance", number(tolerance));
+        with(emit, "tolerance", tolerance);
     if (reach.tolerance && row_button("Default tolerance", 1, true, "A thousandth of the reach"))
         emit("chain.solver", {{"default_tolerance", true}});
 }
 
 void option_rows(const ReachSettings& reach, Emit& emit) {
     float snap_back = reach.snap_back, soft = reach.soft_zone;
-    if (number_field("snap back", snap_back, 0.005f, 0.0f, 1.0f, "%.2f"))
-        with(emit, "snap_back", number(snap_back));
-    if (number_field("soft zone", soft, 0.002f, 0.0f, 1.0f, "%.3f of reach"))
-        with(emit, "soft_zone", number(soft));
+    if (number_field("snap back", snap_back, 0.005f, 0.0f, 1.0f, "%.2f")) with(emit, "snap_back", snap_back);
+    if (number_field("soft zone", soft, 0.002f, 0.0f, 1.0f, "%.3f of reach")) with(emit, "soft_zone", soft);
     if (reach.method == ik::Method::Dls || reach.method == ik::Method::SvdDls) {
         float damping = reach.damping;
         if (number_field("damping", damping, 0.001f, least_damping, most_damping, "%.3f of reach"))
-            with(emit, "damping", number(damping));
+            with(emit, "damping", damping);
     }
     if (reach.method == ik::Method::TwoBone) {
         float twist = reach.twist_deg;
-        if (number_field("twist", twist, 0.5f, -180.0f, 180.0f, "%.0f deg"))
-            with(emit, "twist_deg", number(twist));
+        if (number_field("twist", twist, 0.5f, -180.0f, 180.0f, "%.0f deg")) with(emit, "twist_deg", twist);
     }
 }
 
@@ -50,11 +47,11 @@ void pole_rows(const ChainPart& part, Emit& emit) {
     if (part.chain.empty()) return;
     bool on = part.reach.pole.has_value();
     if (ImGui::Checkbox("Pole: the bend faces it", &on)) {
-        emit("chain.pole", on ? Json{{"to", point(first_pole(part))}} : Json{{"off", true}});
+        emit("chain.pole", on ? ArgumentList{{"to", first_pole(part)}} : ArgumentList{{"off", true}});
     }
     if (!part.reach.pole) return;
     glm::vec3 pole = *part.reach.pole;
-    if (point_field("pole", pole, 0.01f)) emit.continuously("chain.pole", {{"to", point(pole)}});
+    if (point_field("pole", pole, 0.01f)) emit.continuously("chain.pole", {{"to", pole}});
     static constexpr const char* titles[] = {"whole chain", "each joint"};
     int turn = static_cast<int>(part.reach.pole_turn);
     if (choice_field("turns", turn, titles, static_cast<int>(std::size(titles)))) {

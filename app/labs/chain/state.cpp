@@ -1,4 +1,5 @@
 // What --state writes of the Chain lab.
+#include "app/document/json_complete.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 

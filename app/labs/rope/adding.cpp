@@ -54,9 +54,9 @@ class Adding {
         if (row_button("Rope", 3, true, "A rope that hangs between two pins")) {
             const glm::vec3 at = free_place(workspace_);
             body("rope.add", "rope",
-                 {{"from", point(at + glm::vec3(-0.6f, 0.6f, 0.0f))},
-                  {"to", point(at + glm::vec3(0.6f, 0.6f, 0.0f))},
-                  {"length", 1.7},
+                 {{"from", at + glm::vec3(-0.6f, 0.6f, 0.0f)},
+                  {"to", at + glm::vec3(0.6f, 0.6f, 0.0f)},
+                  {"length", 1.7f},
                   {"segments", 48},
                   {"pin_start", true},
                   {"pin_end", true}});
@@ -64,25 +64,25 @@ class Adding {
         if (row_button("Cloth", 3, true, "A cloth that hangs by two corners")) {
             const glm::vec3 at = free_place(workspace_);
             body("rope.sheet.add", "sheet",
-                 {{"corner", point(at + glm::vec3(-0.5f, 0.8f, 0.0f))},
-                  {"along", {1, 0, 0}},
-                  {"down", {0, -0.6, 0.8}},
+                 {{"corner", at + glm::vec3(-0.5f, 0.8f, 0.0f)},
+                  {"along", glm::vec3(1, 0, 0)},
+                  {"down", glm::vec3(0.0f, -0.6f, 0.8f)},
                   {"pins", "corners"}});
         }
         const bool on_collider = part_.choice && !part_.choice->collider.empty();
         if (row_button("Hair", 3, true, "A lock of hair: on the selected collider, or from a point")) {
-            Json arguments{{"strands", 48}, {"length", 0.6}};
+            ArgumentList arguments{{"strands", 48}, {"length", 0.6f}};
             if (on_collider)
-                arguments["attach"] = part_.choice->collider;
+                arguments.push_back({"attach", part_.choice->collider});
             else
-                arguments["centre"] = point(free_place(workspace_) + glm::vec3(0.0f, 0.5f, 0.0f));
+                arguments.push_back({"centre", free_place(workspace_) + glm::vec3(0.0f, 0.5f, 0.0f)});
             body("rope.lock.add", "lock", std::move(arguments));
         }
         end_row();
     }
 
     void colliders() {
-        using Shape = Json (*)(glm::vec3);
+        using Shape = ArgumentList (*)(glm::vec3);
         const auto row = [&](const char* title, const char* name, const char* kind, Shape shape) {
             const bool plane = std::string(kind) == "plane";
             const char* const tip =
@@ -90,36 +90,36 @@ class Adding {
             if (row_button(title, 4, true, tip)) collider(name, kind, shape(free_place(workspace_)));
         };
         row("Ball", "ball", "sphere", [](glm::vec3 at) {
-            return Json{{"centre", point(at)}, {"radius", 0.25}};
+            return ArgumentList{{"centre", at}, {"radius", 0.25f}};
         });
         row("Bar", "bar", "capsule", [](glm::vec3 at) {
             const glm::vec3 half(0.0f, 0.0f, 0.5f);
-            return Json{{"a", point(at - half)}, {"b", point(at + half)}, {"radius", 0.1}};
+            return ArgumentList{{"a", at - half}, {"b", at + half}, {"radius", 0.1f}};
         });
         row("Box", "box", "box", [](glm::vec3 at) {
-            return Json{{"centre", point(at)}, {"half_extents", {0.25, 0.25, 0.25}}};
+            return ArgumentList{{"centre", at}, {"half_extents", glm::vec3(0.25f)}};
         });
         row("Floor", "floor", "plane", [](glm::vec3) {
-            return Json{{"point", {0, 0, 0}}, {"normal", {0, 1, 0}}};
+            return ArgumentList{{"point", glm::vec3(0.0f)}, {"normal", glm::vec3(0, 1, 0)}};
         });
         end_row();
     }
 
   private:
-    void body(const char* command, const char* kind, Json arguments) {
+    void body(const char* command, const char* kind, ArgumentList arguments) {
         const auto taken = [&](const std::string& n) { return part_.world->find(n) != nullptr; };
         const std::string name = free_name(kind, taken);
-        arguments["name"] = name;
-        emit_(command, std::move(arguments));
+        arguments.push_back({"name", name});
+        emit_(command, arguments);
         emit_("rope.select", {{"rope", name}, {"particle", 0}});
     }
-    void collider(const char* name, const char* kind, const Json& shape) {
+    void collider(const char* name, const char* kind, const ArgumentList& shape) {
         const auto taken = [&](const std::string& n) { return part_.world->find_collider(n) != nullptr; };
-        Json arguments{{"name", free_name(name, taken)}, {"kind", kind}};
-        arguments.update(shape);
-        const Json chosen{{"collider", arguments["name"]}};
-        emit_("rope.collider.add", std::move(arguments));
-        emit_("rope.select", chosen);
+        const std::string free = free_name(name, taken);
+        ArgumentList arguments{{"name", free}, {"kind", kind}};
+        arguments.insert(arguments.end(), shape.begin(), shape.end());
+        emit_("rope.collider.add", arguments);
+        emit_("rope.select", {{"collider", free}});
     }
 
     const Workspace& workspace_;

@@ -30,7 +30,7 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     const rope::World& world = *part.world;
     const std::size_t particle = body.first + index;
     const bool held = held_particle(part) == particle, pinned = world.pinned(particle) && !held;
-    const Json which{{"rope", body.name}, {"particle", index}};
+    const ArgumentList which{{"rope", body.name}, {"particle", index}};
     reading("of", "%s", body.name.c_str());
     reading("particle", "%zu of 0 to %zu%s", index, body.count - 1,
             pinned ? ", pinned"
@@ -39,9 +39,9 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     glm::vec3 at = world.position(particle);
     if (pinned) {
         if (point_field("at", at, 0.01f)) {
-            Json arguments = which;
-            arguments["at"] = point(at);
-            emit.continuously("rope.pin", std::move(arguments));
+            ArgumentList arguments = which;
+            arguments.push_back({"at", at});
+            emit.continuously("rope.pin", arguments);
         }
     } else {
         reading("at", "%.3f  %.3f  %.3f", static_cast<double>(at.x), static_cast<double>(at.y),
@@ -61,33 +61,33 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
 
 /// What a kind of collider has beside its place.
 void shape_rows(const rope::Collider& collider, Emit& emit) {
-    const auto set = [&](const char* key, Json value) {
+    const auto set = [&](const char* key, ArgumentValue value) {
         emit.continuously("rope.collider.set", {{"name", collider.name}, {key, std::move(value)}});
     };
     const auto radius_row = [&](float radius) {
-        if (number_field("radius", radius, 0.002f, 0.0f, 1e3f, "%.3f m")) set("radius", number(radius));
+        if (number_field("radius", radius, 0.002f, 0.0f, 1e3f, "%.3f m")) set("radius", radius);
     };
     if (const auto* sphere = std::get_if<rope::Sphere>(&collider.shape)) radius_row(sphere->radius);
     if (const auto* capsule = std::get_if<rope::Capsule>(&collider.shape)) {
         glm::vec3 a = capsule->a, b = capsule->b;
-        if (point_field("one end", a, 0.01f)) set("a", point(a));
-        if (point_field("other end", b, 0.01f)) set("b", point(b));
+        if (point_field("one end", a, 0.01f)) set("a", a);
+        if (point_field("other end", b, 0.01f)) set("b", b);
         radius_row(capsule->radius);
     }
     if (const auto* plane = std::get_if<rope::Plane>(&collider.shape)) {
         glm::vec3 normal = plane->normal;
         if (point_field("normal", normal, 0.01f, 1.0f, "%.3f") && glm::length(normal) > 1e-3f)
-            set("normal", point(normal));
+            set("normal", normal);
     }
     if (const auto* box = std::get_if<rope::Box>(&collider.shape)) {
         glm::vec3 half = box->half_extents;
-        if (point_field("half size", half, 0.005f, 1e3f)) set("half_extents", point(glm::abs(half)));
+        if (point_field("half size", half, 0.005f, 1e3f)) set("half_extents", glm::abs(half));
         // Turned on about its own axes: the angles that it is told by meet at a pole, a box does not.
         const glm::vec3 was = glm::degrees(glm::eulerAngles(box->rotation)) + 0.0f;  // no -0
         glm::vec3 turned = was;
         if (point_field("turned", turned, 0.5f, 360.0f, "%.1f\xC2\xB0")) {
             const glm::quat q = box->rotation * glm::quat(glm::radians(turned - was));
-            set("rotation", Json::array({number(q.x), number(q.y), number(q.z), number(q.w)}));
+            set("rotation", q);
         }
     }
 }
@@ -97,7 +97,7 @@ void collider_rows(const RopePart& part, const rope::Collider& collider, Emit& e
     reading("kind", "%s", rope::kind(collider.shape));
     glm::vec3 at = rope::centre(collider.shape);
     if (point_field("at", at, 0.01f))
-        emit.continuously("rope.collider.move", {{"name", collider.name}, {"to", point(at)}});
+        emit.continuously("rope.collider.move", {{"name", collider.name}, {"to", at}});
     shape_rows(collider, emit);
     const auto found = std::find_if(part.swings.begin(), part.swings.end(),
                                     [&](const Swing& swing) { return swing.collider == collider.name; });
@@ -105,8 +105,7 @@ void collider_rows(const RopePart& part, const rope::Collider& collider, Emit& e
     glm::vec3 by = swings ? found->swing : glm::vec3(0.0f);
     float period = swings ? found->period : 2.0f;
     const auto swing = [&] {
-        emit.continuously("rope.collider.swing",
-                          {{"name", collider.name}, {"by", point(by)}, {"period", number(period)}});
+        emit.continuously("rope.collider.swing", {{"name", collider.name}, {"by", by}, {"period", period}});
     };
     if (point_field("swings by", by, 0.01f)) swing();
     if (swings && number_field("period", period, 0.02f, shortest_swing, longest_swing, "%.2f s")) swing();

@@ -54,7 +54,7 @@ const char* solver_help(rope::Solver solver) {
 void setting(const char* name, const char* key, float value, float speed, float low, float high,
              const char* format, Emit& emit) {
     if (number_field(name, value, speed, low, high, format))
-        emit.continuously("rope.settings", {{key, number(value)}});
+        emit.continuously("rope.settings", {{key, value}});
 }
 
 void solver_rows(const RopePart& part, Emit& emit) {
@@ -71,7 +71,7 @@ void solver_rows(const RopePart& part, Emit& emit) {
         emit.continuously("rope.settings", {{"iterations", iterations}});
     float per_second = static_cast<float>(1.0 / now.substep);
     if (number_field("substeps", per_second, 2.0f, 10.0f, 10000.0f, "%.0f /s"))
-        emit.continuously("rope.settings", {{"substep", number(1.0f / per_second)}});
+        emit.continuously("rope.settings", {{"substep", 1.0f / per_second}});
     if (now.solver != rope::Solver::Relaxation)
         setting("compliance", "compliance", now.compliance, 1e-5f, 0.0f, 1.0f, "%.5f /N", emit);
 }
@@ -85,9 +85,9 @@ void world_rows(const RopePart& part, Emit& emit) {
     constexpr const char* unit = "%.2f m/s\xC2\xB2";
     constexpr float most = rope::max_acceleration;
     if (point_field("gravity", gravity, 0.05f, most, unit))
-        emit.continuously("rope.settings", {{"gravity", point(gravity)}});
+        emit.continuously("rope.settings", {{"gravity", gravity}});
     if (point_field("wind", wind, 0.05f, most, unit))
-        emit.continuously("rope.settings", {{"external", point(wind)}});
+        emit.continuously("rope.settings", {{"external", wind}});
 }
 
 void time_rows(const Workspace& workspace, Emit& emit) {
@@ -95,13 +95,13 @@ void time_rows(const Workspace& workspace, Emit& emit) {
     const RopePart& part = rope_part(workspace);
     float percent = 100.0f * workspace.clock.speed;
     if (number_field("speed", percent, 0.5f, 5.0f, 200.0f, "%.0f %%"))
-        emit.continuously("time.speed", {{"factor", number(percent / 100.0f)}});
+        emit.continuously("time.speed", {{"factor", percent / 100.0f}});
     float longest = 1000.0f * part.world->settings().longest_frame;
     if (number_field("longest frame", longest, 1.0f, 1.0f, 1000.0f, "%.0f ms"))
-        emit.continuously("rope.settings", {{"longest_frame", number(longest / 1000.0f)}});
+        emit.continuously("rope.settings", {{"longest_frame", longest / 1000.0f}});
     float dial = 100.0f * part.torture.dial;
     if (number_field("torture", dial, 0.5f, 0.0f, 100.0f, "%.0f %%"))
-        emit.continuously("rope.torture", {{"dial", number(dial / 100.0f)}});
+        emit.continuously("rope.torture", {{"dial", dial / 100.0f}});
     note(part.torture.dial > 0.0f ? "Frames of 1 to 250 ms: the picture stutters, the ropes do not mind."
                                   : "Torture cuts time into uneven frames, as a program that stutters does.");
 }

@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::size_t most_handles = 400;
 
-Json of_particle(const ParticlePlace& place) {
-    return Json{{"rope", place.body->name}, {"particle", place.index}};
+ArgumentList of_particle(const ParticlePlace& place) {
+    return {{"rope", place.body->name}, {"particle", place.index}};
 }
 
 /// The collider that a particle is attached to; null where there is none.
@@ -72,7 +72,7 @@ glm::vec3 RopeLab::position_of(const Workspace& workspace, PickId pick) const {
 void RopeLab::drag(const Workspace& workspace, PickId pick, glm::vec3 to, Emit& emit) const {
     const RopePart& part = rope_part(workspace);
     if (const auto* collider = picked_collider(*part.world, pick)) {
-        emit.continuously("rope.collider.move", {{"name", collider->name}, {"to", point(to)}});
+        emit.continuously("rope.collider.move", {{"name", collider->name}, {"to", to}});
         return;
     }
     const auto place = picked_particle(*part.world, pick);
@@ -81,18 +81,18 @@ void RopeLab::drag(const Workspace& workspace, PickId pick, glm::vec3 to, Emit& 
         // What is attached moves with what holds it.
         const glm::vec3 by = to - part.world->position(place->body->first + place->index);
         emit.continuously("rope.collider.move",
-                          {{"name", holder->name}, {"to", point(rope::centre(holder->shape) + by)}});
+                          {{"name", holder->name}, {"to", rope::centre(holder->shape) + by}});
         return;
     }
     const bool held = part.hold == Hold{place->body->name, place->index};
     const bool pinned = !held && part.world->pinned(place->body->first + place->index);
-    Json arguments = of_particle(*place);
-    arguments["at"] = point(to);
-    emit.continuously(pinned ? "rope.pin" : "rope.hold", std::move(arguments));
+    ArgumentList arguments = of_particle(*place);
+    arguments.push_back({"at", to});
+    emit.continuously(pinned ? "rope.pin" : "rope.hold", arguments);
 }
 
 void RopeLab::drop(const Workspace& workspace, PickId, Emit& emit) const {
-    if (rope_part(workspace).hold) emit.continuously("rope.let_go", Json::object());
+    if (rope_part(workspace).hold) emit.continuously("rope.let_go");
 }
 
 void RopeLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {

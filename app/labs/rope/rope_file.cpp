@@ -2,6 +2,7 @@
 // opened.
 #include <stdexcept>
 
+#include "app/document/json_complete.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_names.hpp"
 #include "app/labs/rope/rope_part.hpp"

@@ -35,7 +35,7 @@ void take_scene(Workspace& workspace, const Arguments& given) {
 void settings(RopeEdit& edit, const Arguments& given) {
     rope::Settings wanted = edit.seen().settings();
     // The shortest decimals of a float are what was meant: 0.1 is no 0.10000000149.
-    if (given.has("substep")) wanted.substep = number(given.number("substep")).get<double>();
+    if (given.has("substep")) wanted.substep = shortest_decimal(given.number("substep"));
     if (given.has("iterations")) wanted.iterations = given.integer("iterations");
     if (given.has("solver")) wanted.solver = solver_from_name(given.text("solver"));
     if (given.has("damping")) wanted.damping = given.number("damping");

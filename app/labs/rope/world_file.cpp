@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "app/document/json_complete.hpp"
 #include "app/labs/rope/rope_part.hpp"
 
 namespace tendril::app {

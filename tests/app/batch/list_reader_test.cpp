@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "app/document/json_complete.hpp"
 #include "tests/app/support/temp_folder.hpp"
 
 namespace tendril::app {

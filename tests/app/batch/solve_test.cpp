@@ -6,7 +6,7 @@
 #include <cmath>
 #include <thread>
 
-#include "app/document/json.hpp"
+#include "app/document/json_complete.hpp"
 #include "tests/app/support/program.hpp"
 
 namespace tendril::test {

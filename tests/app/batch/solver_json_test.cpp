@@ -1,5 +1,6 @@
 // Limits, reports and holds as JSON.
 #include "app/io/solver_json.hpp"
+#include "app/document/json_complete.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "tests/app/support/child.hpp"
 #include "tests/app/support/temp_folder.hpp"

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "app/document/json_complete.hpp"
 #include "tests/app/support/test_part.hpp"
 
 namespace tendril::app {

@@ -5,7 +5,7 @@
 
 #include <thread>
 
-#include "app/document/json.hpp"
+#include "app/document/json_complete.hpp"
 #include "tests/app/support/child.hpp"
 #include "tests/app/support/temp_folder.hpp"
 

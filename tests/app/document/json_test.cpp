@@ -1,4 +1,3 @@
-#include "app/document/json.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "app/document/json_complete.hpp"
 #include "tests/app/support/temp_folder.hpp"
 
 namespace tendril::app {

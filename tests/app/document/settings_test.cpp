@@ -1,4 +1,5 @@
 #include "app/document/settings.hpp"
+#include "app/document/json_complete.hpp"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
@@ -100,8 +101,7 @@ class Environment {
 };
 
 TEST(Settings, live_in_the_config_folder) {
-    const Environment xdg("XDG_CONFIG_HOME"), home("HOME"), appdata("APPDATA");
-    ::unsetenv("APPDATA");
+    const Environment xdg("XDG_CONFIG_HOME"), home("HOME");
     ::setenv("XDG_CONFIG_HOME", "/config", 1);
     ::setenv("HOME", "/home/somebody", 1);
     EXPECT_EQ(config_folder(), "/config/tendril");

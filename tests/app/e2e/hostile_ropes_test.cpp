@@ -43,7 +43,7 @@ class HostileRopes : public testing::TestWithParam<unsigned> {};
 TEST_P(HostileRopes, events_and_commands_break_nothing) {
     const auto window = open_offscreen({1280, 720});
     App app(*window);
-    app.run({"lab.open", {{"name", "rope"}}});
+    app.run({"lab.open", Json{{"name", "rope"}}});
     app.start_recording();
     const Json start = lasting(app);
     Monkey monkey = monkey_in(app, GetParam());
@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, HostileRopes, testing::Values(1u, 2u, 3u, 4u));
 
 TEST(HostileRopesReplay, ends_where_the_recording_did) {
     expect_replay_ends_the_same([](App& app) {
-        app.run({"lab.open", {{"name", "rope"}}});
+        app.run({"lab.open", Json{{"name", "rope"}}});
         app.start_recording();
         Monkey monkey = monkey_in(app, 7);
         for (int i = 0; i < 300; ++i) monkey.act();

@@ -48,7 +48,7 @@ TEST_F(LiveLoopTest, an_event_is_drawn_at_once_and_then_all_is_still_again) {
 }
 
 TEST_F(LiveLoopTest, what_moves_by_itself_is_drawn_all_the_time) {
-    app_.run({"chain.motion", {{"path", "circle"}}});
+    app_.run({"chain.motion", Json{{"path", "circle"}}});
     settle();
     const int drawn = loop_.frames_drawn();
     const auto tick = app_.workspace().clock.tick;
@@ -58,7 +58,7 @@ TEST_F(LiveLoopTest, what_moves_by_itself_is_drawn_all_the_time) {
 }
 
 TEST_F(LiveLoopTest, time_keeps_pace_with_slow_frames_but_does_not_race_after_a_stall) {
-    app_.run({"chain.motion", {{"path", "circle"}}});
+    app_.run({"chain.motion", Json{{"path", "circle"}}});
     settle();
     auto tick = app_.workspace().clock.tick;
     for (int i = 0; i < 15; ++i) turn({}, 4 * tick_seconds);

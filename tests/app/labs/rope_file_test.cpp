@@ -2,6 +2,7 @@
 #include <bit>
 #include <random>
 
+#include "app/document/json_complete.hpp"
 #include "app/labs/rope/scenes.hpp"
 #include "tests/app/labs/rope_support.hpp"
 #include "tests/app/support/temp_folder.hpp"

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "app/document/json_complete.hpp"
 #include "tests/app/script/script_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
 

@@ -1,4 +1,5 @@
 #include "app/script/recorder.hpp"
+#include "app/document/json_complete.hpp"
 
 #include <gtest/gtest.h>
 
@@ -30,8 +31,8 @@ TEST(Recorder, begins_with_what_it_started_from) {
     EXPECT_EQ(script.start->size, start.size);
     EXPECT_EQ(script.start->version, start.version);
     EXPECT_EQ(script.start->lab, start.lab);
-    EXPECT_EQ(script.start->scene, start.scene);
-    EXPECT_EQ(script.start->settings, start.settings);
+    EXPECT_EQ(*script.start->scene, *start.scene);
+    EXPECT_EQ(*script.start->settings, *start.settings);
 }
 
 TEST(Recorder, says_which_file_and_which_scale_it_started_from_where_there_is_any) {

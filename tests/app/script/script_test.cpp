@@ -1,4 +1,5 @@
 #include "app/script/script.hpp"
+#include "app/document/json_complete.hpp"
 
 #include <gtest/gtest.h>
 
@@ -31,16 +32,16 @@ std::string refusal(std::string_view text) {
 TEST(Script, has_lines_for_commands) {
     const auto run = only<RunCommand>(R"({"command": "chain.mode", "mode": "with_index", "index": 3})");
     EXPECT_EQ(run.name, "chain.mode");
-    EXPECT_EQ(run.arguments.dump(), R"({"mode":"with_index","index":3})");
+    EXPECT_EQ(run.arguments->dump(), R"({"mode":"with_index","index":3})");
     EXPECT_FALSE(run.expect_refusal);
     const auto refused = only<RunCommand>(R"({"refused": true, "command": "undo", "index": 1})");
     EXPECT_TRUE(refused.expect_refusal);
-    EXPECT_EQ(refused.arguments.dump(), R"({"index":1})");
+    EXPECT_EQ(refused.arguments->dump(), R"({"index":1})");
     EXPECT_FALSE(only<RunCommand>(R"({"command": "undo", "refused": false})").expect_refusal);
-    EXPECT_EQ(only<RunCommand>(R"({"command": "undo"})").arguments.dump(), "{}");
+    EXPECT_EQ(only<RunCommand>(R"({"command": "undo"})").arguments->dump(), "{}");
     // An argument may have the name of another line's form.
     EXPECT_EQ(
-        only<RunCommand>(R"({"key": 1, "command": "undo", "wait": 2, "recording": 3})").arguments.size(), 3u);
+        only<RunCommand>(R"({"key": 1, "command": "undo", "wait": 2, "recording": 3})").arguments->size(), 3u);
 }
 
 TEST(Script, has_lines_for_the_mouse) {
@@ -114,8 +115,8 @@ TEST(Script, that_is_a_recording_says_what_it_started_from) {
     EXPECT_EQ(script.start->version, "0.1.0");
     EXPECT_EQ(script.start->size, glm::ivec2(640, 480));
     EXPECT_EQ(script.start->lab, "chain");
-    EXPECT_EQ(script.start->scene.dump(), R"({"a":1})");
-    EXPECT_EQ(script.start->settings.dump(), R"({"b":2})");
+    EXPECT_EQ(script.start->scene->dump(), R"({"a":1})");
+    EXPECT_EQ(script.start->settings->dump(), R"({"b":2})");
     EXPECT_EQ(script.lines.size(), 1u);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <random>
 
+#include "app/document/json_complete.hpp"
 #include "app/labs/labs.hpp"
 #include "app/shell/command_palette.hpp"
 #include "app/shell/input.hpp"
@@ -32,7 +33,8 @@ TEST(Shortcuts, EachRunsACommandOfTheTableAndNoTwoShareAKey) {
         table.run(workspace, "microscope.open", Json::object());  // some need something to work on
         table.run(workspace, "chain.select", {{"index", 1}});
         table.run(workspace, "rope.select", {{"collider", "ball"}});
-        EXPECT_NO_THROW(table.run(workspace, shortcut.command, shortcut.arguments)) << shortcut.command;
+        EXPECT_NO_THROW(table.run(workspace, shortcut.command, to_json(shortcut.arguments)))
+            << shortcut.command;
     }
     EXPECT_EQ(keys_for("undo"), "Ctrl+Z");
     EXPECT_EQ(find_shortcut(*chord_from_name("ctrl+alt+f12"), "chain"), nullptr);

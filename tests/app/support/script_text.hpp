@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/document/json.hpp"
+#include "app/document/json_complete.hpp"
 
 namespace tendril::test {
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/document/json_complete.hpp"
 #include "app/document/workspace.hpp"
 
 namespace tendril::test {

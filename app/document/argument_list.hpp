@@ -1,0 +1,50 @@
+// Arguments as whoever emits a command gives them: names and plain values. A panel needs nothing of JSON to
+// write emit("chain.insert", {{"index", 3}, {"position", at}}).
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "app/document/json.hpp"
+
+namespace tendril::app {
+
+/// A value of an argument. Floats become their shortest exact decimals, points lists of three, rotations
+/// [x, y, z, w].
+class ArgumentValue {
+  public:
+    using Value = std::variant<bool, std::int64_t, float, std::string, glm::vec3, glm::quat>;
+
+    ArgumentValue(bool value) : value_(value) {}
+    template <std::integral Integer>
+    requires(!std::same_as<Integer, bool>) ArgumentValue(Integer value)
+        : value_(static_cast<std::int64_t>(value)) {}
+    ArgumentValue(float value) : value_(value) {}
+    ArgumentValue(const char* text) : value_(std::string(text)) {}
+    ArgumentValue(std::string text) : value_(std::move(text)) {}
+    ArgumentValue(glm::vec3 point) : value_(point) {}
+    ArgumentValue(glm::quat rotation) : value_(rotation) {}
+
+    const Value& value() const { return value_; }
+
+  private:
+    Value value_;
+};
+
+struct NamedArgument {
+    std::string name;
+    ArgumentValue value;
+};
+
+using ArgumentList = std::vector<NamedArgument>;
+
+/// The object that commands take; of arguments with the same name the last one counts.
+Json to_json(const ArgumentList& arguments);
+
+}  // namespace tendril::app
