@@ -2,8 +2,7 @@
 # files as they are, which is as fast for a font as for a line of text.
 find_path(TENDRIL_FONT_FOLDER Roboto-Regular.ttf
     PATHS /usr/share/fonts/truetype/roboto/unhinted/RobotoTTF /usr/share/fonts/truetype/roboto/unhinted
-          /usr/share/fonts/truetype/roboto /usr/share/fonts/google-roboto /usr/share/fonts/TTF
-          /opt/homebrew/share/fonts $ENV{HOME}/Library/Fonts
+          /usr/share/fonts/truetype/roboto
     DOC "The folder of Roboto-Regular.ttf and Roboto-Medium.ttf")
 mark_as_advanced(TENDRIL_FONT_FOLDER)
 tendril_require(TENDRIL_FONT_FOLDER "the font Roboto" fonts-roboto-unhinted)

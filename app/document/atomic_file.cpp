@@ -1,21 +1,15 @@
 #include "app/document/atomic_file.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <atomic>
 #include <cerrno>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 #include <utility>
-
-#ifdef _WIN32
-#include <process.h>
-
-#include <fstream>
-#else
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-#endif
 
 namespace tendril::app {
 namespace fs = std::filesystem;
@@ -62,57 +56,8 @@ bool is_stream(const fs::file_status& status) {
 /// A name that no other writer in this program or another one uses now.
 fs::path temporary_name(const fs::path& folder) {
     static std::atomic<unsigned> counter{0};
-#ifdef _WIN32
-    const int pid = _getpid();
-#else
-    const int pid = ::getpid();
-#endif
-    return folder / (".tendril-" + std::to_string(pid) + "-" + std::to_string(counter++) + ".tmp");
+    return folder / (".tendril-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
 }
-
-#ifdef _WIN32
-
-void check_permission(const fs::path&) {}
-
-void write_stream(const fs::path& path, std::string_view bytes) {
-    std::ofstream out(path, std::ios::binary);
-    if (!out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush())
-        fail(path, "not writable");
-}
-
-class Temporary {
-  public:
-    Temporary(const fs::path& target, const fs::path& folder)
-        : target_(target), name_(temporary_name(folder)), out_(name_, std::ios::binary) {
-        if (!out_) fail(target_, "the folder is missing or not writable");
-    }
-    ~Temporary() {
-        std::error_code ignored;
-        out_.close();
-        if (!moved_) fs::remove(name_, ignored);
-    }
-    Temporary(const Temporary&) = delete;
-    Temporary& operator=(const Temporary&) = delete;
-
-    void fill(std::string_view bytes, const fs::path&) {
-        if (!out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush())
-            fail(target_, "the disk is full or gone");
-        out_.close();
-    }
-    void move_over(const fs::path& file) {
-        std::error_code error;
-        fs::rename(name_, file, error);
-        if (error) fail(target_, error.message());
-        moved_ = true;
-    }
-
-  private:
-    fs::path target_, name_;
-    std::ofstream out_;
-    bool moved_ = false;
-};
-
-#else
 
 std::string last_error() {
     return std::generic_category().message(errno);
@@ -194,8 +139,6 @@ class Temporary {
     int fd_ = -1;
     bool moved_ = false;
 };
-
-#endif
 
 }  // namespace
 

@@ -41,14 +41,8 @@ struct Library {
 int cursor_shape(Cursor cursor) {
     switch (cursor) {
         case Cursor::Hand:
+        case Cursor::Grab:  // GLFW 3.3 has no closed hand
             return GLFW_HAND_CURSOR;
-#ifdef GLFW_RESIZE_ALL_CURSOR
-        case Cursor::Grab:
-            return GLFW_RESIZE_ALL_CURSOR;
-#else
-        case Cursor::Grab:
-            return GLFW_HAND_CURSOR;
-#endif
         case Cursor::Text:
             return GLFW_IBEAM_CURSOR;
         case Cursor::ResizeColumn:
@@ -76,8 +70,7 @@ class GlfwWindow final : public Window {
     float content_scale() const override {
         glm::vec2 scale{1.0f};
         glfwGetWindowContentScale(window_, &scale.x, &scale.y);
-        // Where window coordinates are scaled already (macOS, Wayland), that part is not wished for once
-        // more.
+        // Where window coordinates are scaled already (Wayland), that part is not wished for once more.
         const float done = static_cast<float>(framebuffer_size().x) / static_cast<float>(size().x);
         return std::clamp(scale.x / std::max(done, 0.1f), 0.5f, 4.0f);
     }
@@ -121,9 +114,6 @@ GlfwWindow::GlfwWindow(glm::ivec2 size) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-#ifdef __APPLE__
-    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-#endif
     glfwWindowHint(GLFW_DEPTH_BITS, 24);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);

@@ -22,7 +22,7 @@ class Window {
     /// Size in pixels: what glViewport wants.
     virtual glm::ivec2 framebuffer_size() const = 0;
     /// The system's wish for the size of text and widgets, in window coordinates: 1 on a plain screen, 2 on a
-    /// dense one. (Where window coordinates are scaled already, as on macOS, it is 1 there too.)
+    /// dense one. (Where window coordinates are scaled already, as under Wayland, it is 1 there too.)
     virtual float content_scale() const { return 1.0f; }
     /// The GL name of the framebuffer to draw in.
     virtual unsigned framebuffer() const { return 0; }
