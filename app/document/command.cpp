@@ -222,7 +222,8 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
         workspace.document = before;
         throw Refused(refusal_text(command->name, error.what()));
     }
-    if (workspace.document == before) return;
+    // Another file is a change too: undo leads back to the old one.
+    if (workspace.document == before && workspace.path == from.path) return;
     if (command->effect == Effect::Replace) return;
     if (command->effect == Effect::Edit) {
         workspace.rewind.forget_from(workspace.clock.tick);  // what came of it, as it was before, came not

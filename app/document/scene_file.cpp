@@ -47,6 +47,19 @@ Document load_document(const Document& blank, const Json& labs) {
     return document;
 }
 
+/// `document`, with the workspace's very own parts where they would be saved alike: what is read anew and is
+/// the same as before is no change, and leaves no step to undo. A recording, whose start is read from its
+/// first line, has to find the same as it was played on.
+Document sharing_equal_parts(const Document& document, const Document& present) {
+    Document result = document;
+    for (const auto& [lab, part] : document.parts()) {
+        const auto now = present.parts().find(lab);
+        if (now != present.parts().end() && now->second != part && now->second->save() == part->save())
+            result.set(lab, now->second);
+    }
+    return result;
+}
+
 /// "line 12: ", where the message begins with a place that the text has; else nothing.
 std::string line_prefix(std::string_view text, std::string_view message) {
     const int line = json_line(text, message.substr(0, message.find_first_of(": ")));
@@ -113,6 +126,7 @@ void load_scene(Workspace& workspace, const Json& scene) {
     }
     const Json* camera = optional_member(scene, "camera");
     const CameraPose pose = camera ? load_camera(*camera, "camera") : workspace.first_view_of(lab);
+    document = sharing_equal_parts(document, workspace.document);
 
     // Nothing below throws.
     workspace.document = std::move(document);

@@ -15,6 +15,15 @@ namespace tendril::test {
 
 using namespace app;
 
+/// The names of every command that a lab brings.
+inline std::vector<std::string> lab_commands(const App& app) {
+    CommandTable table;
+    for (const auto& lab : app.labs().all()) lab->add_commands(table);
+    std::vector<std::string> names;
+    for (const Command& command : table.all()) names.push_back(command.name);
+    return names;
+}
+
 class Monkey {
   public:
     /// It runs commands of those names, and where a text is wanted it says one of those words.
@@ -27,6 +36,44 @@ class Monkey {
         } else {
             const app::Event event = this->event();
             app_.tick(&event);
+        }
+    }
+
+    /// Runs one of the commands, with arguments that may be refused.
+    void command() {
+        const std::string& name = one_of(names_);
+        if (name.ends_with(".clear") && below(6) != 0) return;
+        Json arguments = Json::object();
+        for (const Argument& argument : app_.commands().find(name)->arguments) {
+            if (!argument.required && coin()) continue;
+            if (below(20) == 0) continue;
+            switch (argument.type) {
+                case ArgumentType::Number:
+                    arguments[argument.name] = any_number();
+                    break;
+                case ArgumentType::Integer:
+                    arguments[argument.name] = any_index();
+                    break;
+                case ArgumentType::Boolean:
+                    arguments[argument.name] = coin();
+                    break;
+                case ArgumentType::NumberOrPoint:
+                    arguments[argument.name] = coin() ? any_number() : any_point();
+                    break;
+                case ArgumentType::Rotation:
+                case ArgumentType::Point:
+                    arguments[argument.name] = any_point();
+                    break;
+                case ArgumentType::Text:
+                    arguments[argument.name] =
+                        one_of(argument.choices.empty() || below(8) == 0 ? words_ : argument.choices);
+                    break;
+            }
+        }
+        try {
+            app_.run({name, arguments});
+        } catch (const Refused& refusal) {
+            EXPECT_STRNE(refusal.what(), "");
         }
     }
 
@@ -64,43 +111,6 @@ class Monkey {
         for (int i = 0; i < 3; ++i)
             point.push_back(below(15) == 0 ? any_number() : Json(number(between(-9.0f, 9.0f))));
         return point;
-    }
-
-    void command() {
-        const std::string& name = one_of(names_);
-        if (name.ends_with(".clear") && below(6) != 0) return;
-        Json arguments = Json::object();
-        for (const Argument& argument : app_.commands().find(name)->arguments) {
-            if (!argument.required && coin()) continue;
-            if (below(20) == 0) continue;
-            switch (argument.type) {
-                case ArgumentType::Number:
-                    arguments[argument.name] = any_number();
-                    break;
-                case ArgumentType::Integer:
-                    arguments[argument.name] = any_index();
-                    break;
-                case ArgumentType::Boolean:
-                    arguments[argument.name] = coin();
-                    break;
-                case ArgumentType::NumberOrPoint:
-                    arguments[argument.name] = coin() ? any_number() : any_point();
-                    break;
-                case ArgumentType::Rotation:
-                case ArgumentType::Point:
-                    arguments[argument.name] = any_point();
-                    break;
-                case ArgumentType::Text:
-                    arguments[argument.name] =
-                        one_of(argument.choices.empty() || below(8) == 0 ? words_ : argument.choices);
-                    break;
-            }
-        }
-        try {
-            app_.run({name, arguments});
-        } catch (const Refused& refusal) {
-            EXPECT_STRNE(refusal.what(), "");
-        }
     }
 
     glm::vec2 any_place() {

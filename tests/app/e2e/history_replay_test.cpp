@@ -1,0 +1,186 @@
+// New, opened and saved scenes among undo and redo: a recording of them replays with the same refusals, and
+// ends in the same state.
+#include "app/document/scene_file.hpp"
+#include "tests/app/e2e/monkey.hpp"
+
+namespace tendril::test {
+namespace {
+
+using namespace app;
+
+/// What a replay has to lead to.
+struct Ending {
+    Json state;
+    Json scene;
+    std::string undo, redo, path;
+    std::size_t steps = 0;
+    bool modified = false;
+    bool operator==(const Ending&) const = default;
+};
+
+Ending ending_of(App& app) {
+    const Workspace& workspace = app.workspace();
+    return {.state = app.state(),
+            .scene = save_scene(workspace),
+            .undo = workspace.history.undo_label(),
+            .redo = workspace.history.redo_label(),
+            .path = workspace.path.string(),
+            .steps = workspace.history.size(),
+            .modified = workspace.modified()};
+}
+
+std::ostream& operator<<(std::ostream& out, const Ending& ending) {
+    return out << "undo \"" << ending.undo << "\", redo \"" << ending.redo << "\", path " << ending.path
+               << ", " << ending.steps << " steps, " << (ending.modified ? "modified" : "saved") << "\n"
+               << ending.scene.dump().substr(0, 2000);
+}
+
+/// Runs a command that may be refused; whether it was.
+bool refused(App& app, const std::string& name, const Json& arguments = Json::object()) {
+    try {
+        app.run({name, arguments});
+    } catch (const Refused&) {
+        return true;
+    }
+    return false;
+}
+
+void tap(App& app, const char* chord) {
+    const Event event = KeyTap{*chord_from_name(chord)};
+    app.tick(&event);
+}
+
+/// Acts in a program that records, then plays the recording into another one. Files that it wrote are away by
+/// then.
+template <class Act>
+void expect_exact_replay(const TempFolder& folder, const std::string& scene, Act act) {
+    const auto window = open_offscreen({1280, 720});
+    std::string recording;
+    Ending recorded;
+    {
+        App app(*window);
+        if (!scene.empty()) load_scene_file(app.workspace(), scene);
+        app.start_recording();
+        act(app);
+        recorded = ending_of(app);
+        recording = app.recording();
+    }
+    for (const std::string& name : folder.names())
+        if ((folder / name).string() != scene) std::filesystem::remove(folder / name);
+    window->resize({1280, 720});
+    App app(*window);
+    Script script = parse_script(recording, app.commands());
+    app.start_from(*script.start);
+    Player player(std::move(script));
+    try {
+        while (!player.done()) player.advance(app);
+    } catch (const ScriptFailure& failure) {
+        ADD_FAILURE() << failure.what() << "\n" << recording.substr(recording.find('\n'));
+    }
+    EXPECT_EQ(ending_of(app), recorded);
+}
+
+TEST(HistoryReplay, ANewSceneThatIsAsBlankAsTheOldOneLeavesNothingToUndo) {
+    expect_exact_replay(TempFolder(), "", [](App& app) {
+        tap(app, "ctrl+n");
+        EXPECT_TRUE(refused(app, "undo"));
+    });
+}
+
+TEST(HistoryReplay, OfAScriptWithARefusedUndo) {
+    const TempFolder folder;
+    write(folder / "script.jsonl", ScriptText().key("ctrl+n").command("undo", Json::object(), true).text());
+    const std::string recording = (folder / "recording.jsonl").string();
+    ASSERT_TRUE(succeeded(
+        run_program({"--headless", "--script", (folder / "script.jsonl").string(), "--record", recording})));
+    EXPECT_TRUE(succeeded(run_program({"--headless", "--script", recording})));
+}
+
+TEST(HistoryReplay, ASceneThatMentionsOneLabLeavesTheOthersAlone) {
+    const TempFolder folder;
+    const auto window = open_offscreen({1280, 720});
+    {
+        App app(*window);
+        Json scene = save_scene(app.workspace());
+        const std::string lab = scene["lab"].get<std::string>();
+        for (const auto& other : app.labs().all())
+            if (other->name() != lab) scene["labs"].erase(other->name());
+        scene["labs"][lab] = app.workspace().blank.parts().at(lab)->save();
+        write(folder / "one.json", scene.dump());
+    }
+    expect_exact_replay(folder, (folder / "one.json").string(), [&](App& app) {
+        for (const auto& lab : app.labs().all()) {
+            app.run({"lab.open", Json{{"name", lab->name()}}});
+            for (int i = 0; i < 20; ++i) app.tick(nullptr);
+            app.run({"scene.open", Json{{"path", (folder / "one.json").string()}}});
+            for (int i = 0; i < 20; ++i) app.tick(nullptr);
+            refused(app, "undo");
+            refused(app, "undo");
+            refused(app, "redo");
+        }
+    });
+}
+
+TEST(HistoryReplay, UndoBringsBackTheOldScenesFile) {
+    const TempFolder folder;
+    const auto window = open_offscreen({1280, 720});
+    App app(*window);
+    const std::string path = (folder / "blank.json").string();
+    app.run({"scene.save", Json{{"path", path}}});
+    app.run({"scene.new"});
+    EXPECT_EQ(app.workspace().path, "");
+    app.run({"undo"});
+    EXPECT_EQ(app.workspace().path, path);
+    app.run({"redo"});
+    EXPECT_EQ(app.workspace().path, "");
+}
+
+class HistoryReplaySeeds : public testing::TestWithParam<unsigned> {};
+
+/// Whatever the order, in every lab.
+TEST_P(HistoryReplaySeeds, NewOpenSaveUndoAndRedoInAnyOrder) {
+    const TempFolder folder;
+    std::mt19937 random(GetParam());
+    const auto below = [&](int end) { return static_cast<int>(random() % static_cast<unsigned>(end)); };
+    expect_exact_replay(folder, "", [&](App& app) {
+        const auto path = [&] { return (folder / (below(2) == 0 ? "a.json" : "b.json")).string(); };
+        const auto& labs = app.labs().all();
+        const auto any_of = [&](const auto& list) {
+            return static_cast<std::size_t>(below(static_cast<int>(list.size())));
+        };
+        for (int i = 0; i < 120; ++i) {
+            switch (below(10)) {
+                case 0:
+                    below(2) == 0 ? tap(app, "ctrl+n") : void(refused(app, "scene.new"));
+                    break;
+                case 1:
+                    refused(app, "scene.open", {{"path", path()}});
+                    break;
+                case 2:
+                    refused(app, "scene.save", {{"path", path()}});
+                    break;
+                case 3:
+                case 4:
+                    below(2) == 0 ? tap(app, "ctrl+z") : void(refused(app, "undo"));
+                    break;
+                case 5:
+                    below(2) == 0 ? tap(app, "ctrl+y") : void(refused(app, "redo"));
+                    break;
+                case 6:
+                    app.run({"lab.open", Json{{"name", labs[any_of(labs)]->name()}}});
+                    break;
+                case 7:
+                    app.tick(nullptr);
+                    break;
+                default:
+                    Monkey(app, static_cast<unsigned>(random()), lab_commands(app), {"", "arm", "rope"})
+                        .command();
+            }
+        }
+    });
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, HistoryReplaySeeds, testing::Range(1u, 9u));
+
+}  // namespace
+}  // namespace tendril::test
