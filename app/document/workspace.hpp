@@ -13,6 +13,7 @@
 #include "app/document/document.hpp"
 #include "app/document/history.hpp"
 #include "app/document/rewind.hpp"
+#include "app/document/runtime.hpp"
 #include "app/document/settings.hpp"
 
 namespace tendril::app {
@@ -56,6 +57,7 @@ struct UiState {
 
 struct Workspace {
     Document document;
+    Runtimes runtimes;      ///< what the labs work with; throw them away at any time
     Document blank;         ///< what scene.new starts from
     std::string lab;        ///< the lab that is open
     CameraPose first_view;  ///< what scene.new looks from, in a lab that has no view of its own

@@ -1,6 +1,6 @@
 // The one interface between the frame and a lab. A lab keeps nothing of its own: what it shows is in the
 // workspace, what it changes it changes by commands, so undo, scripts and recordings hold for every lab
-// alike.
+// alike. Solvers and other scratch memory it keeps in its runtime (runtime.hpp), which the workspace holds.
 #pragma once
 
 #include <glm/vec3.hpp>
