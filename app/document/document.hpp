@@ -21,6 +21,9 @@ class Part {
     /// A new part from what save() gave, bit for bit. Throws std::runtime_error naming `where` and what is
     /// wrong.
     virtual std::shared_ptr<Part> load(const Json& json, const std::string& where) const = 0;
+    /// Turns what a scene file of an older `version` has of this part into what save() writes today; load()
+    /// comes after it. The file may be broken: what is not as it should be is left for load() to refuse.
+    virtual void upgrade(Json& /*json*/, int /*version*/) const {}
     /// Itself as undo and redo bring it back, where that differs: nobody drags now what was dragged then.
     /// Null where it does not.
     virtual std::shared_ptr<const Part> brought_back() const { return nullptr; }

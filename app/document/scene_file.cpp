@@ -15,20 +15,25 @@ const Json* optional_member(const Json& object, const char* key) {
     return found == object.end() ? nullptr : &*found;
 }
 
-void check_version(const Json& scene) {
+/// The scene's version; one that this program cannot read is refused.
+int read_version(const Json& scene) {
     if (!scene.is_object() || !scene.contains("tendril_scene"))
         throw std::runtime_error("not a Tendril scene");
     const Json& version = scene["tendril_scene"];
     if (version.is_number() && version.get<double>() > scene_version)
         throw std::runtime_error("tendril_scene: version " + version.dump() +
                                  " is newer than this program, which reads " + std::to_string(scene_version));
-    json_integer(version, "tendril_scene", 1, scene_version);
+    return json_integer(version, "tendril_scene", 1, scene_version);
 }
 
 /// Whatever a part finds wrong becomes a reason to refuse the file.
-std::shared_ptr<const Part> load_part(const Part& blank, const Json& json, const std::string& where) {
+std::shared_ptr<const Part> load_part(const Part& blank, const Json& json, int version,
+                                      const std::string& where) {
     try {
-        return blank.load(json, where);
+        if (version == scene_version) return blank.load(json, where);
+        Json upgraded = json;
+        blank.upgrade(upgraded, version);
+        return blank.load(upgraded, where);
     } catch (const std::runtime_error&) {
         throw;
     } catch (const std::exception& error) {
@@ -36,13 +41,13 @@ std::shared_ptr<const Part> load_part(const Part& blank, const Json& json, const
     }
 }
 
-Document load_document(const Document& blank, const Json& labs) {
+Document load_document(const Document& blank, const Json& labs, int version) {
     Document document = blank;
     for (const auto& [name, json] : labs.items()) {
         const auto known = blank.parts().find(name);
         if (known == blank.parts().end())
             throw std::runtime_error("labs: there is no lab " + json_summary(Json(name)));
-        document.set(name, load_part(*known->second, json, "labs." + name));
+        document.set(name, load_part(*known->second, json, version, "labs." + name));
     }
     return document;
 }
@@ -114,10 +119,10 @@ Json save_scene(const Workspace& workspace) {
 }
 
 void load_scene(Workspace& workspace, const Json& scene) {
-    check_version(scene);
+    const int version = read_version(scene);
     const Json& labs = json_member(scene, "labs", "");
     if (!labs.is_object()) throw std::runtime_error("labs: expected an object, found " + json_summary(labs));
-    Document document = load_document(workspace.blank, labs);
+    Document document = load_document(workspace.blank, labs, version);
     std::string lab = workspace.lab;
     if (const Json* found = optional_member(scene, "lab")) {
         lab = json_text(*found, "lab");

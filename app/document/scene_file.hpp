@@ -1,6 +1,9 @@
 // Scenes on disk: versioned JSON holding every lab's part, which lab was open, and the camera.
 //
-//   {"tendril_scene": 1, "lab": "chain", "camera": {...}, "labs": {"chain": {...}}}
+//   {"tendril_scene": 2, "lab": "chain", "camera": {...}, "labs": {"chain": {...}}}
+//
+// Version 2 writes every rotation as [x, y, z, w]; version 1 wrote the chain's as [w, x, y, z]. Files of older
+// versions are read by way of Part::upgrade.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +12,7 @@
 
 namespace tendril::app {
 
-inline constexpr int scene_version = 1;
+inline constexpr int scene_version = 2;
 
 Json save_camera(const CameraPose& pose);
 CameraPose load_camera(const Json& json, const std::string& where);

@@ -70,7 +70,24 @@ Motion load_motion(const Json& json, const std::string& where) {
     return motion;
 }
 
+/// The rotations of version 1, [w, x, y, z], as [x, y, z, w]; `owner` is what has them.
+void upgrade_rotations(Json& part, const char* owner) {
+    if (!part.is_object() || !part.contains(owner) || !part[owner].is_object()) return;
+    const auto found = part[owner].find("rotations");
+    if (found == part[owner].end() || !found->is_array()) return;
+    for (Json& rotation : *found) {
+        if (!rotation.is_array() || rotation.size() != 4) continue;
+        rotation = Json::array({rotation[1], rotation[2], rotation[3], rotation[0]});
+    }
+}
+
 }  // namespace
+
+void ChainPart::upgrade(Json& json, int version) const {
+    if (version >= 2) return;
+    upgrade_rotations(json, "reach");
+    upgrade_rotations(json, "study");
+}
 
 std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where) const {
     auto part = std::make_shared<ChainPart>();

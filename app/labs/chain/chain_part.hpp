@@ -55,6 +55,7 @@ struct ChainPart final : Part {
     std::shared_ptr<Part> clone() const override { return std::make_shared<ChainPart>(*this); }
     Json save() const override;
     std::shared_ptr<Part> load(const Json& json, const std::string& where) const override;
+    void upgrade(Json& json, int version) const override;
     std::size_t bytes() const override;
 };
 

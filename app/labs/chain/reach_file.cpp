@@ -10,10 +10,10 @@ namespace tendril::app {
 namespace {
 
 glm::quat json_quaternion(const Json& json, const std::string& where) {
-    if (!json.is_array() || json.size() != 4) throw std::runtime_error(where + " must be [w, x, y, z]");
+    if (!json.is_array() || json.size() != 4) throw std::runtime_error(where + " must be [x, y, z, w]");
     float c[4];
     for (std::size_t i = 0; i < 4; ++i) c[i] = json_number(json[i], where + "." + std::to_string(i));
-    const glm::quat q(c[0], c[1], c[2], c[3]);
+    const glm::quat q(c[3], c[0], c[1], c[2]);
     if (!(std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0f) <= 1e-3f)) {
         throw std::runtime_error(where + " must be a unit quaternion, got " + json_summary(json));
     }
@@ -40,7 +40,7 @@ const Json* bone_list(const Json& json, const char* key, const std::string& wher
 
 void save_rotations(Json& json, const std::vector<glm::quat>& rotations) {
     for (const glm::quat& q : rotations) {
-        json["rotations"].push_back(Json::array({number(q.w), number(q.x), number(q.y), number(q.z)}));
+        json["rotations"].push_back(Json::array({number(q.x), number(q.y), number(q.z), number(q.w)}));
     }
 }
 

@@ -195,7 +195,7 @@ TEST(Autosave, that_is_broken_is_refused_and_changes_nothing) {
     const TempFolder folder;
     Workspace workspace = test::make_workspace();
     for (const char* text :
-         {"", "{", "[]", R"({"tendril_scene": 1, "labs": {}, "path": 3})", R"({"tendril_scene": 2})"}) {
+         {"", "{", "[]", R"({"tendril_scene": 1, "labs": {}, "path": 3})", R"({"tendril_scene": 3})"}) {
         test::write(folder / "autosave-1.json", text);
         EXPECT_NE(message_of([&] { Autosave::recover(workspace, folder / "autosave-1.json"); }), "") << text;
         EXPECT_FALSE(workspace.modified());

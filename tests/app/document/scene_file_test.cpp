@@ -105,12 +105,12 @@ TEST(SceneFile, of_any_other_kind_is_refused_with_the_place_and_the_reason) {
         {"[]", "not a Tendril scene"},
         {"3", "not a Tendril scene"},
         {"{}", "not a Tendril scene"},
-        {R"({"tendril_scene": 2, "labs": {}})",
-         "tendril_scene: version 2 is newer than this program, which reads 1"},
+        {R"({"tendril_scene": 3, "labs": {}})",
+         "tendril_scene: version 3 is newer than this program, which reads 2"},
         {R"({"tendril_scene": 99999999999999999999, "labs": {}})", "tendril_scene: "},
         {R"({"tendril_scene": 18446744073709551615, "labs": {}})", "is newer than"},
         {R"({"tendril_scene": 0, "labs": {}})",
-         "tendril_scene: expected a whole number from 1 to 1, found 0"},
+         "tendril_scene: expected a whole number from 1 to 2, found 0"},
         {R"({"tendril_scene": "1", "labs": {}})", "tendril_scene: "},
         {R"({"tendril_scene": null, "labs": {}})", "tendril_scene: "},
         {R"({"tendril_scene": 1})", "\"labs\" is missing"},
@@ -164,6 +164,23 @@ TEST(SceneFile, that_a_part_chokes_on_is_refused) {
     EXPECT_THROW(load(1), std::runtime_error);
     EXPECT_THROW(load(2), std::runtime_error);
     EXPECT_EQ(message_of([&] { load(1); }), "labs.arm: length must be positive");
+}
+
+TEST(SceneFile, of_an_older_version_is_upgraded_before_a_part_reads_it) {
+    struct Renamed : TestPart {
+        void upgrade(Json& json, int version) const override {
+            if (version == 1 && json.is_object() && json.contains("name")) json["title"] = json["name"];
+        }
+    };
+    Workspace workspace = test::make_workspace();
+    workspace.blank.set("arm", std::make_shared<Renamed>());
+    const auto load = [&](int version) {
+        const Json arm{{"name", "old"}, {"values", Json::array()}, {"target", {0, 0, 0}}};
+        load_scene(workspace, Json{{"tendril_scene", version}, {"labs", {{"arm", arm}}}});
+    };
+    load(1);
+    EXPECT_EQ(workspace.document.get<TestPart>("arm").title, "old");
+    EXPECT_EQ(message_of([&] { load(2); }), "labs.arm: \"title\" is missing");
 }
 
 TEST(SceneFile, on_disk_remembers_where_it_is_and_that_it_is_saved) {

@@ -131,7 +131,7 @@ TEST_F(BadFiles, scenes_newer_foreign_or_out_of_range) {
         std::string scene, told;
     };
     for (const Case& each :
-         {Case{changed("/tendril_scene", 2), "newer"}, Case{changed("/tendril_scene", "1"), "tendril_scene"},
+         {Case{changed("/tendril_scene", 3), "newer"}, Case{changed("/tendril_scene", "1"), "tendril_scene"},
           Case{changed("/lab", "kitchen"), "kitchen"},
           Case{changed("/labs/kitchen", app::Json::object()), "kitchen"},
           Case{changed("/camera/distance", -1), "distance"},

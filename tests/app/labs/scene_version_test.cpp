@@ -1,0 +1,72 @@
+// Scenes that an older version of the program wrote still open, and mean what they meant.
+#include <glm/gtc/quaternion.hpp>
+
+#include "tests/app/labs/chain_support.hpp"
+#include "tests/app/support/temp_folder.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// Written by version 1: a chain with limits under the microscope, and a rope beside a box that is turned.
+const std::string version_1 = std::string(TENDRIL_SOURCE_DIR) + "/tests/app/labs/scene_version_1.json";
+
+/// A bone's rotation takes its rest direction, +X here, to where it points.
+void expect_rotations_of(const std::vector<glm::quat>& rotations, const std::vector<glm::vec3>& joints) {
+    ASSERT_EQ(rotations.size() + 1, joints.size());
+    for (std::size_t i = 0; i < rotations.size(); ++i) {
+        const glm::vec3 bone = glm::normalize(joints[i + 1] - joints[i]);
+        EXPECT_LT(glm::distance(rotations[i] * glm::vec3(1, 0, 0), bone), 1e-4f) << "bone " << i;
+    }
+}
+
+class SceneVersion1 : public ChainTest {};
+
+TEST_F(SceneVersion1, opens_with_its_rotations_as_they_were) {
+    load_scene_file(workspace, version_1);
+    ASSERT_EQ(part().reach.rotations.size(), 4u);
+    expect_rotations_of(part().reach.rotations, positions(part().chain));
+    expect_rotations_of(part().study.start_rotations, part().study.start);
+    EXPECT_EQ(part().study.step, 3u);
+    run("chain.target", {{"to", {1, 2, 0.5}}});
+    EXPECT_EQ(state()["solve"]["report"]["status"], "Converged");
+}
+
+TEST_F(SceneVersion1, is_saved_again_as_version_2_with_w_last_everywhere) {
+    load_scene_file(workspace, version_1);
+    const test::TempFolder folder;
+    save_scene_file(workspace, folder / "scene.json");
+    const Json old = parse_json(read_text_file(version_1)), now = parse_json(test::read(folder / "scene.json"));
+    EXPECT_EQ(old["tendril_scene"], 1);
+    EXPECT_EQ(now["tendril_scene"], 2);
+    const Json& was = old["labs"]["chain"];
+    const Json& is = now["labs"]["chain"];
+    for (const char* owner : {"reach", "study"}) {
+        ASSERT_EQ(is[owner]["rotations"].size(), 4u);
+        for (std::size_t i = 0; i < 4; ++i) {
+            const Json& w_first = was[owner]["rotations"][i];
+            EXPECT_EQ(is[owner]["rotations"][i], Json::array({w_first[1], w_first[2], w_first[3], w_first[0]}));
+        }
+    }
+    EXPECT_EQ(now["labs"]["rope"], old["labs"]["rope"]) << "the ropes' were so already";
+
+    Workspace again = make_blank_workspace(labs);
+    load_scene_file(again, folder / "scene.json");
+    EXPECT_EQ(save_scene(again), now);
+}
+
+TEST_F(SceneVersion1, that_is_broken_is_refused_in_the_words_of_today) {
+    const auto refusal_of = [&](const Json& rotations) {
+        Json scene = parse_json(read_text_file(version_1));
+        scene["labs"]["chain"]["reach"]["rotations"] = rotations;
+        return test::message_of([&] { load_scene(workspace, scene); });
+    };
+    const Json unit = {1, 0, 0, 0};
+    EXPECT_NE(refusal_of({unit, unit, unit, {1, 0, 0}}).find("rotations.3 must be [x, y, z, w]"),
+              std::string::npos);
+    EXPECT_NE(refusal_of({unit, unit, unit, {2, 0, 0, 0}}).find("rotations.3"), std::string::npos);
+    EXPECT_NE(refusal_of(7).find("rotations"), std::string::npos);
+    EXPECT_EQ(refusal_of({unit, unit, unit, unit}), "");
+}
+
+}  // namespace
+}  // namespace tendril::app
