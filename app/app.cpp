@@ -160,6 +160,9 @@ void App::take_shortcut(Emit& emit) {
     // A key that is held repeats what goes on step by step, but turns nothing on and off again.
     if (shortcut != nullptr && input_.repeated() && !shortcut->repeats) return;
     if (shortcut == nullptr || (ui_.wants_text() && !shortcut->while_typing)) return;
+    // A key does not change the scene under a hand that is moving it: Delete in mid-drag would remove what is
+    // dragged.
+    if (busy() && commands_.find(shortcut->command)->effect == Effect::Edit) return;
     emit(shortcut->command, shortcut->arguments);
 }
 

@@ -8,6 +8,18 @@
 #include "app/labs/chain/draw.hpp"
 
 namespace tendril::app {
+namespace {
+
+/// What the mouse would do to a joint in Reach.
+std::string joint_hint(const ChainPart& part, std::size_t index) {
+    const bool root = index == 0, tip = index + 1 == part.chain.size();
+    const std::string joint = "Joint " + std::to_string(index) + (root ? " (root)" : tip ? " (tip)" : "");
+    if (part.study.open()) return joint + ": click selects it.";
+    return joint + ": click selects it, drag moves it; " +
+           (root ? "the tip keeps reaching for the target." : "root and target stay.");
+}
+
+}  // namespace
 
 std::shared_ptr<Part> ChainLab::blank() const {
     return std::make_shared<ChainPart>(first_chain());
@@ -65,8 +77,8 @@ glm::vec3 ChainLab::position_of(const Workspace& workspace, PickId pick) const {
 
 void ChainLab::drag(const Workspace& workspace, PickId pick, glm::vec3 to, Emit& emit) const {
     const ChainPart& part = chain_part(workspace);
-    const bool moves_target = pick != pole_pick;
-    if (moves_target && part.motion.path != Motion::Path::Still)
+    // A target that moves by itself would take out of the hand what is dragged.
+    if (pick != pole_pick && part.motion.path != Motion::Path::Still)
         emit.continuously("chain.motion", {{"path", "still"}});
     if (pick == target_pick) {
         emit.continuously("chain.target", {{"to", to}});
@@ -102,9 +114,9 @@ std::string ChainLab::hint(const Workspace& workspace, PickId pick) const {
     if (pick == pole_pick)
         return "Pole: the bend faces it. Drag to turn the chain about its line to the target.";
     const std::size_t index = picked_segment(pick);
+    if (part.mode == ChainMode::Reach) return joint_hint(part, index);
     const char* role = index == 0 ? " (head)" : index + 1 == part.chain.size() ? " (tail)" : "";
-    const char* drag = part.study.open() ? "." : ", drag pulls it.";
-    return "Segment " + std::to_string(index) + role + ": click selects it" + drag;
+    return "Segment " + std::to_string(index) + role + ": click selects it, drag pulls it.";
 }
 
 Bounds ChainLab::bounds(const Workspace& workspace, bool selection_only) const {

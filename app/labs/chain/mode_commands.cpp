@@ -1,6 +1,6 @@
 // How the chain follows, and where to.
 #include "app/labs/chain/command_support.hpp"
-
+#include "app/labs/chain/reach_drag.hpp"
 #include "app/labs/kit/require.hpp"
 
 namespace tendril::app {
@@ -27,8 +27,12 @@ void set_mode(ChainPart& part, const Arguments& given) {
 
 void pull(ChainPart& part, const Arguments& given) {
     const glm::vec3 to = given.point("to");
-    require_ok(part.chain.with_index(index_of(given), to));
-    part.target = to;
+    if (part.mode == ChainMode::Reach) {
+        drag_joint(part.chain, part.reach, index_of(given), to, part.target);
+    } else {
+        require_ok(part.chain.with_index(index_of(given), to));
+        part.target = to;
+    }
     part.result.reset();
     const Study::Kind kind = part.study.kind;
     if (part.study.open()) part.study.begin(kind, Study::From::Here, part.chain, part.reach);
@@ -89,7 +93,9 @@ void add_mode_commands(CommandTable& table) {
     table.add(chain_command("chain.pull",
                             {index_argument(true, "which segment"),
                              {.name = "to", .type = ArgumentType::Point, .help = "metres"}},
-                            "Pulls one segment, and the target with it; the mode stays as it is", pull));
+                            "Pulls one segment, and the target with it; the mode stays as it is. In mode "
+                            "reach: drags one joint, the root and the target stay",
+                            pull));
     table.add(chain_command("chain.select", {index_argument(false, "which segment; none when left out")},
                             "Selects a segment", select, Effect::Look));
     table.add(chain_command(

@@ -1,0 +1,181 @@
+#include "app/labs/chain/reach_drag.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+
+#include "app/labs/kit/require.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr float drag_tolerance = 1e-4f;  ///< of the reach to the dragged joint: a fraction of a pixel
+
+/// Some bones of a chain in a row, as a chain of their own that starts where the first one does.
+struct Piece {
+    std::size_t first = 0, count = 0;  ///< bones
+    std::vector<float> lengths;        ///< metres, one a bone
+    std::vector<glm::vec3> joints;     ///< one more than bones
+    std::vector<glm::quat> rotations;  ///< one a bone; only with limits
+};
+
+/// The least rotation that takes one unit vector to another.
+glm::quat least_rotation(glm::vec3 from, glm::vec3 to) {
+    const float cosine = glm::dot(from, to);
+    if (cosine > -0.9999f) return glm::normalize(glm::quat(1.0f + cosine, glm::cross(from, to)));
+    const glm::vec3 other = std::abs(from.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+    return glm::quat(0.0f, glm::normalize(glm::cross(from, other)));
+}
+
+/// The rotations that the bones have where the chain is now: the last solve's, each turned by as little as
+/// brings it to where its bone points. Other modes move a chain and leave them behind.
+void update_rotations(const Chain& chain, ReachSettings& settings) {
+    if (settings.limits.empty()) return;
+    settings.rotations.resize(chain.size() - 1, glm::quat(1, 0, 0, 0));
+    const auto segments = chain.segments();
+    for (std::size_t i = 0; i < settings.rotations.size(); ++i) {
+        const glm::vec3 bone = segments[i + 1].position - segments[i].position;
+        if (!(glm::length(bone) > 0.0f)) continue;
+        glm::quat& rotation = settings.rotations[i];
+        const glm::vec3 pointed = glm::normalize(rotation * chain.default_direction());
+        rotation = glm::normalize(least_rotation(pointed, glm::normalize(bone)) * rotation);
+    }
+}
+
+Piece piece_of(const Chain& chain, const ReachSettings& settings, std::size_t first, std::size_t count) {
+    Piece piece{first, count, {}, {}, {}};
+    for (std::size_t i = 0; i <= count; ++i) {
+        piece.joints.push_back(chain.segments()[first + i].position);
+        if (i < count) piece.lengths.push_back(chain.segments()[first + i + 1].length);
+    }
+    if (!settings.limits.empty()) {
+        const auto begin = settings.rotations.begin() + static_cast<std::ptrdiff_t>(first);
+        piece.rotations.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
+    }
+    return piece;
+}
+
+/// Solves the piece by itself; its first joint stays.
+void solve_piece(Piece& piece, const Chain& chain, const ReachSettings& settings, glm::vec3 target,
+                 ik::Options options) {
+    const std::vector<glm::vec3> rest(piece.count, chain.default_direction());
+    ik::Solver solver(piece.lengths, rest);
+    if (!piece.rotations.empty()) {
+        options.limits = std::span(settings.limits).subspan(piece.first, piece.count);
+        solver.set_rotations(piece.rotations);
+    }
+    const bool fits = settings.method != ik::Method::TwoBone || piece.count == 2;
+    const ik::Method method = fits ? settings.method : ik::Method::Fabrik;
+    if (solver.solve(method, piece.joints, target, options).status == ik::Status::InvalidInput) {
+        throw std::invalid_argument("the solver does not take this point");
+    }
+    if (!piece.rotations.empty()) piece.rotations.assign(solver.rotations().begin(), solver.rotations().end());
+}
+
+/// What a piece that is no whole chain is solved with.
+ik::Options piece_options(const ReachSettings& settings, float tolerance) {
+    ik::Options options;
+    options.tolerance = tolerance;
+    options.max_iterations = settings.iterations;
+    options.damping = settings.damping;
+    return options;
+}
+
+/// From the root to the dragged joint.
+void solve_before(Piece& piece, const Chain& chain, const ReachSettings& settings, glm::vec3 to) {
+    float reach = 0.0f;
+    for (const float length : piece.lengths) reach += length;
+    const float tolerance = std::min(drag_tolerance * reach, reach_tolerance(settings, chain.reach()));
+    solve_piece(piece, chain, settings, to, piece_options(settings, tolerance));
+}
+
+/// From the dragged joint to the tip. Its first limit is relative to the bone before it, which is turned by
+/// `parent` from rest, so the piece is solved in that bone's frame, where that limit is a root's.
+void solve_beyond(Piece& piece, const Chain& chain, const ReachSettings& settings, glm::vec3 target,
+                  glm::quat parent) {
+    const glm::vec3 root = piece.joints.front();
+    const glm::quat inverse = glm::conjugate(parent);
+    const auto turn = [&](const glm::quat& by) {
+        for (glm::vec3& joint : piece.joints) joint = by * joint;
+        for (glm::quat& rotation : piece.rotations) rotation = glm::normalize(by * rotation);
+    };
+    const auto shift = [&](glm::vec3 by) {
+        for (glm::vec3& joint : piece.joints) joint += by;
+    };
+    shift(-root);
+    turn(inverse);
+    solve_piece(piece, chain, settings, inverse * (target - root),
+                piece_options(settings, reach_tolerance(settings, chain.reach())));
+    turn(parent);
+    shift(root);
+    piece.joints.front() = root;
+}
+
+/// Takes the bones beyond the dragged joint along with it; with limits as one stiff piece with the bone before
+/// it, so that its own limit goes on holding.
+void carry(Piece& beyond, glm::vec3 to, glm::quat by) {
+    const glm::vec3 from = beyond.joints.front();
+    for (glm::vec3& joint : beyond.joints) joint = to + by * (joint - from);
+    for (glm::quat& rotation : beyond.rotations) rotation = glm::normalize(by * rotation);
+}
+
+void put_back(const Piece& piece, std::vector<glm::vec3>& joints, ReachSettings& settings) {
+    const auto at = static_cast<std::ptrdiff_t>(piece.first);
+    std::copy(piece.joints.begin(), piece.joints.end(), joints.begin() + at);
+    std::copy(piece.rotations.begin(), piece.rotations.end(), settings.rotations.begin() + at);
+}
+
+void drag_root(Chain& chain, ReachSettings& settings, glm::vec3 to, glm::vec3 target) {
+    std::vector<glm::vec3> joints = positions(chain);
+    const glm::vec3 by = to - joints.front();
+    for (glm::vec3& joint : joints) joint += by;
+    joints.front() = to;
+    require_ok(chain.set_positions(joints));
+    solve_reach(chain, settings, target);
+}
+
+void drag_tip(Chain& chain, ReachSettings& settings, glm::vec3 to) {
+    ReachSettings exact = settings;
+    exact.tolerance = std::min(drag_tolerance * chain.reach(), reach_tolerance(settings, chain.reach()));
+    solve_reach(chain, exact, to);
+    settings.rotations = exact.rotations;
+}
+
+void drag_middle(Chain& chain, ReachSettings& settings, std::size_t index, glm::vec3 to, glm::vec3 target) {
+    const std::size_t bones = chain.size() - 1;
+    Piece before = piece_of(chain, settings, 0, index);
+    Piece beyond = piece_of(chain, settings, index, bones - index);
+    glm::quat turned(1, 0, 0, 0), parent(1, 0, 0, 0);
+    if (!before.rotations.empty()) turned = glm::conjugate(before.rotations.back());
+    solve_before(before, chain, settings, to);
+    if (!before.rotations.empty()) {
+        parent = before.rotations.back();
+        turned = glm::normalize(parent * turned);
+    }
+    carry(beyond, before.joints.back(), turned);
+    solve_beyond(beyond, chain, settings, target, parent);
+    std::vector<glm::vec3> joints = positions(chain);
+    put_back(before, joints, settings);
+    put_back(beyond, joints, settings);
+    require_ok(chain.set_positions(joints));
+}
+
+}  // namespace
+
+void drag_joint(Chain& chain, ReachSettings& settings, std::size_t index, glm::vec3 to, glm::vec3 target) {
+    if (index >= chain.size()) {
+        throw std::out_of_range("index " + std::to_string(index) + " is out of range, the chain has " +
+                                std::to_string(chain.size()) + " segments");
+    }
+    update_rotations(chain, settings);
+    if (index == 0) {
+        drag_root(chain, settings, to, target);
+    } else if (index + 1 == chain.size()) {
+        drag_tip(chain, settings, to);
+    } else {
+        drag_middle(chain, settings, index, to, target);
+    }
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,169 @@
+// A hand on a joint in Reach: the joint is an effector of its own, the root and the target stay.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+using app::Json;
+
+glm::vec3 joint(const Json& state, std::size_t index) {
+    return point_of(state.at("segments").at(index).at("position"));
+}
+
+/// Seven bones of a metre that reach for a target well within them.
+ScriptText reaching() {
+    return ScriptText().command("chain.mode", {{"mode", "reach"}}).command("chain.target", {{"to", {3, 3, 1}}});
+}
+
+/// Takes the joint through several points of the view, button down all the way.
+ScriptText& drag_joint(ScriptText& script, glm::vec2 from, glm::vec2 by) {
+    script.move(from).down();
+    for (int i = 1; i <= 12; ++i) script.move(from + by * (static_cast<float>(i) / 12.0f));
+    return script.up();
+}
+
+void expect_lengths_kept(const Json& state) {
+    for (std::size_t i = 1; i < state.at("segments").size(); ++i) {
+        const float length = state["segments"][i]["length"].get<float>();
+        EXPECT_NEAR(glm::distance(joint(state, i), joint(state, i - 1)), length, 1e-4f) << i;
+    }
+}
+
+TEST(ReachDrag, a_joint_follows_the_mouse_while_root_target_and_tip_stay) {
+    const Json before = state_after(reaching());
+    for (const std::size_t index : {2, 3, 5}) {
+        const glm::vec2 at = handle(before, "segment." + std::to_string(index)), by(-35, 40);
+        ScriptText script = reaching();
+        const Json after = state_after(drag_joint(script, at, by));
+        EXPECT_EQ(after["head"], before["head"]) << index;
+        EXPECT_EQ(after["target"], before["target"]) << index;
+        EXPECT_EQ(after["mode"], "reach");
+        EXPECT_LT(glm::distance(handle(after, "segment." + std::to_string(index)), at + by), 0.5f) << index;
+        // The tip keeps hold of the target, or comes as near as the bones beyond the hand let it.
+        const float left = 7.0f - static_cast<float>(index);
+        const float missing =
+            std::max(0.0f, glm::distance(joint(after, index), point_of(after["target"])) - left);
+        EXPECT_LT(glm::distance(point_of(after["tail"]), point_of(after["target"])), missing + 7.1e-3f)
+            << index;
+        if (index < 5) {
+            EXPECT_EQ(missing, 0.0f) << index;
+        }
+        expect_lengths_kept(after);
+        EXPECT_EQ(state_after(script.key("ctrl+z"))["segments"], before["segments"]) << "one step to undo";
+        script.key("ctrl+y").command("undo").command("undo").command("undo").command("undo", {}, true);
+        EXPECT_EQ(state_after(script)["mode"], "backward") << "the drag was one step";
+    }
+}
+
+TEST(ReachDrag, where_the_tip_cannot_stay_it_stays_as_near_as_it_can) {
+    ScriptText script;
+    script.command("chain.mode", {{"mode", "reach"}}).command("chain.target", {{"to", {6.9, 0, 0}}});
+    const glm::vec2 at = handle(state_after(script), "segment.3");
+    const Json after = state_after(drag_joint(script, at, {0, -90}));
+    const glm::vec3 dragged = joint(after, 3), target = point_of(after["target"]);
+    EXPECT_GT(dragged.y, 1.0f);
+    EXPECT_NEAR(glm::distance(joint(after, 7), target), glm::distance(dragged, target) - 4.0f, 1e-3f);
+    expect_lengths_kept(after);
+}
+
+TEST(ReachDrag, the_root_takes_the_chain_along_which_reaches_again) {
+    const Json before = state_after(reaching());
+    const glm::vec2 at = handle(before, "segment.0"), by(30, -50);
+    ScriptText script = reaching();
+    const Json after = state_after(drag_joint(script, at, by));
+    EXPECT_LT(glm::distance(handle(after, "segment.0"), at + by), 0.02f);
+    EXPECT_EQ(after["target"], before["target"]);
+    EXPECT_LT(glm::distance(point_of(after["tail"]), point_of(after["target"])), 7e-3f);
+    expect_lengths_kept(after);
+}
+
+TEST(ReachDrag, the_tip_leaves_the_target_where_it_is) {
+    ScriptText script;
+    script.command("chain.mode", {{"mode", "reach"}}).command("chain.target", {{"to", {3, 9, 0}}});
+    script.key("home");
+    const Json before = state_after(script);
+    const glm::vec2 at = handle(before, "segment.7"), by(90, 120);
+    const Json after = state_after(drag_joint(script, at, by));
+    EXPECT_EQ(after["head"], before["head"]);
+    EXPECT_EQ(after["target"], before["target"]);
+    EXPECT_LT(glm::distance(handle(after, "segment.7"), at + by), 0.5f);
+    expect_lengths_kept(after);
+}
+
+TEST(ReachDrag, limits_hold_on_both_sides_of_the_hand) {
+    ScriptText script;
+    script.command("chain.mode", {{"mode", "reach"}});
+    for (int index = 1; index < 7; ++index) {
+        script.command("chain.limit", {{"index", index},
+                                       {"kind", "ball_and_socket"},
+                                       {"up_deg", 40},
+                                       {"down_deg", 40},
+                                       {"left_deg", 40},
+                                       {"right_deg", 40}});
+    }
+    script.command("chain.target", {{"to", {4, 3, 0.5}}});
+    const glm::vec2 at = handle(state_after(script), "segment.4");
+    for (const glm::vec2 by : {glm::vec2(-60, 50), glm::vec2(40, 200), glm::vec2(-250, -20)}) {
+        ScriptText dragged = script;
+        const Json after = state_after(drag_joint(dragged, at, by));
+        for (std::size_t i = 1; i < 7; ++i) {
+            const glm::vec3 in = glm::normalize(joint(after, i) - joint(after, i - 1));
+            const glm::vec3 out = glm::normalize(joint(after, i + 1) - joint(after, i));
+            EXPECT_LE(glm::degrees(std::acos(std::min(1.0f, glm::dot(in, out)))), 40.1f)
+                << "joint " << i << " dragged by " << by.x << ", " << by.y;
+        }
+        EXPECT_EQ(after["head"], Json::array({0.0, 0.0, 0.0}));
+        expect_lengths_kept(after);
+    }
+}
+
+TEST(ReachDrag, a_recording_of_it_plays_to_the_same_bits) {
+    const Json before = state_after(reaching());
+    ScriptText script = reaching();
+    drag_joint(script, handle(before, "segment.3"), {-35, 60});
+    const TempFolder folder;
+    const std::string recording = (folder / "recording.jsonl").string();
+    const Json recorded = play(script, {.more = {"--record", recording}}).state;
+    write(folder / "again.jsonl", read(recording));
+    EXPECT_TRUE(succeeded(run_program({"--headless", "--script", recording, "--state",
+                                       (folder / "again.json").string()})));
+    EXPECT_EQ(app::parse_json(read(folder / "again.json")), recorded);
+}
+
+TEST(DeleteInMidDrag, does_nothing_in_the_chain_lab) {
+    for (const char* mode : {"backward", "reach"}) {
+        ScriptText script;
+        script.command("chain.mode", {{"mode", mode}}).command("chain.target", {{"to", {3, 3, 1}}});
+        script.command("chain.select", {{"index", 3}});
+        const glm::vec2 at = handle(state_after(script), "segment.3");
+        ScriptText with = script, without = script;
+        with.move(at).down().move(at + glm::vec2(0, 40)).key("delete").move(at + glm::vec2(0, 60)).up();
+        without.move(at).down().move(at + glm::vec2(0, 40)).wait(1).move(at + glm::vec2(0, 60)).up();
+        EXPECT_EQ(state_after(with)["segments"], state_after(without)["segments"]) << mode;
+        EXPECT_EQ(state_after(with.key("delete"))["segments"].size(), 7u) << "let go, it deletes again";
+    }
+}
+
+TEST(DeleteInMidDrag, does_nothing_in_the_rope_lab) {
+    ScriptText script;
+    script.command("lab.open", {{"name", "rope"}}).command("rope.preset", {{"name", "drape"}});
+    script.command("rope.select", {{"collider", "ball"}}).command("time.pause");
+    const glm::vec2 at = handle(state_after(script), "collider.ball");
+    script.move(at).down().move(at + glm::vec2(0, -30)).key("delete").move(at + glm::vec2(0, -40)).up();
+    const Json after = state_after(script);
+    const auto has_ball = [](const Json& state) {
+        for (const Json& collider : state.at("colliders"))
+            if (collider.at("name") == "ball") return true;
+        return false;
+    };
+    EXPECT_TRUE(has_ball(after));
+    EXPECT_FALSE(has_ball(state_after(script.key("delete"))));
+}
+
+}  // namespace
+}  // namespace tendril::test
