@@ -13,7 +13,7 @@
 namespace tendril::ik::detail {
 
 /// Four registers of AVX-512, eight of AVX2: enough side by side that none waits for its own square root.
-inline constexpr std::size_t block_lanes = 64;
+inline constexpr std::size_t block_lanes = 80;
 
 /// What a solve knows of a chain besides its joints and lengths: one row each.
 enum class Row : std::size_t {

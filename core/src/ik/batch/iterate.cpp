@@ -71,38 +71,6 @@ HWY_INLINE void reach_both_ways(const Block& block, const Registers& registers) 
     }
 }
 
-/// The accelerated step, in those of `lanes` where it brings the tip nearer.
-HWY_INLINE void reshape(const Block& block, std::size_t i, Mask lanes, Lanes residual, float* scratch) {
-    const Lanes reach = load(block.reach() + i);
-    const Lanes near =
-        hn::Max(hn::Mul(all(0.25f), load(block.row(Row::Tolerance) + i)), hn::Mul(all(1e-6f), reach));
-    const Points root = load_points(block.joint(0) + i);
-    const Points span = minus(load_points(block.joint(block.bones()) + i), root);
-    const std::size_t size = Shape::floats(block.bones());
-    const Shape shapes[] = {Shape(scratch), Shape(scratch + size), Shape(scratch + 2 * size),
-                            Shape(scratch + 3 * size)};
-    Family family = blend_of(span, minus(load_points(block.target() + i), root), reach);
-    BestShape best = fit_shape<false>(block, i, family, near, lanes, shapes[0], shapes[1]);
-    const Mask missed = hn::Or(hn::Not(best.found), hn::Gt(best.error, hn::Mul(all(0.5f), residual)));
-    const Mask tries_other = hn::And(lanes, missed);
-    if (!any(tries_other)) {
-        lay_shape<false>(block, i, hn::And(lanes, hn::Lt(best.error, residual)), family, best, none(),
-                         shapes);
-        return;
-    }
-    const Family around = family_around_longest(block, i, span, family);
-    const BestShape other = fit_shape<true>(block, i, around, near, tries_other, shapes[2], shapes[3]);
-    const Mask better = hn::And(tries_other, hn::Lt(other.error, best.error));
-    best.span = select(better, other.span, best.span);
-    best.size = hn::IfThenElse(better, other.size, best.size);
-    best.error = hn::IfThenElse(better, other.error, best.error);
-    best.second = hn::Or(hn::And(better, other.second), hn::AndNot(better, best.second));
-    family.aim = select(better, around.aim, family.aim);
-    family.wanted = hn::IfThenElse(better, around.wanted, family.wanted);
-    family.turns_longest = around.turns_longest;
-    lay_shape<true>(block, i, hn::And(lanes, hn::Lt(best.error, residual)), family, best, better, shapes);
-}
-
 /// Where the accelerated step has its turn: with few bones it costs more than the passes, so every other
 /// iteration does without.
 HWY_INLINE Mask has_its_turn(const Block& block, std::size_t i) {
@@ -110,6 +78,148 @@ HWY_INLINE Mask has_its_turn(const Block& block, std::size_t i) {
     const Lanes iteration = hn::Add(load(block.row(Row::Iterations) + i), all(1.0f));
     const Lanes half = hn::Mul(iteration, all(0.5f));
     return hn::Eq(hn::Floor(half), half);
+}
+
+/// Some lanes of a block, side by side in another one.
+struct Gathered {
+    Block block;
+    std::array<std::uint8_t, block_lanes> home{};  ///< the lane that each comes from
+    std::size_t count = 0;
+
+    explicit Gathered(const Block& in) : block(in) {}
+
+    static void copy_column(const float* from, float* to, std::size_t rows) {
+        for (std::size_t row = 0; row < rows; ++row) to[row * block_lanes] = from[row * block_lanes];
+    }
+    /// What the accelerated step reads.
+    void add(const Block& from, std::size_t lane, std::size_t home_lane) {
+        copy_column(from.joint(0) + lane, block.joint(0) + count, Block::chain_rows(from.bones()));
+        copy_column(from.target() + lane, block.target() + count,
+                    1 + static_cast<std::size_t>(Row::Residual));
+        home[count++] = static_cast<std::uint8_t>(home_lane);
+    }
+    void put_back(std::size_t index, const Block& to) const {
+        copy_column(block.joint(1) + index, to.joint(1) + home[index], 3 * to.bones());
+    }
+};
+
+/// Calls it with each lane of a mask.
+template <class Call>
+HWY_INLINE void for_each_lane(Mask lanes, Call call) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(Floats(), lanes, bytes);
+    std::uint32_t bits = bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8;
+    for (std::size_t lane = 0; bits != 0; ++lane, bits >>= 1) {
+        if ((bits & 1) != 0) call(lane);
+    }
+}
+
+HWY_INLINE Lanes near_enough(const Block& block, std::size_t i) {
+    return hn::Max(hn::Mul(all(0.25f), load(block.row(Row::Tolerance) + i)),
+                   hn::Mul(all(1e-6f), load(block.reach() + i)));
+}
+
+HWY_INLINE Family whole_family(const Block& block, std::size_t i, Points& span) {
+    const Points root = load_points(block.joint(0) + i);
+    span = minus(load_points(block.joint(block.bones()) + i), root);
+    return blend_of(span, minus(load_points(block.target() + i), root), load(block.reach() + i));
+}
+
+/// The accelerated step, in those of `lanes` where it brings the tip nearer. Where the first family of shapes
+/// falls short, the chain is added to `second` as it was. `home` says which lane of the block that is.
+template <class Home>
+HWY_INLINE void reshape(const Block& block, std::size_t i, Mask lanes, float* shapes, Gathered& second,
+                        Home home) {
+    const Lanes residual = load(block.row(Row::Residual) + i);
+    const Shape one(shapes), two(shapes + Shape::floats(block.bones()));
+    Points span;
+    const Family family = whole_family(block, i, span);
+    const BestShape best = fit_shape<false>(block, i, family, near_enough(block, i), lanes, one, two);
+    const Mask short_of = hn::Or(hn::Not(best.found), hn::Gt(best.error, hn::Mul(all(0.5f), residual)));
+    if (const Mask other = hn::And(lanes, short_of); any(other)) {
+        HWY_ALIGN float errors[16];
+        store(best.error, errors);
+        for_each_lane(other, [&](std::size_t lane) {
+            second.block.at(Row::Best, second.count) = errors[lane];
+            second.add(block, i + lane, home(i + lane));
+        });
+    }
+    lay_shape<false>(block, i, hn::And(lanes, hn::Lt(best.error, residual)), family, best, one, two);
+}
+
+/// The second family, where it comes nearer than the first did.
+HWY_INLINE void reshape_around_longest(const Gathered& second, const Block& to, float* shapes) {
+    const Block& block = second.block;
+    const Shape one(shapes), two(shapes + Shape::floats(block.bones()));
+    for (std::size_t i = 0; i < second.count; i += hn::Lanes(Floats())) {
+        const Mask lanes = hn::FirstN(Floats(), second.count - i);
+        Points span;
+        const Family whole = whole_family(block, i, span);
+        const Family family = family_around_longest(block, i, span, whole);
+        const BestShape best = fit_shape<true>(block, i, family, near_enough(block, i), lanes, one, two);
+        const Lanes bound = hn::Min(load(block.row(Row::Best) + i), load(block.row(Row::Residual) + i));
+        const Mask better = hn::And(lanes, hn::Lt(best.error, bound));
+        lay_shape<true>(block, i, better, family, best, one, two);
+        for_each_lane(better, [&](std::size_t lane) { second.put_back(i + lane, to); });
+    }
+}
+
+/// The chains of a block that take the accelerated step now.
+struct Takers {
+    std::array<Mask, block_lanes> lanes;  ///< of each active register
+    std::size_t count = 0, registers = 0;
+};
+
+HWY_INLINE Takers find_takers(const Block& block, const Registers& registers) {
+    Takers takers;
+    for (std::size_t k = 0; k < registers.count; ++k) {
+        const std::size_t i = registers.first[k];
+        const Mask active = active_lanes(block, i);
+        const Lanes residual = residual_of(block, i);
+        float* const row = block.row(Row::Residual) + i;
+        store(hn::IfThenElse(active, residual, load(row)), row);
+        const Mask short_of = hn::AndNot(hn::Le(residual, load(block.row(Row::Tolerance) + i)), active);
+        takers.lanes[k] = hn::And(short_of, has_its_turn(block, i));
+        const std::size_t count = hn::CountTrue(Floats(), takers.lanes[k]);
+        takers.count += count;
+        takers.registers += count > 0 ? 1 : 0;
+    }
+    return takers;
+}
+
+/// Whether to take the step with chains side by side costs less than with their registers as they are. To
+/// move a chain there and back takes about as long as the step of a register for one bone in eight.
+HWY_INLINE bool pays_to_gather(const Takers& takers) {
+    const std::size_t width = hn::Lanes(Floats());
+    const std::size_t saved = takers.registers - (takers.count + width - 1) / width;
+    return 8 * saved > takers.count;
+}
+
+HWY_INLINE void take_step(const Block& block, const Registers& registers, const StepScratch& scratch) {
+    const Takers takers = find_takers(block, registers);
+    if (takers.count == 0) return;
+    Gathered second(scratch.second);
+    if (pays_to_gather(takers)) {
+        Gathered gathered(scratch.gathered);
+        for (std::size_t k = 0; k < registers.count; ++k) {
+            const std::size_t i = registers.first[k];
+            for_each_lane(takers.lanes[k],
+                          [&](std::size_t lane) { gathered.add(block, i + lane, i + lane); });
+        }
+        const auto home = [&](std::size_t lane) { return gathered.home[lane]; };
+        for (std::size_t i = 0; i < gathered.count; i += hn::Lanes(Floats())) {
+            const Mask lanes = hn::FirstN(Floats(), gathered.count - i);
+            reshape(gathered.block, i, lanes, scratch.shapes, second, home);
+        }
+        for (std::size_t index = 0; index < gathered.count; ++index) gathered.put_back(index, block);
+    } else {
+        const auto home = [](std::size_t lane) { return lane; };
+        for (std::size_t k = 0; k < registers.count; ++k) {
+            if (!any(takers.lanes[k])) continue;
+            reshape(block, registers.first[k], takers.lanes[k], scratch.shapes, second, home);
+        }
+    }
+    reshape_around_longest(second, block, scratch.shapes);
 }
 
 HWY_INLINE void copy_pose(const Block& block, std::size_t i, Mask lanes, bool to_best) {
@@ -170,15 +280,10 @@ HWY_INLINE void restore_best(const Block& block, std::size_t i, Mask done) {
     store(hn::IfThenElse(worse, best, now), residual);
 }
 
-/// What comes after the passes, for one register.
+/// What comes after passes and step, for one register.
 HWY_INLINE void finish_iteration(const Block& block, std::size_t i, const Order& order, Left& left) {
     const Mask active = active_lanes(block, i);
-    Lanes residual = residual_of(block, i);
-    const Mask short_of = hn::AndNot(hn::Le(residual, load(block.row(Row::Tolerance) + i)), active);
-    if (const Mask turn = hn::And(short_of, has_its_turn(block, i)); any(turn)) {
-        reshape(block, i, turn, residual, order.shapes);
-        residual = residual_of(block, i);
-    }
+    const Lanes residual = residual_of(block, i);
     const Verdict verdict = note(block, i, active, residual, order);
     restore_best(block, i, hn::AndNot(verdict.goes_on, active));
     const auto code = [](Activity value) { return all(static_cast<float>(value)); };
@@ -200,6 +305,7 @@ Left iterate(const Block& block, std::size_t lanes, const Order& order) {
         } else {
             reach_both_ways<true>(block, registers);
         }
+        take_step(block, registers, order.step);
         for (std::size_t k = 0; k < registers.count; ++k) {
             finish_iteration(block, registers.first[k], order, left);
         }

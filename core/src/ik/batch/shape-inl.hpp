@@ -231,20 +231,16 @@ class Turn {
 /// Lays the chains of `lanes` with the bones of their best shape, turned onto the aim.
 template <bool held>
 HWY_INLINE void lay_shape(const Block& block, std::size_t i, Mask lanes, const Family& family,
-                          const BestShape& best, Mask around_longest, const Shape* shapes) {
+                          const BestShape& best, const Shape& one, const Shape& two) {
     const Turn turn(best.span, best.size, family.aim, family.wanted);
     LongestBone longest(block, i);
     Points at = load_points(block.joint(0) + i);
     for (std::size_t bone = 0; bone < block.bones(); ++bone) {
-        Points shaped = select(best.second, shapes[1].of(bone), shapes[0].of(bone));
-        Points turned;
+        const Points shaped = select(best.second, two.of(bone), one.of(bone));
+        Points turned = turn.of(shaped);
         if constexpr (held) {
-            const Points other = select(best.second, shapes[3].of(bone), shapes[2].of(bone));
-            shaped = select(around_longest, other, shaped);
-            const Mask stays = hn::And(around_longest, longest.is(load(block.length(bone) + i)));
-            turned = select(hn::AndNot(family.turns_longest, stays), shaped, turn.of(shaped));
-        } else {
-            turned = turn.of(shaped);
+            const Mask stays = longest.is(load(block.length(bone) + i));
+            turned = select(hn::AndNot(family.turns_longest, stays), shaped, turned);
         }
         float* const joint = block.joint(bone + 1) + i;
         const Points to = plus(at, turned);

@@ -12,16 +12,23 @@
 
 namespace tendril::ik::detail {
 
+/// What the accelerated step works with.
+struct StepScratch {
+    float* shapes;   ///< shape_floats of it
+    Block gathered;  ///< chains of a block that take the step, side by side
+    Block second;    ///< those of them that try the second family of shapes
+};
+/// The bones of two shapes of one register of chains.
+inline std::size_t shape_floats(std::size_t bones) noexcept {
+    return 2 * 3 * bones * 16;
+}
+
 struct Order {
     int iterations;      ///< at most so many now
     int max_iterations;  ///< and so many in all, counted in Row::Iterations
     bool every;          ///< whether chains go on that have arrived
-    float* shapes;       ///< scratch, shape_floats of it
+    StepScratch step;
 };
-/// The bones of four shapes of one register of chains.
-inline std::size_t shape_floats(std::size_t bones) noexcept {
-    return 4 * 3 * bones * 16;
-}
 
 /// How many chains still iterate, and whether any of them waits for a perturbation first.
 struct Left {

@@ -44,11 +44,17 @@ void start_again(const Block& block, std::size_t lane, const Problem& problem) n
 }  // namespace
 
 Scratch::Scratch(std::size_t bones)
-    : state(Block::state_floats(bones)), shapes(shape_floats(bones)), tile(bones) {
+    : state(Block::state_floats(bones)),
+      shapes(shape_floats(bones)),
+      gathered(bones),
+      second(bones),
+      tile(bones) {
     // Lanes that are not used take part in the passes: nothing in them may be what is not a number.
     std::fill_n(state.get(), Block::state_floats(bones), 0.0f);
-    std::fill_n(tile.rows.get(), Block::chain_floats(bones), 0.0f);
-    std::fill_n(tile.state.get(), Block::state_floats(bones), 0.0f);
+    for (Tile* each : {&tile, &gathered, &second}) {
+        std::fill_n(each->rows.get(), Block::chain_floats(bones), 0.0f);
+        std::fill_n(each->state.get(), Block::state_floats(bones), 0.0f);
+    }
     scalar.resize(bones);
 }
 
@@ -91,8 +97,10 @@ void Work::iterate_block(const Block& block, std::size_t lanes, Scratch& scratch
 
 /// Iterations of a block or a tile, perturbations among them.
 Left Work::iterate(const Block& block, std::size_t lanes, int iterations, Scratch& scratch) const noexcept {
-    const Order order{iterations, in_.options.max_iterations, in_.options.every_iteration,
-                      scratch.shapes.get()};
+    const Order order{iterations,
+                      in_.options.max_iterations,
+                      in_.options.every_iteration,
+                      {scratch.shapes.get(), scratch.gathered.block, scratch.second.block}};
     const Left left = in_.unit.iterate(block, lanes, order);
     for (std::size_t lane = 0; left.perturb && lane < lanes; ++lane) {
         if (block.activity(lane) == Activity::Perturb) perturb(block, lane, scratch);

@@ -33,7 +33,8 @@ struct Scratch {
     explicit Scratch(std::size_t bones);
 
     Rows state;   ///< of the block that is solved
-    Rows shapes;  ///< see Order
+    Rows shapes;  ///< see StepScratch, with the next two
+    Tile gathered, second;
     Tile tile;
     Workspace scalar;  ///< for what the scalar code does
 };
