@@ -8,6 +8,8 @@
 // with AVX3 (16 lanes) and 7 times with AVX2 (8 lanes); two threads at least 1.8 times one, where there are
 // two cores. Times are processor time but for the threads, whose gain needs a quiet machine to be seen.
 #include <cmath>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <random>
 #include <string>
 #include <thread>
@@ -20,6 +22,8 @@ namespace {
 
 using namespace tendril::bench;
 using tendril::ik::Batch;
+using tendril::ik::JointKind;
+using tendril::ik::Limit;
 using tendril::ik::ManyReport;
 using tendril::ik::ManySummary;
 using tendril::ik::Method;
@@ -27,13 +31,14 @@ using tendril::ik::Options;
 using tendril::ik::Report;
 using tendril::ik::Solver;
 
-constexpr int repetitions = 41;
+constexpr int repetitions = 41, limited_repetitions = 5;
 
 /// Chains of bones of one metre in random poses, and targets between `least` and `most` of the reach.
 struct Crowd {
     std::size_t chains, bones;
     std::vector<float> lengths;
     std::vector<glm::vec3> joints, targets;
+    std::vector<Limit> limits;
 
     Crowd(std::size_t chain_count, std::size_t bone_count, float least, float most)
         : chains(chain_count), bones(bone_count), lengths(bone_count, 1.0f) {
@@ -51,6 +56,8 @@ struct Crowd {
             targets.push_back(direction() * (part(random) * static_cast<float>(bones)));
         }
     }
+    /// Within limits: at rest, straight along +X.
+    Crowd(std::size_t chain_count, const std::vector<Limit>& within, float least, float most);
     /// The first bone so long that a target near the root is too close.
     void lengthen_first(float to) {
         lengths.front() = to;
@@ -62,6 +69,47 @@ struct Crowd {
     }
 };
 
+float draw(std::mt19937& random, float least, float most) {
+    return std::uniform_real_distribution<float>(least, most)(random);
+}
+
+/// Some rotation within a limit of a joint that rests along +X, `part` of the way to its bounds at most.
+glm::quat some_turn(const Limit& limit, float part, std::mt19937& random) {
+    const glm::vec3 bone(1, 0, 0), side = glm::cross(limit.axis, bone);
+    if (limit.kind == JointKind::Hinge) {
+        return glm::angleAxis(part * draw(random, limit.min, limit.max), limit.axis);
+    }
+    for (;;) {
+        const float up = draw(random, -limit.down, limit.up), left = draw(random, -limit.right, limit.left);
+        if (excess(limit, {up, left, 0.0f}) > 0.0f) continue;
+        const glm::vec3 swing = limit.axis * up + side * left;
+        const float angle = glm::length(swing), twist = draw(random, limit.twist_min, limit.twist_max);
+        return glm::angleAxis(part * angle, swing / angle) * glm::angleAxis(part * twist, bone);
+    }
+}
+
+Crowd::Crowd(std::size_t chain_count, const std::vector<Limit>& within, float least, float most)
+    : Crowd(chain_count, within.size(), least, most) {
+    limits = within;
+    std::mt19937 random(2);
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        joints[i] = {static_cast<float>(i % (bones + 1)), 0.0f, 0.0f};
+    }
+    for (glm::vec3& target : targets) {
+        float distance = 0.0f;
+        do {
+            const float part = draw(random, 0.0f, 1.0f);
+            glm::quat turned(1, 0, 0, 0);
+            target = glm::vec3(0.0f);
+            for (const Limit& limit : limits) {
+                turned = turned * some_turn(limit, part, random);
+                target += turned * glm::vec3(1, 0, 0);
+            }
+            distance = glm::length(target) / static_cast<float>(bones);
+        } while (distance < least || distance > most);
+    }
+}
+
 /// Solves all chains of a crowd, each time from the same poses.
 class Contest {
   public:
@@ -69,9 +117,11 @@ class Contest {
         : crowd_(of),
           solver_(of.lengths),
           batch_(*Batch::make(of.chains, of.bones, threads)),
+          rest_(of.chains * of.bones, glm::quat(1, 0, 0, 0)),
+          rotations_(rest_),
           reports_(of.chains),
           many_reports_(of.chains) {
-        if (!batch_.set_lengths(of.lengths)) std::abort();
+        if (!batch_.set_lengths(of.lengths) || !batch_.set_limits(of.limits)) std::abort();
     }
 
     /// The poses are set apart from what is timed, so the two take the same from the caches.
@@ -79,14 +129,16 @@ class Contest {
     void scalar() {
         for (std::size_t i = 0; i < crowd_.chains; ++i) {
             const auto joints = std::span(joints_).subspan(i * (crowd_.bones + 1), crowd_.bones + 1);
-            reports_[i] = solver_.solve(Method::Fabrik, joints, crowd_.targets[i]);
+            solver_.forget_rotations();
+            reports_[i] = solver_.solve(Method::Fabrik, joints, crowd_.targets[i], {.limits = crowd_.limits});
         }
     }
     /// With the transfers.
     void many(std::string_view unit) {
-        if (!batch_.set_joints(joints_)) std::abort();
+        const bool limited = !crowd_.limits.empty();
+        if (!batch_.set_joints(joints_) || (limited && !batch_.set_rotations(rest_))) std::abort();
         summary_ = solve_many(batch_, crowd_.targets, many_reports_, {.vector_unit = unit});
-        if (!batch_.copy_joints(joints_)) std::abort();
+        if (!batch_.copy_joints(joints_) || (limited && !batch_.copy_rotations(rotations_))) std::abort();
     }
     double mean_iterations() const {
         double sum = 0.0;
@@ -96,12 +148,12 @@ class Contest {
     const ManySummary& summary() const { return summary_; }
 
     /// Seconds of the scalar solver, then of each vector unit.
-    std::vector<double> race() {
+    std::vector<double> race(int times = repetitions) {
         std::vector<std::function<void()>> runs{[this] { scalar(); }};
         for (const std::string_view unit : tendril::ik::vector_units()) {
             runs.push_back([this, unit] { many(unit); });
         }
-        return tendril::bench::race(runs, repetitions, cpu_seconds, [this] { reset(); });
+        return tendril::bench::race(runs, times, cpu_seconds, [this] { reset(); });
     }
 
   private:
@@ -109,6 +161,7 @@ class Contest {
     Solver solver_;
     Batch batch_;
     std::vector<glm::vec3> joints_;
+    std::vector<glm::quat> rest_, rotations_;
     std::vector<Report> reports_;
     std::vector<ManyReport> many_reports_;
     ManySummary summary_;
@@ -175,6 +228,39 @@ Gains bands_table() {
     return gains;
 }
 
+/// The same within limits.
+Gains limits_table() {
+    std::printf(
+        "\nthe same within limits, from rest; medians of %d; in brackets: left to the scalar solver\n",
+        limited_repetitions);
+    print_units("");
+    Limit cone = Limit::of(JointKind::BallAndSocket);
+    cone.up = cone.down = 1.4f, cone.left = cone.right = 1.2f, cone.twist_min = -1.0f, cone.twist_max = 1.0f;
+    Gains gains;
+    for (const char* const kind : {"cones", "hinges", "both"}) {
+        for (const std::size_t bones : {3u, 10u, 30u}) {
+            std::vector<Limit> limits;
+            for (std::size_t i = 0; i < bones; ++i) {
+                const bool is_cone = *kind == 'c' || (*kind == 'b' && i % 2 == 0);
+                const bool turned = i % 4 < 2;  // or all hinges would have one axis
+                const glm::vec3 axis(0.0f, turned ? 1.0f : 0.0f, turned ? 0.0f : 1.0f);
+                limits.push_back(is_cone ? cone : Limit::hinge(axis, -2.0f, 2.0f));
+            }
+            for (const Band& band : bands) {
+                const Crowd crowd(1000, limits, band.least, band.most);
+                Contest contest(crowd);
+                const std::vector<double> seconds = contest.race(limited_repetitions);
+                char name[64];
+                std::snprintf(name, sizeof name, "%3zu joints, %-6s %-12s [%zu]", bones + 1, kind, band.name,
+                              contest.summary().scalar_fallbacks);
+                print_row(name, seconds, crowd.chains);
+                note(gains, seconds);
+            }
+        }
+    }
+    return gains;
+}
+
 /// Where it pays, and what mixed targets cost.
 void company_table() {
     std::printf("\nthe same, 11 joints, 0.05-0.9 R, by the number of chains\n");
@@ -228,15 +314,17 @@ double thread_table() {
 }  // namespace
 
 int main(int count, char** arguments) {
-    const Gains gains = bands_table();
+    const Gains gains = bands_table(), limited = limits_table();
     company_table();
     const double two_threads = thread_table();
     bool all = true;
     const auto units = tendril::ik::vector_units();
     for (std::size_t i = 0; i < units.size(); ++i) {
         const std::string what = std::string(units[i]) + " over the scalar solver, in every band";
-        if (units[i] == "AVX3") all &= claim(what.c_str(), gains[i], 15.0);
-        if (units[i] == "AVX2") all &= claim(what.c_str(), gains[i], 7.0);
+        if (units[i] != "AVX3" && units[i] != "AVX2") continue;
+        const double least = units[i] == "AVX3" ? 15.0 : 7.0;
+        all &= claim(what.c_str(), gains[i], least);
+        all &= claim((what + ", within limits").c_str(), limited[i], 0.5 * least);
     }
     if (std::thread::hardware_concurrency() >= 2) all &= claim("two threads over one", two_threads, 1.8);
     return all || !has_flag(count, arguments, "--check") ? 0 : 1;

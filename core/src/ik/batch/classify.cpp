@@ -214,6 +214,18 @@ Left classify(const Block& block, std::size_t lanes, bool every) {
     return left;
 }
 
+void classify_limited(const Block& block, std::size_t lanes) {
+    const Floats d;
+    for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
+        float* const found = block.row(Row::Class) + i;
+        if (classify_register(block, i, hn::FirstN(d, lanes - i))) lay_loose(block, i);
+        const Mask keeps = hn::Or(equals(found, Class::Reachable), equals(found, Class::Invalid));
+        store(hn::IfThenElse(keeps, load(found), all(static_cast<float>(Class::Scalar))), found);
+        begin(block, i);
+        store(zero(), block.row(Row::Activity) + i);
+    }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace tendril::ik::detail
 HWY_AFTER_NAMESPACE();
@@ -222,7 +234,8 @@ HWY_AFTER_NAMESPACE();
 namespace tendril::ik::detail {
 namespace {
 HWY_EXPORT(classify);
-}
+HWY_EXPORT(classify_limited);
+}  // namespace
 
 Classify* classify_with(std::int64_t target) noexcept {
 #if HWY_TARGETS == HWY_STATIC_TARGET
@@ -232,6 +245,17 @@ Classify* classify_with(std::int64_t target) noexcept {
     hwy::ChosenTarget chosen;
     chosen.Update(target);
     return HWY_DISPATCH_TABLE(classify)[chosen.GetIndex()];
+#endif
+}
+
+ClassifyLimited* classify_limited_with(std::int64_t target) noexcept {
+#if HWY_TARGETS == HWY_STATIC_TARGET
+    static_cast<void>(target);
+    return HWY_STATIC_DISPATCH(classify_limited);
+#else
+    hwy::ChosenTarget chosen;
+    chosen.Update(target);
+    return HWY_DISPATCH_TABLE(classify_limited)[chosen.GetIndex()];
 #endif
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ik/batch/work.hpp"
+#include "ik/math.hpp"
 #include "ik/solve/validate.hpp"
 #include "math/checks.hpp"
 #include "math/tasks.hpp"
@@ -47,6 +48,11 @@ struct Batch::Parts {
         return {blocks.get() + chain / block_lanes * Block::chain_floats(bones), nullptr, bones};
     }
     void set_lengths(std::size_t chain, std::span<const float> lengths) noexcept;
+    /// Of the block that a chain is in.
+    float* rotation_rows(std::size_t chain) const noexcept {
+        return rotations.get() + chain / block_lanes * 4 * bones * block_lanes;
+    }
+    void forget_rotations() noexcept;
     /// Calls it with each block, the index of its first chain and how many it has.
     template <class Call>
     void for_each_block(Call call) const noexcept {
@@ -58,6 +64,8 @@ struct Batch::Parts {
     std::size_t chains, bones;
     Rows blocks;
     std::vector<std::unique_ptr<Scratch>> scratch;  ///< one a thread
+    std::unique_ptr<BatchLimits> limits;
+    Rows rotations;  ///< with limits
 };
 
 void Batch::Parts::fill(const Block& block) noexcept {
@@ -82,6 +90,13 @@ void Batch::Parts::set_lengths(std::size_t chain, std::span<const float> lengths
     }
     to.reach()[lane] = static_cast<float>(reach);
     to.longest()[lane] = longest;
+}
+
+void Batch::Parts::forget_rotations() noexcept {
+    const glm::quat none(1.0f, 0.0f, 0.0f, 0.0f);
+    for (std::size_t row = 0; row < block_count() * bones * 4; ++row) {
+        std::fill_n(rotations.get() + row * block_lanes, block_lanes, none[static_cast<int>(row % 4)]);
+    }
 }
 
 Expected<Batch> Batch::make(std::size_t chains, std::size_t bones, int threads) {
@@ -112,6 +127,12 @@ namespace {
 
 Result check_chain(const char* operation, std::size_t chain, std::size_t chains) noexcept {
     return check_index(operation, chain, chains, "the batch", "chain");
+}
+
+Result no_limits(const char* operation) noexcept {
+    return {ErrorCode::NotFound, std::string_view(operation) == "set_rotations"
+                                     ? "set_rotations: a batch without limits has no rotations"
+                                     : "copy_rotations: a batch without limits has no rotations"};
 }
 
 Result check_lengths(std::span<const float> lengths, std::size_t bones) noexcept {
@@ -158,7 +179,7 @@ Result Batch::set_joints(std::span<const glm::vec3> joints) {
     const std::size_t each = bones() + 1;
     if (const Result bad = check_joints(joints, size() * each); !bad) return bad;
     parts_->for_each_block([&](const Block& block, std::size_t first, std::size_t lanes) {
-        widest().set_joints(block, lanes, &joints[first * each]);
+        widest().copy_in(&joints[first * each].x, lanes, 3 * each, block.joint(0));
     });
     return {};
 }
@@ -167,6 +188,63 @@ Result Batch::set_root(std::size_t chain, glm::vec3 root) {
     if (const Result bad = check_chain("set_root", chain, size()); !bad) return bad;
     if (const Result bad = check_point("set_root", "root", root); !bad) return bad;
     parts_->block(chain).set_point(0, chain % block_lanes, root);
+    return {};
+}
+
+Result Batch::set_limits(std::span<const Limit> limits, std::span<const glm::vec3> rest_directions) {
+    if (limits.empty()) {
+        parts_->limits.reset();
+        return {};
+    }
+    if (const Result bad = check_count("set_limits", "limits", limits.size(), bones()); !bad) return bad;
+    std::vector<glm::vec3> rest(bones(), glm::vec3(1.0f, 0.0f, 0.0f));
+    if (!rest_directions.empty()) {
+        const Result bad = check_count("set_limits", "rest_directions", rest_directions.size(), bones());
+        if (!bad) return bad;
+        rest.assign(rest_directions.begin(), rest_directions.end());
+    }
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+        const float size = math::length(rest[i]);
+        if (!(std::abs(size - 1.0f) <= 1e-3f)) {
+            return tendril::detail::refused("set_limits", {"rest_directions", i}, "a unit vector", size);
+        }
+        rest[i] = times(rest[i], 1.0f / size);
+        if (const char* const wrong = fault(limits[i], rest[i])) {
+            return tendril::detail::refused("set_limits", {"limits", i}, "a limit without fault", wrong);
+        }
+    }
+    parts_->limits = std::make_unique<BatchLimits>(batch_limits(limits, rest));
+    for (const std::unique_ptr<Scratch>& scratch : parts_->scratch) {
+        if (scratch->limited.get() == nullptr) scratch->limited = Rows(limited_floats(bones()));
+    }
+    if (parts_->rotations.get() == nullptr) {
+        parts_->rotations = Rows(parts_->block_count() * 4 * bones() * block_lanes);
+    }
+    parts_->forget_rotations();
+    return {};
+}
+
+Result Batch::set_rotations(std::span<const glm::quat> rotations) {
+    if (parts_->limits == nullptr) return no_limits("set_rotations");
+    const Result bad = check_count("set_rotations", "rotations", rotations.size(), size() * bones());
+    if (!bad) return bad;
+    for (std::size_t i = 0; i < rotations.size(); ++i) {
+        if (is_unit(rotations[i])) continue;
+        return tendril::detail::refused("set_rotations", {"rotations", i}, "a unit quaternion", "another");
+    }
+    parts_->for_each_block([&](const Block&, std::size_t first, std::size_t lanes) {
+        widest().copy_in(&rotations[first * bones()][0], lanes, 4 * bones(), parts_->rotation_rows(first));
+    });
+    return {};
+}
+
+Result Batch::copy_rotations(std::span<glm::quat> out) const {
+    if (parts_->limits == nullptr) return no_limits("copy_rotations");
+    if (const Result bad = check_count("copy_rotations", "out", out.size(), size() * bones()); !bad)
+        return bad;
+    parts_->for_each_block([&](const Block&, std::size_t first, std::size_t lanes) {
+        widest().copy_out(parts_->rotation_rows(first), lanes, 4 * bones(), &out[first * bones()][0]);
+    });
     return {};
 }
 
@@ -182,7 +260,7 @@ Result Batch::copy_joints(std::span<glm::vec3> out) const {
     const std::size_t each = bones() + 1;
     if (const Result bad = check_count("copy_joints", "out", out.size(), size() * each); !bad) return bad;
     parts_->for_each_block([&](const Block& block, std::size_t first, std::size_t lanes) {
-        widest().get_joints(block, lanes, &out[first * each]);
+        widest().copy_out(block.joint(0), lanes, 3 * each, &out[first * each].x);
     });
     return {};
 }
@@ -208,12 +286,14 @@ ManySummary solve_many(Batch& batch, std::span<const glm::vec3> targets, std::sp
     scalar.tolerance = options.tolerance;
     scalar.max_iterations = options.max_iterations;
     scalar.every_iteration = options.every_iteration;
+    if (parts.limits) scalar.limits = parts.limits->limits;
     const bool fits = targets.size() == parts.chains && (reports.empty() || reports.size() == parts.chains);
     if (!fits || unit == nullptr || !are_valid(scalar, parts.bones)) {
         std::fill(reports.begin(), reports.end(), ManyReport{.status = Status::InvalidInput});
         return {.invalid = parts.chains};
     }
-    Work work({parts.blocks.get(), parts.chains, parts.bones, targets, reports, scalar, *unit});
+    Work work({parts.blocks.get(), parts.chains, parts.bones, targets, reports, scalar, *unit,
+               parts.limits.get(), parts.rotations.get()});
     const std::size_t useful = std::min(parts.block_count(), parts.chains * parts.bones / bones_a_thread);
     const auto count = static_cast<std::uint32_t>(std::clamp<std::size_t>(useful, 1, parts.scratch.size()));
     const auto piece = [&](std::uint32_t index) noexcept { work.run(*parts.scratch[index]); };

@@ -2,6 +2,8 @@
 //
 // Highway compiles this file once for each vector unit: it includes it again and again, each time with
 // another HWY_NAMESPACE.
+#include <glm/gtc/quaternion.hpp>
+
 #include "ik/batch/vector.hpp"
 #include "tendril/chain/segment.hpp"
 
@@ -19,8 +21,8 @@ namespace tendril::ik::detail {
 namespace HWY_NAMESPACE {
 
 /// From `lanes` lists of `count` floats, each `stride` after the one before, to rows.
-HWY_INLINE void copy_in(const float* lists, std::size_t stride, std::size_t lanes, std::size_t count,
-                        float* rows) {
+HWY_INLINE void transpose_in(const float* lists, std::size_t stride, std::size_t lanes, std::size_t count,
+                             float* rows) {
     std::size_t lane = 0;
 #if HWY_TARGET != HWY_SCALAR
     const hn::FixedTag<float, 4> d;
@@ -49,8 +51,8 @@ HWY_INLINE void copy_in(const float* lists, std::size_t stride, std::size_t lane
 }
 
 /// The other way.
-HWY_INLINE void copy_out(const float* rows, std::size_t stride, std::size_t lanes, std::size_t count,
-                         float* lists) {
+HWY_INLINE void transpose_out(const float* rows, std::size_t stride, std::size_t lanes, std::size_t count,
+                              float* lists) {
     std::size_t lane = 0;
 #if HWY_TARGET != HWY_SCALAR
     const hn::FixedTag<float, 4> d;
@@ -78,18 +80,16 @@ HWY_INLINE void copy_out(const float* rows, std::size_t stride, std::size_t lane
     }
 }
 
-void set_joints(const Block& block, std::size_t lanes, const glm::vec3* joints) {
-    const std::size_t count = 3 * (block.bones() + 1);
-    copy_in(&joints->x, count, lanes, count, block.joint(0));
+void copy_in(const float* lists, std::size_t lanes, std::size_t count, float* rows) {
+    transpose_in(lists, count, lanes, count, rows);
 }
 
-void get_joints(const Block& block, std::size_t lanes, glm::vec3* joints) {
-    const std::size_t count = 3 * (block.bones() + 1);
-    copy_out(block.joint(0), count, lanes, count, &joints->x);
+void copy_out(const float* rows, std::size_t lanes, std::size_t count, float* lists) {
+    transpose_out(rows, count, lanes, count, lists);
 }
 
 void set_targets(const Block& block, std::size_t lanes, const glm::vec3* targets, float tolerance) {
-    copy_in(&targets->x, 3, lanes, 3, block.target());
+    transpose_in(&targets->x, 3, lanes, 3, block.target());
     const Floats d;
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
         const Lanes own = hn::Mul(all(1e-3f), load(block.reach() + i));
@@ -116,27 +116,28 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tendril::ik::detail {
 namespace {
-HWY_EXPORT(set_joints);
-HWY_EXPORT(get_joints);
+HWY_EXPORT(copy_in);
+HWY_EXPORT(copy_out);
 HWY_EXPORT(set_targets);
 HWY_EXPORT(are_valid);
 }  // namespace
 
-static_assert(sizeof(glm::vec3) == 3 * sizeof(float), "points lie one after the other");
+static_assert(sizeof(glm::vec3) == 3 * sizeof(float) && sizeof(glm::quat) == 4 * sizeof(float),
+              "their coordinates lie one after the other");
 
 void transfers_with(std::int64_t target, VectorUnit& unit) noexcept {
 #if HWY_TARGETS == HWY_STATIC_TARGET
     static_cast<void>(target);
-    unit.set_joints = HWY_STATIC_DISPATCH(set_joints);
-    unit.get_joints = HWY_STATIC_DISPATCH(get_joints);
+    unit.copy_in = HWY_STATIC_DISPATCH(copy_in);
+    unit.copy_out = HWY_STATIC_DISPATCH(copy_out);
     unit.set_targets = HWY_STATIC_DISPATCH(set_targets);
     unit.are_valid = HWY_STATIC_DISPATCH(are_valid);
 #else
     hwy::ChosenTarget chosen;
     chosen.Update(target);
     const std::size_t index = chosen.GetIndex();
-    unit.set_joints = HWY_DISPATCH_TABLE(set_joints)[index];
-    unit.get_joints = HWY_DISPATCH_TABLE(get_joints)[index];
+    unit.copy_in = HWY_DISPATCH_TABLE(copy_in)[index];
+    unit.copy_out = HWY_DISPATCH_TABLE(copy_out)[index];
     unit.set_targets = HWY_DISPATCH_TABLE(set_targets)[index];
     unit.are_valid = HWY_DISPATCH_TABLE(are_valid)[index];
 #endif

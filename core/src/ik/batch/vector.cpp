@@ -27,6 +27,8 @@ struct Units {
             names[count] = hwy::TargetName(target);
             units[count].classify = classify_with(target);
             units[count].iterate = iterate_with(target);
+            units[count].classify_limited = classify_limited_with(target);
+            units[count].solve_limited = solve_limited_with(target);
             transfers_with(target, units[count++]);
         }
     }

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "ik/batch/block.hpp"
+#include "ik/batch/limits.hpp"
 #include "tendril/ik/many.hpp"
 
 namespace tendril::ik::detail {
@@ -30,6 +31,18 @@ struct Order {
     StepScratch step;
 };
 
+/// For a block of chains within limits.
+struct LimitedOrder {
+    std::span<const BatchLimit> limits;  ///< one a bone
+    float* rotations;  ///< four rows a bone, in the order of glm::quat: in the world, from rest
+    float* scratch;    ///< limited_floats of it
+    int max_iterations;
+};
+/// Two poses of one register of chains, and what a step needs of each bone.
+inline std::size_t limited_floats(std::size_t bones) noexcept {
+    return (2 * (3 * (bones + 1) + 8 * bones) + (3 + 3 + 3 + 3 + 2 + 2) * bones) * 16;
+}
+
 /// How many chains still iterate, and whether any of them waits for a perturbation first.
 struct Left {
     std::size_t active = 0;
@@ -41,29 +54,37 @@ struct Left {
 /// Reads joints, lengths and targets; lays what is loose to its lengths, what is out of reach straight and
 /// what is too close folded; writes the state from Row::Residual on.
 using Classify = Left(const Block& block, std::size_t lanes, bool every);
+/// The same for chains within limits: what is not surely reachable goes to the scalar solver as it is.
+using ClassifyLimited = void(const Block& block, std::size_t lanes);
+/// Solves those that are reachable; chains that do not arrive stay as they were and go to the scalar solver.
+using SolveLimited = void(const Block& block, std::size_t lanes, const LimitedOrder& order);
 /// Iterates the active lanes until they are done, wait for a perturbation or the order's iterations are used
 /// up.
 using Iterate = Left(const Block& block, std::size_t lanes, const Order& order);
 /// Targets and tolerances of the first `lanes` lanes; a negative tolerance stands for 1e-3 of the reach.
 using SetTargets = void(const Block& block, std::size_t lanes, const glm::vec3* targets, float tolerance);
-/// Between chains one after the other and the lanes of a block.
-using SetJoints = void(const Block& block, std::size_t lanes, const glm::vec3* joints);
-using GetJoints = void(const Block& block, std::size_t lanes, glm::vec3* joints);
+/// Between lists of `count` floats, one chain's after the other's, and as many rows of a block.
+using CopyIn = void(const float* lists, std::size_t lanes, std::size_t count, float* rows);
+using CopyOut = void(const float* rows, std::size_t lanes, std::size_t count, float* lists);
 /// Whether all coordinates are finite and at most max_magnitude.
 using AreValid = bool(const float* coordinates, std::size_t count);
 
 struct VectorUnit {
     Classify* classify = nullptr;
     Iterate* iterate = nullptr;
+    ClassifyLimited* classify_limited = nullptr;
+    SolveLimited* solve_limited = nullptr;
     SetTargets* set_targets = nullptr;
-    SetJoints* set_joints = nullptr;
-    GetJoints* get_joints = nullptr;
+    CopyIn* copy_in = nullptr;
+    CopyOut* copy_out = nullptr;
     AreValid* are_valid = nullptr;
 };
 
 /// As compiled for one of Highway's targets.
 Classify* classify_with(std::int64_t target) noexcept;
 Iterate* iterate_with(std::int64_t target) noexcept;
+ClassifyLimited* classify_limited_with(std::int64_t target) noexcept;
+SolveLimited* solve_limited_with(std::int64_t target) noexcept;
 /// Fills in the other four.
 void transfers_with(std::int64_t target, VectorUnit& unit) noexcept;
 

@@ -68,6 +68,7 @@ void Work::solve_block(std::size_t index, Scratch& scratch) noexcept {
     const Block block = this->block(index, scratch.state.get());
     const std::size_t first = index * block_lanes, lanes = std::min(block_lanes, in_.chains - first);
     in_.unit.set_targets(block, lanes, &in_.targets[first], in_.options.tolerance.value_or(-1.0f));
+    if (in_.limits != nullptr) return solve_limited_block(block, index, lanes, scratch);
     const Left left = in_.unit.classify(block, lanes, in_.options.every_iteration);
     for (std::size_t lane = 0; left.perturb && lane < lanes; ++lane) {
         if (block.class_of(lane) == Class::Collinear) leave_line(block, lane, scratch);
@@ -80,6 +81,26 @@ void Work::solve_block(std::size_t index, Scratch& scratch) noexcept {
             put_into_tile(block, lane, first + lane, scratch);
         } else {
             report(block, lane, first + lane);
+        }
+    }
+}
+
+void Work::solve_limited_block(const Block& block, std::size_t index, std::size_t lanes,
+                               Scratch& scratch) noexcept {
+    in_.unit.classify_limited(block, lanes);
+    const bool vectors = !in_.limits->ready.empty() && !in_.options.every_iteration;
+    if (vectors) {
+        in_.unit.solve_limited(
+            block, lanes,
+            {in_.limits->ready, rotations(index), scratch.limited.get(), in_.options.max_iterations});
+    }
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        const std::size_t chain = index * block_lanes + lane;
+        const Class found = block.class_of(lane);
+        if (found == Class::Scalar || (found == Class::Reachable && !vectors)) {
+            solve_scalar_limited(block, lane, chain, scratch);
+        } else {
+            report(block, lane, chain);
         }
     }
 }
@@ -142,6 +163,31 @@ void Work::solve_scalar(const Block& block, std::size_t lane, std::size_t chain,
     Problem problem = take_out(block, lane, scratch.scalar);
     const Report answer = ik::detail::run(Method::Fabrik, problem, Unwatched());
     for (std::size_t i = 1; i <= in_.bones; ++i) block.set_point(i, lane, scratch.scalar.joints[i]);
+    report_fallback(chain, answer);
+}
+
+/// As Solver::solve with these limits, from the joints and rotations that the chain has.
+void Work::solve_scalar_limited(const Block& block, std::size_t lane, std::size_t chain,
+                                Scratch& scratch) noexcept {
+    Workspace& scalar = scratch.scalar;
+    float* const rows = rotations(chain / block_lanes) + lane;
+    const auto component = [&](std::size_t i, int k) -> float& {
+        return rows[(4 * i + static_cast<std::size_t>(k)) * block_lanes];
+    };
+    for (std::size_t i = 0; i < in_.bones; ++i) {
+        for (int k = 0; k < 4; ++k) scalar.rotations[i][k] = component(i, k);
+        scalar.rest_directions[i] = in_.limits->rest_directions[i];
+    }
+    Problem problem = take_out(block, lane, scalar);
+    const Report answer = ik::detail::run(Method::Fabrik, problem, Unwatched());
+    for (std::size_t i = 0; i < in_.bones; ++i) {
+        block.set_point(i + 1, lane, scalar.joints[i + 1]);
+        for (int k = 0; k < 4; ++k) component(i, k) = scalar.rotations[i][k];
+    }
+    report_fallback(chain, answer);
+}
+
+void Work::report_fallback(std::size_t chain, const Report& answer) noexcept {
     scalar_fallbacks_.fetch_add(1, std::memory_order_relaxed);
     if (in_.reports.empty()) return;
     in_.reports[chain] = {answer.status, true, answer.iterations, answer.residual};

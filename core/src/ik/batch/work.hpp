@@ -36,6 +36,7 @@ struct Scratch {
     Rows shapes;  ///< see StepScratch, with the next two
     Tile gathered, second;
     Tile tile;
+    Rows limited;      ///< see LimitedOrder; only once there are limits
     Workspace scalar;  ///< for what the scalar code does
 };
 
@@ -48,6 +49,8 @@ class Work {
         std::span<ManyReport> reports;
         const Options& options;
         const VectorUnit& unit;
+        const BatchLimits* limits;  ///< null for none
+        float* rotations;           ///< with limits: a block's rows after the other's
     };
     /// All has been checked.
     explicit Work(const Input& input) noexcept : in_(input) {}
@@ -62,11 +65,19 @@ class Work {
         return {in_.blocks + index * Block::chain_floats(in_.bones), state, in_.bones};
     }
     void solve_block(std::size_t index, Scratch& scratch) noexcept;
+    void solve_limited_block(const Block& block, std::size_t index, std::size_t lanes,
+                             Scratch& scratch) noexcept;
     void iterate_block(const Block& block, std::size_t lanes, Scratch& scratch) const noexcept;
     Left iterate(const Block& block, std::size_t lanes, int iterations, Scratch& scratch) const noexcept;
     void perturb(const Block& block, std::size_t lane, Scratch& scratch) const noexcept;
     void leave_line(const Block& block, std::size_t lane, Scratch& scratch) const noexcept;
     void solve_scalar(const Block& block, std::size_t lane, std::size_t chain, Scratch& scratch) noexcept;
+    void solve_scalar_limited(const Block& block, std::size_t lane, std::size_t chain,
+                              Scratch& scratch) noexcept;
+    void report_fallback(std::size_t chain, const Report& answer) noexcept;
+    float* rotations(std::size_t index) const noexcept {
+        return in_.rotations + index * 4 * in_.bones * block_lanes;
+    }
     Problem take_out(const Block& block, std::size_t lane, Workspace& scalar) const noexcept;
 
     void put_into_tile(const Block& from, std::size_t lane, std::size_t chain, Scratch& scratch) noexcept;
