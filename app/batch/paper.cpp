@@ -76,10 +76,15 @@ PaperSolve paper_solver(ik::Method method) {
     ik::Options options;
     options.tolerance = paper_tolerance;
     options.max_iterations = paper_iterations;
-    return
-        [=, solver = std::make_shared<ik::Solver>(lengths)](std::span<glm::vec3> joints, glm::vec3 target) {
-            return solver->solve(method, joints, target, options);
-        };
+    struct Kept {
+        ik::Solver solver;
+        ik::State state;
+    };
+    const auto kept =
+        std::make_shared<Kept>(Kept{ik::Solver::make(lengths).value(), ik::State(lengths.size())});
+    return [=](std::span<glm::vec3> joints, glm::vec3 target) {
+        return kept->solver.solve(method, joints, kept->state, target, options);
+    };
 }
 
 std::span<const ik::Method> paper_methods() {

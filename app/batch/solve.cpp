@@ -116,7 +116,10 @@ Survey check(std::string_view text, Progress& progress, const std::atomic<bool>&
 }
 
 Row solve(const Case& asked, ik::Method method, const SolveOptions& options, std::vector<glm::vec3>& joints) {
-    ik::Solver solver(asked.lengths, asked.rest_directions);
+    Expected<ik::Solver> made = ik::Solver::make(asked.lengths, asked.rest_directions);
+    if (!made) throw std::invalid_argument(made.message());
+    ik::Solver& solver = *made;
+    ik::State state = solver.initial_state();
     ik::Options told;
     told.tolerance = options.tolerance;
     told.max_iterations = options.max_iterations;
@@ -124,7 +127,7 @@ Row solve(const Case& asked, ik::Method method, const SolveOptions& options, std
     told.limits = asked.limits;
     joints = asked.start;
     const auto begin = Clock::now();
-    const ik::Report report = solver.solve(method, joints, asked.target, told);
+    const ik::Report report = solver.solve(method, joints, state, asked.target, told);
     const std::chrono::duration<double, std::micro> taken = Clock::now() - begin;
     return {asked, method, report, taken.count(), joints};
 }

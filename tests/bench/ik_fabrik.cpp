@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "../core/kept_solver.hpp"
 #include "measure.hpp"
 #include "tendril/ik/solver.hpp"
 
@@ -28,7 +29,7 @@ using tendril::bench::take_flag;
 using tendril::ik::Method;
 using tendril::ik::Options;
 using tendril::ik::Report;
-using tendril::ik::Solver;
+using Solver = tendril::test::KeptSolver;
 
 constexpr std::size_t sizes[] = {4, 10, 100, 1'000, 10'000};
 constexpr const char* kinds[] = {"bare", "fabrik_plain", "fabrik"};

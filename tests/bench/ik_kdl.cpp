@@ -16,6 +16,7 @@
 #include <kdl/chainiksolverpos_lma.hpp>
 #include <random>
 
+#include "../core/kept_solver.hpp"
 #include "measure.hpp"
 #include "tendril/ik/solver.hpp"
 
@@ -23,7 +24,7 @@ namespace {
 
 using namespace tendril::bench;
 using tendril::ik::Method;
-using tendril::ik::Solver;
+using Solver = tendril::test::KeptSolver;
 
 constexpr int links = 10;
 constexpr double tolerance = 1e-3 * links;  // metres; each link is 1 m

@@ -7,12 +7,14 @@
 #include <cmath>
 #include <random>
 
+#include "../core/kept_solver.hpp"
 #include "measure.hpp"
 #include "tendril/ik/solver.hpp"
 
 namespace {
 
 using namespace tendril::ik;
+using tendril::test::KeptSolver;
 namespace bench = tendril::bench;
 
 constexpr float degree = 3.14159265f / 180.0f;
@@ -24,7 +26,7 @@ using Joints = std::vector<glm::vec3>;
 struct Arm {
     std::vector<Limit> limits;
 
-    Solver solver() const { return Solver(std::vector<float>(limits.size(), 1.0f)); }
+    KeptSolver solver() const { return KeptSolver(std::vector<float>(limits.size(), 1.0f)); }
     Joints at_rest() const {
         Joints joints;
         for (std::size_t i = 0; i <= limits.size(); ++i)
@@ -47,7 +49,7 @@ Arm arm_of(std::size_t bones, bool human) {
 // ---- An iteration
 
 double microseconds_an_iteration(const Arm& arm, Method method, bool limited, double& ratio_of) {
-    Solver with = arm.solver(), without = arm.solver();
+    KeptSolver with = arm.solver(), without = arm.solver();
     const Joints rest = arm.at_rest();
     const auto bones = static_cast<float>(arm.limits.size());
     const glm::vec3 target = glm::vec3(0.5f, 0.3f, 0.2f) * bones;
@@ -57,10 +59,10 @@ double microseconds_an_iteration(const Arm& arm, Method method, bool limited, do
     options.tolerance = 0.0f;
     Options limits = options;
     limits.limits = arm.limits;
-    const auto run = [&](Solver& solver, const Options& what) {
+    const auto run = [&](KeptSolver& solver, const Options& what) {
         for (int i = 0; i < solves; ++i) {
             Joints joints = rest;
-            solver.forget_rotations();
+            solver.state.reset();
             solver.solve(method, joints, target, what);
         }
     };
@@ -91,11 +93,11 @@ std::vector<glm::vec3> reachable(const Arm& arm, int count) {
     std::mt19937 random(1);
     const auto around = [&] { return static_cast<float>(random()) / 2147483648.0f - 1.0f; };
     std::vector<glm::vec3> targets;
-    Solver solver = arm.solver();
+    KeptSolver solver = arm.solver();
     const float reach = solver.reach();
     for (int i = 0; i < count; ++i) {
         Joints joints = arm.at_rest();
-        solver.forget_rotations();
+        solver.state.reset();
         Options options;
         options.limits = arm.limits;
         options.max_iterations = 20;
@@ -116,7 +118,7 @@ double arrivals_table() {
         const std::vector<glm::vec3> targets = reachable(arm, 1000);
         for (const Method method : all_methods) {
             if (method == Method::TwoBone) continue;
-            Solver solver = arm.solver();
+            KeptSolver solver = arm.solver();
             Options options;
             options.limits = arm.limits;
             options.max_iterations = 200;
@@ -125,7 +127,7 @@ double arrivals_table() {
             const double start = bench::cpu_seconds();
             for (const glm::vec3 target : targets) {
                 Joints joints = arm.at_rest();
-                solver.forget_rotations();
+                solver.state.reset();
                 const Report report = solver.solve(method, joints, target, options);
                 there += report.residual <= 0.01f * solver.reach();
                 iterations += report.iterations;
@@ -145,14 +147,14 @@ double arrivals_table() {
 void held_table() {
     Arm arm = arm_of(5, true);
     arm.limits[1] = Limit::hinge({0, 0, 1}, 0, 145 * degree);
-    Solver solver = arm.solver();
+    KeptSolver solver = arm.solver();
     const glm::vec3 target{-4.5f, -0.5f, 1.0f};
     Options options;
     options.limits = arm.limits;
     Joints joints = arm.at_rest();
     const Report report = solver.solve(Method::Fabrik, joints, target, options);
     const auto seconds = bench::race({[&] { solver.solve(Method::Fabrik, joints, target, options); },
-                                      [&] { solver.explain(Method::Fabrik, joints, target, options); }},
+                                      [&] { solver.explain(joints, target, options); }},
                                      99);
     std::printf("\nHuman arm, target out of its limits (%s): solve %.0f us, explain %.0f us\n",
                 name(report.status), 1e6 * seconds[0], 1e6 * seconds[1]);

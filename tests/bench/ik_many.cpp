@@ -14,6 +14,7 @@
 #include <string>
 #include <thread>
 
+#include "../core/kept_solver.hpp"
 #include "measure.hpp"
 #include "tendril/ik/many.hpp"
 #include "tendril/ik/solver.hpp"
@@ -29,7 +30,7 @@ using tendril::ik::ManySummary;
 using tendril::ik::Method;
 using tendril::ik::Options;
 using tendril::ik::Report;
-using tendril::ik::Solver;
+using Solver = tendril::test::KeptSolver;
 
 constexpr int repetitions = 41, limited_repetitions = 5;
 
@@ -129,7 +130,7 @@ class Contest {
     void scalar() {
         for (std::size_t i = 0; i < crowd_.chains; ++i) {
             const auto joints = std::span(joints_).subspan(i * (crowd_.bones + 1), crowd_.bones + 1);
-            solver_.forget_rotations();
+            solver_.state.reset();
             reports_[i] = solver_.solve(Method::Fabrik, joints, crowd_.targets[i], {.limits = crowd_.limits});
         }
     }

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "tendril/ik/solver.hpp"
+#include "../core/kept_solver.hpp"
 #include "tendril/ik/tree.hpp"
 
 namespace {
@@ -49,7 +49,7 @@ std::vector<TreeJoint> chain(std::size_t bones) {
 
 void chain_solver(benchmark::State& state, tendril::ik::Method method) {
     const auto bones = static_cast<std::size_t>(state.range(0));
-    tendril::ik::Solver solver(std::vector<float>(bones, 1.0f / static_cast<float>(bones)));
+    tendril::test::KeptSolver solver(std::vector<float>(bones, 1.0f / static_cast<float>(bones)));
     Places places = bow(chain(bones));
     std::size_t turn = 0;
     for (auto _ : state) {
@@ -61,7 +61,7 @@ void chain_solver(benchmark::State& state, tendril::ik::Method method) {
 
 void run_tree(benchmark::State& state, const std::vector<TreeJoint>& joints, std::vector<Effector> effectors,
               bool plain) {
-    Tree tree(joints);
+    Tree tree = Tree::make(joints).value();
     Places places = bow(joints);
     const Places goals = places;
     std::size_t turn = 0;

@@ -56,7 +56,7 @@ TEST(IkCcd, GoesWhereTheTextbookGoes) {
         textbook_iteration(wide, target);
         // What a solve leaves is the nearest that it saw; here that is what the iteration found.
         if (size(wide.back() - glm::dvec3(target)) > 0.99 * before) continue;
-        ik::Solver(lengths).solve(Method::Ccd, joints, target, iterations(1));
+        KeptSolver(lengths).solve(Method::Ccd, joints, target, iterations(1));
         for (std::size_t i = 0; i < joints.size(); ++i) {
             worst = std::max(worst, size(glm::dvec3(joints[i]) - wide[i]) / static_cast<double>(reach));
         }
@@ -70,7 +70,7 @@ TEST(IkCcd, TurnsEveryJointOnceFromTheTipOn) {
     const Lengths lengths{1.0f, 0.7f, 0.9f, 0.4f};
     Joints joints = some_pose(lengths, random);
     Recorder recorder;
-    ik::Solver(lengths).solve(Method::Ccd, joints, {1.0f, 1.0f, 0.5f}, iterations(1), &recorder);
+    KeptSolver(lengths).solve(Method::Ccd, joints, {1.0f, 1.0f, 0.5f}, iterations(1), &recorder);
     std::vector<std::pair<std::size_t, std::size_t>> seen;  // about which joint, which one moved
     int order = -1;
     for (const ik::Step& step : recorder.steps) {
@@ -105,7 +105,7 @@ TEST(IkCcd, ReachesInTheMiddleOfItsRange) {
         const Lengths lengths = some_lengths(3 + random.below(8), random);
         Joints joints = some_pose(lengths, random);
         const glm::vec3 target = some_direction(random) * some_span(lengths, 0.3f, 0.8f, random);
-        const ik::Report report = ik::Solver(lengths).solve(Method::Ccd, joints, target);
+        const ik::Report report = KeptSolver(lengths).solve(Method::Ccd, joints, target);
         reached += report.status == ik::Status::Converged;
     }
     EXPECT_GE(reached, 475);
@@ -115,7 +115,7 @@ TEST(IkCcd, LengthsDoNotDriftInAThousandIterations) {
     Random random(4);
     const Lengths lengths = some_lengths(20, random);
     Joints joints = some_pose(lengths, random);
-    ik::Solver(lengths).solve(Method::Ccd, joints, {3.0f, 1.0f, 2.0f}, iterations(1000));
+    KeptSolver(lengths).solve(Method::Ccd, joints, {3.0f, 1.0f, 2.0f}, iterations(1000));
     EXPECT_TRUE(Holds(joints, lengths));
 }
 

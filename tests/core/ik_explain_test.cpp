@@ -32,11 +32,11 @@ struct Explained {
 };
 
 Explained explained(const Arm& arm, glm::vec3 target, Method method = Method::Fabrik) {
-    ik::Solver solver = arm.solver();
+    KeptSolver solver = arm.solver();
     Joints joints = arm.at_rest();
     const ik::Options options{.limits = arm.limits};
     const ik::Report report = solver.solve(method, joints, target, options);
-    return {report, solver.explain(method, joints, target, options)};
+    return {report, solver.explain(joints, target, options)};
 }
 
 /// How far from its start two bones of these lengths hold the tip where the second is turned by so much.
@@ -146,12 +146,12 @@ TEST(IkExplain, WhereNothingHoldsNothingIsNamed) {
     const Arm arm = arm_of({1, 1}, {Limit(), Limit::hinge({0, 0, 1}, 0, radians(145))});
     EXPECT_FALSE(explained(arm, {0.9f, 0.9f, 0}).hold.has_value());  // reached
     EXPECT_FALSE(explained(arm, {0, 5, 0}).hold.has_value());        // out of reach
-    ik::Solver solver = arm.solver();
+    KeptSolver solver = arm.solver();
     const Joints joints = arm.at_rest();
-    EXPECT_FALSE(solver.explain(Method::Fabrik, joints, {1, 1, 0}, {}).has_value());
+    EXPECT_FALSE(solver.explain(joints, {1, 1, 0}, {}).has_value());
     const ik::Options options{.limits = arm.limits};
-    EXPECT_FALSE(solver.explain(Method::Fabrik, joints, {nan, 1, 0}, options).has_value());
-    EXPECT_FALSE(solver.explain(Method::Fabrik, {joints.data(), 2}, {1, 1, 0}, options).has_value());
+    EXPECT_FALSE(solver.explain(joints, {nan, 1, 0}, options).has_value());
+    EXPECT_FALSE(solver.explain({joints.data(), 2}, {1, 1, 0}, options).has_value());
 }
 
 /// With arms of all kinds: what is named leaves its limit, helps, and asking changes nothing.
@@ -162,7 +162,7 @@ TEST(IkExplain, WhatIsNamedHelps) {
         SCOPED_TRACE(k);
         const Arm arm = some_arm(random, arm_kinds[random.below(arm_kinds.size())], 2 + random.below(4));
         const glm::vec3 target = some_direction(random) * (arm.reach() * 0.9f * part(random));
-        ik::Solver solver = arm.solver();
+        KeptSolver solver = arm.solver();
         Joints joints = arm.at_rest();
         const ik::Options options{.limits = arm.limits};
         const ik::Report report = solver.solve(Method::Fabrik, joints, target, options);
@@ -170,7 +170,7 @@ TEST(IkExplain, WhatIsNamedHelps) {
         ++limited;
         const Joints before = joints;
         const std::vector<glm::quat> rotations(solver.rotations().begin(), solver.rotations().end());
-        const std::optional<Hold> hold = solver.explain(Method::Fabrik, joints, target, options);
+        const std::optional<Hold> hold = solver.explain(joints, target, options);
         EXPECT_TRUE(same_bits(joints, before));
         EXPECT_EQ(
             std::memcmp(rotations.data(), solver.rotations().data(), rotations.size() * sizeof(glm::quat)),

@@ -81,7 +81,7 @@ inline glm::vec3 hostile_target(const Joints& joints, std::span<const float> len
 /// Lengths kept, nothing that is no number, the tip no further off than it was, and the same bits again.
 inline void expect_bears(ik::Method method, std::span<const float> lengths, const Joints& start,
                          glm::vec3 target, const ik::Options& options) {
-    ik::Solver solver(lengths), again(lengths);
+    KeptSolver solver(lengths), again(lengths);
     Joints joints = start, twin = start;
     const ik::Report report = solver.solve(method, joints, target, options);
     EXPECT_NE(report.status, ik::Status::InvalidInput);

@@ -128,7 +128,7 @@ void expect_first_order(Method method, float damping, bool damped) {
         options.max_iterations = 1;
         options.tolerance = 0.0f;
         options.damping = damping;
-        ik::Solver(lengths).solve(method, joints, target, options);
+        KeptSolver(lengths).solve(method, joints, target, options);
         EXPECT_LT(distance(joints.back(), glm::vec3(expected)), 2e-5) << "a hundredth of the way";
     }
 }
@@ -156,7 +156,7 @@ TEST(IkJacobian, TheSvdDampsTheDirectionThatIsAllButLost) {
     options.tolerance = 0.0f;
     options.damping = 1.0f;
     Joints across = start, along = start;
-    ik::Solver solver(lengths);
+    KeptSolver solver(lengths);
     const glm::vec3 tip = start.back();
     solver.solve(Method::SvdDls, across, tip + glm::vec3(0.0f, 0.0f, 0.01f), options);
     solver.solve(Method::SvdDls, along, tip - glm::vec3(0.01f, 0.0f, 0.0f), options);
@@ -173,7 +173,7 @@ TEST(IkJacobian, AllJointsTurnAtOnce) {
         ik::Options options;
         options.max_iterations = 3;
         options.every_iteration = true;
-        ik::Solver(lengths).solve(method, joints, {1, 1, 1}, options, &recorder);
+        KeptSolver(lengths).solve(method, joints, {1, 1, 1}, options, &recorder);
         std::size_t turns = 0;
         for (const ik::Step& step : recorder.steps) turns += step.phase == ik::Phase::Gradient;
         EXPECT_EQ(turns, 12u);
@@ -198,7 +198,7 @@ TEST(IkJacobian, TheDampedOnesReachEverythingInTheReference) {
             const auto lengths = example.at("lengths").get<Lengths>();
             const Json& target = example.at("target");
             Joints joints = straight_joints(lengths);
-            const ik::Report report = ik::Solver(lengths).solve(
+            const ik::Report report = KeptSolver(lengths).solve(
                 method, joints, {target[0].get<float>(), target[1].get<float>(), target[2].get<float>()});
             EXPECT_EQ(report.status, Status::Converged) << name(method);
             EXPECT_LE(report.residual, 1e-3 * reach_of(lengths));
@@ -219,7 +219,7 @@ TEST(IkJacobian, TheDampedOnesReachInAHundredIterationsUpToTheRim) {
                                                 : some_span(lengths, 0.3f, 0.95f, random);
             const glm::vec3 ahead(random.chance(2) ? 1.0f : -1.0f, 0.0f, 0.0f);
             const glm::vec3 target = (random.chance(4) ? ahead : some_direction(random)) * span;
-            const ik::Report report = ik::Solver(lengths).solve(method, joints, target);
+            const ik::Report report = KeptSolver(lengths).solve(method, joints, target);
             EXPECT_EQ(report.status, Status::Converged) << name(method) << ", solve " << k;
             most = std::max(most, report.iterations);
         }
@@ -237,7 +237,7 @@ TEST(IkJacobian, EveryDampingLeadsThere) {
                 const glm::vec3 target = some_direction(random) * some_span(lengths, 0.3f, 0.98f, random);
                 ik::Options options;
                 options.damping = damping;
-                const ik::Report report = ik::Solver(lengths).solve(method, joints, target, options);
+                const ik::Report report = KeptSolver(lengths).solve(method, joints, target, options);
                 EXPECT_EQ(report.status, Status::Converged) << name(method) << ", damping " << damping;
             }
         }

@@ -32,7 +32,7 @@ struct Arm {
             joints.push_back(joints.back() + rest[i] * lengths[i]);
         return joints;
     }
-    ik::Solver solver() const { return ik::Solver(lengths, rest); }
+    KeptSolver solver() const { return KeptSolver(lengths, rest); }
 };
 
 struct Frame {

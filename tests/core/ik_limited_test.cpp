@@ -45,7 +45,7 @@ TEST(IkLimited, HoldsWhateverTheTargetHundredThousandTimes) {
     int solves = 0;
     while (solves < 100'000 && !HasFailure()) {
         const Arm arm = hostile_arm(random);
-        ik::Solver solver = arm.solver();
+        KeptSolver solver = arm.solver();
         Joints joints = random.chance(2) ? arm.at_rest() : hostile_pose(arm.lengths, random);
         for (int k = 0; k < 10 && !HasFailure(); ++k, ++solves) {
             SCOPED_TRACE("solve " + std::to_string(solves));
@@ -73,7 +73,7 @@ double arrived(Method method, ArmKind kind, std::size_t bones, int count, std::u
     for (int k = 0; k < count; ++k) {
         const Arm arm = some_arm(random, kind, bones);
         const glm::vec3 target = some_tip(arm, random);
-        ik::Solver solver = arm.solver();
+        KeptSolver solver = arm.solver();
         Joints joints = arm.at_rest();
         ik::Options options;
         options.limits = arm.limits;
@@ -117,7 +117,7 @@ TEST(IkLimited, TwoBonesArriveWhereSomePoseDoes) {
     for (int k = 0; k < 500; ++k) {
         Arm arm = some_arm(random, ArmKind::Human, 2);
         const glm::vec3 target = some_tip(arm, random);
-        ik::Solver solver = arm.solver();
+        KeptSolver solver = arm.solver();
         Joints joints = arm.at_rest();
         const ik::Report report = solver.solve(Method::TwoBone, joints, target, {.limits = arm.limits});
         EXPECT_TRUE(WithinLimits(arm, joints, solver.rotations()));
@@ -136,7 +136,7 @@ TEST(IkLimited, AnElbowBehindAShoulderNeedsTheShouldersTwist) {
     for (int k = 0; k < 16; ++k) {
         const float about = radians(22.5 * k - 168);
         const glm::vec3 target{1.4f, 0.9f * std::cos(about), 0.9f * std::sin(about)};
-        ik::Solver solver = arm.solver();
+        KeptSolver solver = arm.solver();
         Joints joints = arm.at_rest();
         EXPECT_EQ(solver.solve(Method::Fabrik, joints, target, {.limits = arm.limits}).status,
                   Status::Converged)
@@ -148,7 +148,7 @@ TEST(IkLimited, OutOfReachItSaysWhatHoldsIt) {
     Arm arm{{1, 1, 1}, {{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}, {}};
     arm.limits.assign(3, ik::Limit::hinge({0, 0, 1}, radians(-90), radians(90)));
     const auto solve = [&](glm::vec3 target) {
-        ik::Solver solver = arm.solver();
+        KeptSolver solver = arm.solver();
         Joints joints = arm.at_rest();
         return solver.solve(Method::Fabrik, joints, target, {.limits = arm.limits});
     };
@@ -167,7 +167,7 @@ TEST(IkLimited, TheWorseEndIsNotTaken) {
     Random random(given_seed() + 1);
     for (int k = 0; k < 3000 && !HasFailure(); ++k) {
         const Arm arm = hostile_arm(random);
-        ik::Solver solver = arm.solver();
+        KeptSolver solver = arm.solver();
         Joints joints = arm.at_rest();
         ik::Options options;
         options.limits = arm.limits;
@@ -190,7 +190,7 @@ TEST(IkLimited, AStartThatIsOverIsBroughtWithin) {
     Arm arm{{1, 1}, {{1, 0, 0}, {1, 0, 0}}, {}};
     arm.limits.assign(2, ik::Limit::hinge({0, 0, 1}, 0, radians(45)));
     for (const Method method : ik::all_methods) {
-        ik::Solver solver = arm.solver();
+        KeptSolver solver = arm.solver();
         Joints joints{{0, 0, 0}, {-1, 0, 0}, {-1, -1, 0}};
         solver.solve(method, joints, {-2, 0, 0}, {.max_iterations = 1, .limits = arm.limits});
         EXPECT_TRUE(WithinLimits(arm, joints, solver.rotations())) << name(method);
@@ -202,7 +202,7 @@ TEST(IkLimited, SolvedAgainNothingMoves) {
     for (int k = 0; k < 300; ++k) {
         const Arm arm = some_arm(random, arm_kinds[random.below(arm_kinds.size())], 5);
         const glm::vec3 target = some_tip(arm, random);
-        ik::Solver solver = arm.solver();
+        KeptSolver solver = arm.solver();
         Joints joints = arm.at_rest();
         const ik::Options options{.limits = arm.limits};
         if (solver.solve(Method::Fabrik, joints, target, options).status != Status::Converged) continue;
@@ -221,7 +221,7 @@ TEST(IkLimited, AnArmThatFollowsSeldomJumps) {
     for (int k = 0; k < 100; ++k) {
         const Arm arm = some_arm(random, arm_kinds[random.below(arm_kinds.size())], 5);
         const glm::vec3 from = some_tip(arm, random), to = some_tip(arm, random);
-        ik::Solver solver = arm.solver();
+        KeptSolver solver = arm.solver();
         Joints joints = arm.at_rest();
         const ik::Options options{.limits = arm.limits};
         solver.solve(Method::Fabrik, joints, from, options);
@@ -248,7 +248,7 @@ TEST(IkLimited, WatchedItGoesTheSameWayAndTheStepsLeadThere) {
         const Method method = ik::all_methods[random.below(arm.lengths.size() == 2 ? 7 : 6)];
         const glm::vec3 target = hostile_target(start, arm.lengths, random);
         const ik::Options options = hostile_options(random, arm, start);
-        ik::Solver first = arm.solver(), second = arm.solver();
+        KeptSolver first = arm.solver(), second = arm.solver();
         Joints joints = start, twin = start;
         Recorder recorder;
         const ik::Report report = first.solve(method, joints, target, options);
@@ -261,7 +261,7 @@ TEST(IkLimited, WatchedItGoesTheSameWayAndTheStepsLeadThere) {
 TEST(IkLimited, EightPullsForFourBonesThenWhatTheLimitsAdd) {
     Random random(4);
     const Arm arm = some_arm(random, ArmKind::Cones, 4);
-    ik::Solver solver = arm.solver();
+    KeptSolver solver = arm.solver();
     Joints joints = arm.at_rest();
     Recorder recorder;
     solver.solve(Method::FabrikPlain, joints, some_tip(arm, random),
@@ -280,7 +280,7 @@ TEST(IkLimited, APoleIsFacedAsFarAsTheRootLetsIt) {
     const glm::vec3 target{1.2f, 0, 0};
     const auto elbow = [&](const ik::Limit& root, glm::vec3 pole) {
         arm.limits[0] = root;
-        ik::Solver solver = arm.solver();
+        KeptSolver solver = arm.solver();
         Joints joints = arm.at_rest();
         const ik::Options options{.limits = arm.limits, .pole = pole};
         EXPECT_EQ(solver.solve(Method::Fabrik, joints, target, options).status, Status::Converged);
@@ -308,13 +308,13 @@ TEST(IkLimited, BadLimitsMoveNothing) {
     bad[5][0] = ik::Limit::of(ik::JointKind::BallAndSocket), bad[5][0].up = -1;
     for (const std::vector<ik::Limit>& limits : bad) {
         for (const Method method : ik::all_methods) {
-            ik::Solver solver = arm.solver();
+            KeptSolver solver = arm.solver();
             Joints joints{{0, 0, 0}, {5, 0, 0}, {6, 1, 0}};
             const Joints before = joints;
             EXPECT_EQ(solver.solve(method, joints, {1, 1, 0}, {.limits = limits}).status,
                       Status::InvalidInput);
             EXPECT_TRUE(same_bits(joints, before));
-            EXPECT_FALSE(solver.explain(method, joints, {1, 1, 0}, {.limits = limits}).has_value());
+            EXPECT_FALSE(solver.explain(joints, {1, 1, 0}, {.limits = limits}).has_value());
         }
     }
 }
@@ -324,12 +324,12 @@ TEST(IkLimited, NeedsNoMemory) {
     for (const Method method : ik::all_methods) {
         const std::size_t bones = method == Method::TwoBone ? 2 : 5;
         const Arm arm = some_arm(random, ArmKind::Human, bones);
-        ik::Solver solver = arm.solver();
+        KeptSolver solver = arm.solver();
         Joints joints = arm.at_rest();
         const ik::Options options{.limits = arm.limits, .pole = glm::vec3(0, 3, 0)};
         without_memory([&] {
             solver.solve(method, joints, {-0.3f, 0.2f, 0.4f}, options);
-            solver.explain(method, joints, {-0.3f, 0.2f, 0.4f}, options);
+            solver.explain(joints, {-0.3f, 0.2f, 0.4f}, options);
         });
         EXPECT_TRUE(WithinLimits(arm, joints, solver.rotations()));
     }

@@ -52,7 +52,7 @@ TEST(SolveMany, RootsThatWalkTakeTheirChainsAlong) {
             targets[i] += by;
             each[i].front() += by;
             ASSERT_TRUE(batch.set_root(i, each[i].front()));
-            ik::Solver solver(crowd.lengths[i]);
+            KeptSolver solver(crowd.lengths[i]);
             reports[i] = many_report(solver.solve(ik::Method::Fabrik, each[i], targets[i]));
         }
         std::vector<ManyReport> many(crowd.size());

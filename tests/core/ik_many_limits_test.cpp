@@ -63,7 +63,7 @@ struct ScalarAnswer {
 };
 
 ScalarAnswer solve_alone(const LimitedCrowd& all, std::size_t chain, const ManyOptions& many = {}) {
-    ik::Solver solver = all.arm.solver();
+    KeptSolver solver = all.arm.solver();
     ik::Options options;
     options.max_iterations = many.max_iterations;
     options.every_iteration = many.every_iteration;

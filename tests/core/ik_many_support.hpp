@@ -89,7 +89,7 @@ inline Answer solve_each(const Crowd& crowd, const ManyOptions& many,
     Answer answer;
     for (std::size_t i = 0; i < crowd.size(); ++i) {
         Joints joints = crowd.joints[i];
-        ik::Solver solver(crowd.lengths[i]);
+        KeptSolver solver(crowd.lengths[i]);
         answer.reports.push_back(many_report(solver.solve(method, joints, crowd.targets[i], options)));
         answer.joints.push_back(std::move(joints));
     }

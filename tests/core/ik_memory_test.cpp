@@ -16,7 +16,7 @@ TEST(IkMemory, SolvingTakesNone) {
         const std::size_t bones = method == Method::TwoBone ? 2 : 12;
         const Lengths lengths = some_lengths(bones, random);
         const auto reach = static_cast<float>(reach_of(lengths));
-        ik::Solver solver(lengths);
+        KeptSolver solver(lengths);
         const std::vector<Limit> limits(bones, Limit::of(ik::JointKind::BallAndSocket));
         std::vector<float> residuals(10);
         const Options options[] = {{},
@@ -41,7 +41,7 @@ TEST(IkMemory, SolvingTakesNone) {
 
 TEST(IkMemory, NorForAChain) {
     Chain chain = straight(20);
-    ik::Solver solver(chain);
+    KeptSolver solver(chain);
     Status status = Status::InvalidInput;
     without_memory([&] { status = solver.solve(Method::Fabrik, chain, {3, 4, 5}).status; });
     EXPECT_EQ(status, Status::Converged);

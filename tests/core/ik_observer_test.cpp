@@ -17,7 +17,7 @@ using ik::Status;
 /// Solves with and without an observer; the recorder of the first.
 Recorder expect_faithful(Method method, const Lengths& lengths, const Joints& start, glm::vec3 target,
                          const Options& options) {
-    ik::Solver watched(lengths), alone(lengths);
+    KeptSolver watched(lengths), alone(lengths);
     Joints joints = start, unwatched = start;
     Recorder recorder;
     const Report report = watched.solve(method, joints, target, options, &recorder);

@@ -52,7 +52,7 @@ TEST(IkPole, TheBendFacesItAfterOneSolveWhateverTheMethod) {
         if (size(off(pole, target)) < 0.1) continue;
         for (const Method method : iterating_methods) {
             Joints joints = start;
-            const ik::Report report = ik::Solver(lengths).solve(method, joints, target, facing(pole));
+            const ik::Report report = KeptSolver(lengths).solve(method, joints, target, facing(pole));
             EXPECT_LT(off_its_pole(joints, lengths, pole), 2e-3) << name(method) << ", solve " << k;
             EXPECT_NEAR(report.residual, distance(joints.back(), target), 1e-6 * reach_of(lengths));
         }
@@ -67,7 +67,7 @@ TEST(IkPole, TheTurnMovesNeitherRootNorTip) {
             Joints joints = some_pose(lengths, random);
             const glm::vec3 target = some_direction(random) * some_span(lengths, 0.2f, 0.9f, random);
             Recorder recorder;
-            ik::Solver(lengths).solve(Method::Fabrik, joints, target, facing(random.point(3.0f), turn),
+            KeptSolver(lengths).solve(Method::Fabrik, joints, target, facing(random.point(3.0f), turn),
                                       &recorder);
             // From the last step that is no turn to the pole on: that is the turn at the end.
             auto step = recorder.steps.rbegin();
@@ -90,7 +90,7 @@ TEST(IkPole, EachJointComesToFaceItInItsOwnPlane) {
         const auto reach = static_cast<float>(reach_of(lengths));
         const glm::vec3 target = some_direction(random) * some_span(lengths, 0.5f, 0.8f, random);
         const glm::vec3 pole = some_direction(random) * (3.0f * reach);
-        ik::Solver(lengths).solve(Method::Fabrik, joints, target, facing(pole, PoleTurn::EachJoint));
+        KeptSolver(lengths).solve(Method::Fabrik, joints, target, facing(pole, PoleTurn::EachJoint));
         EXPECT_TRUE(Holds(joints, lengths));
         for (std::size_t i = 1; i + 1 < joints.size(); ++i) {
             const glm::dvec3 line = glm::dvec3(joints[i + 1]) - glm::dvec3(joints[i - 1]);
@@ -113,7 +113,7 @@ TEST(IkPole, SolvedAgainAndAgainItComesToRest) {
         const glm::vec3 pole = random.point(4.0f);
         const double reach = reach_of(lengths);
         if (size(off(pole, target)) < 0.1 * reach) continue;
-        ik::Solver solver(lengths);
+        KeptSolver solver(lengths);
         solver.solve(Method::Fabrik, joints, target, facing(pole));
         Joints settled = joints;
         // The tip was within tolerance of the target; now it comes onto the line to it, and the pole with it.
@@ -132,7 +132,7 @@ TEST(IkPole, SolvedAgainAndAgainItComesToRest) {
 TEST(IkPole, OnTheLineItLeavesThePlaneAsItIs) {
     const Lengths lengths(4, 0.25f);
     Joints joints{{0, 0, 0}, {0.25f, 0, 0}, {0.5f, 0, 0}, {0.75f, 0, 0}, {1, 0, 0}};
-    ik::Solver solver(lengths);
+    KeptSolver solver(lengths);
     solver.solve(Method::Fabrik, joints, {0.7f, 0, 0}, facing({0.3f, 0.6f, 0.8f}));
     const Joints before = joints;
     for (const glm::vec3 pole : {glm::vec3(5, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 0, 0)}) {
@@ -146,7 +146,7 @@ TEST(IkPole, ThroughTheLineItTurnsNoFasterThanItMay) {
     const Lengths lengths(4, 0.25f);
     for (const PoleTurn turn : {PoleTurn::WholeChain, PoleTurn::EachJoint}) {
         Joints joints = straight_joints(lengths);
-        ik::Solver solver(lengths);
+        KeptSolver solver(lengths);
         double worst = 0.0;
         const auto solve = [&](float y) {
             const Joints before = joints;
@@ -173,7 +173,7 @@ TEST(IkPole, APoleThatIsNewOrJumpsIsFacedAtOnce) {
     const Lengths lengths(6, 1.0f / 6.0f);
     const glm::vec3 target(0.1f, 0.6f, 0.2f);
     Joints joints = some_pose(lengths, random);
-    ik::Solver solver(lengths);
+    KeptSolver solver(lengths);
     solver.solve(Method::Fabrik, joints, target);
     for (int k = 0; k < 20; ++k) {
         const glm::vec3 pole = some_direction(random);
@@ -233,7 +233,7 @@ Jumps walk(Method method, PoleTurn turn, std::size_t bones, int paths, int steps
         if (least > 0.9) continue;
         Walk walk(pole, least, 0.99, random);
         Joints joints = random.chance(2) ? straight_joints(lengths) : some_pose(lengths, random);
-        ik::Solver solver(lengths);
+        KeptSolver solver(lengths);
         solver.solve(method, joints, walk.next(), facing(pole, turn));
         for (int k = 0; k < steps; ++k) {
             const Joints before = joints;

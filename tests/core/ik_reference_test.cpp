@@ -86,7 +86,7 @@ void expect_honest(const Case& example, const Report& report, const Joints& join
 
 /// Returns whether it ended as it should.
 bool check(Method method, const Case& example, bool must_end_well) {
-    ik::Solver solver(example.lengths);
+    KeptSolver solver(example.lengths);
     Joints joints = straight_joints(example.lengths);
     const Report report = solver.solve(method, joints, example.target);
     const double tolerance = 1e-3 * reach_of(example.lengths);
@@ -126,7 +126,7 @@ TEST(IkReference, CasesOfAnIndependentSource) {
 TEST(IkReference, PlainFabrikSaysThatItStallsOnALine) {
     const Lengths lengths(5, 1.0f);
     for (const float x : {4.0f, 2.0f, -2.5f}) {
-        ik::Solver solver(lengths);
+        KeptSolver solver(lengths);
         Joints joints = straight_joints(lengths);
         const Report report = solver.solve(Method::FabrikPlain, joints, {x, 0, 0});
         EXPECT_EQ(report.status, Status::Stalled) << x;

@@ -40,7 +40,7 @@ Tally solve_band(std::size_t bones, const float (&band)[2], int may_take, bool e
         const Lengths lengths = equal ? Lengths(bones, 1.0f) : some_lengths(bones, random);
         const Joints start = from_straight ? straight_joints(lengths) : some_pose(lengths, random);
         const glm::vec3 target = some_direction(random) * some_distance(lengths, band, random);
-        ik::Solver solver(lengths);
+        KeptSolver solver(lengths);
         Joints joints = start, plain = start;
         const Report report = solver.solve(Method::Fabrik, joints, target);
         solver.solve(Method::FabrikPlain, plain, target, {.max_iterations = 3000});
@@ -92,7 +92,7 @@ TEST(IkRim, ATargetThatIsJustNotTooClose) {
         const float nearest = 2.0f * longest - reach;
         const float off = between(random, 0.001f, 0.05f) * reach;
         const glm::vec3 target = some_direction(random) * (nearest + off);
-        ik::Solver solver(lengths);
+        KeptSolver solver(lengths);
         Joints joints = some_pose(lengths, random);
         const Report report = solver.solve(Method::Fabrik, joints, target);
         EXPECT_EQ(report.status, Status::Converged)

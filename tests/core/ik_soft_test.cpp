@@ -16,7 +16,7 @@ struct Result {
 };
 
 Result reach_for(float distance_from_root, float zone) {
-    ik::Solver solver(lengths);
+    KeptSolver solver(lengths);
     Joints joints = straight_joints(lengths, {0, 1, 0});
     const glm::vec3 target(distance_from_root, 0, 0);
     const Report report =
@@ -68,7 +68,7 @@ TEST(IkSoftReach, WithoutAZoneItSnaps) {
 
 TEST(IkSoftReach, TheWholeReachMayBeSoftAndNothingFoldsTooFar) {
     const Lengths heavy{2.0f, 0.3f};
-    ik::Solver solver(heavy);
+    KeptSolver solver(heavy);
     for (const float far : {0.2f, 1.0f, 1.6f, 1.71f, 1.8f, 2.2f, 9.0f}) {
         Joints joints = straight_joints(heavy);
         const Report report = solver.solve(Method::Fabrik, joints, {0, far, 0}, {.soft_zone = 1.0f});

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "chain_support.hpp"
+#include "kept_solver.hpp"
 #include "random.hpp"
 #include "tendril/ik/solver.hpp"
 

@@ -30,7 +30,7 @@ TEST(IkTip, EveryMethodLaysTheLastBoneAsAsked) {
             some_direction(random) * (part(random) * static_cast<float>(reach_of(lengths)));
         for (const Method method : iterating_methods) {
             SCOPED_TRACE(std::string(name(method)) + " " + std::to_string(k));
-            ik::Solver solver(lengths, rest);
+            KeptSolver solver(lengths, rest);
             Joints joints = some_pose(lengths, random);
             const ik::Options options{.tip_orientation = asked};
             const ik::Report report = solver.solve(method, joints, target, options);
@@ -59,7 +59,7 @@ TEST(IkTip, EveryMethodLaysTheLastBoneAsAsked) {
 TEST(IkTip, RotationsFollowTheBones) {
     Random random(2);
     const Lengths lengths = some_lengths(5, random);
-    ik::Solver solver(lengths);
+    KeptSolver solver(lengths);
     Joints joints = straight_joints(lengths);
     for (int k = 0; k < 50; ++k) {
         solver.solve(Method::Fabrik, joints, some_direction(random) * 2.0f,
@@ -73,24 +73,24 @@ TEST(IkTip, RotationsFollowTheBones) {
 
 TEST(IkTip, TheTwoBoneSolverPlacesAHandOnAnArm) {
     const Lengths arm{1, 1, 0.3f};
-    ik::Solver solver(arm);
+    KeptSolver solver(arm);
     Joints joints = straight_joints(arm);
     const glm::quat down = glm::angleAxis(radians(-90), glm::vec3(0, 0, 1));
     const ik::Report report = solver.solve(Method::TwoBone, joints, {1.2f, 0, 0}, {.tip_orientation = down});
     EXPECT_EQ(report.status, Status::Converged);
     EXPECT_LE(distance(joints[2], {1.2f, 0.3f, 0}), 1e-4);
-    ik::Solver two(Lengths{1, 0.3f});
+    KeptSolver two(Lengths{1, 0.3f});
     joints = straight_joints(Lengths{1, 0.3f});
     EXPECT_EQ(two.solve(Method::TwoBone, joints, {0, 0.7f, 0}, {.tip_orientation = down}).status,
               Status::Converged);
-    ik::Solver four(Lengths{1, 1, 1, 1});
+    KeptSolver four(Lengths{1, 1, 1, 1});
     joints = straight_joints(Lengths{1, 1, 1, 1});
     EXPECT_EQ(four.solve(Method::TwoBone, joints, {1, 1, 0}, {.tip_orientation = down}).status,
               Status::InvalidInput);
 }
 
 TEST(IkTip, OneBoneIsJustLaid) {
-    ik::Solver solver(Lengths{2});
+    KeptSolver solver(Lengths{2});
     Joints joints{{1, 1, 1}, {3, 1, 1}};
     const glm::quat up = glm::angleAxis(radians(90), glm::vec3(0, 0, 1));
     EXPECT_EQ(solver.solve(Method::Fabrik, joints, {1, 3, 1}, {.tip_orientation = up}).status,
@@ -109,11 +109,11 @@ TEST(IkTip, WithinLimitsMostArrive) {
     for (int k = 0; k < count; ++k) {
         const Arm arm = some_arm(random, ArmKind::Cones, 5);
         // A first solve finds some pose within the limits, whatever its target.
-        ik::Solver maker = arm.solver();
+        KeptSolver maker = arm.solver();
         Joints made = arm.at_rest();
         maker.solve(Method::Fabrik, made, some_tip(arm, random),
                     {.max_iterations = 200, .limits = arm.limits});
-        ik::Solver solver = arm.solver();
+        KeptSolver solver = arm.solver();
         Joints joints = arm.at_rest();
         ik::Options options;
         options.max_iterations = 200;
@@ -137,7 +137,7 @@ TEST(IkTip, AWristThatCannotIsLimited) {
     arm.limits = {ik::Limit::of(ik::JointKind::Suture), ik::Limit::of(ik::JointKind::Suture),
                   ik::Limit::of(ik::JointKind::Gliding)};
     for (const Method method : iterating_methods) {
-        ik::Solver solver = arm.solver();
+        KeptSolver solver = arm.solver();
         Joints joints = arm.at_rest();
         const glm::quat back = glm::angleAxis(radians(170), glm::vec3(0, 0, 1));
         const ik::Options options{.limits = arm.limits, .tip_orientation = back};
@@ -155,7 +155,7 @@ TEST(IkTip, WatchedItGoesTheSameWayWithoutMemory) {
         const glm::vec3 target = hostile_target(start, lengths, random);
         const ik::Options options{.max_iterations = 20, .tip_orientation = some_rotation(random)};
         for (const Method method : iterating_methods) {
-            ik::Solver first(lengths), second(lengths);
+            KeptSolver first(lengths), second(lengths);
             Joints joints = start, twin = start;
             Recorder recorder;
             ik::Report report;

@@ -35,7 +35,7 @@ Tally converge(Which which, float straight, int solves) {
         Figure figure = which == Which::Body     ? body()
                         : which == Which::Spider ? spider()
                                                  : random_figure(random);
-        Tree tree(figure.joints);
+        Tree tree = tree_of(figure.joints);
         aim(figure.effectors, random_pose(figure.joints, random, straight));
         Places places = random_pose(figure.joints, random, 0.5f);
         tally.add(tree.solve(places, figure.effectors));
@@ -71,7 +71,7 @@ TEST(IkTreeProperty, MovesTheJointsNoFurtherThanPlainPullsDo) {
     Random random(24);
     for (int i = 0; i < 300; ++i) {
         Figure figure = random.chance(2) ? body() : spider();
-        Tree tree(figure.joints);
+        Tree tree = tree_of(figure.joints);
         aim(figure.effectors, random_pose(figure.joints, random, 0.5f));
         const Places before = random_pose(figure.joints, random, 0.5f);
         Places places = before, plain = before;
@@ -90,11 +90,11 @@ TEST(IkTreeProperty, TheOrderOfTheEffectorsIsNothingToIt) {
     Random random(25);
     for (int i = 0; i < 300; ++i) {
         Figure figure = random_figure(random);
-        Tree tree(figure.joints), other(figure.joints);
+        Tree tree = tree_of(figure.joints), other = tree_of(figure.joints);
         // Half of the cases disagree, so that the means matter.
         aim(figure.effectors, random_pose(figure.joints, random, 0.5f));
         if (random.chance(2)) {
-            for (Effector& effector : figure.effectors) effector.target = random.point(tree.reach());
+            for (Effector& effector : figure.effectors) effector.target = random.point(float(tree.reach()));
         }
         const Places before = random_pose(figure.joints, random, 0.5f);
         std::vector<Effector> shuffled = figure.effectors;
@@ -117,9 +117,9 @@ TEST(IkTreeProperty, NeverEndsWorseThanItBegan) {
     Random random(26);
     for (int i = 0; i < 500; ++i) {
         Figure figure = random_figure(random);
-        Tree tree(figure.joints);
+        Tree tree = tree_of(figure.joints);
         for (Effector& effector : figure.effectors) {
-            effector.target = random.point(0.3f * tree.reach());
+            effector.target = random.point(0.3f * float(tree.reach()));
             effector.weight = 1.0f;
         }
         Places places = random_pose(figure.joints, random, 0.5f);
@@ -172,7 +172,7 @@ TEST(IkTreeProperty, ThirtyThousandHostileSolves) {
         Joints joints = only_root();
         const std::size_t count = 1 + random.below(12);
         for (std::size_t k = 1; k < count; ++k) joints.push_back({random.below(k), hostile_length(random)});
-        Tree tree(joints);
+        Tree tree = tree_of(joints);
         Places places(count, glm::vec3(0.0f));
         for (glm::vec3& place : places) place = hostile_point(random, places);
         std::vector<Effector> effectors(random.below(5));
@@ -209,7 +209,7 @@ TEST(IkTreeProperty, ThirtyThousandHostileSolves) {
 
 TEST(IkTreeProperty, RefusesEachBadArgument) {
     const Figure figure = body();
-    Tree tree(figure.joints);
+    Tree tree = tree_of(figure.joints);
     const Places before = straight_pose(figure.joints);
     const std::size_t hand = figure.effectors[1].joint;
     const auto refuses = [&](Places places, const std::vector<Effector>& effectors,
@@ -245,7 +245,7 @@ TEST(IkTreeProperty, RefusesEachBadArgument) {
 TEST(IkTreeProperty, ThousandsOfEffectorsAndALongChain) {
     Joints joints = only_root();
     grow(joints, 0, std::vector<float>(20'000, 0.01f));
-    Tree tree(joints);
+    Tree tree = tree_of(joints);
     Random random(28);
     std::vector<Effector> effectors;
     for (std::size_t k = 100; k <= 20'000; k += 100) effectors.push_back({k});

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "chain_support.hpp"
+#include "kept_solver.hpp"
 #include "random.hpp"
 #include "tendril/ik/tree.hpp"
 
@@ -18,12 +20,18 @@ using ik::Effector;
 using ik::no_joint;
 using ik::Status;
 using ik::Tree;
+
 using ik::TreeJoint;
 using ik::TreeOptions;
 using ik::TreeReport;
 
 using Joints = std::vector<TreeJoint>;
 using Places = std::vector<glm::vec3>;
+
+/// The joints must be good: a bad one ends the program.
+inline Tree tree_of(std::span<const ik::TreeJoint> joints) {
+    return Tree::make(joints).value();
+}
 
 /// Appends a chain of bones that hangs on `parent`; gives its last joint.
 inline std::size_t grow(Joints& joints, std::size_t parent, const std::vector<float>& lengths) {

@@ -8,21 +8,18 @@ namespace tendril::test {
 namespace {
 
 std::string refusal(const Joints& joints) {
-    try {
-        Tree tree(joints);
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
-    return "";
+    return Tree::make(joints).message();
 }
 
 TEST(IkTree, RefusesWhatIsNoTree) {
     EXPECT_EQ(refusal({}), "Tree: joints must be at least one, got none");
     EXPECT_EQ(refusal({{0, 0.0f}}), "Tree: joints[0].parent must be no_joint, for it is the root, got 0");
-    EXPECT_EQ(refusal({{no_joint, 0}, {1, 1}}), "Tree: joints[1].parent must be under 1, got 1");
-    EXPECT_EQ(refusal({{no_joint, 0}, {0, 1}, {7, 1}}), "Tree: joints[2].parent must be under 2, got 7");
+    EXPECT_EQ(refusal({{no_joint, 0}, {1, 1}}),
+              "Tree: joints[1].parent must be a joint before this one, got 1");
+    EXPECT_EQ(refusal({{no_joint, 0}, {0, 1}, {7, 1}}),
+              "Tree: joints[2].parent must be a joint before this one, got 7");
     EXPECT_EQ(refusal({{no_joint, 0}, {no_joint, 1}}),
-              "Tree: joints[1].parent must be under 1, got no_joint");
+              "Tree: joints[1].parent must be a joint before this one, got no_joint");
     EXPECT_EQ(refusal({{no_joint, 0}, {0, -1}}),
               "Tree: joints[1].length must be finite, at least 0 and at most 1e9, got -1");
     EXPECT_EQ(refusal({{no_joint, nan}}),
@@ -32,9 +29,9 @@ TEST(IkTree, RefusesWhatIsNoTree) {
 }
 
 TEST(IkTree, KnowsItsSizeAndReach) {
-    const Tree tree(body().joints);
+    const Tree tree = tree_of(body().joints);
     EXPECT_EQ(tree.size(), 15u);
-    EXPECT_FLOAT_EQ(tree.reach(), 4 * 0.15f + 0.18f + 0.3f + 0.27f + 0.1f);
+    EXPECT_NEAR(tree.reach(), 4 * 0.15 + 0.18 + 0.3 + 0.27 + 0.1, 1e-6);
 }
 
 Joints chain_of(std::size_t bones, float length = 1.0f) {
@@ -47,8 +44,8 @@ TEST(IkTree, PlainOnOneChainIsPlainFabrik) {
     Random random(3);
     for (int i = 0; i < 200; ++i) {
         const Joints joints = chain_of(10, 0.1f);
-        Tree tree(joints);
-        ik::Solver solver(std::vector<float>(10, 0.1f));
+        Tree tree = tree_of(joints);
+        KeptSolver solver(std::vector<float>(10, 0.1f));
         Places a = random_pose(joints, random, 0.5f), b = a;
         const glm::vec3 target = random_direction(random) * (0.1f + 0.4f * std::abs(random.around(2.0f)));
         const int count = 1 + static_cast<int>(random.below(10));
@@ -63,7 +60,7 @@ TEST(IkTree, OneChainComesWhereTheChainSolverComes) {
     Random random(4);
     for (int i = 0; i < 500; ++i) {
         const Joints joints = chain_of(10, 0.1f);
-        Tree tree(joints);
+        Tree tree = tree_of(joints);
         Places places = random_pose(joints, random, 0.5f);
         const glm::vec3 target = random_direction(random) * (0.05f + 0.47f * std::abs(random.around(2.0f)));
         const TreeReport report = tree.solve(places, std::vector<Effector>{{10, target}});
@@ -75,7 +72,7 @@ TEST(IkTree, OneChainComesWhereTheChainSolverComes) {
 }
 
 TEST(IkTree, OutOfReachItLiesStraight) {
-    Tree tree(chain_of(5));
+    Tree tree = tree_of(chain_of(5));
     Random random(5);
     for (const float far : {5.02f, 6.0f, 100.0f, 1e6f}) {
         Places places = random_pose(chain_of(5), random, 0.3f);
@@ -91,7 +88,7 @@ TEST(IkTree, OutOfReachItLiesStraight) {
 TEST(IkTree, TooCloseItFolds) {
     Joints joints = only_root();
     grow(joints, 0, {1.0f, 5.0f, 1.0f});
-    Tree tree(joints);
+    Tree tree = tree_of(joints);
     for (const glm::vec3 target : {glm::vec3(0.0f), glm::vec3(0, 0.5f, 0), glm::vec3(-2, 1, 1)}) {
         Places places = straight_pose(joints);
         const TreeReport report = tree.solve(places, std::vector<Effector>{{3, target}});
@@ -103,7 +100,7 @@ TEST(IkTree, TooCloseItFolds) {
 
 TEST(IkTree, OneOutOfReachDoesNotKeepTheOthers) {
     Figure figure = body();
-    Tree tree(figure.joints);
+    Tree tree = tree_of(figure.joints);
     Random random(6);
     int others = 0;
     for (int i = 0; i < 200; ++i) {
@@ -119,15 +116,15 @@ TEST(IkTree, OneOutOfReachDoesNotKeepTheOthers) {
         const TreeReport report = tree.solve(places, figure.effectors, {.effector_residuals = residuals});
         ASSERT_EQ(report.status, Status::Stretched) << i;
         ASSERT_TRUE(Holds(figure.joints, places));
-        ASSERT_LE(residuals[1], 2.0f * tree.reach() * 1.002f);
-        others += residuals[0] <= 2e-3f * tree.reach() && residuals[2] <= 2e-3f * tree.reach();
+        ASSERT_LE(residuals[1], 2.0 * tree.reach() * 1.002);
+        others += residuals[0] <= 2e-3 * tree.reach() && residuals[2] <= 2e-3 * tree.reach();
     }
     EXPECT_GE(others, 190);
 }
 
 TEST(IkTree, HowFarOffATargetLiesAddsNothingToItsWeight) {
     Figure figure = body();
-    Tree tree(figure.joints);
+    Tree tree = tree_of(figure.joints);
     Random random(16);
     for (int i = 0; i < 100; ++i) {
         const Places before = random_pose(figure.joints, random, 0.5f);
@@ -154,7 +151,7 @@ Figure torn() {
 
 TEST(IkTree, EqualWeightsShareTheLossEqually) {
     const Figure figure = torn();
-    Tree tree(figure.joints);
+    Tree tree = tree_of(figure.joints);
     Places places = straight_pose(figure.joints, {0, 1, 0});
     std::vector<float> residuals(2);
     tree.solve(places, figure.effectors, {.max_iterations = 1000, .effector_residuals = residuals});
@@ -167,7 +164,7 @@ TEST(IkTree, TheHeavierComesNearer) {
     Figure figure = torn();
     figure.effectors[0].target = {1.2f, 0.9f, 0.0f};
     figure.effectors[1].target = {-1.2f, 0.9f, 0.0f};
-    Tree tree(figure.joints);
+    Tree tree = tree_of(figure.joints);
     Random random(8);
     for (int start = 0; start < 20; ++start) {
         const Places given = random_pose(figure.joints, random, 0.5f);
@@ -190,7 +187,7 @@ TEST(IkTree, TheHeavierComesNearer) {
 
 TEST(IkTree, WeightsDoNotMatterWhereAllCanBeHad) {
     Figure figure = body();
-    Tree tree(figure.joints);
+    Tree tree = tree_of(figure.joints);
     Random random(9);
     for (const float weight : {1e-4f, 1.0f, 1e4f, 1e9f}) {
         for (int i = 0; i < 50; ++i) {
@@ -204,7 +201,7 @@ TEST(IkTree, WeightsDoNotMatterWhereAllCanBeHad) {
 
 TEST(IkTree, AnInnerJointMovesTheWayToItAndTheRestGoesAlong) {
     const Joints joints = chain_of(6);
-    Tree tree(joints);
+    Tree tree = tree_of(joints);
     Random random(10);
     for (int i = 0; i < 100; ++i) {
         const Places before = random_pose(joints, random, 0.3f);
@@ -225,7 +222,7 @@ TEST(IkTree, AnInnerJointMovesTheWayToItAndTheRestGoesAlong) {
 TEST(IkTree, WhatHangsOnTheRootOrOnAStillJointStays) {
     Figure figure = body();
     const std::size_t leg = grow(figure.joints, 0, {0.4f, 0.4f});
-    Tree tree(figure.joints);
+    Tree tree = tree_of(figure.joints);
     Random random(11);
     const Places before = random_pose(figure.joints, random, 0.3f);
     Places places = before;
@@ -238,7 +235,7 @@ TEST(IkTree, WhatHangsOnTheRootOrOnAStillJointStays) {
 
 TEST(IkTree, WhereAllAreThereNothingMoves) {
     Figure figure = spider();
-    Tree tree(figure.joints);
+    Tree tree = tree_of(figure.joints);
     Random random(12);
     const Places before = random_pose(figure.joints, random, 0.3f);
     aim(figure.effectors, before);
@@ -250,7 +247,7 @@ TEST(IkTree, WhereAllAreThereNothingMoves) {
 }
 
 TEST(IkTree, WeightlessEffectorsAreOnlyMeasured) {
-    Tree tree(chain_of(4));
+    Tree tree = tree_of(chain_of(4));
     Places with = straight_pose(chain_of(4)), without = with;
     std::vector<float> residuals(3, -1.0f);
     const std::vector<Effector> effectors{{4, {0, 3, 0}}, {2, {9, 0, 0}, 0.0f}, {2, {2, 0, 0}, 0.0f}};
@@ -263,7 +260,7 @@ TEST(IkTree, WeightlessEffectorsAreOnlyMeasured) {
 }
 
 TEST(IkTree, TheRootDoesNotMoveForAnybody) {
-    Tree tree(chain_of(4));
+    Tree tree = tree_of(chain_of(4));
     Places places = straight_pose(chain_of(4));
     std::vector<float> residuals(2);
     const std::vector<Effector> effectors{{0, {0, 1, 0}, 1e9f}, {4, {0, 3, 0}, 1.0f}};
@@ -277,7 +274,7 @@ TEST(IkTree, TheRootDoesNotMoveForAnybody) {
 TEST(IkTree, BonesOfNoLengthTieTheirJoints) {
     Joints joints = only_root();
     grow(joints, 0, {0.0f, 1.0f, 0.0f, 1.0f, 1.0f, 0.0f, 0.0f});
-    Tree tree(joints);
+    Tree tree = tree_of(joints);
     Places places = straight_pose(joints);
     std::vector<float> residuals(3);
     const std::vector<Effector> effectors{{7, {0, 2, 0}}, {6, {0, 2, 0}, 3.0f}, {5, {0, 2, 0}, 2.0f}};
@@ -289,7 +286,7 @@ TEST(IkTree, BonesOfNoLengthTieTheirJoints) {
 
 TEST(IkTree, TellsTheWorstResidualOfEveryIteration) {
     Figure figure = body();
-    Tree tree(figure.joints);
+    Tree tree = tree_of(figure.joints);
     Random random(13);
     aim(figure.effectors, random_pose(figure.joints, random, 0.7f));
     Places places = random_pose(figure.joints, random, 0.3f);
@@ -314,7 +311,7 @@ TEST(IkTree, StraightLinesAreLeft) {
     for (const std::size_t bones : {2u, 3u, 4u, 10u, 30u}) {
         const Joints joints = chain_of(bones, 0.5f);
         const float reach = 0.5f * static_cast<float>(bones);
-        Tree tree(joints);
+        Tree tree = tree_of(joints);
         for (const glm::vec3 along : {glm::vec3(1, 0, 0), glm::vec3(0, -1, 0), glm::vec3(0.6f, 0, 0.8f)}) {
             for (const float part : {0.95f, 0.7f, 0.5f, 0.1f, 0.0f, -0.1f, -0.5f, -0.9f, -0.99f}) {
                 Places places = straight_pose(joints, along);
@@ -329,7 +326,7 @@ TEST(IkTree, StraightLinesAreLeft) {
 }
 
 TEST(IkTree, PlainSaysThatItStalledOnTheLine) {
-    Tree tree(chain_of(4));
+    Tree tree = tree_of(chain_of(4));
     Places places = straight_pose(chain_of(4));
     const std::vector<Effector> effectors{{4, {2.5f, 0, 0}}};
     EXPECT_EQ(tree.solve(places, effectors, {.plain = true}).status, Status::Stalled);
@@ -337,7 +334,7 @@ TEST(IkTree, PlainSaysThatItStalledOnTheLine) {
 
 TEST(IkTree, EveryBranchLeavesItsLine) {
     Figure figure = spider();
-    Tree tree(figure.joints);
+    Tree tree = tree_of(figure.joints);
     for (const float part : {0.9f, 0.6f, 0.2f, -0.3f}) {
         // The back lies straight, all legs straight at right angles to it; feet are drawn in along their
         // legs.
@@ -362,7 +359,7 @@ TEST(IkTree, SizeDoesNotMatter) {
     for (const float scale : {1e-6f, 1e-4f, 1e-2f, 1e2f, 1e4f, 1e6f}) {
         Figure figure = body();
         for (TreeJoint& joint : figure.joints) joint.length *= scale;
-        Tree tree(figure.joints);
+        Tree tree = tree_of(figure.joints);
         for (int i = 0; i < 50; ++i) {
             aim(figure.effectors, random_pose(figure.joints, random, 0.5f));
             Places places = random_pose(figure.joints, random, 0.5f);

@@ -102,6 +102,7 @@ ik::Limit some_limit(Random& random) {
 
 ik::Options some_options(const std::vector<ik::Limit>& limits, Random& random) {
     ik::Options options;
+    options.rotations = true;
     options.max_iterations = 1 + static_cast<int>(random.below(40));
     if (random.chance(3)) options.pole = random.point(4.0f);
     if (random.chance(2)) options.pole_turn = ik::PoleTurn::EachJoint;
@@ -210,10 +211,12 @@ std::uint64_t solve_hash() {
         for (ik::Limit& limit : limits) limit = some_limit(random);
         std::vector<glm::vec3> joints{random.point(2.0f)};
         for (const float length : lengths) joints.push_back(joints.back() + glm::vec3(length, 0.0f, 0.0f));
-        ik::Solver solver(lengths);
+        ik::Solver solver = ik::Solver::make(lengths).value();
+        ik::State state = solver.initial_state();
         for (int turn = 0; turn < 10; ++turn) {
             const glm::vec3 target = joints.front() + random.point(random.chance(4) ? 16.0f : 4.0f);
-            const ik::Report report = solver.solve(method, joints, target, some_options(limits, random));
+            const ik::Report report =
+                solver.solve(method, joints, state, target, some_options(limits, random));
             hash.add(report.residual);
             hash.add(static_cast<float>(report.iterations));
             hash.add(static_cast<float>(report.status));

@@ -27,14 +27,15 @@ std::vector<glm::vec3> start_of(const app::Case& each) {
 
 void solve(const app::Case& each) {
     for (const ik::Method method : ik::all_methods) {
-        ik::Solver solver(each.lengths, each.rest_directions);
+        ik::Solver solver = ik::Solver::make(each.lengths, each.rest_directions).value();
+        ik::State state = solver.initial_state();
         ik::Options options;
         options.max_iterations = 20;
         options.pole = each.pole;
         options.limits = each.limits;
         const std::vector<glm::vec3> start = start_of(each);
         std::vector<glm::vec3> joints = start;
-        const ik::Report report = solver.solve(method, joints, each.target, options);
+        const ik::Report report = solver.solve(method, joints, state, each.target, options);
         if (report.status == ik::Status::InvalidInput) {
             check(joints == start, "what is refused is not moved");
             continue;

@@ -136,9 +136,10 @@ void ChainProgram::reach() {
     line("");
     say("// Make it once and keep it: solving allocates nothing.");
     say("ik::Solver solver(chain);");
+    say("ik::State state = solver.initial_state();  // goes with the chain from solve to solve");
     rotations();
     say("const ik::Report report = solver.solve(ik::Method::" + enumerator(part_.reach.method) +
-        ", chain, target, options);");
+        ", chain, state, target, options);");
     say("std::printf(\"%s after %d iterations, %g m from the target\\n\", ik::name(report.status),");
     say("            report.iterations, report.residual);");
 }
@@ -200,7 +201,7 @@ void ChainProgram::rotations() {
                 "},");
         say("};");
     }
-    say("solver.set_rotations(rotations);");
+    say("state.rotations = rotations;");
 }
 
 void ChainProgram::end() {

@@ -16,15 +16,14 @@ Racer run(ik::Method method, const Chain& chain, const ReachSettings& settings, 
     racer.method = method;
     const std::vector<glm::vec3> start = positions(chain);
     std::vector<float> residuals(static_cast<std::size_t>(settings.iterations));
-    ik::Solver solver = make_solver(chain, settings);
+    ik::Solver solver(chain);
     ik::Options options = solver_options(settings, solver.reach());
     options.residuals = residuals;
     for (int i = 0; i < timings; ++i) {
         racer.joints = start;
-        solver.forget_rotations();
-        solver.set_rotations(settings.rotations);
+        ik::State state = make_state(settings, solver.bones());
         const auto from = Clock::now();
-        racer.report = solver.solve(method, racer.joints, target, options);
+        racer.report = solver.solve(method, racer.joints, state, target, options);
         const double took = std::chrono::duration<double, std::micro>(Clock::now() - from).count();
         racer.microseconds = i == 0 ? took : std::min(racer.microseconds, took);
     }

@@ -38,26 +38,27 @@ ik::Options solver_options(const ReachSettings& settings, float reach) {
     return options;
 }
 
-ik::Solver make_solver(const Chain& chain, const ReachSettings& settings) {
-    ik::Solver solver(chain);
-    solver.set_rotations(settings.rotations);
-    return solver;
+ik::State make_state(const ReachSettings& settings, std::size_t bones) {
+    ik::State state(bones);
+    if (settings.rotations.size() == bones) state.rotations = settings.rotations;
+    return state;
 }
 
 std::optional<ReachResult> solve_reach(Chain& chain, ReachSettings& settings, glm::vec3 target) {
     if (chain.size() < 2) return std::nullopt;
     check_takes(settings.method, chain);
-    ik::Solver solver = make_solver(chain, settings);
+    ik::Solver solver(chain);
+    ik::State state = make_state(settings, solver.bones());
     const ik::Options options = solver_options(settings, solver.reach());
-    ReachResult result{settings.method, solver.solve(settings.method, chain, target, options), {}};
+    ReachResult result{settings.method, solver.solve(settings.method, chain, state, target, options), {}};
     if (result.report.status == ik::Status::InvalidInput) {
         throw std::invalid_argument("the solver does not take this target, pole or limit");
     }
     if (settings.limits.empty()) return result;
     if (result.report.status == ik::Status::Limited && solver.bones() <= max_explained_bones) {
-        result.hold = solver.explain(settings.method, positions(chain), target, options);
+        result.hold = solver.explain(positions(chain), state, target, options);
     }
-    settings.rotations.assign(solver.rotations().begin(), solver.rotations().end());
+    settings.rotations = state.rotations;
     return result;
 }
 

@@ -51,8 +51,8 @@ void check_takes(ik::Method method, const Chain& chain);
 ik::Options solver_options(const ReachSettings& settings, float reach);
 /// Metres.
 float reach_tolerance(const ReachSettings& settings, float reach);
-/// A solver for this chain, its bones turned as the settings have them.
-ik::Solver make_solver(const Chain& chain, const ReachSettings& settings);
+/// What a solver of so many bones goes on from: its bones turned as the settings have them.
+ik::State make_state(const ReachSettings& settings, std::size_t bones);
 
 /// Solves from where the chain is. Nothing for a chain of fewer than two segments. Throws
 /// std::invalid_argument where the solver refuses: two_bone and a chain that has not two bones.

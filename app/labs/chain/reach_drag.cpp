@@ -60,17 +60,18 @@ Piece piece_of(const Chain& chain, const ReachSettings& settings, std::size_t fi
 void solve_piece(Piece& piece, const Chain& chain, const ReachSettings& settings, glm::vec3 target,
                  ik::Options options) {
     const std::vector<glm::vec3> rest(piece.count, chain.default_direction());
-    ik::Solver solver(piece.lengths, rest);
+    ik::Solver solver = ik::Solver::make(piece.lengths, rest).value();  // the chain's own, so good
+    ik::State state = solver.initial_state();
     if (!piece.rotations.empty()) {
         options.limits = std::span(settings.limits).subspan(piece.first, piece.count);
-        solver.set_rotations(piece.rotations);
+        state.rotations = piece.rotations;
     }
     const bool fits = settings.method != ik::Method::TwoBone || piece.count == 2;
     const ik::Method method = fits ? settings.method : ik::Method::Fabrik;
-    if (solver.solve(method, piece.joints, target, options).status == ik::Status::InvalidInput) {
+    if (solver.solve(method, piece.joints, state, target, options).status == ik::Status::InvalidInput) {
         throw std::invalid_argument("the solver does not take this point");
     }
-    if (!piece.rotations.empty()) piece.rotations.assign(solver.rotations().begin(), solver.rotations().end());
+    if (!piece.rotations.empty()) piece.rotations = state.rotations;
 }
 
 /// What a piece that is no whole chain is solved with.

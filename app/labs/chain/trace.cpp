@@ -68,9 +68,10 @@ Trace record_trace(Chain chain, ReachSettings settings, glm::vec3 target) {
     trace.method = settings.method;
     trace.start = positions(chain);
     Recorder recorder(trace);
-    ik::Solver solver = make_solver(chain, settings);
-    trace.report =
-        solver.solve(settings.method, chain, target, solver_options(settings, solver.reach()), &recorder);
+    ik::Solver solver(chain);
+    ik::State state = make_state(settings, solver.bones());
+    trace.report = solver.solve(settings.method, chain, state, target,
+                                solver_options(settings, solver.reach()), &recorder);
     return trace;
 }
 

@@ -65,6 +65,8 @@ std::string describe_frame(const Trace& trace, std::size_t frame) {
             return "The answer at once, without iterating (" + joints + ").";
         case ik::Phase::Keep:
             return "The nearest pose that was met comes back, for the last was worse (" + joints + ").";
+        case ik::Phase::Blend:
+            return "Part of the way from the given pose, as the weight says (" + joints + ").";
     }
     return {};
 }

@@ -42,6 +42,20 @@ static inline glm::quat rotation_about(const glm::vec3& axis, float angle) noexc
     const float s = std::sin(0.5f * angle);
     return {std::cos(0.5f * angle), axis.x * s, axis.y * s, axis.z * s};
 }
+/// Part of the shortest way from one rotation to another (K. Shoemake, "Animating rotation with quaternion
+/// curves", SIGGRAPH 1985); `from` where `part` is 0, `to` or its negative, which is the same, where it is 1.
+static inline glm::quat slerp(const glm::quat& from, const glm::quat& to, float part) noexcept {
+    const float cosine = from.w * to.w + from.x * to.x + from.y * to.y + from.z * to.z;
+    const float sign = cosine < 0.0f ? -1.0f : 1.0f, size = std::abs(cosine);
+    float a = 1.0f - part, b = part;
+    if (size < 0.9995f) {
+        const float angle = std::acos(size);
+        a = std::sin(a * angle), b = std::sin(b * angle);  // by the sine of the whole: unit_quaternion's part
+    }
+    b *= sign;
+    return unit_quaternion(a * from.w + b * to.w, a * from.x + b * to.x, a * from.y + b * to.y,
+                           a * from.z + b * to.z);
+}
 /// The least rotation that takes one unit vector to another; half a turn about `perpendicular(from)` where
 /// they are opposite.
 static inline glm::quat least_rotation(const glm::vec3& from, const glm::vec3& to) noexcept {

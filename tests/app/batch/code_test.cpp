@@ -45,7 +45,7 @@ TEST(Code, each_mode_makes_its_own_call) {
         {ChainMode::Backward, "= chain.backward(target);"},
         {ChainMode::Fixed, "= chain.fixed(target, {.iterations = 9, .tolerance = 0.25f}).outcome;"},
         {ChainMode::WithIndex, "= chain.with_index(4, target);"},
-        {ChainMode::Reach, "solver.solve(ik::Method::Fabrik, chain, target, options);"}};
+        {ChainMode::Reach, "solver.solve(ik::Method::Fabrik, chain, state, target, options);"}};
     for (const auto& [mode, call] : calls) {
         ChainPart part = first_chain();
         part.mode = mode;

@@ -18,7 +18,8 @@ enum class Phase : std::uint8_t {
     Pole,      ///< the bend turns to face the pole
     Limit,     ///< a joint is brought back into its limit
     Analytic,  ///< the answer at once: two bones, a target out of reach or too close
-    Keep       ///< the nearest pose that was met comes back, for the last one was worse
+    Keep,      ///< the nearest pose that was met comes back, for the last one was worse
+    Blend      ///< part of the way from the given pose: Options::weight
 };
 /// "from_tip"
 const char* name(Phase phase) noexcept;

@@ -16,6 +16,9 @@
 // equations are solved from the leaves inward without fill-in (as D. Baraff, "Linear-time dynamics using
 // Lagrange multipliers", SIGGRAPH 1996, does for forces). Pulls alone crawl where branches must agree.
 //
+// A Tree holds the joints' list and scratch memory, nothing of the solves before: what goes on from solve to
+// solve are the joints' places and, where they are wanted, the bones' rotations, both the caller's.
+//
 // Cost: an iteration is O(joints on the way from the root to an effector), however many effectors there are.
 // Solving allocates nothing, throws nothing and gives the same bits for the same call, in whatever order the
 // effectors are listed.
@@ -28,6 +31,7 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
@@ -35,6 +39,7 @@
 
 #include "tendril/ik/observer.hpp"
 #include "tendril/ik/options.hpp"
+#include "tendril/result.hpp"
 
 namespace tendril::ik {
 
@@ -68,6 +73,10 @@ struct TreeOptions {
     /// Where given, element i receives the metres from effector i's joint to its target when all is done, as
     /// far as it has room; also for those that weigh nothing.
     std::span<float> effector_residuals{};
+    /// Where given, one a joint: element k is the rotation, in the world, of the bone that leads to joint k
+    /// (the root's belongs to no bone and stays). Each is turned on by the least rotation from where its bone
+    /// lay (laid to its length) to where the solve leaves it. Unit quaternions, to 1e-3.
+    std::span<glm::quat> rotations{};
 };
 
 struct TreeReport {
@@ -82,16 +91,16 @@ struct TreeReport {
 
 class Tree {
   public:
-    /// Throws std::invalid_argument for an empty list, a first joint that has a parent, another that has none
-    /// or one that does not come before it, or a length out of its range.
-    explicit Tree(std::span<const TreeJoint> joints);
+    /// Refuses an empty list, a first joint that has a parent, another that has none or one that does not
+    /// come before it, and a length out of its range.
+    static Expected<Tree> make(std::span<const TreeJoint> joints);
     ~Tree();
     Tree(Tree&&) noexcept;
     Tree& operator=(Tree&&) noexcept;
 
     std::size_t size() const noexcept;
     /// The longest way from the root to a joint, metres.
-    float reach() const noexcept;
+    double reach() const noexcept;
 
     /// Moves the joints (size() of them, metres), all but the root, so that the effectors' come to their
     /// targets. What it starts from is laid to the bones' lengths first, if it was not. A target that its
@@ -103,6 +112,7 @@ class Tree {
 
   private:
     struct Parts;
+    explicit Tree(std::unique_ptr<Parts> parts) noexcept;
     std::unique_ptr<Parts> parts_;
 };
 

@@ -135,7 +135,8 @@ Problem Work::take_out(const Block& block, std::size_t lane, Workspace& scalar) 
     for (std::size_t i = 0; i < in_.bones; ++i) scalar.lengths[i] = block.length(i)[lane];
     scalar.reach = block.reach()[lane];
     scalar.longest = block.longest()[lane];
-    return {scalar.joints, block.target_of(lane), block.at(Row::Tolerance, lane), in_.options, scalar};
+    return {scalar.joints, block.target_of(lane), block.at(Row::Tolerance, lane), in_.options, scalar,
+            scalar.kept};
 }
 
 /// What loop.cpp does with a chain that stalls.
@@ -175,14 +176,14 @@ void Work::solve_scalar_limited(const Block& block, std::size_t lane, std::size_
         return rows[(4 * i + static_cast<std::size_t>(k)) * block_lanes];
     };
     for (std::size_t i = 0; i < in_.bones; ++i) {
-        for (int k = 0; k < 4; ++k) scalar.rotations[i][k] = component(i, k);
+        for (int k = 0; k < 4; ++k) scalar.kept.rotations[i][k] = component(i, k);
         scalar.rest_directions[i] = in_.limits->rest_directions[i];
     }
     Problem problem = take_out(block, lane, scalar);
     const Report answer = ik::detail::run(Method::Fabrik, problem, Unwatched());
     for (std::size_t i = 0; i < in_.bones; ++i) {
         block.set_point(i + 1, lane, scalar.joints[i + 1]);
-        for (int k = 0; k < 4; ++k) component(i, k) = scalar.rotations[i][k];
+        for (int k = 0; k < 4; ++k) component(i, k) = scalar.kept.rotations[i][k];
     }
     report_fallback(chain, answer);
 }

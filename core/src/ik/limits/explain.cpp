@@ -75,14 +75,14 @@ Outcome outcome(Workspace& room, std::span<glm::vec3> joints, glm::vec3 target, 
                 std::size_t joint, const Limit& limit) noexcept {
     LimitedRoom& limited = room.limited;
     std::copy(limited.kept.joints.begin(), limited.kept.joints.end(), joints.begin());
-    std::copy(limited.kept.rotations.begin(), limited.kept.rotations.end(), room.rotations.begin());
+    std::copy(limited.kept.rotations.begin(), limited.kept.rotations.end(), room.kept.rotations.begin());
     std::copy(options.limits.begin(), options.limits.end(), limited.freed.begin());
     limited.freed[joint] = limit;
     Options freed;
     freed.max_iterations = iterations;
     freed.limits = limited.freed;
     freed.tip_orientation = options.tip_orientation;
-    Problem problem{joints, target, fine * room.reach, freed, room};
+    Problem problem{joints, target, fine * room.reach, freed, room, room.kept};
     run_limited(Method::Fabrik, problem, Unwatched());
     const glm::quat turn = limited.pose.turns[joint];
     return {error_of(problem, limited.pose), angles_of(limited.limits[joint], turn)};
@@ -179,7 +179,7 @@ float best_within_limits(Workspace& room, std::span<glm::vec3> joints, glm::vec3
     all.max_iterations = iterations;
     all.limits = options.limits;
     all.tip_orientation = options.tip_orientation;
-    Problem problem{joints, target, fine * room.reach, all, room};
+    Problem problem{joints, target, fine * room.reach, all, room, room.kept};
     run_limited(Method::Fabrik, problem, Unwatched());
     room.limited.kept = room.limited.pose;
     return error_of(problem, room.limited.pose);
@@ -187,15 +187,14 @@ float best_within_limits(Workspace& room, std::span<glm::vec3> joints, glm::vec3
 
 }  // namespace
 
-std::optional<Hold> Solver::explain(Method method, std::span<const glm::vec3> joints, glm::vec3 target,
+std::optional<Hold> Solver::explain(std::span<const glm::vec3> joints, const State& state, glm::vec3 target,
                                     const Options& options) noexcept {
     Workspace& room = parts_->room;
     if (options.limits.empty() || bones() == 0 || joints.size() != bones() + 1) return std::nullopt;
-    if (method > Method::TwoBone || !are_points(joints) || !are_points({&target, 1})) return std::nullopt;
+    if (!are_points(joints) || !are_points({&target, 1}) || !is_valid(state, bones())) return std::nullopt;
     if (!are_valid(options, bones()) || !fit(options.limits, room.rest_directions)) return std::nullopt;
 
-    const bool remembers_pole = room.pole.valid;
-    std::copy(room.rotations.begin(), room.rotations.end(), room.limited.given.begin());
+    room.kept = state;
     const std::span<glm::vec3> work = room.joints;
     std::copy(joints.begin(), joints.end(), work.begin());
     const float start = best_within_limits(room, work, target, options);
@@ -211,8 +210,6 @@ std::optional<Hold> Solver::explain(Method method, std::span<const glm::vec3> jo
         hold->enough = found.outcome.error <=
                        std::max(options.tolerance.value_or(1e-3f * reach()), 2.0f * fine * reach());
     }
-    std::copy(room.limited.given.begin(), room.limited.given.end(), room.rotations.begin());
-    room.pole.valid = remembers_pole;
     return hold;
 }
 

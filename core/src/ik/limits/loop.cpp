@@ -131,7 +131,7 @@ Course prepare(Problem& problem, Watch watch) noexcept {
         snap_back(problem, watch);
         take_pose(problem, watch);
     }
-    lie_on_line(problem, course.can, watch);
+    problem.closed_form = lie_on_line(problem, course.can, watch);
     note_if_nearer(problem, course);
     return course;
 }
@@ -168,6 +168,7 @@ template <class Watch>
 bool leave_singular(Problem& problem, int& kicks, Watch watch) noexcept {
     const int before = kicks;
     while (kicks < most_kicks && is_singular(problem)) kick_within_limits(problem, kicks++, watch);
+    problem.perturbations += kicks - before;
     return kicks > before;
 }
 
@@ -216,7 +217,7 @@ Report run_limited(Method method, Problem& problem, Watch watch) noexcept {
     }
     commit(problem);
     face_pole_within_limits(problem, watch);
-    return {status_of(problem, course.can, stalled), problem.iteration, residual_of(problem)};
+    return problem.report(status_of(problem, course.can, stalled), residual_of(problem));
 }
 
 template Report run_limited(Method, Problem&, Unwatched) noexcept;

@@ -6,8 +6,9 @@
 
 namespace tendril::ik::detail {
 
-/// options.limits has one limit for each bone, each without fault. Moves the joints and room.rotations; after
-/// it every joint is within its limit, and the tip no further from the target than at the start.
+/// options.limits has one limit for each bone, each without fault. Moves the joints and the state's
+/// rotations; after it every joint is within its limit, and the tip no further from the target than at the
+/// start.
 template <class Watch>
 Report run_limited(Method method, Problem& problem, Watch watch) noexcept;
 

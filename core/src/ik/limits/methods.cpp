@@ -50,6 +50,7 @@ void close(Problem& problem, Watch watch) noexcept {
     }
     watch.next_step();
     take_pose(problem, watch);
+    problem.closed_form = true;
 }
 
 }  // namespace
@@ -68,6 +69,7 @@ void limited_iteration(Method method, Problem& problem, Watch watch) noexcept {
                             : method == Method::SvdDls          ? Descent::Filtered
                                                                 : Descent::Damped;
     limited_step(problem, descent, damping);
+    if (method == Method::TwoBone) ++problem.least_squares_steps;
     take_trial(problem, Phase::Gradient, watch);
 }
 

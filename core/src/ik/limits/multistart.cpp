@@ -12,7 +12,6 @@ constexpr int slow_iterations = 3;
 constexpr float slow = 0.02f;        ///< progress by less than this part of what is left is little
 constexpr float crawling = 0.002f;   ///< the same while the nearest pose is polished
 constexpr int last_iterations = 15;  ///< in which it is
-constexpr int most_tries = 40;       ///< poses to start from again
 constexpr int near_tries = 3;        ///< of these, how many lie near the best so far
 constexpr int drawn = 4;             ///< poses from which the nearest is taken
 constexpr float clearly = 0.02f;     ///< of the reach
@@ -76,6 +75,7 @@ void LimitedSearch::draw_start(Problem& problem) noexcept {
     LimitedRoom& room = problem.room.limited;
     if (tries_ == 0) home_ = error_of(problem, room.best) - clearly * problem.room.reach;
     ++tries_;
+    ++problem.restarts;
     std::uint64_t state = static_cast<std::uint64_t>(tries_) * 7919u;
     const float part = tries_ <= near_tries ? 0.25f * static_cast<float>(tries_) : 1.0f;
     float best = 0.0f;
@@ -102,7 +102,7 @@ template <class Watch>
 void LimitedSearch::iterate(Problem& problem, Watch watch) noexcept {
     LimitedRoom& room = problem.room.limited;
     const bool ends = problem.iteration + last_iterations > problem.options.max_iterations;
-    if (!polishes_ && stalled() && (ends || (stalls() && tries_ >= most_tries))) {
+    if (!polishes_ && stalled() && (ends || (stalls() && tries_ >= problem.options.restarts))) {
         polishes_ = true;
         room.trial = room.best;
         start_from_trial(problem, Phase::Keep, watch);
@@ -124,7 +124,7 @@ void LimitedSearch::iterate(Problem& problem, Watch watch) noexcept {
         }
         return;
     }
-    descend(problem, damping_, error, watch);
+    if (descend(problem, damping_, error, watch)) ++problem.least_squares_steps;
     // Far away from a target that cannot be reached, only so much is left as may still be gained.
     const float left = std::min(last_, 0.1f * problem.room.reach);
     slow_ = last_ - error < (polishes_ ? crawling : slow) * left ? slow_ + 1 : 0;

@@ -52,7 +52,7 @@ void face_pole_within_limits(Problem& problem, Watch watch) noexcept {
     LimitedRoom& room = problem.room.limited;
     Options options = problem.options;
     options.pole_turn = PoleTurn::WholeChain;
-    Problem whole{problem.joints, problem.target, problem.tolerance, options, problem.room};
+    Problem whole{problem.joints, problem.target, problem.tolerance, options, problem.room, problem.state};
     face_pole(whole, Unwatched());
     const glm::vec3 span = minus(room.pose.joints[problem.bones()], problem.root());
     const float size = length(span);

@@ -55,7 +55,7 @@ void take_pose(Problem& problem, Watch watch) noexcept {
     pose.joints[0] = problem.root();
     bool same = true;  // so far nothing had to move
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        glm::quat rotation = room.rotations[i];
+        glm::quat rotation = problem.state.rotations[i];
         glm::vec3 bone = bone_direction(problem, rotation, i);
         const glm::vec3 along = math::direction(problem.joints[i], problem.joints[i + 1], bone);
         // A rotation that agrees to rounding stays as it is, or each solve would shake it a little.
@@ -81,7 +81,7 @@ void take_pose(Problem& problem, Watch watch) noexcept {
 void commit(Problem& problem) noexcept {
     const LimitedPose& pose = problem.room.limited.pose;
     std::copy_n(pose.joints.begin(), problem.joints.size(), problem.joints.begin());
-    std::copy_n(pose.rotations.begin(), problem.bones(), problem.room.rotations.begin());
+    std::copy_n(pose.rotations.begin(), problem.bones(), problem.state.rotations.begin());
 }
 
 template void take_pose(Problem&, Unwatched) noexcept;

@@ -47,9 +47,8 @@ struct LimitedRoom {
     LimitedPose best;   ///< the nearest to the target so far, of a solve that goes on elsewhere
     LimitedPose spare;
 
-    LimitedPose kept;              ///< explain: the pose from which each joint is freed
-    std::vector<glm::quat> given;  ///< explain: the rotations that it must not change
-    std::vector<Limit> freed;      ///< explain: the limits, but for one
+    LimitedPose kept;          ///< explain: the pose from which each joint is freed
+    std::vector<Limit> freed;  ///< explain: the limits, but for one
 
     void resize(std::size_t bones) {
         source.resize(bones);
@@ -57,7 +56,6 @@ struct LimitedRoom {
         freedoms.resize(bones);
         bounded.resize(bones);
         for (LimitedPose* each : {&pose, &trial, &best, &spare, &kept}) each->resize(bones);
-        given.resize(bones);
         freed.resize(bones);
     }
 };

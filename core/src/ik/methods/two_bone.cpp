@@ -167,7 +167,9 @@ Report two_bone_solve(Problem& problem, Watch watch) noexcept {
     joints[2] = result.tip;
     remember_pose(problem);
     const bool there = result.residual <= problem.tolerance && result.status == Status::Converged;
-    return {there ? Status::Converged : result.status, problem.iteration, result.residual};
+    problem.closed_form = true;
+    problem.stretch = result.scale;
+    return problem.report(there ? Status::Converged : result.status, result.residual);
 }
 
 template Report two_bone_solve(Problem&, Unwatched) noexcept;

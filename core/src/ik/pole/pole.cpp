@@ -197,7 +197,7 @@ bool bow_to_pole(Problem& problem, Watch watch) noexcept {
 }
 
 double pole_allowance(const Problem& problem) noexcept {
-    const PoleRoom& last = problem.room.pole;
+    const PoleMemory& last = problem.state.pole;
     if (!last.valid || last.turn != problem.options.pole_turn) return unlimited;
     const glm::vec3 root = problem.root();
     double joints = 0.0;
@@ -215,25 +215,22 @@ double pole_allowance(const Problem& problem) noexcept {
 }
 
 void remember_pose(Problem& problem) noexcept {
-    PoleRoom& room = problem.room.pole;
-    if (!problem.options.pole) {
-        room.valid = false;
-        return;
-    }
+    problem.room.pole.allowance = unlimited;
+    PoleMemory& memory = problem.state.pole;
+    memory.valid = problem.options.pole.has_value();
+    if (!memory.valid) return;
     const glm::vec3 root = problem.root();
-    room.valid = true;
-    room.turn = problem.options.pole_turn;
-    room.pole = minus(*problem.options.pole, root);
-    room.target = minus(problem.target, root);
-    room.twist = problem.options.twist;
-    for (std::size_t i = 0; i < problem.joints.size(); ++i) room.joints[i] = minus(problem.joints[i], root);
-    room.allowance = unlimited;
+    memory.turn = problem.options.pole_turn;
+    memory.pole = minus(*problem.options.pole, root);
+    memory.target = minus(problem.target, root);
+    memory.twist = problem.options.twist;
+    for (std::size_t i = 0; i < problem.joints.size(); ++i) memory.joints[i] = minus(problem.joints[i], root);
 }
 
 template <class Watch>
 void carry_to_pole(Problem& problem, Watch watch) noexcept {
     if (!problem.options.pole) {
-        problem.room.pole.valid = false;
+        problem.state.pole.valid = false;
         return;
     }
     problem.room.pole.allowance = pole_allowance(problem);

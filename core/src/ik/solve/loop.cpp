@@ -10,10 +10,12 @@
 #include "ik/methods/jacobian.hpp"
 #include "ik/methods/two_bone.hpp"
 #include "ik/pole/pole.hpp"
+#include "ik/solve/blend.hpp"
 #include "ik/solve/convergence.hpp"
 #include "ik/solve/perturbation.hpp"
 #include "ik/solve/prepare.hpp"
 #include "ik/solve/reachability.hpp"
+#include "ik/solve/rotations.hpp"
 #include "ik/solve/soft_reach.hpp"
 #include "ik/solve/tip.hpp"
 
@@ -76,7 +78,9 @@ Progress prepare(Method method, Problem& problem, Watch watch) noexcept {
     const bool there = residual_of(problem) <= problem.tolerance;
     const bool bowed = !there && bow_to_pole(problem, watch);
     const bool kicks = !there && !bowed && method != Method::FabrikPlain;
-    if (kicks && is_on_one_line(problem)) kick_off_the_line(problem, watch);
+    const bool kicked = kicks && is_on_one_line(problem);
+    if (kicked) kick_off_the_line(problem, watch);
+    if (bowed || kicked) ++problem.perturbations;
     progress.start_again(residual_of(problem));
     return progress;
 }
@@ -90,6 +94,7 @@ Report iterations(Method method, Problem& problem, const glm::vec3& goal, Watch 
     while (problem.iteration < options.max_iterations) {
         const bool there = residual <= problem.tolerance;
         if (!there && progress.wants_a_shake(method)) {
+            ++problem.perturbations;
             shake(problem, progress.count_shake(), watch);
             progress.start_again(residual_of(problem));
         }
@@ -108,7 +113,7 @@ Report iterations(Method method, Problem& problem, const glm::vec3& goal, Watch 
     const Status status = residual <= problem.tolerance ? Status::Converged
                           : progress.stalled()          ? Status::Stalled
                                                         : Status::IterationLimit;
-    return {status, problem.iteration, residual};
+    return problem.report(status, residual);
 }
 
 template <class Watch>
@@ -137,7 +142,8 @@ Report solve_reached(Method method, Problem& problem, const glm::vec3& goal, Wat
 
 /// Where the chain goes if the reach is soft. Two bones that may stretch reach further.
 glm::vec3 eased_target(Method method, const Problem& problem) noexcept {
-    const float scale = method == Method::TwoBone ? problem.options.max_stretch_scale : 1.0f;
+    const bool stretches = method == Method::TwoBone && problem.options.limits.empty();
+    const float scale = stretches ? problem.options.max_stretch_scale : 1.0f;
     const float zone = problem.options.soft_zone, reach = problem.room.reach * scale;
     const float far = exact_distance(problem.root(), problem.target);
     const float nearest = 2.0f * problem.room.longest - problem.room.reach;
@@ -151,7 +157,8 @@ glm::vec3 eased_target(Method method, const Problem& problem) noexcept {
 template <class Watch>
 Report run(Method method, Problem& problem, Watch watch) noexcept {
     const bool turned = problem.options.tip_orientation && problem.bones() > 0;
-    if (turned && problem.options.limits.empty()) return run_turned(method, problem, watch);
+    const bool free = problem.options.limits.empty();
+    if (turned && free) return run_turned(method, problem, watch);
     lay_to_lengths(problem, watch);
     const glm::vec3 goal = problem.target;
     problem.target = eased_target(method, problem);
@@ -165,10 +172,22 @@ Report run(Method method, Problem& problem, Watch watch) noexcept {
         if (!there && eased) report.status = Status::Stretched;
         problem.target = goal;
     }
+    if (free && (problem.options.rotations || problem.options.weight < 1.0f)) carry_rotations(problem);
+    return report;
+}
+
+template <class Watch>
+Report run_weighted(Method method, Problem& problem, Watch watch) noexcept {
+    if (problem.options.weight == 1.0f) return run(method, problem, watch);
+    keep_given(problem, watch);
+    const Report report = run(method, problem, watch);
+    blend(problem, watch);
     return report;
 }
 
 template Report run(Method, Problem&, Unwatched) noexcept;
 template Report run(Method, Problem&, Watched) noexcept;
+template Report run_weighted(Method, Problem&, Unwatched) noexcept;
+template Report run_weighted(Method, Problem&, Watched) noexcept;
 
 }  // namespace tendril::ik::detail

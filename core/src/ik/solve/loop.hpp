@@ -6,8 +6,13 @@
 
 namespace tendril::ik::detail {
 
-/// All input has been checked. Moves the joints and says how it ended.
+/// All input has been checked. Moves the joints, carries the state along, and says how it ended. Takes
+/// options.weight for 1.
 template <class Watch>
 Report run(Method method, Problem& problem, Watch watch) noexcept;
+
+/// The same with options.weight.
+template <class Watch>
+Report run_weighted(Method method, Problem& problem, Watch watch) noexcept;
 
 }  // namespace tendril::ik::detail

@@ -18,6 +18,14 @@ std::optional<Method> method_named(std::string_view text) noexcept {
     return std::nullopt;
 }
 
+const char* name(Option option) noexcept {
+    constexpr const char* names[] = {"tolerance", "max_iterations", "every_iteration",     "limits",
+                                     "pole",      "pole_turn",      "snap_back",           "tip_orientation",
+                                     "soft_zone", "damping",        "start_stretch_ratio", "twist",
+                                     "weight",    "restarts",       "rotations",           "residuals"};
+    return names[static_cast<std::size_t>(option)];
+}
+
 const char* name(Status status) noexcept {
     constexpr const char* names[] = {"Converged", "Stretched",      "TooClose",    "Limited",
                                      "Stalled",   "IterationLimit", "InvalidInput"};
@@ -36,8 +44,8 @@ const char* name(Bound bound) noexcept {
 }
 
 const char* name(Phase phase) noexcept {
-    constexpr const char* names[] = {"prepare",  "from_tip", "from_root", "spread",   "turn",
-                                     "gradient", "pole",     "limit",     "analytic", "keep"};
+    constexpr const char* names[] = {"prepare", "from_tip", "from_root", "spread", "turn", "gradient",
+                                     "pole",    "limit",    "analytic",  "keep",   "blend"};
     return names[static_cast<std::size_t>(phase)];
 }
 

@@ -15,6 +15,7 @@
 #include "ik/pole/workspace.hpp"
 #include "tendril/ik/observer.hpp"
 #include "tendril/ik/options.hpp"
+#include "tendril/ik/state.hpp"
 
 namespace tendril::ik::detail {
 
@@ -22,13 +23,14 @@ namespace tendril::ik::detail {
 struct Workspace {
     std::vector<float> lengths;              ///< n
     std::vector<glm::vec3> rest_directions;  ///< n, unit vectors
-    std::vector<glm::quat> rotations;        ///< n, in the world, from rest
     std::vector<glm::vec3> best;             ///< n + 1: the nearest to the target that the loop has seen
     std::vector<glm::vec3> old;              ///< n + 1: for a method's own use
     std::vector<glm::quat> turns;            ///< n: the same
     std::vector<glm::vec3> joints;           ///< n + 1: those of a Chain while it is solved
     LimitedRoom limited;                     ///< for solves with limits
-    PoleRoom pole;                           ///< for solves with a pole
+    PoleScratch pole;                        ///< for solves with a pole
+    LimitedPose given;                       ///< for solves with a weight under 1: what it blends from
+    State kept;                              ///< what a refused solve, or an explanation, goes back to
     float reach = 0.0f;
     float longest = 0.0f;
 
@@ -36,13 +38,14 @@ struct Workspace {
     void resize(std::size_t bones) {
         lengths.resize(bones);
         rest_directions.resize(bones, glm::vec3(1.0f, 0.0f, 0.0f));
-        rotations.resize(bones, glm::quat(1.0f, 0.0f, 0.0f, 0.0f));
         best.resize(bones + 1);
         old.resize(bones + 1);
         turns.resize(bones);
         joints.resize(bones + 1);
         limited.resize(bones);
         pole.resize(bones);
+        given.resize(bones);
+        kept = State(bones);
     }
 };
 
@@ -52,14 +55,26 @@ struct Problem {
     float tolerance;
     const Options& options;
     Workspace& room;
+    State& state;
     glm::vec3 goal = target;  ///< what was asked for; the target is nearer where the reach is soft
     int iteration = 0;        ///< the one that runs, from 1
+
+    float stretch = 1.0f;  ///< of the bones, by Method::TwoBone
+
+    // What the report tells of.
+    bool closed_form = false;
+    int perturbations = 0;
+    int least_squares_steps = 0;
+    int restarts = 0;
 
     std::size_t bones() const noexcept { return joints.size() - 1; }
     std::span<const float> lengths() const noexcept {
         return std::span<const float>(room.lengths).first(bones());
     }
     glm::vec3 root() const noexcept { return joints.front(); }
+    Report report(Status status, float residual) const noexcept {
+        return {status, iteration, residual, closed_form, perturbations, least_squares_steps, restarts};
+    }
 };
 
 struct Unwatched {

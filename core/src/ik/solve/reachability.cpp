@@ -83,20 +83,21 @@ std::optional<Report> answer_beyond_reach(Problem& problem, Watch watch) noexcep
     for (const float bone : problem.lengths()) reach += static_cast<double>(bone);
     const double distance = length(between(problem.root(), problem.target)), equal = 1e-6 * reach;
     const double nearest = 2.0 * static_cast<double>(problem.room.longest) - reach;
-    Report report;
+    Status status = Status::Converged;
     if (distance >= reach - equal) {
         lay_straight(problem, watch);
-        report.status = Status::Stretched;
+        status = Status::Stretched;
     } else if (nearest > 0.0 && distance <= nearest + equal) {
         fold(problem, distance, nearest, watch);
-        report.status = Status::TooClose;
+        status = Status::TooClose;
     } else {
         return std::nullopt;
     }
-    report.residual = exact_distance(problem.joints.back(), problem.target);
+    problem.closed_form = true;
+    const float residual = exact_distance(problem.joints.back(), problem.target);
     const bool reachable = distance <= reach + equal && distance >= nearest - equal;
-    if (reachable && report.residual <= problem.tolerance) report.status = Status::Converged;
-    return report;
+    if (reachable && residual <= problem.tolerance) status = Status::Converged;
+    return problem.report(status, residual);
 }
 
 template std::optional<Report> answer_beyond_reach(Problem&, Unwatched) noexcept;

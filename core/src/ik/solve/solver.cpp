@@ -2,53 +2,53 @@
 #include "tendril/ik/solver.hpp"
 
 #include <algorithm>
-#include <string>
+#include <cmath>
 #include <vector>
 
-#include "chain/checks.hpp"
 #include "ik/math.hpp"
 #include "ik/solve/loop.hpp"
 #include "ik/solve/parts.hpp"
 #include "ik/solve/validate.hpp"
+#include "math/checks.hpp"
 
 namespace tendril::ik {
 
 using namespace detail;
+using namespace tendril::detail;
 
 namespace {
 
-std::vector<float> lengths_of(const Chain& chain) {
-    std::vector<float> lengths;
-    for (std::size_t i = 1; i < chain.size(); ++i) lengths.push_back(chain.length(i));
-    return lengths;
-}
+constexpr Report invalid_input{Status::InvalidInput, 0, 0.0f};
 
-void require_direction(std::size_t index, const glm::vec3& direction) {
-    const std::string argument = "rest_directions[" + std::to_string(index) + "]";
-    tendril::detail::require_point("Solver", argument, direction);
+Result check_direction(std::size_t index, const glm::vec3& direction) noexcept {
+    const Argument argument{"rest_directions", index};
+    if (const Result bad = check_point("Solver", argument, direction); !bad) return bad;
     const float size = length(direction);
-    if (std::abs(size - 1.0f) > 1e-3f) {
-        tendril::detail::refuse("Solver", argument, "a unit vector",
-                                "one of length " + tendril::detail::text(size));
-    }
+    if (std::abs(size - 1.0f) > 1e-3f) return refused("Solver", argument, "of length 1", size);
+    return {};
 }
 
-}  // namespace
-
-Solver::Solver(std::span<const float> lengths, std::span<const glm::vec3> rest_directions)
-    : parts_(std::make_unique<Parts>()) {
-    Workspace& room = parts_->room;
-    double reach = 0.0;
+Result check_bones(std::span<const float> lengths, std::span<const glm::vec3> rest_directions) noexcept {
     for (std::size_t i = 0; i < lengths.size(); ++i) {
-        tendril::detail::require_length("Solver", "lengths[" + std::to_string(i) + "]", lengths[i]);
-        reach += static_cast<double>(lengths[i]);
-        room.longest = std::max(room.longest, lengths[i]);
+        if (const Result bad = check_length("Solver", {"lengths", i}, lengths[i]); !bad) return bad;
     }
-    if (!rest_directions.empty() && rest_directions.size() != lengths.size()) {
-        tendril::detail::refuse("Solver", "rest_directions", "as many as lengths or none",
-                                std::to_string(rest_directions.size()));
+    if (rest_directions.empty()) return {};
+    if (const Result bad = check_count("Solver", "rest_directions", rest_directions.size(), lengths.size());
+        !bad)
+        return bad;
+    for (std::size_t i = 0; i < rest_directions.size(); ++i) {
+        if (const Result bad = check_direction(i, rest_directions[i]); !bad) return bad;
     }
-    for (std::size_t i = 0; i < rest_directions.size(); ++i) require_direction(i, rest_directions[i]);
+    return {};
+}
+
+/// Makes the workspace for bones that have been checked.
+void fill(Workspace& room, std::span<const float> lengths, std::span<const glm::vec3> rest_directions) {
+    double reach = 0.0;
+    for (const float length : lengths) {
+        reach += static_cast<double>(length);
+        room.longest = std::max(room.longest, length);
+    }
     room.reach = static_cast<float>(reach);
     room.resize(lengths.size());
     std::copy(lengths.begin(), lengths.end(), room.lengths.begin());
@@ -57,9 +57,28 @@ Solver::Solver(std::span<const float> lengths, std::span<const glm::vec3> rest_d
     }
 }
 
-Solver::Solver(const Chain& chain)
-    : Solver(lengths_of(chain),
-             std::vector<glm::vec3>(chain.empty() ? 0 : chain.size() - 1, chain.default_direction())) {}
+/// Whether a solve may end with a joint that is further out than a Chain takes.
+bool may_leave_range(const Chain& chain, float reach) noexcept {
+    const glm::vec3& root = chain.segments()[0].position;
+    return std::max({std::abs(root.x), std::abs(root.y), std::abs(root.z)}) + 2.0f * reach > max_magnitude;
+}
+
+}  // namespace
+
+Solver::Solver(std::unique_ptr<Parts> parts) noexcept : parts_(std::move(parts)) {}
+
+Expected<Solver> Solver::make(std::span<const float> lengths, std::span<const glm::vec3> rest_directions) {
+    if (const Result bad = check_bones(lengths, rest_directions); !bad) return bad;
+    auto parts = std::make_unique<Parts>();
+    fill(parts->room, lengths, rest_directions);
+    return Solver(std::move(parts));
+}
+
+Solver::Solver(const Chain& chain) : parts_(std::make_unique<Parts>()) {
+    std::vector<float> lengths;
+    for (std::size_t i = 1; i < chain.size(); ++i) lengths.push_back(chain.length(i));
+    fill(parts_->room, lengths, std::vector<glm::vec3>(lengths.size(), chain.default_direction()));
+}
 
 Solver::~Solver() = default;
 Solver::Solver(Solver&&) noexcept = default;
@@ -73,47 +92,38 @@ float Solver::reach() const noexcept {
     return parts_->room.reach;
 }
 
-Report Solver::solve(Method method, std::span<glm::vec3> joints, glm::vec3 target, const Options& options,
-                     Observer* observer) noexcept {
-    const Report refused{Status::InvalidInput, 0, 0.0f};
+Report Solver::solve(Method method, std::span<glm::vec3> joints, State& state, glm::vec3 target,
+                     const Options& options, Observer* observer) noexcept {
     // With a tip orientation the last bone is laid by itself.
     const bool taken = takes(method, bones()) || (options.tip_orientation && takes(method, bones() - 1));
-    if (joints.size() != bones() + 1 || !taken) return refused;
-    if (!are_points(joints) || !are_points({&target, 1}) || !are_valid(options, bones())) return refused;
-    if (!fit(options.limits, parts_->room.rest_directions)) return refused;
-    Problem problem{joints, target, options.tolerance.value_or(1e-3f * reach()), options, parts_->room};
+    if (joints.size() != bones() + 1 || !taken) return invalid_input;
+    if (!are_points(joints) || !are_points({&target, 1}) || !are_valid(options, bones()))
+        return invalid_input;
+    if (!is_valid(state, bones()) || !fit(options.limits, parts_->room.rest_directions)) return invalid_input;
+    Problem problem{joints,  target,       options.tolerance.value_or(1e-3f * reach()),
+                    options, parts_->room, state};
     int order = 0;
-    return observer ? run(method, problem, Watched(*observer, order)) : run(method, problem, Unwatched());
+    return observer ? run_weighted(method, problem, Watched(*observer, order))
+                    : run_weighted(method, problem, Unwatched());
 }
 
-Report Solver::solve(Method method, Chain& chain, glm::vec3 target, const Options& options,
+Report Solver::solve(Method method, Chain& chain, State& state, glm::vec3 target, const Options& options,
                      Observer* observer) noexcept {
-    const Report refused{Status::InvalidInput, 0, 0.0f};
-    if (chain.size() != bones() + 1) return refused;
+    if (chain.size() != bones() + 1) return invalid_input;
     std::vector<glm::vec3>& joints = parts_->room.joints;
     for (std::size_t i = 0; i < joints.size(); ++i) joints[i] = chain.segments()[i].position;
     Options kept = options;
     // Checked first, so that what is wrong with it is not hidden.
     if (are_valid(options, bones())) kept.max_stretch_scale = 1.0f;
-    const Report report = solve(method, joints, target, kept, observer);
+    const bool risky = may_leave_range(chain, reach()) && state.bones() == bones();
+    if (risky) parts_->room.kept = state;
+    const Report report = solve(method, joints, state, target, kept, observer);
     if (report.status == Status::InvalidInput) return report;
-    if (!chain.set_positions(joints)) return refused;  // a chain takes no joint that far out
+    if (!chain.set_positions(joints)) {  // a chain takes no joint that far out
+        if (risky) state = parts_->room.kept;
+        return invalid_input;
+    }
     return report;
-}
-
-std::span<const glm::quat> Solver::rotations() const noexcept {
-    return parts_->room.rotations;
-}
-
-bool Solver::set_rotations(std::span<const glm::quat> rotations) noexcept {
-    if (rotations.size() != bones()) return false;
-    if (!std::all_of(rotations.begin(), rotations.end(), is_unit)) return false;
-    std::copy(rotations.begin(), rotations.end(), parts_->room.rotations.begin());
-    return true;
-}
-
-void Solver::forget_rotations() noexcept {
-    std::fill(parts_->room.rotations.begin(), parts_->room.rotations.end(), glm::quat(1, 0, 0, 0));
 }
 
 }  // namespace tendril::ik

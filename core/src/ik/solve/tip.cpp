@@ -6,6 +6,7 @@
 #include "ik/solve/loop.hpp"
 #include "ik/solve/prepare.hpp"
 #include "ik/solve/reachability.hpp"
+#include "ik/solve/rotations.hpp"
 
 namespace tendril::ik::detail {
 namespace {
@@ -30,19 +31,6 @@ class Shortened {
     Workspace& room_;
     float reach_, longest_;
 };
-
-/// The rotations of the bones follow the joints by the least turn; that of the last is given.
-void carry_rotations(Problem& problem, const glm::quat& last) noexcept {
-    Workspace& room = problem.room;
-    for (std::size_t i = 0; i + 1 < problem.bones(); ++i) {
-        const glm::vec3 rest = room.rest_directions[i];
-        const glm::vec3 before = rotated(room.rotations[i], times(rest, 1.0f / length(rest)));
-        const glm::vec3 now = tendril::math::direction(problem.joints[i], problem.joints[i + 1], before);
-        const glm::quat q = compose(least_rotation(before, now), room.rotations[i]);
-        room.rotations[i] = unit_quaternion(q.w, q.x, q.y, q.z);
-    }
-    room.rotations[problem.bones() - 1] = last;
-}
 
 /// What the last bone is, from its start to the tip.
 glm::vec3 last_bone(const Problem& problem, const glm::quat& orientation) noexcept {
@@ -71,23 +59,30 @@ Report run_turned(Method method, Problem& problem, Watch watch) noexcept {
     const glm::vec3 bone = last_bone(problem, orientation);
     Options options = problem.options;
     options.tip_orientation.reset();
+    options.rotations = false;  // carried at the end
     Report report;
     {
         const Shortened shortened(problem.room);
-        Problem rest{problem.joints.first(problem.bones()), minus(problem.target, bone), problem.tolerance,
-                     options, problem.room};
+        Problem rest{problem.joints.first(problem.bones()),
+                     minus(problem.target, bone),
+                     problem.tolerance,
+                     options,
+                     problem.room,
+                     problem.state};
         // A single bone is as well laid by any method; the two-bone one would not take it.
         const bool fits = method != Method::TwoBone || rest.bones() == 2;
         report = problem.room.reach > 0.0f ? run(fits ? method : Method::Fabrik, rest, watch)
                                            : only_last(rest, watch);
         problem.iteration = rest.iteration;
+        problem.stretch = rest.stretch;
     }
     const std::size_t last = problem.bones();
     const glm::vec3 from = problem.joints[last], to = plus(problem.joints[last - 1], bone);
     problem.joints[last] = to;
     watch.moved(problem.iteration, Phase::Analytic, last, last - 1, from, to);
     watch.next_step();
-    carry_rotations(problem, orientation);
+    carry_rotations(problem);
+    problem.state.rotations[problem.bones() - 1] = orientation;
     report.residual = exact_distance(to, problem.target);
     if (report.status == Status::Converged && report.residual > problem.tolerance * 1.01f) {
         report.status = Status::Stalled;  // further out than floats can tell

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "chain/checks.hpp"
+#include "math/checks.hpp"
 
 namespace tendril::ik::detail {
 namespace {
@@ -44,7 +44,15 @@ bool are_valid(const Options& options, std::size_t bones) noexcept {
     if (!over_zero(options.damping, 10.0f)) return false;
     if (!over_zero(options.start_stretch_ratio, 1.0f)) return false;
     if (!within(options.max_stretch_scale, 1.0f, 100.0f)) return false;
+    if (!within(options.weight, 0.0f, 1.0f)) return false;
+    if (options.restarts < 0 || options.restarts > 1000) return false;
     return within(options.twist, -max_magnitude, max_magnitude);
+}
+
+bool is_valid(const State& state, std::size_t bones) noexcept {
+    if (state.rotations.size() != bones || state.pole.joints.size() != bones + 1) return false;
+    if (!std::all_of(state.rotations.begin(), state.rotations.end(), is_unit)) return false;
+    return !state.pole.valid || static_cast<bool>(check(state, bones));
 }
 
 bool fit(std::span<const Limit> limits, std::span<const glm::vec3> rest_directions) noexcept {

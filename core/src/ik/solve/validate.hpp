@@ -17,6 +17,9 @@ bool is_unit(const glm::quat& rotation) noexcept;
 /// Every option in the range that options.hpp gives, for a chain of so many bones.
 bool are_valid(const Options& options, std::size_t bones) noexcept;
 
+/// A state for so many bones, with unit quaternions and finite numbers.
+bool is_valid(const State& state, std::size_t bones) noexcept;
+
 /// Every limit without fault for its bone; as many as bones, or none.
 bool fit(std::span<const Limit> limits, std::span<const glm::vec3> rest_directions) noexcept;
 

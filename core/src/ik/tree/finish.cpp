@@ -39,6 +39,17 @@ void go_along(TreeRoom& room, std::span<glm::vec3> joints, std::size_t joint) no
 
 }  // namespace
 
+void carry_rotations(const TreeRoom& room, std::span<const glm::vec3> joints,
+                     std::span<glm::quat> rotations) noexcept {
+    for (std::size_t k = 1; k < joints.size(); ++k) {
+        const std::size_t parent = room.joints[k].parent;
+        const glm::quat turn =
+            turn_between(minus(room.start[k], room.start[parent]), minus(joints[k], joints[parent]));
+        const glm::quat q = compose(turn, rotations[k]);
+        rotations[k] = unit_quaternion(q.w, q.x, q.y, q.z);
+    }
+}
+
 void finish(TreeRoom& room, std::span<glm::vec3> joints) noexcept {
     joints[0] = room.start[0];
     for (std::size_t k = 1; k < joints.size(); ++k) {

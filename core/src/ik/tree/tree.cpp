@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
-#include "chain/checks.hpp"
 #include "ik/math.hpp"
+#include "ik/solve/validate.hpp"
 #include "ik/tree/workspace.hpp"
+#include "math/checks.hpp"
 
 namespace tendril::ik {
 
@@ -19,24 +19,16 @@ struct Tree::Parts {
 
 namespace {
 
-std::string named(std::size_t index, const char* field) {
-    return "joints[" + std::to_string(index) + "]." + field;
-}
-
-std::string parent_text(std::size_t parent) {
-    return parent == no_joint ? "no_joint" : std::to_string(parent);
-}
-
-void require_joint(std::size_t index, const TreeJoint& joint) {
-    if (index == 0 && joint.parent != no_joint) {
-        tendril::detail::refuse("Tree", named(index, "parent"), "no_joint, for it is the root",
-                                parent_text(joint.parent));
-    }
-    if (index > 0 && joint.parent >= index) {
-        tendril::detail::refuse("Tree", named(index, "parent"), "under " + std::to_string(index),
-                                parent_text(joint.parent));
-    }
-    tendril::detail::require_length("Tree", named(index, "length"), joint.length);
+Result check_joint(std::size_t index, const TreeJoint& joint) noexcept {
+    using namespace tendril::detail;
+    const Argument parent{"joints", index, "parent"};
+    if (index == 0 && joint.parent != no_joint)
+        return refused("Tree", parent, "no_joint, for it is the root", joint.parent);
+    if (index > 0 && joint.parent == no_joint)
+        return refused("Tree", parent, "a joint before this one", "no_joint");
+    if (index > 0 && joint.parent >= index)
+        return refused("Tree", parent, "a joint before this one", joint.parent);
+    return check_length("Tree", {"joints", index, "length"}, joint.length);
 }
 
 bool is_valid(const Effector& effector, std::size_t joints) noexcept {
@@ -66,6 +58,8 @@ bool is_valid(TreeRoom& room, std::span<const glm::vec3> joints, std::span<const
     for (const Effector& effector : effectors) {
         if (!is_valid(effector, joints.size())) return false;
     }
+    if (!options.rotations.empty() && options.rotations.size() != joints.size()) return false;
+    if (!std::all_of(options.rotations.begin(), options.rotations.end(), is_unit)) return false;
     return are_apart(room, effectors);
 }
 
@@ -96,10 +90,15 @@ double tell_residuals(std::span<const glm::vec3> joints, std::span<const Effecto
 
 }  // namespace
 
-Tree::Tree(std::span<const TreeJoint> joints) : parts_(std::make_unique<Parts>()) {
-    if (joints.empty()) tendril::detail::refuse("Tree", "joints", "at least one", "none");
-    for (std::size_t k = 0; k < joints.size(); ++k) require_joint(k, joints[k]);
-    TreeRoom& room = parts_->room;
+Tree::Tree(std::unique_ptr<Parts> parts) noexcept : parts_(std::move(parts)) {}
+
+Expected<Tree> Tree::make(std::span<const TreeJoint> joints) {
+    if (joints.empty()) return tendril::detail::refused("Tree", "joints", "at least one", "none");
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+        if (const Result bad = check_joint(k, joints[k]); !bad) return bad;
+    }
+    auto parts = std::make_unique<Parts>();
+    TreeRoom& room = parts->room;
     const std::size_t count = joints.size();
     room.joints.assign(joints.begin(), joints.end());
     room.path_reach.resize(count);
@@ -117,6 +116,7 @@ Tree::Tree(std::span<const TreeJoint> joints) : parts_(std::make_unique<Parts>()
     room.turns.resize(count);
     room.slots.resize(count);
     room.responses.resize(count);
+    return Tree(std::move(parts));
 }
 
 Tree::~Tree() = default;
@@ -127,8 +127,8 @@ std::size_t Tree::size() const noexcept {
     return parts_->room.joints.size();
 }
 
-float Tree::reach() const noexcept {
-    return static_cast<float>(parts_->room.reach);
+double Tree::reach() const noexcept {
+    return parts_->room.reach;
 }
 
 TreeReport Tree::solve(std::span<glm::vec3> joints, std::span<const Effector> effectors,
@@ -146,6 +146,7 @@ TreeReport Tree::solve(std::span<glm::vec3> joints, std::span<const Effector> ef
         stalled = run.stalled;
     }
     finish(room, joints);
+    if (!options.rotations.empty()) carry_rotations(room, joints, options.rotations);
     const double residual = tell_residuals(joints, effectors, options.effector_residuals);
     report.residual = static_cast<float>(residual);
     if (residual > tolerance) {

@@ -101,6 +101,10 @@ double worst_residual(const TreeRoom& room, std::span<const Effector> effectors)
 /// towards its target, or folded against the longest bone. Lies so, or false where it is not the case.
 bool lay_at_rim(TreeRoom& room, std::span<const Effector> effectors) noexcept;
 
+/// Turns every bone's rotation on by the least rotation from where the bone lay at the start.
+void carry_rotations(const TreeRoom& room, std::span<const glm::vec3> joints,
+                     std::span<glm::quat> rotations) noexcept;
+
 /// Writes the slots' places, and the branches without effector that go along, to the caller's joints.
 void finish(TreeRoom& room, std::span<glm::vec3> joints) noexcept;
 

@@ -1,0 +1,256 @@
+// The table of method.hpp, walked: an option that a method honours changes what comes out in some case, one
+// that it does not honour changes nothing in any.
+#include <cstring>
+
+#include "ik_limit_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+using ik::Method;
+using ik::Option;
+
+struct Case {
+    Arm arm;
+    Joints start;
+    glm::vec3 target{0.0f};
+    bool limited = false;
+    ik::Options base;  ///< its limits are set in solve()
+};
+
+struct Outcome {
+    ik::Report report;
+    Joints joints;
+    std::vector<glm::quat> rotations;
+    std::vector<float> residuals;
+    bool operator==(const Outcome&) const = default;
+};
+
+/// Solves with `change` made to the options; -1 in the residuals is what a solve did not write.
+template <class Change>
+Outcome solve(Method method, const Case& each, Change change) {
+    KeptSolver solver = each.arm.solver();
+    Outcome outcome{{}, each.start, {}, std::vector<float>(64, -1.0f)};
+    ik::Options options = each.base;
+    if (each.limited) options.limits = each.arm.limits;
+    change(options, outcome.residuals);
+    outcome.report = solver.solve(method, outcome.joints, each.target, options);
+    outcome.rotations.assign(solver.rotations().begin(), solver.rotations().end());
+    return outcome;
+}
+
+/// The base options, with one set to something else than it has as a rule.
+void set(Option option, ik::Options& options, std::span<float> residuals, const Case& each) {
+    const float reach = each.arm.reach();
+    switch (option) {
+        case Option::Tolerance:
+            options.tolerance = 0.1f * reach;
+            break;
+        case Option::MaxIterations:
+            options.max_iterations = 2;
+            break;
+        case Option::EveryIteration:
+            options.every_iteration = true;
+            break;
+        case Option::Limits:
+            options.limits = each.arm.limits;
+            break;
+        case Option::Pole:
+            options.pole = glm::vec3(0.1f, -0.7f, 1.0f) * reach;
+            break;
+        case Option::PoleTurn:
+            options.pole_turn = ik::PoleTurn::EachJoint;
+            break;
+        case Option::SnapBack:
+            options.snap_back = 0.7f;
+            break;
+        case Option::TipOrientation:
+            options.tip_orientation = glm::quat(0.5f, 0.5f, -0.5f, 0.5f);
+            break;
+        case Option::SoftZone:
+            options.soft_zone = 0.4f;
+            break;
+        case Option::Damping:
+            options.damping = 0.9f;
+            break;
+        case Option::Stretch:
+            options.start_stretch_ratio = 0.5f, options.max_stretch_scale = 1.5f;
+            break;
+        case Option::Twist:
+            options.twist = 0.8f;
+            break;
+        case Option::Weight:
+            options.weight = 0.4f;
+            break;
+        case Option::Restarts:
+            options.restarts = 0;
+            break;
+        case Option::Rotations:
+            options.rotations = true;
+            break;
+        case Option::Residuals:
+            options.residuals = residuals;
+            break;
+    }
+}
+
+std::vector<Case> some_cases(Method method, bool limited) {
+    std::vector<Case> cases;
+    Random random(31);
+    for (int number = 0; number < 40; ++number) {
+        Case each;
+        const std::size_t bones = method == Method::TwoBone ? 2 : 4 + random.below(3);
+        each.arm = some_arm(random, arm_kinds[random.below(arm_kinds.size())], bones);
+        each.limited = limited;
+        each.start = number % 4 == 0 ? each.arm.at_rest() : some_pose(each.arm.lengths, random);
+        each.target = number % 3 == 0 ? some_tip(each.arm, random) : random.point(each.arm.reach());
+        each.base.max_iterations = 60;
+        each.base.damping = 0.2f;
+        if (number % 2 == 0) each.base.pole = random.point(2.0f * each.arm.reach());
+        if (number % 5 == 0) each.base.soft_zone = 0.2f;
+        if (number % 7 == 0) each.base.snap_back = 0.3f;
+        cases.push_back(each);
+    }
+    return cases;
+}
+
+int changed_cases(Method method, Option option, bool limited) {
+    int changed = 0;
+    for (const Case& each : some_cases(method, limited)) {
+        const auto as_it_is = [](ik::Options&, std::span<float>) {};
+        const auto otherwise = [&](ik::Options& options, std::span<float> residuals) {
+            set(option, options, residuals, each);
+        };
+        const Outcome a = solve(method, each, as_it_is), b = solve(method, each, otherwise);
+        EXPECT_NE(a.report.status, ik::Status::InvalidInput);
+        EXPECT_NE(b.report.status, ik::Status::InvalidInput) << name(option);
+        changed += a != b;
+    }
+    return changed;
+}
+
+TEST(IkOptions, TheTableSaysWhichMethodHonoursWhat) {
+    for (const Method method : ik::all_methods) {
+        for (const Option option : ik::all_options) {
+            for (const bool limited : {false, true}) {
+                if (option == Option::Limits && limited) continue;
+                const int changed = changed_cases(method, option, limited);
+                EXPECT_EQ(changed > 0, honours(method, option, limited))
+                    << name(method) << ", " << name(option)
+                    << (limited ? " within limits" : " without limits") << ": " << changed
+                    << " of 40 changed";
+            }
+        }
+    }
+}
+
+TEST(IkOptions, TwoBoneNeedsTwoBones) {
+    EXPECT_TRUE(check_takes(Method::TwoBone, 2));
+    EXPECT_STREQ(check_takes(Method::TwoBone, 5).message(), "Two-bone needs exactly two bones");
+    EXPECT_TRUE(check_takes(Method::Ccd, 5));
+    EXPECT_FALSE(check_takes(static_cast<Method>(99), 5));
+}
+
+// ---- Weight
+
+/// The directions of the bones.
+Joints directions(const Joints& joints) {
+    Joints result;
+    for (std::size_t i = 1; i < joints.size(); ++i)
+        result.push_back(glm::normalize(joints[i] - joints[i - 1]));
+    return result;
+}
+
+double angle_between(glm::vec3 a, glm::vec3 b) {
+    return std::atan2(distance(glm::cross(a, b), {0, 0, 0}), double(glm::dot(a, b)));
+}
+
+TEST(IkWeight, BonesTurnPartOfTheWayAndKeepTheirLengths) {
+    Random random(32);
+    for (const Method method : iterating_methods) {
+        for (int number = 0; number < 40; ++number) {
+            const Lengths lengths = some_lengths(2 + random.below(6), random);
+            const Joints start = some_pose(lengths, random);
+            const glm::vec3 target = random.point(static_cast<float>(reach_of(lengths)));
+            Joints whole = start, some = start, none = start;
+            const float weight = part(random);
+            const ik::Report report = KeptSolver(lengths).solve(method, whole, target);
+            EXPECT_EQ(KeptSolver(lengths).solve(method, some, target, {.weight = weight}), report);
+            EXPECT_EQ(KeptSolver(lengths).solve(method, none, target, {.weight = 0.0f}), report);
+            EXPECT_TRUE(same_bits(none, start));
+            EXPECT_TRUE(Holds(some, lengths));
+            const Joints from = directions(start), to = directions(whole), is = directions(some);
+            for (std::size_t i = 0; i < is.size(); ++i) {
+                const double all = angle_between(from[i], to[i]);
+                if (all > 3.1) continue;  // half a turn: any way is the shortest
+                EXPECT_NEAR(angle_between(from[i], is[i]), double(weight) * all, 2e-3);
+                EXPECT_NEAR(angle_between(is[i], to[i]), (1.0 - double(weight)) * all, 2e-3);
+            }
+        }
+    }
+}
+
+TEST(IkWeight, WhatLiesBetweenIsWithinItsLimits) {
+    Random random(33);
+    for (int number = 0; number < 200; ++number) {
+        const Arm arm = some_arm(random, arm_kinds[random.below(arm_kinds.size())], 2 + random.below(4));
+        KeptSolver solver = arm.solver();
+        Joints joints = arm.at_rest();
+        for (int frame = 0; frame < 4; ++frame) {
+            const ik::Report report =
+                solver.solve(Method::Fabrik, joints, random.point(arm.reach()),
+                             {.max_iterations = 40, .limits = arm.limits, .weight = part(random)});
+            ASSERT_NE(report.status, ik::Status::InvalidInput);
+            EXPECT_TRUE(Holds(joints, arm.lengths));
+            EXPECT_TRUE(WithinLimits(arm, joints, solver.rotations()));
+        }
+    }
+}
+
+TEST(IkWeight, AStretchIsBlendedToo) {
+    const Lengths lengths{1, 1};
+    KeptSolver solver(lengths);
+    Joints joints = straight_joints(lengths, {0, 1, 0});
+    const ik::Options options{.start_stretch_ratio = 0.5f, .max_stretch_scale = 1.6f, .weight = 0.5f};
+    EXPECT_EQ(solver.solve(Method::TwoBone, joints, {1.6f, 0, 0}, options).status, ik::Status::Converged);
+    EXPECT_NEAR(distance(joints[0], joints[1]), 1.3, 1e-5);
+    EXPECT_NEAR(distance(joints[1], joints[2]), 1.3, 1e-5);
+}
+
+// ---- What really ran
+
+TEST(IkReport, SaysWhatRan) {
+    Random random(34);
+    int steps = 0, restarts = 0, closed = 0, perturbations = 0;
+    for (int number = 0; number < 100; ++number) {
+        const Arm arm = some_arm(random, ArmKind::Mixed, 5);
+        Joints joints = arm.at_rest();
+        const ik::Report report = arm.solver().solve(Method::Fabrik, joints, some_tip(arm, random),
+                                                     {.max_iterations = 200, .limits = arm.limits});
+        steps += report.least_squares_steps, restarts += report.restarts;
+        EXPECT_LE(report.least_squares_steps, report.iterations);
+        joints = arm.at_rest();
+        const ik::Report calm =
+            arm.solver().solve(Method::Fabrik, joints, some_tip(arm, random),
+                               {.max_iterations = 200, .limits = arm.limits, .restarts = 0});
+        EXPECT_EQ(calm.restarts, 0);
+        const Lengths lengths(5, 1.0f);
+        joints = straight_joints(lengths);
+        const ik::Report plain = KeptSolver(lengths).solve(Method::Ccd, joints, {number < 50 ? 3 : 7, 0, 0});
+        closed += plain.closed_form, perturbations += plain.perturbations;
+        EXPECT_EQ(plain.least_squares_steps + plain.restarts, 0);
+    }
+    EXPECT_GT(steps, 100);
+    EXPECT_GT(restarts, 10);
+    EXPECT_EQ(closed, 50);
+    EXPECT_GE(perturbations, 50);
+    Arm two = some_arm(random, ArmKind::Hinges, 2);
+    Joints joints = two.at_rest();
+    const ik::Report report = two.solver().solve(Method::TwoBone, joints, {0.3f, 0.4f, 0.5f},
+                                                 {.every_iteration = true, .limits = two.limits});
+    EXPECT_TRUE(report.closed_form);
+    EXPECT_EQ(report.least_squares_steps, 99);
+}
+
+}  // namespace
+}  // namespace tendril::test
