@@ -160,6 +160,7 @@ TEST(SolveMany, OptionsOutOfRangeAndListsOfTheWrongSizeMoveNothing) {
     for (const float tolerance : {-1.0f, nan, infinity, 2e9f})
         expect_refused(all, 5, {.tolerance = tolerance});
     for (const int most : {0, -1, 1'000'001}) expect_refused(all, 5, {.max_iterations = most});
+    expect_refused(all, 5, {.restarts = -1});
     expect_refused(all, 5, {.vector_unit = "abacus"});
     ik::solve_many(batch, all);  // without reports
     EXPECT_NE(joints_of(batch), before);

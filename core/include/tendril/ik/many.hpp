@@ -22,8 +22,10 @@
 // it was; so is one whose target is out of reach, and all of them with `every_iteration` or where a cone is
 // flat (a suture). Poses differ from the scalar solver's: both arrive, each within the limits to 0.1 degrees.
 //
-// Cost: O(bones) an iteration and chain. tests/bench/ik_many.cpp prints the gain over as many calls of
-// Solver::solve, transfers counted.
+// Cost: O(bones) an iteration and chain. Over as many calls of Solver::solve to tolerance, 1 000 chains, all
+// joints copied in and out (tests/bench/ik_many.cpp): 7 to 14 times the throughput with AVX-512 and 5 to 12
+// times with AVX2, the most near full reach; within limits 2 to 19 and 2 to 17 times, the most for hinges and
+// near full reach. It pays from four chains on, and hardly where most targets fall to the scalar solver.
 #pragma once
 
 #include <cstddef>
@@ -49,6 +51,8 @@ struct ManyOptions {
     int max_iterations = 100;
     /// Goes on to max_iterations whatever was reached; for measuring, and for comparing solvers.
     bool every_iteration = false;
+    /// Of the scalar solver within limits, as Options::restarts.
+    int restarts = Options{}.restarts;
     /// Who runs the threads' parts (as many as Batch::make was told of, where there is work for them); the
     /// library's own threads where left out.
     Tasks tasks{};

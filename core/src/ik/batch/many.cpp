@@ -215,7 +215,9 @@ Result Batch::set_limits(std::span<const Limit> limits, std::span<const glm::vec
     }
     parts_->limits = std::make_unique<BatchLimits>(batch_limits(limits, rest));
     for (const std::unique_ptr<Scratch>& scratch : parts_->scratch) {
-        if (scratch->limited.get() == nullptr) scratch->limited = Rows(limited_floats(bones()));
+        if (scratch->limited.get() != nullptr) continue;
+        scratch->limited = Rows(limited_floats(bones()));
+        scratch->poses = Rows(pose_rows(bones()) * block_lanes);
     }
     if (parts_->rotations.get() == nullptr) {
         parts_->rotations = Rows(parts_->block_count() * 4 * bones() * block_lanes);
@@ -286,6 +288,7 @@ ManySummary solve_many(Batch& batch, std::span<const glm::vec3> targets, std::sp
     scalar.tolerance = options.tolerance;
     scalar.max_iterations = options.max_iterations;
     scalar.every_iteration = options.every_iteration;
+    scalar.restarts = options.restarts;
     if (parts.limits) scalar.limits = parts.limits->limits;
     const bool fits = targets.size() == parts.chains && (reports.empty() || reports.size() == parts.chains);
     if (!fits || unit == nullptr || !are_valid(scalar, parts.bones)) {

@@ -62,8 +62,8 @@ class LongestBone {
     Mask passed_;
 };
 
-/// Writes the bones of a shape and returns their span. `held`: the longest bone stays as it is.
-template <bool held>
+/// Writes the bones of a shape and returns their span. `keeps_longest`: the longest bone stays as it is.
+template <bool keeps_longest>
 HWY_INLINE Points write_shape(const Block& block, std::size_t i, const Family& family, Lanes t,
                               const Shape& out) {
     const Points towards = times(family.line, hn::Sub(all(1.0f), t));
@@ -79,7 +79,7 @@ HWY_INLINE Points write_shape(const Block& block, std::size_t i, const Family& f
         if (HWY_UNLIKELY(!hn::AllTrue(Floats(), shows))) {
             shaped = select(shows, shaped, times(family.line, size));
         }
-        if constexpr (held) {
+        if constexpr (keeps_longest) {
             const Mask stays = longest.is(size);
             span = select(stays, span, plus(span, shaped));
             shaped = select(stays, apart, shaped);
@@ -100,7 +100,7 @@ struct BestShape {
 };
 
 /// Two tries at the t^2 where the span is as wanted: regula falsi.
-template <bool held>
+template <bool keeps_longest>
 HWY_INLINE BestShape fit_shape(const Block& block, std::size_t i, const Family& family, Lanes near,
                                Mask lanes, const Shape& one, const Shape& two) {
     const auto bounded = [](Lanes next) {
@@ -113,7 +113,7 @@ HWY_INLINE BestShape fit_shape(const Block& block, std::size_t i, const Family& 
     best.found = hn::Xor(hn::Lt(at_low, zero()), hn::Lt(at_high, zero()));
     best.second = none();
     Lanes next = bounded(hn::Div(at_low, hn::Sub(at_low, at_high)));
-    best.span = write_shape<held>(block, i, family, hn::Sqrt(next), one);
+    best.span = write_shape<keeps_longest>(block, i, family, hn::Sqrt(next), one);
     best.size = length(best.span);
     Lanes off = hn::Sub(best.size, family.wanted);
     best.error = hn::Abs(off);
@@ -132,7 +132,7 @@ HWY_INLINE BestShape fit_shape(const Block& block, std::size_t i, const Family& 
     const Lanes strong = hn::Max(next, all(strong_bend));
     next = bounded(hn::IfThenElse(bracketed, between, strong));
     best.found = hn::Or(best.found, hn::And(again, crosses));
-    const Points span = write_shape<held>(block, i, family, hn::Sqrt(next), two);
+    const Points span = write_shape<keeps_longest>(block, i, family, hn::Sqrt(next), two);
     const Lanes size = length(span);
     off = hn::Sub(size, family.wanted);
     const Lanes error = hn::Abs(off);
@@ -229,7 +229,7 @@ class Turn {
 };
 
 /// Lays the chains of `lanes` with the bones of their best shape, turned onto the aim.
-template <bool held>
+template <bool keeps_longest>
 HWY_INLINE void lay_shape(const Block& block, std::size_t i, Mask lanes, const Family& family,
                           const BestShape& best, const Shape& one, const Shape& two) {
     const Turn turn(best.span, best.size, family.aim, family.wanted);
@@ -238,7 +238,7 @@ HWY_INLINE void lay_shape(const Block& block, std::size_t i, Mask lanes, const F
     for (std::size_t bone = 0; bone < block.bones(); ++bone) {
         const Points shaped = select(best.second, two.of(bone), one.of(bone));
         Points turned = turn.of(shaped);
-        if constexpr (held) {
+        if constexpr (keeps_longest) {
             const Mask stays = longest.is(load(block.length(bone) + i));
             turned = select(hn::AndNot(family.turns_longest, stays), shaped, turned);
         }

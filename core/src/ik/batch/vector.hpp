@@ -31,16 +31,22 @@ struct Order {
     StepScratch step;
 };
 
+/// Rows of the joints, and of how bones are turned against their parents and in the world.
+inline std::size_t pose_rows(std::size_t bones) noexcept {
+    return 3 * (bones + 1) + 8 * bones;
+}
 /// For a block of chains within limits.
 struct LimitedOrder {
     std::span<const BatchLimit> limits;  ///< one a bone
     float* rotations;  ///< four rows a bone, in the order of glm::quat: in the world, from rest
+    Block tile;        ///< scratch: chains while they are solved
+    float* poses;      ///< scratch: pose_rows of the tile
     float* scratch;    ///< limited_floats of it
     int max_iterations;
 };
-/// Two poses of one register of chains, and what a step needs of each bone.
+/// A pose of one register of chains, and what a step needs of each bone.
 inline std::size_t limited_floats(std::size_t bones) noexcept {
-    return (2 * (3 * (bones + 1) + 8 * bones) + (3 + 3 + 3 + 3 + 2 + 2) * bones) * 16;
+    return (pose_rows(bones) + (3 + 3 + 3 + 3 + 2 + 2) * bones) * 16;
 }
 
 /// How many chains still iterate, and whether any of them waits for a perturbation first.

@@ -16,7 +16,7 @@ constexpr int tile_burst = 2;                 ///< iterations between two looks 
 
 /// Where the accelerated step has its turn in every iteration, nearly all chains need only one.
 int first_burst(std::size_t bones) noexcept {
-    return bones >= 8 ? 1 : 2;
+    return bones >= 8 ? 1 : 4;
 }
 
 void copy_column(const float* from, float* to, std::size_t rows) noexcept {
@@ -90,9 +90,9 @@ void Work::solve_limited_block(const Block& block, std::size_t index, std::size_
     in_.unit.classify_limited(block, lanes);
     const bool vectors = !in_.limits->ready.empty() && !in_.options.every_iteration;
     if (vectors) {
-        in_.unit.solve_limited(
-            block, lanes,
-            {in_.limits->ready, rotations(index), scratch.limited.get(), in_.options.max_iterations});
+        in_.unit.solve_limited(block, lanes,
+                               {in_.limits->ready, rotations(index), scratch.tile.block, scratch.poses.get(),
+                                scratch.limited.get(), in_.options.max_iterations});
     }
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         const std::size_t chain = index * block_lanes + lane;

@@ -36,8 +36,8 @@ struct Scratch {
     Rows shapes;  ///< see StepScratch, with the next two
     Tile gathered, second;
     Tile tile;
-    Rows limited;      ///< see LimitedOrder; only once there are limits
-    Workspace scalar;  ///< for what the scalar code does
+    Rows poses, limited;  ///< see LimitedOrder; only once there are limits
+    Workspace scalar;     ///< for what the scalar code does
 };
 
 class Work {

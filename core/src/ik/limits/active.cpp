@@ -25,8 +25,7 @@ float settle_down(Problem& problem, float there) noexcept {
     float error = error_of(problem, problem.room.limited.pose), damping = first_damping;
     for (int step = 0, idle = 0; step < most_steps && idle < 2 && error > there; ++step) {
         const float before = error;
-        descend(
-            problem, damping, error, [] { return true; }, Unwatched());
+        descend(problem, damping, error, Unwatched());
         // Far from a target that cannot be reached only so much may still be gained.
         idle = before - error < slow * std::min(before, 0.1f * problem.room.reach) ? idle + 1 : 0;
     }
@@ -49,8 +48,8 @@ float go_down(Problem& problem, float there) noexcept {
     return error;
 }
 
-}  // namespace
-
+/// How fast the error's square falls as all joints turn, each in the way that is best for it: how much of
+/// that the active limits take away.
 bool stopped_by_limits(Problem& problem) noexcept {
     const Wanted wanted = wanted_of(problem);
     Normal normal = linearize(problem, wanted);
@@ -70,11 +69,13 @@ bool stopped_by_limits(Problem& problem) noexcept {
     return free - allowed >= good_part * free;
 }
 
+}  // namespace
+
 bool limits_hold(Problem& problem, float there) noexcept {
     LimitedRoom& room = problem.room.limited;
-    room.start = room.pose;
+    room.spare = room.pose;
     const bool holds = go_down(problem, there) > there && stopped_by_limits(problem);
-    std::swap(room.pose, room.start);
+    std::swap(room.pose, room.spare);
     return holds;
 }
 

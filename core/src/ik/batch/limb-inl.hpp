@@ -1,0 +1,292 @@
+// A register of chains within limits: forward kinematics, how the tip moves as the joints turn, and one
+// damped step of all joints. Not installed; it is included once for each vector unit.
+#if defined(TENDRIL_IK_BATCH_LIMB_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENDRIL_IK_BATCH_LIMB_INL
+#undef TENDRIL_IK_BATCH_LIMB_INL
+#else
+#define TENDRIL_IK_BATCH_LIMB_INL
+#endif
+
+#include <span>
+
+#include "ik/batch/limit-inl.hpp"
+#include "ik/batch/vector.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace tendril::ik::detail {
+namespace HWY_NAMESPACE {
+
+constexpr float violation = 1.9e-7f;  ///< squared, of half an angle: 0.05 degrees
+
+/// Registers, each a stride after the one before.
+class Column {
+  public:
+    explicit Column(float* first, std::size_t stride = width()) : first_(first), stride_(stride) {}
+    Lanes lanes(std::size_t i) const { return load(first_ + i * stride_); }
+    void set(std::size_t i, Lanes to) const { store(to, first_ + i * stride_); }
+    Points points(std::size_t i) const { return {lanes(3 * i), lanes(3 * i + 1), lanes(3 * i + 2)}; }
+    void set(std::size_t i, const Points& to) const {
+        set(3 * i, to.x), set(3 * i + 1, to.y), set(3 * i + 2, to.z);
+    }
+    Rotations rotations(std::size_t i) const {
+        return {lanes(4 * i), {lanes(4 * i + 1), lanes(4 * i + 2), lanes(4 * i + 3)}};
+    }
+    void set(std::size_t i, const Rotations& to) const {
+        set(4 * i, to.w), set(4 * i + 1, to.v.x), set(4 * i + 2, to.v.y), set(4 * i + 3, to.v.z);
+    }
+    Column after(std::size_t count) const { return Column(first_ + count * stride_, stride_); }
+    static std::size_t width() { return hn::Lanes(Floats()); }
+
+  private:
+    float* first_;
+    std::size_t stride_;
+};
+
+/// Joints, and how each bone is turned against its parent and in the world.
+struct Pose {
+    Column joints, local, world;
+    Pose(Column at, std::size_t bones)
+        : joints(at), local(at.after(3 * (bones + 1))), world(at.after(3 * (bones + 1) + 4 * bones)) {}
+    static std::size_t registers(std::size_t bones) { return pose_rows(bones); }
+};
+
+/// One register of the tile.
+struct Limb {
+    Block block;
+    std::size_t i;  ///< the register's first lane
+    std::span<const BatchLimit> limits;
+    Pose pose, trial;
+    Column arms;     ///< points: from each joint to the tip, in parts of the reach
+    Column axes;     ///< points: the hinge's axis, or the way out of the cone where the joint lies on its rim
+    Column bones;    ///< points: unit vectors along the bones
+    Column changes;  ///< points: how far each joint is to turn; x alone for a hinge
+    Column ends;     ///< 2 a bone: 1 where the hinge or the twist is at the upper, the lower end of its range
+    Column stopped;  ///< 2 a bone: 1 where swing, and hinge or twist, are stopped in this step
+
+    Limb(std::size_t lane, const LimitedOrder& order)
+        : block(order.tile),
+          i(lane),
+          limits(order.limits),
+          pose(Column(order.poses + lane, block_lanes), count()),
+          trial(Column(order.scratch), count()),
+          arms(Column(order.scratch).after(Pose::registers(count()))),
+          axes(arms.after(3 * count())),
+          bones(axes.after(3 * count())),
+          changes(bones.after(3 * count())),
+          ends(changes.after(3 * count())),
+          stopped(ends.after(2 * count())) {}
+    std::size_t count() const { return limits.size(); }
+    Points tip(const Pose& of) const { return of.joints.points(count()); }
+    Points target() const { return load_points(block.target() + i); }
+    float* row(Row which) const { return block.row(which) + i; }
+};
+
+/// In the order that glm::quat has its components in.
+#ifdef GLM_FORCE_QUAT_DATA_WXYZ
+constexpr std::size_t row_of_w = 0, row_of_v = block_lanes;
+#else
+constexpr std::size_t row_of_w = 3 * block_lanes, row_of_v = 0;
+#endif
+HWY_INLINE Rotations load_rotations(const float* rows) {
+    return {load(rows + row_of_w), load_points(rows + row_of_v)};
+}
+HWY_INLINE void store_rotations(const Rotations& q, float* rows) {
+    store(q.w, rows + row_of_w), store_points(q.v, rows + row_of_v);
+}
+
+HWY_INLINE Rotations no_rotation() {
+    return {all(1.0f), {zero(), zero(), zero()}};
+}
+
+/// Where the joints lie, from how the bones are turned.
+HWY_INLINE void forward_kinematics(const Limb& limb, const Pose& pose) {
+    Rotations world = no_rotation();
+    Points at = load_points(limb.block.joint(0) + limb.i);
+    pose.joints.set(0, at);
+    for (std::size_t bone = 0; bone < limb.count(); ++bone) {
+        world = compose(world, pose.local.rotations(bone));
+        pose.world.set(bone, world);
+        at = moved(at, rotated(world, all(limb.limits[bone].bone)), load(limb.block.length(bone) + limb.i));
+        pose.joints.set(bone + 1, at);
+    }
+}
+
+/// The smallest rotation from one unit vector to another; half a turn about some axis where they are
+/// opposite.
+HWY_INLINE Rotations smallest_rotation(const Points& from, const Points& to) {
+    const Lanes w = hn::Add(all(1.0f), dot(from, to));
+    const Mask opposite = hn::Lt(w, all(1e-6f));
+    const Mask along_x = hn::Gt(hn::Abs(from.x), all(0.7f));
+    const Points away{hn::IfThenZeroElse(along_x, all(1.0f)), hn::IfThenElseZero(along_x, all(1.0f)), zero()};
+    return normalized(select(opposite, Rotations{zero(), cross(from, away)}, Rotations{w, cross(from, to)}));
+}
+
+/// Carries the rotations to where the joints are, by the smallest rotation, and clamps them. Returns the
+/// lanes in which a limit was violated; `pose` is the clamped one.
+HWY_INLINE Mask take_pose(const Limb& limb, const float* rotations) {
+    Mask violated = none();
+    Rotations parent = no_rotation();
+    for (std::size_t bone = 0; bone < limb.count(); ++bone) {
+        const float* const rows = rotations + 4 * bone * block_lanes + limb.i;
+        Rotations world = load_rotations(rows);
+        const Points apart = minus(load_points(limb.block.joint(bone + 1) + limb.i),
+                                   load_points(limb.block.joint(bone) + limb.i));
+        const Lanes squared = dot(apart, apart);
+        const Mask shows = hn::Ge(squared, all(math::coincidence));
+        const Lanes scale = hn::Div(all(1.0f), hn::Sqrt(hn::Max(squared, all(math::coincidence))));
+        const Points before = rotated(world, all(limb.limits[bone].bone)), along = times(apart, scale);
+        const Points off = minus(along, before);
+        const Mask turned = hn::And(shows, hn::Gt(dot(off, off), all(1e-10f)));
+        const Rotations carried = normalized(compose(smallest_rotation(before, along), world));
+        world = select(turned, carried, world);
+        const Rotations turn = normalized(compose(conjugate(parent), world));
+        const Rotations within = clamp(limb.limits[bone], turn, nullptr);
+        // A quaternion and its negative are one rotation.
+        const Lanes cosine = hn::Add(hn::Mul(turn.w, within.w), dot(turn.v, within.v));
+        const Lanes sign = hn::CopySign(all(1.0f), cosine), w = hn::Sub(turn.w, hn::Mul(within.w, sign));
+        const Points v = minus(turn.v, times(within.v, sign));
+        violated = hn::Or(violated, hn::Gt(hn::Add(hn::Mul(w, w), dot(v, v)), all(violation)));
+        limb.pose.local.set(bone, within);
+        parent = compose(parent, within);
+    }
+    forward_kinematics(limb, limb.pose);
+    return violated;
+}
+
+/// A symmetric matrix.
+struct Matrix {
+    Lanes xx, yy, zz, xy, xz, yz;
+    explicit Matrix(Lanes diagonal)
+        : xx(diagonal), yy(diagonal), zz(diagonal), xy(zero()), xz(zero()), yz(zero()) {}
+
+    void add_square(const Points& c, Lanes by) {
+        const Points scaled = times(c, by);
+        xx = hn::Add(xx, hn::Mul(c.x, scaled.x)), yy = hn::Add(yy, hn::Mul(c.y, scaled.y));
+        zz = hn::Add(zz, hn::Mul(c.z, scaled.z)), xy = hn::Add(xy, hn::Mul(c.x, scaled.y));
+        xz = hn::Add(xz, hn::Mul(c.x, scaled.z)), yz = hn::Add(yz, hn::Mul(c.y, scaled.z));
+    }
+    void add_diagonal(Lanes by) { xx = hn::Add(xx, by), yy = hn::Add(yy, by), zz = hn::Add(zz, by); }
+    /// The x for which this times x is `of`.
+    Points solved(const Points& of) const {
+        const auto minor = [](Lanes a, Lanes b, Lanes c, Lanes d) {
+            return hn::Sub(hn::Mul(a, b), hn::Mul(c, d));
+        };
+        const Lanes a = minor(yy, zz, yz, yz), b = minor(xz, yz, xy, zz), c = minor(xy, yz, xz, yy),
+                    e = minor(xx, zz, xz, xz), f = minor(xy, xz, xx, yz), g = minor(xx, yy, xy, xy);
+        const Lanes determinant = dot({xx, xy, xz}, {a, b, c});
+        const Lanes inverse = hn::Div(all(1.0f), determinant);
+        return times({dot({a, b, c}, of), dot({b, e, f}, of), dot({c, f, g}, of)}, inverse);
+    }
+};
+
+/// Arms, axes and what stands at its limit, of the pose.
+HWY_INLINE void linearize(const Limb& limb) {
+    const Lanes unit = hn::Div(all(1.0f), load(limb.block.reach() + limb.i));
+    const Points tip = limb.tip(limb.pose);
+    Rotations parent = no_rotation();
+    for (std::size_t bone = 0; bone < limb.count(); ++bone) {
+        const BatchLimit& limit = limb.limits[bone];
+        limb.arms.set(bone, times(minus(tip, limb.pose.joints.points(bone)), unit));
+        Standing standing;
+        if (limit.kind != BatchLimit::Kind::Free) clamp(limit, limb.pose.local.rotations(bone), &standing);
+        const bool hinge = limit.kind == BatchLimit::Kind::Hinge;
+        const Points axis = hinge ? all(limit.axis) : standing.outward;
+        const Rotations world = limb.pose.world.rotations(bone);
+        limb.axes.set(bone, rotated(parent, axis));
+        if (!hinge) limb.bones.set(bone, rotated(world, all(limit.bone)));
+        limb.ends.set(2 * bone, standing.upper), limb.ends.set(2 * bone + 1, standing.lower);
+        limb.stopped.set(2 * bone, zero());
+        // No room at all: stopped both ways.
+        limb.stopped.set(2 * bone + 1, hn::Mul(standing.upper, standing.lower));
+        parent = world;
+    }
+}
+
+HWY_INLINE Matrix matrix_of(const Limb& limb, Lanes damping) {
+    Matrix matrix(damping);
+    for (std::size_t bone = 0; bone < limb.count(); ++bone) {
+        const Points arm = limb.arms.points(bone), axis = limb.axes.points(bone);
+        const Lanes swing = limb.stopped.lanes(2 * bone), turn = limb.stopped.lanes(2 * bone + 1);
+        if (limb.limits[bone].kind == BatchLimit::Kind::Hinge) {
+            matrix.add_square(cross(axis, arm), hn::Sub(all(1.0f), turn));
+            continue;
+        }
+        matrix.add_diagonal(dot(arm, arm));
+        matrix.add_square(arm, all(-1.0f));
+        if (limb.limits[bone].kind == BatchLimit::Kind::Free) continue;
+        matrix.add_square(cross(axis, arm), hn::Neg(swing));
+        matrix.add_square(cross(limb.bones.points(bone), arm), hn::Neg(turn));
+    }
+    return matrix;
+}
+
+/// How far each joint turns for it. Stops those that would leave their limits; true if there was one.
+HWY_INLINE bool change_joints(const Limb& limb, const Points& by, Mask lanes) {
+    Mask found = none();
+    const auto stop = [&](std::size_t which, Mask here) {
+        found = hn::Or(found, hn::And(here, lanes));
+        limb.stopped.set(which, hn::IfThenElse(here, all(1.0f), limb.stopped.lanes(which)));
+    };
+    const auto pushes = [&](std::size_t bone, Lanes turn) {
+        const Mask up = hn::Gt(hn::Mul(turn, limb.ends.lanes(2 * bone)), all(1e-6f));
+        const Mask down = hn::Lt(hn::Mul(turn, limb.ends.lanes(2 * bone + 1)), all(-1e-6f));
+        return hn::Or(up, down);
+    };
+    for (std::size_t bone = 0; bone < limb.count(); ++bone) {
+        const Points arm = limb.arms.points(bone), axis = limb.axes.points(bone);
+        Points turn = cross(arm, by);
+        const Lanes stopped = limb.stopped.lanes(2 * bone + 1);
+        if (limb.limits[bone].kind == BatchLimit::Kind::Hinge) {
+            const Lanes angle = hn::Mul(dot(axis, turn), hn::Sub(all(1.0f), stopped));
+            stop(2 * bone + 1, pushes(bone, angle));
+            turn = {angle, zero(), zero()};
+        } else if (limb.limits[bone].kind == BatchLimit::Kind::Cone) {
+            const Points along = limb.bones.points(bone);
+            const Lanes swing = limb.stopped.lanes(2 * bone);
+            turn = minus(turn, times(axis, hn::Mul(swing, dot(axis, turn))));
+            turn = minus(turn, times(along, hn::Mul(stopped, dot(along, turn))));
+            stop(2 * bone, hn::AndNot(hn::Gt(swing, zero()), hn::Gt(dot(axis, turn), all(1e-6f))));
+            stop(2 * bone + 1, hn::AndNot(hn::Gt(stopped, zero()), pushes(bone, dot(along, turn))));
+        }
+        limb.changes.set(bone, turn);
+    }
+    return any(found);
+}
+
+/// The trial pose: each joint turned as it should, by a radian at most, and clamped.
+HWY_INLINE void turn_joints(const Limb& limb) {
+    Lanes most = all(1.0f);
+    for (std::size_t bone = 0; bone < limb.count(); ++bone) {
+        const Points change = limb.changes.points(bone);
+        most = hn::Max(most, dot(change, change));
+    }
+    const Lanes half = hn::Div(all(0.5f), hn::Sqrt(most));
+    Rotations parent = no_rotation();
+    for (std::size_t bone = 0; bone < limb.count(); ++bone) {
+        const BatchLimit& limit = limb.limits[bone];
+        const Points change = times(limb.changes.points(bone), half);
+        const bool hinge = limit.kind == BatchLimit::Kind::Hinge;
+        const Points own = hinge ? times(all(limit.axis), change.x) : rotated(conjugate(parent), change);
+        const Rotations turned = compose(Rotations{all(1.0f), own}, limb.pose.local.rotations(bone));
+        limb.trial.local.set(bone, clamp(limit, normalized(turned), nullptr));
+        parent = limb.pose.world.rotations(bone);
+    }
+    forward_kinematics(limb, limb.trial);
+}
+
+HWY_INLINE void accept(const Limb& limb, Mask lanes) {
+    const std::size_t count = Pose::registers(limb.count());
+    for (std::size_t i = 0; i < count; ++i) {
+        limb.pose.joints.set(i, hn::IfThenElse(lanes, limb.trial.joints.lanes(i), limb.pose.joints.lanes(i)));
+    }
+}
+
+HWY_INLINE Lanes error_of(const Limb& limb, const Pose& pose) {
+    return length(minus(limb.target(), limb.tip(pose)));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tendril::ik::detail
+HWY_AFTER_NAMESPACE();
+
+#endif
