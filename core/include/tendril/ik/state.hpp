@@ -32,6 +32,17 @@ struct PoleMemory {
     bool operator==(const PoleMemory&) const = default;
 };
 
+/// How the last solve by Method::Fabrik within limits went, so that the next one goes on from there while the
+/// target is dragged (Options::restarts).
+struct LimitMemory {
+    bool valid = false;    ///< whether there was one; if not, the rest counts for nothing
+    bool limited = false;  ///< whether it ended Limited: least squares goes on at once, FABRIK would not help
+    glm::vec3 target{0.0f};  ///< metres from the root
+    float damping = 0.0f;    ///< of its last least-squares step, in reach squared; 0 to 100
+
+    bool operator==(const LimitMemory&) const = default;
+};
+
 struct State {
     State() = default;
     /// Bones are turned as at rest, and nothing is remembered.
@@ -42,6 +53,7 @@ struct State {
     /// turns a bone on by the least rotation (parallel transport), so that twist has a meaning.
     std::vector<glm::quat> rotations{};
     PoleMemory pole{};
+    LimitMemory limits{};
 
     std::size_t bones() const noexcept { return rotations.size(); }
     /// As it was made: for a chain that is put back to its rest pose. Does not allocate.

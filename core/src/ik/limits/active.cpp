@@ -25,7 +25,8 @@ float settle_down(Problem& problem, float there) noexcept {
     float error = error_of(problem, problem.room.limited.pose), damping = first_damping;
     for (int step = 0, idle = 0; step < most_steps && idle < 2 && error > there; ++step) {
         const float before = error;
-        descend(problem, damping, error, Unwatched());
+        descend(
+            problem, damping, error, [] { return true; }, Unwatched());
         // Far from a target that cannot be reached only so much may still be gained.
         idle = before - error < slow * std::min(before, 0.1f * problem.room.reach) ? idle + 1 : 0;
     }
@@ -48,8 +49,8 @@ float go_down(Problem& problem, float there) noexcept {
     return error;
 }
 
-/// How fast the error's square falls as all joints turn, each in the way that is best for it: how much of
-/// that the active limits take away.
+}  // namespace
+
 bool stopped_by_limits(Problem& problem) noexcept {
     const Wanted wanted = wanted_of(problem);
     Normal normal = linearize(problem, wanted);
@@ -69,13 +70,11 @@ bool stopped_by_limits(Problem& problem) noexcept {
     return free - allowed >= good_part * free;
 }
 
-}  // namespace
-
 bool limits_hold(Problem& problem, float there) noexcept {
     LimitedRoom& room = problem.room.limited;
-    room.spare = room.pose;
+    room.start = room.pose;
     const bool holds = go_down(problem, there) > there && stopped_by_limits(problem);
-    std::swap(room.pose, room.spare);
+    std::swap(room.pose, room.start);
     return holds;
 }
 

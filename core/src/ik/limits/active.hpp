@@ -15,4 +15,8 @@ namespace tendril::ik::detail {
 /// descends into another is held there all the same.
 bool limits_hold(Problem& problem, float there) noexcept;
 
+/// The last part of that, for a pose from which a descent has stalled already: whether the active limits take
+/// away a good part of how fast the error falls as all joints turn, each in the way that is best for it.
+bool stopped_by_limits(Problem& problem) noexcept;
+
 }  // namespace tendril::ik::detail

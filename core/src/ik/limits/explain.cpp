@@ -82,6 +82,7 @@ Outcome outcome(Workspace& room, std::span<glm::vec3> joints, glm::vec3 target, 
     freed.max_iterations = iterations;
     freed.limits = limited.freed;
     freed.tip_orientation = options.tip_orientation;
+    room.kept.limits = {};
     Problem problem{joints, target, fine * room.reach, freed, room, room.kept};
     run_limited(Method::Fabrik, problem, Unwatched());
     const glm::quat turn = limited.pose.turns[joint];
@@ -120,11 +121,14 @@ Outcome least(Workspace& room, std::span<glm::vec3> joints, glm::vec3 target, co
               std::size_t joint, Outcome most) noexcept {
     float low = 0.0f, high = 1.0f;
     const JointAngles all = most.angles;
+    const LimitedJoint own = limited_joint(options.limits[joint], room.rest_directions[joint]);
     for (int i = 0; i < 8; ++i) {
         const float part = 0.5f * (low + high);
         const Outcome some =
             outcome(room, joints, target, options, joint, widened(options.limits[joint], all, part));
-        if (some.error <= std::max(most.error, 2.0f * fine * room.reach)) {
+        // Another start may arrive within the joint's own limit: that says nothing of the room it needs.
+        const bool over = excess_of(own, some.angles) > 2.0f * at_bound;
+        if (over && some.error <= std::max(most.error, 2.0f * fine * room.reach)) {
             high = part;
             most.angles = some.angles;
         } else {
@@ -179,6 +183,7 @@ float best_within_limits(Workspace& room, std::span<glm::vec3> joints, glm::vec3
     all.max_iterations = iterations;
     all.limits = options.limits;
     all.tip_orientation = options.tip_orientation;
+    room.kept.limits = {};
     Problem problem{joints, target, fine * room.reach, all, room, room.kept};
     run_limited(Method::Fabrik, problem, Unwatched());
     room.limited.kept = room.limited.pose;

@@ -2,6 +2,7 @@
 #include "ik/limits/loop.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "ik/limits/active.hpp"
 #include "ik/limits/methods.hpp"
@@ -17,6 +18,9 @@ namespace {
 constexpr float orientation_tolerance = 1e-3f;  ///< radians
 constexpr float straight_tolerance = 1e-4f;     ///< of the reach
 constexpr int most_kicks = 4;                   ///< out of singular poses
+constexpr int default_restarts = 8;             ///< options.hpp has what it was chosen by
+constexpr float near_target = 0.05f;            ///< of the reach: a target that moved less is dragged
+constexpr float follow = 20.0f;                 ///< how far joints may follow it, in steps of the target
 
 /// Out of reach, too near for the longest bone, or neither; and what no pose can better.
 struct Reachable {
@@ -52,7 +56,7 @@ bool arrived(const Problem& problem, const Reachable& can) noexcept {
 /// Lays the chain straight towards the target, or folded back along its longest bone, where the limits let it
 /// lie so. Whether they do.
 template <class Watch>
-bool lie_on_line(Problem& problem, const Reachable& can, Watch watch) noexcept {
+bool lie_on_line(Problem& problem, const Reachable& can, float allowance, Watch watch) noexcept {
     if (can.status == Status::Converged || problem.options.tip_orientation) return false;
     LimitedRoom& room = problem.room.limited;
     LimitedPose& pose = room.trial;
@@ -71,6 +75,7 @@ bool lie_on_line(Problem& problem, const Reachable& can, Watch watch) noexcept {
     }
     const float residual = distance(pose.joints[problem.bones()], problem.target);
     if (residual > can.residual + straight_tolerance * problem.room.reach) return false;
+    if (furthest_moved(problem, room.pose, pose) > allowance) return false;
     take_trial(problem, Phase::Analytic, watch);
     return true;
 }
@@ -97,19 +102,28 @@ class Progress {
     int since_ = 0;
 };
 
-Status status_of(Problem& problem, const Reachable& can, bool stalled) noexcept {
+/// What the last iteration says of a pose that has not arrived.
+enum class End { Stalled, StalledInDescent, StillOnItsWay };
+
+Status status_of(Problem& problem, const Reachable& can, End end) noexcept {
     if (arrived(problem, can)) return can.status;
-    if (!stalled) return Status::IterationLimit;
+    if (end == End::StillOnItsWay) return Status::IterationLimit;
     // As near as floats come, and out of reach about as near as a chain comes that is still straightening.
     const float reach = problem.room.reach;
-    const float there = can.status == Status::Converged ? 1e-5f * reach : can.residual + 1e-3f * reach;
-    return limits_hold(problem, std::max(problem.tolerance, there)) ? Status::Limited : Status::Stalled;
+    const float there = std::max(
+        problem.tolerance, can.status == Status::Converged ? 1e-5f * reach : can.residual + 1e-3f * reach);
+    const bool limited = end == End::Stalled ? limits_hold(problem, there)
+                                             : error_of(problem, problem.room.limited.pose) > there &&
+                                                   stopped_by_limits(problem);
+    return limited ? Status::Limited : Status::Stalled;
 }
 
-/// What the loop knows besides the pose: room.limited.nearest has the error `best`.
+/// What the loop knows besides the pose: workspace.best has the error `best`.
 struct Course {
     Reachable can;
     float best = 0.0f;
+    bool dragged = false;  ///< the chain goes on from the last solve, for a target that moved little
+    float allowance = std::numeric_limits<float>::infinity();  ///< how far a joint may go, metres
 };
 
 void note_if_nearer(Problem& problem, Course& course) noexcept {
@@ -119,19 +133,31 @@ void note_if_nearer(Problem& problem, Course& course) noexcept {
     problem.room.limited.best = problem.room.limited.pose;
 }
 
+/// Whether the last solve by this method goes on: from where it left the chain, for a target nearby.
+void note_drag(Method method, const Problem& problem, bool as_left, Course& course) noexcept {
+    const LimitMemory& memory = problem.state.limits;
+    if (method != Method::Fabrik || !memory.valid || !as_left || problem.options.restarts) return;
+    const float step = distance(minus(problem.target, problem.root()), memory.target);
+    course.dragged = step <= near_target * problem.room.reach;
+    if (course.dragged) course.allowance = follow * (step + problem.tolerance);
+}
+
 template <class Watch>
-Course prepare(Problem& problem, Watch watch) noexcept {
+Course prepare(Method method, Problem& problem, Watch watch) noexcept {
+    LimitedRoom& room = problem.room.limited;
     expect_pole(problem);
     take_limits(problem);
-    take_pose(problem, watch);
-    Course course{reachable(problem), error_of(problem, problem.room.limited.pose)};
-    problem.room.limited.best = problem.room.limited.pose;
+    const bool as_left = take_pose(problem, watch);
+    Course course{reachable(problem), error_of(problem, room.pose)};
+    room.best = room.pose;
     if (problem.options.snap_back > 0.0f) {
         commit(problem);
         snap_back(problem, watch);
         take_pose(problem, watch);
     }
-    problem.closed_form = lie_on_line(problem, course.can, watch);
+    note_drag(method, problem, as_left, course);
+    room.start = room.pose;
+    problem.closed_form = lie_on_line(problem, course.can, course.allowance, watch);
     note_if_nearer(problem, course);
     return course;
 }
@@ -145,24 +171,6 @@ void tell(const Problem& problem, Watch watch) noexcept {
     watch.iteration_done(problem.iteration, residual);
 }
 
-/// Whether it stalled.
-template <class Watch>
-bool search(Problem& problem, Course& course, Watch watch) noexcept {
-    LimitedSearch search(error_of(problem, problem.room.limited.pose));
-    while (problem.iteration < problem.options.max_iterations) {
-        const bool over = arrived(problem, course.can) || search.exhausted();
-        if (over && !problem.options.every_iteration) break;
-        ++problem.iteration;
-        search.iterate(problem, watch);
-        if (search.takes(error_of(problem, problem.room.limited.pose), course.best,
-                         arrived(problem, course.can))) {
-            note_if_nearer(problem, course);
-        }
-        tell(problem, watch);
-    }
-    return search.stalled();
-}
-
 /// Bends a chain from which no way leads on, until one does. Whether it was bent.
 template <class Watch>
 bool leave_singular(Problem& problem, int& kicks, Watch watch) noexcept {
@@ -172,9 +180,50 @@ bool leave_singular(Problem& problem, int& kicks, Watch watch) noexcept {
     return kicks > before;
 }
 
-/// The same by a method that has no second try.
+/// Another pose to go on from, where a descent has stalled; whether there is one.
 template <class Watch>
-bool go_on(Method method, Problem& problem, Course& course, Watch watch) noexcept {
+bool find_start(Problem& problem, Course& course, int& kicks, Watch watch) noexcept {
+    note_if_nearer(problem, course);
+    // A chain that its limits hold stretched towards a dragged target was bent in vain when it came there.
+    const bool held = course.dragged && problem.state.limits.limited;
+    if (!held && leave_singular(problem, kicks, watch)) return true;
+    const int most = problem.options.restarts.value_or(course.dragged ? 0 : default_restarts);
+    if (problem.restarts >= most) return false;
+    sample(problem, ++problem.restarts);
+    take_trial(problem, Phase::Prepare, watch);
+    return true;
+}
+
+/// FABRIK, least squares and multistart.
+template <class Watch>
+End search(Problem& problem, Course& course, Watch watch) noexcept {
+    LimitMemory& memory = problem.state.limits;
+    const LimitedPose& pose = problem.room.limited.pose;
+    LimitedDescent descent(error_of(problem, pose), course.allowance);
+    if (course.dragged && memory.limited) descent.go_on(memory.damping);
+    int kicks = 0;
+    bool over = false;
+    while (problem.iteration < problem.options.max_iterations) {
+        const bool there = arrived(problem, course.can);
+        if (!there && !over && descent.stalled()) {
+            over = !find_start(problem, course, kicks, watch);
+            if (!over) descent.start_again(error_of(problem, pose));
+        }
+        if ((there || over) && !problem.options.every_iteration) break;
+        ++problem.iteration;
+        descent.iterate(problem, watch);
+        tell(problem, watch);
+    }
+    note_if_nearer(problem, course);
+    memory = {true, false, minus(problem.target, problem.root()), descent.damping()};
+    over = over || descent.stalled() || problem.restarts > 0;
+    return over && !descent.held_back() ? End::StalledInDescent : End::StillOnItsWay;
+}
+
+/// A method that has no second try.
+template <class Watch>
+End go_on(Method method, Problem& problem, Course& course, Watch watch) noexcept {
+    problem.state.limits.valid = false;
     Progress progress(course.best);
     bool stalled = false;
     int kicks = method == Method::FabrikPlain ? most_kicks : 0;
@@ -191,7 +240,7 @@ bool go_on(Method method, Problem& problem, Course& course, Watch watch) noexcep
         progress.note(error_of(problem, problem.room.limited.pose));
         tell(problem, watch);
     }
-    return stalled || progress.stalled();
+    return stalled || progress.stalled() ? End::Stalled : End::StillOnItsWay;
 }
 
 }  // namespace
@@ -206,9 +255,9 @@ Report run_limited(Method method, Problem& problem, Watch watch) noexcept {
         const bool there = residual_of(problem) <= problem.tolerance;
         return {there ? Status::Converged : Status::Stretched, 0, residual_of(problem)};
     }
-    Course course = prepare(problem, watch);
+    Course course = prepare(method, problem, watch);
     tell(problem, watch);
-    const bool stalled =
+    const End end =
         method == Method::Fabrik ? search(problem, course, watch) : go_on(method, problem, course, watch);
     const bool there = residual_of(problem) <= problem.tolerance && is_turned(problem);
     if (!there && error_of(problem, problem.room.limited.pose) != course.best) {
@@ -217,7 +266,9 @@ Report run_limited(Method method, Problem& problem, Watch watch) noexcept {
     }
     commit(problem);
     face_pole_within_limits(problem, watch);
-    return problem.report(status_of(problem, course.can, stalled), residual_of(problem));
+    const Status status = status_of(problem, course.can, end);
+    problem.state.limits.limited = status == Status::Limited;
+    return problem.report(status, residual_of(problem));
 }
 
 template Report run_limited(Method, Problem&, Unwatched) noexcept;

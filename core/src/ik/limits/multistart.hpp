@@ -1,46 +1,53 @@
-// How the default method arrives where FABRIK's pulls within limits alone get stuck, which they do in about
+// How the default method arrives where FABRIK's passes within limits alone get stuck, which they do in about
 // half of all cases. Not installed.
 //
-// - Where a pair of pulls brings the tip less than half way, a damped least-squares step over the angles that
-//   the limits leave free goes on from the nearer of the poses before and after the pulls. Its damping falls
-//   with success and grows with failure (Levenberg 1944, Marquardt 1963).
-// - Where both stall, the chain tries again from another pose within its limits: the best of four that are
-//   drawn by a fixed rule, the same for the same chain, first near the best pose so far, then anywhere.
+// - FABRIK's passes go on as long as a pair brings the tip half way or more. Damped least-squares steps over
+//   what the limits leave free do the rest; their damping falls with success and grows with failure
+//   (Levenberg 1944, Marquardt 1963). Passes after these gain nothing and cost twice as much.
+// - Multistart: where the steps stall, the chain starts again from a random pose within its limits, the same
+//   ones for the same chain. Measured: starts near the best pose so far, the best of several samples, and
+//   taking only what is clearly nearer gain nothing (99.97 percent arrive with all of them, 99.99 without).
 #pragma once
+
+#include <limits>
 
 #include "ik/limits/pose.hpp"
 
 namespace tendril::ik::detail {
 
-class LimitedSearch {
+/// Where and how a start begins, and how it goes on.
+class LimitedDescent {
   public:
-    explicit LimitedSearch(float error) noexcept : last_(error) {}
+    /// `allowance`: no joint goes further than this from where workspace.start has it, metres.
+    LimitedDescent(float error, float allowance) noexcept : last_(error), allowance_(allowance) {}
 
+    /// FABRIK's passes or a least-squares step, taken only where the tip comes nearer.
     template <class Watch>
     void iterate(Problem& problem, Watch watch) noexcept;
 
-    /// It stalled at least once.
-    bool stalled() const noexcept { return tries_ > 0 || stalls(); }
-    /// It stalled, and there is no other pose left to try.
-    bool exhausted() const noexcept;
-    /// Whether a pose with this error takes the place of the nearest one so far. A pose that another start
-    /// led to must be clearly nearer than where the chain came by itself: it may lie elsewhere, and a chain
-    /// whose target is out of its limits should not jump about for nothing.
-    bool takes(float error, float nearest, bool arrived) const noexcept;
+    /// From another pose, as far as it takes: what was singular cannot be left by a little.
+    void start_again(float error) noexcept;
+    /// Steps at once, with the damping of the last solve.
+    void go_on(float damping) noexcept;
+
+    bool stalled() const noexcept { return slow_ >= 2; }
+    float error() const noexcept { return last_; }
+    float damping() const noexcept { return damping_; }
+    /// The last step was longer than the allowance.
+    bool held_back() const noexcept { return held_back_; }
 
   private:
-    bool stalls() const noexcept;
-    void draw_start(Problem& problem) noexcept;
-    template <class Watch>
-    void start_from_trial(Problem& problem, Phase phase, Watch watch) noexcept;
+    bool may_take(const Problem& problem) noexcept;
 
     float damping_ = 1e-3f;  ///< in reach squared
-    float last_;             ///< the error before
-    float home_ = 0.0f;      ///< another start must lead to less than this
-    int slow_ = 0;           ///< for how many iterations there was little progress
-    int tries_ = 0;
-    bool reaches_ = true;    ///< FABRIK's passes bring the tip half way or more
-    bool polishes_ = false;  ///< goes on from the nearest pose to the end
+    float last_;             ///< the error of the pose
+    float allowance_;
+    int slow_ = 0;         ///< for how many steps there was little progress
+    bool reaches_ = true;  ///< FABRIK's passes bring the tip half way or more
+    bool held_back_ = false;
 };
+
+/// A random pose within the limits into workspace.trial; the same for the same number.
+void sample(const Problem& problem, int number) noexcept;
 
 }  // namespace tendril::ik::detail

@@ -49,17 +49,20 @@ void take_limits(Problem& problem) noexcept {
 }
 
 template <class Watch>
-void take_pose(Problem& problem, Watch watch) noexcept {
+bool take_pose(Problem& problem, Watch watch) noexcept {
     Workspace& room = problem.room;
     LimitedPose& pose = room.limited.pose;
     pose.joints[0] = problem.root();
     bool same = true;  // so far nothing had to move
+    float furthest = 0.0f;
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         glm::quat rotation = problem.state.rotations[i];
         glm::vec3 bone = bone_direction(problem, rotation, i);
         const glm::vec3 along = math::direction(problem.joints[i], problem.joints[i + 1], bone);
         // A rotation that agrees to rounding stays as it is, or each solve would shake it a little.
-        if (squared_distance(bone, along) > 1e-10f) rotation = carried(rotation, bone, along), bone = along;
+        const float off = squared_distance(bone, along);
+        furthest = std::max(furthest, off);
+        if (off > 1e-10f) rotation = carried(rotation, bone, along), bone = along;
         const glm::quat parent = parent_of(pose.rotations, i);
         glm::quat turn = compose(conjugate(parent), rotation);
         // More than a solve leaves, or the next one would begin by moving what the last has left.
@@ -76,6 +79,7 @@ void take_pose(Problem& problem, Watch watch) noexcept {
         watch.moved(problem.iteration, Phase::Limit, i + 1, i, problem.joints[i + 1], pose.joints[i + 1]);
     }
     watch.next_step();
+    return same && furthest < 1e-4f;
 }
 
 void commit(Problem& problem) noexcept {
@@ -84,7 +88,7 @@ void commit(Problem& problem) noexcept {
     std::copy_n(pose.rotations.begin(), problem.bones(), problem.state.rotations.begin());
 }
 
-template void take_pose(Problem&, Unwatched) noexcept;
-template void take_pose(Problem&, Watched) noexcept;
+template bool take_pose(Problem&, Unwatched) noexcept;
+template bool take_pose(Problem&, Watched) noexcept;
 
 }  // namespace tendril::ik::detail

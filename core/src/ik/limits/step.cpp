@@ -1,9 +1,5 @@
 #include "ik/limits/step.hpp"
 
-#include <algorithm>
-
-#include "ik/limits/freedom.hpp"
-#include "ik/limits/pose.hpp"
 #include "ik/math.hpp"
 #include "math/symmetric3.hpp"
 
@@ -11,8 +7,6 @@ namespace tendril::ik::detail {
 namespace {
 
 using namespace tendril::math;
-
-constexpr float least_damping = 1e-6f, most_damping = 1.0f;
 
 Matrix3 damped(Matrix3 matrix, float damping) noexcept {
     for (std::size_t k = 0; k < 3; ++k) matrix.at[k][k] += static_cast<double>(damping);
@@ -63,7 +57,8 @@ Wanted steepest_step(const Normal& normal, const Wanted& wanted) noexcept {
     return {times(wanted.move, best), times(wanted.turn, best), wanted.scale};
 }
 
-/// Solved anew until no joint is pushed out of its limit.
+}  // namespace
+
 Wanted projected_step(Problem& problem, Descent descent, float damping, const Wanted& wanted,
                       Normal& normal) noexcept {
     Wanted by = wanted;
@@ -76,8 +71,7 @@ Wanted projected_step(Problem& problem, Descent descent, float damping, const Wa
     return by;
 }
 
-/// Turns every joint, but none by more than a radian; further the matrix says nothing.
-void take(Problem& problem, const Wanted& by) noexcept {
+void turn_joints(Problem& problem, const Wanted& by) noexcept {
     LimitedRoom& room = problem.room.limited;
     float most = 1.0f;
     for (std::size_t i = 0; i < problem.bones(); ++i) {
@@ -95,33 +89,10 @@ void take(Problem& problem, const Wanted& by) noexcept {
     }
 }
 
-}  // namespace
-
 void limited_step(Problem& problem, Descent descent, float damping) noexcept {
     const Wanted wanted = wanted_of(problem);
     Normal normal = linearize(problem, wanted);
-    take(problem, projected_step(problem, descent, damping, wanted, normal));
+    turn_joints(problem, projected_step(problem, descent, damping, wanted, normal));
 }
-
-template <class Watch>
-bool descend(Problem& problem, float& damping, float& error, Watch watch) noexcept {
-    const Wanted wanted = wanted_of(problem);
-    Normal normal = linearize(problem, wanted);
-    for (int attempt = 0; attempt < 2; ++attempt) {
-        take(problem, projected_step(problem, Descent::Damped, damping, wanted, normal));
-        const float then = error_of(problem, problem.room.limited.trial);
-        if (then < error) {
-            take_trial(problem, Phase::Gradient, watch);
-            error = then;
-            damping = std::max(0.3f * damping, least_damping);
-            return true;
-        }
-        damping = std::min(5.0f * damping, most_damping);
-    }
-    return false;
-}
-
-template bool descend(Problem&, float&, float&, Unwatched) noexcept;
-template bool descend(Problem&, float&, float&, Watched) noexcept;
 
 }  // namespace tendril::ik::detail

@@ -45,7 +45,7 @@ struct LimitedRoom {
     LimitedPose pose;   ///< the one that is solved
     LimitedPose trial;  ///< what a step would lead to
     LimitedPose best;   ///< the nearest to the target so far, of a solve that goes on elsewhere
-    LimitedPose spare;
+    LimitedPose start;  ///< where a solve begins that must not go far, or whose end must not change
 
     LimitedPose kept;          ///< explain: the pose from which each joint is freed
     std::vector<Limit> freed;  ///< explain: the limits, but for one
@@ -55,7 +55,7 @@ struct LimitedRoom {
         limits.resize(bones);
         freedoms.resize(bones);
         bounded.resize(bones);
-        for (LimitedPose* each : {&pose, &trial, &best, &spare, &kept}) each->resize(bones);
+        for (LimitedPose* each : {&pose, &trial, &best, &start, &kept}) each->resize(bones);
         freed.resize(bones);
     }
 };

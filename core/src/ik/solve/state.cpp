@@ -46,6 +46,7 @@ State::State(std::size_t bones) : rotations(bones, unturned) {
 void State::reset() noexcept {
     std::fill(rotations.begin(), rotations.end(), unturned);
     pole.valid = false;
+    limits = {};
 }
 
 Result check(const State& state, std::size_t bones) noexcept {
@@ -57,6 +58,9 @@ Result check(const State& state, std::size_t bones) noexcept {
         const float size = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
         return refused(operation, {"rotations", i}, "of length 1", size);
     }
+    if (const Result bad = check_finite("limits.target", state.limits.target); !bad) return bad;
+    if (!(state.limits.damping >= 0.0f && state.limits.damping <= 100.0f))
+        return refused(operation, "limits.damping", "from 0 to 100", state.limits.damping);
     return check(state.pole, bones);
 }
 

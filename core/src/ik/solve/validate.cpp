@@ -45,7 +45,7 @@ bool are_valid(const Options& options, std::size_t bones) noexcept {
     if (!over_zero(options.start_stretch_ratio, 1.0f)) return false;
     if (!within(options.max_stretch_scale, 1.0f, 100.0f)) return false;
     if (!within(options.weight, 0.0f, 1.0f)) return false;
-    if (options.restarts < 0 || options.restarts > 1000) return false;
+    if (options.restarts && (*options.restarts < 0 || *options.restarts > 1000)) return false;
     return within(options.twist, -max_magnitude, max_magnitude);
 }
 

@@ -1,0 +1,161 @@
+// A target that is dragged where limits forbid it: the chain follows without a jump and without searching,
+// and what it remembers for that is part of the state.
+#include "ik_hostile.hpp"
+#include "ik_limit_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+using ik::Method;
+using ik::Status;
+
+/// A target out of an arm's limits, and the arm as a solve from rest leaves it.
+struct Forbidden {
+    Arm arm;
+    glm::vec3 target{0.0f};
+    KeptSolver solver;
+    Joints joints;
+};
+
+Forbidden some_forbidden(Random& random) {
+    for (;;) {
+        const Arm arm = some_arm(random, arm_kinds[random.below(arm_kinds.size())], 2 + random.below(7));
+        Forbidden it{arm, some_direction(random) * (arm.reach() * between(random, 0.1f, 0.95f)), arm.solver(),
+                     arm.at_rest()};
+        const ik::Report report =
+            it.solver.solve(Method::Fabrik, it.joints, it.target, {.limits = arm.limits});
+        if (report.status == Status::Limited && report.residual > 0.1f * arm.reach()) return it;
+    }
+}
+
+double furthest_moved(const Joints& from, const Joints& to) {
+    double furthest = 0.0;
+    for (std::size_t i = 0; i < to.size(); ++i) furthest = std::max(furthest, distance(from[i], to[i]));
+    return furthest;
+}
+
+TEST(IkDrag, NoJointGoesFurtherThanTwentyTimesTheTargetAndTheTolerance) {
+    Random random(given_seed());
+    int frames = 0, bent = 0, worst = 0;
+    for (int k = 0; k < 150 && !HasFailure(); ++k) {
+        Forbidden it = some_forbidden(random);
+        const ik::Options options{.limits = it.arm.limits};
+        const float step = it.arm.reach() * (random.chance(3) ? 0.0f : between(random, 1e-4f, 5e-3f));
+        const glm::vec3 by = some_direction(random) * step;
+        for (int i = 0; i < 150; ++i, ++frames) {
+            const Joints before = it.joints;
+            it.target += by;
+            const ik::Report report = it.solver.solve(Method::Fabrik, it.joints, it.target, options);
+            EXPECT_EQ(report.restarts, 0);
+            EXPECT_TRUE(WithinLimits(it.arm, it.joints, it.solver.rotations()));
+            bent += report.perturbations > 0;  // a singular pose cannot be left by a little
+            if (report.perturbations > 0) continue;
+            const double moved = furthest_moved(before, it.joints);
+            EXPECT_LE(moved, 20.0 * (step + 1e-3 * it.arm.reach()) * 1.001) << k << " " << i;
+            worst = std::max(worst, static_cast<int>(moved / (step + 1e-3 * it.arm.reach())));
+        }
+    }
+    std::printf("%d frames, at most %d times, bent in %d\n", frames, worst, bent);
+    EXPECT_LE(bent, frames / 100);
+}
+
+TEST(IkDrag, ATargetThatStandsStillMovesNothing) {
+    Random random(given_seed() + 1);
+    int still = 0, limited = 0;
+    for (int k = 0; k < 200; ++k) {
+        Forbidden it = some_forbidden(random);
+        const ik::Options options{.limits = it.arm.limits};
+        for (int i = 0; i < 100; ++i) it.solver.solve(Method::Fabrik, it.joints, it.target, options);
+        const Joints before = it.joints;
+        const ik::Status status = it.solver.solve(Method::Fabrik, it.joints, it.target, options).status;
+        limited += status == Status::Limited;
+        still += furthest_moved(before, it.joints) <= 1e-4 * it.arm.reach();
+    }
+    EXPECT_GE(still, 198);
+    EXPECT_GE(limited, 190);
+}
+
+/// A fresh search in each frame finds the better pose where there is one, and jumps there. On the whole that
+/// must gain little.
+TEST(IkDrag, FollowsAboutAsNearAsASearchInEveryFrame) {
+    Random random(given_seed() + 2);
+    double followed = 0.0, searched = 0.0;
+    for (int k = 0; k < 40; ++k) {
+        Forbidden it = some_forbidden(random);
+        Joints other = it.joints;
+        ik::State state = it.solver.state;
+        const glm::vec3 by = some_direction(random) * (1e-3f * it.arm.reach());
+        for (int i = 0; i < 60; ++i) {
+            it.target += by;
+            const float reach = it.arm.reach();
+            followed +=
+                it.solver.solve(Method::Fabrik, it.joints, it.target, {.limits = it.arm.limits}).residual /
+                reach;
+            std::swap(state, it.solver.state);
+            const ik::Report report =
+                it.solver.solve(Method::Fabrik, other, it.target, {.limits = it.arm.limits, .restarts = 8});
+            searched += report.residual / reach;
+            std::swap(state, it.solver.state);
+        }
+    }
+    EXPECT_LE(followed, 1.15 * searched);
+}
+
+TEST(IkDrag, ANumberOfRestartsThatIsGivenHoldsInEverySolve) {
+    Random random(3);
+    int restarted = 0;
+    for (int k = 0; k < 20; ++k) {
+        Forbidden it = some_forbidden(random);
+        it.target += some_direction(random) * (1e-3f * it.arm.reach());
+        Joints other = it.joints;
+        ik::State state = it.solver.state;
+        EXPECT_EQ(it.solver.solve(Method::Fabrik, it.joints, it.target, {.limits = it.arm.limits}).restarts,
+                  0);
+        it.solver.state = state;
+        restarted +=
+            it.solver.solve(Method::Fabrik, other, it.target, {.limits = it.arm.limits, .restarts = 3})
+                .restarts > 0;
+    }
+    EXPECT_GE(restarted, 18);
+}
+
+TEST(IkDrag, AJumpOfTheTargetOrOfThePoseIsANewSearch) {
+    Random random(4);
+    int after_jump = 0, after_move = 0;
+    for (int k = 0; k < 20; ++k) {
+        Forbidden it = some_forbidden(random);
+        const ik::Options options{.limits = it.arm.limits};
+        const ik::State state = it.solver.state;
+        const Joints as_left = it.joints;
+        it.joints = it.arm.at_rest();
+        after_move += it.solver.solve(Method::Fabrik, it.joints, it.target, options).restarts > 0;
+        it.joints = as_left, it.solver.state = state;
+        const glm::vec3 away = it.target * 1.2f + glm::vec3(0, 0.1f, 0) * it.arm.reach();
+        after_jump += it.solver.solve(Method::Fabrik, it.joints, away, options).restarts > 0;
+    }
+    EXPECT_GE(after_move, 15);
+    EXPECT_GE(after_jump, 5);
+}
+
+TEST(IkDrag, FromACopyOfTheStateTheBitsAreTheSame) {
+    Random random(5);
+    for (int k = 0; k < 40; ++k) {
+        Forbidden it = some_forbidden(random);
+        const ik::Options options{.limits = it.arm.limits};
+        const glm::vec3 by = some_direction(random) * (2e-3f * it.arm.reach());
+        const ik::State saved = it.solver.state;
+        Joints twin = it.joints;
+        KeptSolver fresh = it.arm.solver();
+        fresh.state = saved;
+        for (int i = 1; i <= 50; ++i) {
+            const glm::vec3 target = it.target + by * static_cast<float>(i);
+            it.solver.solve(Method::Fabrik, it.joints, target, options);
+            fresh.solve(Method::Fabrik, twin, target, options);
+            ASSERT_TRUE(same_bits(it.joints, twin)) << k << " " << i;
+            ASSERT_EQ(it.solver.state, fresh.state);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test
