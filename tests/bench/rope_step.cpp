@@ -19,37 +19,45 @@ namespace {
 using namespace tendril::bench;
 namespace rope = tendril::rope;
 
+/// A world and what it is advanced with.
+struct Stage {
+    rope::World world;
+    rope::Workspace workspace;
+
+    void advance(double seconds) { world.advance(seconds, workspace); }
+};
+
 constexpr int repetitions = 9;
 constexpr double frame = 1.0 / 60.0;
 
 /// Hung between two points, four metres of it for each three that they are apart.
-rope::World hung(int segments) {
-    rope::World world;
+Stage hung(int segments) {
+    Stage stage;
     const float span = 3.0f;
-    world.add_rope({.from = {0, 0, 0},
-                    .to = {span, 0, 0},
-                    .segments = segments,
-                    .length = 4.0f,
-                    .radius = 0.01f,
-                    .pin_start = true,
-                    .pin_end = true});
-    world.advance(0.1);  // sizes what it works with
-    return world;
+    static_cast<void>(stage.world.add_rope({.from = {0, 0, 0},
+                                            .to = {span, 0, 0},
+                                            .segments = segments,
+                                            .length = 4.0f,
+                                            .radius = 0.01f,
+                                            .pin_start = true,
+                                            .pin_end = true}));
+    stage.advance(0.1);  // sizes what it works with
+    return stage;
 }
 
 /// Balls on a grid far below, or all along the rope, half of them touching it.
-void add_colliders(rope::World& world, int count, bool near) {
-    const std::size_t particles = world.size();
+void add_colliders(Stage& stage, int count, bool near) {
+    const std::size_t particles = stage.world.size();
     for (int i = 0; i < count; ++i) {
         const auto n = static_cast<float>(i);
         glm::vec3 at(n * 0.5f, -50.0f, std::fmod(n, 16.0f));
         if (near) {
             const auto along = static_cast<std::size_t>((i + 0.5) / count * static_cast<double>(particles));
-            at = world.position(along) - glm::vec3(0, i % 2 == 0 ? 0.05f : 0.12f, 0);
+            at = glm::vec3(stage.world.position(along)) - glm::vec3(0, i % 2 == 0 ? 0.05f : 0.12f, 0);
         }
-        world.add_collider("ball " + std::to_string(i), rope::Sphere{at, 0.05f});
+        static_cast<void>(stage.world.add_collider(rope::Sphere{at, 0.05f}));
     }
-    world.advance(0.1);
+    stage.advance(0.1);
 }
 
 /// As many frames as take some milliseconds.
@@ -57,13 +65,13 @@ int frames_for(int segments) {
     return std::max(1, 16384 / segments);
 }
 
-void run_frames(rope::World& world, int frames) {
-    for (int i = 0; i < frames; ++i) world.advance(frame);
+void run_frames(Stage& stage, int frames) {
+    for (int i = 0; i < frames; ++i) stage.advance(frame);
 }
 
 /// Microseconds a substep: of no collider, 16 and 256 far off, 16 and 256 near.
 std::vector<double> cost(int segments) {
-    std::vector<rope::World> worlds;
+    std::vector<Stage> worlds;
     for (const auto& [count, near] :
          {std::pair{0, false}, {16, false}, {256, false}, {16, true}, {256, true}}) {
         worlds.push_back(hung(segments));
@@ -71,7 +79,7 @@ std::vector<double> cost(int segments) {
     }
     const int frames = frames_for(segments);
     std::vector<std::function<void()>> runs;
-    for (rope::World& world : worlds) runs.push_back([&world, frames] { run_frames(world, frames); });
+    for (Stage& world : worlds) runs.push_back([&world, frames] { run_frames(world, frames); });
     std::vector<double> micros;
     for (const double seconds : race(runs, repetitions)) micros.push_back(seconds * 1e6 / (4.0 * frames));
     return micros;
@@ -103,13 +111,13 @@ Gains particle_table() {
 void solver_table() {
     std::printf("\nus a substep, 1024 segments, no collider\n");
     for (const rope::Solver solver : {rope::Solver::Relaxation, rope::Solver::Xpbd, rope::Solver::Direct}) {
-        rope::World world = hung(1024);
-        rope::Settings settings = world.settings();
+        Stage stage = hung(1024);
+        rope::Settings settings = stage.world.settings();
         settings.solver = solver;
-        world.set_settings(settings);
-        const double seconds = race({[&] { run_frames(world, 16); }}, repetitions)[0];
+        static_cast<void>(stage.world.set_settings(settings));
+        const double seconds = race({[&] { run_frames(stage, 16); }}, repetitions)[0];
         std::printf("%-12s%12.2f   stretch %.1e\n", name(solver), seconds * 1e6 / 64.0,
-                    world.length_error(world.state().bodies[0]));
+                    stage.world.length_error());
     }
 }
 
@@ -119,18 +127,19 @@ double crowd_table() {
     rope::World start;
     for (int i = 0; i < ropes; ++i) {
         const auto x = static_cast<float>(i % 20), z = static_cast<float>(i / 20);
-        start.add_rope({.from = {x, 0, z},
-                        .to = {x + 0.5f, 0, z},
-                        .segments = segments,
-                        .length = 1.0f,
-                        .pin_start = true});
+        static_cast<void>(start.add_rope({.from = {x, 0, z},
+                                          .to = {x + 0.5f, 0, z},
+                                          .segments = segments,
+                                          .length = 1.0f,
+                                          .pin_start = true}));
     }
     std::vector<std::string> names{"none"};
     for (const std::string_view unit : tendril::ik::vector_units()) names.emplace_back(unit);
-    std::vector<rope::World> worlds(names.size(), start);
+    std::vector<Stage> worlds(names.size());
     std::vector<std::function<void()>> runs;
     for (std::size_t i = 0; i < names.size(); ++i) {
-        worlds[i].use_vector_unit(names[i]);
+        worlds[i].world = start;
+        static_cast<void>(worlds[i].workspace.use_vector_unit(names[i]));
         runs.push_back([&world = worlds[i]] { run_frames(world, 4); });
     }
     const std::vector<double> seconds = race(runs, repetitions);

@@ -7,42 +7,34 @@ namespace tendril::test {
 namespace {
 
 using rope::Solver;
-using rope::World;
 
 /// Ropes of equal length side by side, so that registers are full, half full and alone; whips, contacts, a
-/// sheet.
+/// cloth.
 World wild_scene(const rope::Settings& settings) {
     World world = world_with(settings);
     Random random(101);
     for (int i = 0; i < 19; ++i) {
         const glm::vec3 from = random.point(1.0f) + glm::vec3(0, 1.5f, 0);
-        world.add_rope({.name = "",
-                        .from = from,
+        world.add_rope({.from = from,
                         .to = from + random.point(0.7f),
                         .segments = i < 13 ? 12 : 7,
                         .length = 1.3f,
                         .pin_start = !random.chance(4)});
     }
-    world.add_rope({.name = "stretched",
-                    .from = {2, 1, 0},
-                    .to = {4, 1, 0},
-                    .segments = 9,
-                    .length = 1.5f,
-                    .pin_start = true,
-                    .pin_end = true});
-    world.add_sheet({.name = "sheet",
-                     .corner = {0, 2, 0.5f},
-                     .columns = 7,
-                     .rows = 6,
-                     .pins = rope::SheetShape::Pins::Corners});
+    world.add_rope("stretched", {.from = {2, 1, 0},
+                                 .to = {4, 1, 0},
+                                 .segments = 9,
+                                 .length = 1.5f,
+                                 .pin_start = true,
+                                 .pin_end = true});
+    world.add_cloth(
+        "cloth", {.corner = {0, 2, 0.5f}, .columns = 7, .rows = 6, .pins = rope::ClothShape::Pins::Corners});
     world.add_collider("ball", rope::Sphere{{0, 0.6f, 0}, 0.4f});
     world.add_collider("rod", rope::Capsule{{-1, 0.3f, 0.4f}, {1, 0.4f, 0.5f}, 0.1f});
     world.add_collider("box", rope::Box{{0.8f, 0.8f, -0.3f}, {0.2f, 0.3f, 0.2f}, {0.9f, 0.2f, 0.1f, 0.3f}});
     world.add_collider("ground", rope::Plane{});
-    world.add_lock({.name = "lock",
-                    .roots = {{{0, 1.0f, 0}, {0, 1, 0}}, {{0.1f, 1, 0}, {0, 1, 0}}},
-                    .segments = 6,
-                    .attach = "ball"});
+    world.add_hair("hair", {.roots = {{{0, 1.0f, 0}, {0, 1, 0}}, {{0.1f, 1, 0}, {0, 1, 0}}}, .segments = 6},
+                   "ball");
     return world;
 }
 
@@ -51,7 +43,7 @@ void stir(World& world, Random& random) {
     for (int i = 0; i < 3; ++i) {
         const std::size_t which = random.below(world.state().pins.size());
         const rope::Pin& pin = world.state().pins[which];
-        if (!pin.collider.empty()) continue;
+        if (pin.collider) continue;
         world.pin(pin.particle, world.position(pin.particle) + random.point(0.3f), 0.05);
     }
     world.move_collider("ball", random.point(0.4f) + glm::vec3(0, 0.6f, 0), 0.1);
@@ -101,21 +93,16 @@ TEST(RopeBits, CompanyDoesNotMatter) {
     for (const int others : {0, 1, 3, 7, 12}) {
         World alone, together;
         Random random(103);
-        const rope::RopeShape shape{.name = "it",
-                                    .from = {0, 0, 0},
-                                    .to = {0.6f, 0.3f, 0},
-                                    .segments = 12,
-                                    .length = 1.0f,
-                                    .pin_start = true};
-        alone.add_rope(shape);
+        const rope::RopeShape shape{
+            .from = {0, 0, 0}, .to = {0.6f, 0.3f, 0}, .segments = 12, .length = 1.0f, .pin_start = true};
+        alone.add_rope("it", shape);
         for (int i = 0; i < others; ++i)
-            together.add_rope({.name = "",
-                               .from = random.point(1),
+            together.add_rope({.from = random.point(1),
                                .to = random.point(1),
                                .segments = 12,
                                .length = 3.0f,
                                .pin_start = random.chance(2)});
-        together.add_rope(shape);
+        together.add_rope("it", shape);
         const std::size_t first = together.find("it")->first;
         for (int i = 0; i < 20; ++i) {
             const glm::vec3 to = random.point(0.3f);  // a whip

@@ -12,7 +12,6 @@ namespace {
 
 using rope::Settings;
 using rope::Solver;
-using rope::World;
 
 struct Hung {
     float span, length;
@@ -96,13 +95,12 @@ TEST(RopeCatenary, OfAnySpanAndLength) {
 TEST(RopeCatenary, WithoutWidthHangsStraightDown) {
     for (const float lower : {0.0f, 0.5f}) {
         World world = world_with({.damping = 1.0f});
-        world.add_rope({.name = "rope",
-                        .from = {0, 0, 0},
-                        .to = {0, -lower, 0},
-                        .segments = 40,
-                        .length = 2.0f,
-                        .pin_start = true,
-                        .pin_end = true});
+        world.add_rope("rope", {.from = {0, 0, 0},
+                                .to = {0, -lower, 0},
+                                .segments = 40,
+                                .length = 2.0f,
+                                .pin_start = true,
+                                .pin_end = true});
         run(world, 10.0);
         EXPECT_NEAR(lowest(world), -0.5 * (2.0 + lower), 0.05);  // to a segment
         EXPECT_LE(stretch(world), 1e-4);
@@ -133,13 +131,12 @@ TEST(RopeCatenary, PlainRelaxationSagsByWhatItAlwaysDid) {
 TEST(RopeCatenary, AThousandKilometresOut) {
     World world = world_with({.damping = 1.0f});
     const float far = 1e6f - 8.0f;
-    world.add_rope({.name = "rope",
-                    .from = {far, 0, -far},
-                    .to = {far + 1.0f, 0, -far},
-                    .segments = 64,
-                    .length = 1.5f,
-                    .pin_start = true,
-                    .pin_end = true});
+    world.add_rope("rope", {.from = {far, 0, -far},
+                            .to = {far + 1.0f, 0, -far},
+                            .segments = 64,
+                            .length = 1.5f,
+                            .pin_start = true,
+                            .pin_end = true});
     run(world, 15.0);
     EXPECT_LE(std::abs(-lowest(world) / catenary_sag(1.0, 1.5) - 1.0), 0.002);
     EXPECT_LE(stretch(world), 1e-6);

@@ -112,7 +112,7 @@ TEST(RopeCollider, RefusesWhatIsNone) {
         {Box{{0, 0, 0}, {1, 1, 1}, {0, 0, 0, 0}}, "rotation"},
         {Box{{0, 0, 0}, {1, 1, 1}, {nan, 0, 0, 0}}, "rotation"},
     };
-    rope::World world;
+    World world;
     world.add_collider("there", Sphere{});
     for (const auto& [shape, what] : bad) {
         const rope::State before = world.state();

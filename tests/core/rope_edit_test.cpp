@@ -7,18 +7,16 @@ namespace {
 using rope::Body;
 using rope::Sphere;
 using rope::State;
-using rope::World;
 
 World three_ropes() {
     World world;
     for (const char* name : {"a", "b", "c"}) {
         const float x = static_cast<float>(name[0] - 'a');
-        world.add_rope({.name = name,
-                        .from = {x, 0, 0},
-                        .to = {x, 1, 0},
-                        .segments = 4,
-                        .pin_start = true,
-                        .pin_end = name[0] == 'c'});
+        world.add_rope(name, {.from = {x, 0, 0},
+                              .to = {x, 1, 0},
+                              .segments = 4,
+                              .pin_start = true,
+                              .pin_end = name[0] == 'c'});
     }
     return world;
 }
@@ -59,7 +57,7 @@ TEST(RopeEdit, CutPartsARope) {
 /// All of a rope hangs on its pin; after a cut only what is left of it.
 TEST(RopeEdit, TensionKnowsOfACut) {
     World world = world_with({.damping = 2.0f});
-    world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {0, -1, 0}, .segments = 10, .pin_start = true});
+    world.add_rope("rope", {.from = {0, 0, 0}, .to = {0, -1, 0}, .segments = 10, .pin_start = true});
     run(world, 2.0);
     EXPECT_NEAR(world.state().links[0].tension, 9.81, 0.01);
     world.cut("rope", 4);
@@ -82,7 +80,7 @@ TEST(RopeEdit, RemovingRenumbers) {
     }
     EXPECT_TRUE(world.pinned(0) && world.pinned(5) && world.pinned(7) && world.pinned(9));
     EXPECT_EQ(world.state().pins.size(), 4u);
-    EXPECT_EQ(world.state().pins[2].collider, "ball");
+    EXPECT_EQ(world.state().pins[2].collider, world.collider_id("ball"));
     expect_sound(world);
     run(world, 0.25);
     EXPECT_LE(stretch(world, "c"), 1e-3);
@@ -94,8 +92,8 @@ TEST(RopeEdit, RemovingRenumbers) {
 /// A rope moves as it would have if there had never been the others.
 TEST(RopeEdit, RemovedOnesLeaveNoTrace) {
     World with = three_ropes(), without;
-    without.add_rope(
-        {.name = "c", .from = {2, 0, 0}, .to = {2, 1, 0}, .segments = 4, .pin_start = true, .pin_end = true});
+    without.add_rope("c",
+                     {.from = {2, 0, 0}, .to = {2, 1, 0}, .segments = 4, .pin_start = true, .pin_end = true});
     with.remove("a"), with.remove("b");
     run(with, 1.0), run(without, 1.0);
     EXPECT_TRUE(same_bits(with.state(), without.state()));
@@ -142,34 +140,78 @@ TEST(RopeEdit, AttachedParticlesMoveWithTheirCollider) {
     EXPECT_TRUE(all_finite(world));
 }
 
-/// A name that comes out of the world itself is as good as any.
-TEST(RopeEdit, NamesMayComeFromTheWorldItself) {
-    World world = three_ropes();
-    world.add_collider("a ball", Sphere{{5, 0, 0}, 0.1f});
-    world.attach(1, world.state().colliders[0].name);
-    for (std::size_t i = 2; i < 12; ++i) world.attach(i, world.state().pins[1].collider);
-    for (std::size_t i = 1; i < 12; ++i)
-        EXPECT_EQ(world.state().pins[i].collider, world.state().colliders[0].name);
-    world.move_collider(world.state().colliders[0].name, {6, 0, 0});
-    world.cut(world.state().bodies[0].name, 1);
-    world.remove(world.state().bodies[0].name);
-    world.remove_collider(world.state().colliders[0].name);
-    EXPECT_TRUE(world.state().colliders.empty());
-    expect_sound(world);
+/// A handle that comes out of the world itself is as good as any.
+TEST(RopeEdit, HandlesMayComeFromTheWorldItself) {
+    World named = three_ropes();
+    rope::World& world = named.core();
+    const rope::State& state = world.state();
+    named.add_collider("a ball", Sphere{{5, 0, 0}, 0.1f});
+    allow(world.attach(1, state.colliders[0].id));
+    for (std::size_t i = 2; i < 12; ++i) allow(world.attach(i, state.pins[1].collider));
+    for (std::size_t i = 1; i < 12; ++i) EXPECT_EQ(state.pins[i].collider, state.colliders[0].id);
+    allow(world.move_collider(state.colliders[0].id, {6, 0, 0}));
+    EXPECT_TRUE(world.cut(state.bodies[0].id, 1));
+    allow(world.remove(state.bodies[0].id));
+    allow(world.remove_collider(state.colliders[0].id));
+    EXPECT_TRUE(state.colliders.empty());
+    expect_sound(named);
 }
 
-TEST(RopeEdit, NamesAreFound) {
-    World world;
-    EXPECT_EQ(world.add_rope({}), "rope");
-    EXPECT_EQ(world.add_rope({}), "rope 2");
-    EXPECT_EQ(world.add_sheet({}), "sheet");
-    EXPECT_EQ(world.add_rope({.name = "rope 4"}), "rope 4");
-    EXPECT_EQ(world.add_rope({}), "rope 3");
-    EXPECT_EQ(world.add_rope({}), "rope 5");
-    world.remove("rope");
-    EXPECT_EQ(world.add_rope({}), "rope");
-    EXPECT_EQ(world.find("none"), nullptr);
-    EXPECT_EQ(world.find_collider("none"), nullptr);
+/// The handle of what is gone finds nothing, though its slot has a new tenant.
+TEST(RopeEdit, OldHandlesFindNothing) {
+    rope::World world;
+    const rope::BodyId first = *world.add_rope({}), second = *world.add_rope({});
+    EXPECT_FALSE(world.find(rope::BodyId{}));
+    EXPECT_FALSE(rope::BodyId{});
+    allow(world.remove(first));
+    const rope::BodyId third = *world.add_cloth({});
+    EXPECT_EQ(third.index, first.index);
+    EXPECT_FALSE(world.find(first));
+    EXPECT_EQ(world.remove(first).code(), ErrorCode::OutOfRange);
+    EXPECT_EQ(world.find(second)->first, 0u);
+    EXPECT_EQ(world.find(third)->kind, Body::Kind::Cloth);
+    // A copy knows the same handles, and a state put back forgets those given since.
+    const rope::World copy = world;
+    const rope::BodyId fourth = *world.add_rope({});
+    EXPECT_EQ(copy.find(third)->count, 576u);
+    EXPECT_FALSE(copy.find(fourth));
+    world.clear();
+    EXPECT_FALSE(world.find(second));
+    EXPECT_FALSE(*world.add_rope({}) == second);
+    const rope::ColliderId ball = *world.add_collider(Sphere{});
+    allow(world.remove_collider(ball));
+    EXPECT_TRUE(world.add_collider(Sphere{}));
+    EXPECT_FALSE(world.find(ball));
+}
+
+/// Whatever a body is made of can change while it hangs.
+TEST(RopeEdit, MaterialsChangeInPlace) {
+    World named = world_with({.damping = 2.0f});
+    named.add_rope("rope", {.from = {0, 0, 0}, .to = {0, -1, 0}, .segments = 10, .pin_start = true});
+    named.add_cloth("cloth",
+                    {.corner = {3, 0, 0}, .columns = 5, .rows = 5, .pins = rope::ClothShape::Pins::Row});
+    rope::World& world = named.core();
+    const rope::BodyId rope = named.id("rope"), cloth = named.id("cloth");
+    const double mass = world.mass(*world.find(rope));
+    allow(world.set_length(rope, 2.0f));
+    allow(world.set_mass(rope, 2.0 * mass));
+    allow(world.set_radius(rope, 0.125f));
+    allow(world.set_compliance(cloth, rope::Link::Kind::Bend, 0.5f));
+    allow(world.set_tear(cloth, 0.25f));
+    EXPECT_EQ(world.find(rope)->radius, 0.125f);
+    EXPECT_NEAR(world.length(*world.find(rope)), 2.0, 1e-6);
+    run(named, 4.0);
+    EXPECT_NEAR(named.position(10).y, -2.0f, 1e-3);  // it hangs down twice as far, and pulls twice as hard
+    EXPECT_NEAR(world.state().links[0].tension, 2.0 * 9.81 * mass * 10.0 / 11.0, 0.1);
+    for (const rope::Link& link : world.state().links)
+        EXPECT_EQ(link.compliance, link.kind == rope::Link::Kind::Bend    ? 0.5f
+                                   : link.kind == rope::Link::Kind::Shear ? 1e-4f
+                                                                          : 0.0f);
+    allow(world.set_length(cloth, 1e-3f));  // shrunk in an instant, it tears
+    const std::size_t links = world.state().links.size();
+    run(named, 0.5);
+    EXPECT_LT(world.state().links.size(), links);
+    expect_sound(named);
 }
 
 TEST(RopeEdit, ClearLeavesOnlySettings) {
@@ -195,22 +237,20 @@ TEST(RopeEdit, RandomEditsLeaveASoundWorld) {
         World world = world_with({.solver = all_solvers[random.below(3)]});
         for (int i = 0; i < 60; ++i) {
             const auto& bodies = world.state().bodies;
-            const std::string body = bodies.empty() ? "" : bodies[random.below(bodies.size())].name;
+            const std::string body = bodies.empty() ? "" : world.name(bodies[random.below(bodies.size())]);
             const std::string ball = "ball " + std::to_string(random.below(3));
             const bool is_there = world.find_collider(ball) != nullptr;
             const std::size_t particle = world.size() > 0 ? random.below(world.size()) : 0;
             switch (random.below(9)) {
                 case 0:
-                    world.add_rope({.name = "",
-                                    .from = random.point(1),
+                    world.add_rope({.from = random.point(1),
                                     .to = random.point(1),
                                     .segments = 1 + static_cast<int>(random.below(9)),
                                     .pin_start = random.chance(2)});
                     break;
                 case 1:
                     if (random.chance(3))
-                        world.add_sheet(
-                            {.name = "", .corner = random.point(1), .columns = 3, .rows = 4, .tear = 0.05f});
+                        world.add_cloth({.corner = random.point(1), .columns = 3, .rows = 4, .tear = 0.05f});
                     break;
                 case 2:
                     if (!body.empty()) world.remove(body);

@@ -6,7 +6,6 @@ namespace {
 
 using rope::Settings;
 using rope::Solver;
-using rope::World;
 
 constexpr double gravity = 9.81;
 
@@ -17,8 +16,7 @@ Settings soft(Solver solver, float compliance, int iterations) {
 /// Straight down from one end, 1 m of 1 kg/m, with nothing below. How much longer it gets, metres.
 double hangs_longer(const Settings& settings, int segments) {
     World world = world_with(settings);
-    world.add_rope(
-        {.name = "rope", .from = {0, 0, 0}, .to = {0, -1, 0}, .segments = segments, .pin_start = true});
+    world.add_rope("rope", {.from = {0, 0, 0}, .to = {0, -1, 0}, .segments = segments, .pin_start = true});
     run(world, 12.0);
     return -lowest(world) - 1.0;
 }
@@ -85,12 +83,9 @@ TEST(RopeElastic, TensionIsWhatHangsBelow) {
     for (const Solver solver : {Solver::Xpbd, Solver::Direct}) {
         for (const float compliance : {0.0f, 1e-3f}) {
             World world = world_with(soft(solver, compliance, solver == Solver::Xpbd ? 400 : 16));
-            world.add_rope({.name = "rope",
-                            .from = {0, 0, 0},
-                            .to = {0, -1, 0},
-                            .segments = 10,
-                            .density = 3.0f,
-                            .pin_start = true});
+            world.add_rope(
+                "rope",
+                {.from = {0, 0, 0}, .to = {0, -1, 0}, .segments = 10, .density = 3.0f, .pin_start = true});
             run(world, 8.0);
             for (std::size_t k = 0; k < 10; ++k) {
                 const double expected = 0.3 * gravity * static_cast<double>(10 - k);
@@ -108,7 +103,7 @@ TEST(RopeElastic, BouncesInTheTimeThatItMust) {
     settings.damping = 0.0f;
     settings.substep = 1.0 / 960.0;
     World world = world_with(settings);
-    world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {0, -1, 0}, .segments = 1, .pin_start = true});
+    world.add_rope("rope", {.from = {0, 0, 0}, .to = {0, -1, 0}, .segments = 1, .pin_start = true});
     const double rest = -1.0 - theory(compliance, 1),
                  expected = 2.0 * pi * std::sqrt(world.state().mass[1] * static_cast<double>(compliance));
     double before = -1.0, first = -1.0, last = 0.0, time = 0.0;

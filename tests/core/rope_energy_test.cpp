@@ -5,7 +5,6 @@ namespace tendril::test {
 namespace {
 
 using rope::Settings;
-using rope::World;
 
 /// Weight times length, the energy that a rope has to do with: what "0.1 %" is of.
 double scale(const World& world) {
@@ -28,13 +27,12 @@ double most_gained(World& world, int seconds) {
 /// Level, with a bend in it so that it is nowhere in balance, at rest.
 World let_go(int segments, bool both_ends) {
     World world = world_with({.damping = 0.0f});
-    world.add_rope({.name = "rope",
-                    .from = {0, 0, 0},
-                    .to = {both_ends ? 0.7f : 1.0f, 0, 0.2f},
-                    .segments = segments,
-                    .length = both_ends ? 1.3f : 1.05f,
-                    .pin_start = true,
-                    .pin_end = both_ends});
+    world.add_rope("rope", {.from = {0, 0, 0},
+                            .to = {both_ends ? 0.7f : 1.0f, 0, 0.2f},
+                            .segments = segments,
+                            .length = both_ends ? 1.3f : 1.05f,
+                            .pin_start = true,
+                            .pin_end = both_ends});
     return world;
 }
 
@@ -63,11 +61,12 @@ INSTANTIATE_TEST_SUITE_P(Ropes, RopeEnergy, testing::Combine(testing::Values(16,
 /// Thrown, turning, in free fall: nothing holds it and nothing may speed it up.
 TEST(RopeEnergyFree, NeitherDoesThatOfOneThrown) {
     World world = world_with({.damping = 0.0f, .gravity = {0, 0, 0}});
-    world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 24, .length = 1.2f});
+    world.add_rope("rope", {.from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 24, .length = 1.2f});
     rope::State state = world.state();
-    state.moved_in = state.settings.substep;
+    state.displaced_in = state.settings.substep;
     Random random(43);
-    for (glm::dvec3& moved : state.moved) moved = glm::dvec3(random.point(2.0f)) * state.settings.substep;
+    for (glm::dvec3& moved : state.displacement)
+        moved = glm::dvec3(random.point(2.0f)) * state.settings.substep;
     world = World(state);
     run_substeps(world, 240, [] {});  // lengths take what they must of it first
     const double start = energy(world);
@@ -83,17 +82,16 @@ TEST(RopeEnergyFree, NeitherDoesThatOfOneThatThrashes) {
     for (const double substep : {1.0 / 240.0, 1.0 / 60.0}) {
         for (const int segments : {16, 256}) {
             World world = world_with({.substep = substep, .damping = 0.0f});
-            world.add_rope({.name = "rope",
-                            .from = {0, 0, 0},
-                            .to = {1, 0, 0},
-                            .segments = segments,
-                            .length = 1.2f,
-                            .pin_start = true});
+            world.add_rope("rope", {.from = {0, 0, 0},
+                                    .to = {1, 0, 0},
+                                    .segments = segments,
+                                    .length = 1.2f,
+                                    .pin_start = true});
             rope::State state = world.state();
-            state.moved_in = substep;
+            state.displaced_in = substep;
             Random random(static_cast<std::uint64_t>(7 + segments));
-            for (glm::dvec3& moved : state.moved) moved = glm::dvec3(random.point(4.0f)) * substep;
-            state.moved[0] = glm::dvec3(0.0);
+            for (glm::dvec3& moved : state.displacement) moved = glm::dvec3(random.point(4.0f)) * substep;
+            state.displacement[0] = glm::dvec3(0.0);
             world = World(state);
             run_substeps(world, 8, [] {});
             const double start = energy(world), of = scale(world);
@@ -109,17 +107,18 @@ TEST(RopeEnergyFree, NeitherDoesThatOfOneThatThrashes) {
 TEST(RopeEnergyFree, MomentumStays) {
     for (const rope::Solver solver : all_solvers) {
         World world = world_with({.solver = solver, .damping = 0.0f, .gravity = {0, 0, 0}});
-        world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 12, .length = 1.2f});
+        world.add_rope("rope", {.from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 12, .length = 1.2f});
         rope::State state = world.state();
-        state.moved_in = state.settings.substep;
+        state.displaced_in = state.settings.substep;
         Random random(44);
-        for (glm::dvec3& moved : state.moved) moved = glm::dvec3(random.point(1.0f)) * state.settings.substep;
+        for (glm::dvec3& moved : state.displacement)
+            moved = glm::dvec3(random.point(1.0f)) * state.settings.substep;
         const auto sum = [](const std::vector<glm::dvec3>& all) {
             glm::dvec3 total(0.0);
             for (const glm::dvec3& each : all) total += each;
             return total;
         };
-        const glm::dvec3 before = sum(state.moved);
+        const glm::dvec3 before = sum(state.displacement);
         world = World(state);
         const glm::dvec3 from = sum(state.position);
         run_substeps(world, 240, [] {});

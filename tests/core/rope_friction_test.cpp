@@ -7,7 +7,6 @@ namespace {
 using rope::Capsule;
 using rope::Plane;
 using rope::Solver;
-using rope::World;
 
 /// Laid along a slope of so many radians and left alone; how far it slides in `seconds`.
 double slides(Solver solver, float friction, double angle, double seconds, bool across = false) {
@@ -16,7 +15,7 @@ double slides(Solver solver, float friction, double angle, double seconds, bool 
     const glm::vec3 up{-s, c, 0}, along = across ? glm::vec3(0, 0, 1) : glm::vec3(c, s, 0);
     world.add_collider("slope", Plane{{0, 0, 0}, up});
     const glm::vec3 from = 0.02f * up;
-    world.add_rope({.name = "rope", .from = from, .to = from + along, .segments = 16});
+    world.add_rope("rope", {.from = from, .to = from + along, .segments = 16});
     const glm::vec3 start = world.position(8);
     run(world, seconds);
     return distance(world.position(8), start);
@@ -49,10 +48,10 @@ TEST(RopeFriction, StopsWhatSlides) {
     for (const Solver solver : all_solvers) {
         World world = world_with({.solver = solver, .damping = 0.0f, .friction = 0.4f});
         world.add_collider("ground", Plane{});
-        world.add_rope({.name = "rope", .from = {0, 0.02f, 0}, .to = {1, 0.02f, 0}, .segments = 16});
+        world.add_rope("rope", {.from = {0, 0.02f, 0}, .to = {1, 0.02f, 0}, .segments = 16});
         rope::State state = world.state();
-        state.moved_in = state.settings.substep;
-        for (glm::dvec3& moved : state.moved) moved = {2.0 * state.moved_in, 0, 0};
+        state.displaced_in = state.settings.substep;
+        for (glm::dvec3& moved : state.displacement) moved = {2.0 * state.displaced_in, 0, 0};
         world = World(state);
         run(world, 2.0);
         EXPECT_NEAR((world.position(0).x) / (4.0 / (2.0 * 0.4 * 9.81)), 1.0, 0.03) << name(solver);
@@ -64,7 +63,7 @@ TEST(RopeFriction, WhatMovesCarries) {
     for (const float friction : {0.8f, 0.0f}) {
         World world = world_with({.damping = 0.0f, .friction = friction});
         world.add_collider("plank", rope::Box{{0, -0.1f, 0}, {2, 0.1f, 1}, {1, 0, 0, 0}});
-        world.add_rope({.name = "rope", .from = {-0.5f, 0.02f, 0}, .to = {0.5f, 0.02f, 0}, .segments = 16});
+        world.add_rope("rope", {.from = {-0.5f, 0.02f, 0}, .to = {0.5f, 0.02f, 0}, .segments = 16});
         run(world, 0.25);
         world.move_collider("plank", {1.0f, -0.1f, 0}, 1.0);
         run(world, 1.0);
@@ -93,12 +92,11 @@ double runs_off(Solver solver, float friction, double ratio, int segments, doubl
     world.add_collider("post", Capsule{{0, 0, -1}, {0, 0, 1}, radius});
     // Laid round the upper half at the rope's own radius, straight down on both sides.
     const double r = 0.1, hanging = 2.0, round = pi * r, left = hanging / (1.0 + ratio);
-    world.add_rope({.name = "rope",
-                    .from = {0, 0, 0},
-                    .to = {1, 0, 0},
-                    .segments = segments,
-                    .length = static_cast<float>(hanging + round),
-                    .radius = 0.02f});
+    world.add_rope("rope", {.from = {0, 0, 0},
+                            .to = {1, 0, 0},
+                            .segments = segments,
+                            .length = static_cast<float>(hanging + round),
+                            .radius = 0.02f});
     rope::State state = world.state();
     for (int i = 0; i <= segments; ++i) {
         const double at = (hanging + round) * i / segments;

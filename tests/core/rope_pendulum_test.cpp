@@ -6,17 +6,15 @@ namespace {
 
 using rope::Settings;
 using rope::Solver;
-using rope::World;
 
 constexpr double gravity = 9.81;
 
 World pendulum(float length, float amplitude, const Settings& settings) {
     World world = world_with(settings);
-    world.add_rope({.name = "rope",
-                    .from = {0, 0, 0},
-                    .to = {length * std::sin(amplitude), -length * std::cos(amplitude), 0},
-                    .segments = 1,
-                    .pin_start = true});
+    world.add_rope("rope", {.from = {0, 0, 0},
+                            .to = {length * std::sin(amplitude), -length * std::cos(amplitude), 0},
+                            .segments = 1,
+                            .pin_start = true});
     return world;
 }
 
@@ -111,10 +109,10 @@ TEST(RopePendulum, DampingDoesNotHangOnTheSubstep) {
     const double substeps[] = {1.0 / 240.0, 1.0 / 1920.0};
     for (int i = 0; i < 2; ++i) {
         World world = world_with({.substep = substeps[i], .damping = 2.0f, .gravity = {0, 0, 0}});
-        world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 1});
+        world.add_rope("rope", {.from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 1});
         rope::State state = world.state();
-        state.moved_in = substeps[i];
-        for (glm::dvec3& moved : state.moved) moved = {0, substeps[i], 0};  // 1 m/s
+        state.displaced_in = substeps[i];
+        for (glm::dvec3& moved : state.displacement) moved = {0, substeps[i], 0};  // 1 m/s
         world = World(state);
         run(world, 1.0);
         left[i] = static_cast<double>(world.velocity(0).y);

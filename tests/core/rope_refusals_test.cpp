@@ -7,12 +7,11 @@ namespace tendril::test {
 namespace {
 
 using rope::Settings;
-using rope::World;
 
 World some_world() {
     World world;
-    world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 4, .pin_start = true});
-    world.add_sheet({.name = "sheet", .columns = 3, .rows = 3});
+    world.add_rope("rope", {.from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 4, .pin_start = true});
+    world.add_cloth("cloth", {.columns = 3, .rows = 3});
     world.add_collider("ball", rope::Sphere{{3, 0, 0}, 0.5f});
     world.advance(0.1);
     return world;
@@ -73,52 +72,49 @@ TEST(RopeRefusals, OfRopes) {
     const auto bad = [&](const rope::RopeShape& shape, const char* what, const char* value) {
         expect_refused(world, [&] { world.add_rope(shape); }, {"add_rope", what, value});
     };
-    bad({.name = "rope"}, "name", "rope");
-    bad({.name = "sheet"}, "name", "sheet");
-    bad({.name = "", .from = {nan, 0, 0}}, "from", "nan");
-    bad({.name = "", .to = {0, infinity, 0}}, "to", "inf");
-    bad({.name = "", .to = {0, 0, -2e9f}}, "to", "-2e+09");
-    bad({.name = "", .segments = 0}, "segments", "0");
-    bad({.name = "", .segments = -3}, "segments", "-3");
-    bad({.name = "", .segments = 10'000'000}, "1000000", "100000");  // 10^7 + 1, and those that there are
-    bad({.name = "", .segments = std::numeric_limits<int>::max()}, "particles", "1000000");
+    bad({.from = {nan, 0, 0}}, "from", "nan");
+    bad({.to = {0, infinity, 0}}, "to", "inf");
+    bad({.to = {0, 0, -2e9f}}, "to", "-2e+09");
+    bad({.segments = 0}, "segments", "0");
+    bad({.segments = -3}, "segments", "-3");
+    bad({.segments = 10'000'000}, "1000000", "100000");  // 10^7 + 1, and those that there are
+    bad({.segments = std::numeric_limits<int>::max()}, "particles", "1000000");
     for (const auto& [value, text] : {std::pair{-1.0f, "-1"}, {nan, "nan"}, {infinity, "inf"}}) {
-        bad({.name = "", .length = value}, "length", text);
-        bad({.name = "", .radius = value}, "radius", text);
-        bad({.name = "", .density = value}, "density", text);
+        bad({.length = value}, "length", text);
+        bad({.radius = value}, "radius", text);
+        bad({.density = value}, "density", text);
     }
-    bad({.name = "", .density = 0.0f}, "density", "0");
+    bad({.density = 0.0f}, "density", "0");
 }
 
-TEST(RopeRefusals, OfSheetsAndLocks) {
+TEST(RopeRefusals, OfClothAndHair) {
     World world = some_world();
-    const auto sheet = [&](const rope::SheetShape& shape, const char* what, const char* value) {
-        expect_refused(world, [&] { world.add_sheet(shape); }, {"add_sheet", what, value});
+    const auto cloth = [&](const rope::ClothShape& shape, const char* what, const char* value) {
+        expect_refused(world, [&] { world.add_cloth(shape); }, {"add_cloth", what, value});
     };
-    sheet({.name = "rope"}, "name", "rope");
-    sheet({.name = "", .corner = {0, nan, 0}}, "corner", "nan");
-    sheet({.name = "", .along = {infinity, 0, 0}}, "along", "inf");
-    sheet({.name = "", .down = {0, 0, nan}}, "down", "nan");
-    sheet({.name = "", .columns = 1}, "columns", "1");
-    sheet({.name = "", .rows = 0}, "rows", "0");
-    sheet({.name = "", .columns = 2000, .rows = 2000}, "particles", "1000000");
-    sheet({.name = "", .columns = 2'000'000'000, .rows = 2'000'000'000}, "particles", "1000000");
-    sheet({.name = "", .density = 0.0f}, "density", "0");
-    sheet({.name = "", .shear = -1.0f}, "shear", "-1");
-    sheet({.name = "", .bend = nan}, "bend", "nan");
-    sheet({.name = "", .tear = -0.5f}, "tear", "-0.5");
-    const auto lock = [&](const rope::LockShape& shape, const char* what, const char* value) {
-        expect_refused(world, [&] { world.add_lock(shape); }, {"add_lock", what, value});
+    cloth({.corner = {0, nan, 0}}, "corner", "nan");
+    cloth({.along = {infinity, 0, 0}}, "along", "inf");
+    cloth({.down = {0, 0, nan}}, "down", "nan");
+    cloth({.columns = 1}, "columns", "1");
+    cloth({.rows = 0}, "rows", "0");
+    cloth({.columns = 2000, .rows = 2000}, "particles", "1000000");
+    cloth({.columns = 2'000'000'000, .rows = 2'000'000'000}, "particles", "1000000");
+    cloth({.density = 0.0f}, "density", "0");
+    cloth({.shear = -1.0f}, "shear", "-1");
+    cloth({.bend = nan}, "bend", "nan");
+    cloth({.tear = -0.5f}, "tear", "-0.5");
+    const auto hair = [&](const rope::HairShape& shape, const char* what, const char* value) {
+        expect_refused(world, [&] { world.add_hair(shape); }, {"add_hair", what, value});
     };
-    const std::vector<rope::LockShape::Root> one{{{0, 0, 0}, {0, 1, 0}}};
-    lock({.name = "", .roots = {}}, "roots", "0");
-    lock({.name = "", .roots = {{{nan, 0, 0}, {0, 1, 0}}}}, "position", "nan");
-    lock({.name = "", .roots = {{{0, 0, 0}, {0, 0, 0}}}}, "direction", "0");
-    lock({.name = "", .roots = one, .length = 0.0f}, "length", "0");
-    lock({.name = "", .roots = one, .segments = 1}, "segments", "1");
-    lock({.name = "", .roots = one, .segments = 2'000'000'000}, "particles", "1000000");
-    lock({.name = "", .roots = one, .bend = -1.0f}, "bend", "-1");
-    lock({.name = "", .roots = one, .attach = "nobody"}, "attach", "nobody");
+    const std::vector<rope::HairRoot> one{{{0, 0, 0}, {0, 1, 0}}};
+    hair({.roots = {}}, "roots", "0");
+    hair({.roots = {{{nan, 0, 0}, {0, 1, 0}}}}, "position", "nan");
+    hair({.roots = {{{0, 0, 0}, {0, 0, 0}}}}, "direction", "0");
+    hair({.roots = one, .length = 0.0f}, "length", "0");
+    hair({.roots = one, .segments = 1}, "segments", "1");
+    hair({.roots = one, .segments = 2'000'000'000}, "particles", "1000000");
+    hair({.roots = one, .bend = -1.0f}, "bend", "-1");
+    hair({.roots = one, .attach = {7, 3}}, "attach", "7");
 }
 
 TEST(RopeRefusals, OfEverythingElse) {
@@ -126,36 +122,55 @@ TEST(RopeRefusals, OfEverythingElse) {
     const auto refused = [&](const std::function<void()>& call, std::initializer_list<const char*> words) {
         expect_refused(world, call, words);
     };
-    refused([&] { world.remove("nobody"); }, {"remove", "nobody"});
-    refused([&] { world.particle("nobody", 0); }, {"particle", "nobody"});
+    refused([&] { world.remove("nobody"); }, {"remove", "body"});
+    refused([&] { world.particle("nobody", 0); }, {"particle", "body"});
     refused([&] { world.particle("rope", 5); }, {"particle", "5"});
     refused([&] { world.pin(14, {0, 0, 0}); }, {"pin", "14"});
     refused([&] { world.pin(1, {nan, 0, 0}); }, {"pin", "nan"});
     refused([&] { world.pin(1, {0, 0, 0}, -1.0); }, {"pin", "seconds", "-1"});
     refused([&] { world.pin(1, {0, 0, 0}, double{nan}); }, {"pin", "seconds", "nan"});
     refused([&] { world.attach(99, "ball"); }, {"attach", "99"});
-    refused([&] { world.attach(1, "nobody"); }, {"attach", "nobody"});
+    refused([&] { world.attach(1, "nobody"); }, {"attach", "collider"});
     refused([&] { world.unpin(1); }, {"unpin", "1"});
     refused([&] { world.unpin(99); }, {"unpin", "99"});
-    refused([&] { world.cut("nobody", 0); }, {"cut", "nobody"});
-    refused([&] { world.cut("sheet", 0); }, {"cut", "sheet"});
+    refused([&] { world.cut("nobody", 0); }, {"cut", "rope"});
+    refused([&] { world.cut("cloth", 0); }, {"cut", "cloth"});
     refused([&] { world.cut("rope", 4); }, {"cut", "4"});
-    refused([&] { world.add_collider("", rope::Sphere{}); }, {"add_collider", "name"});
-    refused([&] { world.add_collider("ball", rope::Sphere{}); }, {"add_collider", "ball"});
-    refused([&] { world.move_collider("nobody", {0, 0, 0}); }, {"move_collider", "nobody"});
+    refused([&] { world.move_collider("nobody", {0, 0, 0}); }, {"move_collider", "collider"});
     refused([&] { world.move_collider("ball", {0, infinity, 0}); }, {"move_collider", "inf"});
     refused([&] { world.move_collider("ball", {0, 0, 0}, -2.0); }, {"move_collider", "-2"});
-    refused([&] { world.set_collider("nobody", rope::Sphere{}); }, {"set_collider", "nobody"});
-    refused([&] { world.remove_collider("nobody"); }, {"remove_collider", "nobody"});
+    refused([&] { world.set_collider("nobody", rope::Sphere{}); }, {"set_collider", "collider"});
+    refused([&] { world.remove_collider("nobody"); }, {"remove_collider", "collider"});
     refused([&] { world.use_vector_unit("abacus"); }, {"use_vector_unit", "abacus"});
+}
+
+TEST(RopeRefusals, OfMaterials) {
+    World world = some_world();
+    const rope::BodyId rope = world.id("rope"), nobody{};
+    const auto refused = [&](const Result& result, std::initializer_list<const char*> words) {
+        expect_refused(
+            world, [&] { allow(result); }, words);
+    };
+    rope::World& core = world.core();
+    refused(core.set_radius(nobody, 0.1f), {"set_radius", "body"});
+    refused(core.set_radius(rope, -1.0f), {"set_radius", "-1"});
+    refused(core.set_mass(nobody, 1.0), {"set_mass", "body"});
+    refused(core.set_mass(rope, 0.0), {"set_mass", "0"});
+    refused(core.set_mass(rope, double{nan}), {"set_mass", "nan"});
+    refused(core.set_tear(nobody, 1.0f), {"set_tear", "body"});
+    refused(core.set_tear(rope, nan), {"set_tear", "nan"});
+    refused(core.set_compliance(nobody, rope::Link::Kind::Bend, 1.0f), {"set_compliance", "body"});
+    refused(core.set_compliance(rope, rope::Link::Kind::Bend, infinity), {"set_compliance", "inf"});
+    refused(core.set_length(nobody, 1.0f), {"set_length", "body"});
+    refused(core.set_length(rope, -1.0f), {"set_length", "-1"});
 }
 
 /// The largest scene that fits, fits; one particle more does not.
 TEST(RopeRefusals, AtTheLimitOfParticles) {
     World world;
-    world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 999'999});
+    world.add_rope("rope", {.from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 999'999});
     EXPECT_EQ(world.size(), rope::max_particles);
-    expect_refused(world, [&] { world.add_rope({.name = "", .segments = 1}); }, {"particles", "1000002"});
+    expect_refused(world, [&] { world.add_rope({.segments = 1}); }, {"particles", "1000002"});
 }
 
 }  // namespace

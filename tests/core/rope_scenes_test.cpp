@@ -1,4 +1,4 @@
-// Ten thousand random scenes: ropes, sheets and hair among colliders of every kind that move, overlap, and in
+// Ten thousand random scenes: ropes, cloths and hair among colliders of every kind that move, overlap, and in
 // which particles start. Nothing free stays inside where there is room, and nothing is ever NaN.
 #include "rope_support.hpp"
 
@@ -8,7 +8,6 @@ namespace {
 using glm::dvec3;
 using rope::Shape;
 using rope::Solver;
-using rope::World;
 
 float part(Random& random) {
     return std::abs(random.around(1.0f));
@@ -42,31 +41,28 @@ void add_some_body(World& world, Random& random) {
     const glm::vec3 at = random.point(0.8f);
     switch (random.below(6)) {
         case 0:
-            world.add_sheet(
-                {.name = "",
-                 .corner = at,
+            world.add_cloth(
+                {.corner = at,
                  .along = {0.5f, 0, 0},
                  .down = {0, -0.1f, 0.5f},
                  .columns = 4,
                  .rows = 4,
                  .radius = radius,
-                 .pins = random.chance(2) ? rope::SheetShape::Pins::Corners : rope::SheetShape::Pins::None});
+                 .pins = random.chance(2) ? rope::ClothShape::Pins::Corners : rope::ClothShape::Pins::None});
             return;
         case 1: {
             const bool held = !world.state().colliders.empty() && random.chance(2);
-            world.add_lock({.name = "",
-                            .roots = {{at, {0, -1, 0}}, {at + glm::vec3(0.05f, 0, 0), {1, -1, 0}}},
+            world.add_hair({.roots = {{at, {0, -1, 0}}, {at + glm::vec3(0.05f, 0, 0), {1, -1, 0}}},
                             .length = 0.4f,
                             .segments = 5,
                             .radius = radius,
-                            .attach = held ? world.state().colliders.front().name : ""});
+                            .attach = held ? world.state().colliders.front().id : rope::ColliderId{}});
             return;
         }
         default: {
             const glm::vec3 to = random.chance(10) ? at : at + random.point(0.8f);
             const auto distance_of = static_cast<float>(distance(at, to));
-            world.add_rope({.name = "",
-                            .from = at,
+            world.add_rope({.from = at,
                             .to = to,
                             .segments = 1 + static_cast<int>(random.below(14)),
                             .length = distance_of * (random.chance(3) ? 1.0f : 1.0f + part(random)),
@@ -103,8 +99,8 @@ void look(const World& world, Random& random, Found& worst) {
                 const double depth = body.radius - surface_distance(collider.shape, at).distance;
                 const double allowed = std::max(1e-3 * static_cast<double>(size(collider.shape)), 1e-4);
                 if (depth - allowed <= worst.depth || !has_room(world, at, body.radius, random)) continue;
-                worst = {depth - allowed,
-                         body.name + ", particle " + std::to_string(i - body.first) + " in " + collider.name};
+                worst = {depth - allowed, world.name(body) + ", particle " + std::to_string(i - body.first) +
+                                              " in " + world.name(collider)};
             }
         }
 }
@@ -130,7 +126,7 @@ void play(std::uint64_t seed, Found& worst) {
         for (std::size_t i = 0; i < colliders; ++i)
             if (random.chance(2)) {
                 const rope::Collider& collider = world.state().colliders[i];
-                world.move_collider(std::string(collider.name), centre(collider.shape) + random.point(0.5f),
+                world.move_collider(world.name(collider), centre(collider.shape) + random.point(0.5f),
                                     0.25 * static_cast<double>(part(random)));
             }
         for (int frame = 0; frame < 4; ++frame) {

@@ -5,24 +5,15 @@ namespace tendril::test {
 namespace {
 
 using rope::State;
-using rope::World;
 
 World busy_world(rope::Solver solver) {
     World world = world_with({.solver = solver});
-    world.add_rope({.name = "rope",
-                    .from = {0, 2, 0},
-                    .to = {1, 2, 0},
-                    .segments = 24,
-                    .length = 1.4f,
-                    .pin_start = true});
-    world.add_sheet({.name = "sheet",
-                     .corner = {2, 2, 0},
-                     .columns = 6,
-                     .rows = 6,
-                     .pins = rope::SheetShape::Pins::Corners});
+    world.add_rope("rope",
+                   {.from = {0, 2, 0}, .to = {1, 2, 0}, .segments = 24, .length = 1.4f, .pin_start = true});
+    world.add_cloth("cloth",
+                    {.corner = {2, 2, 0}, .columns = 6, .rows = 6, .pins = rope::ClothShape::Pins::Corners});
     world.add_collider("ball", rope::Sphere{{0.6f, 1.4f, 0}, 0.2f});
-    world.add_lock(
-        {.name = "lock", .roots = {{{0.6f, 1.6f, 0}, {0, 1, 0}}}, .segments = 6, .attach = "ball"});
+    world.add_hair("hair", {.roots = {{{0.6f, 1.6f, 0}, {0, 1, 0}}}, .segments = 6}, "ball");
     world.add_collider("ground", rope::Plane{{0, 0, 0}, {0, 1, 0}});
     world.move_collider("ball", {0.2f, 1.3f, 0}, 0.7);
     world.pin(world.particle("rope", 24), {0.5f, 2.2f, 0.1f}, 0.6);
@@ -68,49 +59,54 @@ TEST(RopeState, BrokenOnesAreRefused) {
     const Broken all[] = {
         {"substep", [](State& s) { s.settings.substep = 0.0; }},
         {"gravity", [](State& s) { s.settings.gravity.x = nan; }},
-        {"as many", [](State& s) { s.moved.pop_back(); }},
-        {"as many", [](State& s) { s.before.emplace_back(); }},
+        {"as many", [](State& s) { s.displacement.pop_back(); }},
+        {"as many", [](State& s) { s.earlier.emplace_back(); }},
         {"as many", [](State& s) { s.mass.clear(); }},
-        {"position 3", [](State& s) { s.position[3].y = double{nan}; }},
-        {"position 0", [](State& s) { s.position[0].x = double{infinity}; }},
-        {"moved 2", [](State& s) { s.moved[2].z = double{nan}; }},
-        {"before 1", [](State& s) { s.before[1].x = -double{infinity}; }},
-        {"mass 4", [](State& s) { s.mass[4] = 0.0; }},
-        {"mass 5", [](State& s) { s.mass[5] = -1.0; }},
-        {"mass 6", [](State& s) { s.mass[6] = double{nan}; }},
-        {"no name", [](State& s) { s.bodies[0].name.clear(); }},
-        {"rope", [](State& s) { s.bodies[1].name = "rope"; }},
-        {"rope", [](State& s) { s.bodies[0].first = 1; }},
-        {"sheet", [](State& s) { s.bodies[1].count = 1000; }},
-        {"lock", [](State& s) { s.bodies[2].count = std::numeric_limits<std::size_t>::max(); }},
-        {"rope", [](State& s) { s.bodies[0].count = 0; }},
+        {"position[3]", [](State& s) { s.position[3].y = double{nan}; }},
+        {"position[0]", [](State& s) { s.position[0].x = double{infinity}; }},
+        {"displacement[2]", [](State& s) { s.displacement[2].z = double{nan}; }},
+        {"earlier[1]", [](State& s) { s.earlier[1].x = -double{infinity}; }},
+        {"mass[4]", [](State& s) { s.mass[4] = 0.0; }},
+        {"mass[5]", [](State& s) { s.mass[5] = -1.0; }},
+        {"mass[6]", [](State& s) { s.mass[6] = double{nan}; }},
+        {"bodies[1].id", [](State& s) { s.bodies[1].id = s.bodies[0].id; }},
+        {"bodies[0].id", [](State& s) { s.bodies[0].id = {}; }},
+        {"bodies[2].id", [](State& s) { s.bodies[2].id.generation += 2; }},
+        {"taken slot", [](State& s) { s.body_slots.push_back(1); }},
+        {"bodies[0].first", [](State& s) { s.bodies[0].first = 1; }},
+        {"bodies[1].count", [](State& s) { s.bodies[1].count = 1000; }},
+        {"bodies[2].count", [](State& s) { s.bodies[2].count = std::numeric_limits<std::size_t>::max(); }},
+        {"bodies[0].count", [](State& s) { s.bodies[0].count = 0; }},
         {"rows", [](State& s) { s.bodies[1].row = 5; }},
         {"rows", [](State& s) { s.bodies[1].row = 0; }},
         {"kind", [](State& s) { s.bodies[0].kind = static_cast<rope::Body::Kind>(9); }},
         {"radius", [](State& s) { s.bodies[0].radius = -1.0f; }},
         {"tear", [](State& s) { s.bodies[1].tear = nan; }},
-        {"no body", [](State& s) { s.bodies.pop_back(); }},
-        {"link 2", [](State& s) { s.links[2].a = 1'000'000; }},
-        {"link 3", [](State& s) { s.links[3].b = s.links[3].a; }},
+        {"those of bodies", [](State& s) { s.bodies.pop_back(); }},
+        {"links[2]", [](State& s) { s.links[2].a = 1'000'000; }},
+        {"links[3]", [](State& s) { s.links[3].b = s.links[3].a; }},
         {"rest", [](State& s) { s.links[0].rest = nan; }},
         {"rest", [](State& s) { s.links[0].rest = -1.0f; }},
         {"compliance", [](State& s) { s.links[0].compliance = infinity; }},
         {"tension", [](State& s) { s.links[1].tension = infinity; }},
-        {"link 1", [](State& s) { s.links[1].kind = static_cast<rope::Link::Kind>(3); }},
-        {"pins", [](State& s) { std::swap(s.pins[0], s.pins[1]); }},
+        {"links[1]", [](State& s) { s.links[1].kind = static_cast<rope::Link::Kind>(3); }},
+        {"pins[1].particle", [](State& s) { std::swap(s.pins[0], s.pins[1]); }},
         {"pins", [](State& s) { s.pins[1].particle = s.pins[0].particle; }},
         {"pins", [](State& s) { s.pins.back().particle = 100'000; }},
         {"goal", [](State& s) { s.pins[0].goal.x = double{nan}; }},
-        {"time", [](State& s) { s.pins[0].seconds = -1.0; }},
-        {"nobody", [](State& s) { s.pins[0].collider = "nobody"; }},
-        {"no name", [](State& s) { s.colliders[0].name.clear(); }},
-        {"ground", [](State& s) { s.colliders[0].name = "ground"; }},
+        {"pins[0].seconds", [](State& s) { s.pins[0].seconds = -1.0; }},
+        {"collider",
+         [](State& s) {
+             s.pins[0].collider = {9, 1};
+         }},
+        {"colliders[1].id", [](State& s) { s.colliders[1].id = s.colliders[0].id; }},
+        {"colliders[0].id", [](State& s) { s.collider_slots.clear(); }},
         {"radius", [](State& s) { std::get<rope::Sphere>(s.colliders[0].shape).radius = nan; }},
         {"goal", [](State& s) { s.colliders[0].goal.x = double{nan}; }},
-        {"time", [](State& s) { s.colliders[0].seconds = double{nan}; }},
+        {"seconds", [](State& s) { s.colliders[0].seconds = double{nan}; }},
         {"remainder", [](State& s) { s.remainder = -0.1; }},
         {"remainder", [](State& s) { s.remainder = double{nan}; }},
-        {"moved_in", [](State& s) { s.moved_in = double{infinity}; }},
+        {"displaced_in", [](State& s) { s.displaced_in = double{infinity}; }},
     };
     World good = busy_world(rope::Solver::Direct);
     good.advance(0.1);
@@ -131,9 +127,8 @@ TEST(RopeState, AnyGraphOfLinksWorks) {
     Random random(91);
     for (int round = 0; round < 60; ++round) {
         World world = world_with({.solver = all_solvers[random.below(3)]});
-        world.add_rope(
-            {.name = "rope", .from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 9, .pin_start = true});
-        world.add_rope({.name = "other", .from = {0, 0.1f, 0}, .to = {1, 0.2f, 0}, .segments = 9});
+        world.add_rope("rope", {.from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 9, .pin_start = true});
+        world.add_rope("other", {.from = {0, 0.1f, 0}, .to = {1, 0.2f, 0}, .segments = 9});
         world.add_collider("ball", rope::Sphere{{0.5f, -0.5f, 0}, 0.2f});
         State state = world.state();
         for (int i = 0; i < 12; ++i) {
@@ -156,21 +151,14 @@ TEST(RopeState, AnyGraphOfLinksWorks) {
 /// What a world has come to by itself it takes back, however heavy, wide or tight it is.
 TEST(RopeState, ItsOwnIsNotRefused) {
     World tight;
-    tight.add_rope({.name = "rope",
-                    .to = {1, 0, 0},
-                    .segments = 4,
-                    .length = 1e-12f,
-                    .pin_start = true,
-                    .pin_end = true});
+    tight.add_rope("rope",
+                   {.to = {1, 0, 0}, .segments = 4, .length = 1e-12f, .pin_start = true, .pin_end = true});
     World heavy;
-    heavy.add_rope({.name = "rope", .to = {1e6f, 0, 0}, .segments = 4, .density = 1e6f});
+    heavy.add_rope("rope", {.to = {1e6f, 0, 0}, .segments = 4, .density = 1e6f});
     World wide;
-    wide.add_sheet({.name = "sheet",
-                    .corner = {-9e8f, 0, 0},
-                    .along = {9e8f, 0, 0},
-                    .down = {0, 1e8f, 0},
-                    .columns = 3,
-                    .rows = 3});
+    wide.add_cloth(
+        "cloth",
+        {.corner = {-9e8f, 0, 0}, .along = {9e8f, 0, 0}, .down = {0, 1e8f, 0}, .columns = 3, .rows = 3});
     for (World* world : {&tight, &heavy, &wide}) {
         for (int i = 0; i < 30; ++i) world->advance(0.1);
         EXPECT_TRUE(all_finite(*world));
@@ -181,8 +169,8 @@ TEST(RopeState, ItsOwnIsNotRefused) {
 /// The world has an edge: what falls or is flung over it stops there, and can be saved.
 TEST(RopeState, ItsOwnIsNotRefusedAtTheEdgeOfTheWorld) {
     World world = world_with({.substep = 0.1, .gravity = {1e4f, -1e4f, 0}, .gravity_scale = 1e3f});
-    world.add_rope({.name = "rope", .from = {-9e8f, 9e8f, 9e8f}, .to = {-9e8f, 9e8f, 9e8f}, .segments = 5});
-    world.add_sheet({.name = "sheet", .corner = {9e8f, 0, 0}, .columns = 3, .rows = 3});
+    world.add_rope("rope", {.from = {-9e8f, 9e8f, 9e8f}, .to = {-9e8f, 9e8f, 9e8f}, .segments = 5});
+    world.add_cloth("cloth", {.corner = {9e8f, 0, 0}, .columns = 3, .rows = 3});
     world.add_collider("ball", rope::Sphere{{9.9e8f, 9.9e8f, 9.9e8f}, 1.0f});
     world.add_collider("rod", rope::Capsule{{1e9f, 0, 0}, {1e9f, 1e9f, 1.0f}, 1.0f});
     for (int i = 0; i < 60; ++i) {
@@ -206,8 +194,8 @@ TEST(RopeState, BodiesThatWouldReachOverTheEdgeAreRefused) {
     };
     refused([&] { world.add_rope({.from = {-1e9f, 0, 0}, .to = {1e9f, 0, 0}, .segments = 1}); });
     refused([&] { world.add_rope({.from = {0, -1e9f, 0}, .to = {1, -1e9f, 0}, .length = 1e9f}); });
-    refused([&] { world.add_sheet({.corner = {9e8f, 0, 0}, .along = {9e8f, 0, 0}}); });
-    refused([&] { world.add_lock({.roots = {{{0, -1e9f, 0}, {0, -1, 0}}}}); });
+    refused([&] { world.add_cloth({.corner = {9e8f, 0, 0}, .along = {9e8f, 0, 0}}); });
+    refused([&] { world.add_hair({.roots = {{{0, -1e9f, 0}, {0, -1, 0}}}}); });
 }
 
 }  // namespace

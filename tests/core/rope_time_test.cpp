@@ -8,22 +8,14 @@ namespace {
 using rope::Advance;
 using rope::Settings;
 using rope::Solver;
-using rope::World;
 
 /// Something of everything, in motion.
 World scene(Solver solver) {
     World world = world_with({.solver = solver});
-    world.add_rope({.name = "rope",
-                    .from = {0, 2, 0},
-                    .to = {1, 2, 0},
-                    .segments = 24,
-                    .length = 1.4f,
-                    .pin_start = true});
-    world.add_sheet({.name = "sheet",
-                     .corner = {2, 2, 0},
-                     .columns = 6,
-                     .rows = 6,
-                     .pins = rope::SheetShape::Pins::Corners});
+    world.add_rope("rope",
+                   {.from = {0, 2, 0}, .to = {1, 2, 0}, .segments = 24, .length = 1.4f, .pin_start = true});
+    world.add_cloth("cloth",
+                    {.corner = {2, 2, 0}, .columns = 6, .rows = 6, .pins = rope::ClothShape::Pins::Corners});
     world.add_collider("ball", rope::Sphere{{0.6f, 1.4f, 0}, 0.2f});
     world.add_collider("ground", rope::Plane{{0, 0, 0}, {0, 1, 0}});
     world.move_collider("ball", {0.2f, 1.3f, 0}, 0.5);
@@ -138,38 +130,18 @@ TEST(RopeTime, NoTimeIsNoStepAndBadTimeIsRefused) {
     const rope::State before = world.state();
     EXPECT_EQ(world.advance(0.0).substeps, 0);
     EXPECT_TRUE(same_bits(before, world.state()));
-    for (const auto& [seconds, text] : {std::pair{-1.0, "-1"},
-                                        {-1e-300, "-"},
-                                        {double{nan}, "nan"},
-                                        {double{infinity}, "inf"},
-                                        {-double{infinity}, "-inf"}}) {
-        const std::string message = message_of<std::invalid_argument>([&, s = seconds] { world.advance(s); });
-        EXPECT_NE(message.find("seconds"), std::string::npos) << message;
-        EXPECT_NE(message.find(text), std::string::npos) << message;
+    for (const double seconds : {-1.0, -1e-300, 2e9, double{nan}, double{infinity}, -double{infinity}}) {
+        const Advance done = world.advance(seconds);
+        EXPECT_TRUE(done.refused) << seconds;
+        EXPECT_EQ(done.substeps, 0);
         EXPECT_TRUE(same_bits(before, world.state()));
-    }
-}
-
-TEST(RopeTime, AnyAllowedSubstepWorks) {
-    for (const Solver solver : all_solvers) {
-        for (const double substep :
-             {rope::min_substep, 1.0 / 3840.0, 1.0 / 60.0, 1.0 / 15.0, rope::max_substep}) {
-            World world = scene(solver);
-            Settings settings = world.settings();
-            settings.substep = substep;
-            world.set_settings(settings);
-            const int frames = substep < 1e-4 ? 1 : 120;
-            for (int i = 0; i < frames; ++i) world.advance(1.0 / 60.0);
-            EXPECT_TRUE(all_finite(world)) << name(solver) << ' ' << substep;
-            EXPECT_GT(lowest(world), -1e-4) << name(solver) << ' ' << substep;  // the ground holds
-        }
     }
 }
 
 /// A substep that changes in flight changes no speed.
 TEST(RopeTime, SpeedOutlivesANewSubstep) {
     World world = world_with({.damping = 0.0f, .gravity = {0, 0, 0}, .external = {1, 0, 0}});
-    world.add_rope({.name = "rope", .from = {0, 0, 0}, .to = {0, 1, 0}, .segments = 4});
+    world.add_rope("rope", {.from = {0, 0, 0}, .to = {0, 1, 0}, .segments = 4});
     run(world, 1.0);
     Settings settings = world.settings();
     const glm::vec3 speed = world.velocity(0);

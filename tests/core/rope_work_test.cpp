@@ -4,8 +4,6 @@
 namespace tendril::test {
 namespace {
 
-using rope::World;
-
 /// Links and contacts that a substep may look at: so many passes over everything, what a way out may take,
 /// and what links near thin colliders do.
 std::uint64_t most_work(const World& world) {
@@ -19,7 +17,7 @@ std::uint64_t most_work(const World& world) {
 World bodies(const rope::Settings& settings) {
     World world = world_with(settings);
     world.add_rope({.from = {-1, 0, 0}, .to = {1, 0, 0}, .segments = 48, .radius = 0.05f});
-    world.add_sheet({.corner = {-0.5f, 0.1f, 0}, .columns = 10, .rows = 10, .tear = 0.5f});
+    world.add_cloth({.corner = {-0.5f, 0.1f, 0}, .columns = 10, .rows = 10, .tear = 0.5f});
     return world;
 }
 

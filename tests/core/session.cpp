@@ -9,7 +9,7 @@
 #include "random.hpp"
 #include "tendril/chain/chain.hpp"
 #include "tendril/ik/solver.hpp"
-#include "tendril/rope/world.hpp"
+#include "rope_named.hpp"
 
 namespace tendril::test {
 namespace {
@@ -128,14 +128,14 @@ rope::Shape some_collider(Random& random) {
 }
 
 /// Ropes of two lengths, some whipping about, a sheet that tears, and hair on a ball.
-rope::World some_world(int number, Random& random) {
+test::World some_world(int number, Random& random) {
     rope::Settings settings;
     settings.solver = static_cast<rope::Solver>(number % 3);
     settings.iterations = 2 + static_cast<int>(random.below(15));
     settings.substep = random.chance(3) ? 1.0 / 64.0 : 1.0 / 256.0;
     settings.friction = 0.25f * static_cast<float>(random.below(5));
     if (random.chance(3)) settings.compliance = 0.0078125f;
-    rope::World world;
+    test::World world;
     world.set_settings(settings);
     world.add_collider("ground", rope::Plane{{0, -1, 0}, {0.25f, 1, 0}});
     world.add_collider("ball", rope::Sphere{random.point(0.5f), 0.25f});
@@ -151,18 +151,18 @@ rope::World some_world(int number, Random& random) {
                         .pin_end = random.chance(4)});
     }
     if (random.chance(2)) {
-        world.add_sheet({.corner = random.point(1.0f),
+        world.add_cloth({.corner = random.point(1.0f),
                          .columns = 5,
                          .rows = 4,
                          .tear = random.chance(2) ? 0.0625f : 0.0f,
-                         .pins = rope::SheetShape::Pins::Corners});
+                         .pins = rope::ClothShape::Pins::Corners});
     }
     const glm::vec3 root = centre(world.find_collider("ball")->shape) + glm::vec3(0, 0.25f, 0);
-    world.add_lock({.roots = {{root, {0, 1, 0}}, {root, {1, 1, 0}}}, .segments = 5, .attach = "ball"});
+    world.add_hair({.roots = {{root, {0, 1, 0}}, {root, {1, 1, 0}}}, .segments = 5}, "ball");
     return world;
 }
 
-void disturb(rope::World& world, Random& random) {
+void disturb(test::World& world, Random& random) {
     const std::size_t particle = random.below(world.size());
     switch (random.below(5)) {
         case 0:
@@ -230,7 +230,7 @@ std::uint64_t rope_hash() {
     Random random(20260103);
     Fnv hash;
     for (int i = 0; i < 60; ++i) {
-        rope::World world = some_world(i, random);
+        test::World world = some_world(i, random);
         for (int turn = 0; turn < 12; ++turn) {
             disturb(world, random);
             world.advance(0.0625);

@@ -63,20 +63,20 @@ class Adding {
         }
         if (row_button("Cloth", 3, true, "A cloth that hangs by two corners")) {
             const glm::vec3 at = free_place(workspace_);
-            body("rope.sheet.add", "sheet",
+            body("rope.cloth.add", "cloth",
                  {{"corner", at + glm::vec3(-0.5f, 0.8f, 0.0f)},
                   {"along", glm::vec3(1, 0, 0)},
                   {"down", glm::vec3(0.0f, -0.6f, 0.8f)},
                   {"pins", "corners"}});
         }
         const bool on_collider = part_.choice && !part_.choice->collider.empty();
-        if (row_button("Hair", 3, true, "A lock of hair: on the selected collider, or from a point")) {
+        if (row_button("Hair", 3, true, "Strands of hair: on the selected collider, or from a point")) {
             ArgumentList arguments{{"strands", 48}, {"length", 0.6f}};
             if (on_collider)
                 arguments.push_back({"attach", part_.choice->collider});
             else
                 arguments.push_back({"centre", free_place(workspace_) + glm::vec3(0.0f, 0.5f, 0.0f)});
-            body("rope.lock.add", "lock", std::move(arguments));
+            body("rope.hair.add", "hair", std::move(arguments));
         }
         end_row();
     }

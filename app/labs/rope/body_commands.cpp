@@ -1,7 +1,9 @@
-// Ropes, sheets and locks of hair: adding, removing, pinning, cutting.
+// Ropes, cloth and hair: adding, removing, pinning, cutting.
 #include <algorithm>
+#include <tendril/rope/hair_roots.hpp>
+#include <utility>
 
-#include "app/labs/rope/lock_roots.hpp"
+#include "app/labs/kit/require.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 
 namespace tendril::app {
@@ -19,21 +21,19 @@ std::size_t count_of(int particles) {
 }
 
 void add(RopeEdit& edit, const Arguments& given) {
-    rope::RopeShape shape{.name = name_of(given), .from = given.point("from"), .to = given.point("to")};
+    rope::RopeShape shape{.from = given.point("from"), .to = given.point("to")};
     if (given.has("segments")) shape.segments = given.integer("segments");
     if (given.has("length")) shape.length = given.number("length");
     if (given.has("radius")) shape.radius = given.number("radius");
     if (given.has("pin_start")) shape.pin_start = given.boolean("pin_start");
     if (given.has("pin_end")) shape.pin_end = given.boolean("pin_end");
     check_particle_room(edit.seen(), count_of(shape.segments) + 1);
-    edit.world().add_rope(shape);
+    edit.world().add_rope(name_of(given), shape);
 }
 
-void add_sheet(RopeEdit& edit, const Arguments& given) {
-    rope::SheetShape shape{.name = name_of(given),
-                           .corner = given.point("corner"),
-                           .along = given.point("along"),
-                           .down = given.point("down")};
+void add_cloth(RopeEdit& edit, const Arguments& given) {
+    rope::ClothShape shape{
+        .corner = given.point("corner"), .along = given.point("along"), .down = given.point("down")};
     if (given.has("columns")) shape.columns = given.integer("columns");
     if (given.has("rows")) shape.rows = given.integer("rows");
     if (given.has("radius")) shape.radius = given.number("radius");
@@ -43,40 +43,41 @@ void add_sheet(RopeEdit& edit, const Arguments& given) {
     if (given.has("tear")) shape.tear = given.number("tear");
     if (given.has("pins")) {
         const auto* const pins = std::find(std::begin(pins_names), std::end(pins_names), given.text("pins"));
-        shape.pins = static_cast<rope::SheetShape::Pins>(pins - std::begin(pins_names));
+        shape.pins = static_cast<rope::ClothShape::Pins>(pins - std::begin(pins_names));
     }
     check_particle_room(edit.seen(), count_of(shape.columns) * count_of(shape.rows));
-    edit.world().add_sheet(shape);
+    edit.world().add_cloth(name_of(given), shape);
 }
 
-void add_lock(RopeEdit& edit, const Arguments& given) {
-    rope::LockShape shape;
-    shape.name = name_of(given);
+void add_hair(RopeEdit& edit, const Arguments& given) {
+    rope::HairShape shape;
+    std::string attach;
     if (given.has("length")) shape.length = given.number("length");
     if (given.has("segments")) shape.segments = given.integer("segments");
     if (given.has("radius")) shape.radius = given.number("radius");
     if (given.has("density")) shape.density = given.number("density");
     if (given.has("bend")) shape.bend = given.number("bend");
-    LockPatch patch;
+    rope::HairPatch patch;
     if (given.has("direction")) patch.direction = given.point("direction");
     if (given.has("strands")) patch.strands = given.integer("strands");
-    if (given.has("spread")) patch.spread = given.number("spread");
+    if (given.has("spread")) patch.radius = given.number("spread");
     check_particle_room(edit.seen(), count_of(patch.strands) * (count_of(shape.segments) + 1));
     if (given.has("attach")) {
-        if (given.has("centre")) throw Refused("centre is not for a lock that is attached to a collider");
+        if (given.has("centre")) throw Refused("centre is not for hair that is attached to a collider");
         const rope::Collider& collider = collider_of(edit.seen(), given.text("attach"));
-        shape.attach = collider.name;
-        shape.roots = roots_on(collider.shape, patch, shape.radius);
+        attach = given.text("attach");
+        shape.roots = require_value(rope::roots_on(collider.shape, patch, shape.radius));
     } else {
-        if (!given.has("centre")) throw Refused("centre is missing, or a collider to attach the lock to");
+        if (!given.has("centre")) throw Refused("centre is missing, or a collider to attach the hair to");
         patch.centre = given.point("centre");
-        shape.roots = roots_around(patch);
+        shape.roots = require_value(rope::roots_around(patch));
     }
-    edit.world().add_lock(shape);
+    edit.world().add_hair(name_of(given), std::move(shape), attach);
 }
 
 void remove(RopeEdit& edit, const Arguments& given) {
-    edit.world().remove(body_of(edit.seen(), given.text("name")).name);
+    body_of(edit.seen(), given.text("name"));
+    edit.world().remove(given.text("name"));
     forget_missing(edit.part);
 }
 
@@ -116,7 +117,7 @@ void follow_cut(std::string& body, std::size_t& particle, const std::string& cut
 
 void cut(RopeEdit& edit, const Arguments& given) {
     const rope::Body& body = body_of(edit.seen(), given.text("rope"));
-    const std::string name = body.name;
+    const std::string name = given.text("rope");
     const auto segment = static_cast<std::size_t>(given.integer("segment"));
     if (body.kind == rope::Body::Kind::Rope && segment + 1 >= body.count) {
         throw Refused("segment " + std::to_string(segment) + " is out of range, \"" + name + "\" has " +
@@ -144,11 +145,11 @@ void add_adding_commands(CommandTable& table) {
                             switch_argument("pin_end", "holds its last particle")},
                            "Adds a rope: straight, or hanging where it is longer than the distance", add));
     table.add(
-        rope_command("rope.sheet.add",
+        rope_command("rope.cloth.add",
                      {point_argument("corner", true, "metres"),
                       point_argument("along", true, "from the corner to the other end of the first row"),
                       point_argument("down", true, "from the corner to the last row"),
-                      own_name("\"sheet\", \"sheet 2\", ... when left out"),
+                      own_name("\"cloth\", \"cloth 2\", ... when left out"),
                       integer_argument("columns", "particles; 24 when left out", 2, most_particles),
                       integer_argument("rows", "particles; 24 when left out", 2, most_particles),
                       number_argument("radius", "metres; 0.01 when left out", 0.0, 1e9),
@@ -158,10 +159,10 @@ void add_adding_commands(CommandTable& table) {
                       number_argument("tear", "relative length at which links tear; 0: never", 0.0, 1e9),
                       choice_argument("pins", false, "of its first row",
                                       names(pins_names, [](const char* name) { return name; }))},
-                     "Adds a cloth", add_sheet));
+                     "Adds a cloth", add_cloth));
     table.add(rope_command(
-        "rope.lock.add",
-        {own_name("\"lock\", \"lock 2\", ... when left out"),
+        "rope.hair.add",
+        {own_name("\"hair\", \"hair 2\", ... when left out"),
          point_argument("centre", false, "of the patch that it grows from"),
          text_argument("attach", false, "a collider that it grows from, instead of a centre"),
          point_argument("direction", false, "that it grows in; downwards, or up from a collider"),
@@ -172,17 +173,16 @@ void add_adding_commands(CommandTable& table) {
          number_argument("radius", "metres; 0.004 when left out", 0.0, 1e9),
          number_argument("density", "kg/m; 0.05 when left out", 0.0, 1e9),
          number_argument("bend", "compliance, m/N", 0.0, 1e9)},
-        "Adds a lock of hair, held at its roots", add_lock));
+        "Adds strands of hair, held at their roots", add_hair));
 }
 
 }  // namespace
 
 void add_body_commands(CommandTable& table) {
     add_adding_commands(table);
-    table.add(rope_command("rope.remove", {text_argument("name", true, "of a rope, sheet or lock")},
-                           "Removes a rope, sheet or lock", remove));
-    table.add(rope_command("rope.remove_selected", {},
-                           "Removes the rope, sheet, lock or collider that is selected", remove_selected));
+    table.add(rope_command("rope.remove", {text_argument("name", true, "of a rope, cloth or hair")},
+                           "Removes a rope, cloth or hair", remove));
+    table.add(rope_command("rope.remove_selected", {}, "Deletes the selection", remove_selected));
     table.add(rope_command("rope.pin",
                            {rope_argument(true, "which"), particle_argument(true, "which"),
                             point_argument("at", false, "metres; where it is when left out")},

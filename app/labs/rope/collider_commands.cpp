@@ -92,21 +92,23 @@ void set(RopeEdit& edit, const Arguments& given) {
     const rope::Collider& collider = collider_of(edit.seen(), given.text("name"));
     const rope::Shape shape = changed(collider.shape, kind_of(rope::kind(collider.shape)), given);
     if (shape == collider.shape) return;
-    Swing* const swing = swing_of(edit.part, collider.name);
+    Swing* const swing = swing_of(edit.part, given.text("name"));
     if (swing != nullptr && rope::centre(shape) != rope::centre(collider.shape))
         centre_on(*swing, rope::centre(shape), edit.part.time);
-    edit.set_collider(std::string(collider.name), shape);
+    edit.set_collider(given.text("name"), shape);
 }
 
 void move(RopeEdit& edit, const Arguments& given) {
-    const std::string name = collider_of(edit.seen(), given.text("name")).name;
+    const std::string name = given.text("name");
+    collider_of(edit.seen(), name);
     const glm::vec3 to = given.point("to");
     if (Swing* swing = swing_of(edit.part, name)) centre_on(*swing, to, edit.part.time);
     edit.move_collider(name, to);
 }
 
 void remove(RopeEdit& edit, const Arguments& given) {
-    edit.world().remove_collider(collider_of(edit.seen(), given.text("name")).name);
+    collider_of(edit.seen(), given.text("name"));
+    edit.world().remove_collider(given.text("name"));
     forget_missing(edit.part);
 }
 
@@ -114,12 +116,13 @@ void remove(RopeEdit& edit, const Arguments& given) {
 void set_swing(RopeEdit& edit, const Arguments& given) {
     const rope::Collider& collider = collider_of(edit.seen(), given.text("name"));
     const glm::vec3 by = given.point("by");
-    Swing* swing = swing_of(edit.part, collider.name);
+    const std::string name = given.text("name");
+    Swing* swing = swing_of(edit.part, name);
     if (by == glm::vec3(0.0f)) {
-        std::erase_if(edit.part.swings, [&](const Swing& s) { return s.collider == collider.name; });
+        std::erase_if(edit.part.swings, [&](const Swing& s) { return s.collider == name; });
         return;
     }
-    Swing wanted = swing ? *swing : Swing{.collider = collider.name};
+    Swing wanted = swing ? *swing : Swing{.collider = name};
     const glm::vec3 at = swing ? swing_point(*swing, edit.part.time) : rope::centre(collider.shape);
     wanted.swing = by;
     if (given.has("period")) wanted.period = given.number("period");

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/labs/rope/rope_lab.hpp"
-#include "app/labs/rope/stress.hpp"
+#include "app/labs/rope/strain.hpp"
 #include "app/view/surfaces.hpp"
 
 namespace tendril::app {
@@ -26,10 +26,10 @@ class Drawing {
         for (std::size_t i = 0; i < world_.state().colliders.size(); ++i) collider(i);
         positions_.reserve(world_.size());
         for (std::size_t i = 0; i < world_.size(); ++i) positions_.push_back(world_.position(i));
-        colours_ = particle_colours(world_, view_.palette, part_.view.stress);
-        if (!part_.view.stress) mark_choice();
+        colours_ = particle_colours(world_, view_.palette, part_.view.strain);
+        if (!part_.view.strain) mark_choice();
         for (const rope::Body& body : world_.state().bodies) {
-            if (body.kind == rope::Body::Kind::Sheet) {
+            if (body.kind == rope::Body::Kind::Cloth) {
                 cloth(body);
             } else {
                 strands(body);
@@ -45,14 +45,15 @@ class Drawing {
     float px(float pixels) const { return pixels * view_.scale; }
     bool lit(PickId pick) const { return view_.hovered == pick || view_.dragged == pick; }
     bool chosen(const rope::Body& body) const {
-        return part_.choice && part_.choice->collider.empty() && part_.choice->body == body.name;
+        return part_.choice && part_.choice->collider.empty() && part_.choice->body == world_.name(body);
     }
     bool chosen(const rope::Body& body, std::size_t i) const {
         return chosen(body) && part_.choice->particle == i;
     }
 
     glm::vec3 collider_colour(std::size_t i) const {
-        const bool selected = part_.choice && part_.choice->collider == world_.state().colliders[i].name;
+        const bool selected =
+            part_.choice && part_.choice->collider == world_.name(world_.state().colliders[i]);
         if (selected) return glm::mix(view_.palette.ghost, view_.palette.selection, 0.5f);
         return lit(collider_pick(i)) ? view_.palette.accent : view_.palette.ghost;
     }
@@ -103,7 +104,7 @@ class Drawing {
     }
 
     void strands(const rope::Body& body) {
-        const int sides = body.kind == rope::Body::Kind::Lock ? strand_sides : part_.view.sides;
+        const int sides = body.kind == rope::Body::Kind::Hair ? strand_sides : part_.view.sides;
         const std::span<const glm::vec3> points(positions_), colours(colours_);
         for (std::size_t at = body.first; at < body.first + body.count; at += body.row) {
             tube(list_, view_.camera, points.subspan(at, body.row), body.radius, sides,
@@ -116,7 +117,7 @@ class Drawing {
         const std::span<const glm::vec3> points(positions_), colours(colours_);
         const std::vector<std::uint8_t> cells = whole_cells(world_, body);
         const SheetGrid grid{columns, rows, points.subspan(body.first, body.count), cells};
-        if (part_.view.stress || chosen(body)) {
+        if (part_.view.strain || chosen(body)) {
             sheet(list_, view_.camera, grid, view_.palette.head, view_.palette.link,
                   colours.subspan(body.first, body.count));
         } else {
@@ -154,7 +155,7 @@ class Drawing {
             while (link.a < state.bodies[b].first) --b;
             while (link.a - state.bodies[b].first >= state.bodies[b].count) ++b;
             const rope::Body& body = state.bodies[b];
-            if (link.kind != rope::Link::Kind::Stretch || body.kind == rope::Body::Kind::Lock) continue;
+            if (link.kind != rope::Link::Kind::Stretch || body.kind == rope::Body::Kind::Hair) continue;
             const glm::vec3 from = positions_[link.a], to = positions_[link.b], middle = 0.5f * (from + to);
             catchable(from, cuts ? to : middle, body.radius, link.a);
             if (!cuts) catchable(middle, to, body.radius, link.b);
@@ -173,7 +174,7 @@ class Drawing {
 
     void particles() {
         std::vector<bool> pinned(world_.size());
-        for (const rope::Pin& pin : world_.state().pins) pinned[pin.particle] = pin.collider.empty();
+        for (const rope::Pin& pin : world_.state().pins) pinned[pin.particle] = !pin.collider;
         const bool cuts = part_.tool == RopeTool::Cut;
         for (const rope::Body& body : world_.state().bodies) {
             for (std::size_t i = 0; i < body.count; ++i) {
@@ -185,7 +186,7 @@ class Drawing {
                 const glm::vec3 colour = selected            ? view_.palette.selection
                                          : pinned[particle]  ? view_.palette.target
                                          : under_mouse       ? view_.palette.accent
-                                         : part_.view.stress ? colours_[particle]
+                                         : part_.view.strain ? colours_[particle]
                                                              : view_.palette.joint;
                 Stroke& ball = list_.sphere(positions_[particle], ball_radius(body, particle), Unit::Pixels,
                                             glm::vec4(colour, 1.0f));
@@ -214,20 +215,21 @@ class Drawing {
         for (std::size_t i = 0; i < state.colliders.size(); ++i) {
             const bool under_mouse = shown == collider_pick(i);
             if (under_mouse || always)
-                add(rope::centre(state.colliders[i].shape), state.colliders[i].name, under_mouse);
+                add(rope::centre(state.colliders[i].shape), world_.name(state.colliders[i]), under_mouse);
         }
         for (const rope::Body& body : state.bodies)
-            if (always) add(positions_[body.first], body.name, false);
+            if (always) add(positions_[body.first], world_.name(body), false);
         if (const auto place = picked_particle(world_, shown)) {
             const std::size_t particle = place->body->first + place->index;
-            add(positions_[particle], place->body->name + ", particle " + std::to_string(place->index), true);
+            add(positions_[particle],
+                world_.name(*place->body) + ", particle " + std::to_string(place->index), true);
         }
     }
 
     const View& view_;
     DrawList& list_;
     const RopePart& part_;
-    const rope::World& world_;
+    const NamedWorld& world_;
     std::vector<glm::vec3> positions_, colours_;
 };
 
@@ -240,11 +242,11 @@ void RopeLab::draw(const View& view, DrawList& list) const {
 std::vector<LegendRow> RopeLab::legend(const Workspace& workspace) const {
     const Palette& colours = palette(workspace.settings.theme);
     std::vector<LegendRow> rows{{"pinned", colours.target}, {"selection", colours.selection}};
-    if (rope_part(workspace).view.stress) {
-        rows.push_back({"its length", stress_colour(0.0f, colours)});
-        rows.push_back({"1 % too long", stress_colour(0.01f, colours)});
-        rows.push_back({"10 % too long", stress_colour(0.1f, colours)});
-        rows.push_back({"10 % too short", stress_colour(-0.1f, colours)});
+    if (rope_part(workspace).view.strain) {
+        rows.push_back({"its length", strain_colour(0.0f, colours)});
+        rows.push_back({"1 % too long", strain_colour(0.01f, colours)});
+        rows.push_back({"10 % too long", strain_colour(0.1f, colours)});
+        rows.push_back({"10 % too short", strain_colour(-0.1f, colours)});
     }
     return rows;
 }

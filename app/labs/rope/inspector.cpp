@@ -17,7 +17,7 @@ namespace tendril::app {
 namespace {
 
 /// The strongest pull of the links at a particle, newtons.
-float tension_at(const rope::World& world, std::size_t particle) {
+float tension_at(const NamedWorld& world, std::size_t particle) {
     float strongest = 0.0f;
     for (const rope::Link& link : world.state().links) {
         if (link.kind == rope::Link::Kind::Stretch && (link.a == particle || link.b == particle))
@@ -27,11 +27,11 @@ float tension_at(const rope::World& world, std::size_t particle) {
 }
 
 void particle_rows(const RopePart& part, const rope::Body& body, std::size_t index, Emit& emit) {
-    const rope::World& world = *part.world;
+    const NamedWorld& world = *part.world;
     const std::size_t particle = body.first + index;
     const bool held = held_particle(part) == particle, pinned = world.pinned(particle) && !held;
-    const ArgumentList which{{"rope", body.name}, {"particle", index}};
-    reading("of", "%s", body.name.c_str());
+    const ArgumentList which{{"rope", world.name(body)}, {"particle", index}};
+    reading("of", "%s", world.name(body).c_str());
     reading("particle", "%zu of 0 to %zu%s", index, body.count - 1,
             pinned ? ", pinned"
             : held ? ", held"
@@ -54,15 +54,16 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     if (row_button(pinned ? "Unpin" : "Pin", 3)) emit(pinned ? "rope.unpin" : "rope.pin", which);
     const bool rope = body.kind == rope::Body::Kind::Rope;
     if (row_button("Cut", 3, rope && body.count > 1, "Parts the rope behind this particle"))
-        emit("rope.cut", {{"rope", body.name}, {"segment", std::min(index, body.count - 2)}});
-    if (row_button("Remove", 3, true, "Takes all of it away")) emit("rope.remove", {{"name", body.name}});
+        emit("rope.cut", {{"rope", world.name(body)}, {"segment", std::min(index, body.count - 2)}});
+    if (row_button("Remove", 3, true, "Takes all of it away"))
+        emit("rope.remove", {{"name", world.name(body)}});
     end_row();
 }
 
 /// What a kind of collider has beside its place.
-void shape_rows(const rope::Collider& collider, Emit& emit) {
+void shape_rows(const rope::Collider& collider, const std::string& name, Emit& emit) {
     const auto set = [&](const char* key, ArgumentValue value) {
-        emit.continuously("rope.collider.set", {{"name", collider.name}, {key, std::move(value)}});
+        emit.continuously("rope.collider.set", {{"name", name}, {key, std::move(value)}});
     };
     const auto radius_row = [&](float radius) {
         if (number_field("radius", radius, 0.002f, 0.0f, 1e3f, "%.3f m")) set("radius", radius);
@@ -93,24 +94,24 @@ void shape_rows(const rope::Collider& collider, Emit& emit) {
 }
 
 void collider_rows(const RopePart& part, const rope::Collider& collider, Emit& emit) {
-    reading("collider", "%s", collider.name.c_str());
+    const std::string& name = part.world->name(collider);
+    reading("collider", "%s", name.c_str());
     reading("kind", "%s", rope::kind(collider.shape));
     glm::vec3 at = rope::centre(collider.shape);
-    if (point_field("at", at, 0.01f))
-        emit.continuously("rope.collider.move", {{"name", collider.name}, {"to", at}});
-    shape_rows(collider, emit);
+    if (point_field("at", at, 0.01f)) emit.continuously("rope.collider.move", {{"name", name}, {"to", at}});
+    shape_rows(collider, name, emit);
     const auto found = std::find_if(part.swings.begin(), part.swings.end(),
-                                    [&](const Swing& swing) { return swing.collider == collider.name; });
+                                    [&](const Swing& swing) { return swing.collider == name; });
     const bool swings = found != part.swings.end();
     glm::vec3 by = swings ? found->swing : glm::vec3(0.0f);
     float period = swings ? found->period : 2.0f;
     const auto swing = [&] {
-        emit.continuously("rope.collider.swing", {{"name", collider.name}, {"by", by}, {"period", period}});
+        emit.continuously("rope.collider.swing", {{"name", name}, {"by", by}, {"period", period}});
     };
     if (point_field("swings by", by, 0.01f)) swing();
     if (swings && number_field("period", period, 0.02f, shortest_swing, longest_swing, "%.2f s")) swing();
     if (row_button("Remove", 3, true, "Takes the collider away"))
-        emit("rope.collider.remove", {{"name", collider.name}});
+        emit("rope.collider.remove", {{"name", name}});
     end_row();
 }
 

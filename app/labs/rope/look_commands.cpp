@@ -11,7 +11,8 @@ void select(RopeEdit& edit, const Arguments& given) {
         throw Refused("a particle or a collider can be selected, not both");
     edit.part.choice.reset();
     if (given.has("collider")) {
-        edit.part.choice = RopeChoice{{}, 0, collider_of(edit.seen(), given.text("collider")).name};
+        collider_of(edit.seen(), given.text("collider"));
+        edit.part.choice = RopeChoice{{}, 0, given.text("collider")};
     } else if (particle) {
         if (!given.has("rope")) throw Refused("rope is missing (a text)");
         if (!given.has("particle")) throw Refused("particle is missing (a whole number)");
@@ -37,7 +38,7 @@ void hold(RopeEdit& edit, const Arguments& given) {
 void set_view(RopeEdit& edit, const Arguments& given) {
     RopeView& view = edit.part.view;
     if (given.has("particles")) view.particles = given.boolean("particles");
-    if (given.has("stress")) view.stress = given.boolean("stress");
+    if (given.has("strain")) view.strain = given.boolean("strain");
     if (given.has("sides")) view.sides = given.integer("sides");
 }
 
@@ -63,7 +64,7 @@ void add_look_commands(CommandTable& table) {
         Effect::Look));
     table.add(rope_command("rope.view",
                            {switch_argument("particles", "shown as balls"),
-                            switch_argument("stress", "colours by how far each link is over its length"),
+                            switch_argument("strain", "colours by how far each link is over its length"),
                             integer_argument("sides", "of the tube", fewest_sides, most_sides)},
                            "How ropes are shown; what is left out stays", set_view, Effect::Look));
 }

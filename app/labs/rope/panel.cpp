@@ -99,17 +99,18 @@ void time_rows(const Workspace& workspace, Emit& emit) {
     float longest = 1000.0f * part.world->settings().longest_frame;
     if (number_field("longest frame", longest, 1.0f, 1.0f, 1000.0f, "%.0f ms"))
         emit.continuously("rope.settings", {{"longest_frame", longest / 1000.0f}});
-    float dial = 100.0f * part.torture.dial;
-    if (number_field("torture", dial, 0.5f, 0.0f, 100.0f, "%.0f %%"))
-        emit.continuously("rope.torture", {{"dial", dial / 100.0f}});
-    note(part.torture.dial > 0.0f ? "Frames of 1 to 250 ms: the picture stutters, the ropes do not mind."
-                                  : "Torture cuts time into uneven frames, as a program that stutters does.");
+    float dial = 100.0f * part.jitter.dial;
+    if (number_field("frame-time jitter", dial, 0.5f, 0.0f, 100.0f, "%.0f %%"))
+        emit.continuously("rope.jitter", {{"dial", dial / 100.0f}});
+    note(part.jitter.dial > 0.0f
+             ? "Frames of 1 to 250 ms: the picture stutters, the ropes do not mind."
+             : "Frame-time jitter cuts time into uneven frames, as a program that stutters does.");
 }
 
 void view_rows(const RopePart& part, Emit& emit) {
     section("Show");
-    bool stress = part.view.stress, particles = part.view.particles;
-    if (ImGui::Checkbox("Stress as colour", &stress)) emit("rope.view", {{"stress", stress}});
+    bool strain = part.view.strain, particles = part.view.particles;
+    if (ImGui::Checkbox("Strain as colour", &strain)) emit("rope.view", {{"strain", strain}});
     if (ImGui::Checkbox("Particles", &particles)) emit("rope.view", {{"particles", particles}});
     int sides = part.view.sides;
     if (integer_slider("sides", sides, fewest_sides, most_sides))

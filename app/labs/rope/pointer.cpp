@@ -9,27 +9,27 @@ namespace {
 
 constexpr std::size_t most_handles = 400;
 
-ArgumentList of_particle(const ParticlePlace& place) {
-    return {{"rope", place.body->name}, {"particle", place.index}};
+ArgumentList of_particle(const NamedWorld& world, const ParticlePlace& place) {
+    return {{"rope", world.name(*place.body)}, {"particle", place.index}};
 }
 
 /// The collider that a particle is attached to; null where there is none.
-const rope::Collider* holder_of(const rope::World& world, std::size_t particle) {
+const rope::Collider* holder_of(const NamedWorld& world, std::size_t particle) {
     for (const rope::Pin& pin : world.state().pins)
-        if (pin.particle == particle && !pin.collider.empty()) return world.find_collider(pin.collider);
+        if (pin.particle == particle) return world.holder(pin);
     return nullptr;
 }
 
 }  // namespace
 
-const rope::Collider* picked_collider(const rope::World& world, PickId pick) {
+const rope::Collider* picked_collider(const NamedWorld& world, PickId pick) {
     const auto& colliders = world.state().colliders;
     if (!is_collider_pick(pick)) return nullptr;
     const std::size_t index = static_cast<std::size_t>(pick) - max_lab_particles;
     return index < colliders.size() ? &colliders[index] : nullptr;
 }
 
-std::optional<ParticlePlace> picked_particle(const rope::World& world, PickId pick) {
+std::optional<ParticlePlace> picked_particle(const NamedWorld& world, PickId pick) {
     if (pick < 0 || is_collider_pick(pick)) return std::nullopt;
     const auto particle = static_cast<std::size_t>(pick);
     for (const rope::Body& body : world.state().bodies)
@@ -38,12 +38,12 @@ std::optional<ParticlePlace> picked_particle(const rope::World& world, PickId pi
     return std::nullopt;
 }
 
-std::size_t handle_stride(const rope::World& world) {
+std::size_t handle_stride(const NamedWorld& world) {
     return world.size() / most_handles + 1;
 }
 
 std::vector<Handle> RopeLab::handles(const Workspace& workspace) const {
-    const rope::World& world = *rope_part(workspace).world;
+    const NamedWorld& world = *rope_part(workspace).world;
     const std::size_t stride = handle_stride(world);
     std::vector<bool> shown(world.size());
     for (const rope::Pin& pin : world.state().pins)
@@ -53,16 +53,17 @@ std::vector<Handle> RopeLab::handles(const Workspace& workspace) const {
         for (std::size_t i = 0; i < body.count; ++i) {
             const bool end = body.kind == rope::Body::Kind::Rope && (i == 0 || i + 1 == body.count);
             if (i % stride == 0 || end || shown[body.first + i])
-                handles.push_back({body.name + "." + std::to_string(i), world.position(body.first + i)});
+                handles.push_back(
+                    {world.name(body) + "." + std::to_string(i), world.position(body.first + i)});
         }
     }
     for (const rope::Collider& collider : world.state().colliders)
-        handles.push_back({"collider." + collider.name, rope::centre(collider.shape)});
+        handles.push_back({"collider." + world.name(collider), rope::centre(collider.shape)});
     return handles;
 }
 
 glm::vec3 RopeLab::position_of(const Workspace& workspace, PickId pick) const {
-    const rope::World& world = *rope_part(workspace).world;
+    const NamedWorld& world = *rope_part(workspace).world;
     if (const auto* collider = picked_collider(world, pick)) return rope::centre(collider->shape);
     if (const auto place = picked_particle(world, pick))
         return world.position(place->body->first + place->index);
@@ -72,7 +73,7 @@ glm::vec3 RopeLab::position_of(const Workspace& workspace, PickId pick) const {
 void RopeLab::drag(const Workspace& workspace, PickId pick, glm::vec3 to, Emit& emit) const {
     const RopePart& part = rope_part(workspace);
     if (const auto* collider = picked_collider(*part.world, pick)) {
-        emit.continuously("rope.collider.move", {{"name", collider->name}, {"to", to}});
+        emit.continuously("rope.collider.move", {{"name", part.world->name(*collider)}, {"to", to}});
         return;
     }
     const auto place = picked_particle(*part.world, pick);
@@ -81,12 +82,12 @@ void RopeLab::drag(const Workspace& workspace, PickId pick, glm::vec3 to, Emit& 
         // What is attached moves with what holds it.
         const glm::vec3 by = to - part.world->position(place->body->first + place->index);
         emit.continuously("rope.collider.move",
-                          {{"name", holder->name}, {"to", rope::centre(holder->shape) + by}});
+                          {{"name", part.world->name(*holder)}, {"to", rope::centre(holder->shape) + by}});
         return;
     }
-    const bool held = part.hold == Hold{place->body->name, place->index};
+    const bool held = part.hold == Hold{part.world->name(*place->body), place->index};
     const bool pinned = !held && part.world->pinned(place->body->first + place->index);
-    ArgumentList arguments = of_particle(*place);
+    ArgumentList arguments = of_particle(*part.world, *place);
     arguments.push_back({"at", to});
     emit.continuously(pinned ? "rope.pin" : "rope.hold", arguments);
 }
@@ -97,9 +98,9 @@ void RopeLab::drop(const Workspace& workspace, PickId, Emit& emit) const {
 
 void RopeLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
     const RopePart& part = rope_part(workspace);
-    const rope::World& world = *part.world;
+    const NamedWorld& world = *part.world;
     if (const auto* collider = picked_collider(world, pick)) {
-        emit("rope.select", {{"collider", collider->name}});
+        emit("rope.select", {{"collider", world.name(*collider)}});
         return;
     }
     const auto place = picked_particle(world, pick);
@@ -107,25 +108,25 @@ void RopeLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
         if (part.choice) emit("rope.select");
         return;
     }
-    emit("rope.select", of_particle(*place));
+    emit("rope.select", of_particle(world, *place));
     if (part.tool == RopeTool::Pin) {
         const bool pinned = world.pinned(place->body->first + place->index);
-        emit(pinned ? "rope.unpin" : "rope.pin", of_particle(*place));
+        emit(pinned ? "rope.unpin" : "rope.pin", of_particle(world, *place));
     } else if (part.tool == RopeTool::Cut) {  // of what cannot be cut the command says so
         const std::size_t segment = std::min(place->index, std::max<std::size_t>(place->body->count, 2) - 2);
-        emit("rope.cut", {{"rope", place->body->name}, {"segment", segment}});
+        emit("rope.cut", {{"rope", world.name(*place->body)}, {"segment", segment}});
     }
 }
 
 std::string RopeLab::hint(const Workspace& workspace, PickId pick) const {
     const RopePart& part = rope_part(workspace);
     if (const auto* collider = picked_collider(*part.world, pick)) {
-        return collider->name + " (" + rope::kind(collider->shape) +
+        return part.world->name(*collider) + " (" + rope::kind(collider->shape) +
                "): drag moves it, and it carries what it meets. Click selects it.";
     }
     const auto place = picked_particle(*part.world, pick);
     if (!place) return {};
-    const std::string name = place->body->name + ", particle " + std::to_string(place->index);
+    const std::string name = part.world->name(*place->body) + ", particle " + std::to_string(place->index);
     switch (part.tool) {
         case RopeTool::Move:
             break;
@@ -137,7 +138,7 @@ std::string RopeLab::hint(const Workspace& workspace, PickId pick) const {
             break;
     }
     if (const rope::Collider* holder = holder_of(*part.world, place->body->first + place->index))
-        return name + " (attached to " + holder->name + "): drag moves both.";
+        return name + " (attached to " + part.world->name(*holder) + "): drag moves both.";
     const std::size_t particle = place->body->first + place->index;
     const bool pinned = part.world->pinned(particle) && held_particle(part) != particle;
     return name + (pinned ? " (pinned): drag moves its pin." : ": drag pulls it. Click selects it.");

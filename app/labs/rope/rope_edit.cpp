@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "app/labs/rope/give_way.hpp"
 #include "app/labs/rope/rope_time.hpp"
 
 namespace tendril::app {
@@ -11,31 +10,35 @@ namespace tendril::app {
 RopeEdit::RopeEdit(RopePart& changed, const Clock& clock)
     : part(changed), seconds_(clock.playing ? tick_seconds * static_cast<double>(clock.speed) : 0.0) {}
 
-rope::World& RopeEdit::world() {
+NamedWorld& RopeEdit::world() {
     if (!copy_) {
-        copy_ = std::make_shared<rope::World>(*part.world);
+        copy_ = std::make_shared<NamedWorld>(*part.world);
         part.world = copy_;
     }
     return *copy_;
 }
 
 void RopeEdit::move_pin(std::size_t particle, const glm::vec3& at) {
-    move([&](rope::World& moved, double seconds) { moved.pin(particle, at, seconds); });
+    if (seconds_ > 0.0) return world().pin(particle, at, seconds_);
+    world().drag_pin(particle, at);
+    dragged();
 }
 
 void RopeEdit::move_collider(const std::string& name, const glm::vec3& to) {
-    move([&](rope::World& moved, double seconds) { moved.move_collider(name, to, seconds); });
+    if (seconds_ > 0.0) return world().move_collider(name, to, seconds_);
+    world().drag_collider(name, to);
+    dragged();
 }
 
 void RopeEdit::set_collider(const std::string& name, const rope::Shape& shape) {
-    move([&](rope::World& moved, double) { moved.set_collider(name, shape); });
+    if (seconds_ > 0.0) return world().set_collider(name, shape);
+    world().drag_collider(name, shape);
+    dragged();
 }
 
-void RopeEdit::move(const std::function<void(rope::World&, double)>& send) {
-    if (seconds_ > 0.0)
-        send(world(), seconds_);
-    else
-        give_way(part, world(), send);
+/// The curves' last point is of the world as it is now.
+void RopeEdit::dragged() {
+    if (!part.samples.empty()) part.samples.back() = sample_of(*part.world);
 }
 
 Command rope_command(const char* name, std::vector<Argument> arguments, const char* help,
@@ -62,10 +65,10 @@ Command rope_command(const char* name, std::vector<Argument> arguments, const ch
 
 bool same(const RopePart& a, const RopePart& b) {
     return a.world == b.world && a.swings == b.swings && a.time == b.time && a.tool == b.tool &&
-           a.choice == b.choice && a.hold == b.hold && a.torture == b.torture && a.view == b.view;
+           a.choice == b.choice && a.hold == b.hold && a.jitter == b.jitter && a.view == b.view;
 }
 
-void check_particle_room(const rope::World& world, std::size_t more) {
+void check_particle_room(const NamedWorld& world, std::size_t more) {
     const std::size_t all = world.size() + more;
     if (all > max_lab_particles) {
         throw Refused("that would make " + std::to_string(all) + " particles; the most is " +
@@ -73,7 +76,7 @@ void check_particle_room(const rope::World& world, std::size_t more) {
     }
 }
 
-void check_collider_room(const rope::World& world) {
+void check_collider_room(const NamedWorld& world) {
     const std::size_t all = world.state().colliders.size() + 1;
     if (all > max_lab_colliders) {
         throw Refused("that would make " + std::to_string(all) + " colliders; the most is " +
@@ -81,7 +84,7 @@ void check_collider_room(const rope::World& world) {
     }
 }
 
-void check_work(const rope::World& world) {
+void check_work(const NamedWorld& world) {
     const std::uint64_t work = work_of_substep(world);
     if (work <= max_lab_work) return;
     throw std::length_error("a substep of " + std::to_string(world.state().links.size()) + " links and " +
@@ -89,26 +92,26 @@ void check_work(const rope::World& world) {
                             std::to_string(work) + " steps; the most is " + std::to_string(max_lab_work));
 }
 
-const rope::Body& body_of(const rope::World& world, const std::string& name) {
+const rope::Body& body_of(const NamedWorld& world, const std::string& name) {
     const rope::Body* body = world.find(name);
     if (body == nullptr) throw Refused("there is no rope \"" + name + "\"");
     return *body;
 }
 
-const rope::Collider& collider_of(const rope::World& world, const std::string& name) {
+const rope::Collider& collider_of(const NamedWorld& world, const std::string& name) {
     const rope::Collider* collider = world.find_collider(name);
     if (collider == nullptr) throw Refused("there is no collider \"" + name + "\"");
     return *collider;
 }
 
-NamedParticle named_particle(const rope::World& world, const Arguments& given) {
+NamedParticle named_particle(const NamedWorld& world, const Arguments& given) {
     const rope::Body& body = body_of(world, given.text("rope"));
     const auto index = static_cast<std::size_t>(given.integer("particle"));
     if (index >= body.count) {
-        throw Refused("particle " + std::to_string(index) + " is out of range, \"" + body.name + "\" has " +
-                      std::to_string(body.count));
+        throw Refused("particle " + std::to_string(index) + " is out of range, \"" + given.text("rope") +
+                      "\" has " + std::to_string(body.count));
     }
-    return {body.name, index, body.first + index};
+    return {given.text("rope"), index, body.first + index};
 }
 
 std::optional<std::size_t> held_particle(const RopePart& part) {
@@ -125,7 +128,7 @@ void let_go(RopeEdit& edit) {
 }
 
 void forget_missing(RopePart& part) {
-    const rope::World& world = *part.world;
+    const NamedWorld& world = *part.world;
     const auto there = [&](const std::string& name, std::size_t particle) {
         const rope::Body* body = world.find(name);
         return body != nullptr && particle < body->count;

@@ -1,7 +1,6 @@
 // What the files of this lab's commands share.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,18 +19,18 @@ class RopeEdit {
     RopePart& part;
     /// The world to look at, and a copy of it to change, put in its place: what does not ask for that leaves
     /// the world as it is.
-    const rope::World& seen() const { return *part.world; }
-    rope::World& world();
+    const NamedWorld& seen() const { return *part.world; }
+    NamedWorld& world();
     /// Each gets there in the length of one tick, so that it carries evenly what it meets; while time stands,
-    /// at once, and what it meets gives way.
+    /// at once, by a quasi-static drag.
     void move_pin(std::size_t particle, const glm::vec3& at);
     void move_collider(const std::string& name, const glm::vec3& to);
     void set_collider(const std::string& name, const rope::Shape& shape);  ///< there at once
 
   private:
-    void move(const std::function<void(rope::World& world, double seconds)>& send);
+    void dragged();
 
-    std::shared_ptr<rope::World> copy_;
+    std::shared_ptr<NamedWorld> copy_;
     double seconds_;  ///< of the world that the next tick takes; 0 while time stands
 };
 
@@ -43,20 +42,20 @@ Command rope_command(const char* name, std::vector<Argument> arguments, const ch
 bool same(const RopePart& a, const RopePart& b);
 
 /// Throws Refused where there would be too many, before there are.
-void check_particle_room(const rope::World& world, std::size_t more);
-void check_collider_room(const rope::World& world);
+void check_particle_room(const NamedWorld& world, std::size_t more);
+void check_collider_room(const NamedWorld& world);
 /// Throws std::length_error where a substep of it would take too long.
-void check_work(const rope::World& world);
+void check_work(const NamedWorld& world);
 /// Throws Refused where there is none of that name.
-const rope::Body& body_of(const rope::World& world, const std::string& name);
-const rope::Collider& collider_of(const rope::World& world, const std::string& name);
+const rope::Body& body_of(const NamedWorld& world, const std::string& name);
+const rope::Collider& collider_of(const NamedWorld& world, const std::string& name);
 /// The particle that `rope` and `particle` name.
 struct NamedParticle {
     std::string body;
     std::size_t index = 0;     ///< in the body
     std::size_t particle = 0;  ///< in the world
 };
-NamedParticle named_particle(const rope::World& world, const Arguments& given);
+NamedParticle named_particle(const NamedWorld& world, const Arguments& given);
 
 /// What a drag holds, if it still does.
 std::optional<std::size_t> held_particle(const RopePart& part);

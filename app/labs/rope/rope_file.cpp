@@ -38,7 +38,7 @@ Swing load_swing(const Json& json, const std::string& where) {
     return swing;
 }
 
-std::vector<Swing> load_swings(const Json& json, const std::string& where, const rope::World& world) {
+std::vector<Swing> load_swings(const Json& json, const std::string& where, const NamedWorld& world) {
     if (!json.is_array()) fail(where, "expected a list, found " + json_summary(json));
     if (json.size() > max_lab_colliders) {
         fail(where, "has " + std::to_string(json.size()) + " swings; the most is " +
@@ -65,7 +65,7 @@ Json save_choice(const std::optional<RopeChoice>& choice) {
     return Json{{"rope", choice->body}, {"particle", choice->particle}};
 }
 
-std::optional<RopeChoice> load_choice(const Json& json, const std::string& where, const rope::World& world) {
+std::optional<RopeChoice> load_choice(const Json& json, const std::string& where, const NamedWorld& world) {
     if (json.is_null()) return std::nullopt;
     RopeChoice choice;
     if (json.is_object() && json.contains("collider")) {
@@ -83,28 +83,30 @@ std::optional<RopeChoice> load_choice(const Json& json, const std::string& where
     return choice;
 }
 
-Json save_torture(const Torture& torture) {
-    return Json{{"dial", number(torture.dial)},
-                {"frames", torture.frames},
-                {"owed", torture.owed},
-                {"frame", torture.frame}};
+Json save_jitter(const Jitter& jitter) {
+    return Json{{"dial", number(jitter.dial)},
+                {"frames", jitter.frames},
+                {"owed", jitter.owed},
+                {"frame", jitter.frame}};
 }
 
-Torture load_torture(const Json& json, const std::string& where) {
+Jitter load_jitter(const Json& json, const std::string& where) {
     const auto read = [&](const char* key) -> const Json& { return json_member(json, key, where); };
-    Torture torture;
-    torture.dial = json_number(read("dial"), where + ".dial", 0.0f, 1.0f);
-    torture.frames = static_cast<std::uint32_t>(json_count(read("frames"), where + ".frames", 0xffffffffu));
-    torture.owed = json_real(read("owed"), where + ".owed", 0.0, 10.0);
-    torture.frame = json_real(read("frame"), where + ".frame", 0.0, longest_torture_frame);
-    return torture;
+    Jitter jitter;
+    jitter.dial = json_number(read("dial"), where + ".dial", 0.0f, 1.0f);
+    jitter.frames = static_cast<std::uint32_t>(json_count(read("frames"), where + ".frames", 0xffffffffu));
+    jitter.owed = json_real(read("owed"), where + ".owed", 0.0, 10.0);
+    jitter.frame = json_real(read("frame"), where + ".frame", 0.0, longest_jitter_frame);
+    return jitter;
 }
 
 RopeView load_view(const Json& json, const std::string& where) {
     const auto read = [&](const char* key) -> const Json& { return json_member(json, key, where); };
     RopeView view;
     view.particles = json_bool(read("particles"), where + ".particles");
-    view.stress = json_bool(read("stress"), where + ".stress");
+    // Version 1 of scene files called it stress.
+    const char* const strain = json.contains("strain") ? "strain" : "stress";
+    view.strain = json_bool(read(strain), where + "." + strain);
     view.sides = json_integer(read("sides"), where + ".sides", fewest_sides, most_sides);
     return view;
 }
@@ -112,10 +114,10 @@ RopeView load_view(const Json& json, const std::string& where) {
 /// The world without what a drag holds.
 Json save_released(const RopePart& part) {
     const auto held = held_particle(part);
-    if (!held) return save_world(part.world->state());
-    rope::World released = *part.world;
+    if (!held) return save_world(*part.world);
+    NamedWorld released = *part.world;
     released.unpin(*held);
-    return save_world(released.state());
+    return save_world(released);
 }
 
 }  // namespace
@@ -126,8 +128,8 @@ Json RopePart::save() const {
     return Json{{"time", time},
                 {"tool", tool_name(tool)},
                 {"selected", save_choice(choice)},
-                {"view", {{"particles", view.particles}, {"stress", view.stress}, {"sides", view.sides}}},
-                {"torture", save_torture(torture)},
+                {"view", {{"particles", view.particles}, {"strain", view.strain}, {"sides", view.sides}}},
+                {"jitter", save_jitter(jitter)},
                 {"swings", std::move(moving)},
                 {"world", save_released(*this)}};
 }
@@ -141,9 +143,10 @@ std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where)
         place = where + ".tool";
         part->tool = tool_from_name(json_text(read("tool"), place));
         part->view = load_view(read("view"), where + ".view");
-        part->torture = load_torture(read("torture"), where + ".torture");
+        const char* const key = json.contains("jitter") ? "jitter" : "torture";  // as version 1 called it
+        part->jitter = load_jitter(read(key), where + "." + key);
         place = where + ".world";
-        part->world = std::make_shared<const rope::World>(load_world(read("world"), place));
+        part->world = std::make_shared<const NamedWorld>(load_world(read("world"), place));
         check_work(*part->world);
         part->swings = load_swings(read("swings"), where + ".swings", *part->world);
         part->choice = load_choice(read("selected"), where + ".selected", *part->world);

@@ -13,6 +13,11 @@ namespace {
 
 constexpr int resting_ticks = 60;  ///< of rest after which the lab stands still
 
+/// What worlds are advanced with, kept from tick to tick.
+struct RopeRuntime final : Runtime {
+    rope::Workspace workspace;
+};
+
 /// Measures in a live window alone: pictures and states off screen hold no timings.
 class Stopwatch {
   public:
@@ -55,7 +60,7 @@ void take_sample(RopePart& part) {
 
 std::optional<Bounds> choice_bounds(const RopePart& part) {
     if (!part.choice) return std::nullopt;
-    const rope::World& world = *part.world;
+    const NamedWorld& world = *part.world;
     if (const rope::Collider* collider = world.find_collider(part.choice->collider))
         return Bounds{rope::centre(collider->shape), std::max(2.0f * rope::size(collider->shape), 0.2f)};
     const rope::Body* body = world.find(part.choice->body);
@@ -88,10 +93,11 @@ void RopeLab::step(Workspace& workspace) const {
     const Document before = workspace.document;
     const bool modified = workspace.modified();
     auto& part = workspace.document.edit<RopePart>(rope_lab);
+    auto& runtime = workspace.runtimes.of<RopeRuntime>(rope_lab);
     try {
         const std::uint64_t substeps = part.world->state().substeps;
         Stopwatch stopwatch(workspace.clock.measured, part.cost);
-        pass_time(part, tick_seconds * static_cast<double>(workspace.clock.speed));
+        pass_time(part, tick_seconds * static_cast<double>(workspace.clock.speed), runtime.workspace);
         stopwatch.stop();
         if (!in_range(*part.world)) throw std::out_of_range("something would get farther than 1e9 m");
         take_sample(part);

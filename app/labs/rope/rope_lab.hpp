@@ -21,16 +21,16 @@ inline bool is_collider_pick(PickId pick) {
     return pick >= static_cast<PickId>(max_lab_particles);
 }
 /// Of what is there in the picture; null (nothing) where the world has changed since.
-const rope::Collider* picked_collider(const rope::World& world, PickId pick);
+const rope::Collider* picked_collider(const NamedWorld& world, PickId pick);
 struct ParticlePlace {
     const rope::Body* body = nullptr;
     std::size_t index = 0;  ///< in the body
 };
-std::optional<ParticlePlace> picked_particle(const rope::World& world, PickId pick);
+std::optional<ParticlePlace> picked_particle(const NamedWorld& world, PickId pick);
 
 /// Every n-th particle of a world has a handle of its own, so that there are some hundred at most; the ends
 /// of a rope and what is pinned always do.
-std::size_t handle_stride(const rope::World& world);
+std::size_t handle_stride(const NamedWorld& world);
 
 class RopeLab final : public Lab {
   public:

@@ -11,7 +11,7 @@ namespace tendril::app {
 
 inline constexpr float shortest_swing = 0.1f, longest_swing = 600.0f;  ///< periods, seconds
 inline constexpr int fewest_sides = 3, most_sides = 64;
-inline constexpr double shortest_torture_frame = 0.001, longest_torture_frame = 0.25;  ///< seconds
+inline constexpr double shortest_jitter_frame = 0.001, longest_jitter_frame = 0.25;  ///< seconds
 
 inline constexpr RopeTool all_tools[] = {RopeTool::Move, RopeTool::Pin, RopeTool::Cut};
 

@@ -19,7 +19,7 @@ std::size_t bytes_of(const rope::State& state) {
 RopePart first_ropes() {
     RopePart part;
     RopeScene scene = make_rope_scene(rope_scenes().front());
-    part.world = std::make_shared<const rope::World>(std::move(scene.world));
+    part.world = std::make_shared<const NamedWorld>(std::move(scene.world));
     part.swings = std::move(scene.swings);
     return part;
 }
@@ -41,7 +41,7 @@ std::shared_ptr<const Part> RopePart::at_moment(std::shared_ptr<const Part> then
     part->tool = tool;
     part->view = view;
     part->choice = choice;
-    part->torture.dial = torture.dial;
+    part->jitter.dial = jitter.dial;
     if (edit.seen().settings() != world->settings()) edit.world().set_settings(world->settings());
     part->cost = cost;
     forget_missing(*part);
@@ -49,7 +49,7 @@ std::shared_ptr<const Part> RopePart::at_moment(std::shared_ptr<const Part> then
 }
 
 std::size_t RopePart::bytes() const {
-    return sizeof(*this) + sizeof(rope::World) + bytes_of(world->state()) + swings.size() * sizeof(Swing);
+    return sizeof(*this) + sizeof(NamedWorld) + bytes_of(world->state()) + swings.size() * sizeof(Swing);
 }
 
 }  // namespace tendril::app

@@ -5,11 +5,11 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <tendril/rope/world.hpp>
 #include <vector>
 
 #include "app/document/document.hpp"
 #include "app/document/workspace.hpp"
+#include "app/labs/rope/named_world.hpp"
 
 namespace tendril::app {
 
@@ -47,19 +47,19 @@ struct RopeChoice {
     bool operator==(const RopeChoice&) const = default;
 };
 
-/// The torture dial: frames of uneven length, from 1 ms to 250 ms. At 0 a frame is a tick; at 1 they swing
+/// Frame-time jitter: frames of uneven length, from 1 ms to 250 ms. At 0 a frame is a tick; at 1 they swing
 /// over the whole range.
-struct Torture {
+struct Jitter {
     float dial = 0.0f;
     std::uint32_t frames = 0;  ///< so far: what the next frame's length follows from
     double owed = 0.0;         ///< seconds that have passed since the last frame
     double frame = 0.0;        ///< seconds: the next frame's length; 0: not known yet
-    bool operator==(const Torture&) const = default;
+    bool operator==(const Jitter&) const = default;
 };
 
 struct RopeView {
     bool particles = false;  ///< as balls on the tube
-    bool stress = false;     ///< colours by how far each link is over or under its length
+    bool strain = false;     ///< colours by how far each link is over or under its length
     int sides = 16;          ///< of the tube, 3 to 64
     bool operator==(const RopeView&) const = default;
 };
@@ -74,13 +74,13 @@ struct RopeSample {
 inline constexpr std::size_t most_rope_samples = 600;  ///< ten seconds of them
 
 struct RopePart final : Part {
-    std::shared_ptr<const rope::World> world = std::make_shared<const rope::World>();
+    std::shared_ptr<const NamedWorld> world = std::make_shared<const NamedWorld>();
     std::vector<Swing> swings;
     double time = 0.0;  ///< seconds that the world has been let run
     RopeTool tool = RopeTool::Move;
     std::optional<RopeChoice> choice;
     std::optional<Hold> hold;
-    Torture torture;
+    Jitter jitter;
     RopeView view;
     int quiet_ticks = 0;              ///< ticks in a row in which nothing moved to speak of
     std::vector<RopeSample> samples;  ///< of the last ticks. Not saved.

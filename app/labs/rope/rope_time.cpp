@@ -26,26 +26,27 @@ double shuffled(std::uint32_t number) {
 }
 
 /// Sends every swinging collider to where it is a tick later.
-void aim(const RopePart& part, rope::World& world, double time) {
+void aim(const RopePart& part, NamedWorld& world, double time) {
     for (const Swing& swing : part.swings)
         world.move_collider(swing.collider, swing_point(swing, time), tick_seconds);
 }
 
 /// Lets time pass in a world, and takes what that takes from the work that there is still room for.
-void advance(rope::World& world, double seconds, std::uint64_t& room) {
+void advance(NamedWorld& world, double seconds, rope::Workspace& workspace, std::uint64_t& room) {
     const std::uint64_t each = std::max(work_of_substep(world), std::uint64_t{1});
     // One always fits: else a world that is too large would stand still without a word.
     const std::uint64_t most = std::max(room / each, std::uint64_t{room == max_lab_work});
-    const rope::Advance done = world.advance(seconds, most);
+    const rope::Advance done = world.advance(seconds, workspace, most);
     room -= std::min(room, each * static_cast<std::uint64_t>(done.substeps));
 }
 
 /// A frame of the lab. While something swings it is cut where ticks of the lab's own time end, and aimed
 /// there: so the swing is the same however its time is cut.
-void pass_frame(RopePart& part, rope::World& world, double seconds, std::uint64_t& room) {
+void pass_frame(RopePart& part, NamedWorld& world, double seconds, rope::Workspace& workspace,
+                std::uint64_t& room) {
     constexpr double rounding = 1e-6;  // of a tick
     if (part.swings.empty()) {
-        advance(world, seconds, room);
+        advance(world, seconds, workspace, room);
         part.time += seconds;
         return;
     }
@@ -55,7 +56,7 @@ void pass_frame(RopePart& part, rope::World& world, double seconds, std::uint64_
         const double next = ((at_tick ? std::round(ticks) : std::floor(ticks)) + 1.0) * tick_seconds;
         if (at_tick) aim(part, world, next);
         const double piece = std::min(seconds, next - part.time);
-        advance(world, piece, room);
+        advance(world, piece, workspace, room);
         part.time += piece;
         seconds -= piece;
     }
@@ -63,28 +64,27 @@ void pass_frame(RopePart& part, rope::World& world, double seconds, std::uint64_
 
 }  // namespace
 
-void pass_time(RopePart& part, double seconds) {
-    auto world = std::make_shared<rope::World>(*part.world);
+void pass_time(RopePart& part, double seconds, rope::Workspace& workspace) {
+    auto world = std::make_shared<NamedWorld>(*part.world);
     std::uint64_t room = max_lab_work;
-    Torture& torture = part.torture;
-    if (torture.dial == 0.0f) {
-        if (torture.owed > 0.0) pass_frame(part, *world, std::exchange(torture.owed, 0.0), room);
-        torture.frame = 0.0;
-        pass_frame(part, *world, seconds, room);
+    Jitter& jitter = part.jitter;
+    if (jitter.dial == 0.0f) {
+        if (jitter.owed > 0.0) pass_frame(part, *world, std::exchange(jitter.owed, 0.0), workspace, room);
+        jitter.frame = 0.0;
+        pass_frame(part, *world, seconds, workspace, room);
     } else {
-        torture.owed += seconds;
-        if (torture.frame == 0.0) torture.frame = torture_frame(torture.dial, torture.frames);
-        while (torture.owed >= torture.frame) {
-            torture.owed -= torture.frame;
-            pass_frame(part, *world, torture.frame, room);
-            torture.frame = torture_frame(torture.dial, ++torture.frames);
+        jitter.owed += seconds;
+        if (jitter.frame == 0.0) jitter.frame = jitter_frame(jitter.dial, jitter.frames);
+        while (jitter.owed >= jitter.frame) {
+            jitter.owed -= jitter.frame;
+            pass_frame(part, *world, jitter.frame, workspace, room);
+            jitter.frame = jitter_frame(jitter.dial, ++jitter.frames);
         }
     }
-    world->trim();  // going back in time keeps hundreds of them
     part.world = std::move(world);
 }
 
-RopeSample sample_of(const rope::World& world) {
+RopeSample sample_of(const NamedWorld& world) {
     RopeSample sample;
     for (const rope::Body& body : world.state().bodies)
         sample.stretch = std::max(sample.stretch, body.stretch);
@@ -93,20 +93,21 @@ RopeSample sample_of(const rope::World& world) {
     return sample;
 }
 
-std::uint64_t work_of_substep(const rope::World& world) {
+std::uint64_t work_of_substep(const NamedWorld& world) {
     const rope::State& state = world.state();
-    const auto attached = static_cast<std::uint64_t>(std::count_if(
-        state.pins.begin(), state.pins.end(), [](const rope::Pin& pin) { return !pin.collider.empty(); }));
+    const auto attached = static_cast<std::uint64_t>(
+        std::count_if(state.pins.begin(), state.pins.end(),
+                      [](const rope::Pin& pin) { return static_cast<bool>(pin.collider); }));
     return state.links.size() * static_cast<std::uint64_t>(state.settings.iterations) +
            state.position.size() + (1 + attached) * state.colliders.size();
 }
 
-double torture_frame(float dial, std::uint32_t number) {
+double jitter_frame(float dial, std::uint32_t number) {
     const double where = 2.0 * shuffled(number) - 1.0;
-    const double end = where < 0.0 ? shortest_torture_frame : longest_torture_frame;
+    const double end = where < 0.0 ? shortest_jitter_frame : longest_jitter_frame;
     const double frame =
         tick_seconds * std::pow(end / tick_seconds, std::abs(where) * static_cast<double>(dial));
-    return std::clamp(frame, shortest_torture_frame, longest_torture_frame);
+    return std::clamp(frame, shortest_jitter_frame, longest_jitter_frame);
 }
 
 glm::vec3 swing_point(const Swing& swing, double time) {
@@ -132,18 +133,11 @@ bool at_rest(const RopePart& part) {
     return true;
 }
 
-bool in_range(const rope::World& world) {
-    const auto inside = [](const glm::dvec3& v) {
-        return glm::all(glm::lessThanEqual(glm::abs(v), glm::dvec3(max_magnitude)));  // not so for NaN
-    };
-    const rope::State& state = world.state();
-    for (std::size_t i = 0; i < world.size(); ++i)
-        if (!inside(state.position[i]) || !inside(state.moved[i]) || !inside(state.before[i])) return false;
-    // As these are in a file too: what was torn apart that far is as good as gone.
-    return std::all_of(state.bodies.begin(), state.bodies.end(),
-                       [](const rope::Body& body) { return body.stretch <= max_magnitude; }) &&
-           std::all_of(state.links.begin(), state.links.end(),
-                       [](const rope::Link& link) { return std::isfinite(link.tension); });
+bool in_range(const NamedWorld& world) {
+    const auto& positions = world.state().position;
+    return std::all_of(positions.begin(), positions.end(), [](const glm::dvec3& at) {
+        return glm::all(glm::lessThan(glm::abs(at), glm::dvec3(max_magnitude)));
+    });
 }
 
 }  // namespace tendril::app

@@ -1,4 +1,4 @@
-// How time passes in the Rope lab: whole ticks, or uneven frames by the torture dial; colliders that swing.
+// How time passes in the Rope lab: whole ticks, or uneven frames by frame-time jitter; colliders that swing.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,15 @@ namespace tendril::app {
 
 /// Lets `seconds` pass in the lab. The world that comes of it does not depend on how they are cut, as long as
 /// none are dropped: there is room for max_lab_work.
-void pass_time(RopePart& part, double seconds);
+/// `workspace` is any, best the same for every tick.
+void pass_time(RopePart& part, double seconds, rope::Workspace& workspace);
 /// Of a world's substep, for max_lab_work: counted, not measured, so that every machine drops the same.
-std::uint64_t work_of_substep(const rope::World& world);
+std::uint64_t work_of_substep(const NamedWorld& world);
 
-RopeSample sample_of(const rope::World& world);
+RopeSample sample_of(const NamedWorld& world);
 
-/// Seconds of the torture dial's frame of that number: a tick at dial 0, anything from 1 to 250 ms at 1.
-double torture_frame(float dial, std::uint32_t number);
+/// Seconds of the jittered frame of that number: a tick at dial 0, anything from 1 to 250 ms at 1.
+double jitter_frame(float dial, std::uint32_t number);
 
 /// Where a swinging collider's centre is at a time of the lab.
 glm::vec3 swing_point(const Swing& swing, double time);
@@ -26,7 +27,7 @@ void require(const Swing& swing);
 /// Nothing is on its way, and nothing moves faster than one would see.
 bool at_rest(const RopePart& part);
 
-/// Whether everything is where a scene file can hold it.
-bool in_range(const rope::World& world);
+/// Whether nothing has reached the edge of the world.
+bool in_range(const NamedWorld& world);
 
 }  // namespace tendril::app

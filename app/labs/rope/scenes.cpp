@@ -47,11 +47,11 @@ RopeScene make_rope_scene(const RopeSceneEntry& entry) {
     return entry.make();
 }
 
-void add_ground(rope::World& world) {
+void add_ground(NamedWorld& world) {
     world.add_collider("ground", rope::Plane{{0, 0, 0}, {0, 1, 0}});
 }
 
-void lay(rope::World& world, const std::string& rope, const std::vector<glm::vec3>& line) {
+void lay(NamedWorld& world, const std::string& rope, const std::vector<glm::vec3>& line) {
     rope::State state = world.state();
     const rope::Body& body = *world.find(rope);
     double length = 0.0;
@@ -65,18 +65,18 @@ void lay(rope::World& world, const std::string& rope, const std::vector<glm::vec
         link.rest = static_cast<float>(glm::distance(state.position[link.a], state.position[link.b]));
     }
     for (rope::Pin& pin : state.pins) {
-        if (pin.particle >= body.first && pin.particle < body.first + body.count && pin.collider.empty())
+        if (pin.particle >= body.first && pin.particle < body.first + body.count && !pin.collider)
             pin.goal = state.position[pin.particle];
     }
-    world = rope::World(std::move(state));
+    world.put(std::move(state));
 }
 
-void weigh_down(rope::World& world, const std::string& rope, std::size_t count, double kilograms) {
+void weigh_down(NamedWorld& world, const std::string& rope, std::size_t count, double kilograms) {
     rope::State state = world.state();
     const rope::Body& body = *world.find(rope);
     for (std::size_t i = 0; i < count; ++i)
         state.mass[body.first + body.count - 1 - i] = kilograms / static_cast<double>(count);
-    world = rope::World(std::move(state));
+    world.put(std::move(state));
 }
 
 }  // namespace tendril::app

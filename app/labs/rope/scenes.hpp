@@ -11,7 +11,7 @@
 namespace tendril::app {
 
 struct RopeScene {
-    rope::World world;
+    NamedWorld world;
     std::vector<Swing> swings;
 };
 
@@ -37,10 +37,10 @@ RopeScene cloth_scene();
 RopeScene hair_scene();
 
 /// The ground, as every scene has it.
-void add_ground(rope::World& world);
+void add_ground(NamedWorld& world);
 /// Lays a rope along a line, evenly, in place of where it was; it is at rest there.
-void lay(rope::World& world, const std::string& rope, const std::vector<glm::vec3>& line);
+void lay(NamedWorld& world, const std::string& rope, const std::vector<glm::vec3>& line);
 /// Makes the last `count` particles of a rope weigh `kilograms` in all.
-void weigh_down(rope::World& world, const std::string& rope, std::size_t count, double kilograms);
+void weigh_down(NamedWorld& world, const std::string& rope, std::size_t count, double kilograms);
 
 }  // namespace tendril::app

@@ -10,26 +10,25 @@ namespace tendril::app {
 /// Two hands bring a rope down over a ball and a bar; shorter ones fall over the bar beside it.
 RopeScene drape_scene() {
     RopeScene scene;
-    rope::World& world = scene.world;
+    NamedWorld& world = scene.world;
     add_ground(world);
     world.add_collider("ball", rope::Sphere{{-0.65f, 0.95f, 0.0f}, 0.4f});
     world.add_collider("bar", rope::Capsule{{0.8f, 1.1f, -0.7f}, {0.8f, 1.1f, 0.7f}, 0.14f});
     // It begins taut above everything, so that it comes to lie on top.
     const float height = 1.9f, hands = 1.55f, half = 2.1f;
-    world.add_rope({.name = "rope",
-                    .from = {-half, height, 0},
-                    .to = {half, height, 0},
-                    .segments = 80,
-                    .pin_start = true,
-                    .pin_end = true});
+    world.add_rope("rope", {.from = {-half, height, 0},
+                            .to = {half, height, 0},
+                            .segments = 80,
+                            .pin_start = true,
+                            .pin_end = true});
     world.pin(world.particle("rope", 0), {-hands, height, 0}, 1.2);
     world.pin(world.particle("rope", 80), {hands, height, 0}, 1.2);
     const float lengths[] = {1.8f, 1.4f, 2.0f};
     const float places[] = {-0.5f, 0.28f, 0.55f};
     for (int i = 0; i < 3; ++i) {
         const float length = lengths[i], shift = 0.05f * static_cast<float>(i - 1);
-        world.add_rope({.name = "short " + std::to_string(i + 1),
-                        .from = {0.8f + shift - 0.5f * length, 1.45f, places[i]},
+        world.add_rope("short " + std::to_string(i + 1),
+                       {.from = {0.8f + shift - 0.5f * length, 1.45f, places[i]},
                         .to = {0.8f + shift + 0.5f * length, 1.45f, places[i]},
                         .segments = 36,
                         .radius = 0.016f});
@@ -43,7 +42,7 @@ RopeScene drape_scene() {
 /// A deck of ropes and two hand ropes between four posts; a ball rolls to and fro over it.
 RopeScene bridge_scene() {
     RopeScene scene;
-    rope::World& world = scene.world;
+    NamedWorld& world = scene.world;
     const float end = 2.0f, side = 0.36f, deck = 0.95f, hand = 1.5f, thick = 0.06f;
     add_ground(world);
     for (const float x : {-end, end}) {
@@ -54,27 +53,25 @@ RopeScene bridge_scene() {
     }
     const float from = end - thick - 0.03f;
     for (const float z : {-side, side}) {
-        world.add_rope({.name = z < 0 ? "far hand rope" : "near hand rope",
-                        .from = {-from, hand, z},
-                        .to = {from, hand, z},
-                        .segments = 64,
-                        .length = 2.0f * from * 1.03f,
-                        .pin_start = true,
-                        .pin_end = true});
+        world.add_rope(z < 0 ? "far hand rope" : "near hand rope", {.from = {-from, hand, z},
+                                                                    .to = {from, hand, z},
+                                                                    .segments = 64,
+                                                                    .length = 2.0f * from * 1.03f,
+                                                                    .pin_start = true,
+                                                                    .pin_end = true});
     }
     constexpr int strands = 6;
     const float half = side - 0.1f;
     for (int i = 0; i < strands; ++i) {
         const float z = half * (2.0f * static_cast<float>(i) / (strands - 1) - 1.0f);
-        world.add_rope({.name = "deck " + std::to_string(i + 1),
-                        .from = {-from, deck, z},
-                        .to = {from, deck, z},
-                        .segments = 64,
-                        .length = 2.0f * from * 1.01f,
-                        .radius = 0.025f,
-                        .density = 2.0f,
-                        .pin_start = true,
-                        .pin_end = true});
+        world.add_rope("deck " + std::to_string(i + 1), {.from = {-from, deck, z},
+                                                         .to = {from, deck, z},
+                                                         .segments = 64,
+                                                         .length = 2.0f * from * 1.01f,
+                                                         .radius = 0.025f,
+                                                         .density = 2.0f,
+                                                         .pin_start = true,
+                                                         .pin_end = true});
     }
     const glm::vec3 roll(0.0f, 0.92f, 0.0f);  // so low that the deck gives way under it
     world.add_collider("ball", rope::Sphere{roll, 0.22f});
@@ -90,7 +87,7 @@ RopeScene bridge_scene() {
 /// waves, fall apart, and find together again.
 RopeScene pendulum_scene() {
     RopeScene scene;
-    rope::World& world = scene.world;
+    NamedWorld& world = scene.world;
     add_ground(world);
     constexpr int count = 11, slowest_swings = 18;
     constexpr float seconds = 30.0f, beam = 1.4f, apart = 0.17f, amplitude = 0.45f;
@@ -105,13 +102,12 @@ RopeScene pendulum_scene() {
         const float length = 9.81f * turn * turn;
         const glm::vec3 pivot(apart * (static_cast<float>(i) - 0.5f * (count - 1)), beam - 0.01f, 0.0f);
         const std::string name = "pendulum " + std::to_string(i + 1);
-        world.add_rope({.name = name,
-                        .from = pivot,
-                        .to = pivot + length * glm::vec3(0, -std::cos(amplitude), std::sin(amplitude)),
-                        .segments = 6,
-                        .radius = 0.012f,
-                        .density = 0.02f,
-                        .pin_start = true});
+        world.add_rope(name, {.from = pivot,
+                              .to = pivot + length * glm::vec3(0, -std::cos(amplitude), std::sin(amplitude)),
+                              .segments = 6,
+                              .radius = 0.012f,
+                              .density = 0.02f,
+                              .pin_start = true});
         weigh_down(world, name, 1, 0.5);
     }
     rope::Settings settings = world.settings();
@@ -123,7 +119,7 @@ RopeScene pendulum_scene() {
 /// A rope over the drum of a well: a hand pulls at one end, a bucket hangs from the other.
 RopeScene well_scene() {
     RopeScene scene;
-    rope::World& world = scene.world;
+    NamedWorld& world = scene.world;
     add_ground(world);
     const float drum = 1.6f, radius = 0.16f, rope_radius = 0.018f, shaft = 0.5f;
     const float out = radius + rope_radius + 0.002f;
@@ -156,12 +152,11 @@ RopeScene well_scene() {
     }
     line.push_back({out, 0.55f, 0.0f});
     constexpr int segments = 96;
-    world.add_rope({.name = "rope",
-                    .from = hand,
-                    .to = hand + glm::vec3(0, 1, 0),
-                    .segments = segments,
-                    .radius = rope_radius,
-                    .density = 0.4f});
+    world.add_rope("rope", {.from = hand,
+                            .to = hand + glm::vec3(0, 1, 0),
+                            .segments = segments,
+                            .radius = rope_radius,
+                            .density = 0.4f});
     lay(world, "rope", line);
     weigh_down(world, "rope", 1, 0.6);
     world.attach(world.particle("rope", 0), "hand");

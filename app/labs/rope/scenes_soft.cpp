@@ -1,5 +1,8 @@
 // Scenes of cloth and hair: the same particles and links as a rope.
-#include "app/labs/rope/lock_roots.hpp"
+#include <tendril/rope/hair_roots.hpp>
+#include <utility>
+
+#include "app/labs/kit/require.hpp"
 #include "app/labs/rope/scenes.hpp"
 
 namespace tendril::app {
@@ -7,18 +10,17 @@ namespace tendril::app {
 /// A cloth falls over a ball.
 RopeScene cloth_scene() {
     RopeScene scene;
-    rope::World& world = scene.world;
+    NamedWorld& world = scene.world;
     add_ground(world);
     world.add_collider("ball", rope::Sphere{{0.0f, 0.62f, 0.0f}, 0.45f});
-    world.add_sheet({.name = "cloth",
-                     .corner = {-0.85f, 1.25f, -0.85f},
-                     .along = {1.7f, 0, 0},
-                     .down = {0, 0, 1.7f},
-                     .columns = 32,
-                     .rows = 32,
-                     .radius = 0.012f,
-                     .density = 0.3f,
-                     .tear = 0.3f});
+    world.add_cloth("cloth", {.corner = {-0.85f, 1.25f, -0.85f},
+                              .along = {1.7f, 0, 0},
+                              .down = {0, 0, 1.7f},
+                              .columns = 32,
+                              .rows = 32,
+                              .radius = 0.012f,
+                              .density = 0.3f,
+                              .tear = 0.3f});
     rope::Settings settings = world.settings();
     settings.damping = 0.6f;
     world.set_settings(settings);
@@ -28,25 +30,18 @@ RopeScene cloth_scene() {
 /// Hair on a head that turns to and fro, over shoulders that do not.
 RopeScene hair_scene() {
     RopeScene scene;
-    rope::World& world = scene.world;
+    NamedWorld& world = scene.world;
     add_ground(world);
     const glm::vec3 centre(0.0f, 1.45f, 0.0f);
     const rope::Sphere head{centre, 0.2f};
     world.add_collider("head", head);
     world.add_collider("neck", rope::Capsule{{0, 1.05f, 0}, {0, 1.3f, 0}, 0.07f});
     world.add_collider("shoulders", rope::Capsule{{-0.26f, 0.98f, 0}, {0.26f, 0.98f, 0}, 0.11f});
-    rope::LockShape hair{.name = "hair",
-                         .roots = {},
-                         .length = 0.48f,
-                         .segments = 14,
-                         .radius = 0.004f,
-                         .density = 0.02f,
-                         .bend = 0.5f,
-                         .attach = "head"};
+    rope::HairShape hair{.length = 0.48f, .segments = 14, .radius = 0.004f, .density = 0.02f, .bend = 0.5f};
     // Up and back, so that the face stays free.
-    hair.roots =
-        roots_on(head, {.direction = glm::vec3(0, 0.8f, -0.6f), .strands = 140, .spread = 0.3f}, hair.radius);
-    world.add_lock(hair);
+    const rope::HairPatch patch{.direction = glm::vec3(0, 0.8f, -0.6f), .strands = 140, .radius = 0.3f};
+    hair.roots = require_value(roots_on(head, patch, hair.radius));
+    world.add_hair("hair", std::move(hair), "head");
     scene.swings.push_back({"head", centre, {0.16f, 0.0f, 0.0f}, 2.6f});
     rope::Settings settings = world.settings();
     settings.damping = 1.0f;

@@ -7,28 +7,26 @@
 namespace tendril::app {
 namespace {
 
-Json body_state(const rope::World& world, const rope::Body& body, const std::vector<bool>& pinned) {
+Json body_state(const NamedWorld& world, const rope::Body& body, const std::vector<bool>& pinned) {
     Json particles = Json::array();
     for (std::size_t i = body.first; i < body.first + body.count; ++i)
         particles.push_back({{"position", dpoint(world.state().position[i])}, {"pinned", bool(pinned[i])}});
-    Json json{{"name", body.name},
-              {"length", world.length(body)},
-              {"radius", number(body.radius)},
-              {"particles", std::move(particles)},
-              {"stretch", number(body.stretch)},
-              {"length_error", world.length_error(body)},
+    Json json{{"name", world.name(body)},        {"length", world.length(body)},
+              {"radius", number(body.radius)},   {"particles", std::move(particles)},
+              {"stretch", number(body.stretch)}, {"length_error", world.length_error(body)},
               {"energy", world.energy(body)}};
     if (body.kind != rope::Body::Kind::Rope) json["row"] = body.row;
     return json;
 }
 
 Json collider_state(const RopePart& part, const rope::Collider& collider) {
-    Json json{{"name", collider.name}};
+    const std::string& name = part.world->name(collider);
+    Json json{{"name", name}};
     const Json shape = save_shape(collider.shape);
     for (const auto& [key, value] : shape.items()) json[key] = value;
     json["centre"] = point(rope::centre(collider.shape));
     for (const Swing& swing : part.swings) {
-        if (swing.collider == collider.name)
+        if (swing.collider == name)
             json["swing"] = {{"by", point(swing.swing)},
                              {"middle", point(swing.middle)},
                              {"period", number(swing.period)}};
@@ -46,15 +44,15 @@ Json choice_state(const std::optional<RopeChoice>& choice) {
 
 Json RopeLab::state(const Workspace& workspace) const {
     const RopePart& part = rope_part(workspace);
-    const rope::World& world = *part.world;
+    const NamedWorld& world = *part.world;
     const rope::State& now = world.state();
     std::vector<bool> pinned(world.size());
     for (const rope::Pin& pin : now.pins) pinned[pin.particle] = true;
-    Json ropes = Json::array(), sheets = Json::array(), locks = Json::array(), colliders = Json::array();
+    Json ropes = Json::array(), cloths = Json::array(), hair = Json::array(), colliders = Json::array();
     for (const rope::Body& body : now.bodies) {
         Json& list = body.kind == rope::Body::Kind::Rope    ? ropes
-                     : body.kind == rope::Body::Kind::Sheet ? sheets
-                                                            : locks;
+                     : body.kind == rope::Body::Kind::Cloth ? cloths
+                                                            : hair;
         list.push_back(body_state(world, body, pinned));
     }
     for (const rope::Collider& collider : now.colliders) colliders.push_back(collider_state(part, collider));
@@ -62,8 +60,8 @@ Json RopeLab::state(const Workspace& workspace) const {
     if (part.hold) held = {{"rope", part.hold->body}, {"particle", part.hold->particle}};
     return Json{{"lab", rope_lab},
                 {"ropes", std::move(ropes)},
-                {"sheets", std::move(sheets)},
-                {"locks", std::move(locks)},
+                {"cloths", std::move(cloths)},
+                {"hair", std::move(hair)},
                 {"colliders", std::move(colliders)},
                 {"substeps", now.substeps},
                 {"substeps_dropped", now.dropped},
@@ -73,7 +71,7 @@ Json RopeLab::state(const Workspace& workspace) const {
                 {"tool", tool_name(part.tool)},
                 {"selected", choice_state(part.choice)},
                 {"held", std::move(held)},
-                {"torture", number(part.torture.dial)},
+                {"jitter", number(part.jitter.dial)},
                 {"moving", moving(workspace)}};
 }
 

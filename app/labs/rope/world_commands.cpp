@@ -21,10 +21,10 @@ void take_scene(Workspace& workspace, const Arguments& given) {
     const RopeSceneEntry& entry = rope_scene(given.text("name"));
     RopeScene scene = make_rope_scene(entry);
     RopePart& part = workspace.document.edit<RopePart>(rope_lab);
-    part.world = std::make_shared<const rope::World>(std::move(scene.world));
+    part.world = std::make_shared<const NamedWorld>(std::move(scene.world));
     part.swings = std::move(scene.swings);
     part.time = 0.0;
-    part.torture = {.dial = part.torture.dial};
+    part.jitter = {.dial = part.jitter.dial};
     part.choice.reset();
     part.hold.reset();
     part.quiet_ticks = 0;
@@ -51,9 +51,9 @@ void settings(RopeEdit& edit, const Arguments& given) {
     if (wanted != edit.seen().settings()) edit.world().set_settings(wanted);
 }
 
-void set_torture(RopeEdit& edit, const Arguments& given) {
-    edit.part.torture.dial = given.number("dial");
-    edit.part.torture.frame = 0.0;  // the next frame already follows the dial
+void set_jitter(RopeEdit& edit, const Arguments& given) {
+    edit.part.jitter.dial = given.number("dial");
+    edit.part.jitter.frame = 0.0;  // the next frame already follows the dial
 }
 
 std::vector<Argument> settings_arguments() {
@@ -91,10 +91,9 @@ void add_world_commands(CommandTable& table) {
          .apply = take_scene});
     table.add(rope_command("rope.settings", settings_arguments(),
                            "How ropes are simulated; what is left out stays", settings));
-    table.add(
-        rope_command("rope.torture",
-                     {{.name = "dial", .help = "0: even frames; 1: from 1 to 250 ms", .low = 0, .high = 1}},
-                     "Cuts time into uneven frames, as a program that stutters does", set_torture));
+    table.add(rope_command(
+        "rope.jitter", {{.name = "dial", .help = "0: even frames; 1: from 1 to 250 ms", .low = 0, .high = 1}},
+        "Cuts time into uneven frames, as a program that stutters does", set_jitter));
 }
 
 }  // namespace tendril::app

@@ -1,6 +1,8 @@
 #include "app/labs/rope/world_file.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 #include "app/document/json_complete.hpp"
@@ -9,7 +11,8 @@
 namespace tendril::app {
 namespace {
 
-constexpr const char* body_kinds[] = {"rope", "sheet", "lock"};
+constexpr const char* body_kinds[] = {"rope", "cloth", "hair"};
+constexpr const char* body_kinds_of_version_1[] = {"rope", "sheet", "lock"};
 constexpr const char* link_kinds[] = {"stretch", "shear", "bend"};
 
 [[noreturn]] void fail(const std::string& where, const std::string& what) {
@@ -49,8 +52,8 @@ bool is_zero(const glm::dvec3& v) {
 /// did.
 Json save_particle(const rope::State& state, std::size_t i) {
     Json row = dpoint(state.position[i]);
-    if (!is_zero(state.moved[i]) || !is_zero(state.before[i])) {
-        for (const glm::dvec3& v : {state.moved[i], state.before[i]})
+    if (!is_zero(state.displacement[i]) || !is_zero(state.earlier[i])) {
+        for (const glm::dvec3& v : {state.displacement[i], state.earlier[i]})
             for (int axis = 0; axis < 3; ++axis) row.push_back(v[axis]);
     }
     row.push_back(state.mass[i]);
@@ -66,8 +69,8 @@ void load_particle(rope::State& state, const Json& row, const std::string& where
     };
     const bool moved = row.size() == 10;
     state.position.push_back(point_at(0));
-    state.moved.push_back(moved ? point_at(3) : glm::dvec3(0.0));
-    state.before.push_back(moved ? point_at(6) : glm::dvec3(0.0));
+    state.displacement.push_back(moved ? point_at(3) : glm::dvec3(0.0));
+    state.earlier.push_back(moved ? point_at(6) : glm::dvec3(0.0));
     state.mass.push_back(json_real(row.back(), where, 0.0, 1e30));
 }
 
@@ -102,13 +105,22 @@ rope::Link load_link(const Json& row, const std::string& where, std::size_t part
     return link;
 }
 
-Json save_body(const rope::Body& body) {
-    Json json{{"name", body.name},   {"kind", body_kind_name(body.kind)},
+/// Names as they stand in a file, of bodies or colliders.
+using Names = std::vector<std::string>;
+
+Json save_body(const rope::Body& body, const std::string& name) {
+    Json json{{"name", name},        {"kind", body_kind_name(body.kind)},
               {"first", body.first}, {"count", body.count},
               {"row", body.row},     {"radius", number(body.radius)}};
     if (body.tear != 0.0f) json["tear"] = number(body.tear);
     if (body.stretch != 0.0f) json["stretch"] = number(body.stretch);
     return json;
+}
+
+rope::Body::Kind load_body_kind(const Json& json, const std::string& where) {
+    for (std::size_t i = 0; i < std::size(body_kinds_of_version_1); ++i)
+        if (json == body_kinds_of_version_1[i]) return static_cast<rope::Body::Kind>(i);
+    return kind_of<rope::Body::Kind>(json, where, body_kinds);
 }
 
 rope::Body load_body(const Json& json, const std::string& where) {
@@ -117,8 +129,7 @@ rope::Body load_body(const Json& json, const std::string& where) {
         return size_of(read(key), where + "." + key, max_lab_particles);
     };
     rope::Body body;
-    body.name = json_text(read("name"), where + ".name");
-    body.kind = kind_of<rope::Body::Kind>(read("kind"), where + ".kind", body_kinds);
+    body.kind = load_body_kind(read("kind"), where + ".kind");
     body.first = size("first");
     body.count = size("count");
     body.row = size("row");
@@ -128,25 +139,31 @@ rope::Body load_body(const Json& json, const std::string& where) {
     return body;
 }
 
-Json save_pin(const rope::Pin& pin) {
+Json save_pin(const NamedWorld& world, const rope::Pin& pin) {
     Json json{{"particle", pin.particle}, {"goal", dpoint(pin.goal)}};
     if (pin.seconds != 0.0) json["seconds"] = pin.seconds;
-    if (!pin.collider.empty()) json["collider"] = pin.collider;
+    if (const rope::Collider* holder = world.holder(pin)) json["collider"] = world.name(*holder);
     return json;
 }
 
-rope::Pin load_pin(const Json& json, const std::string& where, std::size_t particles) {
+rope::Pin load_pin(const Json& json, const std::string& where, std::size_t particles,
+                   const Names& colliders) {
     rope::Pin pin;
     pin.particle = size_of(json_member(json, "particle", where), where + ".particle",
                            particles == 0 ? 0 : particles - 1);
     pin.goal = json_dpoint(json_member(json, "goal", where), where + ".goal");
     if (json.contains("seconds")) pin.seconds = json_real(json["seconds"], where + ".seconds", 0.0, 1e9);
-    if (json.contains("collider")) pin.collider = json_text(json["collider"], where + ".collider");
+    if (json.contains("collider")) {
+        const std::string name = json_text(json["collider"], where + ".collider");
+        const auto found = std::find(colliders.begin(), colliders.end(), name);
+        if (found == colliders.end()) fail(where, "moves with \"" + name + "\", which is no collider");
+        pin.collider = {static_cast<std::uint32_t>(found - colliders.begin()), 1};  // as slots are numbered
+    }
     return pin;
 }
 
-Json save_collider(const rope::Collider& collider) {
-    Json json{{"name", collider.name}};
+Json save_collider(const rope::Collider& collider, const std::string& name) {
+    Json json{{"name", name}};
     const Json shape = save_shape(collider.shape);
     for (const auto& [key, value] : shape.items()) json[key] = value;
     json["goal"] = dpoint(collider.goal);
@@ -179,7 +196,6 @@ rope::Shape load_shape(const Json& json, const std::string& where) {
 
 rope::Collider load_collider(const Json& json, const std::string& where) {
     rope::Collider collider;
-    collider.name = json_text(json_member(json, "name", where), where + ".name");
     collider.shape = load_shape(json, where);
     collider.goal = json_dpoint(json_member(json, "goal", where), where + ".goal");
     if (json.contains("seconds")) collider.seconds = json_real(json["seconds"], where + ".seconds", 0.0, 1e9);
@@ -245,17 +261,19 @@ Json save_shape(const rope::Shape& shape) {
     return json;
 }
 
-Json save_world(const rope::State& state) {
+Json save_world(const NamedWorld& world) {
+    const rope::State& state = world.state();
     Json bodies = Json::array(), links = Json::array(), particles = Json::array();
     Json pins = Json::array(), colliders = Json::array();
-    for (const rope::Body& body : state.bodies) bodies.push_back(save_body(body));
+    for (const rope::Body& body : state.bodies) bodies.push_back(save_body(body, world.name(body)));
     for (const rope::Link& link : state.links) links.push_back(save_link(link));
     for (std::size_t i = 0; i < state.position.size(); ++i) particles.push_back(save_particle(state, i));
-    for (const rope::Pin& pin : state.pins) pins.push_back(save_pin(pin));
-    for (const rope::Collider& collider : state.colliders) colliders.push_back(save_collider(collider));
+    for (const rope::Pin& pin : state.pins) pins.push_back(save_pin(world, pin));
+    for (const rope::Collider& collider : state.colliders)
+        colliders.push_back(save_collider(collider, world.name(collider)));
     return Json{{"settings", save_settings(state.settings)},
                 {"remainder", state.remainder},
-                {"moved_in", state.moved_in},
+                {"moved_in", state.displaced_in},
                 {"substeps", state.substeps},
                 {"dropped", state.dropped},
                 {"colliders", std::move(colliders)},
@@ -265,35 +283,39 @@ Json save_world(const rope::State& state) {
                 {"links", std::move(links)}};
 }
 
-rope::State load_world(const Json& json, const std::string& where) {
+NamedWorld load_world(const Json& json, const std::string& where) {
     const auto place = [&](const char* key) { return where + "." + key; };
     const auto read = [&](const char* key) -> const Json& { return json_member(json, key, where); };
     constexpr std::uint64_t most = std::uint64_t{1} << 53;
-    constexpr std::size_t most_links = 8 * max_lab_particles;  // a sheet has six to a particle
+    constexpr std::size_t most_links = 8 * max_lab_particles;  // a cloth has six to a particle
     rope::State state;
+    Names body_names, collider_names;
     // The sizes first: what is too large is refused before anything of it is read.
     for_each(read("particles"), place("particles"), "particles", max_lab_particles,
              [&](const Json& row, const std::string& here) { load_particle(state, row, here); });
     const std::size_t size = state.position.size();
     state.settings = load_settings(read("settings"), place("settings"));
     state.remainder = json_real(read("remainder"), place("remainder"), 0.0, 10.0);
-    state.moved_in = json_real(read("moved_in"), place("moved_in"), 0.0, 10.0);
+    state.displaced_in = json_real(read("moved_in"), place("moved_in"), 0.0, 10.0);
     state.substeps = json_count(read("substeps"), place("substeps"), most);
     state.dropped = json_count(read("dropped"), place("dropped"), most);
     for_each(read("colliders"), place("colliders"), "colliders", max_lab_colliders,
              [&](const Json& each, const std::string& here) {
                  state.colliders.push_back(load_collider(each, here));
+                 collider_names.push_back(json_text(json_member(each, "name", here), here + ".name"));
              });
-    for_each(
-        read("bodies"), place("bodies"), "bodies", max_lab_particles,
-        [&](const Json& each, const std::string& here) { state.bodies.push_back(load_body(each, here)); });
+    for_each(read("bodies"), place("bodies"), "bodies", max_lab_particles,
+             [&](const Json& each, const std::string& here) {
+                 state.bodies.push_back(load_body(each, here));
+                 body_names.push_back(json_text(json_member(each, "name", here), here + ".name"));
+             });
     for_each(read("pins"), place("pins"), "pins", size, [&](const Json& each, const std::string& here) {
-        state.pins.push_back(load_pin(each, here, size));
+        state.pins.push_back(load_pin(each, here, size, collider_names));
     });
     for_each(
         read("links"), place("links"), "links", most_links,
         [&](const Json& row, const std::string& here) { state.links.push_back(load_link(row, here, size)); });
-    return state;
+    return {std::move(state), body_names, collider_names};
 }
 
 }  // namespace tendril::app

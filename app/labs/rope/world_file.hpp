@@ -2,16 +2,17 @@
 #pragma once
 
 #include <string>
-#include <tendril/rope/world.hpp>
 
 #include "app/document/json.hpp"
+#include "app/labs/rope/named_world.hpp"
 
 namespace tendril::app {
 
 /// Everything that a world remembers, bit for bit.
-Json save_world(const rope::State& state);
-/// Throws std::runtime_error with the place and what is wrong there.
-rope::State load_world(const Json& json, const std::string& where);
+Json save_world(const NamedWorld& world);
+/// Throws std::runtime_error with the place and what is wrong there, std::invalid_argument where its parts do
+/// not fit together.
+NamedWorld load_world(const Json& json, const std::string& where);
 
 Json save_settings(const rope::Settings& settings);
 /// {"kind": "sphere", "centre": ..., "radius": ...}

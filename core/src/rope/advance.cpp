@@ -3,7 +3,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "chain/checks.hpp"
 #include "rope/build.hpp"
 #include "rope/check_state.hpp"
 #include "rope/contact_shape.hpp"
@@ -22,7 +21,7 @@ double part_of(double h, double& seconds) {
     return part;
 }
 
-/// Links that are longer than their sheet bears are gone; whether there were any.
+/// Links that are longer than their cloth bears are gone; whether there were any.
 bool tear(State& state) {
     std::size_t b = 0;  // links of a body lie together, nearly always
     const auto torn = [&](const Link& link) {
@@ -66,37 +65,9 @@ float tension_of(double pull, double square) {
     return std::isfinite(tension) ? static_cast<float>(std::clamp(tension, -most, most)) + 0.0f : 0.0f;
 }
 
-/// Sizes everything for a world, so that nothing is allocated later.
-void prepare(World::Scratch& scratch, const State& state, const World::Plan& plan) {
-    if (scratch.unit.solve == nullptr) scratch.unit = detail::vector_unit("");
-    const std::size_t particles = state.position.size();
-    scratch.place.resize(particles);
-    scratch.base.resize(particles);
-    scratch.weight.resize(particles);
-    scratch.touch.assign(particles, Touch{});
-    scratch.touched.clear();
-    scratch.touched.reserve(particles);
-    scratch.body_near.assign(state.bodies.size(), 0);
-    scratch.body_lost.assign(state.bodies.size(), 0);
-    scratch.pull.resize(state.links.size());
-    scratch.colliders.resize(state.colliders.size());
-    scratch.close.reserve(state.colliders.size());
-    scratch.chunk_low.resize(plan.chunks.size());
-    scratch.chunk_high.resize(plan.chunks.size());
-    scratch.near.reserve(4 * plan.chunks.size());
-    scratch.run_worst.assign(plan.runs.size(), 0.0);
-    scratch.run_gain.assign(plan.runs.size(), 0.0);
-    scratch.run_scale.assign(plan.runs.size(), 1.0);
-    constexpr std::size_t alignment = 8;  // doubles: 64 bytes
-    scratch.block.assign(detail::Block::doubles(plan.longest, scratch.unit.lanes) + alignment, 0.0);
-    const auto address = reinterpret_cast<std::uintptr_t>(scratch.block.data());
-    scratch.block_offset = (64 - address % 64) % 64 / sizeof(double);
-    scratch.fresh = false;
-}
-
 }  // namespace
 
-Substep::Substep(State& state, const World::Plan& plan, World::Scratch& scratch, Advance& report)
+Substep::Substep(State& state, const Plan& plan, Scratch& scratch, Advance& report)
     : state_(state),
       plan_(plan),
       scratch_(scratch),
@@ -110,7 +81,7 @@ void Substep::run() {
     find_near();
     const Solver solver = state_.settings.solver;
     report_.passes += solver == Solver::Direct ? direct() : relax(solver == Solver::Xpbd);
-    push_out_for_good();
+    depenetrate();
     keep();
     ++report_.substeps;
     ++state_.substeps;
@@ -119,7 +90,7 @@ void Substep::run() {
 /// The settings' iterations, or fewer where they would look at more than max_pass_work links and contacts.
 int Substep::passes_allowed() const {
     std::size_t work = state_.links.size() + 1;
-    for (const World::Scratch::Near& near : scratch_.near) work += plan_.chunks[near.chunk].count;
+    for (const Scratch::Near& near : scratch_.near) work += plan_.chunks[near.chunk].count;
     const auto most = std::max(static_cast<std::size_t>(unbounded_passes), max_pass_work / work);
     return static_cast<int>(std::min(static_cast<std::size_t>(state_.settings.iterations), most));
 }
@@ -127,7 +98,7 @@ int Substep::passes_allowed() const {
 void Substep::move_colliders() {
     for (std::size_t i = 0; i < state_.colliders.size(); ++i) {
         Collider& collider = state_.colliders[i];
-        World::Scratch::Moving& moving = scratch_.colliders[i];
+        Scratch::Moving& moving = scratch_.colliders[i];
         const glm::vec3 was = centre(collider.shape);
         const double part = part_of(h_, collider.seconds);
         const dvec3 from(was), to = from + part * (collider.goal - from);
@@ -142,26 +113,28 @@ void Substep::move_colliders() {
 void Substep::move_particles() {
     const double kept = std::exp(-static_cast<double>(state_.settings.damping) * h_);
     // Where the step before was not as long as this one, Verlet's rule for uneven steps.
-    const bool before = state_.moved_in > 0.0;
-    const double same = before ? h_ / state_.moved_in : 0.0;
-    const dvec3 fall = (before ? 0.5 * h_ * (h_ + state_.moved_in) : h_ * h_) * acceleration_;
+    const bool before = state_.displaced_in > 0.0;
+    const double same = before ? h_ / state_.displaced_in : 0.0;
+    const dvec3 fall = (before ? 0.5 * h_ * (h_ + state_.displaced_in) : h_ * h_) * acceleration_;
     for (std::size_t i = 0; i < state_.position.size(); ++i) {
-        state_.moved[i] = same * state_.moved[i];  // had the substep before been as long as this one
-        scratch_.base[i] = state_.position[i] + (kept * state_.moved[i] + fall);
+        state_.displacement[i] =
+            same * state_.displacement[i];  // had the substep before been as long as this one
+        scratch_.base[i] = state_.position[i] + (kept * state_.displacement[i] + fall);
         scratch_.weight[i] = 1.0 / state_.mass[i];
     }
     for (Pin& pin : state_.pins) {
         const dvec3 at = state_.position[pin.particle];
         dvec3 goal = pin.goal;
-        for (std::size_t c = 0; !pin.collider.empty() && c < state_.colliders.size(); ++c) {
-            if (state_.colliders[c].name == pin.collider) goal += dvec3(centre(state_.colliders[c].shape));
+        if (pin.collider) {
+            const std::uint32_t holder = scratch_.collider_at[pin.collider.index];
+            goal += dvec3(centre(state_.colliders[holder].shape));
         }
         scratch_.base[pin.particle] = at + part_of(h_, pin.seconds) * (goal - at);
         scratch_.weight[pin.particle] = 0.0;
     }
     scratch_.place = scratch_.base;
     for (std::size_t i = 0; i < state_.links.size(); ++i) {
-        scratch_.pull[i] = static_cast<double>(state_.links[i].tension) * (h_ * h_);
+        scratch_.multiplier[i] = static_cast<double>(state_.links[i].tension) * (h_ * h_);
     }
 }
 
@@ -185,33 +158,31 @@ void Substep::measure() {
 void Substep::keep() {
     for (std::size_t i = 0; i < state_.position.size(); ++i) {
         const dvec3 place = landed(scratch_.place[i], state_.position[i]);
-        state_.before[i] = bounded(state_.moved[i]);
-        state_.moved[i] = place - state_.position[i];
+        state_.earlier[i] = bounded(state_.displacement[i]);
+        state_.displacement[i] = place - state_.position[i];
         state_.position[i] = place;
     }
-    for (std::size_t r = 0; r < plan_.runs.size(); ++r) {
-        if (scratch_.run_scale[r] == 1.0) continue;
-        const World::Plan::Run& run = plan_.runs[r];
-        for (std::uint32_t k = 0; k <= run.links; ++k) {
-            dvec3& by = state_.moved[plan_.nodes[run.first_node + k]];
-            by = scratch_.run_scale[r] * by;
+    for (std::size_t r = 0; r < plan_.chains.size(); ++r) {
+        if (scratch_.chain_scale[r] == 1.0) continue;
+        const Plan::Chain& chain = plan_.chains[r];
+        for (std::uint32_t k = 0; k <= chain.links; ++k) {
+            dvec3& by = state_.displacement[plan_.nodes[chain.first_node + k]];
+            by = scratch_.chain_scale[r] * by;
         }
-        scratch_.run_scale[r] = 1.0;
+        scratch_.chain_scale[r] = 1.0;
     }
     for (std::size_t i = 0; i < state_.links.size(); ++i) {
-        state_.links[i].tension = tension_of(scratch_.pull[i], h_ * h_);
+        state_.links[i].tension = tension_of(scratch_.multiplier[i], h_ * h_);
     }
     for (const std::uint32_t i : scratch_.touched) scratch_.touch[i] = Touch{};
     scratch_.touched.clear();
-    state_.moved_in = h_;
+    state_.displaced_in = h_;
 }
 
-Advance World::advance(double seconds, std::uint64_t most_substeps) {
-    if (!(seconds >= 0.0 && seconds <= 1e9)) {
-        tendril::detail::refuse("advance", "seconds", "0 or more",
-                                tendril::detail::text(static_cast<float>(seconds)));
-    }
+Advance World::advance(double seconds, Workspace& workspace, const AdvanceOptions& options) {
     Advance done;
+    done.refused = !(seconds >= 0.0 && seconds <= 1e9);
+    if (done.refused) return done;
     const double substep = state_.settings.substep;
     // Only whole substeps are dropped: what is less is not lost, or it would never be counted.
     constexpr double rounding = 1e-6;  // of a substep
@@ -219,22 +190,24 @@ Advance World::advance(double seconds, std::uint64_t most_substeps) {
     done.dropped = static_cast<std::uint64_t>(over / substep + rounding);
     state_.remainder += std::max(0.0, seconds - static_cast<double>(done.dropped) * substep);
     const auto due = static_cast<std::uint64_t>(state_.remainder / substep + rounding);
-    if (due > most_substeps) {
-        const std::uint64_t more = due - most_substeps;
+    if (due > options.most_substeps) {
+        const std::uint64_t more = due - options.most_substeps;
         state_.remainder = std::max(0.0, state_.remainder - static_cast<double>(more) * substep);
         done.dropped += more;
     }
     constexpr auto countable = std::uint64_t{1} << 53;  // by a file's numbers
     state_.dropped = std::min(state_.dropped + done.dropped, countable);
-    while (state_.remainder >= substep * (1.0 - rounding)) {
+    const auto is_due = [&] { return state_.remainder >= substep * (1.0 - rounding); };
+    if (!is_due()) return done;
+
+    Workspace::Parts& parts = *workspace.parts_;
+    parts.prepare(state_);
+    while (is_due()) {
         state_.remainder = std::max(0.0, state_.remainder - substep);
-        if (!plan_) plan_ = std::make_shared<const Plan>(state_);
-        if (!scratch_) scratch_ = std::make_unique<Scratch>();
-        if (scratch_->fresh) prepare(*scratch_, state_, *plan_);
-        Substep step(state_, *plan_, *scratch_, done);
-        step.measures = state_.remainder < substep * (1.0 - rounding);
+        Substep step(state_, parts.plan, parts.scratch, done);
+        step.measures = !is_due();
         step.run();
-        if (plan_->tears && tear(state_)) reshaped();
+        if (parts.plan.tears && tear(state_)) parts.replan(state_);
     }
     return done;
 }

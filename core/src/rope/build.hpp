@@ -1,17 +1,34 @@
-// Ropes, sheets and locks as particles and links. Not installed.
+// Ropes, cloth and hair as particles and links. Not installed.
 #pragma once
 
-#include <string_view>
+#include <vector>
 
-#include "tendril/rope/world.hpp"
+#include "tendril/result.hpp"
+#include "tendril/rope/state.hpp"
 
 namespace tendril::rope::detail {
 
-// Each appends a body of that name to a state, with pins; the name must be free. Throws std::invalid_argument
-// naming what is out of range, before anything is changed.
-void build(State& state, const RopeShape& shape, std::string name);
-void build(State& state, const SheetShape& shape, std::string name);
-void build(State& state, const LockShape& shape, std::string name);
+/// A body that is not yet in a state: its particles are numbered from 0.
+struct Draft {
+    Body body;
+    std::vector<glm::dvec3> points;  ///< at rest
+    double mass = 0.0;               ///< kg, of each particle
+    std::vector<Link> links;
+    std::vector<Pin> pins;
+
+    void pin(std::size_t particle);
+    void link(std::uint32_t a, std::uint32_t b, double rest, Link::Kind kind, float compliance);
+    /// As long as its particles are apart.
+    void link(std::uint32_t a, std::uint32_t b, Link::Kind kind, float compliance);
+};
+
+// Each draws a body up for a state, or refuses, naming what is out of range.
+Result draft_rope(const State& state, const RopeShape& shape, Draft& draft);
+Result draft_cloth(const State& state, const ClothShape& shape, Draft& draft);
+Result draft_hair(const State& state, const HairShape& shape, Draft& draft);
+
+/// Adds a draft, unless it reaches over the edge of the world.
+Expected<BodyId> append(State& state, const char* operation, Draft draft);
 
 /// Where gravity pulls, a unit vector; down where there is none.
 glm::dvec3 down(const Settings& settings) noexcept;

@@ -1,23 +1,19 @@
 #include "rope/check_state.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <set>
-#include <stdexcept>
-#include <string>
 
-#include "chain/checks.hpp"
+#include "math/checks.hpp"
+#include "rope/slots.hpp"
 
 namespace tendril::rope::detail {
 namespace {
 
-const char* const op = "World";
+using tendril::detail::Argument;
+using tendril::detail::check_length;
+using tendril::detail::refused;
 
-[[noreturn]] void refuse(const std::string& what) {
-    throw std::invalid_argument(std::string(op) + ": " + what);
-}
-std::string at(const char* list, std::size_t index) {
-    return std::string(list) + " " + std::to_string(index);
-}
+const char* const op = "World";
 
 bool is_within(const glm::dvec3& p, double most) {
     return std::abs(p.x) <= most && std::abs(p.y) <= most && std::abs(p.z) <= most;
@@ -32,105 +28,143 @@ bool is_offset(const glm::dvec3& p) {
 bool is_amount(double value) {
     return value >= 0.0 && value <= max_magnitude;
 }
+/// The coordinate that is out of range, for the message.
+double worst(const glm::dvec3& p) {
+    for (int i = 0; i < 3; ++i)
+        if (!std::isfinite(p[i])) return p[i];
+    return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+}
+Result bad_point(const char* list, std::size_t index, const glm::dvec3& p) {
+    return refused(op, Argument(list, index), "finite and at most 1e9 m from the origin each way", worst(p));
+}
 
-void check_particles(const State& state) {
+Result check_particles(const State& state) {
     const std::size_t size = state.position.size();
-    if (size > max_particles) {
-        refuse(std::to_string(size) + " particles; the most is " + std::to_string(max_particles));
-    }
-    if (state.moved.size() != size || state.before.size() != size || state.mass.size() != size) {
-        refuse("position, moved, before and mass must have as many values each");
+    if (size > max_particles) return refused(op, "particles", "at most 1000000", size);
+    for (const std::size_t other : {state.displacement.size(), state.earlier.size(), state.mass.size()}) {
+        if (other == size) continue;
+        return refused(op, "displacement, earlier and mass", "as many as position", other);
     }
     for (std::size_t i = 0; i < size; ++i) {
-        if (!is_point(state.position[i])) refuse(at("position", i) + " is not finite or too far out");
-        if (!is_offset(state.moved[i])) refuse(at("moved", i) + " is not finite or too large");
-        if (!is_offset(state.before[i])) refuse(at("before", i) + " is not finite or too large");
+        if (!is_point(state.position[i])) return bad_point("position", i, state.position[i]);
+        if (!is_offset(state.displacement[i])) return bad_point("displacement", i, state.displacement[i]);
+        if (!is_offset(state.earlier[i])) return bad_point("earlier", i, state.earlier[i]);
         // 1e9 kg/m on 1e9 m, or a square of that, is allowed.
         if (!(state.mass[i] > 0.0 && state.mass[i] <= 1e30))
-            refuse(at("mass", i) + " must be over 0 and finite");
+            return refused(op, Argument("mass", i), "over 0 and finite", state.mass[i]);
     }
+    return {};
 }
 
-void check_bodies(const State& state) {
-    std::set<std::string> names;
+/// Every taken slot belongs to one of the list, and to no other.
+template <class List>
+Result check_handles(const List& list, const std::vector<std::uint32_t>& slots, const char* name) {
+    std::vector<bool> seen(slots.size(), false);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const auto id = list[i].id;
+        const bool valid = id.index < slots.size() && slots[id.index] == id.generation &&
+                           id.generation % 2 == 1 && !seen[id.index];
+        if (!valid) {
+            return refused(op, Argument(name, i, "id"), "a taken slot of its own",
+                           static_cast<std::size_t>(id.index));
+        }
+        seen[id.index] = true;
+    }
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+        if (slots[i] % 2 == 1 && !seen[i]) return refused(op, Argument(name), "in every taken slot", i);
+    }
+    return {};
+}
+
+Result check_body(const State& state, std::size_t i, std::size_t next) {
+    const Body& body = state.bodies[i];
+    const auto bad = [&](const char* member, const char* rule, std::size_t value) {
+        return refused(op, Argument("bodies", i, member), rule, value);
+    };
+    if (body.first != next) return bad("first", "where the body before ends", body.first);
+    if (body.count == 0 || body.count > state.position.size() - next)
+        return bad("count", "at least 1, and no more than there are particles", body.count);
+    if (body.row == 0 || body.count % body.row != 0) return bad("row", "such that rows are whole", body.row);
+    if (static_cast<int>(body.kind) > static_cast<int>(Body::Kind::Hair))
+        return bad("kind", "one of the three", static_cast<std::size_t>(body.kind));
+    const std::pair<const char*, float> lengths[] = {
+        {"radius", body.radius}, {"tear", body.tear}, {"stretch", body.stretch}};
+    for (const auto& [member, value] : lengths)
+        if (const Result r = check_length(op, Argument("bodies", i, member), value); !r) return r;
+    return {};
+}
+
+Result check_bodies(const State& state) {
     std::size_t next = 0;
-    for (const Body& body : state.bodies) {
-        if (body.name.empty()) refuse("a body has no name");
-        if (!names.insert(body.name).second) refuse("there are two bodies named \"" + body.name + "\"");
-        if (body.first != next || body.count == 0 || body.count > state.position.size() - next) {
-            refuse("the particles of body \"" + body.name + "\" do not follow those of the one before");
-        }
-        if (body.row == 0 || body.count % body.row != 0) {
-            refuse("the particles of body \"" + body.name + "\" are no whole rows");
-        }
-        if (static_cast<int>(body.kind) > static_cast<int>(Body::Kind::Lock)) {
-            refuse("body \"" + body.name + "\" is of no known kind");
-        }
-        tendril::detail::require_length(op, "radius of a body", body.radius);
-        tendril::detail::require_length(op, "tear of a body", body.tear);
-        tendril::detail::require_length(op, "stretch of a body", body.stretch);
-        next += body.count;
+    for (std::size_t i = 0; i < state.bodies.size(); ++i) {
+        if (const Result r = check_body(state, i, next); !r) return r;
+        next += state.bodies[i].count;
     }
-    if (next != state.position.size()) refuse("some particles belong to no body");
+    if (next != state.position.size())
+        return refused(op, "particles", "those of bodies", state.position.size());
+    return check_handles(state.bodies, state.body_slots, "bodies");
 }
 
-void check_links(const State& state) {
+Result check_links(const State& state) {
     for (std::size_t i = 0; i < state.links.size(); ++i) {
         const Link& link = state.links[i];
-        if (link.a >= state.position.size() || link.b >= state.position.size() || link.a == link.b) {
-            refuse(at("link", i) + " joins particles that are not there, or one to itself");
-        }
-        if (static_cast<int>(link.kind) > static_cast<int>(Link::Kind::Bend)) {
-            refuse(at("link", i) + " is of no known kind");
-        }
-        tendril::detail::require_length(op, "rest of a link", link.rest);
-        tendril::detail::require_length(op, "compliance of a link", link.compliance);
-        if (!std::isfinite(link.tension)) refuse("the tension of " + at("link", i) + " is not finite");
+        const std::size_t end = std::max(link.a, link.b);
+        if (end >= state.position.size() || link.a == link.b)
+            return refused(op, Argument("links", i), "between two particles that there are", end);
+        if (static_cast<int>(link.kind) > static_cast<int>(Link::Kind::Bend))
+            return refused(op, Argument("links", i, "kind"), "one of the three", static_cast<int>(link.kind));
+        if (const Result r = check_length(op, Argument("links", i, "rest"), link.rest); !r) return r;
+        const Result soft = check_length(op, Argument("links", i, "compliance"), link.compliance);
+        if (!soft) return soft;
+        if (!std::isfinite(link.tension))
+            return refused(op, Argument("links", i, "tension"), "finite", link.tension);
     }
+    return {};
 }
 
-void check_pins(const State& state) {
+Result check_pins(const State& state) {
     std::size_t next = 0;
-    for (const Pin& pin : state.pins) {
+    for (std::size_t i = 0; i < state.pins.size(); ++i) {
+        const Pin& pin = state.pins[i];
         if (pin.particle < next || pin.particle >= state.position.size()) {
-            refuse("pins must be of particles that there are, in their order, one each; got " +
-                   std::to_string(pin.particle));
+            return refused(op, Argument("pins", i, "particle"),
+                           "of one that there is, in their order, one pin each", pin.particle);
         }
-        if (!(pin.collider.empty() ? is_point(pin.goal) : is_offset(pin.goal)))
-            refuse("the goal of the pin of " + at("particle", pin.particle) + " is not finite");
+        if (!(pin.collider ? is_offset(pin.goal) : is_point(pin.goal)))
+            return refused(op, Argument("pins", i, "goal"), "finite", worst(pin.goal));
         if (!is_amount(pin.seconds))
-            refuse("the time of the pin of " + at("particle", pin.particle) + " is not");
-        bool known = pin.collider.empty();
-        for (const Collider& collider : state.colliders) known = known || collider.name == pin.collider;
-        if (!known) refuse("a pin moves with \"" + pin.collider + "\", which is no collider");
+            return refused(op, Argument("pins", i, "seconds"), "0 or more", pin.seconds);
+        if (pin.collider && find_in(state.colliders, pin.collider) == nullptr)
+            return missing(op, "the collider of a pin", "collider", pin.collider.index);
         next = pin.particle + 1;
     }
+    return {};
 }
 
-void check_colliders(const State& state) {
-    std::set<std::string> names;
-    for (const Collider& collider : state.colliders) {
-        if (collider.name.empty()) refuse("a collider has no name");
-        if (!names.insert(collider.name).second)
-            refuse("there are two colliders named \"" + collider.name + "\"");
-        require(op, collider.shape);
-        if (!is_point(collider.goal)) refuse("the goal of collider \"" + collider.name + "\" is not finite");
-        if (!is_amount(collider.seconds)) refuse("the time of collider \"" + collider.name + "\" is not one");
+Result check_colliders(const State& state) {
+    for (std::size_t i = 0; i < state.colliders.size(); ++i) {
+        const Collider& collider = state.colliders[i];
+        if (const Result r = rope::check(op, collider.shape); !r) return r;
+        if (!is_point(collider.goal))
+            return refused(op, Argument("colliders", i, "goal"), "finite", worst(collider.goal));
+        if (!is_amount(collider.seconds))
+            return refused(op, Argument("colliders", i, "seconds"), "0 or more", collider.seconds);
     }
+    return check_handles(state.colliders, state.collider_slots, "colliders");
 }
 
 }  // namespace
 
-void check(const State& state) {
-    require(op, state.settings);
-    check_particles(state);
-    check_bodies(state);
-    check_links(state);
-    check_colliders(state);
-    check_pins(state);
-    if (!is_amount(state.remainder) || state.remainder > max_substep)
-        refuse("remainder must be 0 to a substep");
-    if (!is_amount(state.moved_in) || state.moved_in > max_substep) refuse("moved_in must be 0 to a substep");
+Result check(const State& state) {
+    if (const Result r = rope::check(op, state.settings); !r) return r;
+    for (const auto part : {check_particles, check_bodies, check_links, check_colliders, check_pins})
+        if (const Result r = part(state); !r) return r;
+    for (const auto& [name, value] :
+         {std::pair{"remainder", state.remainder}, {"displaced_in", state.displaced_in}}) {
+        if (!(value >= 0.0 && value <= max_substep))
+            return refused(op, name, "0 to the longest substep", value);
+    }
+    return {};
 }
 
 }  // namespace tendril::rope::detail

@@ -1,15 +1,16 @@
 // Whether a state holds together. Not installed.
 #pragma once
 
-#include "tendril/chain/segment.hpp"
-#include "tendril/rope/world.hpp"
+#include "tendril/magnitude.hpp"
+#include "tendril/result.hpp"
+#include "tendril/rope/state.hpp"
 
 namespace tendril::rope::detail {
 
 /// Metres each way that a particle moves in a substep at most: from one edge of the world to the other.
 inline constexpr double max_displacement = 2.0 * static_cast<double>(max_magnitude);
 
-/// Throws std::invalid_argument naming what is wrong and where.
-void check(const State& state);
+/// Refuses, naming what is wrong and where.
+Result check(const State& state);
 
 }  // namespace tendril::rope::detail

@@ -2,17 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
+#include <utility>
 
-#include "chain/checks.hpp"
+#include "math/checks.hpp"
 #include "rope/geometry.hpp"
 
 namespace tendril::rope {
 namespace {
 
 using glm::dvec3;
-using tendril::detail::refuse;
-using tendril::detail::text;
+using tendril::detail::check_length;
+using tendril::detail::check_point;
+using tendril::detail::refused;
 
 /// From a core (a point or a line) of some thickness; where there is no direction, along `otherwise`.
 SurfaceDistance from_core(const dvec3& by, double thickness, const dvec3& otherwise) {
@@ -57,38 +58,37 @@ SurfaceDistance of(const Box& box, const dvec3& point) {
     return {inside, axes.to_world(normal)};
 }
 
-void require_radius(const char* operation, float radius) {
-    if (radius >= 0.0f && radius <= max_magnitude) return;
-    refuse(operation, "radius", "at least 0 and at most " + text(max_magnitude) + " m", text(radius));
+Result check_radius(const char* operation, float radius) {
+    if (radius >= 0.0f && radius <= max_magnitude) return {};
+    return refused(operation, "radius", "at least 0 and at most 1e+09 m", radius);
 }
 
-void check(const char* operation, const Sphere& sphere) {
-    tendril::detail::require_point(operation, "centre", sphere.centre);
-    require_radius(operation, sphere.radius);
+Result check_each(const char* operation, const Sphere& sphere) {
+    const Result point = check_point(operation, "centre", sphere.centre);
+    return point ? check_radius(operation, sphere.radius) : point;
 }
-void check(const char* operation, const Capsule& capsule) {
-    tendril::detail::require_point(operation, "a", capsule.a);
-    tendril::detail::require_point(operation, "b", capsule.b);
-    require_radius(operation, capsule.radius);
+Result check_each(const char* operation, const Capsule& capsule) {
+    for (const auto& [name, end] : {std::pair{"a", capsule.a}, {"b", capsule.b}})
+        if (const Result bad = check_point(operation, name, end); !bad) return bad;
+    return check_radius(operation, capsule.radius);
 }
-void check(const char* operation, const Plane& plane) {
-    tendril::detail::require_point(operation, "point", plane.point);
-    tendril::detail::require_point(operation, "normal", plane.normal);
-    if (!(detail::length(dvec3(plane.normal)) > 1e-12)) {
-        refuse(operation, "normal", "longer than 0", "0");
+Result check_each(const char* operation, const Plane& plane) {
+    if (const Result bad = check_point(operation, "point", plane.point); !bad) return bad;
+    if (const Result bad = check_point(operation, "normal", plane.normal); !bad) return bad;
+    if (detail::length(dvec3(plane.normal)) > 1e-12) return {};
+    return refused(operation, "normal", "longer than 0", "0");
+}
+Result check_each(const char* operation, const Box& box) {
+    if (const Result bad = check_point(operation, "centre", box.centre); !bad) return bad;
+    for (int i = 0; i < 3; ++i) {
+        const Result bad = check_length(operation, "half_extents", box.half_extents[i]);
+        if (!bad) return bad;
     }
-}
-void check(const char* operation, const Box& box) {
-    tendril::detail::require_point(operation, "centre", box.centre);
-    for (int i = 0; i < 3; ++i)
-        tendril::detail::require_length(operation, "half_extents", box.half_extents[i]);
     const glm::quat& q = box.rotation;
     const double squared = static_cast<double>(q.x) * q.x + static_cast<double>(q.y) * q.y +
                            static_cast<double>(q.z) * q.z + static_cast<double>(q.w) * q.w;
-    if (!(squared > 1e-12 && squared < 1e12)) {
-        refuse(operation, "rotation", "a quaternion of length 1",
-               text(static_cast<float>(std::sqrt(squared))));
-    }
+    if (squared > 1e-12 && squared < 1e12) return {};
+    return refused(operation, "rotation", "a quaternion of length 1", static_cast<float>(std::sqrt(squared)));
 }
 
 }  // namespace
@@ -131,8 +131,8 @@ float size(const Shape& shape) noexcept {
     return 1.0f;
 }
 
-void require(const char* operation, const Shape& shape) {
-    std::visit([&](const auto& each) { check(operation, each); }, shape);
+Result check(const char* operation, const Shape& shape) noexcept {
+    return std::visit([&](const auto& each) { return check_each(operation, each); }, shape);
 }
 
 }  // namespace tendril::rope

@@ -41,7 +41,7 @@ void Substep::find_near() {
     if (state_.colliders.empty()) return;
     Bounds whole;
     for (std::size_t c = 0; c < plan_.chunks.size(); ++c) {
-        const World::Plan::Chunk& chunk = plan_.chunks[c];
+        const Plan::Chunk& chunk = plan_.chunks[c];
         Bounds bounds;
         double farthest = 0.0;
         for (std::uint32_t i = chunk.first; i < chunk.first + chunk.count; ++i) {
@@ -64,7 +64,7 @@ void Substep::find_near() {
     for (std::uint32_t c = 0; c < plan_.chunks.size(); ++c) {
         const Bounds chunk{scratch_.chunk_low[c], scratch_.chunk_high[c]};
         for (const std::uint32_t k : scratch_.close) {
-            const World::Scratch::Moving& collider = scratch_.colliders[k];
+            const Scratch::Moving& collider = scratch_.colliders[k];
             const bool meets = chunk.meets(collider.low, collider.high);
             if (!meets || detail::beyond(*collider.shape, chunk.low, chunk.high)) continue;
             scratch_.near.push_back({c, k});
@@ -98,8 +98,8 @@ void Substep::grip(std::uint32_t i) {
 }
 
 void Substep::push_out(bool first) {
-    for (const World::Scratch::Near& near : scratch_.near) {
-        const World::Plan::Chunk& chunk = plan_.chunks[near.chunk];
+    for (const Scratch::Near& near : scratch_.near) {
+        const Plan::Chunk& chunk = plan_.chunks[near.chunk];
         const double radius = state_.bodies[chunk.body].radius;
         report_.work += chunk.count;
         for (std::uint32_t i = chunk.first; i < chunk.first + chunk.count; ++i) {
@@ -116,7 +116,7 @@ void Substep::push_out(bool first) {
 
 void Substep::push_particle(std::uint32_t i, std::uint32_t number, double radius, bool first) {
     if (scratch_.weight[i] == 0.0) return;
-    const World::Scratch::Moving& collider = scratch_.colliders[number];
+    const Scratch::Moving& collider = scratch_.colliders[number];
     dvec3& place = scratch_.place[i];
     const double travelled = first ? detail::length(place - state_.position[i]) : 0.0;
     if (collider.far_from(place, radius + travelled)) return;
@@ -149,7 +149,7 @@ void Substep::push_particle(std::uint32_t i, std::uint32_t number, double radius
 }
 
 void Substep::push_link(const Link& link, std::uint32_t number, double radius) {
-    const World::Scratch::Moving& collider = scratch_.colliders[number];
+    const Scratch::Moving& collider = scratch_.colliders[number];
     if (link.rest <= collider.size) return;
     dvec3 &a = scratch_.place[link.a], &b = scratch_.place[link.b];
     const dvec3 along = b - a;

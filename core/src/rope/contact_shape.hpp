@@ -16,8 +16,8 @@ void bounds(const Shape& shape, const glm::dvec3& by, glm::dvec3& low, glm::dvec
 bool beyond(const Shape& shape, const glm::dvec3& low, const glm::dvec3& high) noexcept;
 
 inline constexpr int most_line_looks = 14;
-/// Where between the ends of the line from a (0) to b (1) a shape is nearest, or reaches deepest; no value where
-/// that is an end, or is further than `reach` away. Looks at most_line_looks distances at most.
+/// Where between the ends of the line from a (0) to b (1) a shape is nearest, or reaches deepest; no value
+/// where that is an end, or is further than `reach` away. Looks at most_line_looks distances at most.
 std::optional<double> nearest_between(const Shape& shape, const glm::dvec3& a, const glm::dvec3& b,
                                       double reach) noexcept;
 

@@ -1,4 +1,4 @@
-// Several runs side by side in memory, one a lane, for the direct solver. Not installed.
+// Several chains side by side in memory, one a lane, for the direct solver. Not installed.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 namespace tendril::rope::detail {
 
-/// Rows of a node. A node is a particle of a run; its link leads to the next node.
+/// Rows of a node. A node is a particle of a chain; its link leads to the next node.
 enum Row : std::size_t {
     X,
     Y,
@@ -16,14 +16,14 @@ enum Row : std::size_t {
     BaseZ,  ///< where it would be without any tension
     OldX,
     OldY,
-    OldZ,    ///< where it was one substep before the last; then: the unit direction of its link there
-    Weight,  ///< inverse mass; 0: it is held
-    Rest,    ///< of its link: length
-    Give,    ///< compliance, m/N, over h^2
-    Pull,    ///< tension times h^2
-    PullX,
-    PullY,
-    PullZ,  ///< the direction that its tension works in
+    OldZ,        ///< where it was one substep before the last; then: the unit direction of its link there
+    Weight,      ///< inverse mass; 0: it is held
+    Rest,        ///< of its link: length
+    Compliance,  ///< compliance, m/N, over h^2
+    Multiplier,  ///< tension times h^2
+    DirectionX,
+    DirectionY,
+    DirectionZ,  ///< the direction that its tension works in
     Upper,
     Right,  ///< of the tridiagonal system
     rows
@@ -31,7 +31,7 @@ enum Row : std::size_t {
 
 inline constexpr std::size_t most_lanes = 8;
 
-/// Runs of `links` links each, in `lanes` lanes. Where there are fewer runs the last one is there again.
+/// Runs of `links` links each, in `lanes` lanes. Where there are fewer chains the last one is there again.
 struct Block {
     double* data = nullptr;  ///< aligned to 64 bytes
     std::size_t links = 0;

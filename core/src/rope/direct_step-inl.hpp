@@ -103,7 +103,7 @@ class BlockSolver {
 
     /// How long a link is under the tension that there is.
     V stretched(std::size_t k) const {
-        const V longer = hn::Mul(load(k, Give), larger(load(k, Pull), hn::Zero(d_)));
+        const V longer = hn::Mul(load(k, Compliance), larger(load(k, Multiplier), hn::Zero(d_)));
         return larger(hn::Add(load(k, Rest), longer), set(1e-9));
     }
 
@@ -111,7 +111,7 @@ class BlockSolver {
     /// bound keeps a rope that cannot be as short as its pins ask from drowning all other digits.
     V stiffness(std::size_t k) const {
         const V both = hn::Add(load(k, Weight), load(k + 1, Weight));
-        const V half = hn::Div(hn::Mul(set(0.5), larger(load(k, Pull), hn::Zero(d_))), stretched(k));
+        const V half = hn::Div(hn::Mul(set(0.5), larger(load(k, Multiplier), hn::Zero(d_))), stretched(k));
         return smaller(half, hn::Div(set(1e8), larger(both, set(1e-30))));
     }
 
@@ -138,7 +138,7 @@ class BlockSolver {
             store(upper, k, Upper);
             store3(right, k, X);
             // What was taken in is what counts from here on.
-            if (!last) store(hn::Mul(hn::Mul(set(2.0), stiff), length), k, Pull);
+            if (!last) store(hn::Mul(hn::Mul(set(2.0), stiff), length), k, Multiplier);
             stiff_before = stiff;
             old_before = old;
         }
@@ -155,8 +155,8 @@ class BlockSolver {
         for (std::size_t k = 0; k < block_.links; ++k) {
             const V3 to = load3(k + 1, X), by = minus(to, from);
             const V rest = load(k, Rest);
-            const V error =
-                hn::Sub(hn::Sub(hn::Sqrt(dot(by, by)), rest), hn::Mul(load(k, Give), load(k, Pull)));
+            const V error = hn::Sub(hn::Sub(hn::Sqrt(dot(by, by)), rest),
+                                    hn::Mul(load(k, Compliance), load(k, Multiplier)));
             // What is no number counts as hopeless.
             const V part = hn::Div(hn::Abs(error), larger(rest, set(1e-9)));
             worst = larger(worst, smaller(part, set(1e300)));
@@ -175,8 +175,8 @@ class BlockSolver {
         for (std::size_t k = block_.links; k-- > 0;) {
             pull_after = hn::Sub(load(k, Right), hn::Mul(load(k, Upper), pull_after));
             const V pull = hn::IfThenElseZero(open, pull_after);
-            store(hn::Add(load(k, Pull), pull), k, Pull);
-            const V3 pulls = times(pull, load3(k, PullX));
+            store(hn::Add(load(k, Multiplier), pull), k, Multiplier);
+            const V3 pulls = times(pull, load3(k, DirectionX));
             move(k + 1, minus(pulls_after, pulls));
             pulls_after = pulls;
         }
@@ -203,11 +203,11 @@ class BlockSolver {
             const V3 mean = plus(times(after, lies), times(before, old));
             const V3 pull{hn::IfThenElse(slow, mean.x, lies.x), hn::IfThenElse(slow, mean.y, lies.y),
                           hn::IfThenElse(slow, mean.z, lies.z)};
-            store3(pull, k, PullX);
-            const V give = load(k, Give);
-            const V error = hn::Sub(hn::Sub(length, load(k, Rest)), hn::Mul(give, load(k, Pull)));
+            store3(pull, k, DirectionX);
+            const V compliance = load(k, Compliance);
+            const V error = hn::Sub(hn::Sub(length, load(k, Rest)), hn::Mul(compliance, load(k, Multiplier)));
             const V weight = load(k, Weight), both = hn::Add(weight, load(k + 1, Weight));
-            const V diagonal = hn::Add(hn::Mul(both, dot(lies, pull)), give);
+            const V diagonal = hn::Add(hn::Mul(both, dot(lies, pull)), compliance);
             const V lower = hn::Neg(hn::Mul(weight, dot(lies, pull_before)));
             const V up_before = hn::Neg(hn::Mul(weight, dot(lies_before, pull)));  // of row k - 1
             // The row before is finished only now that its upper entry is known.
@@ -218,8 +218,7 @@ class BlockSolver {
             }
             const V pivot =
                 hn::Sub(hn::Add(diagonal, hn::Mul(set(order.damping), both)), hn::Mul(lower, upper_ready));
-            const V inverse =
-                hn::Div(set(1.0), larger(pivot, larger(hn::Mul(set(1e-10), both), set(1e-30))));
+            const V inverse = hn::Div(set(1.0), larger(pivot, larger(hn::Mul(set(1e-10), both), set(1e-30))));
             // Between two nodes that are held there is nothing to solve.
             const auto fixed = hn::Le(both, zero);
             right_before =

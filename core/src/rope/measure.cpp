@@ -23,11 +23,11 @@ double error_of(const State& state, const Link& link) {
 
 double particle_energy(const State& state, std::size_t first, std::size_t count) {
     const glm::dvec3 acceleration = detail::acceleration(state.settings);
-    const double rate = state.moved_in > 0.0 ? 0.5 / state.moved_in : 0.0;
+    const double rate = state.displaced_in > 0.0 ? 0.5 / state.displaced_in : 0.0;
     double energy = 0.0;
     for (std::size_t i = first; i < first + count; ++i) {
-        const glm::dvec3 velocity = rate * (state.moved[i] + state.before[i]);
-        const glm::dvec3 then = state.position[i] - state.moved[i];
+        const glm::dvec3 velocity = rate * (state.displacement[i] + state.earlier[i]);
+        const glm::dvec3 then = state.position[i] - state.displacement[i];
         energy += state.mass[i] * (0.5 * detail::dot(velocity, velocity) - detail::dot(acceleration, then));
     }
     return energy;
@@ -37,16 +37,16 @@ double particle_energy(const State& state, std::size_t first, std::size_t count)
 double link_energy(const Settings& settings, const Link& link) {
     const bool stretch = link.kind == Link::Kind::Stretch;
     if (stretch && settings.solver == Solver::Relaxation) return 0.0;
-    const double give =
+    const double compliance =
         link.compliance + (stretch ? static_cast<double>(settings.compliance) * link.rest : 0.0);
-    return 0.5 * give * link.tension * link.tension;
+    return 0.5 * compliance * link.tension * link.tension;
 }
 
 }  // namespace
 
-glm::vec3 World::velocity(std::size_t particle) const noexcept {
-    if (state_.moved_in <= 0.0) return glm::vec3(0.0f);
-    return glm::vec3((1.0 / state_.moved_in) * state_.moved[particle]);
+glm::dvec3 World::velocity(std::size_t particle) const noexcept {
+    if (state_.displaced_in <= 0.0) return glm::dvec3(0.0);
+    return (1.0 / state_.displaced_in) * state_.displacement[particle];
 }
 
 double World::length_error(const Body& body) const noexcept {

@@ -20,7 +20,7 @@ bool follows(const Link& before, const Link& link) {
 
 }  // namespace
 
-World::Plan::Plan(const State& state) {
+Plan::Plan(const State& state) {
     const std::vector<std::uint32_t> touching = count_links(state);
     for (std::uint32_t i = 0; i < state.links.size();) {
         const Link& first = state.links[i];
@@ -28,56 +28,74 @@ World::Plan::Plan(const State& state) {
             soft.push_back(i++);
             continue;
         }
-        Run run{.first_link = i, .links = 1, .first_node = static_cast<std::uint32_t>(nodes.size())};
+        Chain chain{.first_link = i, .links = 1, .first_node = static_cast<std::uint32_t>(nodes.size())};
         nodes.push_back(first.a);
         nodes.push_back(first.b);
-        while (i + run.links < state.links.size() &&
-               follows(state.links[i + run.links - 1], state.links[i + run.links])) {
-            nodes.push_back(state.links[i + run.links].b);
-            ++run.links;
+        while (i + chain.links < state.links.size() &&
+               follows(state.links[i + chain.links - 1], state.links[i + chain.links])) {
+            nodes.push_back(state.links[i + chain.links].b);
+            ++chain.links;
         }
-        run.alone = true;
-        for (std::uint32_t k = 0; k <= run.links; ++k) {
-            const std::uint32_t own = k == 0 || k == run.links ? 1 : 2;
-            run.alone = run.alone && touching[nodes[run.first_node + k]] == own;
+        chain.alone = true;
+        for (std::uint32_t k = 0; k <= chain.links; ++k) {
+            const std::uint32_t own = k == 0 || k == chain.links ? 1 : 2;
+            chain.alone = chain.alone && touching[nodes[chain.first_node + k]] == own;
         }
-        i += run.links;
-        longest = std::max(longest, run.links);
-        runs.push_back(run);
+        i += chain.links;
+        longest = std::max(longest, chain.links);
+        chains.push_back(chain);
     }
-    group_runs(state.position.size());
+    group_chains(state.position.size());
     cut_into_chunks(state);
     name_bodies(state);
-    all_alone =
-        soft.empty() && std::all_of(runs.begin(), runs.end(), [](const Run& run) { return run.alone; });
+    all_alone = soft.empty() &&
+                std::all_of(chains.begin(), chains.end(), [](const Chain& chain) { return chain.alone; });
+    particles_ = state.position.size();
+    joined_.reserve(state.links.size());
+    for (const Link& link : state.links) joined_.push_back({link.a, link.b, link.rest, link.kind});
+    for (const Body& body : state.bodies) ranges_.push_back({body.first, body.count, body.tear > 0.0f});
     tears =
         std::any_of(state.bodies.begin(), state.bodies.end(), [](const Body& b) { return b.tear > 0.0f; });
 }
 
-void World::Plan::group_runs(std::size_t particles) {
+bool Plan::fits(const State& state) const noexcept {
+    return particles_ == state.position.size() &&
+           std::equal(state.links.begin(), state.links.end(), joined_.begin(), joined_.end(),
+                      [](const Link& link, const Joined& joined) {
+                          return link.a == joined.a && link.b == joined.b && link.rest == joined.rest &&
+                                 link.kind == joined.kind;
+                      }) &&
+           std::equal(state.bodies.begin(), state.bodies.end(), ranges_.begin(), ranges_.end(),
+                      [](const Body& body, const Range& range) {
+                          return body.first == range.first && body.count == range.count &&
+                                 (body.tear > 0.0f) == range.tears;
+                      });
+}
+
+void Plan::group_chains(std::size_t particles) {
     std::vector<std::uint32_t> taken(particles, 0);  // by the group of that number, counted from 1
-    for (std::uint32_t i = 0; i < runs.size(); ++i) {
-        const Run& run = runs[i];
+    for (std::uint32_t i = 0; i < chains.size(); ++i) {
+        const Chain& chain = chains[i];
         const auto number = static_cast<std::uint32_t>(groups.size());
-        bool joins = i > 0 && runs[i - 1].links == run.links && runs[i - 1].alone == run.alone;
-        for (std::uint32_t k = 0; joins && k <= run.links; ++k)
-            joins = taken[nodes[run.first_node + k]] != number;
-        if (!joins) groups.push_back({.first_run = i, .runs = 0, .alone = run.alone});
-        ++groups.back().runs;
-        for (std::uint32_t k = 0; k <= run.links; ++k)
-            taken[nodes[run.first_node + k]] = static_cast<std::uint32_t>(groups.size());
+        bool joins = i > 0 && chains[i - 1].links == chain.links && chains[i - 1].alone == chain.alone;
+        for (std::uint32_t k = 0; joins && k <= chain.links; ++k)
+            joins = taken[nodes[chain.first_node + k]] != number;
+        if (!joins) groups.push_back({.first_chain = i, .chains = 0, .alone = chain.alone});
+        ++groups.back().chains;
+        for (std::uint32_t k = 0; k <= chain.links; ++k)
+            taken[nodes[chain.first_node + k]] = static_cast<std::uint32_t>(groups.size());
     }
 }
 
-void World::Plan::name_bodies(const State& state) {
-    for (Run& run : runs) {
-        const auto after = std::upper_bound(state.bodies.begin(), state.bodies.end(), nodes[run.first_node],
+void Plan::name_bodies(const State& state) {
+    for (Chain& chain : chains) {
+        const auto after = std::upper_bound(state.bodies.begin(), state.bodies.end(), nodes[chain.first_node],
                                             [](std::uint32_t i, const Body& body) { return i < body.first; });
-        run.body = static_cast<std::uint32_t>(after - state.bodies.begin()) - 1;
+        chain.body = static_cast<std::uint32_t>(after - state.bodies.begin()) - 1;
     }
 }
 
-void World::Plan::cut_into_chunks(const State& state) {
+void Plan::cut_into_chunks(const State& state) {
     for (std::uint32_t b = 0; b < state.bodies.size(); ++b) {
         const Body& body = state.bodies[b];
         for (std::size_t at = 0; at < body.count; at += chunk_size) {

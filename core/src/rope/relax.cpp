@@ -11,13 +11,13 @@ void Substep::satisfy(std::uint32_t number, double compliance) {
     if (weight_a + weight_b == 0.0) return;
     glm::dvec3 &a = scratch_.place[link.a], &b = scratch_.place[link.b];
     const glm::dvec3 by = b - a;
-    const double length = detail::length(by), give = compliance / (h_ * h_);
+    const double length = detail::length(by), softness = compliance / (h_ * h_);
     const glm::dvec3 along = length > 1e-30 ? (1.0 / length) * by : glm::dvec3(1.0, 0.0, 0.0);
-    const double error = length - link.rest - give * scratch_.pull[number];
-    const double pull = error / (weight_a + weight_b + give);
-    scratch_.pull[number] += pull;
-    a += (weight_a * pull) * along;
-    b -= (weight_b * pull) * along;
+    const double error = length - link.rest - softness * scratch_.multiplier[number];
+    const double change = error / (weight_a + weight_b + softness);
+    scratch_.multiplier[number] += change;
+    a += (weight_a * change) * along;
+    b -= (weight_b * change) * along;
 }
 
 void Substep::satisfy_soft() {
@@ -25,7 +25,7 @@ void Substep::satisfy_soft() {
 }
 
 int Substep::relax(bool compliant) {
-    std::fill(scratch_.pull.begin(), scratch_.pull.end(), 0.0);
+    std::fill(scratch_.multiplier.begin(), scratch_.multiplier.end(), 0.0);
     const int passes = passes_allowed();
     for (int pass = 0; pass < passes; ++pass) {
         report_.work += state_.links.size();

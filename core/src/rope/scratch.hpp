@@ -1,13 +1,13 @@
-// What a world works with while it is advanced; nothing in it is remembered. Not installed.
+// What is in a workspace; nothing of it is remembered from one substep to the next. Not installed.
 #pragma once
 
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "rope/direct_block.hpp"
 #include "rope/plan.hpp"
+#include "tendril/rope/workspace.hpp"
 
 namespace tendril::rope {
 
@@ -19,11 +19,11 @@ struct Touch {
     bool touching = false;
 };
 
-struct World::Scratch {
-    std::vector<glm::dvec3> place;  ///< where each particle is as yet
-    std::vector<glm::dvec3> base;   ///< where it would be if nothing held it
-    std::vector<double> weight;     ///< inverse mass; 0: pinned
-    std::vector<double> pull;       ///< of each link: tension times h^2
+struct Scratch {
+    std::vector<glm::dvec3> place;   ///< where each particle is as yet
+    std::vector<glm::dvec3> base;    ///< where it would be if nothing held it
+    std::vector<double> weight;      ///< inverse mass; 0: pinned
+    std::vector<double> multiplier;  ///< of each link: tension times h^2
     std::vector<Touch> touch;
     std::vector<std::uint32_t> touched;  ///< particles with a touch
     struct Near {
@@ -47,14 +47,24 @@ struct World::Scratch {
         }
     };
     std::vector<Moving> colliders;
-    std::vector<double> run_worst;  ///< of each run: relative length error after its last pass
-    std::vector<double> run_gain;   ///< of each run: energy it has more of than before, joules
-    std::vector<double> run_scale;  ///< of each run: what its motion keeps, so that no energy is gained
-    std::vector<double> block;      ///< memory of a block
+    std::vector<double> chain_error;  ///< of each chain: relative length error after its last pass
+    std::vector<double> chain_gain;   ///< of each chain: energy it has more of than before, joules
+    std::vector<double> chain_scale;  ///< of each chain: what its motion keeps, so that no energy is gained
+    std::vector<double> block;        ///< memory of a block
     std::size_t block_offset = 0;
+    std::vector<std::uint32_t> collider_at;  ///< where a slot's collider is in the list
     detail::VectorUnit unit;
-    std::string unit_name;
-    bool fresh = true;  ///< sizes are not those of the world
+};
+
+struct Workspace::Parts {
+    Plan plan;
+    Scratch scratch;
+    bool prepared = false;  ///< sizes follow from a plan
+
+    /// Makes everything fit a state.
+    void prepare(const State& state);
+    /// Links or bodies are other ones now.
+    void replan(const State& state);
 };
 
 }  // namespace tendril::rope

@@ -2,13 +2,14 @@
 #pragma once
 
 #include "rope/scratch.hpp"
+#include "tendril/rope/world.hpp"
 
 namespace tendril::rope {
 
 class Substep {
   public:
     /// What it did is added to `report`.
-    Substep(State& state, const World::Plan& plan, World::Scratch& scratch, Advance& report);
+    Substep(State& state, const Plan& plan, Scratch& scratch, Advance& report);
     /// Whether bodies are told how far they are stretched in the end.
     bool measures = false;
     void run();
@@ -30,25 +31,25 @@ class Substep {
     Touch& touch(std::uint32_t i, std::uint32_t collider, const glm::dvec3& normal);
 
     // last_push.cpp: what is still inside after the last pass
-    void push_out_for_good();
+    void depenetrate();
 
     // relax.cpp: one link after the other
     int relax(bool compliant);
     void satisfy(std::uint32_t link, double compliance);
     void satisfy_soft();
 
-    // direct.cpp: whole runs at once
+    // direct.cpp: whole chains at once
     struct Batch;
     int direct();
-    double solve_group(const World::Plan::Group& group, int iteration);
+    double solve_group(const Plan::Group& group, int iteration);
     double solve_batch(const Batch& batch, int iteration);
-    void again(std::uint32_t run);
-    void rescue();
+    void again(std::uint32_t chain);
+    void fall_back();
     void gather(const detail::Block& block, const Batch& batch) const;
-    void scatter(const detail::Block& block, std::uint32_t lane, std::uint32_t run);
-    double energy_gained(std::uint32_t run) const;
-    bool gains_energy(std::uint32_t run, double part) const;
-    double energy_scale(std::uint32_t run) const;
+    void scatter(const detail::Block& block, std::uint32_t lane, std::uint32_t chain);
+    double energy_gained(std::uint32_t chain) const;
+    bool gains_energy(std::uint32_t chain, double part) const;
+    double energy_scale(std::uint32_t chain) const;
     void limit_energy();
 
     double compliance_of(const Link& link) const {
@@ -56,8 +57,8 @@ class Substep {
     }
 
     State& state_;
-    const World::Plan& plan_;
-    World::Scratch& scratch_;
+    const Plan& plan_;
+    Scratch& scratch_;
     Advance& report_;
     double h_;
     glm::dvec3 acceleration_;

@@ -2,52 +2,34 @@
 #include "tendril/rope/world.hpp"
 
 #include <algorithm>
-#include <stdexcept>
+#include <type_traits>
 
-#include "chain/checks.hpp"
+#include "math/checks.hpp"
 #include "rope/build.hpp"
 #include "rope/check_state.hpp"
 #include "rope/geometry.hpp"
-#include "rope/scratch.hpp"
+#include "rope/slots.hpp"
 
 namespace tendril::rope {
 namespace {
 
-using tendril::detail::refuse;
-
-std::string quoted(std::string_view name) {
-    std::string text(1, '"');
-    return text.append(name).append(1, '"');
-}
-
-template <class List>
-auto named(List& list, std::string_view name) {
-    return std::find_if(list.begin(), list.end(), [&](const auto& each) { return each.name == name; });
-}
-
-/// `wanted`, if it is free; where none is wanted, the first that is: "rope", "rope 2", ...
-std::string free_name(const State& state, const char* operation, const std::string& wanted,
-                      const std::string& kind) {
-    const auto is_free = [&](const std::string& name) {
-        return named(state.bodies, name) == state.bodies.end();
-    };
-    if (!wanted.empty()) {
-        if (!is_free(wanted)) refuse(operation, "name", "one that no other body has", quoted(wanted));
-        return wanted;
-    }
-    std::string name = kind;
-    for (int i = 2; !is_free(name); ++i) name = kind + " " + std::to_string(i);
-    return name;
-}
+using detail::missing;
+using tendril::detail::check_index;
+using tendril::detail::check_point;
+using tendril::detail::refused;
 
 auto pin_of(std::vector<Pin>& pins, std::size_t particle) {
     return std::lower_bound(pins.begin(), pins.end(), particle,
                             [](const Pin& pin, std::size_t number) { return pin.particle < number; });
 }
 
-void require_time(const char* operation, double seconds) {
-    if (seconds >= 0.0 && seconds <= max_magnitude) return;
-    refuse(operation, "seconds", "0 or more", tendril::detail::text(static_cast<float>(seconds)));
+Result check_time(const char* operation, double seconds) {
+    if (seconds >= 0.0 && seconds <= static_cast<double>(max_magnitude)) return {};
+    return refused(operation, "seconds", "0 or more", seconds);
+}
+
+Result check_particle(const char* operation, std::size_t particle, std::size_t size) {
+    return check_index(operation, particle, size, "the world", "particle");
 }
 
 /// Takes out of `list` what is from `first` on.
@@ -57,94 +39,79 @@ void erase_range(std::vector<T>& list, std::size_t first, std::size_t count) {
     list.erase(from, from + static_cast<std::ptrdiff_t>(count));
 }
 
+/// In slots from 0 on, in their order, unless they have handles already.
+template <class List>
+void number(List& list, std::vector<std::uint32_t>& slots) {
+    if (list.empty() || list.front().id) return;
+    slots.assign(list.size(), 1);
+    for (std::uint32_t i = 0; i < list.size(); ++i) list[i].id = {i, 1};
+}
+
 }  // namespace
 
-World::World() = default;
-World::World(State state) : state_(std::move(state)) {
-    detail::check(state_);
-}
-World::World(const World& other) : state_(other.state_), plan_(other.plan_) {
-    if (other.scratch_ && !other.scratch_->unit_name.empty()) use_vector_unit(other.scratch_->unit_name);
-}
-World::World(World&&) noexcept = default;
-World& World::operator=(const World& other) {
-    World copy(other);
-    return *this = std::move(copy);
-}
-World& World::operator=(World&&) noexcept = default;
-World::~World() = default;
-
-void World::built() noexcept {
-    const double stretch = length_error(state_.bodies.back());
-    state_.bodies.back().stretch = static_cast<float>(std::min(stretch, static_cast<double>(max_magnitude)));
-    reshaped();
+void number_slots(State& state) {
+    number(state.bodies, state.body_slots);
+    number(state.colliders, state.collider_slots);
 }
 
-void World::reshaped() noexcept {
-    plan_.reset();
-    if (scratch_) scratch_->fresh = true;
+Expected<World> World::from_state(State state) {
+    if (const Result bad = detail::check(state); !bad) return bad;
+    World world;
+    world.state_ = std::move(state);
+    return world;
 }
 
-void World::set_settings(const Settings& settings) {
-    require("set_settings", settings);
-    state_.settings = settings;
-}
-
-void World::use_vector_unit(std::string_view name) {
-    const bool single = name == "none";
-    const detail::VectorUnit unit = detail::vector_unit(single ? "" : name);
-    if (unit.solve == nullptr)
-        refuse("use_vector_unit", "name", "one of ik::vector_units(), or \"none\"", quoted(name));
-    if (!scratch_) scratch_ = std::make_unique<Scratch>();
-    scratch_->unit = single ? detail::VectorUnit{unit.single, unit.single, 1} : unit;
-    scratch_->unit_name = name;
-    scratch_->fresh = true;
-}
-
-void World::trim() noexcept {
-    if (!scratch_) return;
-    const std::string name = scratch_->unit_name;
-    const detail::VectorUnit unit = scratch_->unit;
-    *scratch_ = Scratch{};
-    scratch_->unit_name = name;
-    scratch_->unit = unit;
+Result World::set_settings(const Settings& settings) noexcept {
+    const Result result = check("set_settings", settings);
+    if (result) state_.settings = settings;
+    return result;
 }
 
 void World::clear() noexcept {
-    const Settings settings = state_.settings;
-    state_ = State{};
-    state_.settings = settings;
-    reshaped();
+    for (const Body& body : state_.bodies) detail::free_slot(state_.body_slots, body.id);
+    for (const Collider& collider : state_.colliders) detail::free_slot(state_.collider_slots, collider.id);
+    State empty;
+    empty.settings = state_.settings;
+    empty.body_slots = std::move(state_.body_slots);
+    empty.collider_slots = std::move(state_.collider_slots);
+    state_ = std::move(empty);
 }
 
-std::string World::add_rope(const RopeShape& shape) {
-    std::string name = free_name(state_, "add_rope", shape.name, "rope");
-    detail::build(state_, shape, name);
-    built();
-    return name;
+void World::take_stretch(Body& body) noexcept {
+    body.stretch = static_cast<float>(std::min(length_error(body), static_cast<double>(max_magnitude)));
 }
 
-std::string World::add_sheet(const SheetShape& shape) {
-    std::string name = free_name(state_, "add_sheet", shape.name, "sheet");
-    detail::build(state_, shape, name);
-    built();
-    return name;
+Expected<BodyId> World::add_rope(const RopeShape& shape) {
+    detail::Draft draft;
+    if (const Result bad = detail::draft_rope(state_, shape, draft); !bad) return bad;
+    Expected<BodyId> added = detail::append(state_, "add_rope", std::move(draft));
+    if (added) take_stretch(state_.bodies.back());
+    return added;
 }
 
-std::string World::add_lock(const LockShape& shape) {
-    std::string name = free_name(state_, "add_lock", shape.name, "lock");
-    detail::build(state_, shape, name);
-    built();
-    return name;
+Expected<BodyId> World::add_cloth(const ClothShape& shape) {
+    detail::Draft draft;
+    if (const Result bad = detail::draft_cloth(state_, shape, draft); !bad) return bad;
+    Expected<BodyId> added = detail::append(state_, "add_cloth", std::move(draft));
+    if (added) take_stretch(state_.bodies.back());
+    return added;
 }
 
-void World::remove(std::string_view body) {
-    const auto found = named(state_.bodies, body);
-    if (found == state_.bodies.end()) refuse("remove", "body", "the name of one", quoted(body));
-    const std::size_t first = found->first, count = found->count, end = first + count;
+Expected<BodyId> World::add_hair(const HairShape& shape) {
+    detail::Draft draft;
+    if (const Result bad = detail::draft_hair(state_, shape, draft); !bad) return bad;
+    Expected<BodyId> added = detail::append(state_, "add_hair", std::move(draft));
+    if (added) take_stretch(state_.bodies.back());
+    return added;
+}
+
+Result World::remove(BodyId body) noexcept {
+    const Body* gone = found(body);
+    if (gone == nullptr) return missing("remove", "body", "body", body.index);
+    const std::size_t first = gone->first, count = gone->count, end = first + count;
     erase_range(state_.position, first, count);
-    erase_range(state_.moved, first, count);
-    erase_range(state_.before, first, count);
+    erase_range(state_.displacement, first, count);
+    erase_range(state_.earlier, first, count);
     erase_range(state_.mass, first, count);
     const auto inside = [&](std::size_t particle) { return particle >= first && particle < end; };
     std::erase_if(state_.links, [&](const Link& link) { return inside(link.a) || inside(link.b); });
@@ -154,54 +121,65 @@ void World::remove(std::string_view body) {
     };
     for (Link& link : state_.links) renumber(link.a), renumber(link.b);
     for (Pin& pin : state_.pins) renumber(pin.particle);
-    state_.bodies.erase(found);
+    detail::free_slot(state_.body_slots, body);
+    erase_range(state_.bodies, static_cast<std::size_t>(gone - state_.bodies.data()), 1);
     for (Body& each : state_.bodies) renumber(each.first);
-    reshaped();
+    return {};
 }
 
-const Body* World::find(std::string_view body) const noexcept {
-    const auto found = named(state_.bodies, body);
-    return found == state_.bodies.end() ? nullptr : &*found;
+Body* World::found(BodyId body) noexcept {
+    return detail::find_in(state_.bodies, body);
+}
+const Body* World::find(BodyId body) const noexcept {
+    return detail::find_in(state_.bodies, body);
+}
+Collider* World::found(ColliderId collider) noexcept {
+    return detail::find_in(state_.colliders, collider);
+}
+const Collider* World::find(ColliderId collider) const noexcept {
+    return detail::find_in(state_.colliders, collider);
 }
 
-std::size_t World::particle(std::string_view body, std::size_t index) const {
-    const Body* found = find(body);
-    if (found == nullptr) refuse("particle", "body", "the name of one", quoted(body));
-    tendril::detail::require_index("particle", index, found->count);
-    return found->first + index;
+Expected<std::size_t> World::particle(BodyId body, std::size_t index) const noexcept {
+    const Body* of = find(body);
+    if (of == nullptr) return missing("particle", "body", "body", body.index);
+    if (const Result bad = check_index("particle", index, of->count, "the body", "particle"); !bad)
+        return bad;
+    return of->first + index;
 }
 
-void World::pin(std::size_t particle, const glm::vec3& at, double seconds) {
-    tendril::detail::require_index("pin", particle, size());
-    tendril::detail::require_point("pin", "at", at);
-    require_time("pin", seconds);
+Result World::pin(std::size_t particle, const glm::dvec3& at, double seconds) {
+    if (const Result bad = check_particle("pin", particle, size()); !bad) return bad;
+    if (const Result bad = check_point("pin", "at", glm::vec3(at)); !bad) return bad;
+    if (const Result bad = check_time("pin", seconds); !bad) return bad;
     const auto place = pin_of(state_.pins, particle);
-    const Pin pin{.particle = particle, .goal = glm::dvec3(at), .seconds = seconds, .collider = {}};
+    const Pin pin{.particle = particle, .goal = at, .seconds = seconds, .collider = {}};
     if (place != state_.pins.end() && place->particle == particle) {
         *place = pin;
     } else {
         state_.pins.insert(place, pin);
     }
+    return {};
 }
 
-void World::attach(std::size_t particle, std::string_view collider) {
-    tendril::detail::require_index("attach", particle, size());
-    const Collider* holder = find_collider(collider);
-    if (holder == nullptr) refuse("attach", "collider", "the name of one", quoted(collider));
-    const glm::dvec3 offset = state_.position[particle] - glm::dvec3(centre(holder->shape));
-    pin(particle, position(particle));
+Result World::attach(std::size_t particle, ColliderId collider) {
+    if (const Result bad = check_particle("attach", particle, size()); !bad) return bad;
+    const Collider* holder = find(collider);
+    if (holder == nullptr) return missing("attach", "collider", "collider", collider.index);
+    if (const Result bad = pin(particle, position(particle)); !bad) return bad;
     const auto place = pin_of(state_.pins, particle);
-    place->goal = offset;
-    place->collider = holder->name;  // the argument may be the name of a pin, which has moved
+    place->goal = state_.position[particle] - glm::dvec3(centre(holder->shape));
+    place->collider = collider;
+    return {};
 }
 
-void World::unpin(std::size_t particle) {
-    tendril::detail::require_index("unpin", particle, size());
+Result World::unpin(std::size_t particle) noexcept {
+    if (const Result bad = check_particle("unpin", particle, size()); !bad) return bad;
     const auto place = pin_of(state_.pins, particle);
-    if (place == state_.pins.end() || place->particle != particle) {
-        refuse("unpin", "particle", "a pinned one", std::to_string(particle));
-    }
+    if (place == state_.pins.end() || place->particle != particle)
+        return refused("unpin", "particle", "a pinned one", particle);
     state_.pins.erase(place);
+    return {};
 }
 
 bool World::pinned(std::size_t particle) const noexcept {
@@ -211,72 +189,60 @@ bool World::pinned(std::size_t particle) const noexcept {
     return place != state_.pins.end() && place->particle == particle;
 }
 
-std::string World::cut(std::string_view rope, std::size_t segment) {
-    const auto found = named(state_.bodies, rope);
-    if (found == state_.bodies.end()) refuse("cut", "rope", "the name of one", quoted(rope));
-    if (found->kind != Body::Kind::Rope) refuse("cut", "rope", "a rope, not a sheet or a lock", quoted(rope));
-    tendril::detail::require_index("cut", segment, found->count - 1);
-    std::string name;
-    for (int i = 2; name.empty() || find(name) != nullptr; ++i) name = found->name + " " + std::to_string(i);
-
+Expected<BodyId> World::cut(BodyId rope, std::size_t segment) {
+    Body* const whole = found(rope);
+    if (whole == nullptr) return missing("cut", "rope", "body", rope.index);
+    if (whole->kind != Body::Kind::Rope) return refused("cut", "rope", "a rope", "a cloth or hair");
+    if (const Result bad = check_index("cut", segment, whole->count - 1, "the rope", "segment"); !bad)
+        return bad;
     const std::size_t kept = segment + 1;
-    Body rest = *found;
-    rest.name = name;
+    Body rest = *whole;
     rest.first += kept;
     rest.count -= kept;
     rest.row = rest.count;
-    const auto at = static_cast<std::uint32_t>(found->first + segment);
-    found->count = found->row = kept;
-    state_.bodies.insert(found + 1, rest);
+    const auto at = static_cast<std::uint32_t>(whole->first + segment);
+    whole->count = whole->row = kept;
+    rest.id = detail::take_slot<BodyId>(state_.body_slots, state_.bodies.size());
+    state_.bodies.insert(state_.bodies.begin() + (whole - state_.bodies.data()) + 1, rest);
     std::erase_if(state_.links, [&](const Link& link) { return link.a == at && link.b == at + 1; });
-    reshaped();
-    return name;
+    return rest.id;
 }
 
-void World::add_collider(std::string name, const Shape& shape) {
-    if (name.empty()) refuse("add_collider", "name", "a name", quoted(name));
-    if (find_collider(name) != nullptr) {
-        refuse("add_collider", "name", "one that no other collider has", quoted(name));
-    }
-    require("add_collider", shape);
-    state_.colliders.push_back(
-        {.name = std::move(name), .shape = shape, .goal = glm::dvec3(centre(shape)), .seconds = 0.0});
-    reshaped();
+Expected<ColliderId> World::add_collider(const Shape& shape) {
+    if (const Result bad = check("add_collider", shape); !bad) return bad;
+    const auto id = detail::take_slot<ColliderId>(state_.collider_slots, state_.colliders.size());
+    state_.colliders.push_back({.id = id, .shape = shape, .goal = glm::dvec3(centre(shape)), .seconds = 0.0});
+    return id;
 }
 
-Collider& World::collider(const char* operation, std::string_view name) {
-    const auto found = named(state_.colliders, name);
-    if (found == state_.colliders.end()) refuse(operation, "name", "that of a collider", quoted(name));
-    return *found;
+Result World::move_collider(ColliderId collider, const glm::vec3& to, double seconds) noexcept {
+    Collider* const moving = found(collider);
+    if (moving == nullptr) return missing("move_collider", "collider", "collider", collider.index);
+    if (const Result bad = check_point("move_collider", "to", to); !bad) return bad;
+    if (const Result bad = check("move_collider", moved(moving->shape, to)); !bad) return bad;
+    if (const Result bad = check_time("move_collider", seconds); !bad) return bad;
+    moving->goal = glm::dvec3(to);
+    moving->seconds = seconds;
+    return {};
 }
 
-void World::move_collider(std::string_view name, const glm::vec3& to, double seconds) {
-    Collider& moving = collider("move_collider", name);
-    tendril::detail::require_point("move_collider", "to", to);
-    require("move_collider", moved(moving.shape, to));
-    require_time("move_collider", seconds);
-    moving.goal = glm::dvec3(to);
-    moving.seconds = seconds;
+Result World::set_collider(ColliderId collider, const Shape& shape) noexcept {
+    Collider* const there = found(collider);
+    if (there == nullptr) return missing("set_collider", "collider", "collider", collider.index);
+    if (const Result bad = check("set_collider", shape); !bad) return bad;
+    there->shape = shape;
+    there->goal = glm::dvec3(centre(shape));
+    there->seconds = 0.0;
+    return {};
 }
 
-void World::set_collider(std::string_view name, const Shape& shape) {
-    Collider& there = collider("set_collider", name);
-    require("set_collider", shape);
-    there.shape = shape;
-    there.goal = glm::dvec3(centre(shape));
-    there.seconds = 0.0;
-}
-
-void World::remove_collider(std::string_view name) {
-    const std::string gone = collider("remove_collider", name).name;  // `name` may be part of what is erased
-    std::erase_if(state_.pins, [&](const Pin& pin) { return pin.collider == gone; });
-    std::erase_if(state_.colliders, [&](const Collider& each) { return each.name == gone; });
-    reshaped();
-}
-
-const Collider* World::find_collider(std::string_view name) const noexcept {
-    const auto found = named(state_.colliders, name);
-    return found == state_.colliders.end() ? nullptr : &*found;
+Result World::remove_collider(ColliderId collider) noexcept {
+    const Collider* const gone = find(collider);
+    if (gone == nullptr) return missing("remove_collider", "collider", "collider", collider.index);
+    std::erase_if(state_.pins, [&](const Pin& pin) { return pin.collider == collider; });
+    detail::free_slot(state_.collider_slots, collider);
+    erase_range(state_.colliders, static_cast<std::size_t>(gone - state_.colliders.data()), 1);
+    return {};
 }
 
 }  // namespace tendril::rope

@@ -16,13 +16,13 @@ Monkey monkey_in(App& app, unsigned seed) {
         if (command.name.starts_with("rope.")) names.push_back(command.name);
     return Monkey(
         app, seed, std::move(names),
-        {"rope", "rope 2", "short 1", "sheet", "lock", "ball", "bar", "ground", "chain", "", "\xFF"});
+        {"rope", "rope 2", "short 1", "cloth", "hair", "ball", "bar", "ground", "chain", "", "\xFF"});
 }
 
-void expect_finite_world(const rope::World& world) {
+void expect_finite_world(const NamedWorld& world) {
     const rope::State& state = world.state();
     for (std::size_t i = 0; i < world.size(); ++i)
-        for (const glm::dvec3& v : {state.position[i], state.moved[i], state.before[i]})
+        for (const glm::dvec3& v : {state.position[i], state.displacement[i], state.earlier[i]})
             for (int axis = 0; axis < 3; ++axis) ASSERT_TRUE(std::isfinite(v[axis])) << i;
     std::size_t particles = 0;
     for (const rope::Body& body : state.bodies) particles += body.count;
@@ -31,10 +31,11 @@ void expect_finite_world(const rope::World& world) {
 
 /// What stays whatever time does: names, sizes, settings.
 Json lasting(App& app) {
-    const rope::State& state = rope_part(app.workspace()).world->state();
+    const NamedWorld& world = *rope_part(app.workspace()).world;
+    const rope::State& state = world.state();
     Json bodies = Json::array(), colliders = Json::array();
-    for (const rope::Body& body : state.bodies) bodies.push_back({body.name, body.count, body.row});
-    for (const rope::Collider& collider : state.colliders) colliders.push_back(collider.name);
+    for (const rope::Body& body : state.bodies) bodies.push_back({world.name(body), body.count, body.row});
+    for (const rope::Collider& collider : state.colliders) colliders.push_back(world.name(collider));
     return {bodies, colliders, state.settings.iterations, state.settings.substep, state.settings.friction};
 }
 

@@ -72,7 +72,7 @@ TEST(RopeInTheWindow, ARecordingOfItAllEndsInTheSameState) {
     const ScriptText begin = rope_lab("hair").wait(30);
     const glm::vec2 head = handle(state_after(begin), "collider.head");
     ScriptText script = begin;
-    script.command("rope.torture", {{"dial", 0.8}}).command("time.speed", {{"factor", 0.7}});
+    script.command("rope.jitter", {{"dial", 0.8}}).command("time.speed", {{"factor", 0.7}});
     slowly(script, head, head + glm::vec2(60, -30), 25).up();
     script.wait(30)
         .command("time.seek", {{"ticks_back", 20}})
@@ -96,7 +96,7 @@ TEST(RopeInTheWindow, ARecordingOfItAllEndsInTheSameState) {
     // And one that begins in the midst of it, from a scene file.
     const std::string scene = (folder / "scene.json").string();
     state_after(ScriptText(begin)
-                    .command("rope.torture", {{"dial", 0.5}})
+                    .command("rope.jitter", {{"dial", 0.5}})
                     .wait(7)
                     .command("scene.save", {{"path", scene}}));
     const Json from_file = play(ScriptText()
@@ -117,7 +117,7 @@ TEST(RopeInTheWindow, TimeGoesBackAndOnFromThere) {
     EXPECT_EQ(back["time"]["playing"], false);
     EXPECT_EQ(back["time"]["ticks_back"], 50);
     EXPECT_EQ(back["time"]["remembered"], 150);
-    EXPECT_EQ(back["sheets"], then["sheets"]);
+    EXPECT_EQ(back["cloths"], then["cloths"]);
     EXPECT_EQ(back["seconds"], then["seconds"]);
 
     // What is looked at stays, and playing on comes to the same, as nothing was changed.
@@ -127,7 +127,7 @@ TEST(RopeInTheWindow, TimeGoesBackAndOnFromThere) {
                                        .command("time.play")
                                        .wait(50));
     EXPECT_EQ(again["tool"], "cut");
-    EXPECT_EQ(again["sheets"], then["sheets"]);
+    EXPECT_EQ(again["cloths"], then["cloths"]);
     EXPECT_EQ(again["time"]["ticks_back"], 0);
     EXPECT_EQ(play(ScriptText().command("time.seek", {{"ticks_back", 1}}, true)).outcome.exit_code, 0);
 }
@@ -167,8 +167,8 @@ TEST(RopeInTheWindow, ButtonsAddWhatTheySay) {
     for (const glm::vec2 button : {glm::vec2(126, 417), glm::vec2(205, 417), glm::vec2(48, 417)})
         script.move(button).wait(2).down().up().wait(2);
     const Json added = state_after(script);
-    EXPECT_EQ(added["sheets"].size(), 1u);
-    EXPECT_EQ(added["locks"].size(), 1u);
+    EXPECT_EQ(added["cloths"].size(), 1u);
+    EXPECT_EQ(added["hair"].size(), 1u);
     EXPECT_EQ(added["ropes"].size(), 1u);
     EXPECT_EQ(added["selected"]["rope"], "rope") << "what was added is selected";
 }

@@ -12,11 +12,11 @@ TEST_F(RopeCommands, AfterClearThereIsNoRopeAndNoCollider) {
     run("rope.preset", {{"name", "hair"}});
     run("rope.clear");
     EXPECT_EQ(state().at("ropes"), Json::array());
-    EXPECT_EQ(state().at("locks"), Json::array());
+    EXPECT_EQ(state().at("hair"), Json::array());
     EXPECT_EQ(state().at("colliders"), Json::array());
     EXPECT_TRUE(part().swings.empty());
     run("undo");
-    EXPECT_EQ(state().at("locks").size(), 1u);
+    EXPECT_EQ(state().at("hair").size(), 1u);
 }
 
 TEST_F(RopeCommands, AddLaysARopeStraightOrHanging) {
@@ -49,7 +49,7 @@ TEST_F(RopeCommands, AddLaysARopeStraightOrHanging) {
 
 TEST_F(RopeCommands, StateIsTheSpecsAndMore) {
     const Json now = state();
-    for (const char* member : {"lab", "ropes", "sheets", "locks", "colliders", "substeps_dropped", "settings",
+    for (const char* member : {"lab", "ropes", "cloths", "hair", "colliders", "substeps_dropped", "settings",
                                "seconds", "speed", "tool", "selected", "held"})
         EXPECT_TRUE(now.contains(member)) << member;
     EXPECT_EQ(now["lab"], "rope");
@@ -203,29 +203,29 @@ TEST_F(RopeCommands, SettingsKeepWhatIsLeftOut) {
 
 TEST_F(RopeCommands, SheetsAndLocks) {
     run("rope.clear");
-    run("rope.sheet.add", {{"corner", {0, 2, 0}},
+    run("rope.cloth.add", {{"corner", {0, 2, 0}},
                            {"along", {1, 0, 0}},
                            {"down", {0, -1, 0}},
                            {"columns", 5},
                            {"rows", 4},
                            {"pins", "corners"}});
     run("rope.collider.add", {{"name", "head"}, {"kind", "sphere"}, {"centre", {5, 2, 0}}, {"radius", 0.5}});
-    run("rope.lock.add", {{"attach", "head"}, {"strands", 20}, {"segments", 6}, {"spread", 0.6}});
-    run("rope.lock.add", {{"name", "tuft"}, {"centre", {9, 2, 0}}, {"strands", 3}, {"segments", 4}});
-    ASSERT_EQ(state().at("sheets").size(), 1u);
-    EXPECT_EQ(state().at("sheets")[0]["particles"].size(), 20u);
-    EXPECT_EQ(state().at("sheets")[0]["particles"][4]["pinned"], true);
-    ASSERT_EQ(state().at("locks").size(), 2u);
-    EXPECT_EQ(state().at("locks")[0]["particles"].size(), 140u);
+    run("rope.hair.add", {{"attach", "head"}, {"strands", 20}, {"segments", 6}, {"spread", 0.6}});
+    run("rope.hair.add", {{"name", "tuft"}, {"centre", {9, 2, 0}}, {"strands", 3}, {"segments", 4}});
+    ASSERT_EQ(state().at("cloths").size(), 1u);
+    EXPECT_EQ(state().at("cloths")[0]["particles"].size(), 20u);
+    EXPECT_EQ(state().at("cloths")[0]["particles"][4]["pinned"], true);
+    ASSERT_EQ(state().at("hair").size(), 2u);
+    EXPECT_EQ(state().at("hair")[0]["particles"].size(), 140u);
     for (int strand = 0; strand < 20; ++strand) {
         const glm::vec3 root =
-            world().position(world().particle("lock", static_cast<std::size_t>(7 * strand)));
+            world().position(world().particle("hair", static_cast<std::size_t>(7 * strand)));
         EXPECT_NEAR(glm::distance(root, {5, 2, 0}), 0.504f, 1e-4f);
         EXPECT_GT(root.y, 2.0f) << "it grows on top";
     }
     run("rope.collider.move", {{"name", "head"}, {"to", {6, 2, 0}}});
     wait(2);
-    EXPECT_NEAR(glm::distance(world().position(world().particle("lock", 0)), {6, 2, 0}), 0.504f, 1e-3f);
+    EXPECT_NEAR(glm::distance(world().position(world().particle("hair", 0)), {6, 2, 0}), 0.504f, 1e-3f);
 }
 
 TEST_F(RopeCommands, WhatIsHeldIsLetGoAndADragIsOneStep) {
@@ -321,13 +321,13 @@ TEST_F(RopeCommands, WhatIsSelectedIsRemoved) {
 
 TEST_F(RopeCommands, LooksLeaveNoStepAndAreKept) {
     run("rope.tool", {{"name", "cut"}});
-    run("rope.view", {{"stress", true}, {"sides", 24}});
+    run("rope.view", {{"strain", true}, {"sides", 24}});
     run("rope.view", {{"particles", true}});
     run("rope.select", {{"collider", "ball"}});
     EXPECT_EQ(workspace.history.size(), 0u);
     EXPECT_FALSE(workspace.modified());
     EXPECT_EQ(part().tool, RopeTool::Cut);
-    EXPECT_EQ(part().view, (RopeView{.particles = true, .stress = true, .sides = 24}));
+    EXPECT_EQ(part().view, (RopeView{.particles = true, .strain = true, .sides = 24}));
     EXPECT_EQ(state().at("selected"), (Json{{"collider", "ball"}}));
     run("rope.select");
     EXPECT_EQ(state().at("selected"), nullptr);

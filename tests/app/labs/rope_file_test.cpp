@@ -37,9 +37,9 @@ bool same_bits(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& 
 TEST_F(RopeFile, EverySceneComesBackBitForBitAndMovesOnTheSame) {
     for (const RopeSceneEntry& entry : rope_scenes()) {
         run("rope.preset", {{"name", entry.name}});
-        run("rope.torture", {{"dial", 0.3}});
+        run("rope.jitter", {{"dial", 0.3}});
         run("rope.select", {{"collider", "ground"}});
-        run("rope.view", {{"stress", true}});
+        run("rope.view", {{"strain", true}});
         wait(37);
         Workspace copy = make_blank_workspace(labs);
         load_scene(copy, parse_json(json_to_text(save_scene(workspace))));
@@ -47,9 +47,9 @@ TEST_F(RopeFile, EverySceneComesBackBitForBitAndMovesOnTheSame) {
         for (int i = 0; i < 20; ++i) lab().step(workspace), lab().step(copy);
         const RopePart &a = part(), &b = rope_part(copy);
         EXPECT_TRUE(same_bits(a.world->state().position, b.world->state().position)) << entry.name;
-        EXPECT_TRUE(same_bits(a.world->state().moved, b.world->state().moved)) << entry.name;
+        EXPECT_TRUE(same_bits(a.world->state().displacement, b.world->state().displacement)) << entry.name;
         EXPECT_EQ(a.save().dump(), b.save().dump());
-        EXPECT_TRUE(a.swings == b.swings && a.time == b.time && a.torture == b.torture && a.view == b.view);
+        EXPECT_TRUE(a.swings == b.swings && a.time == b.time && a.jitter == b.jitter && a.view == b.view);
     }
 }
 
@@ -95,8 +95,8 @@ TEST_F(RopeFile, WhatIsWrongIsToldWithItsPlace) {
         {"/time", -1, "labs.rope.time: expected a number from 0.0 to 1000000000.0, found -1"},
         {"/tool", "glue", "labs.rope.tool: unknown tool \"glue\""},
         {"/view/sides", 2, "labs.rope.view.sides: expected a whole number from 3 to 64, found 2"},
-        {"/torture/dial", 2, "labs.rope.torture.dial: expected a number from 0.0 to 1.0, found 2"},
-        {"/torture/frames", -1, "labs.rope.torture.frames: expected a whole number from 0 to"},
+        {"/jitter/dial", 2, "labs.rope.jitter.dial: expected a number from 0.0 to 1.0, found 2"},
+        {"/jitter/frames", -1, "labs.rope.jitter.frames: expected a whole number from 0 to"},
         {"/selected", {{"collider", "x"}}, "labs.rope.selected.collider: there is no collider \"x\""},
         {"/selected", {{"rope", "x"}, {"particle", 0}}, "labs.rope.selected.rope: there is no rope \"x\""},
         {"/selected", {{"rope", "rope"}, {"particle", 5}}, "labs.rope.selected.particle: expected a whole"},
@@ -105,7 +105,7 @@ TEST_F(RopeFile, WhatIsWrongIsToldWithItsPlace) {
         {"/swings/0/middle", {9e8, 0, 0}, "labs.rope.swings.0: it would swing farther than 1e9 m"},
         {"/world/particles/2", {1, 2, 3}, "labs.rope.world.particles.2: expected a row of 4 or 10 numbers"},
         {"/world/particles/2/1", "y", "labs.rope.world.particles.2: expected a number, found \"y\""},
-        {"/world/particles/2/3", 0, "labs.rope.world: World: mass 2 must be over 0"},
+        {"/world/particles/2/3", 0, "labs.rope.world: World: mass[2] must be over 0"},
         {"/world/links/1/0", 5, "labs.rope.world.links.1: expected a whole number from 0 to 4, found 5"},
         {"/world/links/1/3", "glue", "labs.rope.world.links.1: unknown kind \"glue\""},
         {"/world/bodies/0/kind", "goo", "labs.rope.world.bodies.0.kind: unknown kind \"goo\""},
@@ -135,7 +135,7 @@ TEST_F(RopeFile, WithAnyValueOfAnotherKindIsRefusedOrReadWhole) {
                               {"half_extents", {1, 1, 1}},
                               {"rotation", {9, 8, 7}}});
     run("rope.collider.swing", {{"name", "s"}, {"by", {1, 0, 0}}});
-    run("rope.lock.add", {{"attach", "s"}, {"strands", 2}, {"segments", 2}});
+    run("rope.hair.add", {{"attach", "s"}, {"strands", 2}, {"segments", 2}});
     run("rope.select", {{"rope", "rope"}, {"particle", 2}});
     wait(2);
     const Json scene = save_scene(workspace);

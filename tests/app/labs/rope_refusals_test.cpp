@@ -34,7 +34,7 @@ TEST_F(RopeRefusals, SayWhyInOneLine) {
               "rope.settings: substep must be at least 1e-05, got 0");
     EXPECT_EQ(refused("rope.settings", {{"gravity", "down"}}),
               "rope.settings: gravity must be a number or a point [x, y, z], got \"down\"");
-    EXPECT_EQ(refused("rope.torture", {{"dial", 1.5}}), "rope.torture: dial must be at most 1.0, got 1.5");
+    EXPECT_EQ(refused("rope.jitter", {{"dial", 1.5}}), "rope.jitter: dial must be at most 1.0, got 1.5");
     EXPECT_EQ(refused("rope.view", {{"sides", 2}}), "rope.view: sides must be at least 3, got 2");
     EXPECT_EQ(refused("rope.tool", {{"name", "glue"}}),
               "rope.tool: name must be one of move, pin, cut, got \"glue\"");
@@ -99,14 +99,14 @@ TEST_F(RopeRefusals, TooManyAreRefusedWithTheNumberAndTheLimit) {
               "rope.add: segments must be at most 99999, got 10000000");
     EXPECT_EQ(refused("rope.add", {{"from", origin}, {"to", right}, {"segments", 99'999}}),
               "rope.add: that would make 100009 particles; the most is 100000");
-    EXPECT_EQ(refused("rope.sheet.add", {{"corner", origin},
+    EXPECT_EQ(refused("rope.cloth.add", {{"corner", origin},
                                          {"along", right},
                                          {"down", {0, 1, 0}},
                                          {"columns", 100'000},
                                          {"rows", 100'000}}),
-              "rope.sheet.add: that would make 10000000009 particles; the most is 100000");
-    EXPECT_EQ(refused("rope.lock.add", {{"centre", origin}, {"strands", 10'000}, {"segments", 9}}),
-              "rope.lock.add: that would make 100009 particles; the most is 100000");
+              "rope.cloth.add: that would make 10000000009 particles; the most is 100000");
+    EXPECT_EQ(refused("rope.hair.add", {{"centre", origin}, {"strands", 10'000}, {"segments", 9}}),
+              "rope.hair.add: that would make 100009 particles; the most is 100000");
     run("rope.clear");
     for (std::size_t i = 0; i < max_lab_colliders; ++i)
         run("rope.collider.add",
@@ -126,15 +126,15 @@ TEST_F(RopeRefusals, WhatDoesNotGoTogether) {
     EXPECT_EQ(refused("rope.select", {{"particle", 0}}), "rope.select: rope is missing (a text)");
     EXPECT_EQ(refused("rope.select", {{"rope", "rope"}, {"particle", 0}, {"collider", "x"}}),
               "rope.select: a particle or a collider can be selected, not both");
-    EXPECT_EQ(refused("rope.lock.add"),
-              "rope.lock.add: centre is missing, or a collider to attach the lock to");
-    EXPECT_EQ(refused("rope.lock.add", {{"attach", "x"}}), "rope.lock.add: there is no collider \"x\"");
-    EXPECT_EQ(refused("rope.lock.add", {{"centre", origin}, {"direction", origin}}),
-              "rope.lock.add: direction must not be zero");
+    EXPECT_EQ(refused("rope.hair.add"),
+              "rope.hair.add: centre is missing, or a collider to attach the hair to");
+    EXPECT_EQ(refused("rope.hair.add", {{"attach", "x"}}), "rope.hair.add: there is no collider \"x\"");
+    EXPECT_EQ(refused("rope.hair.add", {{"centre", origin}, {"direction", origin}}),
+              "rope.hair.add: hair: direction must be of some finite length, got 0");
     refused("rope.add", {{"from", origin}, {"to", right}, {"name", "rope"}});
-    run("rope.sheet.add",
+    run("rope.cloth.add",
         {{"corner", origin}, {"along", right}, {"down", {0, 1, 0}}, {"columns", 3}, {"rows", 3}});
-    refused("rope.cut", {{"rope", "sheet"}, {"segment", 0}});
+    refused("rope.cut", {{"rope", "cloth"}, {"segment", 0}});
     run("rope.collider.add", {{"name", "far"}, {"kind", "sphere"}, {"centre", {9e8, 0, 0}}, {"radius", 1}});
     EXPECT_EQ(refused("rope.collider.swing", {{"name", "far"}, {"by", {9e8, 0, 0}}}),
               "rope.collider.swing: it would swing farther than 1e9 m");
@@ -163,7 +163,7 @@ TEST_F(RopeRefusals, NumbersThatAreNone) {
             refused("rope.settings", {{setting, bad}});
         refused("rope.settings", {{"gravity", {0, bad, 0}}});
         refused("rope.settings", {{"external", {0, bad, 0}}});
-        refused("rope.torture", {{"dial", bad}});
+        refused("rope.jitter", {{"dial", bad}});
         refused("time.speed", {{"factor", bad}});
     }
     for (const Json& bad : {Json(1.5), Json("0"), Json(nullptr), Json::array(), Json(true)}) {

@@ -22,7 +22,7 @@ class RopeTest : public testing::Test {
 
     const Lab& lab() const { return *labs.find(rope_lab); }
     const RopePart& part() const { return rope_part(workspace); }
-    const rope::World& world() const { return *part().world; }
+    const NamedWorld& world() const { return *part().world; }
     Json state() const { return lab().state(workspace); }
     void run(const char* name, Json arguments = Json::object(), Gesture gesture = 0) {
         table.run(workspace, name, arguments, gesture);

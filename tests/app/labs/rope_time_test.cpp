@@ -8,7 +8,7 @@ namespace {
 
 class RopeTime : public RopeTest {
   protected:
-    double farthest(const rope::World& a, const rope::World& b) const {
+    double farthest(const NamedWorld& a, const NamedWorld& b) const {
         EXPECT_EQ(a.size(), b.size());
         double most = 0.0;
         for (std::size_t i = 0; i < a.size(); ++i)
@@ -31,13 +31,13 @@ TEST_F(RopeTime, IsTheSameEachTime) {
 TEST_F(RopeTime, UnevenFramesLeadToTheSameWorld) {
     for (const char* scene : {"drape", "hair", "pendulum"}) {
         run("rope.preset", {{"name", scene}});
-        std::vector<std::shared_ptr<const rope::World>> even{part().world};
+        std::vector<std::shared_ptr<const NamedWorld>> even{part().world};
         for (int i = 0; i < 200; ++i) {
             wait(1);
             even.push_back(part().world);
         }
         run("rope.preset", {{"name", scene}});
-        run("rope.torture", {{"dial", 1}});
+        run("rope.jitter", {{"dial", 1}});
         int compared = 0;
         for (int i = 0; i < 200; ++i) {
             wait(1);
@@ -64,10 +64,10 @@ TEST_F(RopeTime, ATickTakesSoMuchWorkAndNoMore) {
 TEST_F(RopeTime, FramesAreFrom1To250Milliseconds) {
     double shortest = 1.0, longest = 0.0;
     for (std::uint32_t i = 0; i < 1000; ++i) {
-        EXPECT_EQ(torture_frame(0.0f, i), tick_seconds);
-        EXPECT_NEAR(torture_frame(0.5f, i), tick_seconds, 0.06);
-        shortest = std::min(shortest, torture_frame(1.0f, i));
-        longest = std::max(longest, torture_frame(1.0f, i));
+        EXPECT_EQ(jitter_frame(0.0f, i), tick_seconds);
+        EXPECT_NEAR(jitter_frame(0.5f, i), tick_seconds, 0.06);
+        shortest = std::min(shortest, jitter_frame(1.0f, i));
+        longest = std::max(longest, jitter_frame(1.0f, i));
     }
     EXPECT_GE(shortest, 0.001);
     EXPECT_LT(shortest, 0.0012);
@@ -76,11 +76,11 @@ TEST_F(RopeTime, FramesAreFrom1To250Milliseconds) {
 }
 
 TEST_F(RopeTime, TheDialTurnedBackOwesNothing) {
-    run("rope.torture", {{"dial", 1}});
+    run("rope.jitter", {{"dial", 1}});
     wait(33);
-    run("rope.torture", {{"dial", 0}});
+    run("rope.jitter", {{"dial", 0}});
     wait(1);
-    EXPECT_EQ(part().torture.owed, 0.0);
+    EXPECT_EQ(part().jitter.owed, 0.0);
     EXPECT_NEAR(part().time, 34 * tick_seconds, 1e-9);
     EXPECT_EQ(world().state().substeps + world().state().dropped, 34u * 4u);
 }
@@ -88,7 +88,7 @@ TEST_F(RopeTime, TheDialTurnedBackOwesNothing) {
 TEST_F(RopeTime, SlowMotionIsTheSameMotion) {
     run("rope.preset", {{"name", "hair"}});
     wait(40);
-    const rope::World full = world();
+    const NamedWorld full = world();
     run("rope.preset", {{"name", "hair"}});
     run("time.speed", {{"factor", 0.25}});
     wait(160);
@@ -108,7 +108,7 @@ TEST_F(RopeTime, WhatLiesStillLetsTheWindowIdleUntilACommandComes) {
     for (; lab().moving(workspace) && ticks < 1200; ++ticks) wait(1);
     EXPECT_LT(ticks, 600);
     EXPECT_GT(ticks, 60);
-    run("rope.view", {{"stress", true}});
+    run("rope.view", {{"strain", true}});
     run("rope.select", {{"rope", "rope"}, {"particle", 3}});
     EXPECT_FALSE(lab().moving(workspace)) << "to look at it does not wake it";
     run("rope.pin", {{"rope", "rope"}, {"particle", 3}, {"at", {0, 1, 0}}});
@@ -122,7 +122,7 @@ TEST_F(RopeTime, WhatLiesStillLetsTheWindowIdleUntilACommandComes) {
 TEST_F(RopeTime, PassingIsNothingThatWantsSaving) {
     wait(10);
     EXPECT_FALSE(workspace.modified());
-    run("rope.torture", {{"dial", 0.5}});
+    run("rope.jitter", {{"dial", 0.5}});
     wait(10);
     EXPECT_TRUE(workspace.modified());
 }

@@ -1,37 +1,37 @@
-// What hangs in a rope world: ropes, sheets and locks of hair. All are particles and links between them; a
-// body is a range of particles that has a name.
+// What hangs in a rope world: ropes, cloth and hair. All are particles and links between them; a body is a
+// range of particles.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
-#include <string>
 #include <vector>
+
+#include "tendril/rope/handle.hpp"
 
 namespace tendril::rope {
 
 /// Particles of one body are numbered on from `first`.
 struct Body {
-    enum class Kind : std::uint8_t { Rope, Sheet, Lock };
-    std::string name;
+    enum class Kind : std::uint8_t { Rope, Cloth, Hair };
+    BodyId id;
     Kind kind = Kind::Rope;
     std::size_t first = 0, count = 0;  ///< particles
-    /// Particles in a row of a sheet, in a strand of a lock; `count` for a rope.
+    /// Particles in a row of a cloth, in a strand of hair; `count` for a rope.
     std::size_t row = 0;
     float radius = 0.02f;  ///< metres: how far from colliders its particles are kept, and how thick it is
-    /// Relative length at which a stretch link of a sheet tears, 0.1 for 10 % over its rest; 0: never. What
-    /// only shapes the sheet tears at half a length more.
+    /// Relative length at which a stretch link of a cloth tears, 0.1 for 10 % over its rest; 0: never. What
+    /// only shapes the cloth tears at half a length more.
     float tear = 0.0f;
     /// The largest relative length error of its stretch links, |length / rest - 1| (or the length, where a
-    /// rest is 0), as the solver left it last. What pushing out of colliders adds afterwards is not the
-    /// solver's.
+    /// rest is 0), as the solver left it last, before the last contacts. World::length_error() has it after.
     float stretch = 0.0f;
 };
 
 /// Keeps two particles at a distance.
 struct Link {
-    /// Stretch links are what a rope or sheet consists of; the others only shape it.
+    /// Stretch links are what a rope or cloth consists of; the others only shape it.
     enum class Kind : std::uint8_t { Stretch, Shear, Bend };
     std::uint32_t a = 0, b = 0;
     float rest = 0.0f;  ///< metres
@@ -42,7 +42,6 @@ struct Link {
 
 /// A rope of equal segments.
 struct RopeShape {
-    std::string name{};  ///< unique; "rope", "rope 2", ... where empty
     glm::vec3 from{0.0f}, to{1.0f, 0.0f, 0.0f};
     int segments = 32;  ///< 1 to max_particles - 1
     /// Metres; the distance where left out. Where it is more than the distance the rope hangs on a parabola
@@ -54,8 +53,7 @@ struct RopeShape {
 };
 
 /// A cloth: a grid of columns x rows particles.
-struct SheetShape {
-    std::string name{};  ///< unique; "sheet", "sheet 2", ... where empty
+struct ClothShape {
     glm::vec3 corner{0.0f};
     glm::vec3 along{1.0f, 0.0f, 0.0f};  ///< from the corner to the other end of the first row
     glm::vec3 down{0.0f, -1.0f, 0.0f};  ///< from the corner to the last row
@@ -67,20 +65,21 @@ struct SheetShape {
     enum class Pins : std::uint8_t { None, Corners, Row } pins = Pins::None;  ///< of the first row
 };
 
+/// Where a strand of hair grows.
+struct HairRoot {
+    glm::vec3 position{0.0f};
+    glm::vec3 direction{0.0f, -1.0f, 0.0f};  ///< of any length but 0
+};
+
 /// Hair: strands of equal length, each held at its root, where it keeps its direction.
-struct LockShape {
-    struct Root {
-        glm::vec3 position{0.0f};
-        glm::vec3 direction{0.0f, -1.0f, 0.0f};  ///< of any length but 0
-    };
-    std::string name{};  ///< unique; "lock", "lock 2", ... where empty
-    std::vector<Root> roots{};
+struct HairShape {
+    std::vector<HairRoot> roots{};
     float length = 0.5f;  ///< metres, over 0
     int segments = 16;
     float radius = 0.004f;
     float density = 0.05f;  ///< kg/m, over 0
     float bend = 1e-1f;     ///< compliance of bend links, m/N
-    std::string attach{};   ///< a collider that the roots move with; empty: none
+    ColliderId attach{};    ///< a collider that the roots move with; none where it is empty
 };
 
 }  // namespace tendril::rope

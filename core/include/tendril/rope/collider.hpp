@@ -3,8 +3,10 @@
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
-#include <string>
 #include <variant>
+
+#include "tendril/result.hpp"
+#include "tendril/rope/handle.hpp"
 
 namespace tendril::rope {
 
@@ -38,7 +40,7 @@ struct SurfaceDistance {
     double distance = 0.0;             ///< metres, below zero inside
     glm::dvec3 normal{0.0, 1.0, 0.0};  ///< unit, outwards; a fixed one where there is no telling
 };
-/// For any point and any shape that require() takes; never NaN.
+/// For any point and any shape that check() takes; never NaN.
 SurfaceDistance surface_distance(const Shape& shape, const glm::dvec3& point) noexcept;
 
 /// The point that moves with a shape: the centre of a sphere or box, the middle of a capsule, a plane's
@@ -48,16 +50,16 @@ glm::vec3 centre(const Shape& shape) noexcept;
 Shape moved(const Shape& shape, const glm::vec3& centre) noexcept;
 /// "sphere", "capsule", "plane", "box"
 const char* kind(const Shape& shape) noexcept;
-/// Half of the smallest extent, metres: a sphere's and capsule's radius, a box's least half extent; a plane
-/// has no size, 1.
+/// Half of the smallest extent, metres: a sphere's and capsule's radius, a box's smallest half extent; a
+/// plane has no size, 1.
 float size(const Shape& shape) noexcept;
 
-/// Throws std::invalid_argument naming `operation`, the member and its value, where one is not finite, over
-/// max_magnitude, below zero, or a normal or rotation is zero.
-void require(const char* operation, const Shape& shape);
+/// Refuses, naming `operation`, the member and its value, where one is not finite, over max_magnitude, below
+/// zero, or a normal or rotation is zero.
+Result check(const char* operation, const Shape& shape) noexcept;
 
 struct Collider {
-    std::string name;
+    ColliderId id;
     Shape shape;           ///< where it is now
     glm::dvec3 goal{0.0};  ///< where its centre is going
     double seconds = 0.0;  ///< of simulated time until it is there; 0: it stays

@@ -13,12 +13,14 @@
 //   tension of the substep before is taken in implicitly, because it makes a fine rope stiff sideways
 //   (M. Tournier et al., "Stable Constrained Dynamics", 2015), and it pulls along the mean of the directions
 //   before and after, which neither adds energy nor takes it (O. Gonzalez, "Mechanical systems subject to
-//   holonomic constraints", 1999). A sheet is solved row by row and column by column.
+//   holonomic constraints", 1999). A cloth is solved row by row and column by column.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+
+#include "tendril/result.hpp"
 
 namespace tendril::rope {
 
@@ -59,7 +61,7 @@ inline constexpr int unbounded_passes = 16;
 inline constexpr float max_rate = 1e3f, max_acceleration = 1e4f, max_scale = 1e3f, max_compliance = 1e3f,
                        max_friction = 100.0f;
 
-/// Throws std::invalid_argument naming `operation`, the setting and its value, where one is out of range.
-void require(const char* operation, const Settings& settings);
+/// Refuses, naming `operation`, the setting and its value, where one is out of range.
+Result check(const char* operation, const Settings& settings) noexcept;
 
 }  // namespace tendril::rope

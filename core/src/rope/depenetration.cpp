@@ -23,8 +23,8 @@ constexpr std::size_t searches_per_particle = 64, fewest_searches = 8192;
 
 /// The colliders that one particle can reach.
 struct Neighbours {
-    const World::Scratch& scratch;
-    std::span<const World::Scratch::Near> near;
+    const Scratch& scratch;
+    std::span<const Scratch::Near> near;
     std::size_t& searches;  ///< that are left
     std::uint64_t& looked;  ///< counts the distances that were looked at
 
@@ -32,8 +32,8 @@ struct Neighbours {
     template <class Visit>
     void each(const dvec3& at, double radius, Visit visit) const {
         looked += near.size();
-        for (const World::Scratch::Near& each : near) {
-            const World::Scratch::Moving& collider = scratch.colliders[each.collider];
+        for (const Scratch::Near& each : near) {
+            const Scratch::Moving& collider = scratch.colliders[each.collider];
             if (!collider.far_from(at, radius)) visit(*collider.shape);
         }
     }
@@ -69,8 +69,8 @@ dvec3 least_move(const Neighbours& neighbours, const dvec3& at, double radius) {
     return first > 0.0 ? first * normal[0] + second * normal[1] : depth[1] * normal[1];
 }
 
-/// Out along a line, as far as every collider on the way asks for; no number where that is `limit` or more, or
-/// the search takes too long.
+/// Out along a line, as far as every collider on the way asks for; no number where that is `limit` or more,
+/// or the search takes too long.
 double way_out(const Neighbours& neighbours, const dvec3& from, const dvec3& along, double thickness,
                double limit) {
     double way = 0.0;
@@ -117,14 +117,14 @@ bool bring_out(const Neighbours& neighbours, dvec3& place, double radius) {
 
 }  // namespace
 
-void Substep::push_out_for_good() {
+void Substep::depenetrate() {
     if (state_.colliders.empty()) return;
     find_near();
-    const std::span<const World::Scratch::Near> near(scratch_.near);
+    const std::span<const Scratch::Near> near(scratch_.near);
     std::size_t searches = std::max(fewest_searches, searches_per_particle * state_.position.size());
     for (std::size_t first = 0, end = 0; first < near.size(); first = end) {
         while (end < near.size() && near[end].chunk == near[first].chunk) ++end;
-        const World::Plan::Chunk& chunk = plan_.chunks[near[first].chunk];
+        const Plan::Chunk& chunk = plan_.chunks[near[first].chunk];
         const Neighbours neighbours{scratch_, near.subspan(first, end - first), searches, report_.work};
         const double radius = state_.bodies[chunk.body].radius;
         for (std::uint32_t i = chunk.first; i < chunk.first + chunk.count; ++i) {

@@ -1,4 +1,4 @@
-#include "app/labs/rope/stress.hpp"
+#include "app/labs/rope/strain.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ constexpr float least_strain = 1e-4f, full_strain = 0.1f;
 
 }  // namespace
 
-glm::vec3 stress_colour(float strain, const Palette& palette) {
+glm::vec3 strain_colour(float strain, const Palette& palette) {
     const float size = std::abs(strain);
     const float share =
         std::log(std::max(size, least_strain) / least_strain) / std::log(full_strain / least_strain);
@@ -27,12 +27,12 @@ glm::vec3 cloth_front(const Palette& palette) {
     return glm::mix(palette.accent, palette.joint, 0.35f);
 }
 
-std::vector<glm::vec3> particle_colours(const rope::World& world, const Palette& palette, bool stress) {
+std::vector<glm::vec3> particle_colours(const NamedWorld& world, const Palette& palette, bool by_strain) {
     const rope::State& state = world.state();
-    if (!stress) {
+    if (!by_strain) {
         std::vector<glm::vec3> colours(world.size(), palette.joint);
         for (const rope::Body& body : state.bodies) {
-            if (body.kind != rope::Body::Kind::Lock) continue;
+            if (body.kind != rope::Body::Kind::Hair) continue;
             std::fill_n(colours.begin() + static_cast<std::ptrdiff_t>(body.first), body.count,
                         glm::mix(palette.target, palette.ghost, 0.55f));
         }
@@ -50,18 +50,18 @@ std::vector<glm::vec3> particle_colours(const rope::World& world, const Palette&
     }
     std::vector<glm::vec3> colours(world.size());
     std::transform(worst.begin(), worst.end(), colours.begin(),
-                   [&](float strain) { return stress_colour(strain, palette); });
+                   [&](float strain) { return strain_colour(strain, palette); });
     return colours;
 }
 
-std::vector<std::uint8_t> whole_cells(const rope::World& world, const rope::Body& sheet) {
-    const std::size_t columns = sheet.row, rows = sheet.count / sheet.row;
+std::vector<std::uint8_t> whole_cells(const NamedWorld& world, const rope::Body& cloth) {
+    const std::size_t columns = cloth.row, rows = cloth.count / cloth.row;
     // A link of the grid by the particle that it begins at: along the row, or down the column.
-    std::vector<std::uint8_t> along(sheet.count, 0), down(sheet.count, 0);
+    std::vector<std::uint8_t> along(cloth.count, 0), down(cloth.count, 0);
     for (const rope::Link& link : world.state().links) {
-        if (link.kind != rope::Link::Kind::Stretch || link.a < sheet.first) continue;
-        const std::size_t from = link.a - sheet.first;
-        if (from >= sheet.count) continue;
+        if (link.kind != rope::Link::Kind::Stretch || link.a < cloth.first) continue;
+        const std::size_t from = link.a - cloth.first;
+        if (from >= cloth.count) continue;
         (link.b == link.a + 1 ? along : down)[from] = 1;
     }
     std::vector<std::uint8_t> cells((columns - 1) * (rows - 1), 0);

@@ -1,4 +1,4 @@
-// Cloth and hair are scenes on the same solver: sheets that tear where they are pulled, locks that follow a
+// Cloth and hair are scenes on the same solver: cloths that tear where they are pulled, locks that follow a
 // head.
 #include <glm/gtc/quaternion.hpp>
 
@@ -7,70 +7,64 @@
 namespace tendril::test {
 namespace {
 
+using rope::ClothShape;
 using rope::Link;
-using rope::SheetShape;
 using rope::Solver;
-using rope::World;
 
 std::size_t count(const World& world, Link::Kind kind) {
     return static_cast<std::size_t>(std::count_if(world.state().links.begin(), world.state().links.end(),
                                                   [&](const Link& link) { return link.kind == kind; }));
 }
 
-TEST(RopeSheet, IsAGridWithShearAndBendLinks) {
+TEST(RopeCloth, IsAGridWithShearAndBendLinks) {
     World world;
-    world.add_sheet({.name = "sheet", .columns = 5, .rows = 4, .pins = SheetShape::Pins::Row});
+    world.add_cloth("cloth", {.columns = 5, .rows = 4, .pins = ClothShape::Pins::Row});
     EXPECT_EQ(world.size(), 20u);
-    EXPECT_EQ(world.find("sheet")->row, 5u);
+    EXPECT_EQ(world.find("cloth")->row, 5u);
     EXPECT_EQ(count(world, Link::Kind::Stretch), 4u * 4u + 5u * 3u);
     EXPECT_EQ(count(world, Link::Kind::Shear), 2u * 4u * 3u);
     EXPECT_EQ(count(world, Link::Kind::Bend), 3u * 4u + 5u * 2u);
     EXPECT_EQ(world.state().pins.size(), 5u);
-    EXPECT_NEAR(world.length(*world.find("sheet")), 1.0, 1e-6);
+    EXPECT_NEAR(world.length(*world.find("cloth")), 1.0, 1e-6);
     double mass = 0.0;
     for (const double each : world.state().mass) mass += each;
     EXPECT_NEAR(mass, 0.2, 1e-6);  // a square metre
 }
 
-TEST(RopeSheet, HangsAndComesToRest) {
+TEST(RopeCloth, HangsAndComesToRest) {
     for (const Solver solver : all_solvers) {
         World world = world_with({.iterations = 32, .solver = solver, .damping = 2.0f});
-        world.add_sheet({.name = "sheet", .columns = 12, .rows = 12, .pins = SheetShape::Pins::Row});
+        world.add_cloth("cloth", {.columns = 12, .rows = 12, .pins = ClothShape::Pins::Row});
         run(world, 8.0);
         for (std::size_t i = 0; i < world.size(); ++i)
             EXPECT_LE(glm::length(glm::dvec3(world.velocity(i))), 0.02) << name(solver);
-        EXPECT_LE(stretch(world, "sheet"), 0.02) << name(solver);
+        EXPECT_LE(stretch(world, "cloth"), 0.02) << name(solver);
         EXPECT_NEAR(lowest(world), -1.0, 0.03) << name(solver);
     }
 }
 
-/// Let go with nothing to take it away: what a sheet has of energy does not grow either.
-TEST(RopeSheet, ItsEnergyDoesNotGrow) {
+/// Let go with nothing to take it away: what a cloth has of energy does not grow either.
+TEST(RopeCloth, ItsEnergyDoesNotGrow) {
     for (const Solver solver : all_solvers) {
         World world = world_with({.solver = solver, .damping = 0.0f});
-        world.add_sheet({.name = "sheet",
-                         .along = {1, 0, 0},
-                         .down = {0, 0, 1},
-                         .columns = 10,
-                         .rows = 10,
-                         .pins = SheetShape::Pins::Corners});
+        world.add_cloth("cloth", {.along = {1, 0, 0},
+                                  .down = {0, 0, 1},
+                                  .columns = 10,
+                                  .rows = 10,
+                                  .pins = ClothShape::Pins::Corners});
         run_substeps(world, 2, [] {});
-        const double start = energy(world, "sheet");
+        const double start = energy(world, "cloth");
         double most = -1e9;
-        run_substeps(world, 20 * 240, [&] { most = std::max(most, energy(world, "sheet")); });
+        run_substeps(world, 20 * 240, [&] { most = std::max(most, energy(world, "cloth")); });
         EXPECT_LE((most - start) / (0.2 * 9.81), 0.01) << name(solver);  // of its weight times its length
     }
 }
 
-TEST(RopeSheet, LiesOnABall) {
+TEST(RopeCloth, LiesOnABall) {
     World world = world_with({.damping = 1.0f});
     world.add_collider("ball", rope::Sphere{{0.5f, -0.5f, 0.5f}, 0.3f});
-    world.add_sheet({.name = "cloth",
-                     .corner = {0, 0, 0},
-                     .along = {1, 0, 0},
-                     .down = {0, 0, 1},
-                     .columns = 16,
-                     .rows = 16});
+    world.add_cloth("cloth",
+                    {.corner = {0, 0, 0}, .along = {1, 0, 0}, .down = {0, 0, 1}, .columns = 16, .rows = 16});
     run(world, 3.0);
     double highest = -1e9, nearest = 1e9;
     for (const glm::dvec3& p : world.state().position) {
@@ -83,14 +77,14 @@ TEST(RopeSheet, LiesOnABall) {
 }
 
 /// Pulled at one corner harder than it bears: it tears there and not elsewhere.
-TEST(RopeSheet, TearsWhereItIsPulled) {
+TEST(RopeCloth, TearsWhereItIsPulled) {
     World world;
-    world.add_sheet({.name = "sheet", .columns = 8, .rows = 8, .tear = 0.2f, .pins = SheetShape::Pins::Row});
+    world.add_cloth("cloth", {.columns = 8, .rows = 8, .tear = 0.2f, .pins = ClothShape::Pins::Row});
     run(world, 1.0);
     const std::size_t whole = world.state().links.size();
     EXPECT_EQ(whole, count(world, Link::Kind::Stretch) + count(world, Link::Kind::Shear) +
                          count(world, Link::Kind::Bend));
-    const std::size_t corner = world.particle("sheet", 63);
+    const std::size_t corner = world.particle("cloth", 63);
     world.pin(corner, world.position(corner) + glm::vec3(1.5f, -1.5f, 0), 1.0);
     run(world, 1.5);
     EXPECT_LT(world.state().links.size(), whole);
@@ -107,20 +101,18 @@ TEST(RopeSheet, TearsWhereItIsPulled) {
 }
 
 /// What does not bear anything tears at once, and never what is not to.
-TEST(RopeSheet, TearsOnlyWhereItMay) {
+TEST(RopeCloth, TearsOnlyWhereItMay) {
     for (const float tear : {0.0f, 0.01f}) {
         World world;
-        world.add_sheet(
-            {.name = "sheet", .columns = 6, .rows = 6, .tear = tear, .pins = SheetShape::Pins::Corners});
-        world.add_rope({.name = "rope",
-                        .from = {3, 0, 0},
-                        .to = {5, 0, 0},
-                        .segments = 6,
-                        .length = 1.0f,
-                        .pin_start = true,
-                        .pin_end = true});
+        world.add_cloth("cloth", {.columns = 6, .rows = 6, .tear = tear, .pins = ClothShape::Pins::Corners});
+        world.add_rope("rope", {.from = {3, 0, 0},
+                                .to = {5, 0, 0},
+                                .segments = 6,
+                                .length = 1.0f,
+                                .pin_start = true,
+                                .pin_end = true});
         const std::size_t links = world.state().links.size();
-        world.pin(world.particle("sheet", 30), {-3, -3, 0}, 0.5);
+        world.pin(world.particle("cloth", 30), {-3, -3, 0}, 0.5);
         run(world, 1.0);
         EXPECT_EQ(world.state().links.size() < links, tear > 0.0f);
         const auto of_rope = [&](const Link& link) { return link.a >= world.find("rope")->first; };
@@ -129,9 +121,9 @@ TEST(RopeSheet, TearsOnlyWhereItMay) {
 }
 
 /// A State may have particles without links: a hole.
-TEST(RopeSheet, MayHaveHoles) {
+TEST(RopeCloth, MayHaveHoles) {
     World world;
-    world.add_sheet({.name = "sheet", .columns = 9, .rows = 9, .pins = SheetShape::Pins::Row});
+    world.add_cloth("cloth", {.columns = 9, .rows = 9, .pins = ClothShape::Pins::Row});
     rope::State state = world.state();
     const auto in_hole = [](std::uint32_t i) { return i % 9 >= 3 && i % 9 <= 5 && i / 9 >= 3 && i / 9 <= 5; };
     std::erase_if(state.links, [&](const Link& link) { return in_hole(link.a) || in_hole(link.b); });
@@ -143,18 +135,18 @@ TEST(RopeSheet, MayHaveHoles) {
     EXPECT_LE(glm::length(world.state().position[49] - world.state().position[76]), 40.0);
 }
 
-TEST(RopeLock, FollowsItsCollider) {
+TEST(RopeHair, FollowsItsCollider) {
     for (const Solver solver : all_solvers) {
         World world = world_with({.solver = solver});
         const glm::vec3 head(0.5f, -0.25f, 2.0f);
         world.add_collider("head", rope::Sphere{head, 0.2f});
-        rope::LockShape shape{.name = "hair", .length = 0.4f, .segments = 8, .attach = "head"};
+        rope::HairShape shape{.length = 0.4f, .segments = 8, .attach = world.collider_id("head")};
         for (int i = 0; i < 5; ++i) {
             const float angle = 0.4f * static_cast<float>(i);
             const glm::vec3 out(std::sin(angle), std::cos(angle), 0);
             shape.roots.push_back({head + 0.21f * out, out});
         }
-        world.add_lock(shape);
+        world.add_hair("hair", shape);
         EXPECT_EQ(world.size(), 45u);
         EXPECT_EQ(world.find("hair")->row, 9u);
         EXPECT_NEAR(world.length(*world.find("hair")), 0.4, 1e-6);
@@ -178,16 +170,13 @@ TEST(RopeLock, FollowsItsCollider) {
 }
 
 /// Bend links keep hair off straight down: the stiffer, the farther out it stands.
-TEST(RopeLock, StandsOutTheStifferItIs) {
+TEST(RopeHair, StandsOutTheStifferItIs) {
     double reach[2];
     const float bends[] = {1e-3f, 10.0f};
     for (int i = 0; i < 2; ++i) {
         World world = world_with({.damping = 2.0f});
-        world.add_lock({.name = "hair",
-                        .roots = {{{0, 0, 0}, {1, 0, 0}}},
-                        .length = 0.4f,
-                        .segments = 8,
-                        .bend = bends[i]});
+        world.add_hair("hair",
+                       {.roots = {{{0, 0, 0}, {1, 0, 0}}}, .length = 0.4f, .segments = 8, .bend = bends[i]});
         run(world, 8.0);
         reach[i] = static_cast<double>(world.position(8).x);
         EXPECT_LT(world.position(8).y, -0.01f);

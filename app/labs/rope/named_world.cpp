@@ -1,0 +1,158 @@
+#include "app/labs/rope/named_world.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "app/labs/kit/require.hpp"
+
+namespace tendril::app {
+namespace {
+
+[[noreturn]] void refuse(const char* operation, const std::string& rule, std::string_view name) {
+    throw std::invalid_argument(std::string(operation) + ": name must be " + rule + ", got \"" +
+                                std::string(name) + "\"");
+}
+
+void set_name(std::vector<std::string>& names, std::size_t slot, const std::string& name) {
+    if (names.size() <= slot) names.resize(slot + 1);
+    names[slot] = name;
+}
+
+template <class List>
+auto* named(const List& list, const std::vector<std::string>& names, std::string_view name) {
+    const auto found = std::find_if(list.begin(), list.end(),
+                                    [&](const auto& each) { return names[each.id.index] == name; });
+    return found == list.end() ? nullptr : &*found;
+}
+
+/// Of the state's own list; each once.
+template <class List>
+std::vector<std::string> by_slot(const List& list, const std::vector<std::string>& given, const char* kind) {
+    std::vector<std::string> names;
+    std::vector<std::string> sorted = given;
+    std::sort(sorted.begin(), sorted.end());
+    const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+    if (twice != sorted.end())
+        throw std::invalid_argument(std::string("there are two ") + kind + " named \"" + *twice + "\"");
+    if (!sorted.empty() && sorted.front().empty())
+        throw std::invalid_argument(std::string("one of the ") + kind + " has no name");
+    for (std::size_t i = 0; i < list.size(); ++i) set_name(names, list[i].id.index, given[i]);
+    return names;
+}
+
+}  // namespace
+
+NamedWorld::NamedWorld(rope::State state, const std::vector<std::string>& bodies,
+                       const std::vector<std::string>& colliders) {
+    rope::number_slots(state);
+    put(std::move(state));
+    bodies_ = by_slot(this->state().bodies, bodies, "bodies");
+    colliders_ = by_slot(this->state().colliders, colliders, "colliders");
+}
+
+void NamedWorld::put(rope::State state) {
+    world_ = require_value(rope::World::from_state(std::move(state)));
+}
+
+const rope::Body* NamedWorld::find(std::string_view body) const {
+    return named(state().bodies, bodies_, body);
+}
+const rope::Collider* NamedWorld::find_collider(std::string_view collider) const {
+    return named(state().colliders, colliders_, collider);
+}
+rope::BodyId NamedWorld::id(std::string_view body) const {
+    const rope::Body* found = find(body);
+    return found == nullptr ? rope::BodyId{} : found->id;
+}
+rope::ColliderId NamedWorld::collider_id(std::string_view collider) const {
+    const rope::Collider* found = find_collider(collider);
+    return found == nullptr ? rope::ColliderId{} : found->id;
+}
+
+void NamedWorld::check_free(const char* operation, std::string_view body) const {
+    if (!body.empty() && find(body) != nullptr) refuse(operation, "one that no other body has", body);
+}
+
+std::string NamedWorld::name_body(rope::BodyId body, const std::string& wanted, const std::string& stem,
+                                  int first) {
+    set_name(bodies_, body.index, {});
+    std::string name = wanted;
+    for (int i = first; name.empty() || find(name) != nullptr; ++i)
+        name = i == 1 ? stem : stem + " " + std::to_string(i);
+    return bodies_[body.index] = name;
+}
+
+void NamedWorld::set_settings(const rope::Settings& settings) {
+    require_ok(world_.set_settings(settings));
+}
+
+std::string NamedWorld::add_rope(const std::string& name, const rope::RopeShape& shape) {
+    check_free("add_rope", name);
+    return name_body(require_value(world_.add_rope(shape)), name, "rope", 1);
+}
+std::string NamedWorld::add_cloth(const std::string& name, const rope::ClothShape& shape) {
+    check_free("add_cloth", name);
+    return name_body(require_value(world_.add_cloth(shape)), name, "cloth", 1);
+}
+std::string NamedWorld::add_hair(const std::string& name, rope::HairShape shape, const std::string& attach) {
+    check_free("add_hair", name);
+    if (!attach.empty()) shape.attach = collider_id(attach);
+    return name_body(require_value(world_.add_hair(shape)), name, "hair", 1);
+}
+
+void NamedWorld::remove(std::string_view body) {
+    require_ok(world_.remove(id(body)));
+}
+
+std::string NamedWorld::cut(std::string_view rope, std::size_t segment) {
+    const std::string stem(rope);
+    return name_body(require_value(world_.cut(id(rope), segment)), {}, stem, 2);
+}
+
+std::size_t NamedWorld::particle(std::string_view body, std::size_t index) const {
+    return require_value(world_.particle(id(body), index));
+}
+void NamedWorld::pin(std::size_t particle, const glm::vec3& at, double seconds) {
+    require_ok(world_.pin(particle, glm::dvec3(at), seconds));
+}
+void NamedWorld::attach(std::size_t particle, std::string_view collider) {
+    require_ok(world_.attach(particle, collider_id(collider)));
+}
+void NamedWorld::unpin(std::size_t particle) {
+    require_ok(world_.unpin(particle));
+}
+
+void NamedWorld::add_collider(const std::string& name, const rope::Shape& shape) {
+    if (name.empty()) refuse("add_collider", "a name", name);
+    if (find_collider(name) != nullptr) refuse("add_collider", "one that no other collider has", name);
+    set_name(colliders_, require_value(world_.add_collider(shape)).index, name);
+}
+void NamedWorld::move_collider(std::string_view name, const glm::vec3& to, double seconds) {
+    require_ok(world_.move_collider(collider_id(name), to, seconds));
+}
+void NamedWorld::set_collider(std::string_view name, const rope::Shape& shape) {
+    require_ok(world_.set_collider(collider_id(name), shape));
+}
+void NamedWorld::remove_collider(std::string_view name) {
+    require_ok(world_.remove_collider(collider_id(name)));
+}
+
+// A drag is rare beside ticks: it makes its workspace anew.
+void NamedWorld::drag_pin(std::size_t particle, const glm::vec3& to) {
+    rope::Workspace workspace;
+    require_ok(rope::drag_pin(world_, workspace, particle, glm::dvec3(to)));
+}
+void NamedWorld::drag_collider(std::string_view name, const glm::vec3& to) {
+    rope::Workspace workspace;
+    require_ok(rope::drag_collider(world_, workspace, collider_id(name), to));
+}
+void NamedWorld::drag_collider(std::string_view name, const rope::Shape& shape) {
+    rope::Workspace workspace;
+    require_ok(rope::drag_collider(world_, workspace, collider_id(name), shape));
+}
+
+rope::Advance NamedWorld::advance(double seconds, rope::Workspace& workspace, std::uint64_t most_substeps) {
+    return world_.advance(seconds, workspace, {.most_substeps = most_substeps});
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,83 @@
+// A rope world whose bodies and colliders have names: the library knows handles, people and files know names.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <tendril/rope/quasi_static.hpp>
+#include <tendril/rope/world.hpp>
+#include <vector>
+
+namespace tendril::app {
+
+/// A value, as the library's world is; what time needs besides is in a rope::Workspace.
+class NamedWorld {
+  public:
+    NamedWorld() = default;
+    /// The names of bodies and colliders in the state's order. Throws std::invalid_argument with what is
+    /// wrong with the state, or where a name is empty or there twice.
+    NamedWorld(rope::State state, const std::vector<std::string>& bodies,
+               const std::vector<std::string>& colliders);
+    /// Another state of bodies and colliders that are all there.
+    void put(rope::State state);
+
+    const rope::World& world() const { return world_; }
+    const rope::State& state() const { return world_.state(); }
+    const rope::Settings& settings() const { return world_.settings(); }
+
+    // Null, or a handle of nothing, where there is none of that name.
+    const rope::Body* find(std::string_view body) const;
+    const rope::Collider* find_collider(std::string_view collider) const;
+    /// The collider that a pin moves with; null where there is none.
+    const rope::Collider* holder(const rope::Pin& pin) const { return world_.find(pin.collider); }
+    const std::string& name(const rope::Body& body) const { return bodies_[body.id.index]; }
+    const std::string& name(const rope::Collider& collider) const { return colliders_[collider.id.index]; }
+
+    // What follows throws std::invalid_argument where the library refuses, or a name is taken or unknown.
+    void set_settings(const rope::Settings& settings);
+    void clear() { world_.clear(); }
+    /// Each gives back the body's name; "rope", "rope 2", ... where none is wanted.
+    std::string add_rope(const std::string& name, const rope::RopeShape& shape);
+    std::string add_cloth(const std::string& name, const rope::ClothShape& shape);
+    /// `attach` is a collider's name, or empty.
+    std::string add_hair(const std::string& name, rope::HairShape shape, const std::string& attach = {});
+    void remove(std::string_view body);
+    /// Gives back the name of what is behind the cut: the rope's own with a number.
+    std::string cut(std::string_view rope, std::size_t segment);
+    std::size_t particle(std::string_view body, std::size_t index) const;
+    void pin(std::size_t particle, const glm::vec3& at, double seconds = 0.0);
+    void attach(std::size_t particle, std::string_view collider);
+    void unpin(std::size_t particle);
+    bool pinned(std::size_t particle) const { return world_.pinned(particle); }
+    void add_collider(const std::string& name, const rope::Shape& shape);
+    void move_collider(std::string_view name, const glm::vec3& to, double seconds = 0.0);
+    void set_collider(std::string_view name, const rope::Shape& shape);
+    void remove_collider(std::string_view name);
+
+    // Quasi-static drags, for while the simulation is paused.
+    void drag_pin(std::size_t particle, const glm::vec3& to);
+    void drag_collider(std::string_view name, const glm::vec3& to);
+    void drag_collider(std::string_view name, const rope::Shape& shape);
+
+    rope::Advance advance(double seconds, rope::Workspace& workspace, std::uint64_t most_substeps);
+
+    std::size_t size() const { return world_.size(); }
+    // In single precision, as pictures have it.
+    glm::vec3 position(std::size_t particle) const { return glm::vec3(world_.position(particle)); }
+    glm::vec3 velocity(std::size_t particle) const { return glm::vec3(world_.velocity(particle)); }
+    double length_error(const rope::Body& body) const { return world_.length_error(body); }
+    double length_error() const { return world_.length_error(); }
+    double energy(const rope::Body& body) const { return world_.energy(body); }
+    double energy() const { return world_.energy(); }
+    double length(const rope::Body& body) const { return world_.length(body); }
+
+  private:
+    void check_free(const char* operation, std::string_view body) const;
+    std::string name_body(rope::BodyId body, const std::string& wanted, const std::string& stem, int first);
+    rope::BodyId id(std::string_view body) const;
+    rope::ColliderId collider_id(std::string_view collider) const;
+
+    rope::World world_;
+    std::vector<std::string> bodies_, colliders_;  ///< by slot
+};
+
+}  // namespace tendril::app

@@ -1,0 +1,21 @@
+// Quasi-static drag: a pin or a collider is moved while the simulation is paused, and what it meets gives way
+// as if everything were without weight and speed. Nothing else moves, no time passes, and what was on its way
+// somewhere goes on when time does.
+//
+// The world is copied with no gravity, full damping and every link at rest as long as it is, except stiff
+// links (direct solver, no compliance) that are over 5 % off their length; eight substeps take what is
+// dragged to its place; the positions that this gives are the world's. Costs a copy of the state and eight
+// substeps.
+#pragma once
+
+#include "tendril/rope/world.hpp"
+
+namespace tendril::rope {
+
+/// Pins the particle where it is not pinned.
+Result drag_pin(World& world, Workspace& workspace, std::size_t particle, const glm::dvec3& to);
+Result drag_collider(World& world, Workspace& workspace, ColliderId collider, const glm::vec3& to);
+/// Puts another shape in its place.
+Result drag_collider(World& world, Workspace& workspace, ColliderId collider, const Shape& shape);
+
+}  // namespace tendril::rope

@@ -1,0 +1,48 @@
+// Everything that a rope world remembers, and nothing that follows from it: what to save, to compare, and to
+// put back. Whatever decides how the world goes on is in here: two worlds with the same state go on the same,
+// bit for bit.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "tendril/rope/body.hpp"
+#include "tendril/rope/collider.hpp"
+#include "tendril/rope/settings.hpp"
+
+namespace tendril::rope {
+
+inline constexpr std::size_t max_particles = 1'000'000;
+
+/// A particle that is held.
+struct Pin {
+    std::size_t particle = 0;
+    glm::dvec3 goal{0.0};  ///< where it is going, or where in its collider's frame of centre it is held
+    double seconds = 0.0;  ///< of simulated time until it is there; 0: it stays there
+    ColliderId collider;   ///< that it moves with; empty: none
+};
+
+struct State {
+    Settings settings;
+    std::vector<Body> bodies;  ///< in the order of their particles
+    std::vector<Link> links;
+    std::vector<glm::dvec3> position;
+    std::vector<glm::dvec3> displacement;  ///< by the last substep, metres
+    std::vector<glm::dvec3> earlier;       ///< `displacement` of the substep before the last, for the energy
+    std::vector<double> mass;              ///< kg, over 0
+    std::vector<Pin> pins;                 ///< by particle
+    std::vector<Collider> colliders;
+    /// How often each slot was taken and freed: odd while it is taken.
+    std::vector<std::uint32_t> body_slots, collider_slots;
+    double remainder = 0.0;     ///< seconds that are not simulated yet
+    double displaced_in = 0.0;  ///< seconds of the last substep; 0: nothing has moved yet
+    std::uint64_t substeps = 0, dropped = 0;
+};
+
+/// Gives every body (collider) of a state that was put together by hand a handle, in their order, where the
+/// first has none: slots are numbered from 0.
+void number_slots(State& state);
+
+}  // namespace tendril::rope

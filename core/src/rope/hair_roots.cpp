@@ -1,0 +1,74 @@
+#include "tendril/rope/hair_roots.hpp"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "math/checks.hpp"
+
+namespace tendril::rope {
+namespace {
+
+/// `otherwise` where the patch has no direction of its own.
+Expected<glm::vec3> direction_of(const HairPatch& patch, glm::vec3 otherwise) {
+    const glm::vec3 direction = patch.direction.value_or(otherwise);
+    const float length = glm::length(direction);
+    if (length > 0.0f && std::isfinite(length)) return direction / length;
+    return tendril::detail::refused("hair", "direction", "of some finite length", length);
+}
+
+/// A point of the patch: how far from its middle, and which way.
+struct Seat {
+    float distance = 0.0f;
+    glm::vec3 outwards{1.0f, 0.0f, 0.0f};  ///< unit, across the direction
+};
+
+std::vector<Seat> seats(const HairPatch& patch, glm::vec3 direction) {
+    constexpr float golden_angle = 2.3999632f;
+    const glm::vec3 least = std::abs(direction.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
+    const glm::vec3 first = glm::normalize(glm::cross(direction, least));
+    const glm::vec3 second = glm::cross(direction, first);
+    std::vector<Seat> found;
+    found.reserve(static_cast<std::size_t>(patch.strands));
+    for (int i = 0; i < patch.strands; ++i) {
+        const float part = (static_cast<float>(i) + 0.5f) / static_cast<float>(patch.strands);
+        const float angle = golden_angle * static_cast<float>(i);
+        found.push_back({patch.radius * std::sqrt(part), std::cos(angle) * first + std::sin(angle) * second});
+    }
+    return found;
+}
+
+}  // namespace
+
+Expected<std::vector<HairRoot>> roots_around(const HairPatch& patch) {
+    const Expected<glm::vec3> given = direction_of(patch, glm::vec3(0, -1, 0));
+    if (!given) return given.error();
+    const glm::vec3 direction = *given;
+    std::vector<HairRoot> roots;
+    for (const Seat& seat : seats(patch, direction))
+        roots.push_back({patch.centre + seat.distance * seat.outwards, direction});
+    return roots;
+}
+
+Expected<std::vector<HairRoot>> roots_on(const Shape& shape, const HairPatch& patch, float lift) {
+    const auto* plane = std::get_if<Plane>(&shape);
+    const glm::vec3 otherwise = plane != nullptr ? plane->normal : glm::vec3(0, 1, 0);
+    const Expected<glm::vec3> given = direction_of(patch, otherwise);
+    if (!given) return given.error();
+    const glm::vec3 direction = *given;
+    const glm::vec3 middle = centre(shape);
+    const float ball = plane != nullptr ? 0.0f : size(shape);
+    std::vector<HairRoot> roots;
+    for (const Seat& seat : seats(patch, direction)) {
+        // A round way along a ball of the collider's size, and from there to its surface.
+        const float angle = ball > 0.0f ? seat.distance / ball : 0.0f;
+        const glm::vec3 from =
+            ball > 0.0f ? middle + ball * (std::cos(angle) * direction + std::sin(angle) * seat.outwards)
+                        : middle + seat.distance * seat.outwards;
+        const SurfaceDistance surface = surface_distance(shape, from);
+        const glm::vec3 normal(surface.normal);
+        roots.push_back({from + (lift - static_cast<float>(surface.distance)) * normal, normal});
+    }
+    return roots;
+}
+
+}  // namespace tendril::rope

@@ -1,0 +1,113 @@
+#include "tendril/rope/quasi_static.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "rope/geometry.hpp"
+#include "tendril/magnitude.hpp"
+
+namespace tendril::rope {
+namespace {
+
+constexpr double substeps = 8.0;  ///< a large move is not made good in one
+/// A stiff link that is further from its length than contacts leave it gets it back.
+constexpr double most_error = 0.05;
+
+bool is_stiff(const Settings& settings) {
+    return settings.solver == Solver::Direct && settings.compliance == 0.0f;
+}
+
+/// A world in which nothing would happen: no weight, no motion, nothing on its way, every link as long as it
+/// is.
+State frozen(const World& world) {
+    const State& was = world.state();
+    State still = was;
+    still.settings = {.damping = max_rate, .gravity = glm::vec3(0.0f)};
+    std::fill(still.displacement.begin(), still.displacement.end(), glm::dvec3(0.0));
+    std::fill(still.earlier.begin(), still.earlier.end(), glm::dvec3(0.0));
+    still.remainder = still.displaced_in = 0.0;
+    const bool stiff = is_stiff(was.settings);
+    for (Link& link : still.links) {
+        const double length = detail::length(was.position[link.b] - was.position[link.a]), rest = link.rest;
+        const bool kept = stiff && link.kind == Link::Kind::Stretch;
+        if (!kept || std::abs(length - rest) <= most_error * rest)
+            link.rest = static_cast<float>(std::min(length, static_cast<double>(max_magnitude)));
+        link.tension = 0.0f;
+    }
+    for (Body& body : still.bodies) body.tear = 0.0f;
+    for (Collider& collider : still.colliders) {
+        collider.goal = glm::dvec3(centre(collider.shape));
+        collider.seconds = 0.0;
+    }
+    for (Pin& pin : still.pins) {
+        const Collider* holder = world.find(pin.collider);
+        pin.goal = was.position[pin.particle];
+        if (holder != nullptr) pin.goal -= glm::dvec3(centre(holder->shape));
+        pin.seconds = 0.0;
+    }
+    return still;
+}
+
+/// What was not sent anywhere goes on to where it was going.
+void send_on(State& now, const State& still, const State& was) {
+    for (Pin& pin : now.pins) {
+        const auto at = std::find_if(still.pins.begin(), still.pins.end(),
+                                     [&](const Pin& other) { return other.particle == pin.particle; });
+        pin.seconds = 0.0;
+        if (at != still.pins.end() && at->goal == pin.goal && at->collider == pin.collider)
+            pin = was.pins[static_cast<std::size_t>(at - still.pins.begin())];
+    }
+    for (std::size_t i = 0; i < now.colliders.size(); ++i) {
+        const Collider& before = still.colliders[i];
+        now.colliders[i].seconds = 0.0;
+        if (now.colliders[i].goal == before.goal && now.colliders[i].shape == before.shape)
+            now.colliders[i] = was.colliders[i];
+    }
+}
+
+/// `send` moves what is dragged in a world, in so many seconds.
+template <class Send>
+Result drag(World& world, Workspace& workspace, Send send) {
+    const State& was = world.state();
+    const State still = frozen(world);
+    Expected<World> moved = World::from_state(still);
+    if (!moved) return moved.error();
+    const double seconds = substeps * still.settings.substep;
+    if (const Result refused = send(*moved, seconds); !refused) return refused;
+    moved->advance(seconds, workspace);
+
+    State now = moved->state();
+    send_on(now, still, was);
+    for (std::size_t i = 0; i < now.bodies.size(); ++i) {
+        now.bodies[i].tear = was.bodies[i].tear;
+        if (!is_stiff(was.settings)) now.bodies[i].stretch = was.bodies[i].stretch;
+    }
+    now.settings = was.settings;
+    now.links = was.links;
+    now.displacement = was.displacement, now.earlier = was.earlier;
+    now.remainder = was.remainder, now.displaced_in = was.displaced_in;
+    now.substeps = was.substeps, now.dropped = was.dropped;
+    Expected<World> after = World::from_state(std::move(now));
+    if (!after) return after.error();
+    world = std::move(*after);
+    return {};
+}
+
+}  // namespace
+
+Result drag_pin(World& world, Workspace& workspace, std::size_t particle, const glm::dvec3& to) {
+    return drag(world, workspace,
+                [&](World& moved, double seconds) { return moved.pin(particle, to, seconds); });
+}
+
+Result drag_collider(World& world, Workspace& workspace, ColliderId collider, const glm::vec3& to) {
+    return drag(world, workspace,
+                [&](World& moved, double seconds) { return moved.move_collider(collider, to, seconds); });
+}
+
+Result drag_collider(World& world, Workspace& workspace, ColliderId collider, const Shape& shape) {
+    return drag(world, workspace, [&](World& moved, double) { return moved.set_collider(collider, shape); });
+}
+
+}  // namespace tendril::rope

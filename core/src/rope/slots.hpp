@@ -1,0 +1,49 @@
+// Handles: which slot is whose. Not installed.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "math/checks.hpp"
+#include "tendril/rope/handle.hpp"
+
+namespace tendril::rope::detail {
+
+/// A free slot, now taken: the first one, so that the same calls give the same handles.
+template <class Id>
+Id take_slot(std::vector<std::uint32_t>& slots, std::size_t taken) {
+    auto free = slots.end();
+    if (taken < slots.size())
+        free = std::find_if(slots.begin(), slots.end(), [](std::uint32_t uses) { return uses % 2 == 0; });
+    const auto index = static_cast<std::uint32_t>(free - slots.begin());
+    if (free == slots.end()) slots.push_back(0);
+    return {index, ++slots[index]};
+}
+
+template <class Id>
+void free_slot(std::vector<std::uint32_t>& slots, Id id) noexcept {
+    ++slots[id.index];
+}
+
+/// Null where there is none. Mostly things stand in the order of their slots, then it is found at once.
+template <class List, class Id>
+auto* find_in(List& list, const Id& id) noexcept {
+    if (id.index < list.size() && list[id.index].id == id) return &list[id.index];
+    const auto found =
+        std::find_if(list.begin(), list.end(), [&](const auto& each) { return each.id == id; });
+    return found == list.end() || !id ? nullptr : &*found;
+}
+
+/// `remove: body must be the handle of a body that is there, got slot 7`
+inline Result missing(const char* operation, const char* argument, const char* kind,
+                      std::uint32_t slot) noexcept {
+    using tendril::detail::refused;
+    const bool body = kind[0] == 'b';
+    const Result words =
+        refused(operation, argument,
+                body ? "the handle of a body that is there" : "the handle of a collider that is there",
+                static_cast<std::size_t>(slot));
+    return {ErrorCode::OutOfRange, words.message()};
+}
+
+}  // namespace tendril::rope::detail

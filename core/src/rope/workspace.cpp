@@ -1,0 +1,70 @@
+// Workspaces: memory that follows from a world's state.
+#include "tendril/rope/workspace.hpp"
+
+#include "math/checks.hpp"
+#include "rope/scratch.hpp"
+
+namespace tendril::rope {
+namespace {
+
+/// Gives everything its size, so that nothing is allocated later.
+void size(Scratch& scratch, const State& state, const Plan& plan) {
+    const std::size_t particles = state.position.size();
+    scratch.place.resize(particles);
+    scratch.base.resize(particles);
+    scratch.weight.resize(particles);
+    scratch.touch.assign(particles, Touch{});
+    scratch.touched.clear();
+    scratch.touched.reserve(particles);
+    scratch.body_near.assign(state.bodies.size(), 0);
+    scratch.body_lost.assign(state.bodies.size(), 0);
+    scratch.multiplier.resize(state.links.size());
+    scratch.chunk_low.resize(plan.chunks.size());
+    scratch.chunk_high.resize(plan.chunks.size());
+    scratch.near.reserve(4 * plan.chunks.size());
+    scratch.chain_error.assign(plan.chains.size(), 0.0);
+    scratch.chain_gain.assign(plan.chains.size(), 0.0);
+    scratch.chain_scale.assign(plan.chains.size(), 1.0);
+    constexpr std::size_t alignment = 8;  // doubles: 64 bytes
+    scratch.block.assign(detail::Block::doubles(plan.longest, scratch.unit.lanes) + alignment, 0.0);
+    const auto address = reinterpret_cast<std::uintptr_t>(scratch.block.data());
+    scratch.block_offset = (64 - address % 64) % 64 / sizeof(double);
+}
+
+}  // namespace
+
+Workspace::Workspace() : parts_(std::make_unique<Parts>()) {
+    parts_->scratch.unit = detail::vector_unit("");
+}
+Workspace::Workspace(Workspace&&) noexcept = default;
+Workspace& Workspace::operator=(Workspace&&) noexcept = default;
+Workspace::~Workspace() = default;
+
+Result Workspace::use_vector_unit(std::string_view name) {
+    const bool single = name == "none";
+    const detail::VectorUnit unit = detail::vector_unit(single ? "" : name);
+    if (unit.solve == nullptr) {
+        return tendril::detail::refused("use_vector_unit", "name", "one of ik::vector_units(), or \"none\"",
+                                        name);
+    }
+    parts_->scratch.unit = single ? detail::VectorUnit{unit.single, unit.single, 1} : unit;
+    parts_->prepared = false;
+    return {};
+}
+
+void Workspace::Parts::prepare(const State& state) {
+    if (!prepared || !plan.fits(state)) replan(state);
+    scratch.colliders.resize(state.colliders.size());
+    scratch.close.reserve(state.colliders.size());
+    scratch.collider_at.resize(state.collider_slots.size());
+    for (std::uint32_t i = 0; i < state.colliders.size(); ++i)
+        scratch.collider_at[state.colliders[i].id.index] = i;
+}
+
+void Workspace::Parts::replan(const State& state) {
+    plan = Plan(state);
+    size(scratch, state, plan);
+    prepared = true;
+}
+
+}  // namespace tendril::rope
