@@ -52,7 +52,7 @@ struct ManyOptions {
     /// Goes on to max_iterations whatever was reached; for measuring, and for comparing solvers.
     bool every_iteration = false;
     /// Of the scalar solver within limits, as Options::restarts.
-    int restarts = Options{}.restarts;
+    std::optional<int> restarts{};
     /// Who runs the threads' parts (as many as Batch::make was told of, where there is work for them); the
     /// library's own threads where left out.
     Tasks tasks{};
