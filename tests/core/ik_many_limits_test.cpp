@@ -171,6 +171,24 @@ TEST(SolveManyWithinLimits, WhatVectorsCannotDoIsTheScalarSolversAnswer) {
     for (std::size_t i = 1; i < all.crowd.size(); i += 9) expect_fallback_is_scalar(all, flat, i);
 }
 
+/// Two chains whose fallbacks could pass for one that is dragged: the scalar solver must not take them so.
+TEST(SolveManyWithinLimits, AFallbackRemembersNothingOfTheChainBeforeIt) {
+    Random random(59);
+    for (int round = 0; round < 20; ++round) {
+        LimitedCrowd all = limited_crowd(1, 4, ArmKind::Human, random);
+        all.crowd.targets[0] =
+            all.crowd.joints[0].front() - some_tip(all.arm, random);  // behind: mostly forbidden
+        for (int i = 0; i < 8; ++i) {
+            all.crowd.add(all.crowd.lengths[0], all.crowd.joints[0],
+                          all.crowd.targets[0] + random.point(0.01f));
+        }
+        const LimitedAnswer many = solve_limited(all);
+        for (std::size_t i = 0; i < all.crowd.size(); ++i) {
+            if (many.answer.reports[i].scalar_fallback) expect_fallback_is_scalar(all, many, i);
+        }
+    }
+}
+
 TEST(SolveManyWithinLimits, AChainThatHasArrivedStaysToTheBit) {
     Random random(55);
     const LimitedCrowd all = limited_crowd(300, 6, ArmKind::Human, random);

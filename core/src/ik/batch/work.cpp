@@ -175,6 +175,7 @@ void Work::solve_scalar_limited(const Block& block, std::size_t lane, std::size_
     const auto component = [&](std::size_t i, int k) -> float& {
         return rows[(4 * i + static_cast<std::size_t>(k)) * block_lanes];
     };
+    scalar.kept.reset();  // of the chain before, which must not matter
     for (std::size_t i = 0; i < in_.bones; ++i) {
         for (int k = 0; k < 4; ++k) scalar.kept.rotations[i][k] = component(i, k);
         scalar.rest_directions[i] = in_.limits->rest_directions[i];
