@@ -33,7 +33,7 @@ const char* name(Status status) noexcept;
 /// How a chain is turned to face its pole.
 enum class PoleTurn : std::uint8_t {
     WholeChain,  ///< all joints at once about the line from root to tip: smooth
-    EachJoint    ///< every middle joint about the line between its neighbours
+    EachJoint    ///< every middle joint about the line between its neighbours; within limits as WholeChain
 };
 
 /// Which method honours which option: the table in method.hpp.
@@ -61,7 +61,8 @@ struct Options {
     /// report is about the target itself: where the tip stays short of it by more than the tolerance, the
     /// status is Stretched and the residual what is missing.
     float soft_zone = 0.0f;
-    /// Damping of the two damped solvers as part of the reach, over 0 to 10.
+    /// Damping of the two damped solvers as part of the reach, over 0 to 10. Within limits less than 3e-5
+    /// counts as that.
     float damping = 0.1f;
     /// Two-bone only: the part of the reach from which on the bones lengthen, over 0 to 1, and up to how many
     /// times their length, 1 to 100. With 1 they never do.

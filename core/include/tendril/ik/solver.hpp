@@ -68,7 +68,11 @@ class Solver {
 
     /// After a solve that ended Limited: which joint holds the tip back. That is the one whose freeing,
     /// alone, brings the tip nearest to the target. `joints` and `state` are those that the solve left. None
-    /// where no single joint's freeing brings it nearer, or the input is not valid.
+    /// where no single joint's freeing brings it nearer, or the input is not valid. Of all joints that stand
+    /// at their limits the four whose limits stop most of the descent to the target are tried.
+    ///
+    /// Cost: at most 17 further solves of at most 60 iterations each, whatever the number of bones: one to
+    /// where the limits hold, one or two for each of the four, eight to find the angle.
     std::optional<Hold> explain(std::span<const glm::vec3> joints, const State& state, glm::vec3 target,
                                 const Options& options) noexcept;
 

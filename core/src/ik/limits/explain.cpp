@@ -1,6 +1,8 @@
-// Which joint limit holds the tip back: from the best pose within all limits every joint that stands at its
-// own is freed in turn. For the joint that helps most, the room that it needs is then found by halving.
+// Which joint limit holds the tip back. From the best pose within all limits the few joints whose limits stop
+// most of the descent towards the target are freed in turn. For the one that helps most, the room that it
+// needs is then found by halving.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "ik/limits/loop.hpp"
@@ -15,8 +17,10 @@ using namespace detail;
 namespace {
 
 constexpr int iterations = 60;
-constexpr float fine = 1e-4f;        ///< of the reach: what counts as there
-constexpr float noticeable = 1e-3f;  ///< of the distance that was left: what counts as nearer
+constexpr std::size_t most_candidates = 4;  ///< joints that are freed
+constexpr int halvings = 8;                 ///< of the room that the best of them needs: to 0.4 % of it
+constexpr float fine = 1e-4f;               ///< of the reach: what counts as there
+constexpr float noticeable = 1e-3f;         ///< of the distance that was left: what counts as nearer
 
 /// How a joint stands after the solve with some limits, and how far the tip is then.
 struct Outcome {
@@ -122,7 +126,7 @@ Outcome least(Workspace& room, std::span<glm::vec3> joints, glm::vec3 target, co
     float low = 0.0f, high = 1.0f;
     const JointAngles all = most.angles;
     const LimitedJoint own = limited_joint(options.limits[joint], room.rest_directions[joint]);
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < halvings; ++i) {
         const float part = 0.5f * (low + high);
         const Outcome some =
             outcome(room, joints, target, options, joint, widened(options.limits[joint], all, part));
@@ -156,24 +160,80 @@ Outcome freed(Workspace& room, std::span<glm::vec3> joints, glm::vec3 target, co
     return other.error < one.error ? other : one;
 }
 
+/// How much of a joint's part in the descent its limit stops: the fall of half the error's square for a turn
+/// of this joint alone, as far as that turn leaves the limit. 0 within the limit.
+float stopped(const Workspace& room, const glm::vec3& target, const Options& options,
+              std::size_t i) noexcept {
+    constexpr float small_turn = 1e-2f;  // radians: well over what counts as at the limit
+    const LimitedJoint joint = limited_joint(options.limits[i], room.rest_directions[i]);
+    const LimitedPose& pose = room.limited.kept;
+    const glm::quat turn = pose.turns[i];
+    if (!is_at_limit(joint, angles_of(joint, turn))) return 0.0f;
+    const glm::vec3 tip = pose.joints.back();
+    glm::vec3 torque = cross(minus(tip, pose.joints[i]), minus(target, tip));
+    if (options.tip_orientation) {  // as error_of has it
+        const float arm = 0.25f * room.reach;
+        const glm::quat missing = compose(unit(*options.tip_orientation), conjugate(pose.rotations.back()));
+        torque = plus(torque, times(rotation_vector(missing), arm * arm));
+    }
+    const float size = length(torque);
+    if (!(size > 0.0f)) return 0.0f;
+    const glm::vec3 axis = rotated(conjugate(parent_of(pose.rotations, i)), times(torque, 1.0f / size));
+    const glm::quat turned = compose(rotation_about(axis, small_turn), turn);
+    return size * excess_of(joint, angles_of(joint, turned)) / small_turn;
+}
+
 /// The joint whose freeing brings the tip nearest; where several bring it there, the one that needs least.
-Candidate best_candidate(Workspace& room, std::span<glm::vec3> joints, glm::vec3 target,
-                         const Options& options, float start) noexcept {
-    Candidate best;
-    const float there = fine * room.reach;
-    for (std::size_t i = 0; i < options.limits.size(); ++i) {
-        const LimitedJoint joint = limited_joint(options.limits[i], room.rest_directions[i]);
-        const JointAngles angles = angles_of(joint, room.limited.kept.turns[i]);
-        if (!is_at_limit(joint, angles)) continue;
-        const Outcome result = freed(room, joints, target, options, i, angles);
+class Candidates {
+  public:
+    Candidates(Workspace& room, std::span<glm::vec3> joints, glm::vec3 target, const Options& options,
+               float start) noexcept
+        : room_(room), joints_(joints), target_(target), options_(options), start_(start) {}
+
+    Candidate best() noexcept {
+        for (std::size_t i = 0; i < options_.limits.size(); ++i) enter(i);
+        Candidate best;
+        for (std::size_t k = 0; k < count_; ++k) consider(best, list_[k].joint);
+        return best;
+    }
+
+  private:
+    struct Entry {
+        std::size_t joint = 0;
+        float stopped = 0.0f;
+    };
+
+    /// Keeps the ones that stop most, the most first; of equals the one nearer to the root.
+    void enter(std::size_t i) noexcept {
+        const Entry entry{i, stopped(room_, target_, options_, i)};
+        if (!(entry.stopped > 0.0f)) return;
+        std::size_t k = count_ < most_candidates ? count_++ : most_candidates;
+        for (; k > 0 && list_[k - 1].stopped < entry.stopped; --k) {
+            if (k < most_candidates) list_[k] = list_[k - 1];
+        }
+        if (k < most_candidates) list_[k] = entry;
+    }
+
+    void consider(Candidate& best, std::size_t i) noexcept {
+        const float there = fine * room_.reach;
+        const LimitedJoint joint = limited_joint(options_.limits[i], room_.rest_directions[i]);
+        const JointAngles angles = angles_of(joint, room_.limited.kept.turns[i]);
+        const Outcome result = freed(room_, joints_, target_, options_, i, angles);
         const float over = excess_of(joint, result.angles);
-        if (over <= 2.0f * at_bound || result.error >= start * (1.0f - noticeable)) continue;
+        if (over <= 2.0f * at_bound || result.error >= start_ * (1.0f - noticeable)) return;
         const bool nearer = std::max(result.error, there) < std::max(best.outcome.error, there);
         const bool as_near = result.error <= there && best.outcome.error <= there && over < best.over;
         if (best.joint == no_joint || nearer || as_near) best = {i, result, over};
     }
-    return best;
-}
+
+    Workspace& room_;
+    std::span<glm::vec3> joints_;
+    glm::vec3 target_;
+    const Options& options_;
+    float start_;
+    std::size_t count_ = 0;
+    std::array<Entry, most_candidates> list_{};
+};
 
 /// A method that gave up early may stand at limits that hold nothing. So the default one goes on first, as
 /// far as the limits let it; from there on they are freed. The error that is left.
@@ -203,7 +263,7 @@ std::optional<Hold> Solver::explain(std::span<const glm::vec3> joints, const Sta
     const std::span<glm::vec3> work = room.joints;
     std::copy(joints.begin(), joints.end(), work.begin());
     const float start = best_within_limits(room, work, target, options);
-    const Candidate found = best_candidate(room, work, target, options, start);
+    const Candidate found = Candidates(room, work, target, options, start).best();
     std::optional<Hold> hold;
     if (found.joint != no_joint) {
         const std::size_t i = found.joint;

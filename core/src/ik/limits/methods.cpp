@@ -1,5 +1,7 @@
 #include "ik/limits/methods.hpp"
 
+#include <algorithm>
+
 #include "ik/limits/fabrik.hpp"
 #include "ik/limits/pose.hpp"
 #include "ik/limits/step.hpp"
@@ -64,7 +66,8 @@ void limited_iteration(Method method, Problem& problem, Watch watch) noexcept {
     if (method == Method::Ccd) return sweep(problem, watch);
     const bool closed = method == Method::TwoBone && problem.bones() == 2;
     if (closed && problem.iteration == 1 && !problem.options.tip_orientation) return close(problem, watch);
-    const float damping = problem.options.damping * problem.options.damping;
+    // Under this the matrix, which limits may leave singular, could not be inverted.
+    const float damping = std::max(problem.options.damping * problem.options.damping, 1e-9f);
     const Descent descent = method == Method::JacobianTranspose ? Descent::Transpose
                             : method == Method::SvdDls          ? Descent::Filtered
                                                                 : Descent::Damped;

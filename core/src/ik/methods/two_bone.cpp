@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "chain/checks.hpp"
+#include "math/checks.hpp"
 #include "ik/math.hpp"
 #include "ik/pole/pole.hpp"
 #include "tendril/ik/two_bone.hpp"

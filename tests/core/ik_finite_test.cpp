@@ -1,0 +1,128 @@
+// Whatever comes out is a number, with every option at the ends of its documented range.
+#include "ik_hostile.hpp"
+#include "ik_limit_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+using ik::Method;
+
+template <class... T>
+float one_of(Random& random, T... values) {
+    const float all[] = {static_cast<float>(values)...};
+    return all[random.below(sizeof...(values))];
+}
+
+/// Half of the options stay as they are; the others are at an end of their range, or near it.
+ik::Options extreme_options(const Arm& arm, Random& random) {
+    ik::Options options;
+    options.max_iterations = 1 + static_cast<int>(random.below(40));
+    options.every_iteration = random.chance(3);
+    if (random.chance(2)) options.tolerance = one_of(random, 0, 1e-30, 1e-9, 1e9);
+    if (random.chance(2)) options.limits = arm.limits;
+    if (random.chance(2)) options.pole = random.chance(2) ? random.point(1e9f) : random.point(arm.reach());
+    if (random.chance(2)) options.pole_turn = ik::PoleTurn::EachJoint;
+    if (random.chance(2)) options.snap_back = one_of(random, 1, 1e-30, 0.5);
+    if (random.chance(3)) options.tip_orientation = glm::quat(0.5f, -0.5f, 0.5f, 0.5f);
+    if (random.chance(2)) options.soft_zone = one_of(random, 1, 1e-30, 1e-6);
+    if (random.chance(2)) options.damping = one_of(random, 1e-45, 1e-38, 1e-20, 1e-10, 1e-5, 10);
+    if (random.chance(2)) options.start_stretch_ratio = one_of(random, 1e-45, 1e-20, 1e-3);
+    if (random.chance(2)) options.max_stretch_scale = one_of(random, 1, 100);
+    if (random.chance(2)) options.twist = one_of(random, -1e9, 1e9, 1e-30, 3.14159265);
+    if (random.chance(2)) options.weight = one_of(random, 0, 1e-45, 1e-20, 0.999999);
+    if (random.chance(2)) options.restarts = random.chance(2) ? 0 : 1000;
+    options.rotations = random.chance(2);
+    return options;
+}
+
+bool are_finite(std::span<const glm::vec3> points) {
+    return std::all_of(points.begin(), points.end(), [](const glm::vec3& p) {
+        return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+    });
+}
+
+TEST(IkFinite, WithOptionsAtTheEndsOfTheirRanges) {
+    Random random(given_seed());
+    for (int number = 0; number < 6000 && !::testing::Test::HasFailure(); ++number) {
+        const Method method = ik::all_methods[random.below(ik::all_methods.size())];
+        const std::size_t bones = method == Method::TwoBone ? 2 : 1 + random.below(6);
+        Arm arm = some_arm(random, arm_kinds[random.below(arm_kinds.size())], bones);
+        const float scale = one_of(random, 1, 1, 1, 1e-4, 1e3, 1e7);
+        for (float& length : arm.lengths) length *= random.chance(12) ? 0.0f : scale;
+        KeptSolver solver = arm.solver();
+        Joints joints = random.chance(2) ? arm.at_rest() : some_pose(arm.lengths, random);
+        for (int turn = 0; turn < 3; ++turn) {
+            SCOPED_TRACE(std::string(name(method)) + " " + std::to_string(number) + " " +
+                         std::to_string(turn));
+            ik::Options options = extreme_options(arm, random);
+            std::vector<float> residuals(64, 0.0f);
+            options.residuals = residuals;
+            const Joints before = joints;
+            const glm::vec3 target = hostile_target(joints, arm.lengths, random);
+            const ik::Report report = solver.solve(method, joints, target, options);
+            if (report.status == ik::Status::InvalidInput) {  // an earlier solve left the range
+                EXPECT_TRUE(same_bits(joints, before));
+                break;
+            }
+            EXPECT_TRUE(are_finite(joints));
+            EXPECT_TRUE(std::isfinite(report.residual));
+            for (const float residual : residuals) EXPECT_TRUE(std::isfinite(residual));
+            const Result state = check(solver.state, bones);
+            EXPECT_TRUE(state) << state.message();
+        }
+    }
+}
+
+/// What was seen: damped least squares within limits, with hardly any damping.
+TEST(IkFinite, DampingOfNearlyNothingWithinLimits) {
+    Random random(77);
+    for (int number = 0; number < 2000; ++number) {
+        const Arm arm = some_arm(random, arm_kinds[random.below(arm_kinds.size())], 1 + random.below(4));
+        for (const Method method : {Method::Dls, Method::SvdDls}) {
+            KeptSolver solver = arm.solver();
+            Joints joints = arm.at_rest();
+            std::vector<float> residuals(30, 0.0f);
+            const ik::Options options{.max_iterations = 30,
+                                      .every_iteration = true,
+                                      .limits = arm.limits,
+                                      .damping = 1e-20f,
+                                      .residuals = residuals};
+            const ik::Report report = solver.solve(method, joints, random.point(arm.reach()), options);
+            EXPECT_TRUE(std::isfinite(report.residual));
+            for (const float residual : residuals) ASSERT_TRUE(std::isfinite(residual)) << number;
+        }
+    }
+}
+
+/// A target at the end of the range, seen from near the origin: lengths are kept. Beyond it nothing moves.
+TEST(IkFinite, FarTargetsKeepLengths) {
+    Random random(78);
+    for (int number = 0; number < 500; ++number) {
+        for (const Method method : ik::all_methods) {
+            const Arm arm = some_arm(random, arm_kinds[random.below(arm_kinds.size())],
+                                     method == Method::TwoBone ? 2 : 2 + random.below(6));
+            KeptSolver solver = arm.solver();
+            Joints joints = some_pose(arm.lengths, random, random.point(10.0f));
+            ik::Options options;
+            if (random.chance(2)) options.limits = arm.limits;
+            if (random.chance(2)) options.pole = random.point(3.0f);
+            if (random.chance(2)) options.soft_zone = 0.2f;
+            if (random.chance(2)) options.weight = part(random);
+            const float far = std::pow(10.0f, between(random, 3.0f, 9.0f));
+            const glm::vec3 target = some_direction(random) * far;
+            EXPECT_NE(solver.solve(method, joints, target, options).status, ik::Status::InvalidInput);
+            EXPECT_TRUE(Holds(joints, arm.lengths)) << name(method) << " " << far;
+            const Joints before = joints;
+            const ik::State state = solver.state;
+            for (const float beyond : {1.1e9f, 1e30f, infinity}) {
+                EXPECT_EQ(solver.solve(method, joints, {beyond, 0, 1}, options).status,
+                          ik::Status::InvalidInput);
+                EXPECT_TRUE(same_bits(joints, before));
+                EXPECT_EQ(solver.state, state);
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test

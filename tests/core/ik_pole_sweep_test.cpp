@@ -1,0 +1,89 @@
+// A target that crosses the line to the pole: the chain must not leap to the other side at once.
+#include <algorithm>
+
+#include "ik_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+using ik::Method;
+using ik::PoleTurn;
+
+struct Sweep {
+    double step = 0.0;  ///< of the target, metres
+    PoleTurn turn = PoleTurn::WholeChain;
+    glm::dvec3 normal{0.0};  ///< of the plane of the arc
+    bool forgets = false;    ///< a new state for every solve, as a program has it that makes its solver anew
+};
+
+glm::dvec3 turned_about(const glm::dvec3& v, const glm::dvec3& axis, double angle) {
+    return v * std::cos(angle) + glm::cross(axis, v) * std::sin(angle) +
+           axis * (glm::dot(axis, v) * (1.0 - std::cos(angle)));
+}
+
+/// The chain follows a target on an arc of radius 3 m, from a radian before the pole's direction to one after
+/// it. How many times as far as the target any joint has moved in a tick, at most.
+double worst_ratio(Method method, const Lengths& lengths, const Sweep& sweep) {
+    constexpr double radius = 3.0;
+    const glm::vec3 pole{2, 1, 0};
+    const glm::dvec3 middle = glm::normalize(glm::dvec3(pole)) * radius;
+    KeptSolver solver(lengths);
+    Joints joints = straight_joints(lengths);
+    const ik::Options options{.tolerance = 1e-4f, .pole = pole, .pole_turn = sweep.turn};
+    const auto at = [&](double angle) { return glm::vec3(turned_about(middle, sweep.normal, angle)); };
+    glm::vec3 target = at(-1.0);
+    for (int i = 0; i < 100; ++i) solver.solve(method, joints, target, options);  // until it is at rest
+    double worst = 0.0;
+    for (double angle = -1.0; angle <= 1.0; angle += sweep.step / radius) {
+        if (sweep.forgets) solver.state.reset();
+        const Joints before = joints;
+        const glm::vec3 next = at(angle);
+        const double moved = distance(next, target);
+        target = next;
+        EXPECT_NE(solver.solve(method, joints, target, options).status, ik::Status::InvalidInput);
+        if (moved == 0.0) continue;
+        for (std::size_t i = 0; i < joints.size(); ++i)
+            worst = std::max(worst, distance(before[i], joints[i]) / moved);
+    }
+    EXPECT_TRUE(Holds(joints, lengths));
+    return worst;
+}
+
+TEST(IkPoleSweep, NoJointLeapsAsTheTargetCrossesThePole) {
+    for (const std::size_t bones : {5u, 6u}) {  // six segments, and six bones
+        const Lengths lengths(bones, 1.0f);
+        for (const double step : {0.025, 0.005, 0.0005}) {
+            for (const PoleTurn turn : {PoleTurn::WholeChain, PoleTurn::EachJoint}) {
+                const glm::dvec3 along = glm::normalize(glm::dvec3(2, 1, 0));
+                const glm::dvec3 up(0, 0, 1), across = glm::cross(up, along);
+                for (const double tilt : {0.0, 0.5, 1.57079632679}) {
+                    const glm::dvec3 normal = up * std::cos(tilt) + across * std::sin(tilt);
+                    const double ratio = worst_ratio(Method::Fabrik, lengths, {step, turn, normal});
+                    EXPECT_LE(ratio, 50.0)
+                        << bones << " bones, steps of " << step << " m, "
+                        << (turn == PoleTurn::EachJoint ? "each joint" : "whole chain") << ", tilt " << tilt;
+                }
+            }
+        }
+    }
+}
+
+TEST(IkPoleSweep, WithoutTheStateItDoes) {
+    const Lengths lengths(5, 1.0f);
+    EXPECT_GT(worst_ratio(Method::Fabrik, lengths, {0.025, PoleTurn::WholeChain, {0, 0, 1}, true}), 50.0);
+    EXPECT_GT(worst_ratio(Method::Fabrik, lengths, {0.005, PoleTurn::WholeChain, {0, 0, 1}, true}), 50.0);
+}
+
+TEST(IkPoleSweep, NorForTheOtherMethods) {
+    const Lengths lengths(5, 1.0f);
+    for (const Method method : iterating_methods) {
+        for (const PoleTurn turn : {PoleTurn::WholeChain, PoleTurn::EachJoint}) {
+            EXPECT_LE(worst_ratio(method, lengths, {0.005, turn, {0, 0, 1}}), 50.0)
+                << name(method) << (turn == PoleTurn::EachJoint ? ", each joint" : ", whole chain");
+        }
+    }
+    EXPECT_LE(worst_ratio(Method::TwoBone, Lengths{2, 2}, {0.005, PoleTurn::WholeChain, {0, 0, 1}}), 50.0);
+}
+
+}  // namespace
+}  // namespace tendril::test
