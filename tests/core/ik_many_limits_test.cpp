@@ -281,5 +281,27 @@ TEST(Batch, RefusesLimitsThatAreNone) {
     EXPECT_EQ(batch.copy_rotations(rotations).code(), ErrorCode::NotFound);
 }
 
+TEST(SolveManyWithinLimits, LimitsWithOtherRestDirectionsCountAnew) {
+    std::vector<ik::Limit> limits(3,
+                                  ik::Limit::of(ik::JointKind::Suture));  // flat: left to the scalar solver
+    for (ik::Limit& limit : limits) limit.axis = {0, 0, 1}, limit.up = limit.down = 0.5f;
+    const auto solved = [&](bool first_along_x) {
+        ik::Batch batch = ik::Batch::make(1, 3).value();
+        const std::vector<glm::vec3> targets{{1.0f, 2.0f, 0.5f}};
+        if (first_along_x) {
+            EXPECT_TRUE(batch.set_limits(limits, std::vector<glm::vec3>(3, {1, 0, 0})));
+            ik::solve_many(batch, targets);
+        }
+        EXPECT_TRUE(batch.set_limits(limits, std::vector<glm::vec3>(3, {0, 1, 0})));
+        const Joints start = straight_joints(Lengths(3, 1.0f), {0, 1, 0});
+        EXPECT_TRUE(batch.set_joints(0, start));
+        ik::solve_many(batch, targets);
+        Joints joints(4);
+        EXPECT_TRUE(batch.copy_joints(0, joints));
+        return joints;
+    };
+    EXPECT_TRUE(same_bits(solved(true), solved(false)));
+}
+
 }  // namespace
 }  // namespace tendril::test

@@ -215,6 +215,7 @@ Result Batch::set_limits(std::span<const Limit> limits, std::span<const glm::vec
     }
     parts_->limits = std::make_unique<BatchLimits>(batch_limits(limits, rest));
     for (const std::unique_ptr<Scratch>& scratch : parts_->scratch) {
+        scratch->scalar.limited.made = false;  // the same limits, but other rest directions
         if (scratch->limited.get() != nullptr) continue;
         scratch->limited = Rows(limited_floats(bones()));
         scratch->poses = Rows(pose_rows(bones()) * block_lanes);
