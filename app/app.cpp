@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <tendril/version.hpp>
+#include <utility>
 
 #include "app/document/atomic_file.hpp"
 #include "app/document/json_complete.hpp"
@@ -35,10 +36,12 @@ Cursor wanted_cursor(const Ui& ui, const Pointer& pointer) {
 
 }  // namespace
 
-App::App(Window& window, bool complain)
+App::App(Window& window, bool complain, Labs labs)
     : window_(window),
       complain_(complain),
+      labs_(std::move(labs)),
       commands_(make_command_table(labs_)),
+      shortcuts_(labs_),
       workspace_(make_blank_workspace(labs_)) {
     ImGui::GetIO().SetClipboardTextFn = [](void* data, const char* text) {
         static_cast<Window*>(data)->set_clipboard(text);
@@ -115,7 +118,7 @@ void App::compose(const Event* event, Pass pass) {
     }
     if (hint.empty())
         hint = "Right-drag turns the view, middle-drag shifts it, the wheel zooms. ? shows every key.";
-    shell_.frame({workspace_, labs_, lab(), commands_, layout_, hint}, emit);
+    shell_.frame({workspace_, labs_, lab(), commands_, shortcuts_, layout_, hint}, emit);
     if (pass == Pass::Picture) emit.take();
     run_emitted(emit);
     if (in_tick) advance_time();
@@ -156,7 +159,7 @@ void App::take_shortcut(Emit& emit) {
         if (workspace_.history.is_open(gesture_)) emit("undo");
         return;
     }
-    const Shortcut* shortcut = find_shortcut(chord, workspace_.lab);
+    const Shortcut* shortcut = shortcuts_.find(chord, workspace_.lab);
     // A key that is held repeats what goes on step by step, but turns nothing on and off again.
     if (shortcut != nullptr && input_.repeated() && !shortcut->repeats) return;
     if (shortcut == nullptr || (ui_.wants_text() && !shortcut->while_typing)) return;
@@ -255,7 +258,7 @@ Json App::state() {
     Json state = lab().state(workspace_);
     Json handles = Json::array();
     for (const Handle& handle : lab().handles(workspace_)) {
-        const auto at = camera.project(handle.position);
+        const auto at = camera.project(handle.frame.position);
         handles.push_back({{"name", handle.name}, {"pixel", at ? pixel(*at) : Json(nullptr)}});
     }
     state["handles"] = std::move(handles);

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "app/document/autosave.hpp"
+#include "app/document/command.hpp"
 #include "app/io/image.hpp"
 #include "app/labs/labs.hpp"
 #include "app/script/player.hpp"
@@ -25,7 +26,8 @@ namespace tendril::app {
 class App final : public Stage {
   public:
     /// `window` must outlive the app, with its context current. Where `complain`, refusals also go to stderr.
-    explicit App(Window& window, bool complain = false);
+    /// `labs`: the program's, unless a test has more.
+    explicit App(Window& window, bool complain = false, Labs labs = Labs());
 
     Workspace& workspace() { return workspace_; }
     const CommandTable& commands() const { return commands_; }
@@ -75,6 +77,7 @@ class App final : public Stage {
     bool complain_;
     Labs labs_;
     CommandTable commands_;
+    Shortcuts shortcuts_;
     Workspace workspace_;
     Renderer renderer_;
     Ui ui_;

@@ -9,6 +9,7 @@
 #include "app/batch/code.hpp"
 #include "app/batch/paper_table.hpp"
 #include "app/batch/solve.hpp"
+#include "app/document/command.hpp"
 #include "app/document/text.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/labs.hpp"
@@ -57,9 +58,8 @@ void list_commands() {
         for (const Argument& argument : command.arguments) {
             std::string choices;
             for (const auto& choice : argument.choices) choices += (choices.empty() ? ": " : ", ") + choice;
-            std::printf("    %-18s %s%s; %s%s\n", argument.name.c_str(),
-                        type_text(argument.type), argument.required ? "" : ", optional",
-                        argument.help.c_str(), choices.c_str());
+            std::printf("    %-18s %s%s; %s%s\n", argument.name.c_str(), type_text(argument.type),
+                        argument.required ? "" : ", optional", argument.help.c_str(), choices.c_str());
         }
     }
 }
@@ -117,7 +117,7 @@ void SessionLine::check() {
 int SessionLine::run() {
     if (labs) list_labs();
     if (commands) list_commands();
-    if (shortcuts) std::fputs(shortcuts_markdown().c_str(), stdout);
+    if (shortcuts) std::fputs(Shortcuts(Labs()).markdown().c_str(), stdout);
     if (labs || commands || shortcuts) return 0;
     end_session_on_signals();
     return run_session(options);

@@ -44,6 +44,12 @@ struct NamedArgument {
 
 using ArgumentList = std::vector<NamedArgument>;
 
+/// A command that is to be run.
+struct CommandCall {
+    std::string name;
+    ArgumentList arguments{};
+};
+
 /// The object that commands take; of arguments with the same name the last one counts.
 Json to_json(const ArgumentList& arguments);
 

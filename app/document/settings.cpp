@@ -14,8 +14,6 @@ template <class T, std::size_t N>
 using Names = std::array<std::pair<T, const char*>, N>;
 
 constexpr Names<Theme, 2> theme_names{{{Theme::Dark, "dark"}, {Theme::Light, "light"}}};
-constexpr Names<SegmentStyle, 2> segment_names{
-    {{SegmentStyle::LinesAndSpheres, "spheres"}, {SegmentStyle::Bones, "bones"}}};
 constexpr Names<LabelMode, 2> label_names{{{LabelMode::Hover, "hover"}, {LabelMode::Always, "always"}}};
 
 template <class T, std::size_t N>
@@ -70,15 +68,16 @@ std::filesystem::path folder_from(const char* variable, const char* below) {
 }  // namespace
 
 Json save_settings(const Settings& settings) {
-    return Json{{"theme", name_of(settings.theme, theme_names)},
-                {"segments", name_of(settings.segments, segment_names)},
-                {"labels", name_of(settings.labels, label_names)},
-                {"text_scale", number(settings.text_scale)},
-                {"left_open", settings.left_open},
-                {"right_open", settings.right_open},
-                {"left_width", number(settings.left_width)},
-                {"right_width", number(settings.right_width)},
-                {"hint_seen", settings.hint_seen}};
+    Json json{{"theme", name_of(settings.theme, theme_names)},
+              {"labels", name_of(settings.labels, label_names)},
+              {"text_scale", number(settings.text_scale)},
+              {"left_open", settings.left_open},
+              {"right_open", settings.right_open},
+              {"left_width", number(settings.left_width)},
+              {"right_width", number(settings.right_width)},
+              {"hint_seen", settings.hint_seen}};
+    for (const auto& [key, choice] : settings.choices) json[key] = choice;
+    return json;
 }
 
 Settings load_settings(const Json& json, std::vector<std::string>& complaints) {
@@ -89,7 +88,6 @@ Settings load_settings(const Json& json, std::vector<std::string>& complaints) {
     }
     Reader reader(json, complaints);
     reader.read("theme", settings.theme, theme_names);
-    reader.read("segments", settings.segments, segment_names);
     reader.read("labels", settings.labels, label_names);
     reader.read("text_scale", settings.text_scale, 0.5f, 3.0f);
     reader.read("left_open", settings.left_open);
@@ -97,6 +95,9 @@ Settings load_settings(const Json& json, std::vector<std::string>& complaints) {
     reader.read("left_width", settings.left_width, 180.0f, 520.0f);
     reader.read("right_width", settings.right_width, 180.0f, 520.0f);
     reader.read("hint_seen", settings.hint_seen);
+    const Json own = save_settings(Settings{});
+    for (const auto& [key, value] : json.items())
+        if (value.is_string() && !own.contains(key)) settings.choices[key] = value.get<std::string>();
     return settings;
 }
 

@@ -279,8 +279,6 @@ void add_window_commands(CommandTable& table) {
                        a.number("width");
                }});
     table.add(either("view.theme", "name", {"dark", "light"}, "Dark or light", &Settings::theme));
-    table.add(either("view.segments", "style", {"spheres", "bones"},
-                     "Draws segments as lines and spheres, or as tapered bones", &Settings::segments));
     table.add(either("view.labels", "show", {"hover", "always"}, "Shows labels on hover, or always",
                      &Settings::labels));
     table.add(

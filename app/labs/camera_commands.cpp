@@ -3,6 +3,8 @@
 #include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "app/document/command.hpp"
+
 namespace tendril::app {
 namespace {
 

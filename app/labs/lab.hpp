@@ -3,18 +3,25 @@
 // alike. Solvers and other scratch memory it keeps in its runtime (runtime.hpp), which the workspace holds.
 #pragma once
 
+#include <cstdint>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "app/document/command.hpp"
+#include "app/document/workspace.hpp"
+#include "app/labs/kit/setting.hpp"
+#include "app/labs/kit/shortcut.hpp"
 #include "app/view/camera.hpp"
 #include "app/view/draw_list.hpp"
 #include "app/view/palette.hpp"
 #include "app/widgets/emit.hpp"
 
 namespace tendril::app {
+
+class CommandTable;
 
 /// What a lab may look at to draw itself.
 struct View {
@@ -26,10 +33,19 @@ struct View {
     float scale = 1.0f;  ///< of everything measured in pixels
 };
 
-/// A place in the scene that a person can take hold of.
+/// What a drag may change of a handle's frame.
+enum class Drag : std::uint8_t { Nothing, Position };
+
+/// A frame that a person can take hold of.
 struct Handle {
-    std::string name;  ///< as --state has it: "target", "segment.3"
-    glm::vec3 position{0.0f};
+    struct Frame {
+        glm::vec3 position{0.0f};
+        glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
+    };
+    std::string name;       ///< as --state has it: "target", "segment.3"
+    PickId pick = no_pick;  ///< of what is drawn there
+    Frame frame;
+    Drag drag = Drag::Position;
 };
 
 /// A sphere around what should be in view.
@@ -45,56 +61,81 @@ struct LegendRow {
     bool ring = false;
 };
 
+/// A scene that the tests which run over every lab begin with: random events and commands are let loose on
+/// it, and it has to come out the same when it is played again.
+struct TestScene {
+    std::string name;
+    std::vector<CommandCall> commands;  ///< that set it up, from a blank document
+    std::vector<std::string>
+        words;        ///< what commands may find here where they take any text: names of things
+    int ticks = 120;  ///< to let pass where its state is compared
+};
+
+/// What a lab must say has no default: what it is called, what it saves, which commands change that, and how
+/// it looks. All else a lab adds as it needs it.
 class Lab {
   public:
     virtual ~Lab() = default;
 
-    virtual std::string name() const = 0;   ///< "chain"
-    virtual std::string title() const = 0;  ///< "Chain"
+    virtual std::string name() const = 0;   ///< in files and commands
+    virtual std::string title() const = 0;  ///< on its tab
     virtual std::shared_ptr<Part> blank() const = 0;
-    virtual CameraPose first_view() const = 0;
-    /// What to try first: "Drag the orange ball."
-    virtual const char* invitation() const = 0;
     virtual void add_commands(CommandTable& table) const = 0;
+    virtual void draw(const View& view, DrawList& list) const = 0;
 
+    // what is first seen
+    virtual CameraPose first_view() const { return {}; }
+    /// What to try first: "Drag the orange ball." Empty: nothing is said.
+    virtual const char* invitation() const { return ""; }
+
+    // time
     /// Whether time changes anything here now; a lab at rest lets the window idle.
-    virtual bool moving(const Workspace& workspace) const = 0;
+    virtual bool moving(const Workspace&) const { return false; }
     /// One tick of tick_seconds, in which clock.speed times as much passes in the lab.
-    virtual void step(Workspace& workspace) const = 0;
+    virtual void step(Workspace&) const {}
     /// What the clock in the top bar shows: seconds that have passed in the lab.
     virtual double seconds(const Workspace& workspace) const {
         return static_cast<double>(workspace.clock.tick) * tick_seconds;
     }
     /// Whether its last seconds are remembered, to go back in time.
     virtual bool rewinds() const { return false; }
-
-    virtual void draw(const View& view, DrawList& list) const = 0;
-
-    virtual std::vector<LegendRow> legend(const Workspace& workspace) const = 0;
-
-    virtual std::vector<Handle> handles(const Workspace& workspace) const = 0;
-    virtual glm::vec3 position_of(const Workspace& workspace, PickId pick) const = 0;
-    /// The handle is dragged to a point; called each time the pointer moves.
-    virtual void drag(const Workspace& workspace, PickId pick, glm::vec3 to, Emit& emit) const = 0;
-    /// The handle that was dragged is let go, wherever it is now.
-    virtual void drop(const Workspace&, PickId, Emit&) const {}
-    /// The handle, or with no_pick the empty room, is clicked.
-    virtual void click(const Workspace& workspace, PickId pick, Emit& emit) const = 0;
-    /// What the mouse would do there, for the status line.
-    virtual std::string hint(const Workspace& workspace, PickId pick) const = 0;
-
-    virtual Bounds bounds(const Workspace& workspace, bool selection_only) const = 0;
-
-    virtual void panel(const Workspace& workspace, Emit& emit) const = 0;
-    virtual void inspector(const Workspace& workspace, Emit& emit) const = 0;
     /// The strip of time below the scene; shown while has_timeline().
     virtual bool has_timeline(const Workspace&) const { return false; }
     virtual void timeline(const Workspace&, Emit&) const {}
 
+    // the mouse
+    virtual std::vector<Handle> handles(const Workspace&) const { return {}; }
+    /// What is picked, if it is there. Of handles() unless there is more to pick than has a name.
+    virtual std::optional<Handle> handle(const Workspace& workspace, PickId pick) const;
+    /// The handle is dragged to a frame; called each time the pointer moves.
+    virtual void drag(const Workspace&, PickId, const Handle::Frame&, Emit&) const {}
+    /// The handle that was dragged is let go, wherever it is now.
+    virtual void drop(const Workspace&, PickId, Emit&) const {}
+    /// The handle, or with no_pick the empty scene, is clicked.
+    virtual void click(const Workspace&, PickId, Emit&) const {}
+    /// What the mouse would do there, for the status line.
+    virtual std::string hint(const Workspace&, PickId) const { return {}; }
+    /// What the camera frames; all handles unless the lab knows better.
+    virtual Bounds bounds(const Workspace& workspace, bool selection_only) const;
+
+    // the panels
+    virtual void panel(const Workspace&, Emit&) const {}
+    virtual void inspector(const Workspace&, Emit&) const {}
+    virtual std::vector<LegendRow> legend(const Workspace&) const { return {}; }
+
+    // what the shell's tables get from it
+    virtual std::vector<Shortcut> shortcuts() const { return {}; }
+    virtual std::vector<LabSetting> settings() const { return {}; }
+    /// What the mouse does here beside what it does in every lab.
+    virtual std::vector<MouseHelp> mouse_help() const { return {}; }
+
+    // what goes out
     /// What *copy as C++* puts on the clipboard, a whole program; empty where the lab has none.
     virtual std::string code(const Workspace&) const { return {}; }
-    /// What --state writes, without handles and camera.
-    virtual Json state(const Workspace& workspace) const = 0;
+    /// What --state writes, without handles and camera; what is saved unless the lab says more.
+    virtual Json state(const Workspace& workspace) const;
+
+    virtual std::vector<TestScene> test_scenes() const { return {}; }
 };
 
 }  // namespace tendril::app

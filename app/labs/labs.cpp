@@ -1,7 +1,10 @@
 #include "app/labs/labs.hpp"
 
 #include <algorithm>
+#include <stdexcept>
+#include <utility>
 
+#include "app/document/command.hpp"
 #include "app/labs/camera_commands.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/rope/rope_lab.hpp"
@@ -9,8 +12,13 @@
 namespace tendril::app {
 
 Labs::Labs() {
-    labs_.push_back(std::make_unique<ChainLab>());
-    labs_.push_back(std::make_unique<RopeLab>());
+    add(std::make_unique<ChainLab>());
+    add(std::make_unique<RopeLab>());
+}
+
+void Labs::add(std::unique_ptr<Lab> lab) {
+    if (find(lab->name()) != nullptr) throw std::logic_error("lab added twice: " + lab->name());
+    labs_.push_back(std::move(lab));
 }
 
 const Lab* Labs::find(std::string_view name) const {
@@ -33,7 +41,10 @@ CommandTable make_command_table(const Labs& labs) {
     CommandTable table;
     add_workspace_commands(table);
     add_camera_commands(table, labs);
-    for (const auto& lab : labs.all()) lab->add_commands(table);
+    for (const auto& lab : labs.all()) {
+        lab->add_commands(table);
+        for (const LabSetting& setting : lab->settings()) table.add(setting_command(setting));
+    }
     return table;
 }
 

@@ -12,6 +12,8 @@ namespace tendril::app {
 class Labs {
   public:
     Labs();
+    /// One more, at the end of the table; of a name that is not in it yet.
+    void add(std::unique_ptr<Lab> lab);
     const std::vector<std::unique_ptr<Lab>>& all() const { return labs_; }
     /// Null where there is none of that name.
     const Lab* find(std::string_view name) const;

@@ -1,5 +1,6 @@
 #include "app/script/player.hpp"
 
+#include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
 
 namespace tendril::app {

@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <stdexcept>
 
+#include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
 
 namespace tendril::app {

@@ -8,10 +8,12 @@
 #include <variant>
 #include <vector>
 
-#include "app/document/command.hpp"
+#include "app/document/json.hpp"
 #include "app/window/event.hpp"
 
 namespace tendril::app {
+
+class CommandTable;
 
 struct RunCommand {
     std::string name;

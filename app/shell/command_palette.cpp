@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
-#include "app/shell/shortcuts.hpp"
 #include "app/widgets/text.hpp"
 
 namespace tendril::app {
@@ -152,10 +152,10 @@ bool CommandPalette::line_field(bool appearing) {
         return 0;
     };
     ImGui::SetNextItemWidth(-1.0f);
-    const bool entered =
-        ImGui::InputTextWithHint("##line", "Find a command: chain.add length=1.5", line_.data(), line_.size(),
-                                 ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackAlways,
-                                 caret_to_end, &take_caret_);
+    const bool entered = ImGui::InputTextWithHint(
+        "##line", "Find a command: time.speed factor=0.5", line_.data(), line_.size(),
+        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackAlways, caret_to_end,
+        &take_caret_);
     if (entered)
         ImGui::SetKeyboardFocusHere(-1);  // Enter lets go of the line; whatever comes of it, take it back
     if (ImGui::IsItemEdited()) {
@@ -174,7 +174,8 @@ void CommandPalette::move_choice(int count) {
     chosen_ = std::clamp(chosen_, 0, std::max(0, count - 1));
 }
 
-const Command* CommandPalette::list(const Found& found, bool bring_choice_into_view) {
+const Command* CommandPalette::list(const Found& found, const Shortcuts& shortcuts,
+                                    bool bring_choice_into_view) {
     const Command* clicked = nullptr;
     ImGui::BeginChild("found", {0.0f, -ImGui::GetTextLineHeightWithSpacing()}, false, ImGuiWindowFlags_NoNav);
     if (ImGui::BeginTable("commands", 3, ImGuiTableFlags_NoPadOuterX | ImGuiTableFlags_SizingStretchProp)) {
@@ -195,7 +196,7 @@ const Command* CommandPalette::list(const Found& found, bool bring_choice_into_v
             ImGui::TableNextColumn();
             text_elided(command.help, ImGui::GetContentRegionAvail().x, true);
             ImGui::TableNextColumn();
-            ImGui::TextDisabled("%s", keys_for(command.name).c_str());
+            ImGui::TextDisabled("%s", shortcuts.keys_for(command.name).c_str());
         }
         ImGui::EndTable();
     }
@@ -216,7 +217,8 @@ void CommandPalette::explain(const Found& found) {
     }
 }
 
-void CommandPalette::frame(bool open, const CommandTable& table, glm::vec2 screen, float scale, Emit& emit) {
+void CommandPalette::frame(bool open, const CommandTable& table, const Shortcuts& shortcuts, glm::vec2 screen,
+                           float scale, Emit& emit) {
     const bool appearing = open && !was_open_;
     was_open_ = open;
     if (!open) return;
@@ -227,7 +229,7 @@ void CommandPalette::frame(bool open, const CommandTable& table, glm::vec2 scree
     const Found found = search_commands(table, line_.data());
     move_choice(static_cast<int>(found.size()));
     const bool moved = std::exchange(listed_choice_, chosen_) != chosen_;
-    const Command* clicked = list(found, moved);
+    const Command* clicked = list(found, shortcuts, moved);
     explain(found);
     if (clicked != nullptr) {
         run_chosen(*clicked, emit);

@@ -5,10 +5,13 @@
 #include <glm/vec2.hpp>
 #include <string>
 
-#include "app/document/command.hpp"
+#include "app/shell/shortcuts.hpp"
 #include "app/widgets/emit.hpp"
 
 namespace tendril::app {
+
+struct Command;
+class CommandTable;
 
 /// Reads `chain.add length=1.5 position=[0,1,0]`: a name, then arguments as JSON, where a bare word is a
 /// text.
@@ -24,7 +27,8 @@ std::vector<const Command*> search_commands(const CommandTable& table, const std
 
 class CommandPalette {
   public:
-    void frame(bool open, const CommandTable& table, glm::vec2 screen, float scale, Emit& emit);
+    void frame(bool open, const CommandTable& table, const Shortcuts& shortcuts, glm::vec2 screen,
+               float scale, Emit& emit);
 
   private:
     using Found = std::vector<const Command*>;
@@ -33,7 +37,7 @@ class CommandPalette {
     bool line_field(bool appearing);
     void move_choice(int count);
     /// The list; the row that was clicked, if any.
-    const Command* list(const Found& found, bool bring_choice_into_view);
+    const Command* list(const Found& found, const Shortcuts& shortcuts, bool bring_choice_into_view);
     void explain(const Found& found);
     /// Runs what is typed, or `chosen` where only a search is typed.
     void run(const CommandTable& table, const Command* chosen, Emit& emit);

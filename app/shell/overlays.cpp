@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string_view>
+#include <vector>
 
 #include "app/shell/shell.hpp"
-#include "app/shell/shortcuts.hpp"
 #include "app/shell/theme.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
@@ -34,15 +35,29 @@ void key_table(const char* title, float key_width, Rows rows) {
     ImGui::EndTable();
 }
 
-void keys_of(Section which) {
-    std::string last;
-    for (const Shortcut& shortcut : shortcuts()) {
-        // Other keys for the same are told beside the first; what only keys do is told though no menu has it.
-        const bool alone = shortcut.command == "view.close" || which == Section::Microscope;
-        if (shortcut.section != which || (!shortcut.in_menu && !alone)) continue;
-        if (shortcut.title != last) key_row(all_keys_for(shortcut), shortcut.title);
-        last = shortcut.title;
+/// The keys of a section that work in the open lab; other keys for the same stand beside the first.
+void keys_of(const ShellFrame& frame, std::string_view section) {
+    std::vector<std::string_view> shown;
+    for (const Shortcut& shortcut : frame.shortcuts.all()) {
+        if (shortcut.section != section || !frame.works_here(shortcut)) continue;
+        if (std::find(shown.begin(), shown.end(), shortcut.title) != shown.end()) continue;
+        key_row(frame.shortcuts.all_keys_for(shortcut), shortcut.title);
+        shown.push_back(shortcut.title);
     }
+}
+
+/// The sections that the open lab adds to the shell's, in the order of the table.
+std::vector<std::string_view> sections_of_lab(const ShellFrame& frame) {
+    std::vector<std::string_view> sections;
+    for (const Shortcut& shortcut : frame.shortcuts.all()) {
+        const std::string_view section = shortcut.section;
+        const bool known =
+            std::find(sections.begin(), sections.end(), section) != sections.end() ||
+            std::any_of(frame.shortcuts.all().begin(), frame.shortcuts.all().end(),
+                        [&](const Shortcut& s) { return s.lab.empty() && s.section == section; });
+        if (!known && frame.works_here(shortcut)) sections.push_back(section);
+    }
+    return sections;
 }
 
 }  // namespace
@@ -74,21 +89,35 @@ void show_help(const ShellFrame& frame, Emit& emit) {
     const float mouse = std::min(190.0f * scale, 0.45f * room), keys = two ? 150.0f * scale : mouse;
     if (ImGui::BeginTable("columns", two ? 2 : 1, ImGuiTableFlags_NoPadOuterX)) {
         ImGui::TableNextColumn();
-        key_table("Mouse", mouse, [] {
-            for (const auto& help : mouse_help()) key_row(help.gesture, help.effect);
+        key_table("Mouse", mouse, [&] {
+            for (const auto& help : frame.shortcuts.mouse_help(frame.workspace.lab))
+                key_row(help.gesture, help.effect);
         });
-        key_table("Time", mouse, [] {
-            keys_of(Section::Time);
-            keys_of(Section::Microscope);
+        key_table("Time", mouse, [&] {
+            keys_of(frame, "Time");
+            for (const std::string_view section : sections_of_lab(frame)) keys_of(frame, section);
         });
-        key_table("Help", mouse, [] { keys_of(Section::Help); });
+        key_table("Help", mouse, [&] { keys_of(frame, "Help"); });
         ImGui::TableNextColumn();
-        key_table("Scene", keys, [] { keys_of(Section::Scene); });
-        key_table("Edit", keys, [] { keys_of(Section::Edit); });
-        key_table("View", keys, [] { keys_of(Section::View); });
+        for (const char* section : {"Scene", "Edit", "View"})
+            key_table(section, keys, [&] { keys_of(frame, section); });
         ImGui::EndTable();
     }
     ImGui::End();
+}
+
+/// What the labs leave to choose.
+static void lab_settings(const ShellFrame& frame, Emit& emit) {
+    for (const auto& lab : frame.labs.all()) {
+        for (const LabSetting& setting : lab->settings()) {
+            std::vector<const char*> titles;
+            for (const LabSetting::Choice& choice : setting.choices) titles.push_back(choice.title.c_str());
+            int chosen = static_cast<int>(setting.chosen(frame.workspace.settings));
+            if (choice_field(setting.key.c_str(), chosen, titles.data(), static_cast<int>(titles.size())))
+                emit(setting.command,
+                     {{setting.argument, setting.choices[static_cast<std::size_t>(chosen)].name}});
+        }
+    }
 }
 
 void show_settings(const ShellFrame& frame, Emit& emit) {
@@ -98,13 +127,10 @@ void show_settings(const ShellFrame& frame, Emit& emit) {
         emit("view.settings", {{"open", false}});
     }
     static constexpr const char* themes[] = {"dark", "light"};
-    static constexpr const char* styles[] = {"lines and spheres", "bones"};
     static constexpr const char* labels[] = {"on hover", "always"};
-    int theme = settings.theme == Theme::Light, style = settings.segments == SegmentStyle::Bones,
-        label = settings.labels == LabelMode::Always;
+    int theme = settings.theme == Theme::Light, label = settings.labels == LabelMode::Always;
     if (choice_field("theme", theme, themes, 2)) emit("view.theme", {{"name", themes[theme]}});
-    if (choice_field("segments", style, styles, 2))
-        emit("view.segments", {{"style", style == 1 ? "bones" : "spheres"}});
+    lab_settings(frame, emit);
     if (choice_field("labels", label, labels, 2))
         emit("view.labels", {{"show", label == 1 ? "always" : "hover"}});
     // Steps, not a slider: a slider would move under the mouse as the text grows.

@@ -88,9 +88,11 @@ void Pointer::press(const MousePress& press, const Input& input, const Scene& sc
     doing_ = Doing::Press;
     caught_ = hovered_ = pick(scene.drawn, scene.camera, input.mouse(), slack * scene.scale);
     caught_in_ = &scene.lab;
-    if (caught_ == no_pick) return;
-    caught_position_ = scene.lab.position_of(scene.workspace, caught_);
-    const auto pixel = scene.camera.project(caught_position_);
+    const auto handle = scene.lab.handle(scene.workspace, caught_);
+    draggable_ = handle && handle->drag == Drag::Position;
+    if (!handle) return;
+    caught_frame_ = handle->frame;
+    const auto pixel = scene.camera.project(caught_frame_.position);
     offset_ = pixel ? *pixel - caught_at_ : glm::vec2(0.0f);
 }
 
@@ -113,7 +115,7 @@ void Pointer::move(const Input& input, const Scene& scene, Emit& emit) {
             break;
         case Doing::Press:
             if (glm::distance(input.mouse(), caught_at_) < drag_threshold * scene.scale) break;
-            doing_ = caught_ == no_pick ? Doing::Stray : Doing::Drag;
+            doing_ = draggable_ ? Doing::Drag : Doing::Stray;
             if (doing_ == Doing::Drag) drag(input, scene, emit);
             break;
         case Doing::Drag:
@@ -123,24 +125,26 @@ void Pointer::move(const Input& input, const Scene& scene, Emit& emit) {
 }
 
 void Pointer::drag(const Input& input, const Scene& scene, Emit& emit) {
-    if (const auto to = dragged_to(input, scene.camera)) scene.lab.drag(scene.workspace, caught_, *to, emit);
+    if (const auto to = dragged_to(input, scene.camera))
+        scene.lab.drag(scene.workspace, caught_, {*to, caught_frame_.rotation}, emit);
 }
 
 std::optional<glm::vec3> Pointer::dragged_to(const Input& input, const Camera& camera) const {
     const glm::vec2 pixel = input.mouse() + offset_;  // the pixel that the handle itself should have
     std::optional<glm::vec3> to;
     if (const auto axis = held_axis(input)) {
-        to = on_line(camera.ray(pixel), caught_position_, *axis);
+        to = on_line(camera.ray(pixel), caught_frame_.position, *axis);
     } else if (input.shift()) {
-        to = camera.on_plane(pixel, caught_position_, {0, 1, 0});
-        if (to) to->y = caught_position_.y;  // in the plane exactly, not but for rounding
+        to = camera.on_plane(pixel, caught_frame_.position, {0, 1, 0});
+        if (to) to->y = caught_frame_.position.y;  // in the plane exactly, not but for rounding
     } else {
-        to = camera.on_plane(pixel, caught_position_, camera.forward());
+        to = camera.on_plane(pixel, caught_frame_.position, camera.forward());
     }
     // Near the horizon of a plane, or along an axis seen end on, a pixel means kilometres: stay where it
     // makes sense.
-    const float farthest = 50.0f * (camera.pose().distance + glm::distance(caught_position_, camera.eye()));
-    if (to && glm::distance(*to, caught_position_) > farthest) return std::nullopt;
+    const float farthest =
+        50.0f * (camera.pose().distance + glm::distance(caught_frame_.position, camera.eye()));
+    if (to && glm::distance(*to, caught_frame_.position) > farthest) return std::nullopt;
     return to;
 }
 

@@ -50,11 +50,12 @@ class Pointer {
     MouseButton button_ = MouseButton::Left;
     PickId hovered_ = no_pick;
     PickId caught_ = no_pick;
-    const Lab* caught_in_ = nullptr;   ///< what it means there
-    glm::vec2 caught_at_{0.0f};        ///< where the button went down
-    glm::vec2 last_{0.0f};             ///< the mouse a tick ago
-    glm::vec2 offset_{0.0f};           ///< from the mouse to the handle's pixel when caught
-    glm::vec3 caught_position_{0.0f};  ///< the handle when caught
+    const Lab* caught_in_ = nullptr;  ///< what it means there
+    glm::vec2 caught_at_{0.0f};       ///< where the button went down
+    glm::vec2 last_{0.0f};            ///< the mouse a tick ago
+    glm::vec2 offset_{0.0f};          ///< from the mouse to the handle's pixel when caught
+    Handle::Frame caught_frame_;      ///< the handle's when caught
+    bool draggable_ = false;          ///< what is caught can be dragged
 };
 
 }  // namespace tendril::app

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "app/shell/shortcuts.hpp"
 #include "app/shell/theme.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/icons.hpp"
@@ -22,8 +21,8 @@ constexpr ImGuiWindowFlags region_flags = ImGuiWindowFlags_NoDecoration | ImGuiW
 constexpr float folds_below = 90.0f;  ///< unscaled pixels: a panel that is dragged narrower folds away
 
 /// "Play or pause (Space)": a title and its key, for a tooltip.
-std::string with_keys(const char* title, std::string_view command) {
-    const std::string keys = keys_for(command);
+std::string with_keys(const ShellFrame& frame, const char* title, std::string_view command) {
+    const std::string keys = frame.shortcuts.keys_for(command);
     return keys.empty() ? title : std::string(title) + " (" + keys + ")";
 }
 
@@ -58,7 +57,7 @@ void folded_strip(const ShellFrame& frame, const Rect& rect, bool left, Emit& em
     if (hovered) {
         list->AddRectFilled({rect.min.x, rect.min.y}, {rect.max.x, rect.max.y},
                             ImGui::GetColorU32(ImGuiCol_ButtonHovered));
-        ImGui::SetTooltip("%s", with_keys("Bring the panel back", "view.panels").c_str());
+        ImGui::SetTooltip("%s", with_keys(frame, "Bring the panel back", "view.panels").c_str());
     }
     const float inner = left ? rect.max.x - 1.0f : rect.min.x;
     list->AddLine({inner, rect.min.y}, {inner, rect.max.y}, ImGui::GetColorU32(ImGuiCol_Border));
@@ -74,15 +73,13 @@ void menu(const ShellFrame& frame, Emit& emit) {
     ImGui::SetNextWindowPos({ImGui::GetItemRectMin().x, frame.layout.top.max.y + 2.0f});
     if (!ImGui::BeginPopup("menu popup")) return;
     close_popup_on_escape();
-    Section open = Section::Scene;
-    bool first = true;
-    for (const Shortcut& shortcut : shortcuts()) {
-        if (!shortcut.in_menu || (!shortcut.lab.empty() && shortcut.lab != frame.workspace.lab)) continue;
-        if (first || shortcut.section != open) {
-            if (!first) ImGui::Separator();
-            ImGui::TextDisabled("%s", section_title(shortcut.section));
+    std::string_view open;
+    for (const Shortcut& shortcut : frame.shortcuts.all()) {
+        if (!shortcut.in_menu || !frame.works_here(shortcut)) continue;
+        if (shortcut.section != open) {
+            if (!open.empty()) ImGui::Separator();
+            ImGui::TextDisabled("%s", shortcut.section.c_str());
         }
-        first = false;
         open = shortcut.section;
         const History& history = frame.workspace.history;
         const bool enabled = shortcut.command == "undo"   ? history.can_undo()
@@ -128,7 +125,7 @@ void play_button(const ShellFrame& frame, Emit& emit) {
     if (!moving) ImGui::PopStyleColor();
     if (!ImGui::IsItemHovered()) return;
     const char* effect = !moving ? "Nothing moves by itself here" : playing ? "Pause" : "Play";
-    ImGui::SetTooltip("%s", with_keys(effect, "time.toggle").c_str());
+    ImGui::SetTooltip("%s", with_keys(frame, effect, "time.toggle").c_str());
 }
 
 /// In the middle of the window, or wherever there is room between `from` and `to`; without the time if there
@@ -144,7 +141,7 @@ void time_controls(const ShellFrame& frame, float from, float to, Emit& emit) {
     ImGui::SameLine(std::clamp(middle, from, std::max(from, to - width)));
     play_button(frame, emit);
     ImGui::SameLine();
-    if (icon_button("step", Icon::Step, with_keys("One tick of 1/60 s", "time.step").c_str()))
+    if (icon_button("step", Icon::Step, with_keys(frame, "One tick of 1/60 s", "time.step").c_str()))
         emit("time.step");
     if (!with_time) return;
     char time[32];
@@ -163,7 +160,7 @@ void tools(const ShellFrame& frame, float from, Emit& emit) {
         return what.empty() ? std::string(title) : std::string(title) + " " + what;
     };
     const auto tool = [&](const char* command, Icon icon, const std::string& tip, bool enabled, bool active) {
-        if (icon_button(command, icon, with_keys(tip.c_str(), command).c_str(), enabled, active))
+        if (icon_button(command, icon, with_keys(frame, tip.c_str(), command).c_str(), enabled, active))
             emit(command);
     };
     ImGui::SameLine(from);
@@ -268,7 +265,8 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
     show_legend(frame);
     if (workspace.ui.help) show_help(frame, emit);
     if (workspace.ui.settings) show_settings(frame, emit);
-    palette_.frame(workspace.ui.palette, frame.commands, frame.screen(), frame.layout.scale, emit);
+    palette_.frame(workspace.ui.palette, frame.commands, frame.shortcuts, frame.screen(), frame.layout.scale,
+                   emit);
     file_dialog_.frame(workspace, frame.screen(), frame.layout.scale, emit);
     show_recovery(frame, emit);
     show_toasts(frame);

@@ -10,6 +10,7 @@
 #include "app/shell/command_palette.hpp"
 #include "app/shell/file_dialog.hpp"
 #include "app/shell/layout.hpp"
+#include "app/shell/shortcuts.hpp"
 
 namespace tendril::app {
 
@@ -19,11 +20,15 @@ struct ShellFrame {
     const Labs& labs;
     const Lab& lab;
     const CommandTable& commands;
+    const Shortcuts& shortcuts;
     const Layout& layout;
     std::string hint;  ///< what the mouse would do where it is
 
     glm::vec2 screen() const { return {layout.top.max.x, layout.status.max.y}; }
     const Palette& colours() const { return palette(workspace.settings.theme); }
+    bool works_here(const Shortcut& shortcut) const {
+        return shortcut.lab.empty() || shortcut.lab == workspace.lab;
+    }
 };
 
 class Shell {

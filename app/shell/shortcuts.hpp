@@ -1,5 +1,5 @@
-// The one table of keys and of what the mouse does. The handlers, the menu, the help overlay, the tooltips
-// and the README's list all come from it.
+// The one table of keys and of what the mouse does: the shell's rows and those of every lab. The handlers,
+// the menu, the help overlay, the tooltips and the README's list all come from it.
 #pragma once
 
 #include <optional>
@@ -7,53 +7,45 @@
 #include <string_view>
 #include <vector>
 
-#include "app/document/argument_list.hpp"
+#include "app/labs/kit/shortcut.hpp"
+#include "app/labs/labs.hpp"
 #include "app/window/event.hpp"
 
 namespace tendril::app {
 
-enum class Section { Scene, Edit, View, Time, Microscope, Help };
-const char* section_title(Section section);
+class Shortcuts {
+  public:
+    /// Rows of a lab stand behind the others of their section, sections of its own before the last one,
+    /// *Help*.
+    explicit Shortcuts(const Labs& labs);
 
-struct Shortcut {
-    Chord chord;
-    std::string command;
-    ArgumentList arguments{};
-    std::string title;  ///< as the menu has it
-    Section section = Section::View;
-    bool in_menu = true;
-    bool while_typing = false;  ///< works although a text field has the keyboard
-    bool repeats = false;       ///< goes on while the key is held
-    std::string lab{};          ///< works in this lab alone; empty: in all of them
+    /// A row with the same title as an earlier one is another key for it.
+    const std::vector<Shortcut>& all() const { return rows_; }
+    /// Of that key in a lab; null where it has none.
+    const Shortcut* find(const Chord& chord, std::string_view lab) const;
+    /// "Ctrl+Z", of the first row with that command; empty where it has no key.
+    std::string keys_for(std::string_view command) const;
+    /// "Ctrl+Shift+Z, Ctrl+Y": every key that does the same.
+    std::string all_keys_for(const Shortcut& wanted) const;
+    /// What the mouse does everywhere, then what it does in the lab of that name, or with none in any.
+    std::vector<MouseHelp> mouse_help(std::string_view lab = {}) const;
+    /// Both lists as Markdown tables, as they stand in the README.
+    std::string markdown() const;
+
+  private:
+    void add(Shortcut row);
+
+    struct LabHelp {
+        std::string lab;
+        std::vector<MouseHelp> rows;
+    };
+    std::vector<Shortcut> rows_;
+    std::vector<LabHelp> mouse_;
 };
-
-/// A row with the same command as an earlier one is another key for it.
-const std::vector<Shortcut>& shortcuts();
-/// Of that key in a lab.
-const Shortcut* find_shortcut(const Chord& chord, std::string_view lab);
-/// "Ctrl+Z", of the first row with that command; empty where it has no key.
-std::string keys_for(std::string_view command);
 
 enum class MouseAction { Orbit, Pan };
 
-/// A drag of the mouse through the empty view, or over anything.
-struct MouseBinding {
-    MouseButton button;
-    bool shift, alt;
-    MouseAction action;
-};
+/// What a drag of the mouse through the empty view, or over anything, does.
 std::optional<MouseAction> mouse_action(MouseButton button, bool shift, bool alt);
-
-/// "Ctrl+Shift+Z, Ctrl+Y": every key that does the same.
-std::string all_keys_for(const Shortcut& wanted);
-
-/// What the mouse does, as the help and the README list it.
-struct MouseHelp {
-    std::string gesture, effect;
-};
-const std::vector<MouseHelp>& mouse_help();
-
-/// Both lists as Markdown tables, as they stand in the README.
-std::string shortcuts_markdown();
 
 }  // namespace tendril::app

@@ -3,22 +3,14 @@
 namespace tendril::app {
 namespace {
 
-constexpr glm::vec3 rgb(unsigned hex) {
-    return glm::vec3(static_cast<float>((hex >> 16) & 255u), static_cast<float>((hex >> 8) & 255u),
-                     static_cast<float>(hex & 255u)) /
-           255.0f;
-}
-
 const Palette dark{
+    .theme = Theme::Dark,
     .target = rgb(0xE69F00),
     .head = rgb(0x56B4E9),
     .tail = rgb(0x009E73),
     .selection = rgb(0xF0E442),
     .limit = rgb(0xD55E00),
     .ghost = rgb(0x6F7886),
-    .pole = rgb(0xCC79A7),
-    .racers = {rgb(0xF2F5F8), rgb(0x3F8FE0), rgb(0xCC79A7), rgb(0xA9792B), rgb(0x35C3A5), rgb(0xB9A6F2),
-               rgb(0x8FA33B)},
     .joint = rgb(0xD3DAE3),
     .link = rgb(0x8C99A8),
     .axis_x = rgb(0xC25B5B),
@@ -39,15 +31,13 @@ const Palette dark{
 
 // The same hues, darker where they would drown on white; yellow most of all.
 const Palette light{
+    .theme = Theme::Light,
     .target = rgb(0xDE9200),
     .head = rgb(0x2C8FCB),
     .tail = rgb(0x008A64),
     .selection = rgb(0xC9B400),
     .limit = rgb(0xC65200),
     .ghost = rgb(0x9AA3AE),
-    .pole = rgb(0xB2558A),
-    .racers = {rgb(0x1E252E), rgb(0x1D6FC4), rgb(0xB2558A), rgb(0x8A5D10), rgb(0x00886C), rgb(0x7A5FD0),
-               rgb(0x66791A)},
     .joint = rgb(0x5A6675),
     .link = rgb(0x8793A1),
     .axis_x = rgb(0xC04848),

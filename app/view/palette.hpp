@@ -2,7 +2,6 @@
 // the hues are those of Okabe and Ito (2008), which colour-blind people tell apart.
 #pragma once
 
-#include <array>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
@@ -10,12 +9,11 @@
 
 namespace tendril::app {
 
-/// sRGB, 0 to 1.
+/// sRGB, 0 to 1. What only one lab has to colour stands in that lab's folder.
 struct Palette {
+    Theme theme;
     // what things are
-    glm::vec3 target, head, tail, selection, limit, ghost, pole;
-    // solvers of a race, in the order of ik::Method; told apart by lightness too
-    std::array<glm::vec3, 7> racers;
+    glm::vec3 target, head, tail, selection, limit, ghost;
     // what is not special: joints and the links between them
     glm::vec3 joint, link;
     // axes
@@ -28,6 +26,13 @@ struct Palette {
 };
 
 const Palette& palette(Theme theme);
+
+/// 0xE69F00, as colours are written.
+constexpr glm::vec3 rgb(unsigned hex) {
+    return glm::vec3(static_cast<float>((hex >> 16) & 255u), static_cast<float>((hex >> 8) & 255u),
+                     static_cast<float>(hex & 255u)) /
+           255.0f;
+}
 
 /// A colour that stands back by so much (1 is all of it), opaque: strokes that meet show no seam.
 glm::vec4 faded(const Palette& palette, glm::vec3 colour, float strength);

@@ -4,8 +4,10 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "app/labs/chain/colours.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
+#include "app/labs/kit/guarded_step.hpp"
 
 namespace tendril::app {
 namespace {
@@ -17,6 +19,14 @@ std::string joint_hint(const ChainPart& part, std::size_t index) {
     if (part.study.open()) return joint + ": click selects it.";
     return joint + ": click selects it, drag moves it; " +
            (root ? "the tip keeps reaching for the target." : "root and target stay.");
+}
+
+/// What is studied is looked at, and its joints stay where the step has them.
+Handle joint_handle(const ChainPart& part, std::size_t index, glm::vec3 at) {
+    return {"segment." + std::to_string(index),
+            segment_pick(index),
+            {at},
+            part.study.open() ? Drag::Nothing : Drag::Position};
 }
 
 }  // namespace
@@ -41,41 +51,41 @@ bool ChainLab::moving(const Workspace& workspace) const {
 }
 
 void ChainLab::step(Workspace& workspace) const {
-    const Document before = workspace.document;
-    auto& part = workspace.document.edit<ChainPart>(chain_lab);
-    try {
-        for (int due = workspace.clock.whole_ticks(); due > 0; --due) {
+    const int due = workspace.clock.whole_ticks();
+    const auto stopped = guarded_step<ChainPart>(workspace, chain_lab, [due](ChainPart& part) {
+        for (int tick = 0; tick < due; ++tick) {
             part.motion.ticks = (part.motion.ticks + 1) % ticks_per_round(part.motion);
             reach_for(part, motion_point(part.motion, part.motion.ticks));
             check_range(part);
         }
         part.study.refresh(part.chain, part.reach, part.target);
-    } catch (const std::logic_error& error) {  // a chain dragged to the end of the world stops there
-        workspace.document = before;
-        workspace.document.edit<ChainPart>(chain_lab).motion.path = Motion::Path::Still;
-        workspace.toast(error.what(), ToastKind::Refusal);
-    }
+    });
+    if (!stopped) return;
+    workspace.document.edit<ChainPart>(chain_lab).motion.path = Motion::Path::Still;
+    workspace.toast(*stopped, ToastKind::Refusal);
 }
 
 std::vector<Handle> ChainLab::handles(const Workspace& workspace) const {
     const ChainPart& part = chain_part(workspace);
-    std::vector<Handle> handles{{"target", part.target}};
-    if (part.mode == ChainMode::Reach && part.reach.pole) handles.push_back({"pole", *part.reach.pole});
+    std::vector<Handle> handles{*handle(workspace, target_pick)};
+    if (part.mode == ChainMode::Reach && part.reach.pole) handles.push_back(*handle(workspace, pole_pick));
     const std::vector<glm::vec3> joints = shown_joints(part);
-    for (std::size_t i = 0; i < joints.size(); ++i)
-        handles.push_back({"segment." + std::to_string(i), joints[i]});
+    for (std::size_t i = 0; i < joints.size(); ++i) handles.push_back(joint_handle(part, i, joints[i]));
     return handles;
 }
 
-glm::vec3 ChainLab::position_of(const Workspace& workspace, PickId pick) const {
+std::optional<Handle> ChainLab::handle(const Workspace& workspace, PickId pick) const {
     const ChainPart& part = chain_part(workspace);
-    if (pick == pole_pick) return part.reach.pole.value_or(part.target);
-    if (pick == target_pick || part.chain.empty()) return part.target;
-    const std::size_t index = std::min(picked_segment(pick), part.chain.size() - 1);
-    return part.study.trace ? shown_joints(part)[index] : part.chain.position(index);
+    if (pick == target_pick) return Handle{"target", target_pick, {part.target}};
+    if (pick == pole_pick && part.reach.pole) return Handle{"pole", pole_pick, {*part.reach.pole}};
+    if (pick < segment_pick(0) || picked_segment(pick) >= part.chain.size()) return std::nullopt;
+    const std::size_t index = picked_segment(pick);
+    return joint_handle(part, index,
+                        part.study.trace ? shown_joints(part)[index] : part.chain.position(index));
 }
 
-void ChainLab::drag(const Workspace& workspace, PickId pick, glm::vec3 to, Emit& emit) const {
+void ChainLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const {
+    const glm::vec3 to = frame.position;
     const ChainPart& part = chain_part(workspace);
     // A target that moves by itself would take out of the hand what is dragged.
     if (pick != pole_pick && part.motion.path != Motion::Path::Still)
@@ -84,7 +94,7 @@ void ChainLab::drag(const Workspace& workspace, PickId pick, glm::vec3 to, Emit&
         emit.continuously("chain.target", {{"to", to}});
     } else if (pick == pole_pick) {
         emit.continuously("chain.pole", {{"to", to}});
-    } else if (!part.study.open()) {
+    } else {
         emit.continuously("chain.pull", {{"index", picked_segment(pick)}, {"to", to}});
     }
 }
@@ -148,8 +158,7 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
     std::vector<LegendRow> rows;
     if (part.study.race) {
         for (const Racer& racer : part.study.race->racers) {
-            rows.push_back(
-                {solver_title(racer.method), colours.racers[static_cast<std::size_t>(racer.method)]});
+            rows.push_back({solver_title(racer.method), solver_colour(colours, racer.method)});
         }
         rows.push_back({"start", colours.ghost});
         rows.push_back({"target", colours.target});
@@ -162,10 +171,56 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
     if (part.study.trace) rows.push_back({"this step", colours.accent, true});
     if (part.study.trace) rows.push_back({"start, earlier iterations", colours.ghost});
     if (part.mode != ChainMode::Reach) return rows;
-    if (part.reach.pole) rows.push_back({"pole", colours.pole});
+    if (part.reach.pole) rows.push_back({"pole", pole_colour(colours)});
     if (!part.reach.limits.empty()) rows.push_back({"limit", colours.ghost, true});
     if (!part.reach.limits.empty()) rows.push_back({"limit that holds", colours.limit, true});
     return rows;
+}
+
+std::vector<Shortcut> ChainLab::shortcuts() const {
+    constexpr bool in_menu = true, hidden = false, typing = true, repeats = true;
+    const auto step = [&](const char* chord, const char* by, int count, const char* title) {
+        return Shortcut{*chord_from_name(chord),
+                        "microscope.step",
+                        {{by, count}},
+                        title,
+                        "Microscope",
+                        hidden,
+                        !typing,
+                        repeats};
+    };
+    return {
+        {*chord_from_name("delete"), "chain.remove_selected", {}, "Remove what is selected", "Edit"},
+        {*chord_from_name("b"), "view.segments", {}, "Bones or spheres", "View", in_menu},
+        step("right", "by", 1, "Microscope: a step on"),
+        step("left", "by", -1, "Microscope: a step back"),
+        step("shift+right", "iterations", 1, "Microscope: an iteration on"),
+        step("shift+left", "iterations", -1, "Microscope: an iteration back"),
+    };
+}
+
+std::vector<LabSetting> ChainLab::settings() const {
+    return {segment_style()};
+}
+
+std::vector<TestScene> ChainLab::test_scenes() const {
+    const std::vector<std::string> words{"forward", "circle", "all", "here", "fabrik"};
+    return {
+        {"selected", {{"chain.select", {{"index", 1}}}}, words},
+        {"moving", {{"chain.mode", {{"mode", "fixed"}}}, {"chain.motion", {{"path", "circle"}}}}, words},
+        {"reach",
+         {{"chain.preset", {{"name", "arm"}}},
+          {"chain.mode", {{"mode", "reach"}}},
+          {"chain.pole", {{"to", glm::vec3(0.5f, 2.0f, 0.5f)}}},
+          {"chain.limit", {{"index", 1}, {"kind", "hinge"}, {"max_deg", 120.0f}}},
+          {"chain.motion", {{"path", "figure_eight"}}}},
+         words},
+        {"studied",
+         {{"chain.mode", {{"mode", "reach"}}},
+          {"chain.target", {{"to", glm::vec3(2.0f, 3.0f, 1.0f)}}},
+          {"microscope.open", {}}},
+         words},
+    };
 }
 
 bool ChainLab::has_timeline(const Workspace& workspace) const {

@@ -30,8 +30,8 @@ class ChainLab final : public Lab {
 
     std::vector<LegendRow> legend(const Workspace& workspace) const override;
     std::vector<Handle> handles(const Workspace& workspace) const override;
-    glm::vec3 position_of(const Workspace& workspace, PickId pick) const override;
-    void drag(const Workspace& workspace, PickId pick, glm::vec3 to, Emit& emit) const override;
+    std::optional<Handle> handle(const Workspace& workspace, PickId pick) const override;
+    void drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const override;
     void click(const Workspace& workspace, PickId pick, Emit& emit) const override;
     std::string hint(const Workspace& workspace, PickId pick) const override;
 
@@ -40,6 +40,9 @@ class ChainLab final : public Lab {
     void inspector(const Workspace& workspace, Emit& emit) const override;
     bool has_timeline(const Workspace& workspace) const override;
     void timeline(const Workspace& workspace, Emit& emit) const override;
+    std::vector<Shortcut> shortcuts() const override;
+    std::vector<LabSetting> settings() const override;
+    std::vector<TestScene> test_scenes() const override;
     std::string code(const Workspace& workspace) const override;
     Json state(const Workspace& workspace) const override;
 };

@@ -93,7 +93,7 @@ ChainPart first_chain() {
     return part;
 }
 
-bool same(const ChainPart& a, const ChainPart& b) {
+bool operator==(const ChainPart& a, const ChainPart& b) {
     return a.mode == b.mode && a.index == b.index && a.iterations == b.iterations &&
            a.tolerance == b.tolerance && a.target == b.target && a.selected == b.selected &&
            a.motion == b.motion && a.chain == b.chain && a.reach == b.reach && a.result == b.result &&

@@ -80,8 +80,7 @@ Motion::Path motion_from_name(const std::string& name);
 inline constexpr std::array all_motions{Motion::Path::Still, Motion::Path::Circle, Motion::Path::FigureEight,
                                         Motion::Path::Sweep};
 
-/// Whether the two hold the same.
-bool same(const ChainPart& a, const ChainPart& b);
+bool operator==(const ChainPart& a, const ChainPart& b);
 
 /// Throws std::invalid_argument where a point has left the range that a scene file can hold: a saved chain
 /// must always open again.

@@ -1,6 +1,7 @@
 #include "app/labs/chain/command_support.hpp"
 
 #include "app/labs/chain/commands.hpp"
+#include "app/labs/kit/part_command.hpp"
 
 namespace tendril::app {
 
@@ -22,20 +23,13 @@ Command chain_command(const char* name, std::vector<Argument> arguments, const c
             .help = help,
             .effect = effect,
             .apply = [change, effect](Workspace& workspace, const Arguments& given) {
-                const Document before = workspace.document;
-                ChainPart& part = workspace.document.edit<ChainPart>(chain_lab);
-                const ChainPart& old = before.get<ChainPart>(chain_lab);
-                change(part, given);
-                // What is studied is always the solve that the chain shows.
-                if (part.study.open() && effect == Effect::Edit) reach_for(part, part.target);
-                check_range(part);
-                // What changes nothing leaves no step to undo.
-                if (same(part, old)) {
-                    workspace.document = before;
-                    return;
-                }
-                if (same_study(part, old)) return;
-                part.study.refresh(part.chain, part.reach, part.target);
+                change_part<ChainPart>(workspace, chain_lab, [&](ChainPart& part, const ChainPart& old) {
+                    change(part, given);
+                    // What is studied is always the solve that the chain shows.
+                    if (part.study.open() && effect == Effect::Edit) reach_for(part, part.target);
+                    check_range(part);
+                    if (!same_study(part, old)) part.study.refresh(part.chain, part.reach, part.target);
+                });
             }};
 }
 

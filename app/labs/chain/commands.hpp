@@ -1,9 +1,9 @@
 // The Chain lab's commands: chain.*.
 #pragma once
 
-#include "app/document/command.hpp"
-
 namespace tendril::app {
+
+class CommandTable;
 
 void add_chain_commands(CommandTable& table);
 

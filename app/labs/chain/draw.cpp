@@ -28,7 +28,7 @@ class Drawing {
           part_(chain_part(view.workspace)),
           shown_(shown_joints(part_)),
           ball_(joint_pixels(part_, view.camera, view.scale)),
-          bones_(view.workspace.settings.segments == SegmentStyle::Bones) {}
+          bones_(segment_style().chosen(view.workspace.settings) == 1) {}
 
     void run() {
         list_.strokes.reserve(2 * part_.chain.size() + 16);
@@ -184,6 +184,14 @@ class Drawing {
 };
 
 }  // namespace
+
+LabSetting segment_style() {
+    return {.key = "segments",
+            .command = "view.segments",
+            .argument = "style",
+            .help = "Draws segments as lines and spheres, or as tapered bones",
+            .choices = {{"spheres", "lines and spheres"}, {"bones", "bones"}}};
+}
 
 void ChainLab::draw(const View& view, DrawList& list) const {
     Drawing(view, list).run();

@@ -8,6 +8,9 @@
 
 namespace tendril::app {
 
+/// Whether segments are drawn as lines and spheres, or as bones.
+LabSetting segment_style();
+
 /// Where the joints are shown: where the chain is, or at the microscope's step.
 std::vector<glm::vec3> shown_joints(const ChainPart& part);
 

@@ -5,6 +5,7 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "app/labs/chain/colours.hpp"
 #include "app/labs/chain/draw.hpp"
 
 namespace tendril::app {
@@ -210,11 +211,12 @@ void draw_pole(const View& view, const ChainPart& part, DrawList& list) {
         const float square = glm::dot(along, along);
         const float share =
             square < 1e-9f ? 0.0f : std::clamp(glm::dot(at - root, along) / square, 0.0f, 1.0f);
-        list.line(root, part.target, view.scale, faded(view.palette, view.palette.pole, 0.35f));
-        list.line(at, root + along * share, 1.5f * view.scale, faded(view.palette, view.palette.pole, 0.5f));
+        list.line(root, part.target, view.scale, faded(view.palette, pole_colour(view.palette), 0.35f));
+        list.line(at, root + along * share, 1.5f * view.scale,
+                  faded(view.palette, pole_colour(view.palette), 0.5f));
     }
     Stroke& ball = list.sphere(at, (hovered ? 9.5f : 8.0f) * view.scale, Unit::Pixels,
-                               glm::vec4(view.palette.pole, 1.0f));
+                               glm::vec4(pole_colour(view.palette), 1.0f));
     ball.shadow = true;
     ball.layer = Layer::Overlay;
     ball.pick = pole_pick;

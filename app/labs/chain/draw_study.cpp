@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
+#include "app/labs/chain/colours.hpp"
 #include "app/labs/chain/draw.hpp"
 
 namespace tendril::app {
@@ -119,7 +120,7 @@ class StudyDrawing {
     }
 
     void racer(const Racer& racer, glm::vec3 apart) {
-        const glm::vec4 colour(view_.palette.racers[static_cast<std::size_t>(racer.method)], 1.0f);
+        const glm::vec4 colour(solver_colour(view_.palette, racer.method), 1.0f);
         if (apart != glm::vec3(0.0f)) polyline(part_.study.start, ghost(0.8f), 2.0f, apart);
         for (std::size_t i = 0; i < racer.joints.size(); ++i) {
             if (i > 0) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/labs/chain/colours.hpp"
 #include "app/labs/chain/panels.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
@@ -40,7 +41,7 @@ bool& against_time() {
 void racer_row(const Study& study, ik::Method method, bool time, const Palette& palette, Emit& emit) {
     const auto index = static_cast<std::size_t>(method);
     bool on = study.racers[index];
-    colour_mark(palette.racers[index]);
+    colour_mark(solver_colour(palette, method));
     if (ImGui::Checkbox(solver_title(method), &on))
         emit("race.solver", {{"name", ik::name(method)}, {"on", on}});
     const auto& racers = study.race->racers;
@@ -66,7 +67,7 @@ void racer_row(const Study& study, ik::Method method, bool time, const Palette& 
 void race_plot(const Race& race, bool time, const Palette& palette) {
     std::vector<Curve> curves;
     for (const Racer& racer : race.racers) {
-        Curve curve{solver_title(racer.method), palette.racers[static_cast<std::size_t>(racer.method)],
+        Curve curve{solver_title(racer.method), solver_colour(palette, racer.method),
                     by_iteration(racer.residuals)};
         const float last = std::max(1.0f, static_cast<float>(racer.residuals.size() - 1));
         if (time) {

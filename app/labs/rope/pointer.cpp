@@ -20,6 +20,13 @@ const rope::Collider* holder_of(const NamedWorld& world, std::size_t particle) {
     return nullptr;
 }
 
+Handle particle_handle(const NamedWorld& world, const ParticlePlace& place) {
+    const std::size_t particle = place.body->first + place.index;
+    return {world.name(*place.body) + "." + std::to_string(place.index),
+            particle_pick(particle),
+            {world.position(particle)}};
+}
+
 }  // namespace
 
 const rope::Collider* picked_collider(const NamedWorld& world, PickId pick) {
@@ -53,24 +60,24 @@ std::vector<Handle> RopeLab::handles(const Workspace& workspace) const {
         for (std::size_t i = 0; i < body.count; ++i) {
             const bool end = body.kind == rope::Body::Kind::Rope && (i == 0 || i + 1 == body.count);
             if (i % stride == 0 || end || shown[body.first + i])
-                handles.push_back(
-                    {world.name(body) + "." + std::to_string(i), world.position(body.first + i)});
+                handles.push_back(particle_handle(world, {&body, i}));
         }
     }
-    for (const rope::Collider& collider : world.state().colliders)
-        handles.push_back({"collider." + world.name(collider), rope::centre(collider.shape)});
+    for (std::size_t i = 0; i < world.state().colliders.size(); ++i)
+        handles.push_back(*handle(workspace, collider_pick(i)));
     return handles;
 }
 
-glm::vec3 RopeLab::position_of(const Workspace& workspace, PickId pick) const {
+std::optional<Handle> RopeLab::handle(const Workspace& workspace, PickId pick) const {
     const NamedWorld& world = *rope_part(workspace).world;
-    if (const auto* collider = picked_collider(world, pick)) return rope::centre(collider->shape);
-    if (const auto place = picked_particle(world, pick))
-        return world.position(place->body->first + place->index);
-    return glm::vec3(0.0f);
+    if (const auto* collider = picked_collider(world, pick))
+        return Handle{"collider." + world.name(*collider), pick, {rope::centre(collider->shape)}};
+    if (const auto place = picked_particle(world, pick)) return particle_handle(world, *place);
+    return std::nullopt;
 }
 
-void RopeLab::drag(const Workspace& workspace, PickId pick, glm::vec3 to, Emit& emit) const {
+void RopeLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const {
+    const glm::vec3 to = frame.position;
     const RopePart& part = rope_part(workspace);
     if (const auto* collider = picked_collider(*part.world, pick)) {
         emit.continuously("rope.collider.move", {{"name", part.world->name(*collider)}, {"to", to}});

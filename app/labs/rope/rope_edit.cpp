@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "app/labs/kit/part_command.hpp"
 #include "app/labs/rope/rope_time.hpp"
 
 namespace tendril::app {
@@ -48,22 +49,16 @@ Command rope_command(const char* name, std::vector<Argument> arguments, const ch
             .help = help,
             .effect = effect,
             .apply = [change](Workspace& workspace, const Arguments& given) {
-                const Document before = workspace.document;
-                RopePart& part = workspace.document.edit<RopePart>(rope_lab);
-                const RopePart& old = before.get<RopePart>(rope_lab);
-                RopeEdit edit(part, workspace.clock);
-                change(edit, given);
-                // What changes nothing leaves no step to undo.
-                if (same(part, old)) {
-                    workspace.document = before;
-                    return;
-                }
-                if (part.world != old.world) check_work(*part.world);
-                if (part.world != old.world || part.swings != old.swings) part.quiet_ticks = 0;
+                change_part<RopePart>(workspace, rope_lab, [&](RopePart& part, const RopePart& old) {
+                    RopeEdit edit(part, workspace.clock);
+                    change(edit, given);
+                    if (part.world != old.world) check_work(*part.world);
+                    if (part.world != old.world || part.swings != old.swings) part.quiet_ticks = 0;
+                });
             }};
 }
 
-bool same(const RopePart& a, const RopePart& b) {
+bool operator==(const RopePart& a, const RopePart& b) {
     return a.world == b.world && a.swings == b.swings && a.time == b.time && a.tool == b.tool &&
            a.choice == b.choice && a.hold == b.hold && a.jitter == b.jitter && a.view == b.view;
 }

@@ -39,7 +39,7 @@ Command rope_command(const char* name, std::vector<Argument> arguments, const ch
                      void (*change)(RopeEdit&, const Arguments&), Effect effect = Effect::Edit);
 
 /// Whether the two hold the very same; the same world, and not merely an equal one.
-bool same(const RopePart& a, const RopePart& b);
+bool operator==(const RopePart& a, const RopePart& b);
 
 /// Throws Refused where there would be too many, before there are.
 void check_particle_room(const NamedWorld& world, std::size_t more);

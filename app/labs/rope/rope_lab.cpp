@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "app/labs/kit/guarded_step.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_time.hpp"
 #include "app/labs/rope/scenes.hpp"
@@ -90,27 +91,43 @@ bool RopeLab::moving(const Workspace& workspace) const {
 }
 
 void RopeLab::step(Workspace& workspace) const {
-    const Document before = workspace.document;
     const bool modified = workspace.modified();
-    auto& part = workspace.document.edit<RopePart>(rope_lab);
+    const Clock& clock = workspace.clock;
     auto& runtime = workspace.runtimes.of<RopeRuntime>(rope_lab);
-    try {
+    const auto stopped = guarded_step<RopePart>(workspace, rope_lab, [&](RopePart& part) {
         const std::uint64_t substeps = part.world->state().substeps;
-        Stopwatch stopwatch(workspace.clock.measured, part.cost);
-        pass_time(part, tick_seconds * static_cast<double>(workspace.clock.speed), runtime.workspace);
+        Stopwatch stopwatch(clock.measured, part.cost);
+        pass_time(part, tick_seconds * static_cast<double>(clock.speed), runtime.workspace);
         stopwatch.stop();
         if (!in_range(*part.world)) throw std::out_of_range("something would get farther than 1e9 m");
         take_sample(part);
         // A tick in which no substep was due tells nothing of rest.
         const bool moved_on = part.world->state().substeps != substeps;
         part.quiet_ticks = !at_rest(part) ? 0 : part.quiet_ticks + (moved_on ? 1 : 0);
-    } catch (const std::logic_error& error) {  // what flies off the end of the world stops there
-        workspace.document = before;
+    });
+    if (stopped) {
         workspace.clock.playing = false;
-        workspace.toast(std::string("Time stands: ") + error.what(), ToastKind::Refusal);
-        return;
+        workspace.toast("Time stands: " + *stopped, ToastKind::Refusal);
+    } else if (!modified) {
+        workspace.saved = workspace.document;  // that time passes is nothing that wants saving
     }
-    if (!modified) workspace.saved = workspace.document;  // that time passes is nothing that wants saving
+}
+
+std::vector<Shortcut> RopeLab::shortcuts() const {
+    return {{*chord_from_name("delete"), "rope.remove_selected", {}, "Remove what is selected", "Edit"}};
+}
+
+std::vector<MouseHelp> RopeLab::mouse_help() const {
+    return {{"Click, as the panel says", "selects, pins, or cuts"}};
+}
+
+std::vector<TestScene> RopeLab::test_scenes() const {
+    const std::vector<std::string> words{"rope", "rope 2", "short 1", "cloth",
+                                         "hair", "ball",   "bar",     "ground"};
+    std::vector<TestScene> scenes{{"selected", {{"rope.select", {{"collider", "ball"}}}}, words}};
+    for (const RopeSceneEntry& scene : rope_scenes())
+        scenes.push_back({scene.name, {{"rope.preset", {{"name", scene.name}}}}, words});
+    return scenes;
 }
 
 Bounds RopeLab::bounds(const Workspace& workspace, bool selection_only) const {

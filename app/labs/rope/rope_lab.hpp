@@ -50,8 +50,8 @@ class RopeLab final : public Lab {
     std::vector<LegendRow> legend(const Workspace& workspace) const override;
 
     std::vector<Handle> handles(const Workspace& workspace) const override;
-    glm::vec3 position_of(const Workspace& workspace, PickId pick) const override;
-    void drag(const Workspace& workspace, PickId pick, glm::vec3 to, Emit& emit) const override;
+    std::optional<Handle> handle(const Workspace& workspace, PickId pick) const override;
+    void drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const override;
     void drop(const Workspace& workspace, PickId pick, Emit& emit) const override;
     void click(const Workspace& workspace, PickId pick, Emit& emit) const override;
     std::string hint(const Workspace& workspace, PickId pick) const override;
@@ -61,6 +61,9 @@ class RopeLab final : public Lab {
     void inspector(const Workspace& workspace, Emit& emit) const override;
     bool has_timeline(const Workspace& workspace) const override { return !workspace.rewind.empty(); }
     void timeline(const Workspace& workspace, Emit& emit) const override;
+    std::vector<Shortcut> shortcuts() const override;
+    std::vector<MouseHelp> mouse_help() const override;
+    std::vector<TestScene> test_scenes() const override;
     Json state(const Workspace& workspace) const override;
 };
 

@@ -23,14 +23,15 @@ TEST(Settings, come_back_as_they_were_saved) {
     std::uniform_real_distribution<float> scale(0.5f, 3.0f), width(180.0f, 520.0f);
     for (int i = 0; i < 200; ++i) {
         const Settings settings{.theme = coin() ? Theme::Dark : Theme::Light,
-                                .segments = coin() ? SegmentStyle::LinesAndSpheres : SegmentStyle::Bones,
                                 .labels = coin() ? LabelMode::Hover : LabelMode::Always,
                                 .text_scale = scale(random),
                                 .left_open = coin(),
                                 .right_open = coin(),
                                 .left_width = width(random),
                                 .right_width = width(random),
-                                .hint_seen = coin()};
+                                .hint_seen = coin(),
+                                .choices = coin() ? std::map<std::string, std::string>{{"segments", "bones"}}
+                                                  : std::map<std::string, std::string>{}};
         std::vector<std::string> complaints;
         EXPECT_TRUE(load(json_to_text(save_settings(settings)), complaints) == settings);
         EXPECT_TRUE(complaints.empty());
@@ -38,9 +39,9 @@ TEST(Settings, come_back_as_they_were_saved) {
 }
 
 TEST(Settings, are_saved_by_name) {
-    const Json json = save_settings(Settings{.theme = Theme::Light});
+    const Json json = save_settings(Settings{.theme = Theme::Light, .choices = {{"segments", "bones"}}});
     EXPECT_EQ(json["theme"], "light");
-    EXPECT_EQ(json["segments"], "spheres");
+    EXPECT_EQ(json["segments"], "bones");
     EXPECT_EQ(json["labels"], "hover");
 }
 
@@ -48,7 +49,6 @@ TEST(Settings, that_do_not_fit_keep_their_default_and_are_named) {
     const std::vector<std::pair<std::string, std::string>> bad{
         {R"({"theme": "purple"})", "theme: unknown value \"purple\""},
         {R"({"theme": 1})", "theme: unknown value 1"},
-        {R"({"segments": null})", "segments: unknown value null"},
         {R"({"labels": ["hover"]})", "labels: unknown value [\"hover\"]"},
         {R"({"text_scale": 0.4})", "text_scale: expected a number from 0.5 to 3.0, found 0.4"},
         {R"({"text_scale": "1"})", "text_scale: expected a number"},
@@ -69,7 +69,8 @@ TEST(Settings, that_do_not_fit_keep_their_default_and_are_named) {
 TEST(Settings, beside_a_bad_one_are_still_read_and_unknown_ones_are_ignored) {
     std::vector<std::string> complaints;
     const Settings settings =
-        load(R"({"theme": 3, "from_the_future": [1], "text_scale": 2, "hint_seen": true})", complaints);
+        load(R"({"theme": 3, "from_the_future": [1], "segments": null, "text_scale": 2, "hint_seen": true})",
+             complaints);
     EXPECT_TRUE(settings == (Settings{.text_scale = 2.0f, .hint_seen = true}));
     EXPECT_EQ(complaints.size(), 1u);
 }

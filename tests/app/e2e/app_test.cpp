@@ -166,13 +166,13 @@ TEST_F(AppTest, shortcuts_are_deaf_while_one_types) {
     app_.tick(nullptr);
     take(TextInput{"b"});
     take(KeyTap{{Key::B, false, false, false}});
-    EXPECT_EQ(app_.workspace().settings.segments, SegmentStyle::LinesAndSpheres);
+    EXPECT_TRUE(app_.workspace().settings.choices.empty());
     take(KeyTap{{Key::Escape, false, false, false}});
     app_.tick(nullptr);
     EXPECT_FALSE(app_.workspace().ui.palette);
     app_.tick(nullptr);
     take(KeyTap{{Key::B, false, false, false}});
-    EXPECT_EQ(app_.workspace().settings.segments, SegmentStyle::Bones);
+    EXPECT_EQ(app_.workspace().settings.choices.at("segments"), "bones");
 }
 
 }  // namespace

@@ -177,20 +177,22 @@ inline void expect_finite(const Json& json, const std::string& where) {
     }
 }
 
-/// What `act` did and recorded, played again into another program, ends in the same state.
+/// What `act` did and recorded, played again into another program, ends in the same state. `labs` makes their
+/// labs.
 template <class Act>
-void expect_replay_ends_the_same(Act act) {
+void expect_replay_ends_the_same(
+    Act act, Labs (*labs)() = [] { return Labs(); }) {
     const auto window = open_offscreen({1280, 720});
     std::string recording;
     Json recorded;
     {
-        App app(*window);
+        App app(*window, false, labs());
         act(app);
         recorded = app.state();
         recording = app.recording();
     }
     window->resize({1280, 720});
-    App app(*window);
+    App app(*window, false, labs());
     Script script = parse_script(recording, app.commands());
     app.start_from(*script.start);
     Player player(std::move(script));

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "app/document/command.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/labs.hpp"
 #include "app/view/renderer.hpp"

@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/labs/labs.hpp"

@@ -4,6 +4,7 @@
 #include <random>
 #include <string>
 
+#include "app/document/command.hpp"
 #include "app/script/script.hpp"
 
 namespace tendril::test {

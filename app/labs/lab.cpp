@@ -1,0 +1,35 @@
+#include "app/labs/lab.hpp"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "app/document/json_complete.hpp"
+
+namespace tendril::app {
+
+std::optional<Handle> Lab::handle(const Workspace& workspace, PickId pick) const {
+    const std::vector<Handle> all = handles(workspace);
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Handle& handle) { return handle.pick == pick; });
+    return found == all.end() ? std::nullopt : std::optional(*found);
+}
+
+Bounds Lab::bounds(const Workspace& workspace, bool) const {
+    const std::vector<Handle> all = handles(workspace);
+    if (all.empty()) return {};
+    glm::vec3 low = all.front().frame.position, high = low;
+    for (const Handle& handle : all) {
+        low = glm::min(low, handle.frame.position);
+        high = glm::max(high, handle.frame.position);
+    }
+    return {0.5f * (low + high), std::max(0.5f * glm::distance(low, high), 0.5f)};
+}
+
+Json Lab::state(const Workspace& workspace) const {
+    Json state{{"lab", name()}};
+    state.update(workspace.document.parts().at(name())->save());
+    return state;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,109 @@
+// What holds for every lab of the table, and for one that only the tests have: random events and commands let
+// loose on each of its scenes break nothing, and all of it comes out the same when it is played again.
+#include "app/document/scene_file.hpp"
+#include "tests/app/e2e/monkey.hpp"
+#include "tests/app/labs/spring/spring_lab.hpp"
+
+namespace tendril::test {
+namespace {
+
+using namespace app;
+
+Labs all_labs() {
+    Labs labs;
+    labs.add(std::make_unique<SpringLab>());
+    return labs;
+}
+
+struct LabScene {
+    std::string lab;
+    TestScene scene;
+};
+
+std::vector<LabScene> all_scenes() {
+    std::vector<LabScene> all;
+    const Labs labs = all_labs();
+    for (const auto& lab : labs.all())
+        for (const TestScene& scene : lab->test_scenes()) all.push_back({lab->name(), scene});
+    return all;
+}
+
+void set_up(App& app, const LabScene& scene) {
+    app.run({"lab.open", Json{{"name", scene.lab}}});
+    for (const CommandCall& command : scene.scene.commands)
+        app.run({command.name, to_json(command.arguments)});
+}
+
+/// The lab's own commands, and those that every lab has to stand.
+std::vector<std::string> vocabulary(const App& app, const std::string& lab) {
+    CommandTable table;
+    app.labs().find(lab)->add_commands(table);
+    std::vector<std::string> names{"time.step", "time.play", "time.pause",   "time.seek",
+                                   "undo",      "redo",      "camera.frame", "scene.new"};
+    for (const Command& command : table.all()) names.push_back(command.name);
+    return names;
+}
+
+class EveryScene : public testing::TestWithParam<LabScene> {};
+
+TEST_P(EveryScene, StandsRandomEventsAndCommandsAndReplaysThem) {
+    expect_replay_ends_the_same(
+        [](App& app) {
+            set_up(app, GetParam());
+            app.workspace()
+                .history.clear();  // a recording knows the scene that it starts from, and nothing before
+            app.workspace().cameras.clear();
+            app.start_recording();
+            std::vector<std::string> words = GetParam().scene.words;
+            words.insert(words.end(), {"", "\xFF"});
+            Monkey monkey(app, 11, vocabulary(app, GetParam().lab), words);
+            for (int i = 0; i < 120 && !HasFailure(); ++i) {
+                monkey.act();
+                if (i % 20 == 0) expect_finite(app.state(), "state");
+            }
+            app.draw();
+            expect_finite(app.state(), "state");
+        },
+        all_labs);
+}
+
+TEST_P(EveryScene, LooksAndMovesTheSameEachTimeAndAfterItWasSaved) {
+    const auto window = open_offscreen({640, 480});
+    const auto run = [&](bool through_a_file) {
+        App app(*window, false, all_labs());
+        set_up(app, GetParam());
+        if (through_a_file)
+            load_scene(app.workspace(), parse_json(json_to_text(save_scene(app.workspace()))));
+        for (int i = 0; i < GetParam().scene.ticks; ++i) app.tick(nullptr);
+        Json state = app.state();
+        state.erase("time");
+        return state;
+    };
+    const Json first = run(false);
+    EXPECT_EQ(run(false), first);
+    EXPECT_EQ(run(true), first);
+}
+
+TEST_P(EveryScene, IsUndoneToWhereItBegan) {
+    const auto window = open_offscreen({640, 480});
+    App app(*window, false, all_labs());
+    app.run({"time.pause"});
+    app.run({"lab.open", Json{{"name", GetParam().lab}}});
+    const Json blank = save_scene(app.workspace()).at("labs");
+    for (const CommandCall& command : GetParam().scene.commands)  // what is only looked at is no step
+        if (app.commands().find(command.name)->effect == Effect::Edit)
+            app.run({command.name, to_json(command.arguments)});
+    while (app.workspace().history.can_undo()) app.run({"undo"});
+    EXPECT_EQ(save_scene(app.workspace()).at("labs"), blank);
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryLab, EveryScene, testing::ValuesIn(all_scenes()),
+                         [](const auto& each) { return each.param.lab + "_" + each.param.scene.name; });
+
+TEST(EveryLab, BringsAScene) {
+    const Labs labs = all_labs();
+    for (const auto& lab : labs.all()) EXPECT_FALSE(lab->test_scenes().empty()) << lab->name();
+}
+
+}  // namespace
+}  // namespace tendril::test

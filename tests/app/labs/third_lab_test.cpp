@@ -1,0 +1,124 @@
+// A lab is one folder and one line in the table: one that the program does not have is opened, dragged,
+// undone, saved, recorded and found in palette, help and shortcuts, and nothing but the table knows of it.
+#include <gtest/gtest.h>
+
+#include "app/document/scene_file.hpp"
+#include "app/shell/command_palette.hpp"
+#include "tests/app/e2e/monkey.hpp"
+#include "tests/app/labs/spring/spring_lab.hpp"
+
+namespace tendril::test {
+namespace {
+
+using namespace app;
+
+Labs labs_with_a_spring() {
+    Labs labs;
+    labs.add(std::make_unique<SpringLab>());
+    return labs;
+}
+
+class ThirdLab : public testing::Test {
+  protected:
+    ThirdLab() {
+        app_.run({"lab.open", Json{{"name", "spring"}}});
+        app_.run({"time.pause"});
+    }
+    void send(const Event& event) { app_.tick(&event); }
+    void drag(const std::string& name, glm::vec2 by) {
+        const glm::vec2 from = handle(app_.state(), name);
+        send(MouseMove{from});
+        send(MousePress{MouseButton::Left, true});
+        for (const float share : {0.25f, 0.5f, 1.0f}) send(MouseMove{from + share * by});
+        send(MousePress{MouseButton::Left, false});
+    }
+    Json ball() { return app_.state().at("ball"); }
+
+    std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
+    App app_{*window_, false, labs_with_a_spring()};
+};
+
+TEST_F(ThirdLab, IsDraggedAndADragIsUndoneInOneStep) {
+    const Json before = ball();
+    drag("ball", {120.0f, -40.0f});
+    const Json after = ball();
+    EXPECT_GT(after[0].get<float>(), before[0].get<float>());
+    EXPECT_GT(after[1].get<float>(), before[1].get<float>());
+    EXPECT_EQ(app_.workspace().history.size(), 1u);
+    app_.run({"undo"});
+    EXPECT_EQ(ball(), before);
+    app_.run({"redo"});
+    EXPECT_EQ(ball(), after);
+}
+
+TEST_F(ThirdLab, WhatChangesNothingLeavesNoStep) {
+    app_.run({"spring.ball", Json{{"to", ball()}}});
+    EXPECT_FALSE(app_.workspace().history.can_undo());
+}
+
+TEST_F(ThirdLab, SwingsWhileTimeRuns) {
+    const Json before = ball();
+    for (int i = 0; i < 10; ++i) app_.run({"time.step"});
+    EXPECT_NE(ball(), before);
+}
+
+TEST_F(ThirdLab, IsSavedWithTheSceneAndLoadedAgain) {
+    const TempFolder folder;
+    const std::string path = (folder / "spring.json").string();
+    drag("anchor", {60.0f, 0.0f});
+    const Json saved = save_scene(app_.workspace());
+    app_.run({"scene.save", Json{{"path", path}}});
+    app_.run({"scene.new"});
+    EXPECT_NE(save_scene(app_.workspace()), saved);
+    app_.run({"scene.open", Json{{"path", path}}});
+    EXPECT_EQ(save_scene(app_.workspace()), saved);
+    EXPECT_EQ(saved.at("lab"), "spring");
+}
+
+TEST_F(ThirdLab, IsPicturedAndItsHandlesAreWhereTheyAreDrawn) {
+    const Image picture = app_.screenshot();
+    const glm::ivec2 at(handle(app_.state(), "ball"));
+    const std::size_t pixel = 4 * (static_cast<std::size_t>(at.y) * static_cast<std::size_t>(picture.size.x) +
+                                   static_cast<std::size_t>(at.x));
+    EXPECT_GT(picture.rgba[pixel], picture.rgba[pixel + 2]) << "the ball is orange, the ground is not";
+}
+
+TEST_F(ThirdLab, IsInThePaletteTheHelpAndTheShortcuts) {
+    EXPECT_EQ(search_commands(app_.commands(), "spring.anchor").front()->name, "spring.anchor");
+    const Shortcuts shortcuts(app_.labs());
+    const Shortcut* row = shortcuts.find(*chord_from_name("r"), "spring");
+    ASSERT_NE(row, nullptr);
+    EXPECT_EQ(row->command, "spring.ball");
+    EXPECT_EQ(shortcuts.find(*chord_from_name("r"), app_.labs().all().front()->name()), nullptr);
+    EXPECT_TRUE(has(shortcuts.markdown(), "| R | Pull the ball aside |"));
+    EXPECT_TRUE(has(shortcuts.markdown(), "| Left drag on the ball | holds it there |"));
+    EXPECT_EQ(shortcuts.mouse_help("spring").back().gesture, "Left drag on the ball");
+
+    drag("ball", {90.0f, 0.0f});
+    send(KeyTap{*chord_from_name("r")});
+    EXPECT_EQ(ball(), point({0.5f, 1.0f, 0.0f}));
+}
+
+TEST(ThirdLabAgain, IsRecordedAndReplayed) {
+    expect_replay_ends_the_same(
+        [](App& app) {
+            app.run({"lab.open", Json{{"name", "spring"}}});
+            app.start_recording();
+            const glm::vec2 from = handle(app.state(), "ball");
+            for (const Event& event :
+                 {Event(MouseMove{from}), Event(MousePress{MouseButton::Left, true}),
+                  Event(MouseMove{from + glm::vec2(80.0f, 10.0f)}),
+                  Event(MousePress{MouseButton::Left, false}), Event(KeyTap{*chord_from_name("ctrl+z")})})
+                app.tick(&event);
+            for (int i = 0; i < 30; ++i) app.tick(nullptr);
+        },
+        labs_with_a_spring);
+}
+
+TEST(Labs, OfOneNameAreRefused) {
+    Labs labs = labs_with_a_spring();
+    EXPECT_THROW(labs.add(std::make_unique<SpringLab>()), std::logic_error);
+}
+
+}  // namespace
+}  // namespace tendril::test
