@@ -2,8 +2,8 @@
 //
 //   {"tendril_scene": 2, "lab": "chain", "camera": {...}, "labs": {"chain": {...}}}
 //
-// Version 2 writes every rotation as [x, y, z, w]; version 1 wrote the chain's as [w, x, y, z]. Files of older
-// versions are read by way of Part::upgrade.
+// Version 2 writes every rotation as [x, y, z, w]; version 1 wrote the chain's as [w, x, y, z]. Files of
+// older versions are read by way of Part::upgrade.
 #pragma once
 
 #include <filesystem>

@@ -81,18 +81,26 @@ bool point_field(const char* name, glm::vec3& value, float speed, float most, co
     bool changed = false;
     for (int i = 0; i < 3; ++i) {
         const std::string row = std::string(name) + " " + "xyz"[i];
-        changed |= number_field(row.c_str(), value[i], speed, -most, most, format);
+        const std::string id = begin_row(row.c_str());
+        // A drag ends at the range; what is typed beyond it is passed on, to be refused with the reason.
+        changed |= ImGui::DragFloat(id.c_str(), &value[i], speed, -most, most, format);
     }
     return changed;
 }
 
-bool choice_field(const char* name, int& chosen, const char* const* titles, int count) {
+bool choice_field(const char* name, int& chosen, const char* const* titles, int count,
+                  const char* const* why_not) {
     const std::string id = begin_row(name);
     const float room = ImGui::CalcItemWidth() - ImGui::GetFrameHeight() - ImGui::GetStyle().FramePadding.x;
     if (!ImGui::BeginCombo(id.c_str(), elided(titles[chosen], room).c_str())) return false;
     close_popup_on_escape();
     bool changed = false;
     for (int i = 0; i < count; ++i) {
+        if (why_not != nullptr && why_not[i] != nullptr) {
+            const std::string title = std::string(titles[i]) + ": " + why_not[i];
+            ImGui::Selectable(title.c_str(), i == chosen, ImGuiSelectableFlags_Disabled);
+            continue;
+        }
         if (ImGui::Selectable(titles[i], i == chosen)) {
             changed = i != chosen;
             chosen = i;

@@ -16,9 +16,13 @@ void note(const std::string& text);
 bool number_field(const char* name, float& value, float speed, float low, float high, const char* format);
 bool integer_field(const char* name, int& value, int low, int high);
 bool integer_slider(const char* name, int& value, int low, int high);
+/// A coordinate that is typed may be out of range: the command that takes it refuses it and says why.
 bool point_field(const char* name, glm::vec3& value, float speed, float most = 1e9f,
                  const char* format = "%.3f m");
-bool choice_field(const char* name, int& chosen, const char* const* titles, int count);
+/// `why_not`, where given: one for each choice, null for one that can be chosen; else it is grey and the
+/// reason stands beside it.
+bool choice_field(const char* name, int& chosen, const char* const* titles, int count,
+                  const char* const* why_not = nullptr);
 /// One of several that exclude each other.
 bool option_button(const char* title, bool chosen);
 

@@ -7,18 +7,24 @@
 #include "app/labs/chain/colours.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
+#include "app/labs/chain/shown.hpp"
 #include "app/labs/kit/guarded_step.hpp"
 
 namespace tendril::app {
 namespace {
 
+/// "Segment 0 (head)", "Joint 3"
+std::string name_of(const ChainPart& part, const char* what, std::size_t index) {
+    const std::string end = end_name(part, index);
+    return std::string(what) + " " + std::to_string(index) + (end.empty() ? "" : " (" + end + ")");
+}
+
 /// What the mouse would do to a joint in Reach.
 std::string joint_hint(const ChainPart& part, std::size_t index) {
-    const bool root = index == 0, tip = index + 1 == part.chain.size();
-    const std::string joint = "Joint " + std::to_string(index) + (root ? " (root)" : tip ? " (tip)" : "");
+    const std::string joint = name_of(part, "Joint", index);
     if (part.study.open()) return joint + ": click selects it.";
     return joint + ": click selects it, drag moves it; " +
-           (root ? "the tip keeps reaching for the target." : "root and target stay.");
+           (index == 0 ? "the tip keeps reaching for the target." : "root and target stay.");
 }
 
 /// What is studied is looked at, and its joints stay where the step has them.
@@ -47,7 +53,9 @@ void ChainLab::add_commands(CommandTable& table) const {
 }
 
 bool ChainLab::moving(const Workspace& workspace) const {
-    return chain_part(workspace).motion.path != Motion::Path::Still;
+    // Under the microscope the solve that one looks into stays: its target waits.
+    const ChainPart& part = chain_part(workspace);
+    return part.motion.path != Motion::Path::Still && part.study.kind != Study::Kind::Microscope;
 }
 
 void ChainLab::step(Workspace& workspace) const {
@@ -125,8 +133,7 @@ std::string ChainLab::hint(const Workspace& workspace, PickId pick) const {
         return "Pole: the bend faces it. Drag to turn the chain about its line to the target.";
     const std::size_t index = picked_segment(pick);
     if (part.mode == ChainMode::Reach) return joint_hint(part, index);
-    const char* role = index == 0 ? " (head)" : index + 1 == part.chain.size() ? " (tail)" : "";
-    return "Segment " + std::to_string(index) + role + ": click selects it, drag pulls it.";
+    return name_of(part, "Segment", index) + ": click selects it, drag pulls it.";
 }
 
 Bounds ChainLab::bounds(const Workspace& workspace, bool selection_only) const {
@@ -164,8 +171,9 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
         rows.push_back({"target", colours.target});
         return rows;
     }
-    rows = {{"head", colours.head},
-            {"tail", colours.tail},
+    const bool reaches = part.mode == ChainMode::Reach;
+    rows = {{reaches ? "root" : "head", colours.head},
+            {reaches ? "tip" : "tail", colours.tail},
             {"target", colours.target},
             {"selection", colours.selection, true}};
     if (part.study.trace) rows.push_back({"this step", colours.accent, true});
@@ -173,7 +181,7 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
     if (part.mode != ChainMode::Reach) return rows;
     if (part.reach.pole) rows.push_back({"pole", pole_colour(colours)});
     if (!part.reach.limits.empty()) rows.push_back({"limit", colours.ghost, true});
-    if (!part.reach.limits.empty()) rows.push_back({"limit that holds", colours.limit, true});
+    if (!part.reach.limits.empty()) rows.push_back({"active limit", colours.limit, true});
     return rows;
 }
 

@@ -144,11 +144,12 @@ class Drawing {
 
     void label(std::size_t i, int rank) {
         char text[64];
+        const std::string end = end_name(part_, i);
+        const std::string name = std::to_string(i) + (end.empty() ? "" : " " + end);
         if (i == 0) {
-            std::snprintf(text, sizeof text, "0 head");
+            std::snprintf(text, sizeof text, "%s", name.c_str());
         } else {
-            const char* role = i + 1 == part_.chain.size() ? " tail" : "";
-            std::snprintf(text, sizeof text, "%zu%s  %.3g m", i, role, static_cast<double>(length(i)));
+            std::snprintf(text, sizeof text, "%s  %.3g m", name.c_str(), static_cast<double>(length(i)));
         }
         // The target's ring is wider than a joint.
         const float target_pixels =

@@ -5,14 +5,12 @@
 #include <vector>
 
 #include "app/labs/chain/chain_lab.hpp"
+#include "app/labs/chain/shown.hpp"
 
 namespace tendril::app {
 
 /// Whether segments are drawn as lines and spheres, or as bones.
 LabSetting segment_style();
-
-/// Where the joints are shown: where the chain is, or at the microscope's step.
-std::vector<glm::vec3> shown_joints(const ChainPart& part);
 
 /// The limits, from the numbers that the solver uses, and the angles that the joints have.
 void draw_limits(const View& view, const ChainPart& part, DrawList& list);

@@ -14,39 +14,15 @@ namespace {
 constexpr std::size_t most_limits =
     24;  ///< drawn; in longer chains those of the selected and the holding joint
 
-/// The least rotation from one unit vector to another.
-glm::quat least_rotation(glm::vec3 from, glm::vec3 to) {
-    const float w = 1.0f + glm::dot(from, to);
-    if (w < 1e-6f) {
-        const glm::vec3 side = std::abs(from.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-        const glm::vec3 axis = glm::normalize(glm::cross(from, side));
-        return {0.0f, axis.x, axis.y, axis.z};
-    }
-    const glm::vec3 axis = glm::cross(from, to);
-    return glm::normalize(glm::quat(w, axis.x, axis.y, axis.z));
-}
-
-/// How each bone is turned from rest: as the last solve left it, carried along to where the bone is now.
-std::vector<glm::quat> bone_turns(const ChainPart& part, const std::vector<glm::vec3>& joints) {
-    const glm::vec3 rest = part.chain.default_direction();
-    std::vector<glm::quat> turns = part.reach.rotations;
-    turns.resize(joints.size() - 1, glm::quat(1, 0, 0, 0));
-    for (std::size_t i = 0; i < turns.size(); ++i) {
-        const glm::vec3 bone = joints[i + 1] - joints[i];
-        if (glm::length(bone) < 1e-6f) continue;
-        turns[i] = least_rotation(turns[i] * rest, glm::normalize(bone)) * turns[i];
-    }
-    return turns;
-}
-
 class LimitDrawing {
   public:
     LimitDrawing(const View& view, const ChainPart& part, DrawList& list)
         : view_(view),
           part_(part),
           list_(list),
+          hold_(shown_active_limit(part)),
           joints_(shown_joints(part)),
-          turns_(bone_turns(part, joints_)) {}
+          turns_(rotations_at(joints_, part.reach.rotations, part.chain.default_direction())) {}
 
     void run() {
         const std::size_t bones = joints_.size() - 1;
@@ -58,9 +34,7 @@ class LimitDrawing {
 
   private:
     float px(float pixels) const { return pixels * view_.scale; }
-    bool holds(std::size_t i) const {
-        return part_.result && part_.result->hold && part_.result->hold->joint == i;
-    }
+    bool holds(std::size_t i) const { return hold_ != nullptr && hold_->joint == i; }
 
     void joint(std::size_t i) {
         limit_ = limit_of(part_.reach, i);
@@ -83,7 +57,7 @@ class LimitDrawing {
         if (limit_.kind != ik::JointKind::Hinge) dial(glm::normalize(turns_[i] * rest_));
         line(centre_, centre_ + radius_ * direction(0.0f, 0.0f), 1.0f, 0.35f);  // where it points at rest
         if (held) {
-            needed(*part_.result->hold);
+            needed(*hold_);
             list_.ring(centre_, px(13.0f), px(3.0f), glm::vec4(view_.palette.limit, 1.0f)).layer =
                 Layer::Overlay;
         }
@@ -185,6 +159,7 @@ class LimitDrawing {
     const View& view_;
     const ChainPart& part_;
     DrawList& list_;
+    const ik::Hold* hold_;
     std::vector<glm::vec3> joints_;
     std::vector<glm::quat> turns_;
     // of the joint that is being drawn

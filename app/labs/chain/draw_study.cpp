@@ -151,10 +151,6 @@ class StudyDrawing {
 
 }  // namespace
 
-std::vector<glm::vec3> shown_joints(const ChainPart& part) {
-    return part.study.trace ? part.study.trace->pose(part.study.step) : positions(part.chain);
-}
-
 glm::vec3 race_lane(const Study& study) {
     if (!study.side_by_side || !study.race) return glm::vec3(0.0f);
     float low = 1e30f, high = -1e30f;

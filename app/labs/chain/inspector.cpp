@@ -6,7 +6,9 @@
 #include <string_view>
 #include <utility>
 
+#include "app/document/units.hpp"
 #include "app/labs/chain/panels.hpp"
+#include "app/labs/chain/shown.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/text.hpp"
@@ -14,15 +16,30 @@
 namespace tendril::app {
 namespace {
 
-void selection_rows(const ChainPart& part, Emit& emit) {
+using Joints = std::vector<glm::vec3>;
+
+/// Under the microscope a segment is read, not set: it is where the step has it.
+void selected_in_step(const ChainPart& part, const Joints& joints, std::size_t i) {
+    const ShownSegment shown = shown_segment(part, joints, i);
+    reading("x", "%.3f m", static_cast<double>(shown.position.x));
+    reading("y", "%.3f m", static_cast<double>(shown.position.y));
+    reading("z", "%.3f m", static_cast<double>(shown.position.z));
+    reading("length in this step", "%.3f m", static_cast<double>(shown.length));
+    reading("to the target", "%.3f m", static_cast<double>(glm::distance(shown.position, part.target)));
+}
+
+void selection_rows(const ChainPart& part, const Joints& joints, Emit& emit) {
     section("Selection");
     if (!part.selected) {
         note("Nothing is selected.");
         return;
     }
     const std::size_t i = *part.selected;
-    const glm::vec3 at = part.chain.position(i);
-    reading("segment", "%zu%s", i, i == 0 ? " (head)" : i + 1 == part.chain.size() ? " (tail)" : "");
+    const glm::vec3 at = joints[i];
+    const std::string end = end_name(part, i);
+    reading(part.mode == ChainMode::Reach ? "joint" : "segment", "%zu%s", i,
+            end.empty() ? "" : (" (" + end + ")").c_str());
+    if (part.study.trace) return selected_in_step(part, joints, i);
     glm::vec3 to = at;
     if (point_field("at", to, 0.01f)) emit.continuously("chain.pull", {{"index", i}, {"to", to}});
     float length = part.chain.length(i);
@@ -33,20 +50,20 @@ void selection_rows(const ChainPart& part, Emit& emit) {
     reading("to the target", "%.3f m", static_cast<double>(glm::distance(at, part.target)));
 }
 
-void chain_rows(const ChainPart& part) {
+void chain_rows(const ChainPart& part, const Joints& joints) {
     section("Chain");
     const Chain& chain = part.chain;
     reading("segments", "%zu", chain.size());
     if (chain.empty()) return;
-    const auto segments = chain.segments();
     reading("reach", "%.3f m", static_cast<double>(chain.reach()));
-    reading("head to target", "%.3f m",
-            static_cast<double>(glm::distance(segments.front().position, part.target)));
-    reading("tail to target", "%.3f m",
-            static_cast<double>(glm::distance(segments.back().position, part.target)));
+    const bool reaches = part.mode == ChainMode::Reach;  // "tip to target" stands in its report
+    reading(reaches ? "root to target" : "head to target", "%.3f m",
+            static_cast<double>(glm::distance(joints.front(), part.target)));
+    if (!reaches) reading("tail to target", "%.3f m", static_cast<double>(shown_residual(part, joints)));
     float worst = 0.0f;
-    for (std::size_t i = 1; i < segments.size(); ++i) worst = std::max(worst, length_error(chain, i));
-    reading("worst error", worst == 0.0f ? "%.0f m" : "%.1e m", static_cast<double>(worst));
+    for (std::size_t i = 1; i < joints.size(); ++i)
+        worst = std::max(worst, shown_segment(part, joints, i).error);
+    reading("worst error", "%s", si_text(static_cast<double>(worst), "m").c_str());
 }
 
 void number_cell(const char* format, float value) {
@@ -56,8 +73,8 @@ void number_cell(const char* format, float value) {
     text_flush_right(text);
 }
 
-void segment_row(const ChainPart& part, std::size_t i, Emit& emit) {
-    const Segment& segment = part.chain.segments()[i];
+void segment_row(const ChainPart& part, const Joints& joints, std::size_t i, Emit& emit) {
+    const ShownSegment segment = shown_segment(part, joints, i);
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     char id[24];
@@ -72,7 +89,7 @@ void segment_row(const ChainPart& part, std::size_t i, Emit& emit) {
     ImGui::TableNextColumn();
     number_cell("%.3f", segment.length);
     ImGui::TableNextColumn();
-    number_cell("%.0e", length_error(part.chain, i));
+    text_flush_right(si_text(static_cast<double>(segment.error), "m"));
 }
 
 /// `fixed`: columns as wide as their numbers, to be scrolled sideways, where the panel is too narrow for
@@ -112,7 +129,7 @@ void follow_selection(const ChainPart& part, float row_height) {
     if (top < ImGui::GetScrollY() || top > ImGui::GetScrollY() + room) ImGui::SetScrollY(top - 0.5f * room);
 }
 
-void segment_table(const ChainPart& part, Emit& emit) {
+void segment_table(const ChainPart& part, const Joints& joints, Emit& emit) {
     section("Segments, in metres");
     ImGui::PushFont(small_font());
     const bool narrow = ImGui::GetContentRegionAvail().x < 16.0f * ImGui::GetFontSize();
@@ -128,7 +145,7 @@ void segment_table(const ChainPart& part, Emit& emit) {
         clipper.Begin(static_cast<int>(part.chain.size()));
         while (clipper.Step()) {
             for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-                segment_row(part, static_cast<std::size_t>(i), emit);
+                segment_row(part, joints, static_cast<std::size_t>(i), emit);
             }
         }
         follow_selection(part, clipper.ItemsHeight);
@@ -145,11 +162,12 @@ void ChainLab::inspector(const Workspace& workspace, Emit& emit) const {
     const Palette& colours = palette(workspace.settings.theme);
     if (part.study.trace) microscope_rows(part, colours, emit);
     if (part.study.race) race_rows(workspace, colours, emit);
-    if (part.mode == ChainMode::Reach) report_rows(part, colours);
-    selection_rows(part, emit);
+    const Joints joints = shown_joints(part);
+    if (part.mode == ChainMode::Reach) report_rows(part, joints, colours);
+    selection_rows(part, joints, emit);
     if (part.mode == ChainMode::Reach) limit_rows(part, emit);
-    chain_rows(part);
-    segment_table(part, emit);
+    chain_rows(part, joints);
+    segment_table(part, joints, emit);
 }
 
 }  // namespace tendril::app

@@ -11,8 +11,8 @@ void solver_rows(const ChainPart& part, Emit& emit);
 void study_rows(const ChainPart& part, Emit& emit);
 /// The panel: what to copy.
 void carry_rows(Emit& emit);
-/// The inspector: how the last solve went.
-void report_rows(const ChainPart& part, const Palette& palette);
+/// The inspector: how the last solve went, with the joints where they are shown.
+void report_rows(const ChainPart& part, const std::vector<glm::vec3>& joints, const Palette& palette);
 /// The inspector: the limit of the selected joint.
 void limit_rows(const ChainPart& part, Emit& emit);
 /// The inspector: the step that the microscope shows.

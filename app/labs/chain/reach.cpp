@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <stdexcept>
 
@@ -14,10 +15,33 @@ std::vector<glm::vec3> positions(const Chain& chain) {
     return joints;
 }
 
+glm::quat least_rotation(glm::vec3 from, glm::vec3 to) {
+    const float w = 1.0f + glm::dot(from, to);
+    if (w < 1e-6f) {
+        const glm::vec3 side = std::abs(from.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+        return glm::quat(0.0f, glm::normalize(glm::cross(from, side)));
+    }
+    return glm::normalize(glm::quat(w, glm::cross(from, to)));
+}
+
+std::vector<glm::quat> rotations_at(const std::vector<glm::vec3>& joints, std::vector<glm::quat> rotations,
+                                    glm::vec3 rest) {
+    rotations.resize(joints.empty() ? 0 : joints.size() - 1, glm::quat(1, 0, 0, 0));
+    for (std::size_t i = 0; i < rotations.size(); ++i) {
+        const glm::vec3 bone = joints[i + 1] - joints[i];
+        if (glm::length(bone) < 1e-6f) continue;
+        const glm::quat by = least_rotation(glm::normalize(rotations[i] * rest), glm::normalize(bone));
+        rotations[i] = glm::normalize(by * rotations[i]);
+    }
+    return rotations;
+}
+
+bool takes(ik::Method method, const Chain& chain) {
+    return method != ik::Method::TwoBone || chain.size() == 3;
+}
+
 void check_takes(ik::Method method, const Chain& chain) {
-    if (method != ik::Method::TwoBone || chain.size() == 3) return;
-    throw std::invalid_argument("two_bone takes a chain of three segments (two bones); this one has " +
-                                std::to_string(chain.size()));
+    if (!takes(method, chain)) throw std::invalid_argument(why_not_taken(method, chain));
 }
 
 float reach_tolerance(const ReachSettings& settings, float reach) {

@@ -43,8 +43,18 @@ struct ReachResult {
 
 /// Where the segments are, head first.
 std::vector<glm::vec3> positions(const Chain& chain);
-/// Throws std::invalid_argument for a method that does not take this chain: two_bone, where there are not
-/// two.
+/// The least rotation from one unit vector to another.
+glm::quat least_rotation(glm::vec3 from, glm::vec3 to);
+/// How each bone is turned from rest, where the joints are now: as the last solve left it (`rotations`, or
+/// none), turned on by as little as brings it to where the bone points. `rest`: where bones point at rest.
+std::vector<glm::quat> rotations_at(const std::vector<glm::vec3>& joints, std::vector<glm::quat> rotations,
+                                    glm::vec3 rest);
+/// Whether a method takes this chain: two_bone only where there are two bones.
+bool takes(ik::Method method, const Chain& chain);
+inline constexpr const char* needs_two_bones = "needs exactly two bones";
+/// "Two-bone needs exactly two bones; this chain has 7."
+std::string why_not_taken(ik::Method method, const Chain& chain);
+/// Throws std::invalid_argument for a method that does not take this chain.
 void check_takes(ik::Method method, const Chain& chain);
 
 /// As the solver takes them, with `reach` the chain's; points into `settings`.

@@ -1,8 +1,6 @@
 #include "app/labs/chain/reach_drag.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <stdexcept>
 
 #include "app/labs/kit/require.hpp"
@@ -19,29 +17,6 @@ struct Piece {
     std::vector<glm::vec3> joints;     ///< one more than bones
     std::vector<glm::quat> rotations;  ///< one a bone; only with limits
 };
-
-/// The least rotation that takes one unit vector to another.
-glm::quat least_rotation(glm::vec3 from, glm::vec3 to) {
-    const float cosine = glm::dot(from, to);
-    if (cosine > -0.9999f) return glm::normalize(glm::quat(1.0f + cosine, glm::cross(from, to)));
-    const glm::vec3 other = std::abs(from.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-    return glm::quat(0.0f, glm::normalize(glm::cross(from, other)));
-}
-
-/// The rotations that the bones have where the chain is now: the last solve's, each turned by as little as
-/// brings it to where its bone points. Other modes move a chain and leave them behind.
-void update_rotations(const Chain& chain, ReachSettings& settings) {
-    if (settings.limits.empty()) return;
-    settings.rotations.resize(chain.size() - 1, glm::quat(1, 0, 0, 0));
-    const auto segments = chain.segments();
-    for (std::size_t i = 0; i < settings.rotations.size(); ++i) {
-        const glm::vec3 bone = segments[i + 1].position - segments[i].position;
-        if (!(glm::length(bone) > 0.0f)) continue;
-        glm::quat& rotation = settings.rotations[i];
-        const glm::vec3 pointed = glm::normalize(rotation * chain.default_direction());
-        rotation = glm::normalize(least_rotation(pointed, glm::normalize(bone)) * rotation);
-    }
-}
 
 Piece piece_of(const Chain& chain, const ReachSettings& settings, std::size_t first, std::size_t count) {
     Piece piece{first, count, {}, {}, {}};
@@ -113,8 +88,8 @@ void solve_beyond(Piece& piece, const Chain& chain, const ReachSettings& setting
     piece.joints.front() = root;
 }
 
-/// Takes the bones beyond the dragged joint along with it; with limits as one stiff piece with the bone before
-/// it, so that its own limit goes on holding.
+/// Takes the bones beyond the dragged joint along with it; with limits as one stiff piece with the bone
+/// before it, so that its own limit goes on holding.
 void carry(Piece& beyond, glm::vec3 to, glm::quat by) {
     const glm::vec3 from = beyond.joints.front();
     for (glm::vec3& joint : beyond.joints) joint = to + by * (joint - from);
@@ -169,7 +144,9 @@ void drag_joint(Chain& chain, ReachSettings& settings, std::size_t index, glm::v
         throw std::out_of_range("index " + std::to_string(index) + " is out of range, the chain has " +
                                 std::to_string(chain.size()) + " segments");
     }
-    update_rotations(chain, settings);
+    if (!settings.limits.empty()) {  // other modes move a chain and leave its rotations behind
+        settings.rotations = rotations_at(positions(chain), settings.rotations, chain.default_direction());
+    }
     if (index == 0) {
         drag_root(chain, settings, to, target);
     } else if (index + 1 == chain.size()) {

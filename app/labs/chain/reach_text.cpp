@@ -57,6 +57,12 @@ const char* solver_help(ik::Method method) {
     return text_of(method).help;
 }
 
+std::string why_not_taken(ik::Method method, const Chain& chain) {
+    const std::size_t bones = chain.empty() ? 0 : chain.size() - 1;
+    return std::string(solver_title(method)) + " " + needs_two_bones + "; this chain has " +
+           std::to_string(bones);
+}
+
 const char* status_help(ik::Status status) {
     static constexpr const char* texts[] = {
         "The tip is on the target.",

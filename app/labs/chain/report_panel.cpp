@@ -7,6 +7,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/chain/panels.hpp"
+#include "app/labs/chain/shown.hpp"
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {
@@ -41,8 +42,14 @@ std::vector<AngleRow> angle_rows(ik::JointKind kind) {
 
 }  // namespace
 
-void report_rows(const ChainPart& part, const Palette& palette) {
+void report_rows(const ChainPart& part, const std::vector<glm::vec3>& joints, const Palette& palette) {
     section("Reach");
+    reading("tip to target", "%.4f m", static_cast<double>(shown_residual(part, joints)));
+    if (!shows_end(part)) {
+        reading("status", "on its way");
+        note("A step of the solve; its report comes with the last one.");
+        return;
+    }
     if (!part.result) {
         note("Drag the target to solve for it.");
         return;
@@ -50,7 +57,6 @@ void report_rows(const ChainPart& part, const Palette& palette) {
     const ReachResult& result = *part.result;
     reading("status", "%s", ik::name(result.report.status));
     reading("iterations", "%d", result.report.iterations);
-    reading("tip to target", "%.4f m", static_cast<double>(result.report.residual));
     note(status_help(result.report.status));
     if (result.hold) coloured_note(hold_text(*result.hold) + ".", palette.limit);
 }

@@ -66,10 +66,14 @@ void solver_rows(const ChainPart& part, Emit& emit) {
     std::array<const char*, ik::all_methods.size()> titles{};
     std::transform(ik::all_methods.begin(), ik::all_methods.end(), titles.begin(), solver_title);
     int method = static_cast<int>(part.reach.method);
-    if (choice_field("solver", method, titles.data(), static_cast<int>(titles.size()))) {
+    std::array<const char*, ik::all_methods.size()> why_not{};
+    std::transform(ik::all_methods.begin(), ik::all_methods.end(), why_not.begin(),
+                   [&](ik::Method each) { return takes(each, part.chain) ? nullptr : needs_two_bones; });
+    if (choice_field("solver", method, titles.data(), static_cast<int>(titles.size()), why_not.data())) {
         emit("chain.solver", {{"name", ik::name(ik::all_methods[static_cast<std::size_t>(method)])}});
     }
-    note(solver_help(part.reach.method));
+    note(takes(part.reach.method, part.chain) ? solver_help(part.reach.method)
+                                              : why_not_taken(part.reach.method, part.chain) + ".");
     stop_rows(part.reach, part.chain.reach(), emit);
     option_rows(part.reach, emit);
     pole_rows(part, emit);

@@ -2,6 +2,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/chain/chain_lab.hpp"
+#include "app/labs/chain/shown.hpp"
 
 namespace tendril::app {
 namespace {
@@ -21,7 +22,9 @@ Json reach_state(const ChainPart& part) {
     return json;
 }
 
-Json microscope_state(const Study& study) {
+/// The step that is shown.
+Json microscope_state(const ChainPart& part) {
+    const Study& study = part.study;
     const Trace& trace = *study.trace;
     Json json{{"step", study.step}, {"steps", trace.frames()}, {"iteration", trace.iteration(study.step)}};
     json["report"] = report_json(trace.method, trace.report);
@@ -34,7 +37,12 @@ Json microscope_state(const Study& study) {
                                  {"from", point(step.from)},
                                  {"to", point(step.to)}});
     }
-    for (const glm::vec3& joint : trace.pose(study.step)) json["positions"].push_back(point(joint));
+    const std::vector<glm::vec3> joints = shown_joints(part);
+    json["residual"] = number(shown_residual(part, joints));
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        json["positions"].push_back(point(joints[i]));
+        json["lengths"].push_back(number(shown_segment(part, joints, i).length));
+    }
     for (const float residual : trace.residuals) json["residuals"].push_back(number(residual));
     return json;
 }
@@ -77,7 +85,7 @@ Json ChainLab::state(const Workspace& workspace) const {
               {"motion", motion_name(part.motion.path)},
               {"segments", std::move(list)}};
     if (part.mode == ChainMode::Reach) json["solve"] = reach_state(part);
-    if (part.study.trace) json["microscope"] = microscope_state(part.study);
+    if (part.study.trace) json["microscope"] = microscope_state(part);
     if (part.study.race) json["race"] = race_state(*part.study.race);
     return json;
 }

@@ -64,6 +64,18 @@ void racer_row(const Study& study, ik::Method method, bool time, const Palette& 
     ImGui::PopFont();
 }
 
+/// A solver that this chain cannot have.
+void missing_racer_row(ik::Method method, const Palette& palette) {
+    colour_mark(palette.racers[static_cast<std::size_t>(method)]);
+    bool off = false;
+    ImGui::BeginDisabled();
+    ImGui::Checkbox(solver_title(method), &off);
+    ImGui::EndDisabled();
+    ImGui::PushFont(small_font());
+    text_flush_right(needs_two_bones, true);
+    ImGui::PopFont();
+}
+
 void race_plot(const Race& race, bool time, const Palette& palette) {
     std::vector<Curve> curves;
     for (const Racer& racer : race.racers) {
@@ -89,13 +101,20 @@ void race_plot(const Race& race, bool time, const Palette& palette) {
 void study_rows(const ChainPart& part, Emit& emit) {
     section("Look inside");
     const bool solvable = part.chain.size() > 1 && part.chain.size() <= max_studied_segments;
+    const char* why_not =
+        part.chain.size() < 2 ? "Needs a chain of at least one bone" : "For chains of up to 512 segments";
+    static_assert(max_studied_segments == 512);
     const bool magnified = part.study.kind == Study::Kind::Microscope;
     const bool racing = part.study.kind == Study::Kind::Race;
     if (row_button(magnified ? "Close" : "Microscope", 2, solvable,
-                   magnified ? "Closes the microscope" : "Every step of one solve, and the pose after it"))
+                   magnified   ? "Closes the microscope"
+                   : !solvable ? why_not
+                               : "Every step of one solve, and the pose after it"))
         emit(magnified ? "microscope.close" : "microscope.open");
     if (row_button(racing ? "Close" : "Race", 2, solvable,
-                   racing ? "Closes the race" : "Several solvers, from the same start"))
+                   racing      ? "Closes the race"
+                   : !solvable ? why_not
+                               : "Several solvers, from the same start"))
         emit(racing ? "race.close" : "race.open");
 }
 
@@ -113,6 +132,8 @@ void microscope_rows(const ChainPart& part, const Palette& palette, Emit& emit) 
     reading("step", "%zu of %zu", step, trace.frames());
     reading("iteration", "%d of %d", trace.iteration(step), trace.report.iterations);
     note(describe_frame(trace, step));
+    if (part.motion.path != Motion::Path::Still)
+        note("The moving target waits while the microscope is open.");
     if (trace.cut) note("The solve was longer: this is where the record ends.");
     if (row_button("|<", 4, step > 0, "Back by an iteration")) emit("microscope.step", {{"iterations", -1}});
     if (row_button("<", 4, step > 0, "Back by a step")) emit("microscope.step", {{"by", -1}});
@@ -143,8 +164,11 @@ void race_rows(const Workspace& workspace, const Palette& palette, Emit& emit) {
     text_flush_right(time ? "time" : "iterations", true);
     ImGui::PopFont();
     for (const ik::Method method : ik::all_methods) {
-        if (method == ik::Method::TwoBone && part.chain.size() != 3) continue;
-        racer_row(study, method, time, palette, emit);
+        if (takes(method, part.chain)) {
+            racer_row(study, method, time, palette, emit);
+        } else {
+            missing_racer_row(method, palette);
+        }
     }
     race_plot(*study.race, time, palette);
     ImGui::Checkbox("Against time", &time);

@@ -17,7 +17,9 @@ glm::vec3 joint(const Json& state, std::size_t index) {
 
 /// Seven bones of a metre that reach for a target well within them.
 ScriptText reaching() {
-    return ScriptText().command("chain.mode", {{"mode", "reach"}}).command("chain.target", {{"to", {3, 3, 1}}});
+    return ScriptText()
+        .command("chain.mode", {{"mode", "reach"}})
+        .command("chain.target", {{"to", {3, 3, 1}}});
 }
 
 /// Takes the joint through several points of the view, button down all the way.
@@ -37,7 +39,9 @@ void expect_lengths_kept(const Json& state) {
 TEST(ReachDrag, a_joint_follows_the_mouse_while_root_target_and_tip_stay) {
     const Json before = state_after(reaching());
     for (const std::size_t index : {2, 3, 5}) {
-        const glm::vec2 at = handle(before, "segment." + std::to_string(index)), by(-35, 40);
+        // Where two bones are left to the tip, they do not let it stay for long.
+        const glm::vec2 by = index == 5 ? glm::vec2(-6, 8) : glm::vec2(-35, 40);
+        const glm::vec2 at = handle(before, "segment." + std::to_string(index));
         ScriptText script = reaching();
         const Json after = state_after(drag_joint(script, at, by));
         EXPECT_EQ(after["head"], before["head"]) << index;
@@ -130,8 +134,8 @@ TEST(ReachDrag, a_recording_of_it_plays_to_the_same_bits) {
     const std::string recording = (folder / "recording.jsonl").string();
     const Json recorded = play(script, {.more = {"--record", recording}}).state;
     write(folder / "again.jsonl", read(recording));
-    EXPECT_TRUE(succeeded(run_program({"--headless", "--script", recording, "--state",
-                                       (folder / "again.json").string()})));
+    EXPECT_TRUE(succeeded(
+        run_program({"--headless", "--script", recording, "--state", (folder / "again.json").string()})));
     EXPECT_EQ(app::parse_json(read(folder / "again.json")), recorded);
 }
 

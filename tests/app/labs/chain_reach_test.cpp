@@ -212,7 +212,7 @@ TEST_F(ChainReach, bad_input_is_refused_with_what_is_wrong) {
         EXPECT_NE(why.find(part_of), std::string::npos) << name << arguments << ": " << why;
     };
     says("chain.solver", {{"name", "newton"}}, "newton");
-    says("chain.solver", {{"name", "two_bone"}}, "two_bone takes a chain of three segments");
+    says("chain.solver", {{"name", "two_bone"}}, "Two-bone needs exactly two bones; this chain has 4");
     says("chain.solver", {{"iterations", 0}}, "iterations");
     says("chain.solver", {{"tolerance", -1}}, "tolerance");
     says("chain.solver", {{"snap_back", 1.5}}, "snap_back");

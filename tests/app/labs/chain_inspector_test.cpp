@@ -1,0 +1,111 @@
+// The inspector's numbers are those of the picture: under the microscope, of the step that is shown.
+#include <cstdio>
+#include <glm/geometric.hpp>
+
+#include "app/labs/chain/shown.hpp"
+#include "tests/app/labs/chain_support.hpp"
+#include "tests/app/support/panel_text.hpp"
+
+namespace tendril::app {
+namespace {
+
+class ChainInspector : public ChainTest {
+  protected:
+    std::string text() { return reader_.inspector(*labs.find(chain_lab), workspace); }
+    void expect_says(const std::string& what) {
+        const std::string said = text();
+        EXPECT_NE(said.find(what), std::string::npos) << what << " is not in:\n" << said;
+    }
+    void expect_silent_about(const std::string& what) {
+        const std::string said = text();
+        EXPECT_EQ(said.find(what), std::string::npos) << what << " is in:\n" << said;
+    }
+    static std::string metres(float value, const char* format) {
+        char text[32];
+        std::snprintf(text, sizeof text, format, static_cast<double>(value));
+        return text;
+    }
+
+  private:
+    test::PanelReader reader_;
+};
+
+TEST_F(ChainInspector, shows_the_step_that_is_under_the_microscope) {
+    reach_with(4);
+    run("chain.solver", {{"name", "fabrik_plain"}});
+    run("chain.target", {{"to", {1.2, 2.1, 0.7}}});
+    run("microscope.open", {{"start", "straight"}});
+    run("chain.select", {{"index", 4}});
+    const Trace& trace = *part().study.trace;
+    // The tip was put onto the target; nothing else has moved, so its bone is far too long.
+    run("microscope.seek", {{"step", 1}});
+    const std::vector<glm::vec3> joints = trace.pose(1);
+    const float residual = glm::distance(joints[4], part().target),
+                bone = glm::distance(joints[4], joints[3]);
+    ASSERT_GT(bone, 2.0f);
+    expect_says("tip to target " + metres(residual, "%.4f m"));
+    expect_says("length in this step " + metres(bone, "%.3f m"));
+    expect_says("x " + metres(joints[4].x, "%.3f m"));
+    expect_says("y " + metres(joints[4].y, "%.3f m"));
+    expect_silent_about("Converged");
+    EXPECT_EQ(state()["microscope"]["residual"], number(residual));
+    EXPECT_EQ(state()["microscope"]["lengths"][4], number(bone));
+    EXPECT_EQ(state()["microscope"]["lengths"][2], 1.0);
+
+    // On the way, the joints are where no solve has ended.
+    run("microscope.seek", {{"step", 4}});
+    const std::vector<glm::vec3> later = trace.pose(4);
+    expect_says("x " + metres(later[4].x, "%.3f m"));
+    expect_says("tip to target " + metres(glm::distance(later[4], part().target), "%.4f m"));
+
+    // The last step is where the solve ended, and its report is shown.
+    run("microscope.seek", {{"step", trace.frames()}});
+    expect_says("Converged");
+    expect_says("tip to target " + metres(part().result->report.residual, "%.4f m"));
+    expect_says("x " + metres(part().chain.position(4).x, "%.3f m"));
+}
+
+TEST_F(ChainInspector, shows_the_table_of_the_step) {
+    reach_with(2);
+    run("chain.solver", {{"name", "fabrik_plain"}});
+    run("chain.target", {{"to", {0.5, 1.25, 0}}});
+    run("microscope.open", {{"start", "straight"}});
+    for (std::size_t step = 0; step <= part().study.trace->frames(); ++step) {
+        run("microscope.seek", {{"step", step}});
+        const std::vector<glm::vec3> joints = part().study.trace->pose(step);
+        const std::string said = text();
+        for (const glm::vec3& joint : joints) {
+            const std::string y = metres(joint.y, "%.2f");
+            EXPECT_NE(said.find(y == "-0.00" ? "0.00" : y), std::string::npos) << "step " << step << "\n"
+                                                                               << said;
+        }
+    }
+}
+
+TEST_F(ChainInspector, names_the_ends_root_and_tip_where_the_chain_reaches) {
+    run("chain.select", {{"index", 7}});
+    expect_says("7 (tail)");
+    expect_says("tail to target");
+    run("chain.mode", {{"mode", "reach"}});
+    expect_says("7 (tip)");
+    expect_says("root to target");
+    expect_silent_about("tail to target");
+}
+
+TEST_F(ChainInspector, a_moving_target_waits_while_the_microscope_is_open) {
+    const Lab& lab = *labs.find(chain_lab);
+    reach_with(4);
+    run("chain.target", {{"to", {2, 2, 0}}});
+    run("chain.motion", {{"path", "circle"}});
+    EXPECT_TRUE(lab.moving(workspace));
+    run("microscope.open");
+    EXPECT_FALSE(lab.moving(workspace));
+    expect_says("The moving target waits while the microscope is open.");
+    run("microscope.close");
+    EXPECT_TRUE(lab.moving(workspace)) << "and then goes on";
+    run("race.open");
+    EXPECT_TRUE(lab.moving(workspace)) << "a race is run anew each tick";
+}
+
+}  // namespace
+}  // namespace tendril::app
