@@ -25,7 +25,7 @@ constexpr ModeText mode_texts[] = {
      "Pulls by the tail: it goes to the target, the rest trails."},
     {ChainMode::Fixed, "fixed", "Fixed", "The head reaches for the target; the tail stays where it is."},
     {ChainMode::WithIndex, "with_index", "With index", "Pulls by one segment; both sides trail."},
-    {ChainMode::Reach, "reach", "Reach", "The head stays; the tail solves for the target."},
+    {ChainMode::Reach, "reach", "Reach", "The root stays; the tip reaches for the target."},
 };
 
 const ModeText& text_of(ChainMode mode) {
