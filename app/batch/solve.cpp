@@ -11,6 +11,7 @@
 #include "app/batch/progress.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/io/solver_json.hpp"
+#include "app/io/solver_text.hpp"
 
 namespace tendril::app {
 namespace {
@@ -43,7 +44,8 @@ class JsonRows final : public Rows {
   public:
     void add(Output& out, const Row& row) override {
         Json json{{"name", row.asked.name}};
-        json.update(report_json(row.method, row.report));
+        json.update(report_json(row.method, row.report, !row.asked.limits.empty()));
+        json.erase("ran");  // the keys are those that scripts rely on; the table has it
         json["microseconds"] = microseconds_json(row.microseconds);
         Json positions = Json::array();
         for (const glm::vec3& joint : row.joints) positions.push_back(point(joint));
@@ -63,7 +65,7 @@ class CsvRows final : public Rows {
     void begin(Output& out) override { out.write("name,solver,status,iterations,residual,microseconds\n"); }
     void add(Output& out, const Row& row) override {
         std::string line = csv_field(row.asked.name);
-        const Json report = report_json(row.method, row.report);
+        const Json report = report_json(row.method, row.report, !row.asked.limits.empty());
         for (const char* key : {"solver", "status", "iterations", "residual"}) {
             const Json& value = report[key];
             line += ',' + (value.is_string() ? value.get<std::string>()
@@ -79,16 +81,18 @@ class TableRows final : public Rows {
     explicit TableRows(std::size_t name_width) : name_width_(name_width) {}
     void add(Output& out, const Row& row) override {
         if (!headed_) {
-            out.write(column("name", name_width_) +
-                      "  solver              status          iterations    residual (m)   time (us)\n");
+            out.write(
+                column("name", name_width_) +
+                "  solver              status          iterations    residual (m)   time (\xc2\xb5s)  ran\n");
             headed_ = true;
         }
-        char rest[128], residual[32] = "-";  // what was refused was not measured
+        char rest[256], residual[32] = "-";  // what was refused was not measured
         if (row.report.status != ik::Status::InvalidInput) {
             std::snprintf(residual, sizeof residual, "%.6g", static_cast<double>(row.report.residual));
         }
-        std::snprintf(rest, sizeof rest, "  %-18s  %-14s  %10d  %14s  %10.2f\n", ik::name(row.method),
-                      ik::name(row.report.status), row.report.iterations, residual, row.microseconds);
+        std::snprintf(rest, sizeof rest, "  %-18s  %-14s  %10d  %14s  %10.2f  %s\n", ik::name(row.method),
+                      ik::name(row.report.status), row.report.iterations, residual, row.microseconds,
+                      ran_text(row.method, row.report, !row.asked.limits.empty()).c_str());
         out.write(column(row.asked.name, name_width_) + rest);
     }
 

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "app/document/json_complete.hpp"
+#include "app/io/solver_text.hpp"
 
 namespace tendril::app {
 namespace {
@@ -103,13 +104,14 @@ ik::Limit limit_from_json(const Json& json, const std::string& where) {
     return limit;
 }
 
-Json report_json(ik::Method method, const ik::Report& report) {
+Json report_json(ik::Method method, const ik::Report& report, bool within_limits) {
     return {{"solver", ik::name(method)},
             {"status", ik::name(report.status)},
             {"iterations", report.iterations},
             // What was refused was not measured either.
             {"residual",
-             report.status == ik::Status::InvalidInput ? Json(nullptr) : finite_number(report.residual)}};
+             report.status == ik::Status::InvalidInput ? Json(nullptr) : finite_number(report.residual)},
+            {"ran", ran_text(method, report, within_limits)}};
 }
 
 Json hold_json(const ik::Hold& hold) {

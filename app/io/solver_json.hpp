@@ -22,8 +22,9 @@ Json limit_json(const ik::Limit& limit);
 /// least angle over the greatest, an axis without length.
 ik::Limit limit_from_json(const Json& json, const std::string& where);
 
-/// {"solver", "status", "iterations", "residual"}; a residual that is not finite is null.
-Json report_json(ik::Method method, const ik::Report& report);
+/// {"solver", "status", "iterations", "residual", "ran"}; a residual that is not finite is null. "ran" is
+/// ran_text's.
+Json report_json(ik::Method method, const ik::Report& report, bool within_limits);
 
 /// {"joint", "kind", "bound", "limit_deg", "needed_deg", "enough"}
 Json hold_json(const ik::Hold& hold);

@@ -3,8 +3,10 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <limits>
 
 #include "app/widgets/text.hpp"
 
@@ -84,6 +86,7 @@ bool point_field(const char* name, glm::vec3& value, float speed, float most, co
         const std::string id = begin_row(row.c_str());
         // A drag ends at the range; what is typed beyond it is passed on, to be refused with the reason.
         changed |= ImGui::DragFloat(id.c_str(), &value[i], speed, -most, most, format);
+        if (!std::isfinite(value[i])) value[i] = std::numeric_limits<float>::max();  // JSON has no infinity
     }
     return changed;
 }

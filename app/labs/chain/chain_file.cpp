@@ -4,6 +4,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/labs/chain/chain_part.hpp"
+#include "app/labs/chain/chain_runtime.hpp"
 
 #include "app/labs/kit/require.hpp"
 
@@ -27,7 +28,7 @@ Json ChainPart::save() const {
                       {"period", number(motion.period)},
                       {"ticks", motion.ticks}};
     json["segments"] = std::move(segments);
-    json["reach"] = save_reach(reach);
+    json["reach"] = save_reach(reach, chain);
     if (study.open()) json["study"] = save_study(study);
     return json;
 }
@@ -70,15 +71,21 @@ Motion load_motion(const Json& json, const std::string& where) {
     return motion;
 }
 
-/// The rotations of version 1, [w, x, y, z], as [x, y, z, w]; `owner` is what has them.
+/// The rotations of version 1, [w, x, y, z], as [x, y, z, w] and in a solver's state; `owner` is what has
+/// them.
 void upgrade_rotations(Json& part, const char* owner) {
     if (!part.is_object() || !part.contains(owner) || !part[owner].is_object()) return;
     const auto found = part[owner].find("rotations");
-    if (found == part[owner].end() || !found->is_array()) return;
-    for (Json& rotation : *found) {
-        if (!rotation.is_array() || rotation.size() != 4) continue;
-        rotation = Json::array({rotation[1], rotation[2], rotation[3], rotation[0]});
+    if (found == part[owner].end()) return;
+    Json rotations = std::move(*found);
+    part[owner].erase(found);
+    if (rotations.is_array()) {
+        for (Json& rotation : rotations) {
+            if (!rotation.is_array() || rotation.size() != 4) continue;
+            rotation = Json::array({rotation[1], rotation[2], rotation[3], rotation[0]});
+        }
     }
+    part[owner]["state"] = {{"rotations", std::move(rotations)}};
 }
 
 }  // namespace
@@ -116,7 +123,8 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
             throw std::runtime_error(where + ".study is for mode reach, not " + mode_name(part->mode));
         }
         if (json.contains("study")) part->study = load_study(json["study"], where + ".study", part->chain);
-        part->study.refresh(part->chain, part->reach, part->target);
+        ChainRuntime runtime;  // a part belongs to no workspace yet
+        part->study.refresh(part->chain, part->reach, part->target, runtime);
         const Json& chosen = json_member(json, "selected", where);
         check_range(*part);
         if (!chosen.is_null() && !part->chain.empty()) {

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/colours.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
@@ -59,14 +60,15 @@ bool ChainLab::moving(const Workspace& workspace) const {
 }
 
 void ChainLab::step(Workspace& workspace) const {
+    ChainRuntime& runtime = workspace.runtimes.of<ChainRuntime>(chain_lab);
     const int due = workspace.clock.whole_ticks();
-    const auto stopped = guarded_step<ChainPart>(workspace, chain_lab, [due](ChainPart& part) {
+    const auto stopped = guarded_step<ChainPart>(workspace, chain_lab, [&](ChainPart& part) {
         for (int tick = 0; tick < due; ++tick) {
             part.motion.ticks = (part.motion.ticks + 1) % ticks_per_round(part.motion);
-            reach_for(part, motion_point(part.motion, part.motion.ticks));
+            reach_for(part, motion_point(part.motion, part.motion.ticks), runtime);
             check_range(part);
         }
-        part.study.refresh(part.chain, part.reach, part.target);
+        part.study.refresh(part.chain, part.reach, part.target, runtime);
     });
     if (!stopped) return;
     workspace.document.edit<ChainPart>(chain_lab).motion.path = Motion::Path::Still;

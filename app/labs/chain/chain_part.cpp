@@ -127,7 +127,7 @@ int& iterations_of(ChainPart& part, ChainMode mode) {
     return mode == ChainMode::Reach ? part.reach.iterations : part.iterations[static_cast<std::size_t>(mode)];
 }
 
-void reach_for(ChainPart& part, glm::vec3 target) {
+void reach_for(ChainPart& part, glm::vec3 target, ChainRuntime& runtime) {
     part.result.reset();
     switch (part.mode) {
         case ChainMode::Forward:
@@ -148,7 +148,7 @@ void reach_for(ChainPart& part, glm::vec3 target) {
         case ChainMode::Reach:
             part.study.rewind(part.chain, part.reach);
             part.study.note_start(part.chain, part.reach);
-            part.result = solve_reach(part.chain, part.reach, target);
+            part.result = solve_reach(part.chain, part.reach, target, runtime);
             break;
     }
     part.target = target;
@@ -156,7 +156,7 @@ void reach_for(ChainPart& part, glm::vec3 target) {
 
 std::size_t ChainPart::bytes() const {
     return sizeof(*this) + chain.size() * sizeof(Segment) + reach.limits.size() * sizeof(ik::Limit) +
-           reach.rotations.size() * sizeof(glm::quat) + study.bytes();
+           bytes_of(reach.state) + study.bytes();
 }
 
 float length_error(const Chain& chain, std::size_t index) {

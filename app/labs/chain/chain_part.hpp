@@ -88,7 +88,7 @@ void check_range(const ChainPart& part);
 
 /// Moves the target and applies the mode once. While something is studied, Reach solves from where that
 /// began.
-void reach_for(ChainPart& part, glm::vec3 target);
+void reach_for(ChainPart& part, glm::vec3 target, ChainRuntime& runtime);
 
 /// How far link `index` is from its length, in metres; 0 for the head.
 float length_error(const Chain& chain, std::size_t index);

@@ -32,6 +32,10 @@ class ChainProgram {
     void reach();
     void limits();
     void rotations();
+    /// Only limits need them.
+    std::vector<glm::quat> rotations_to_write() const {
+        return part_.reach.limits.empty() ? std::vector<glm::quat>() : part_.reach.state.rotations;
+    }
     void options();
     void end();
 
@@ -52,8 +56,8 @@ std::string ChainProgram::text() {
     if (part_.chain.size() > most_in_a_list)
         line(number_table("segment_numbers", segment_numbers(part_.chain)));
     if (limit_count() > most_in_a_list) line(limit_table(part_.reach.limits));
-    if (solves() && part_.reach.rotations.size() > most_in_a_list)
-        line(number_table("rotation_numbers", rotation_numbers(part_.reach.rotations)));
+    if (solves() && rotations_to_write().size() > most_in_a_list)
+        line(number_table("rotation_numbers", rotation_numbers(rotations_to_write())));
     line("int main() {");
     chain();
     move();
@@ -185,7 +189,7 @@ void ChainProgram::limits() {
 }
 
 void ChainProgram::rotations() {
-    const auto& rotations = part_.reach.rotations;
+    const auto rotations = rotations_to_write();
     if (rotations.empty()) return;
     say("// How each bone was turned about itself when it was carried away (w, x, y, z).");
     if (rotations.size() > most_in_a_list) {

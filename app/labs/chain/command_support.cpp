@@ -1,5 +1,6 @@
 #include "app/labs/chain/command_support.hpp"
 
+#include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/kit/part_command.hpp"
 
@@ -10,27 +11,37 @@ namespace {
 /// Whether trace and race would come out the same.
 bool same_study(const ChainPart& a, const ChainPart& b) {
     return a.study.kind == b.study.kind && a.study.start == b.study.start &&
-           a.study.start_rotations == b.study.start_rotations && a.study.racers == b.study.racers &&
+           a.study.start_state == b.study.start_state && a.study.racers == b.study.racers &&
            a.target == b.target && a.reach == b.reach && a.chain == b.chain;
 }
 
 }  // namespace
 
-Command chain_command(const char* name, std::vector<Argument> arguments, const char* help,
-                      void (*change)(ChainPart&, const Arguments&), Effect effect) {
+Command chain_command(const char* name, std::vector<Argument> arguments, const char* help, ChainSolve change,
+                      Effect effect) {
     return {.name = name,
             .arguments = std::move(arguments),
             .help = help,
             .effect = effect,
             .apply = [change, effect](Workspace& workspace, const Arguments& given) {
+                ChainRuntime& runtime = workspace.runtimes.of<ChainRuntime>(chain_lab);
                 change_part<ChainPart>(workspace, chain_lab, [&](ChainPart& part, const ChainPart& old) {
-                    change(part, given);
+                    change(part, given, runtime);
                     // What is studied is always the solve that the chain shows.
-                    if (part.study.open() && effect == Effect::Edit) reach_for(part, part.target);
+                    if (part.study.open() && effect == Effect::Edit) reach_for(part, part.target, runtime);
                     check_range(part);
-                    if (!same_study(part, old)) part.study.refresh(part.chain, part.reach, part.target);
+                    if (!same_study(part, old))
+                        part.study.refresh(part.chain, part.reach, part.target, runtime);
                 });
             }};
+}
+
+Command chain_command(const char* name, std::vector<Argument> arguments, const char* help, ChainChange change,
+                      Effect effect) {
+    return chain_command(
+        name, std::move(arguments), help,
+        ChainSolve([change](ChainPart& part, const Arguments& given, ChainRuntime&) { change(part, given); }),
+        effect);
 }
 
 Argument index_argument(bool required, const char* help) {

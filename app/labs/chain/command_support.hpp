@@ -1,6 +1,7 @@
 // What the files of this lab's commands share.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,9 +11,15 @@
 
 namespace tendril::app {
 
+using ChainChange = void (*)(ChainPart&, const Arguments&);
+/// One that solves too, with the lab's solvers.
+using ChainSolve = std::function<void(ChainPart&, const Arguments&, ChainRuntime&)>;
+
 /// A command on a copy of the lab's part; what is being studied is worked out anew after it.
-Command chain_command(const char* name, std::vector<Argument> arguments, const char* help,
-                      void (*change)(ChainPart&, const Arguments&), Effect effect = Effect::Edit);
+Command chain_command(const char* name, std::vector<Argument> arguments, const char* help, ChainChange change,
+                      Effect effect = Effect::Edit);
+Command chain_command(const char* name, std::vector<Argument> arguments, const char* help, ChainSolve change,
+                      Effect effect = Effect::Edit);
 
 Argument index_argument(bool required, const char* help);
 

@@ -22,7 +22,7 @@ class LimitDrawing {
           list_(list),
           hold_(shown_active_limit(part)),
           joints_(shown_joints(part)),
-          turns_(rotations_at(joints_, part.reach.rotations, part.chain.default_direction())) {}
+          turns_(rotations_at(joints_, part.reach.state.rotations, part.chain.default_direction())) {}
 
     void run() {
         const std::size_t bones = joints_.size() - 1;

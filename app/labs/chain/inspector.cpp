@@ -99,8 +99,8 @@ void header_row(bool fixed) {
         const char* name;
         float share;
     };
-    constexpr Column columns[] = {{"#", 0.75f}, {"x", 1.0f},       {"y", 1.0f},
-                                  {"z", 1.0f},  {"length", 1.05f}, {"error", 1.1f}};
+    constexpr Column columns[] = {{"#", 0.7f}, {"x", 1.0f},       {"y", 1.0f},
+                                  {"z", 1.0f}, {"length", 1.05f}, {"error", 1.4f}};
     for (const Column& column : columns) {
         const float width = fixed ? 3.6f * column.share * ImGui::GetFontSize() : column.share;
         ImGui::TableSetupColumn(column.name,

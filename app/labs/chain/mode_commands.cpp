@@ -25,10 +25,10 @@ void set_mode(ChainPart& part, const Arguments& given) {
     }
 }
 
-void pull(ChainPart& part, const Arguments& given) {
+void pull(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     const glm::vec3 to = given.point("to");
     if (part.mode == ChainMode::Reach) {
-        drag_joint(part.chain, part.reach, index_of(given), to, part.target);
+        drag_joint(part.chain, part.reach, index_of(given), to, part.target, runtime);
     } else {
         require_ok(part.chain.with_index(index_of(given), to));
         part.target = to;
@@ -48,6 +48,10 @@ void select(ChainPart& part, const Arguments& given) {
     part.selected = index;
 }
 
+void set_target(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
+    reach_for(part, given.point("to"), runtime);
+}
+
 /// The path starts under the target, so setting it going never makes the target jump.
 void set_motion(ChainPart& part, const Arguments& given) {
     Motion motion = part.motion;
@@ -61,10 +65,10 @@ void set_motion(ChainPart& part, const Arguments& given) {
 }
 
 /// Time goes to a tick of the round: the target jumps there, and the mode is applied once.
-void seek(ChainPart& part, const Arguments& given) {
+void seek(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     if (part.motion.path == Motion::Path::Still) throw Refused("the target follows no path");
     part.motion.ticks = static_cast<std::uint32_t>(given.integer("tick")) % ticks_per_round(part.motion);
-    reach_for(part, motion_point(part.motion, part.motion.ticks));
+    reach_for(part, motion_point(part.motion, part.motion.ticks), runtime);
 }
 
 }  // namespace
@@ -88,8 +92,7 @@ void add_mode_commands(CommandTable& table) {
                               .low = 0}},
                             "Sets how the chain reaches; it moves when the target next does", set_mode));
     table.add(chain_command("chain.target", {{.name = "to", .type = ArgumentType::Point, .help = "metres"}},
-                            "Moves the target and applies the mode once",
-                            [](ChainPart& part, const Arguments& a) { reach_for(part, a.point("to")); }));
+                            "Moves the target and applies the mode once", set_target));
     table.add(chain_command("chain.pull",
                             {index_argument(true, "which segment"),
                              {.name = "to", .type = ArgumentType::Point, .help = "metres"}},

@@ -18,7 +18,11 @@ struct Racer {
     ik::Method method = ik::Method::Fabrik;
     ik::Report report;
     std::vector<glm::vec3> joints;  ///< where they ended
-    std::vector<float> residuals;   ///< metres, at the start and after each iteration
+    /// Metres, before the first iteration and after each; never empty. The last is where the iterations
+    /// ended.
+    std::vector<float> residuals;
+    /// Whether that was not the best pose, so that the best came back: the report's residual is the best's.
+    bool restored = false;
     /// Of the whole solve, the least of several; measured here and now, so it differs from run to run: never
     /// in a state, nor in a picture that is compared.
     double microseconds = 0.0;
@@ -27,11 +31,19 @@ struct Racer {
 struct Race {
     std::vector<Racer> racers;
     float tolerance = 0.0f;  ///< metres
+    bool within_limits = false;
 };
 
-Race run_race(const Chain& chain, const ReachSettings& settings, glm::vec3 target, const Racers& racers);
+Race run_race(const Chain& chain, const ReachSettings& settings, glm::vec3 target, const Racers& racers,
+              ChainRuntime& runtime);
 
-/// A line for each iteration of each solver: solver, iteration, residual, microseconds, status.
+/// How a racer ended, in words: "Stalled, 310 mm from the target"; where the best pose was restored, "best
+/// pose restored: 230 mm" beside it, else empty.
+std::string end_text(const Racer& racer);
+std::string restored_text(const Racer& racer);
+
+/// A line for each iteration of each solver: solver, iteration, residual, microseconds, and on its last line
+/// status, ran (ran_text's words), and restored: the best pose's residual where that came back.
 std::string race_csv(const Race& race);
 
 }  // namespace tendril::app

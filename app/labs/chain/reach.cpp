@@ -1,5 +1,7 @@
 #include "app/labs/chain/reach.hpp"
 
+#include "app/labs/chain/chain_runtime.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -59,35 +61,52 @@ ik::Options solver_options(const ReachSettings& settings, float reach) {
     options.soft_zone = settings.soft_zone;
     options.damping = settings.damping;
     options.twist = glm::radians(settings.twist_deg);
+    options.restarts = settings.restarts;
+    options.rotations = false;  // limits keep them up all the same
     return options;
 }
 
-ik::State make_state(const ReachSettings& settings, std::size_t bones) {
-    ik::State state(bones);
-    if (settings.rotations.size() == bones) state.rotations = settings.rotations;
-    return state;
+ik::State& state_for(ReachSettings& settings, std::size_t bones) {
+    if (settings.state.bones() != bones) settings.state = ik::State(bones);
+    return settings.state;
 }
 
-std::optional<ReachResult> solve_reach(Chain& chain, ReachSettings& settings, glm::vec3 target) {
+/// What a memory holds that is not valid counts for nothing, so it is not kept: equal states are equal bit
+/// for bit, and come back so from a file.
+static void forget_what_is_not_valid(ik::State& state) {
+    if (!state.limits.valid) state.limits = {};
+    if (state.pole.valid) return;
+    std::vector<glm::vec3> joints = std::move(state.pole.joints);
+    std::fill(joints.begin(), joints.end(), glm::vec3(0.0f));
+    state.pole = {};
+    state.pole.joints = std::move(joints);
+}
+
+std::optional<ReachResult> solve_reach(Chain& chain, ReachSettings& settings, glm::vec3 target,
+                                       ChainRuntime& runtime) {
     if (chain.size() < 2) return std::nullopt;
     check_takes(settings.method, chain);
-    ik::Solver solver(chain);
-    ik::State state = make_state(settings, solver.bones());
+    ik::Solver& solver = runtime.solver(chain);
+    ik::State& state = state_for(settings, solver.bones());
     const ik::Options options = solver_options(settings, solver.reach());
     ReachResult result{settings.method, solver.solve(settings.method, chain, state, target, options), {}};
     if (result.report.status == ik::Status::InvalidInput) {
         throw std::invalid_argument("the solver does not take this target, pole or limit");
     }
+    forget_what_is_not_valid(state);
     if (settings.limits.empty()) return result;
     if (result.report.status == ik::Status::Limited && solver.bones() <= max_explained_bones) {
         result.hold = solver.explain(positions(chain), state, target, options);
     }
-    settings.rotations = state.rotations;
     return result;
 }
 
+std::size_t bytes_of(const ik::State& state) {
+    return state.rotations.size() * sizeof(glm::quat) + state.pole.joints.size() * sizeof(glm::vec3);
+}
+
 void bone_inserted(ReachSettings& settings, std::size_t index, std::size_t segments_now) {
-    settings.rotations.clear();  // how bones are twisted is found anew
+    settings.state = {};  // how bones are twisted is found anew
     if (settings.limits.empty() || segments_now < 2) return;
     const auto at = static_cast<std::ptrdiff_t>(std::min(index, settings.limits.size()));
     settings.limits.insert(settings.limits.begin() + at, ik::Limit{});
@@ -95,7 +114,7 @@ void bone_inserted(ReachSettings& settings, std::size_t index, std::size_t segme
 }
 
 void bone_removed(ReachSettings& settings, std::size_t index, std::size_t segments_now) {
-    settings.rotations.clear();
+    settings.state = {};
     if (settings.limits.empty()) return;
     const auto at = static_cast<std::ptrdiff_t>(std::min(index, settings.limits.size() - 1));
     settings.limits.erase(settings.limits.begin() + at);
@@ -104,7 +123,8 @@ void bone_removed(ReachSettings& settings, std::size_t index, std::size_t segmen
 
 void forget_limits(ReachSettings& settings) {
     settings.limits.clear();
-    settings.rotations.clear();
+    settings.state.rotations.assign(settings.state.bones(), glm::quat(1, 0, 0, 0));
+    settings.state.limits = {};
 }
 
 ik::Limit limit_of(const ReachSettings& settings, std::size_t joint) {

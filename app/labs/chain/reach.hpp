@@ -12,10 +12,16 @@
 #include <vector>
 
 #include "app/document/json.hpp"
+#include "app/io/solver_text.hpp"
 
 namespace tendril::app {
 
+class ChainRuntime;
+
 inline constexpr std::size_t max_explained_bones = 64;  ///< explaining frees them one by one
+
+inline constexpr int max_restarts = 1000;
+inline constexpr int default_restarts = 8;  ///< as ik::Options has it, but none while the target is dragged
 
 struct ReachSettings {
     ik::Method method = ik::Method::Fabrik;
@@ -25,10 +31,13 @@ struct ReachSettings {
     float soft_zone = 0.0f;          ///< part of the reach
     float damping = 0.1f;            ///< part of the reach
     float twist_deg = 0.0f;          ///< two-bone
+    std::optional<int> restarts;     ///< within limits, 0 to max_restarts; the library's own where left out
     std::optional<glm::vec3> pole;   ///< metres
     ik::PoleTurn pole_turn = ik::PoleTurn::WholeChain;
-    std::vector<ik::Limit> limits;     ///< one a bone, at the joint that it starts from; or none at all
-    std::vector<glm::quat> rotations;  ///< one a bone, as the last solve with limits left them; or none
+    std::vector<ik::Limit> limits;  ///< one a bone, at the joint that it starts from; or none at all
+    /// What the solver remembers from solve to solve; of no bones before the first. Its rotations are kept up
+    /// with limits only, which are what needs them.
+    ik::State state;
 
     bool operator==(const ReachSettings&) const = default;
 };
@@ -61,12 +70,17 @@ void check_takes(ik::Method method, const Chain& chain);
 ik::Options solver_options(const ReachSettings& settings, float reach);
 /// Metres.
 float reach_tolerance(const ReachSettings& settings, float reach);
-/// What a solver of so many bones goes on from: its bones turned as the settings have them.
-ik::State make_state(const ReachSettings& settings, std::size_t bones);
+/// The state for a solver of so many bones: the settings' own, or where that is another chain's, a new one.
+ik::State& state_for(ReachSettings& settings, std::size_t bones);
 
-/// Solves from where the chain is. Nothing for a chain of fewer than two segments. Throws
-/// std::invalid_argument where the solver refuses: two_bone and a chain that has not two bones.
-std::optional<ReachResult> solve_reach(Chain& chain, ReachSettings& settings, glm::vec3 target);
+/// Solves from where the chain is, and leaves what there is to remember in the settings. Nothing for a chain
+/// of fewer than two segments. Throws std::invalid_argument where the solver refuses: two_bone and a chain
+/// that has not two bones.
+std::optional<ReachResult> solve_reach(Chain& chain, ReachSettings& settings, glm::vec3 target,
+                                       ChainRuntime& runtime);
+
+/// Of memory.
+std::size_t bytes_of(const ik::State& state);
 
 /// Bones are counted anew: a segment came before `index`, or went from there.
 void bone_inserted(ReachSettings& settings, std::size_t index, std::size_t segments_now);
@@ -81,7 +95,6 @@ void set_limit(ReachSettings& settings, std::size_t joint, const ik::Limit& limi
 std::string hold_text(const ik::Hold& hold);
 /// "162": as that sentence has it.
 std::string needed_degrees(const ik::Hold& hold);
-const char* solver_title(ik::Method method);
 const char* solver_help(ik::Method method);
 /// What a status means, in a sentence.
 const char* status_help(ik::Status status);
@@ -93,10 +106,11 @@ inline constexpr std::array all_joint_kinds{
     ik::JointKind::Free,   ik::JointKind::Suture, ik::JointKind::Hinge,        ik::JointKind::Gliding,
     ik::JointKind::Saddle, ik::JointKind::Pivot,  ik::JointKind::BallAndSocket};
 
-/// As "rotations", where there are any.
-void save_rotations(Json& json, const std::vector<glm::quat>& rotations);
-std::vector<glm::quat> load_rotations(const Json& json, const std::string& where, std::size_t bones);
-Json save_reach(const ReachSettings& settings);
+/// As "state", where there is one. `joints` is where the chain is that the state belongs to: what the pole's
+/// memory has in common with it is not written twice.
+void save_state(Json& json, const ik::State& state, const std::vector<glm::vec3>& joints);
+ik::State load_state(const Json& json, const std::string& where, const std::vector<glm::vec3>& joints);
+Json save_reach(const ReachSettings& settings, const Chain& chain);
 /// Throws std::runtime_error naming the place.
 ReachSettings load_reach(const Json& json, const std::string& where, const Chain& chain);
 

@@ -9,11 +9,11 @@ namespace tendril::app {
 namespace {
 
 /// Lets the chain reach anew for the target that it has, where it does reach.
-void reach_again(ChainPart& part) {
-    if (part.mode == ChainMode::Reach) reach_for(part, part.target);
+void reach_again(ChainPart& part, ChainRuntime& runtime) {
+    if (part.mode == ChainMode::Reach) reach_for(part, part.target, runtime);
 }
 
-void set_solver(ChainPart& part, const Arguments& given) {
+void set_solver(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     ReachSettings& reach = part.reach;
     if (given.has("name")) {
         reach.method = *ik::method_named(given.text("name"));
@@ -26,23 +26,25 @@ void set_solver(ChainPart& part, const Arguments& given) {
     if (given.has("soft_zone")) reach.soft_zone = given.number("soft_zone");
     if (given.has("damping")) reach.damping = given.number("damping");
     if (given.has("twist_deg")) reach.twist_deg = given.number("twist_deg");
+    if (given.has("default_restarts") && given.boolean("default_restarts")) reach.restarts.reset();
+    if (given.has("restarts")) reach.restarts = given.integer("restarts");
     if (given.has("pole_turn")) reach.pole_turn = pole_turn_from_name(given.text("pole_turn"));
-    if (part.study.open()) reach_again(part);
+    if (part.study.open()) reach_again(part, runtime);
 }
 
-void set_pole(ChainPart& part, const Arguments& given) {
+void set_pole(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     const bool off = given.has("off") && given.boolean("off");
     if (given.has("to") && off) throw Refused("to and off exclude each other");
     if (!given.has("to") && !off) throw Refused("needs to, or off: true");
     part.reach.pole.reset();
     if (given.has("to")) part.reach.pole = given.point("to");
-    reach_again(part);
+    reach_again(part, runtime);
 }
 
 constexpr const char* angle_names[] = {"min_deg",  "max_deg",   "up_deg",        "down_deg",
                                        "left_deg", "right_deg", "twist_min_deg", "twist_max_deg"};
 
-void set_joint_limit(ChainPart& part, const Arguments& given) {
+void set_joint_limit(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     const std::size_t index = index_of(given);
     check_index(part, index);
     if (index + 1 == part.chain.size()) {
@@ -57,7 +59,7 @@ void set_joint_limit(ChainPart& part, const Arguments& given) {
         if (given.has(angle)) json[angle] = number(given.number(angle));
     }
     set_limit(part.reach, index, limit_from_json(json, "limit"), part.chain);
-    reach_again(part);
+    reach_again(part, runtime);
 }
 
 std::vector<Argument> limit_arguments() {
@@ -96,6 +98,9 @@ void add_reach_commands(CommandTable& table) {
          number_argument("damping", "of dls and svd_dls, part of the reach",
                          static_cast<double>(least_damping), static_cast<double>(most_damping)),
          number_argument("twist_deg", "two_bone: turns the bend about the line to the target", -180, 180),
+         integer_argument("restarts", "within limits: from how many other poses to start again at most", 0,
+                          max_restarts),
+         switch_argument("default_restarts", "true: 8, but none while the target is dragged"),
          choice_argument("pole_turn", false, "all joints at once, or each between its neighbours",
                          names(all_pole_turns, pole_turn_name))},
         "Sets what solves in mode reach; the chain moves when the target next does", set_solver));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/kit/require.hpp"
 
 namespace tendril::app {
@@ -25,7 +26,7 @@ Piece piece_of(const Chain& chain, const ReachSettings& settings, std::size_t fi
         if (i < count) piece.lengths.push_back(chain.segments()[first + i + 1].length);
     }
     if (!settings.limits.empty()) {
-        const auto begin = settings.rotations.begin() + static_cast<std::ptrdiff_t>(first);
+        const auto begin = settings.state.rotations.begin() + static_cast<std::ptrdiff_t>(first);
         piece.rotations.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
     }
     return piece;
@@ -33,16 +34,15 @@ Piece piece_of(const Chain& chain, const ReachSettings& settings, std::size_t fi
 
 /// Solves the piece by itself; its first joint stays.
 void solve_piece(Piece& piece, const Chain& chain, const ReachSettings& settings, glm::vec3 target,
-                 ik::Options options) {
-    const std::vector<glm::vec3> rest(piece.count, chain.default_direction());
-    ik::Solver solver = ik::Solver::make(piece.lengths, rest).value();  // the chain's own, so good
-    ik::State state = solver.initial_state();
+                 ik::Options options, ChainRuntime& runtime) {
+    ik::State state(piece.count);
     if (!piece.rotations.empty()) {
         options.limits = std::span(settings.limits).subspan(piece.first, piece.count);
         state.rotations = piece.rotations;
     }
     const bool fits = settings.method != ik::Method::TwoBone || piece.count == 2;
     const ik::Method method = fits ? settings.method : ik::Method::Fabrik;
+    ik::Solver& solver = runtime.solver(piece.lengths, chain.default_direction());
     if (solver.solve(method, piece.joints, state, target, options).status == ik::Status::InvalidInput) {
         throw std::invalid_argument("the solver does not take this point");
     }
@@ -55,21 +55,24 @@ ik::Options piece_options(const ReachSettings& settings, float tolerance) {
     options.tolerance = tolerance;
     options.max_iterations = settings.iterations;
     options.damping = settings.damping;
+    options.rotations = false;
+    options.restarts = 0;  // another start may end elsewhere: what is in the hand does not jump
     return options;
 }
 
 /// From the root to the dragged joint.
-void solve_before(Piece& piece, const Chain& chain, const ReachSettings& settings, glm::vec3 to) {
+void solve_before(Piece& piece, const Chain& chain, const ReachSettings& settings, glm::vec3 to,
+                  ChainRuntime& runtime) {
     float reach = 0.0f;
     for (const float length : piece.lengths) reach += length;
     const float tolerance = std::min(drag_tolerance * reach, reach_tolerance(settings, chain.reach()));
-    solve_piece(piece, chain, settings, to, piece_options(settings, tolerance));
+    solve_piece(piece, chain, settings, to, piece_options(settings, tolerance), runtime);
 }
 
 /// From the dragged joint to the tip. Its first limit is relative to the bone before it, which is turned by
 /// `parent` from rest, so the piece is solved in that bone's frame, where that limit is a root's.
 void solve_beyond(Piece& piece, const Chain& chain, const ReachSettings& settings, glm::vec3 target,
-                  glm::quat parent) {
+                  glm::quat parent, ChainRuntime& runtime) {
     const glm::vec3 root = piece.joints.front();
     const glm::quat inverse = glm::conjugate(parent);
     const auto turn = [&](const glm::quat& by) {
@@ -82,7 +85,7 @@ void solve_beyond(Piece& piece, const Chain& chain, const ReachSettings& setting
     shift(-root);
     turn(inverse);
     solve_piece(piece, chain, settings, inverse * (target - root),
-                piece_options(settings, reach_tolerance(settings, chain.reach())));
+                piece_options(settings, reach_tolerance(settings, chain.reach())), runtime);
     turn(parent);
     shift(root);
     piece.joints.front() = root;
@@ -99,38 +102,39 @@ void carry(Piece& beyond, glm::vec3 to, glm::quat by) {
 void put_back(const Piece& piece, std::vector<glm::vec3>& joints, ReachSettings& settings) {
     const auto at = static_cast<std::ptrdiff_t>(piece.first);
     std::copy(piece.joints.begin(), piece.joints.end(), joints.begin() + at);
-    std::copy(piece.rotations.begin(), piece.rotations.end(), settings.rotations.begin() + at);
+    std::copy(piece.rotations.begin(), piece.rotations.end(), settings.state.rotations.begin() + at);
 }
 
-void drag_root(Chain& chain, ReachSettings& settings, glm::vec3 to, glm::vec3 target) {
+void drag_root(Chain& chain, ReachSettings& settings, glm::vec3 to, glm::vec3 target, ChainRuntime& runtime) {
     std::vector<glm::vec3> joints = positions(chain);
     const glm::vec3 by = to - joints.front();
     for (glm::vec3& joint : joints) joint += by;
     joints.front() = to;
     require_ok(chain.set_positions(joints));
-    solve_reach(chain, settings, target);
+    solve_reach(chain, settings, target, runtime);
 }
 
-void drag_tip(Chain& chain, ReachSettings& settings, glm::vec3 to) {
+void drag_tip(Chain& chain, ReachSettings& settings, glm::vec3 to, ChainRuntime& runtime) {
     ReachSettings exact = settings;
     exact.tolerance = std::min(drag_tolerance * chain.reach(), reach_tolerance(settings, chain.reach()));
-    solve_reach(chain, exact, to);
-    settings.rotations = exact.rotations;
+    solve_reach(chain, exact, to, runtime);
+    settings.state = exact.state;
 }
 
-void drag_middle(Chain& chain, ReachSettings& settings, std::size_t index, glm::vec3 to, glm::vec3 target) {
+void drag_middle(Chain& chain, ReachSettings& settings, std::size_t index, glm::vec3 to, glm::vec3 target,
+                 ChainRuntime& runtime) {
     const std::size_t bones = chain.size() - 1;
     Piece before = piece_of(chain, settings, 0, index);
     Piece beyond = piece_of(chain, settings, index, bones - index);
     glm::quat turned(1, 0, 0, 0), parent(1, 0, 0, 0);
     if (!before.rotations.empty()) turned = glm::conjugate(before.rotations.back());
-    solve_before(before, chain, settings, to);
+    solve_before(before, chain, settings, to, runtime);
     if (!before.rotations.empty()) {
         parent = before.rotations.back();
         turned = glm::normalize(parent * turned);
     }
     carry(beyond, before.joints.back(), turned);
-    solve_beyond(beyond, chain, settings, target, parent);
+    solve_beyond(beyond, chain, settings, target, parent, runtime);
     std::vector<glm::vec3> joints = positions(chain);
     put_back(before, joints, settings);
     put_back(beyond, joints, settings);
@@ -139,20 +143,22 @@ void drag_middle(Chain& chain, ReachSettings& settings, std::size_t index, glm::
 
 }  // namespace
 
-void drag_joint(Chain& chain, ReachSettings& settings, std::size_t index, glm::vec3 to, glm::vec3 target) {
+void drag_joint(Chain& chain, ReachSettings& settings, std::size_t index, glm::vec3 to, glm::vec3 target,
+                ChainRuntime& runtime) {
     if (index >= chain.size()) {
         throw std::out_of_range("index " + std::to_string(index) + " is out of range, the chain has " +
                                 std::to_string(chain.size()) + " segments");
     }
     if (!settings.limits.empty()) {  // other modes move a chain and leave its rotations behind
-        settings.rotations = rotations_at(positions(chain), settings.rotations, chain.default_direction());
+        std::vector<glm::quat>& rotations = state_for(settings, chain.size() - 1).rotations;
+        rotations = rotations_at(positions(chain), rotations, chain.default_direction());
     }
     if (index == 0) {
-        drag_root(chain, settings, to, target);
+        drag_root(chain, settings, to, target, runtime);
     } else if (index + 1 == chain.size()) {
-        drag_tip(chain, settings, to);
+        drag_tip(chain, settings, to, runtime);
     } else {
-        drag_middle(chain, settings, index, to, target);
+        drag_middle(chain, settings, index, to, target, runtime);
     }
 }
 

@@ -19,6 +19,7 @@
 namespace tendril::app {
 
 /// Metres. Throws std::out_of_range for a bad index, std::invalid_argument where the solver refuses.
-void drag_joint(Chain& chain, ReachSettings& settings, std::size_t index, glm::vec3 to, glm::vec3 target);
+void drag_joint(Chain& chain, ReachSettings& settings, std::size_t index, glm::vec3 to, glm::vec3 target,
+                ChainRuntime& runtime);
 
 }  // namespace tendril::app

@@ -9,24 +9,6 @@
 namespace tendril::app {
 namespace {
 
-struct SolverText {
-    const char* title;
-    const char* help;
-};
-
-const SolverText& text_of(ik::Method method) {
-    static constexpr SolverText texts[] = {
-        {"FABRIK", "Pulls from the tip and from the root in turn, and takes the bend out near full reach."},
-        {"FABRIK, plain", "As published in 2011. Crawls near full reach and stalls on a straight line."},
-        {"CCD", "Turns one joint after another so that the tip looks at the target."},
-        {"Jacobian transpose", "Turns all joints along the gradient, by the best step."},
-        {"Damped least squares", "Turns all joints by the damped inverse of the Jacobian."},
-        {"SVD damped least squares", "The same, damped only where a singular value is small."},
-        {"Two-bone", "The law of cosines. For chains of two bones."},
-    };
-    return texts[static_cast<std::size_t>(method)];
-}
-
 const char* bound_phrase(ik::Bound bound) {
     static constexpr const char* phrases[] = {"stops at",
                                               "stops at",
@@ -50,11 +32,17 @@ std::string degrees_text(const ik::Hold& hold, float angle) {
 
 }  // namespace
 
-const char* solver_title(ik::Method method) {
-    return text_of(method).title;
-}
 const char* solver_help(ik::Method method) {
-    return text_of(method).help;
+    static constexpr const char* texts[] = {
+        "Forward and backward reaching, and a step that takes the bend out near full reach.",
+        "As published in 2011. Crawls near full reach and stalls at a collinear singularity.",
+        "Rotates one joint after another so that the tip points at the target.",
+        "Rotates all joints along the gradient, by the best step.",
+        "Rotates all joints by the damped inverse of the Jacobian.",
+        "The same, damped only where a singular value is small.",
+        "The law of cosines. For chains of two bones.",
+    };
+    return texts[static_cast<std::size_t>(method)];
 }
 
 std::string why_not_taken(ik::Method method, const Chain& chain) {

@@ -57,6 +57,7 @@ void report_rows(const ChainPart& part, const std::vector<glm::vec3>& joints, co
     const ReachResult& result = *part.result;
     reading("status", "%s", ik::name(result.report.status));
     reading("iterations", "%d", result.report.iterations);
+    note(ran_text(result.method, result.report, !part.reach.limits.empty()) + ".");
     note(status_help(result.report.status));
     if (result.hold) coloured_note(hold_text(*result.hold) + ".", palette.limit);
 }

@@ -23,7 +23,7 @@ struct ShownSegment {
     glm::vec3 position{0.0f};
     float length = 0.0f;  ///< metres: of its bone as it is shown, which inside a solve may be off; the root
                           ///< has no bone and shows the length that it has stored
-    float error = 0.0f;  ///< metres, from the length that the segment should have
+    float error = 0.0f;   ///< metres, from the length that the segment should have
 };
 ShownSegment shown_segment(const ChainPart& part, const std::vector<glm::vec3>& joints, std::size_t index);
 

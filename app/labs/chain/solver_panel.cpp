@@ -12,29 +12,54 @@ void with(Emit& emit, const char* name, ArgumentValue value) {
     emit.continuously("chain.solver", {{name, std::move(value)}});
 }
 
+/// A row of an option; grey, with the reason, where the method does not honour it.
+template <class Row>
+void option_row(const ReachSettings& reach, ik::Option option, const Row& row) {
+    const bool limited = !reach.limits.empty();
+    const bool honoured = ik::honours(reach.method, option, limited);
+    ImGui::BeginDisabled(!honoured);
+    row();
+    ImGui::EndDisabled();
+    if (honoured) return;
+    const std::string why =
+        std::string(solver_title(reach.method)) + " does not use this" +
+        (ik::honours(reach.method, option, !limited) ? limited ? " within limits" : " without joint limits"
+                                                     : "");
+    explain((why + ".").c_str());
+}
+
 void stop_rows(const ReachSettings& reach, float length, Emit& emit) {
-    int iterations = reach.iterations;
-    if (integer_field("iterations", iterations, 1, max_iterations)) with(emit, "iterations", iterations);
+    option_row(reach, ik::Option::MaxIterations, [&] {
+        int iterations = reach.iterations;
+        if (integer_field("iterations", iterations, 1, max_iterations)) with(emit, "iterations", iterations);
+    });
     float tolerance = reach_tolerance(reach, length);
     if (number_field("tolerance", tolerance, 0.0002f, 0.0f, 10.0f, "%.4f m"))
         with(emit, "tolerance", tolerance);
-    if (reach.tolerance && row_button("Default tolerance", 1, true, "A thousandth of the reach"))
+    if (row_button("Default tolerance", 1, reach.tolerance.has_value(), "A thousandth of the reach"))
         emit("chain.solver", {{"default_tolerance", true}});
 }
 
 void option_rows(const ReachSettings& reach, Emit& emit) {
-    float snap_back = reach.snap_back, soft = reach.soft_zone;
-    if (number_field("snap back", snap_back, 0.005f, 0.0f, 1.0f, "%.2f")) with(emit, "snap_back", snap_back);
-    if (number_field("soft zone", soft, 0.002f, 0.0f, 1.0f, "%.3f of reach")) with(emit, "soft_zone", soft);
-    if (reach.method == ik::Method::Dls || reach.method == ik::Method::SvdDls) {
-        float damping = reach.damping;
-        if (number_field("damping", damping, 0.001f, least_damping, most_damping, "%.3f of reach"))
-            with(emit, "damping", damping);
-    }
-    if (reach.method == ik::Method::TwoBone) {
-        float twist = reach.twist_deg;
-        if (number_field("twist", twist, 0.5f, -180.0f, 180.0f, "%.0f deg")) with(emit, "twist_deg", twist);
-    }
+    const auto number_row = [&](ik::Option option, const char* title, const char* name, float value,
+                                float speed, float low, float high, const char* format) {
+        option_row(reach, option, [&] {
+            if (number_field(title, value, speed, low, high, format)) with(emit, name, value);
+        });
+    };
+    number_row(ik::Option::SnapBack, "rest blend", "snap_back", reach.snap_back, 0.005f, 0.0f, 1.0f, "%.2f");
+    number_row(ik::Option::SoftZone, "soft zone", "soft_zone", reach.soft_zone, 0.002f, 0.0f, 1.0f,
+               "%.3f of reach");
+    number_row(ik::Option::Damping, "damping", "damping", reach.damping, 0.001f, least_damping, most_damping,
+               "%.3f of reach");
+    number_row(ik::Option::Twist, "twist", "twist_deg", reach.twist_deg, 0.5f, -180.0f, 180.0f, "%.0f deg");
+    option_row(reach, ik::Option::Restarts, [&] {
+        int restarts = reach.restarts.value_or(default_restarts);
+        if (integer_field("restarts", restarts, 0, max_restarts)) with(emit, "restarts", restarts);
+        if (row_button("Default restarts", 1, reach.restarts.has_value(),
+                       "8, but none while the target is dragged"))
+            emit("chain.solver", {{"default_restarts", true}});
+    });
 }
 
 /// A pole begins above the middle of the line from head to target, clear of the chain.
@@ -52,11 +77,14 @@ void pole_rows(const ChainPart& part, Emit& emit) {
     if (!part.reach.pole) return;
     glm::vec3 pole = *part.reach.pole;
     if (point_field("pole", pole, 0.01f)) emit.continuously("chain.pole", {{"to", pole}});
-    static constexpr const char* titles[] = {"whole chain", "each joint"};
-    int turn = static_cast<int>(part.reach.pole_turn);
-    if (choice_field("turns", turn, titles, static_cast<int>(std::size(titles)))) {
-        emit("chain.solver", {{"pole_turn", pole_turn_name(all_pole_turns[static_cast<std::size_t>(turn)])}});
-    }
+    option_row(part.reach, ik::Option::PoleTurn, [&] {
+        static constexpr const char* titles[] = {"whole chain", "each joint"};
+        int turn = static_cast<int>(part.reach.pole_turn);
+        if (choice_field("turns", turn, titles, static_cast<int>(std::size(titles)))) {
+            emit("chain.solver",
+                 {{"pole_turn", pole_turn_name(all_pole_turns[static_cast<std::size_t>(turn)])}});
+        }
+    });
 }
 
 }  // namespace

@@ -8,13 +8,13 @@ namespace tendril::app {
 namespace {
 
 Json reach_state(const ChainPart& part) {
-    Json json = save_reach(part.reach);
-    json.erase("rotations");
+    Json json = save_reach(part.reach, part.chain);
+    json.erase("state");
     json["report"] = nullptr;
     json["hold"] = nullptr;
     json["explanation"] = nullptr;
     if (!part.result) return json;
-    json["report"] = report_json(part.result->method, part.result->report);
+    json["report"] = report_json(part.result->method, part.result->report, !part.reach.limits.empty());
     if (part.result->hold) {
         json["hold"] = hold_json(*part.result->hold);
         json["explanation"] = hold_text(*part.result->hold);
@@ -27,7 +27,7 @@ Json microscope_state(const ChainPart& part) {
     const Study& study = part.study;
     const Trace& trace = *study.trace;
     Json json{{"step", study.step}, {"steps", trace.frames()}, {"iteration", trace.iteration(study.step)}};
-    json["report"] = report_json(trace.method, trace.report);
+    json["report"] = report_json(trace.method, trace.report, !part.reach.limits.empty());
     json["moves"] = Json::array();
     for (const ik::Step& step : trace.frame(study.step)) {
         const bool alone = step.neighbour == ik::no_joint;
@@ -50,7 +50,9 @@ Json microscope_state(const ChainPart& part) {
 Json race_state(const Race& race) {
     Json json = Json::array();
     for (const Racer& racer : race.racers) {
-        Json each = report_json(racer.method, racer.report);
+        Json each = report_json(racer.method, racer.report, race.within_limits);
+        each["ends_with"] = number(racer.residuals.back());
+        each["restored"] = racer.restored;
         for (const glm::vec3& joint : racer.joints) each["positions"].push_back(point(joint));
         json.push_back(std::move(each));
     }

@@ -30,9 +30,7 @@ void Study::begin(Kind as, std::optional<From> from, const Chain& chain, const R
     if (from || !open()) {
         const bool last = from.value_or(From::Last) == From::Last && last_start.size() == chain.size();
         start = from == From::Straight ? straight(chain) : last ? last_start : positions(chain);
-        start_rotations = from == From::Straight ? std::vector<glm::quat>()
-                          : last                 ? last_rotations
-                                                 : settings.rotations;
+        start_state = from == From::Straight ? ik::State() : last ? last_state : settings.state;
     }
     if (kind != as) step = 0;
     kind = as;
@@ -40,26 +38,27 @@ void Study::begin(Kind as, std::optional<From> from, const Chain& chain, const R
 
 void Study::note_start(const Chain& chain, const ReachSettings& settings) {
     last_start.clear();
-    last_rotations.clear();
+    last_state = {};
     if (chain.size() > max_studied_segments) return;
     last_start = positions(chain);
-    last_rotations = settings.rotations;
+    last_state = settings.state;
 }
 
 void Study::close() {
     kind = Kind::None;
     start.clear();
-    start_rotations.clear();
+    start_state = {};
     step = 0;
 }
 
 void Study::rewind(Chain& chain, ReachSettings& settings) const {
     if (!open()) return;
     require_ok(chain.set_positions(start));
-    settings.rotations = settings.limits.empty() ? std::vector<glm::quat>() : start_rotations;
+    settings.state = start_state;
 }
 
-void Study::refresh(const Chain& chain, const ReachSettings& settings, glm::vec3 target) {
+void Study::refresh(const Chain& chain, const ReachSettings& settings, glm::vec3 target,
+                    ChainRuntime& runtime) {
     trace.reset();
     race.reset();
     if (!open()) return;
@@ -67,16 +66,16 @@ void Study::refresh(const Chain& chain, const ReachSettings& settings, glm::vec3
     ReachSettings turned = settings;
     rewind(begin, turned);
     if (kind == Kind::Race) {
-        race = std::make_shared<const Race>(run_race(begin, turned, target, racers));
+        race = std::make_shared<const Race>(run_race(begin, turned, target, racers, runtime));
         return;
     }
-    trace = std::make_shared<const Trace>(record_trace(begin, turned, target));
+    trace = std::make_shared<const Trace>(record_trace(begin, turned, target, runtime));
     step = std::min(step, trace->frames());
 }
 
 std::size_t Study::bytes() const {
-    std::size_t sum = (start.size() + last_start.size()) * sizeof(glm::vec3) +
-                      (start_rotations.size() + last_rotations.size()) * sizeof(glm::quat);
+    std::size_t sum =
+        (start.size() + last_start.size()) * sizeof(glm::vec3) + bytes_of(start_state) + bytes_of(last_state);
     if (trace) sum += trace->steps.size() * (sizeof(ik::Step) + sizeof(std::size_t));
     if (race) {
         for (const Racer& racer : race->racers) {
@@ -87,14 +86,14 @@ std::size_t Study::bytes() const {
 }
 
 bool Study::operator==(const Study& other) const {
-    return kind == other.kind && start == other.start && start_rotations == other.start_rotations &&
+    return kind == other.kind && start == other.start && start_state == other.start_state &&
            step == other.step && racers == other.racers && side_by_side == other.side_by_side;
 }
 
 Json save_study(const Study& study) {
     Json json{{"kind", study.kind == Study::Kind::Race ? "race" : "microscope"}, {"step", study.step}};
     for (const glm::vec3& at : study.start) json["start"].push_back(point(at));
-    save_rotations(json, study.start_rotations);
+    save_state(json, study.start_state, study.start);
     json["solvers"] = Json::array();
     for (const ik::Method method : ik::all_methods) {
         if (study.racers[static_cast<std::size_t>(method)]) json["solvers"].push_back(ik::name(method));
@@ -118,7 +117,7 @@ Study load_study(const Json& json, const std::string& where, const Chain& chain)
     for (std::size_t i = 0; i < start.size(); ++i) {
         study.start[i] = json_point(start[i], where + ".start." + std::to_string(i));
     }
-    study.start_rotations = load_rotations(json, where, chain.size() - 1);
+    study.start_state = load_state(json, where, study.start);
     study.step = static_cast<std::size_t>(
         json_integer(json_member(json, "step", where), where + ".step", 0, max_trace_steps));
     study.racers.fill(false);

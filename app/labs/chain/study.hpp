@@ -21,15 +21,15 @@ inline constexpr std::size_t max_studied_segments = 512;  ///< more would drown 
 
 struct Study {
     enum class Kind { None, Microscope, Race } kind = Kind::None;
-    std::vector<glm::vec3> start;            ///< where each solve begins, one a segment
-    std::vector<glm::quat> start_rotations;  ///< and how the bones are turned, as in ReachSettings
-    std::size_t step = 0;  ///< microscope: how many elementary steps are shown, 0 to all of them
+    std::vector<glm::vec3> start;  ///< where each solve begins, one a segment
+    ik::State start_state;         ///< and what the solver remembers there, as in ReachSettings
+    std::size_t step = 0;          ///< microscope: how many elementary steps are shown, 0 to all of them
     Racers racers{true, true, true, false, true, false, false};  ///< by ik::Method
     bool side_by_side = false;
 
     /// Where the last solve began, for a study that is opened after it; not saved, nothing for long chains.
     std::vector<glm::vec3> last_start;
-    std::vector<glm::quat> last_rotations;
+    ik::State last_state;
     /// Worked out from all the above; neither saved nor compared.
     std::shared_ptr<const Trace> trace;
     std::shared_ptr<const Race> race;
@@ -48,7 +48,7 @@ struct Study {
     /// Puts the chain back to the start; nothing while nothing is studied.
     void rewind(Chain& chain, ReachSettings& settings) const;
     /// Works out trace or race anew.
-    void refresh(const Chain& chain, const ReachSettings& settings, glm::vec3 target);
+    void refresh(const Chain& chain, const ReachSettings& settings, glm::vec3 target, ChainRuntime& runtime);
     std::size_t bytes() const;
 };
 

@@ -22,14 +22,14 @@ Argument start_argument() {
 }
 
 /// A study is of mode reach; the chain shows what a solve from the start comes to.
-void open(ChainPart& part, const Arguments& given, Study::Kind kind) {
+void open(ChainPart& part, const Arguments& given, ChainRuntime& runtime, Study::Kind kind) {
     part.study.begin(kind, start_of(given), part.chain, part.reach);
     part.mode = ChainMode::Reach;
-    reach_for(part, part.target);
+    reach_for(part, part.target, runtime);
 }
 
-void open_microscope(ChainPart& part, const Arguments& given) {
-    open(part, given, Study::Kind::Microscope);
+void open_microscope(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
+    open(part, given, runtime, Study::Kind::Microscope);
 }
 
 void check_microscope(const ChainPart& part) {
@@ -74,8 +74,8 @@ void close_race(ChainPart& part, const Arguments&) {
     part.study.close();
 }
 
-void open_race(ChainPart& part, const Arguments& given) {
-    open(part, given, Study::Kind::Race);
+void open_race(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
+    open(part, given, runtime, Study::Kind::Race);
 }
 
 void choose_racer(ChainPart& part, const Arguments& given) {

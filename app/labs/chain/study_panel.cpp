@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/document/units.hpp"
 #include "app/labs/chain/colours.hpp"
 #include "app/labs/chain/panels.hpp"
 #include "app/widgets/fields.hpp"
@@ -38,6 +39,12 @@ bool& against_time() {
     return *ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("against time"), false);
 }
 
+void small_right(const std::string& text) {
+    ImGui::PushFont(small_font());
+    text_flush_right(text, true);
+    ImGui::PopFont();
+}
+
 void racer_row(const Study& study, ik::Method method, bool time, const Palette& palette, Emit& emit) {
     const auto index = static_cast<std::size_t>(method);
     bool on = study.racers[index];
@@ -48,32 +55,24 @@ void racer_row(const Study& study, ik::Method method, bool time, const Palette& 
     const auto racer =
         std::find_if(racers.begin(), racers.end(), [&](const Racer& r) { return r.method == method; });
     if (racer == racers.end()) return;
-    char text[96];
     ImGui::SameLine();
-    std::snprintf(text, sizeof text, time ? "%.1f us" : "%.0f",
-                  time ? racer->microseconds : static_cast<double>(racer->report.iterations));
-    text_flush_right(text);
-    ImGui::PushFont(small_font());
-    if (racer->report.status == ik::Status::InvalidInput) {
-        std::snprintf(text, sizeof text, "does not take this chain");
-    } else {
-        std::snprintf(text, sizeof text, "%s, %.1e m off", ik::name(racer->report.status),
-                      static_cast<double>(racer->report.residual));
-    }
-    text_flush_right(text, true);
-    ImGui::PopFont();
+    text_flush_right(time ? si_text(1e-6 * racer->microseconds, "s")
+                          : std::to_string(racer->report.iterations));
+    if (racer->report.status == ik::Status::InvalidInput) return small_right("does not take this chain");
+    const std::string ran = ran_text(method, racer->report, study.race->within_limits);
+    if (ran != solver_title(method)) small_right(ran);
+    small_right(end_text(*racer));
+    if (racer->restored) small_right(restored_text(*racer));
 }
 
 /// A solver that this chain cannot have.
 void missing_racer_row(ik::Method method, const Palette& palette) {
-    colour_mark(palette.racers[static_cast<std::size_t>(method)]);
+    colour_mark(solver_colour(palette, method));
     bool off = false;
     ImGui::BeginDisabled();
     ImGui::Checkbox(solver_title(method), &off);
     ImGui::EndDisabled();
-    ImGui::PushFont(small_font());
-    text_flush_right(needs_two_bones, true);
-    ImGui::PopFont();
+    small_right(needs_two_bones);
 }
 
 void race_plot(const Race& race, bool time, const Palette& palette) {
@@ -88,7 +87,7 @@ void race_plot(const Race& race, bool time, const Palette& palette) {
         curves.push_back(std::move(curve));
     }
     plot("race plot", curves,
-         {.x = time ? "microseconds" : "iterations",
+         {.x = time ? "\xc2\xb5s" : "iterations",
           .y = "tip to target, m",
           .least_y = least_residual(race.tolerance),
           .level = race.tolerance,
@@ -131,6 +130,7 @@ void microscope_rows(const ChainPart& part, const Palette& palette, Emit& emit) 
     const std::size_t step = part.study.step;
     reading("step", "%zu of %zu", step, trace.frames());
     reading("iteration", "%d of %d", trace.iteration(step), trace.report.iterations);
+    note(ran_text(trace.method, trace.report, !part.reach.limits.empty()) + ".");
     note(describe_frame(trace, step));
     if (part.motion.path != Motion::Path::Still)
         note("The moving target waits while the microscope is open.");
@@ -160,9 +160,7 @@ void race_rows(const Workspace& workspace, const Palette& palette, Emit& emit) {
     const ChainPart& part = chain_part(workspace);
     const Study& study = part.study;
     bool& time = against_time();
-    ImGui::PushFont(small_font());
-    text_flush_right(time ? "time" : "iterations", true);
-    ImGui::PopFont();
+    small_right(time ? "time" : "iterations");
     for (const ik::Method method : ik::all_methods) {
         if (takes(method, part.chain)) {
             racer_row(study, method, time, palette, emit);

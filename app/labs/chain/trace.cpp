@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "app/labs/chain/chain_runtime.hpp"
+
 namespace tendril::app {
 namespace {
 
@@ -63,14 +65,13 @@ std::vector<int> iteration_ends(const Trace& trace) {
     return ends;
 }
 
-Trace record_trace(Chain chain, ReachSettings settings, glm::vec3 target) {
+Trace record_trace(Chain chain, ReachSettings settings, glm::vec3 target, ChainRuntime& runtime) {
     Trace trace;
     trace.method = settings.method;
     trace.start = positions(chain);
     Recorder recorder(trace);
-    ik::Solver solver(chain);
-    ik::State state = make_state(settings, solver.bones());
-    trace.report = solver.solve(settings.method, chain, state, target,
+    ik::Solver& solver = runtime.solver(chain);
+    trace.report = solver.solve(settings.method, chain, state_for(settings, solver.bones()), target,
                                 solver_options(settings, solver.reach()), &recorder);
     return trace;
 }

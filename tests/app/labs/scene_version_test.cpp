@@ -23,9 +23,9 @@ class SceneVersion1 : public ChainTest {};
 
 TEST_F(SceneVersion1, opens_with_its_rotations_as_they_were) {
     load_scene_file(workspace, version_1);
-    ASSERT_EQ(part().reach.rotations.size(), 4u);
-    expect_rotations_of(part().reach.rotations, positions(part().chain));
-    expect_rotations_of(part().study.start_rotations, part().study.start);
+    ASSERT_EQ(part().reach.state.bones(), 4u);
+    expect_rotations_of(part().reach.state.rotations, positions(part().chain));
+    expect_rotations_of(part().study.start_state.rotations, part().study.start);
     EXPECT_EQ(part().study.step, 3u);
     run("chain.target", {{"to", {1, 2, 0.5}}});
     EXPECT_EQ(state()["solve"]["report"]["status"], "Converged");
@@ -42,10 +42,10 @@ TEST_F(SceneVersion1, is_saved_again_as_version_2_with_w_last_everywhere) {
     const Json& was = old["labs"]["chain"];
     const Json& is = now["labs"]["chain"];
     for (const char* owner : {"reach", "study"}) {
-        ASSERT_EQ(is[owner]["rotations"].size(), 4u);
+        ASSERT_EQ(is[owner]["state"]["rotations"].size(), 4u);
         for (std::size_t i = 0; i < 4; ++i) {
             const Json& w_first = was[owner]["rotations"][i];
-            EXPECT_EQ(is[owner]["rotations"][i],
+            EXPECT_EQ(is[owner]["state"]["rotations"][i],
                       Json::array({w_first[1], w_first[2], w_first[3], w_first[0]}));
         }
     }
@@ -67,9 +67,9 @@ TEST_F(SceneVersion1, that_is_broken_is_refused_in_the_words_of_today) {
         return test::message_of([&] { load_scene(workspace, scene); });
     };
     const Json unit = {1, 0, 0, 0};
-    EXPECT_NE(refusal_of({unit, unit, unit, {1, 0, 0}}).find("rotations.3 must be [x, y, z, w]"),
+    EXPECT_NE(refusal_of({unit, unit, unit, {1, 0, 0}}).find("state.rotations.3 must be [x, y, z, w]"),
               std::string::npos);
-    EXPECT_NE(refusal_of({unit, unit, unit, {2, 0, 0, 0}}).find("rotations.3"), std::string::npos);
+    EXPECT_NE(refusal_of({unit, unit, unit, {2, 0, 0, 0}}).find("state.rotations.3"), std::string::npos);
     EXPECT_NE(refusal_of(7).find("rotations"), std::string::npos);
     EXPECT_EQ(refusal_of({unit, unit, unit, unit}), "");
 }

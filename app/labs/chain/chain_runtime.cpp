@@ -1,0 +1,33 @@
+#include "app/labs/chain/chain_runtime.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/labs/kit/require.hpp"
+
+namespace tendril::app {
+
+ik::Solver& ChainRuntime::solver(std::span<const float> lengths, glm::vec3 rest_direction) {
+    const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) {
+        return kept.rest_direction == rest_direction && std::ranges::equal(kept.lengths, lengths);
+    });
+    if (found != kept_.end()) {
+        kept_.splice(kept_.begin(), kept_, found);
+        return kept_.front().solver;
+    }
+    const std::vector<glm::vec3> rest(lengths.size(), rest_direction);
+    auto solver = require_value(ik::Solver::make(lengths, rest));
+    kept_.push_front({{lengths.begin(), lengths.end()}, rest_direction, std::move(solver)});
+    if (kept_.size() > most) kept_.pop_back();
+    ++made_;
+    return kept_.front().solver;
+}
+
+ik::Solver& ChainRuntime::solver(const Chain& chain) {
+    std::vector<float> lengths;
+    lengths.reserve(chain.size());
+    for (std::size_t i = 1; i < chain.size(); ++i) lengths.push_back(chain.segments()[i].length);
+    return solver(lengths, chain.default_direction());
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,39 @@
+// The Chain lab's solvers, kept from solve to solve as their header asks: one per chain, and one for each
+// piece of it that a drag solves by itself.
+#pragma once
+
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <list>
+#include <span>
+#include <tendril/chain/chain.hpp>
+#include <tendril/ik/solver.hpp>
+#include <vector>
+
+#include "app/document/workspace.hpp"
+
+namespace tendril::app {
+
+class ChainRuntime final : public Runtime {
+  public:
+    /// A solver for these bones: one that was made for the same before, or a new one. The reference holds
+    /// until the next call. Throws std::invalid_argument for lengths that no chain has.
+    ik::Solver& solver(std::span<const float> lengths, glm::vec3 rest_direction);
+    ik::Solver& solver(const Chain& chain);
+
+    /// How many solvers it has made, for tests.
+    std::size_t made() const { return made_; }
+
+  private:
+    static constexpr std::size_t most =
+        4;  ///< a chain, and the two pieces that a drag makes of it, and one more
+    struct Kept {
+        std::vector<float> lengths;
+        glm::vec3 rest_direction{};
+        ik::Solver solver;
+    };
+    std::list<Kept> kept_;  ///< the one that was asked for last is first
+    std::size_t made_ = 0;
+};
+
+}  // namespace tendril::app

@@ -1,0 +1,223 @@
+// The pole's memory in the program: a target that crosses the line through root and pole turns the chain no
+// faster than its joints may move; through saving and opening, undo and redo, and whatever the lab's runtime
+// is.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+
+#include "app/labs/chain/chain_runtime.hpp"
+#include "tests/app/labs/chain_support.hpp"
+#include "tests/app/support/play.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr float radius = 3.0f;           ///< metres, of the arc that the target follows about the root
+constexpr float from = 0.2f, to = 0.7f;  ///< radians; the pole (2, 1, 0) is seen at 0.46
+
+/// Where the target is, `step` metres of arc from one to the next.
+std::vector<glm::vec3> arc(float step) {
+    std::vector<glm::vec3> points;
+    for (int i = 0; from + static_cast<float>(i) * step / radius < to; ++i) {
+        const float angle = from + static_cast<float>(i) * step / radius;
+        points.push_back(radius * glm::vec3(std::cos(angle), std::sin(angle), 0.0f));
+    }
+    return points;
+}
+
+float furthest_move(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
+    float furthest = 0.0f;
+    for (std::size_t i = 0; i < a.size(); ++i) furthest = std::max(furthest, glm::distance(a[i], b[i]));
+    return furthest;
+}
+
+class ChainPole : public ChainTest {
+  protected:
+    void start(int bones, bool limited = false) {
+        reach_with(bones);
+        if (limited) {
+            for (int i = 0; i < bones; ++i)
+                run("chain.limit", {{"index", i},
+                                    {"kind", "ball_and_socket"},
+                                    {"up_deg", 100},
+                                    {"down_deg", 100},
+                                    {"left_deg", 100},
+                                    {"right_deg", 100},
+                                    {"twist_min_deg", -180},
+                                    {"twist_max_deg", 180}});
+        }
+        run("chain.target", {{"to", point(arc(0.025f).front())}});
+        run("chain.pole", {{"to", {2, 1, 0}}});
+    }
+    void reach(glm::vec3 target) { run("chain.target", {{"to", point(target)}}); }
+    /// The most that a joint moves in a tick, in parts of what the target moved.
+    float worst_ratio(float step) {
+        float worst = 0.0f;
+        const std::vector<glm::vec3> path = arc(step);
+        std::vector<glm::vec3> before = positions(part().chain);
+        for (std::size_t i = 1; i < path.size(); ++i) {
+            reach(path[i]);
+            std::vector<glm::vec3> now = positions(part().chain);
+            worst = std::max(worst, furthest_move(before, now) / glm::distance(path[i], path[i - 1]));
+            before = std::move(now);
+        }
+        return worst;
+    }
+};
+
+TEST_F(ChainPole, a_target_that_crosses_its_line_moves_no_joint_over_50_times_as_far) {
+    for (const int bones : {5, 6}) {
+        for (const float step : {0.025f, 0.005f, 0.0005f}) {
+            start(bones);
+            EXPECT_LT(worst_ratio(step), 50.0f) << bones << " bones, steps of " << step << " m";
+        }
+    }
+}
+
+TEST_F(ChainPole, is_faced_in_the_end) {
+    start(6);
+    for (const glm::vec3& target : arc(0.005f)) reach(target);
+    // Past the pole's direction the bend must have turned over: to the other side of the line to the target.
+    const glm::vec3 line = glm::normalize(part().target), pole(2, 1, 0);
+    const glm::vec3 side = pole - line * glm::dot(pole, line);
+    const glm::vec3 bend = part().chain.position(3) - line * glm::dot(part().chain.position(3), line);
+    EXPECT_GT(glm::dot(glm::normalize(side), glm::normalize(bend)), 0.99f);
+}
+
+TEST_F(ChainPole, goes_on_from_a_saved_scene_to_the_same_bits) {
+    for (const bool limited : {false, true}) {
+        start(6, limited);
+        const std::vector<glm::vec3> path = arc(0.025f);
+        Workspace other = make_blank_workspace(labs);
+        for (std::size_t i = 0; i < path.size(); ++i) {
+            reach(path[i]);
+            // The other one was saved, closed and opened before each step.
+            if (i > 0) {
+                table.run(other, "chain.target", {{"to", point(path[i])}});
+                ASSERT_EQ(save_scene(other), save_scene(workspace)) << "step " << i;
+            }
+            Workspace opened = make_blank_workspace(labs);
+            load_scene(opened, parse_json(json_to_text(save_scene(workspace))));
+            other = opened;
+        }
+    }
+}
+
+TEST_F(ChainPole, goes_on_after_undo_and_redo_to_the_same_bits) {
+    start(6);
+    const std::vector<glm::vec3> path = arc(0.025f);
+    std::vector<Json> scenes;
+    for (const glm::vec3& target : path) {
+        reach(target);
+        scenes.push_back(save_scene(workspace));
+    }
+    for (std::size_t i = 0; i < 20; ++i) run("undo");
+    EXPECT_EQ(save_scene(workspace), scenes[path.size() - 21]);
+    for (std::size_t i = 0; i < 10; ++i) run("redo");
+    EXPECT_EQ(save_scene(workspace), scenes[path.size() - 11]);
+    for (std::size_t i = path.size() - 10; i < path.size(); ++i) {
+        reach(path[i]);
+        ASSERT_EQ(save_scene(workspace), scenes[i]) << "step " << i;
+    }
+}
+
+/// What a person does in Reach, with limits and without, dragging joints and looking inside.
+void play_session(const CommandTable& table, Workspace& workspace, const Labs& labs,
+                  const std::function<void()>& after_each) {
+    const auto run = [&](const char* name, Json arguments = Json::object()) {
+        table.run(workspace, name, arguments);
+        after_each();
+    };
+    run("chain.preset", {{"name", "start"}, {"count", 7}});
+    run("chain.mode", {{"mode", "reach"}});
+    run("chain.target", {{"to", point(arc(0.025f).front())}});
+    run("chain.pole", {{"to", {2, 1, 0}}});
+    for (const glm::vec3& target : arc(0.05f)) run("chain.target", {{"to", point(target)}});
+    run("chain.pull", {{"index", 3}, {"to", {1, 1, 1}}});
+    run("chain.target", {{"to", {2, 2, 1}}});
+    run("chain.limit", {{"index", 2}, {"kind", "hinge"}, {"axis", {0, 0, 1}}, {"max_deg", 100}});
+    run("chain.limit", {{"index", 4}, {"kind", "saddle"}});
+    for (const glm::vec3& target : arc(0.1f)) run("chain.target", {{"to", point(target)}});
+    run("chain.pull", {{"index", 4}, {"to", {2, 1, 1}}});
+    run("chain.insert", {{"index", 2}, {"length", 0.5}});
+    run("chain.target", {{"to", {1, 3, 0}}});
+    run("chain.set_length", {{"index", 3}, {"length", 1.5}});
+    run("chain.target", {{"to", {1, 2.5, 1}}});
+    run("microscope.open");
+    run("chain.target", {{"to", {2, 2.5, 1}}});
+    run("microscope.close");
+    run("chain.solver", {{"name", "dls"}});
+    run("chain.motion", {{"path", "circle"}});
+    for (int tick = 0; tick < 20; ++tick) {
+        labs.find(chain_lab)->step(workspace);
+        after_each();
+    }
+    run("undo");
+    run("chain.target", {{"to", {2, 1, -1}}});
+}
+
+TEST_F(ChainPole, no_bit_depends_on_the_runtime) {
+    std::vector<Json> kept, thrown_away;
+    play_session(table, workspace, labs, [&] { kept.push_back(save_scene(workspace)); });
+    Workspace other = make_blank_workspace(labs);
+    play_session(table, other, labs, [&] {
+        other.runtimes.clear();
+        thrown_away.push_back(save_scene(other));
+    });
+    ASSERT_EQ(kept.size(), thrown_away.size());
+    for (std::size_t i = 0; i < kept.size(); ++i) ASSERT_EQ(kept[i], thrown_away[i]) << "after command " << i;
+}
+
+TEST_F(ChainPole, solvers_are_made_once_per_chain) {
+    start(6);
+    ChainRuntime& runtime = workspace.runtimes.of<ChainRuntime>(chain_lab);
+    const std::size_t made = runtime.made();
+    for (const glm::vec3& target : arc(0.025f)) reach(target);
+    EXPECT_EQ(runtime.made(), made);
+    for (int i = 0; i < 10; ++i) run("chain.pull", {{"index", 2}, {"to", {1.5, 0.1 * i, 0.5}}});
+    EXPECT_EQ(runtime.made(), made + 2) << "one for each side of the dragged joint";
+}
+
+}  // namespace
+}  // namespace tendril::app
+
+namespace tendril::test {
+namespace {
+
+/// The same in the built program: what it writes after each step, and what a recording of it plays to.
+TEST(PoleInTheProgram, does_not_flip_and_its_recording_plays_to_the_same_bits) {
+    const TempFolder folder;
+    for (const float step : {0.025f, 0.005f}) {
+        ScriptText script;
+        script.command("chain.preset", {{"name", "start"}, {"count", 6}});
+        script.command("chain.mode", {{"mode", "reach"}});
+        int states = 0;
+        for (float angle = 0.2f; angle < 0.7f; angle += step / 3.0f, ++states) {
+            const app::Json to = {3.0f * std::cos(angle), 3.0f * std::sin(angle), 0.0f};
+            script.command("chain.target", {{"to", to}});
+            if (states == 0) script.command("chain.pole", {{"to", {2, 1, 0}}});
+            script.line({{"state", (folder / (std::to_string(states) + ".json")).string()}});
+        }
+        const std::string recording = (folder / "recording.jsonl").string();
+        const app::Json last = play(script, {.more = {"--record", recording}}).state;
+        app::Json before = app::parse_json(read(folder / "0.json"));
+        for (int i = 1; i < states; ++i) {
+            const app::Json now = app::parse_json(read(folder / (std::to_string(i) + ".json")));
+            const float moved = glm::distance(point_of(now["target"]), point_of(before["target"]));
+            for (std::size_t j = 0; j < now["segments"].size(); ++j) {
+                EXPECT_LT(glm::distance(point_of(now["segments"][j]["position"]),
+                                        point_of(before["segments"][j]["position"])),
+                          50.0f * moved)
+                    << "joint " << j << " at step " << i << " of " << step << " m";
+            }
+            before = now;
+        }
+        EXPECT_TRUE(succeeded(
+            run_program({"--headless", "--script", recording, "--state", (folder / "again.json").string()})));
+        EXPECT_EQ(app::parse_json(read(folder / "again.json")), last);
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test
