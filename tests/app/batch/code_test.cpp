@@ -1,5 +1,6 @@
 // A chain as a C++ program: what stands in it. That it compiles and moves the chain as the program does is
 // held by tests/package/code.cmake.
+#include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/code.hpp"
 
 #include <cmath>
@@ -110,7 +111,8 @@ TEST(Code, a_studied_chain_is_where_its_solves_start) {
     part.study.begin(Study::Kind::Microscope, Study::From::Here, part.chain, part.reach);
     const std::string before = chain_code(part);
     const glm::vec3 target = part.target;
-    reach_for(part, {1, 3, 1});
+    ChainRuntime runtime;
+    reach_for(part, {1, 3, 1}, runtime);
     part.target = target;
     EXPECT_EQ(chain_code(part), before);
 }
