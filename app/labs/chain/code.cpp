@@ -168,6 +168,7 @@ void ChainProgram::options() {
         set("soft_zone", literal(options.soft_zone), "  // part of the reach");
     const bool damped = chosen.method == ik::Method::Dls || chosen.method == ik::Method::SvdDls;
     if (damped) set("damping", literal(options.damping), "  // part of the reach");
+    if (options.restarts) set("restarts", std::to_string(*options.restarts));
     if (options.twist != plain_options.twist)
         set("twist", literal(options.twist), ("  // " + degrees_text(options.twist) + " degrees").c_str());
 }

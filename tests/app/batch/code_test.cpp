@@ -1,7 +1,7 @@
 // A chain as a C++ program: what stands in it. That it compiles and moves the chain as the program does is
 // held by tests/package/code.cmake.
-#include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/code.hpp"
+#include "app/labs/chain/chain_runtime.hpp"
 
 #include <cmath>
 #include <random>
@@ -63,7 +63,8 @@ TEST(Code, each_mode_makes_its_own_call) {
 
 TEST(Code, options_that_are_the_librarys_own_are_not_said) {
     const std::string plain = chain_code(reaching());
-    for (const char* option : {"pole", "snap_back", "soft_zone", "damping", "twist", "limits", "rotations"})
+    for (const char* option :
+         {"pole", "snap_back", "soft_zone", "damping", "twist", "limits", "restarts", "rotations"})
         EXPECT_TRUE(lacks(plain, option)) << option;
     ChainPart part = reaching();
     part.reach.method = ik::Method::SvdDls;
@@ -72,6 +73,7 @@ TEST(Code, options_that_are_the_librarys_own_are_not_said) {
     part.reach.snap_back = 0.5f;
     part.reach.soft_zone = 0.1f;
     part.reach.twist_deg = 90.0f;
+    part.reach.restarts = 3;
     part.reach.limits.resize(7);
     part.reach.limits[2] = ik::Limit::hinge({0, 1, 0}, 0.0f, 1.5f);
     part.reach.limits[3] = ik::Limit::of(ik::JointKind::BallAndSocket);
@@ -79,7 +81,8 @@ TEST(Code, options_that_are_the_librarys_own_are_not_said) {
     for (const char* said :
          {"Method::SvdDls", "options.pole = glm::vec3{0.0f, 2.0f, 0.0f};", "PoleTurn::EachJoint",
           "options.snap_back = 0.5f;", "options.soft_zone = 0.1f;", "options.damping = 0.1f;",
-          "options.twist = 1.5707964f;  // 90 degrees", "limits(7);", "options.limits = limits;",
+          "options.twist = 1.5707964f;  // 90 degrees", "options.restarts = 3;", "limits(7);",
+          "options.limits = limits;",
           "limits[2] = ik::Limit::hinge({0.0f, 1.0f, 0.0f}, 0.0f, 1.5f);  // 0 to 85.94 degrees",
           "limits[3] = {.kind = ik::JointKind::BallAndSocket,"})
         EXPECT_TRUE(has(code, said));
