@@ -3,32 +3,32 @@
 // An option that a method does not honour changes nothing: neither pose nor report. `without` and `within`
 // say without and within joint limits. This is the table of honours(), which a test walks:
 //
-//     option               fabrik         fabrik_plain   ccd            jacobian_tr.   dls, svd_dls two_bone
-//     tolerance            both           both           both           both           both           both
-//     (1) max_iterations       both           both           both           both           both within
-//     every_iteration      both           both           both           both           both           within
-//     limits               yes            yes            yes            yes            yes            yes (2)
-//     pole                 both           both           both           both           both           both
-//     pole_turn            without (3)    without        without        without        without        never
-//     (3) snap_back            both           both           both           both           both within
-//     tip_orientation      both           both           both           both           both           both
-//     (4) soft_zone            both           both           both           both           both both damping
-//     never          never          never          never          both           within (2)
-//     start_stretch_ratio,
-//     max_stretch_scale    never          never          never          never          never          without
-//     (5) twist                never          never          never          never          never both (4)
-//     weight               both           both           both           both           both           both
-//     restarts             within         never          never          never          never          never
-//     rotations            without (6)    without        without        without        without        without
-//     residuals            both           both           both           both           both           both
+//     option           fabrik       plain     ccd       transpose dls, svd  two_bone
+//     tolerance        both         both      both      both      both      both (1)
+//     max_iterations   both         both      both      both      both      within
+//     every_iteration  both         both      both      both      both      within
+//     limits           yes          yes       yes       yes       yes       yes (2)
+//     pole             both         both      both      both      both      both
+//     pole_turn        without (3)  without   without   without   without   never (3)
+//     snap_back        both         both      both      both      both      within
+//     tip_orientation  both         both      both      both      both      both (4)
+//     soft_zone        both         both      both      both      both      both
+//     damping          never        never     never     never     both      within (2)
+//     stretch          never        never     never     never     never     without (5)
+//     twist            never        never     never     never     never     both (4)
+//     weight           both         both      both      both      both      both
+//     restarts         within       never     never     never     never     never
+//     rotations        without (6)  without   without   without   without   without
+//     residuals        both         both      both      both      both      both
 //
+// `plain` is fabrik_plain, `stretch` start_stretch_ratio and max_stretch_scale.
 // (1) Two bones are worked out as exactly as floats allow; the tolerance only decides the status.
 // (2) Within limits a two-bone solve starts from its closed form and goes on as damped least squares.
 // (3) Within limits the whole chain turns to its pole at once, whatever pole_turn says: the joints could not
 //     turn one by one. A chain of two bones has one joint to turn, so both ways are the same.
 // (4) With a tip orientation the last bone is laid as it asks, so a two-bone solve takes three bones, or two
-// of
-//     which one is left to solve for; within limits it is damped least squares from the start, without twist.
+//     of which one is left to solve for; within limits it is damped least squares from the start, without
+//     twist.
 // (5) Not when a tendril::Chain is solved, which keeps its lengths.
 // (6) Within limits the rotations are always kept up: limits are about them.
 #pragma once
