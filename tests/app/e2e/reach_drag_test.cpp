@@ -38,7 +38,7 @@ void expect_lengths_kept(const Json& state) {
 
 TEST(ReachDrag, a_joint_follows_the_mouse_while_root_target_and_tip_stay) {
     const Json before = state_after(reaching());
-    for (const std::size_t index : {2, 3, 5}) {
+    for (const std::size_t index : {2u, 3u, 5u}) {
         // Where two bones are left to the tip, they do not let it stay for long.
         const glm::vec2 by = index == 5 ? glm::vec2(-6, 8) : glm::vec2(-35, 40);
         const glm::vec2 at = handle(before, "segment." + std::to_string(index));
