@@ -46,7 +46,7 @@ struct Crowd {
         std::mt19937 random(1);
         std::normal_distribution<float> normal;
         const auto direction = [&] {
-            const glm::vec3 p(normal(random), normal(random), normal(random));
+            const glm::vec3 p{normal(random), normal(random), normal(random)};
             return p * (1.0f / std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z));
         };
         std::uniform_real_distribution<float> part(least, most);

@@ -21,7 +21,8 @@ TEST(ChainLoad, SavedChainsComeBackBitForBit) {
             const std::size_t count = 1 + random.below(64);
             for (std::size_t i = 0; i < count; ++i)
                 expect_ok(chain.add(Segment{random.point(range), std::abs(random.around(3))}));
-            expect_ok(chain.with_index(random.below(count), random.point(range)));
+            const std::size_t index = random.below(count);
+            expect_ok(chain.with_index(index, random.point(range)));
             expect_ok(chain.fixed(random.point(range), {.iterations = 3}).outcome);
             EXPECT_TRUE(same_bits(reloaded(chain), chain)) << "range " << range << ", round " << round;
         }

@@ -63,7 +63,8 @@ Pin pull(Chain& chain, Random& random) {
             return {!empty, chain.backward(target), tail, target};
         case 2: {
             Pin pin{!empty, {}, tail, empty ? target : chain.position(tail)};
-            const int iterations = static_cast<int>(random.below(6)) - (random.chance(20) ? 3 : -1);
+            const bool negative = random.chance(20);
+            const int iterations = static_cast<int>(random.below(6)) - (negative ? 3 : -1);
             pin.outcome =
                 chain.fixed(target, {.iterations = iterations, .tolerance = some_length(random)}).outcome;
             return pin;

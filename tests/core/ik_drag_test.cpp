@@ -19,8 +19,8 @@ struct Forbidden {
 
 Forbidden some_forbidden(Random& random) {
     for (;;) {
-        const Arm arm = some_arm(random, arm_kinds[random.below(arm_kinds.size())], 2 + random.below(7));
-        Forbidden it{arm, some_direction(random) * (arm.reach() * between(random, 0.1f, 0.95f)), arm.solver(),
+        const Arm arm = some_arm(random, 2 + random.below(7));
+        Forbidden it{arm, some_offset(random, 0.1f * arm.reach(), 0.95f * arm.reach()), arm.solver(),
                      arm.at_rest()};
         const ik::Report report =
             it.solver.solve(Method::Fabrik, it.joints, it.target, {.limits = arm.limits});

@@ -211,7 +211,7 @@ TEST(IkFabrik, ASolveNeverEndsWorseThanItBegan) {
         const auto reach = static_cast<float>(reach_of(lengths));
         const Method method = iterating_methods[random.below(iterating_methods.size())];
         Joints joints = some_pose(lengths, random);
-        const glm::vec3 target = some_direction(random) * (part(random) * reach);
+        const glm::vec3 target = some_offset(random, 0.0f, reach);
         const double before = distance(joints.back(), target);
         KeptSolver solver(lengths);
         const Report report =

@@ -46,7 +46,7 @@ TEST(IkFinite, WithOptionsAtTheEndsOfTheirRanges) {
     for (int number = 0; number < 6000 && !::testing::Test::HasFailure(); ++number) {
         const Method method = ik::all_methods[random.below(ik::all_methods.size())];
         const std::size_t bones = method == Method::TwoBone ? 2 : 1 + random.below(6);
-        Arm arm = some_arm(random, arm_kinds[random.below(arm_kinds.size())], bones);
+        Arm arm = some_arm(random, bones);
         const float scale = one_of(random, 1, 1, 1, 1e-4, 1e3, 1e7);
         for (float& length : arm.lengths) length *= random.chance(12) ? 0.0f : scale;
         KeptSolver solver = arm.solver();
@@ -77,7 +77,7 @@ TEST(IkFinite, WithOptionsAtTheEndsOfTheirRanges) {
 TEST(IkFinite, DampingOfNearlyNothingWithinLimits) {
     Random random(77);
     for (int number = 0; number < 2000; ++number) {
-        const Arm arm = some_arm(random, arm_kinds[random.below(arm_kinds.size())], 1 + random.below(4));
+        const Arm arm = some_arm(random, 1 + random.below(4));
         for (const Method method : {Method::Dls, Method::SvdDls}) {
             KeptSolver solver = arm.solver();
             Joints joints = arm.at_rest();
@@ -99,8 +99,7 @@ TEST(IkFinite, FarTargetsKeepLengths) {
     Random random(78);
     for (int number = 0; number < 500; ++number) {
         for (const Method method : ik::all_methods) {
-            const Arm arm = some_arm(random, arm_kinds[random.below(arm_kinds.size())],
-                                     method == Method::TwoBone ? 2 : 2 + random.below(6));
+            const Arm arm = some_arm(random, method == Method::TwoBone ? 2 : 2 + random.below(6));
             KeptSolver solver = arm.solver();
             Joints joints = some_pose(arm.lengths, random, random.point(10.0f));
             ik::Options options;

@@ -74,7 +74,7 @@ inline glm::vec3 hostile_target(const Joints& joints, std::span<const float> len
         case 5:
             return root + glm::vec3(1, 0, 0) * (reach * random.around(1.0f));
         default:
-            return root + some_direction(random) * (reach * part(random));
+            return root + some_offset(random, 0.0f, reach);
     }
 }
 

@@ -156,6 +156,13 @@ inline ik::Limit some_cone(Random& random, glm::vec3 axis) {
     return limit;
 }
 
+/// From somewhere down to `below` to somewhere up to `above`, radians.
+inline ik::Limit some_hinge(Random& random, glm::vec3 bone, float below, float above) {
+    const glm::vec3 axis = some_axis(random, bone);
+    const float min_angle = -below * part(random);
+    return ik::Limit::hinge(axis, min_angle, above * part(random));
+}
+
 inline ik::Limit some_limit(Random& random, ik::JointKind kind, glm::vec3 bone) {
     ik::Limit limit = ik::Limit::of(kind);
     limit.axis = some_axis(random, bone);
@@ -192,8 +199,7 @@ inline Arm some_arm(Random& random, ArmKind kind, std::size_t bones) {
                 limit = some_limit(random, static_cast<ik::JointKind>(1 + random.below(6)), bone);
                 break;
             case ArmKind::Hinges:
-                limit = ik::Limit::hinge(some_axis(random, bone), -radians(90) * part(random),
-                                         radians(145) * part(random));
+                limit = some_hinge(random, bone, radians(90), radians(145));
                 break;
             case ArmKind::OneAxis:
                 limit = ik::Limit::hinge(hinge, 0.0f, radians(145));
@@ -208,6 +214,10 @@ inline Arm some_arm(Random& random, ArmKind kind, std::size_t bones) {
         arm.limits.push_back(limit);
     }
     return arm;
+}
+
+inline Arm some_arm(Random& random, std::size_t bones) {
+    return some_arm(random, arm_kinds[random.below(arm_kinds.size())], bones);
 }
 
 /// Where the tip of some pose within the limits is: drawn from angles, with matrices in double.

@@ -114,12 +114,11 @@ TEST(IkLimit, AnglesAndExcessAreThoseMeasuredIndependently) {
     Random random(11);
     for (int k = 0; k < 20000; ++k) {
         const glm::vec3 bone = some_direction(random);
-        Limit limit = random.chance(3) ? Limit::hinge(some_axis(random, bone), -radians(120) * part(random),
-                                                      radians(150) * part(random))
+        Limit limit = random.chance(3) ? some_hinge(random, bone, radians(120), radians(150))
                                        : some_cone(random, some_axis(random, bone));
         if (random.chance(4)) limit.left = 0;
         if (random.chance(4)) limit.up = limit.down = 0;
-        const glm::quat turn = about(some_direction(random), degrees(random.around(3.0f)));
+        const glm::quat turn = some_turn(random, 3.0f);
         const double mine = excess(limit, measure(limit, bone, turn));
         if (limit.kind == JointKind::Hinge) {
             EXPECT_EQ(mine > 2e-3, over_limit(limit, bone, matrix_of(turn)) > 2e-3) << k;

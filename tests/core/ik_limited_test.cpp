@@ -10,7 +10,7 @@ using ik::Method;
 using ik::Status;
 
 Arm hostile_arm(Random& random) {
-    Arm arm = some_arm(random, arm_kinds[random.below(arm_kinds.size())], 1 + random.below(8));
+    Arm arm = some_arm(random, 1 + random.below(8));
     for (std::size_t i = 0; i < arm.lengths.size(); ++i) {
         if (random.chance(15)) arm.lengths[i] = 0.0f;
         if (random.chance(15)) arm.limits[i] = ik::Limit();
@@ -36,7 +36,7 @@ ik::Options hostile_options(Random& random, const Arm& arm, const Joints& joints
     if (random.chance(6)) options.damping = random.chance(2) ? 1e-6f : 10.0f;
     if (random.chance(6)) options.soft_zone = part(random);
     if (random.chance(6))
-        options.tip_orientation = glm::angleAxis(random.around(3.0f), some_direction(random));
+        options.tip_orientation = some_turn(random, 3.0f);
     return options;
 }
 
@@ -200,7 +200,7 @@ TEST(IkLimited, AStartThatIsOverIsBroughtWithin) {
 TEST(IkLimited, SolvedAgainNothingMoves) {
     Random random(3);
     for (int k = 0; k < 300; ++k) {
-        const Arm arm = some_arm(random, arm_kinds[random.below(arm_kinds.size())], 5);
+        const Arm arm = some_arm(random, 5);
         const glm::vec3 target = some_tip(arm, random);
         KeptSolver solver = arm.solver();
         Joints joints = arm.at_rest();
@@ -219,7 +219,7 @@ TEST(IkLimited, AnArmThatFollowsSeldomJumps) {
     Random random(21);
     int steps = 0, jumps = 0;
     for (int k = 0; k < 100; ++k) {
-        const Arm arm = some_arm(random, arm_kinds[random.below(arm_kinds.size())], 5);
+        const Arm arm = some_arm(random, 5);
         const glm::vec3 from = some_tip(arm, random), to = some_tip(arm, random);
         KeptSolver solver = arm.solver();
         Joints joints = arm.at_rest();

@@ -34,7 +34,8 @@ inline Crowd some_crowd(std::size_t chains, std::size_t bones, Random& random, f
         const Lengths lengths = some_lengths(bones, random);
         const glm::vec3 root = random.point(4.0f);
         const float far = between(random, least, most) * static_cast<float>(reach_of(lengths));
-        crowd.add(lengths, some_pose(lengths, random, root), root + some_direction(random) * far);
+        const Joints pose = some_pose(lengths, random, root);
+        crowd.add(lengths, pose, root + some_direction(random) * far);
     }
     return crowd;
 }

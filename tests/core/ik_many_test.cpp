@@ -58,8 +58,8 @@ TEST(SolveMany, FarFromTheOriginChainsAreSolvedAsTheScalarSolverSolvesThem) {
             const Lengths lengths = some_lengths(5, random);
             const glm::vec3 root = some_direction(random) * far;
             const float reach = static_cast<float>(reach_of(lengths));
-            crowd.add(lengths, some_pose(lengths, random, root),
-                      root + some_direction(random) * (0.8f * reach * part(random)));
+            const Joints pose = some_pose(lengths, random, root);
+            crowd.add(lengths, pose, root + some_offset(random, 0.0f, 0.8f * reach));
         }
         const ManyOptions options{.max_iterations = 5, .every_iteration = true};
         const Answer many = solve_many(crowd, options), each = solve_each(crowd, options);
@@ -225,7 +225,8 @@ TEST(SolveMany, TargetsTooCloseFoldTheChain) {
         Lengths lengths{1.0f, 1.0f, 1.0f, 1.0f};
         lengths[random.below(4)] = between(random, 4.0f, 9.0f);
         const glm::vec3 root = random.point(4.0f);
-        crowd.add(lengths, some_pose(lengths, random, root), root + some_direction(random) * part(random));
+        const Joints pose = some_pose(lengths, random, root);
+        crowd.add(lengths, pose, root + some_offset(random, 0.0f, 1.0f));
     }
     const Answer many = solve_many(crowd, {});
     expect_same(crowd, many, solve_each(crowd, {}), 1e-4);

@@ -47,7 +47,7 @@ void set(Option option, ik::Options& options, std::span<float> residuals, const 
             options.tolerance = 0.1f * reach;
             break;
         case Option::MaxIterations:
-            options.max_iterations = 2;
+            options.max_iterations = 1;
             break;
         case Option::EveryIteration:
             options.every_iteration = true;
@@ -100,7 +100,7 @@ std::vector<Case> some_cases(Method method, bool limited) {
     for (int number = 0; number < 40; ++number) {
         Case each;
         const std::size_t bones = method == Method::TwoBone ? 2 : 4 + random.below(3);
-        each.arm = some_arm(random, arm_kinds[random.below(arm_kinds.size())], bones);
+        each.arm = some_arm(random, bones);
         each.limited = limited;
         each.start = number % 4 == 0 ? each.arm.at_rest() : some_pose(each.arm.lengths, random);
         each.target = number % 3 == 0 ? some_tip(each.arm, random) : random.point(each.arm.reach());
@@ -193,12 +193,13 @@ TEST(IkWeight, BonesTurnPartOfTheWayAndKeepTheirLengths) {
 TEST(IkWeight, WhatLiesBetweenIsWithinItsLimits) {
     Random random(33);
     for (int number = 0; number < 200; ++number) {
-        const Arm arm = some_arm(random, arm_kinds[random.below(arm_kinds.size())], 2 + random.below(4));
+        const Arm arm = some_arm(random, 2 + random.below(4));
         KeptSolver solver = arm.solver();
         Joints joints = arm.at_rest();
         for (int frame = 0; frame < 4; ++frame) {
+            const glm::vec3 target = random.point(arm.reach());
             const ik::Report report =
-                solver.solve(Method::Fabrik, joints, random.point(arm.reach()),
+                solver.solve(Method::Fabrik, joints, target,
                              {.max_iterations = 40, .limits = arm.limits, .weight = part(random)});
             ASSERT_NE(report.status, ik::Status::InvalidInput);
             EXPECT_TRUE(Holds(joints, arm.lengths));

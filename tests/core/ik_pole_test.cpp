@@ -226,7 +226,7 @@ Jumps walk(Method method, PoleTurn turn, std::size_t bones, int paths, int steps
         const auto reach = static_cast<float>(reach_of(lengths));
         for (float& length : lengths) length /= reach;
         const double longest = *std::max_element(lengths.begin(), lengths.end());
-        const glm::vec3 pole = some_direction(random) * between(random, 0.15f, 1.5f);
+        const glm::vec3 pole = some_offset(random, 0.15f, 1.5f);
         // Where a long bone leaves a hole its edge is as steep as full reach, so it is kept away from as
         // well.
         const double least = std::max(0.05, 2.0 * longest - 1.0 + (bones == 2 ? 0.06 : 0.02));

@@ -26,7 +26,7 @@ Scene some_scene(Random& random, int number) {
     Scene scene;
     scene.method = ik::all_methods[static_cast<std::size_t>(number) % ik::all_methods.size()];
     const std::size_t bones = scene.method == Method::TwoBone ? 2 : 2 + random.below(7);
-    scene.arm = some_arm(random, arm_kinds[random.below(arm_kinds.size())], bones);
+    scene.arm = some_arm(random, bones);
     scene.limited = random.chance(2);
     scene.with_pole = random.chance(2);
     scene.turn = random.chance(2) ? PoleTurn::WholeChain : PoleTurn::EachJoint;
@@ -64,7 +64,7 @@ std::vector<float> play(ik::Solver& solver, Scene& scene, std::uint32_t seed, in
 }
 
 bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0);
 }
 
 TEST(IkState, RollbackGivesTheSameBits) {

@@ -47,7 +47,8 @@ TEST(IkTree, PlainOnOneChainIsPlainFabrik) {
         Tree tree = tree_of(joints);
         KeptSolver solver(std::vector<float>(10, 0.1f));
         Places a = random_pose(joints, random, 0.5f), b = a;
-        const glm::vec3 target = random_direction(random) * (0.1f + 0.4f * std::abs(random.around(2.0f)));
+        const glm::vec3 direction = random_direction(random);
+        const glm::vec3 target = direction * (0.1f + 0.4f * std::abs(random.around(2.0f)));
         const int count = 1 + static_cast<int>(random.below(10));
         tree.solve(a, std::vector<Effector>{{10, target}},
                    {.max_iterations = count, .every_iteration = true, .plain = true});
@@ -62,7 +63,8 @@ TEST(IkTree, OneChainComesWhereTheChainSolverComes) {
         const Joints joints = chain_of(10, 0.1f);
         Tree tree = tree_of(joints);
         Places places = random_pose(joints, random, 0.5f);
-        const glm::vec3 target = random_direction(random) * (0.05f + 0.47f * std::abs(random.around(2.0f)));
+        const glm::vec3 direction = random_direction(random);
+        const glm::vec3 target = direction * (0.05f + 0.47f * std::abs(random.around(2.0f)));
         const TreeReport report = tree.solve(places, std::vector<Effector>{{10, target}});
         ASSERT_EQ(report.status, Status::Converged) << i;
         ASSERT_LE(report.iterations, 15) << i;  // plain pulls take up to 312 so near the rim

@@ -261,7 +261,10 @@ TEST(RopeEdit, RandomEditsLeaveASoundWorld) {
                         world.cut(body, random.below(world.find(body)->count - 1));
                     break;
                 case 4:
-                    if (world.size() > 0) world.pin(particle, random.point(1), random.chance(2) ? 0.1 : 0.0);
+                    if (world.size() > 0) {
+                        const glm::vec3 goal = random.point(1);
+                        world.pin(particle, goal, random.chance(2) ? 0.1 : 0.0);
+                    }
                     break;
                 case 5:
                     if (world.size() > 0 && world.pinned(particle)) world.unpin(particle);

@@ -32,7 +32,7 @@ Shape some_shape(Random& random) {
             return rope::Box{
                 at,
                 {0.05f + 0.3f * part(random), 0.05f + 0.3f * part(random), 0.05f + 0.3f * part(random)},
-                glm::quat(random.around(1.0f), random.around(1.0f), random.around(1.0f), 1.5f)};
+                glm::quat(1.5f, random.point(1.0f))};
     }
 }
 
@@ -126,8 +126,8 @@ void play(std::uint64_t seed, Found& worst) {
         for (std::size_t i = 0; i < colliders; ++i)
             if (random.chance(2)) {
                 const rope::Collider& collider = world.state().colliders[i];
-                world.move_collider(world.name(collider), centre(collider.shape) + random.point(0.5f),
-                                    0.25 * static_cast<double>(part(random)));
+                const glm::vec3 to = centre(collider.shape) + random.point(0.5f);
+                world.move_collider(world.name(collider), to, 0.25 * static_cast<double>(part(random)));
             }
         for (int frame = 0; frame < 4; ++frame) {
             world.advance(1.0 / 60.0);

@@ -18,7 +18,7 @@ Points random_walk(std::mt19937& random, int count) {
     Points points{glm::vec3(0.0f)};
     glm::vec3 direction(1.0f, 0.0f, 0.0f);
     for (int i = 1; i < count; ++i) {
-        direction = glm::normalize(direction + glm::vec3(step(random), step(random), step(random)));
+        direction = glm::normalize(direction + glm::vec3{step(random), step(random), step(random)});
         points.push_back(points.back() + 0.1f * direction);
     }
     return points;
@@ -138,7 +138,7 @@ TEST(Spline, FramesMoveSteadilyAsTheCurveDoes) {
         if (round % 2 == 1)  // as ropes hang
             for (glm::vec3& point : points) point = {point.y, -point.x, point.z};
         const std::vector<CurvePoint> before = curve_through(points);
-        for (glm::vec3& point : points) point += glm::vec3(small(random), small(random), small(random));
+        for (glm::vec3& point : points) point += glm::vec3{small(random), small(random), small(random)};
         const std::vector<CurvePoint> after = curve_through(points);
         for (std::size_t i = 0; i < before.size(); ++i)
             EXPECT_LT(glm::distance(before[i].normal, after[i].normal), 0.1f);

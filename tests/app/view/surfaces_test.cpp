@@ -192,7 +192,7 @@ TEST(Tube, IsFiniteWhateverComesIn) {
         const int count = one_of(random);
         for (int i = 0; i < count; ++i) {
             const int kind = one_of(random);
-            glm::vec3 point(coordinate(random), coordinate(random), coordinate(random));
+            glm::vec3 point{coordinate(random), coordinate(random), coordinate(random)};
             if (kind < 2 && !centres.empty()) point = centres.back();                  // twice the same
             if (kind == 2 && centres.size() > 1) point = centres[centres.size() - 2];  // right back
             if (kind == 3 && !centres.empty()) point = centres.back() + 1e-7f * point;
@@ -203,8 +203,8 @@ TEST(Tube, IsFiniteWhateverComesIn) {
         }
         const float radii[]{0.1f, 0.01f, 1e-4f, 1.0f, 0.0f, -1.0f, nan, infinite, 1e20f, 1e8f};
         DrawList list;
-        tube(list, camera_at(3.0f, round % 2 == 0), centres, radii[one_of(random)], one_of(random) * 8 - 8,
-             colours);
+        const float radius = radii[one_of(random)];
+        tube(list, camera_at(3.0f, round % 2 == 0), centres, radius, one_of(random) * 8 - 8, colours);
         expect_sound(list);
         if (HasFatalFailure()) FAIL() << "round " << round;
     }
