@@ -4,10 +4,9 @@
 // Highway compiles this file once for each vector unit: it includes it again and again, each time with
 // another HWY_NAMESPACE.
 #include "ik/batch/vector.hpp"
+#include "math/dispatch.hpp"
 #include "tendril/chain/segment.hpp"
 
-// Adds nothing for floats, and some versions do not compile with it as the baseline (-march=native).
-#define HWY_DISABLED_TARGETS HWY_AVX3_DL
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "ik/batch/classify.cpp"
 #include <hwy/foreach_target.h>  // before highway.h
@@ -238,25 +237,10 @@ HWY_EXPORT(classify_limited);
 }  // namespace
 
 Classify* classify_with(std::int64_t target) noexcept {
-#if HWY_TARGETS == HWY_STATIC_TARGET
-    static_cast<void>(target);
-    return HWY_STATIC_DISPATCH(classify);
-#else
-    hwy::ChosenTarget chosen;
-    chosen.Update(target);
-    return HWY_DISPATCH_TABLE(classify)[chosen.GetIndex()];
-#endif
+    return TENDRIL_COMPILED_FOR(classify, target);
 }
-
 ClassifyLimited* classify_limited_with(std::int64_t target) noexcept {
-#if HWY_TARGETS == HWY_STATIC_TARGET
-    static_cast<void>(target);
-    return HWY_STATIC_DISPATCH(classify_limited);
-#else
-    hwy::ChosenTarget chosen;
-    chosen.Update(target);
-    return HWY_DISPATCH_TABLE(classify_limited)[chosen.GetIndex()];
-#endif
+    return TENDRIL_COMPILED_FOR(classify_limited, target);
 }
 
 }  // namespace tendril::ik::detail

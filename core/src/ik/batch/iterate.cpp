@@ -6,9 +6,8 @@
 #include <array>
 
 #include "ik/batch/vector.hpp"
+#include "math/dispatch.hpp"
 
-// Adds nothing for floats, and some versions do not compile with it as the baseline (-march=native).
-#define HWY_DISABLED_TARGETS HWY_AVX3_DL
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "ik/batch/iterate.cpp"
 #include <hwy/foreach_target.h>  // before highway.h
@@ -324,14 +323,7 @@ HWY_EXPORT(iterate);
 }
 
 Iterate* iterate_with(std::int64_t target) noexcept {
-#if HWY_TARGETS == HWY_STATIC_TARGET
-    static_cast<void>(target);
-    return HWY_STATIC_DISPATCH(iterate);
-#else
-    hwy::ChosenTarget chosen;
-    chosen.Update(target);
-    return HWY_DISPATCH_TABLE(iterate)[chosen.GetIndex()];
-#endif
+    return TENDRIL_COMPILED_FOR(iterate, target);
 }
 
 }  // namespace tendril::ik::detail

@@ -13,9 +13,8 @@
 #include <utility>
 
 #include "ik/batch/vector.hpp"
+#include "math/dispatch.hpp"
 
-// Adds nothing for floats, and some versions do not compile with it as the baseline (-march=native).
-#define HWY_DISABLED_TARGETS HWY_AVX3_DL
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "ik/batch/limited.cpp"
 #include <hwy/foreach_target.h>  // before highway.h
@@ -196,14 +195,7 @@ HWY_EXPORT(solve_limited);
 }
 
 SolveLimited* solve_limited_with(std::int64_t target) noexcept {
-#if HWY_TARGETS == HWY_STATIC_TARGET
-    static_cast<void>(target);
-    return HWY_STATIC_DISPATCH(solve_limited);
-#else
-    hwy::ChosenTarget chosen;
-    chosen.Update(target);
-    return HWY_DISPATCH_TABLE(solve_limited)[chosen.GetIndex()];
-#endif
+    return TENDRIL_COMPILED_FOR(solve_limited, target);
 }
 
 }  // namespace tendril::ik::detail

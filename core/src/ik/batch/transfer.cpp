@@ -5,10 +5,9 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "ik/batch/vector.hpp"
+#include "math/dispatch.hpp"
 #include "tendril/chain/segment.hpp"
 
-// Adds nothing for floats, and some versions do not compile with it as the baseline (-march=native).
-#define HWY_DISABLED_TARGETS HWY_AVX3_DL
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "ik/batch/transfer.cpp"
 #include <hwy/foreach_target.h>  // before highway.h
@@ -126,21 +125,10 @@ static_assert(sizeof(glm::vec3) == 3 * sizeof(float) && sizeof(glm::quat) == 4 *
               "their coordinates lie one after the other");
 
 void transfers_with(std::int64_t target, VectorUnit& unit) noexcept {
-#if HWY_TARGETS == HWY_STATIC_TARGET
-    static_cast<void>(target);
-    unit.copy_in = HWY_STATIC_DISPATCH(copy_in);
-    unit.copy_out = HWY_STATIC_DISPATCH(copy_out);
-    unit.set_targets = HWY_STATIC_DISPATCH(set_targets);
-    unit.are_valid = HWY_STATIC_DISPATCH(are_valid);
-#else
-    hwy::ChosenTarget chosen;
-    chosen.Update(target);
-    const std::size_t index = chosen.GetIndex();
-    unit.copy_in = HWY_DISPATCH_TABLE(copy_in)[index];
-    unit.copy_out = HWY_DISPATCH_TABLE(copy_out)[index];
-    unit.set_targets = HWY_DISPATCH_TABLE(set_targets)[index];
-    unit.are_valid = HWY_DISPATCH_TABLE(are_valid)[index];
-#endif
+    unit.copy_in = TENDRIL_COMPILED_FOR(copy_in, target);
+    unit.copy_out = TENDRIL_COMPILED_FOR(copy_out, target);
+    unit.set_targets = TENDRIL_COMPILED_FOR(set_targets, target);
+    unit.are_valid = TENDRIL_COMPILED_FOR(are_valid, target);
 }
 
 }  // namespace tendril::ik::detail

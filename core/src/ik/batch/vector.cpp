@@ -3,10 +3,8 @@
 
 #include <array>
 
+#include "math/dispatch.hpp"
 #include "tendril/ik/many.hpp"
-
-#define HWY_DISABLED_TARGETS HWY_AVX3_DL  // as in the files that it dispatches to
-#include <hwy/highway.h>
 
 namespace tendril::ik {
 namespace detail {
@@ -19,18 +17,15 @@ struct Units {
     std::size_t count = 0;
 
     Units() noexcept {
-        // A lower bit is a better target.
-        std::int64_t targets = hwy::SupportedTargets() & HWY_TARGETS;
-        if (targets == 0) targets = HWY_STATIC_TARGET;
-        for (; targets != 0 && count < names.size(); targets &= targets - 1) {
-            const std::int64_t target = targets & -targets;
+        tendril::detail::for_each_target([&](std::int64_t target) {
+            if (count == names.size()) return;
             names[count] = hwy::TargetName(target);
             units[count].classify = classify_with(target);
             units[count].iterate = iterate_with(target);
             units[count].classify_limited = classify_limited_with(target);
             units[count].solve_limited = solve_limited_with(target);
             transfers_with(target, units[count++]);
-        }
+        });
     }
 };
 
