@@ -74,7 +74,7 @@ TEST(IkCcd, TurnsEveryJointOnceFromTheTipOn) {
     std::vector<std::pair<std::size_t, std::size_t>> seen;  // about which joint, which one moved
     int order = -1;
     for (const ik::Step& step : recorder.steps) {
-        if (step.phase != ik::Phase::Turn) continue;
+        if (step.phase != ik::Phase::Rotate) continue;
         seen.emplace_back(step.neighbour, step.joint);
         order = std::max(order, step.order);
     }

@@ -5,8 +5,8 @@
 namespace tendril::test {
 namespace {
 
+using ik::ActiveLimit;
 using ik::Bound;
-using ik::Hold;
 using ik::JointKind;
 using ik::Limit;
 using ik::Method;
@@ -28,7 +28,7 @@ Arm arm_of(Lengths lengths, std::vector<Limit> limits) {
 
 struct Explained {
     ik::Report report;
-    std::optional<Hold> hold;
+    std::optional<ActiveLimit> hold;
 };
 
 Explained explained(const Arm& arm, glm::vec3 target, Method method = Method::Fabrik) {
@@ -170,7 +170,7 @@ TEST(IkExplain, WhatIsNamedHelps) {
         ++limited;
         const Joints before = joints;
         const std::vector<glm::quat> rotations(solver.rotations().begin(), solver.rotations().end());
-        const std::optional<Hold> hold = solver.explain(joints, target, options);
+        const std::optional<ActiveLimit> hold = solver.explain(joints, target, options);
         EXPECT_TRUE(same_bits(joints, before));
         EXPECT_EQ(
             std::memcmp(rotations.data(), solver.rotations().data(), rotations.size() * sizeof(glm::quat)),

@@ -268,8 +268,8 @@ TEST(IkLimited, EightPullsForFourBonesThenWhatTheLimitsAdd) {
                  {.max_iterations = 1, .limits = arm.limits}, &recorder);
     int from_tip = 0, from_root = 0;
     for (const ik::Step& step : recorder.steps) {
-        from_tip += step.phase == ik::Phase::FromTip && step.neighbour != ik::no_joint;
-        from_root += step.phase == ik::Phase::FromRoot && step.neighbour != ik::no_joint;
+        from_tip += step.phase == ik::Phase::ForwardReaching && step.neighbour != ik::no_joint;
+        from_root += step.phase == ik::Phase::BackwardReaching && step.neighbour != ik::no_joint;
     }
     EXPECT_EQ(from_tip, 4);
     EXPECT_EQ(from_root, 4);

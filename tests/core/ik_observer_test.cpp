@@ -68,8 +68,9 @@ TEST(IkObserver, TheStepsLeadToTheEnd) {
         for (const ik::Step& step : recorder.steps) ++phases[step.phase];
         if (::testing::Test::HasFailure()) return;
     }
-    for (const Phase phase : {Phase::Prepare, Phase::FromTip, Phase::FromRoot, Phase::Spread, Phase::Turn,
-                              Phase::Gradient, Phase::Pole, Phase::Analytic, Phase::Keep}) {
+    for (const Phase phase :
+         {Phase::Prepare, Phase::ForwardReaching, Phase::BackwardReaching, Phase::Accelerate, Phase::Rotate,
+          Phase::Gradient, Phase::Pole, Phase::Analytic, Phase::RestoreBest}) {
         EXPECT_GT(phases[phase], 0) << name(phase);
     }
 }

@@ -29,8 +29,8 @@ class KeptSolver {
                      ik::Observer* observer = nullptr) noexcept {
         return solver_.solve(method, chain, state, target, options, observer);
     }
-    std::optional<ik::Hold> explain(std::span<const glm::vec3> joints, glm::vec3 target,
-                                    const ik::Options& options) noexcept {
+    std::optional<ik::ActiveLimit> explain(std::span<const glm::vec3> joints, glm::vec3 target,
+                                           const ik::Options& options) noexcept {
         return solver_.explain(joints, state, target, options);
     }
 

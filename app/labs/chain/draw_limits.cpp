@@ -110,7 +110,7 @@ class LimitDrawing {
     }
 
     /// Where the bone would have to point for the target, dashed, with the angle beside it.
-    void needed(const ik::Hold& hold) {
+    void needed(const ik::ActiveLimit& hold) {
         if (hold.bound == ik::Bound::TwistMin || hold.bound == ik::Bound::TwistMax) return;
         const bool sideways = hold.bound == ik::Bound::Left || hold.bound == ik::Bound::Right;
         const bool down = hold.bound == ik::Bound::Down || hold.bound == ik::Bound::Right;
@@ -159,7 +159,7 @@ class LimitDrawing {
     const View& view_;
     const ChainPart& part_;
     DrawList& list_;
-    const ik::Hold* hold_;
+    const ik::ActiveLimit* hold_;
     std::vector<glm::vec3> joints_;
     std::vector<glm::quat> turns_;
     // of the joint that is being drawn

@@ -18,7 +18,7 @@ class Watch final : public ik::Observer {
   public:
     explicit Watch(Racer& racer) : racer_(racer) {}
     void step(const ik::Step& step) noexcept override {
-        if (step.phase == ik::Phase::Keep) racer_.restored = true;
+        if (step.phase == ik::Phase::RestoreBest) racer_.restored = true;
     }
     void iteration_done(int, float residual) noexcept override {
         racer_.residuals.push_back(residual);

@@ -22,7 +22,7 @@ const char* bound_phrase(ik::Bound bound) {
 }
 
 /// Whole degrees, or tenths where limit and need would look the same.
-std::string degrees_text(const ik::Hold& hold, float angle) {
+std::string degrees_text(const ik::ActiveLimit& hold, float angle) {
     const auto whole = [](float radians) { return std::lround(glm::degrees(radians)); };
     char text[32];
     std::snprintf(text, sizeof text, "%.*f", whole(hold.limit) == whole(hold.needed) ? 1 : 0,
@@ -70,11 +70,11 @@ const char* kind_title(ik::JointKind kind) {
     return titles[static_cast<std::size_t>(kind)];
 }
 
-std::string needed_degrees(const ik::Hold& hold) {
+std::string needed_degrees(const ik::ActiveLimit& hold) {
     return degrees_text(hold, hold.needed);
 }
 
-std::string hold_text(const ik::Hold& hold) {
+std::string hold_text(const ik::ActiveLimit& hold) {
     std::string text = "joint " + std::to_string(hold.joint) + " (" + kind_title(hold.kind) + ") ";
     text += std::string(bound_phrase(hold.bound)) + " " + degrees_text(hold, hold.limit) + " degrees";
     text += "; the target needs " + needed_degrees(hold);

@@ -13,7 +13,7 @@ bool shows_end(const ChainPart& part) {
     return !part.study.trace || part.study.step == part.study.trace->frames();
 }
 
-const ik::Hold* shown_active_limit(const ChainPart& part) {
+const ik::ActiveLimit* shown_active_limit(const ChainPart& part) {
     return part.result && part.result->hold && shows_end(part) ? &*part.result->hold : nullptr;
 }
 

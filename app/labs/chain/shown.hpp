@@ -16,7 +16,7 @@ std::vector<glm::vec3> shown_joints(const ChainPart& part);
 bool shows_end(const ChainPart& part);
 
 /// The joint that stops the chain, while the chain is shown where it was stopped; null where there is none.
-const ik::Hold* shown_active_limit(const ChainPart& part);
+const ik::ActiveLimit* shown_active_limit(const ChainPart& part);
 
 /// What one reads of a segment that is shown at `joints`.
 struct ShownSegment {

@@ -21,14 +21,15 @@ std::string joints_of(std::span<const ik::Step> steps) {
 
 std::string pull(const Trace& trace, std::size_t frame, const ik::Step& step) {
     if (step.neighbour == ik::no_joint) {
-        return step.phase == ik::Phase::FromTip ? "Pull from the tip: the tip goes onto the target."
-                                                : "Pull from the root: the root goes back to its place.";
+        return step.phase == ik::Phase::ForwardReaching
+                   ? "Pull from the tip: the tip goes onto the target."
+                   : "Pull from the root: the root goes back to its place.";
     }
     const float length = glm::distance(trace.pose(frame)[step.neighbour], step.to);
     char text[200];
     std::snprintf(text, sizeof text,
                   "Pull from the %s: joint %zu slides along its line to joint %zu until it is %.3f m away.",
-                  step.phase == ik::Phase::FromTip ? "tip" : "root", step.joint, step.neighbour,
+                  step.phase == ik::Phase::ForwardReaching ? "tip" : "root", step.joint, step.neighbour,
                   static_cast<double>(length));
     return text;
 }
@@ -45,14 +46,14 @@ std::string describe_frame(const Trace& trace, std::size_t frame) {
     switch (first.phase) {
         case ik::Phase::Prepare:
             return "Before the first iteration: the chain is made ready (" + joints + ").";
-        case ik::Phase::FromTip:
-        case ik::Phase::FromRoot:
+        case ik::Phase::ForwardReaching:
+        case ik::Phase::BackwardReaching:
             return pull(trace, frame, first);
-        case ik::Phase::Spread:
+        case ik::Phase::Accelerate:
             return "The bend is made less or more until the chain spans the distance, then all turns onto "
                    "the target (" +
                    joints + ").";
-        case ik::Phase::Turn:
+        case ik::Phase::Rotate:
             return "Everything beyond turns" + about + ", so that the tip looks at the target (" + joints +
                    ").";
         case ik::Phase::Gradient:
@@ -63,7 +64,7 @@ std::string describe_frame(const Trace& trace, std::size_t frame) {
             return "Limits: " + joints + (steps.size() == 1 ? " is" : " are") + " brought back within.";
         case ik::Phase::Analytic:
             return "The answer at once, without iterating (" + joints + ").";
-        case ik::Phase::Keep:
+        case ik::Phase::RestoreBest:
             return "The nearest pose that was met comes back, for the last was worse (" + joints + ").";
         case ik::Phase::Blend:
             return "Part of the way from the given pose, as the weight says (" + joints + ").";

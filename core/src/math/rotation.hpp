@@ -11,7 +11,7 @@ namespace tendril::math {
 
 /// Some unit vector at right angles to `a`, which must not be zero; the same for the same `a`.
 static inline glm::vec3 perpendicular(const glm::vec3& a) noexcept {
-    // Away from the axis that `a` has least of, so that the product is never small.
+    // Away from the axis that `a` has the smallest part of, so that the product is never small.
     const float x = std::abs(a.x), y = std::abs(a.y), z = std::abs(a.z);
     const glm::vec3 away = y <= x && y <= z ? glm::vec3(0, 1, 0)
                            : z <= x         ? glm::vec3(0, 0, 1)
@@ -56,9 +56,9 @@ static inline glm::quat slerp(const glm::quat& from, const glm::quat& to, float 
     return unit_quaternion(a * from.w + b * to.w, a * from.x + b * to.x, a * from.y + b * to.y,
                            a * from.z + b * to.z);
 }
-/// The least rotation that takes one unit vector to another; half a turn about `perpendicular(from)` where
+/// The minimal rotation that takes one unit vector to another; half a turn about `perpendicular(from)` where
 /// they are opposite.
-static inline glm::quat least_rotation(const glm::vec3& from, const glm::vec3& to) noexcept {
+static inline glm::quat minimal_rotation(const glm::vec3& from, const glm::vec3& to) noexcept {
     const float w = 1.0f + dot(from, to);
     if (w < 1e-6f) {
         const glm::vec3 axis = perpendicular(from);

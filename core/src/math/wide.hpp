@@ -20,7 +20,7 @@ static inline glm::dvec3 across(const glm::dvec3& a, const glm::dvec3& axis) noe
     return minus(a, times(axis, dot(a, axis)));
 }
 
-/// A unit vector along `a`; none where `a` is not longer than `least`.
+/// A unit vector along `a`; none where `a` is not longer than `minimum`.
 static inline std::optional<glm::dvec3> direction_of(const glm::dvec3& a, double least) noexcept {
     const double size = length(a);
     if (!(size > least)) return std::nullopt;
@@ -28,7 +28,7 @@ static inline std::optional<glm::dvec3> direction_of(const glm::dvec3& a, double
 }
 /// Some unit vector at right angles to a unit vector; the same for the same.
 static inline glm::dvec3 perpendicular(const glm::dvec3& axis) noexcept {
-    // Away from the axis that it has least of, so that the product is never small.
+    // Away from the axis that it has the smallest part of, so that the product is never small.
     const double x = std::abs(axis.x), y = std::abs(axis.y), z = std::abs(axis.z);
     const glm::dvec3 away = y <= x && y <= z ? glm::dvec3(0, 1, 0)
                             : z <= x         ? glm::dvec3(0, 0, 1)

@@ -23,8 +23,8 @@ enum class JointKind : std::uint8_t {
     Free,          ///< no limit
     Suture,        ///< skull: all but fixed
     Hinge,         ///< elbow, knee, finger: one axis, from `min` to `max`
-    Gliding,       ///< wrist, ankle: two axes, little room
-    Saddle,        ///< thumb: two axes, more room
+    Gliding,       ///< wrist, ankle: two axes, little freedom
+    Saddle,        ///< thumb: two axes, more freedom
     Pivot,         ///< neck: twist and a little nod
     BallAndSocket  ///< hip, shoulder: an elliptic cone and twist
 };

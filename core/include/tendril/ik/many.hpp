@@ -5,7 +5,7 @@
 // target, and ends with its own report.
 //
 // Method: that of Method::Fabrik, which is FABRIK (A. Aristidou, J. Lasenby, Graphical Models 73(5), 2011)
-// with a step that fits the span (core/src/ik/methods/spread.hpp), with the widest vector unit that this
+// with a step that fits the span (core/src/ik/methods/accelerate.hpp), with the widest vector unit that this
 // machine has (Highway chooses it at run time). A pass is one long wait for a square root and a division; so
 // several registers of chains take the same step side by side, and chains that take long are collected and
 // solved together.

@@ -26,7 +26,7 @@
 // (2) Within limits a two-bone solve starts from its closed form and goes on as damped least squares.
 // (3) Within limits the whole chain turns to its pole at once, whatever pole_turn says: the joints could not
 //     turn one by one. A chain of two bones has one joint to turn, so both ways are the same.
-// (4) With a tip orientation the last bone is laid as it asks, so a two-bone solve takes three bones, or two
+// (4) With a tip orientation the last bone is placed as it asks, so a two-bone solve takes three bones, or two
 //     of which one is left to solve for; within limits it is damped least squares from the start, without
 //     twist.
 // (5) Not when a tendril::Chain is solved, which keeps its lengths.

@@ -9,19 +9,19 @@
 namespace tendril::ik {
 
 enum class Phase : std::uint8_t {
-    Prepare,   ///< laid to its lengths, snapped back, kicked off the line or out of where it had stalled
-    FromTip,   ///< FABRIK: the pull that starts with the tip on the target
-    FromRoot,  ///< FABRIK: the pull that starts with the root on its place
-    Spread,    ///< accelerated FABRIK: the bend is made less or more until the span fits
-    Turn,      ///< CCD: everything beyond one joint turns about it
-    Gradient,  ///< Jacobian solvers: all joints turn a little at once
-    Pole,      ///< the bend turns to face the pole
-    Limit,     ///< a joint is brought back into its limit
-    Analytic,  ///< the answer at once: two bones, a target out of reach or too close
-    Keep,      ///< the nearest pose that was met comes back, for the last one was worse
-    Blend      ///< part of the way from the given pose: Options::weight
+    Prepare,           ///< lengths restored, blended towards rest, perturbed
+    ForwardReaching,   ///< FABRIK: from the tip, which goes to the target, to the root
+    BackwardReaching,  ///< FABRIK: from the root, which goes back to its place, to the tip
+    Accelerate,        ///< accelerated FABRIK: all bends are made less or more until the root-tip span fits
+    Rotate,            ///< CCD: everything beyond one joint rotates about it
+    Gradient,          ///< Jacobian solvers: all joints rotate a little at once
+    Pole,              ///< the bend is swivelled to face the pole
+    Limit,             ///< a joint is brought back into its limit
+    Analytic,          ///< the answer at once: two bones, a target out of reach or too close
+    RestoreBest,       ///< the pose nearest to the target is restored, for the last one was worse
+    Blend              ///< part of the way from the given pose: Options::weight
 };
-/// "from_tip"
+/// "forward_reaching"
 const char* name(Phase phase) noexcept;
 
 inline constexpr std::size_t no_joint = static_cast<std::size_t>(-1);
@@ -32,7 +32,7 @@ struct Step {
     Phase phase = Phase::Prepare;
     int order = 0;                     ///< counts the elementary steps of the solve from 0
     std::size_t joint = 0;             ///< which one moves
-    std::size_t neighbour = no_joint;  ///< at whose distance it is laid, or about which it turns
+    std::size_t neighbour = no_joint;  ///< at whose distance it is placed, or about which it turns
     glm::vec3 from{0.0f}, to{0.0f};    ///< metres
 };
 

@@ -1,4 +1,4 @@
-// What a solver is told and what it answers.
+// What goes into a solve and what comes out.
 //
 // Every number is checked before anything moves. A number that is not finite, is over max_magnitude or out of
 // its range, or a list of the wrong size, gives Status::InvalidInput and leaves the joints bit for bit as
@@ -70,8 +70,8 @@ struct Options {
     float max_stretch_scale = 1.0f;
     /// Two-bone only: the bend is turned by this about the line from root to tip, radians.
     float twist = 0.0f;
-    /// 0 to 1: how far the chain goes from the pose that it was given (laid to its lengths, brought within
-    /// its limits) to the one that was solved for. Bones are blended by their rotations and laid anew from
+    /// 0 to 1: how far the chain goes from the pose that it was given (brought to its lengths, brought within
+    /// its limits) to the one that was solved for. Bones are blended by their rotations and placed anew from
     /// the root, so that they keep their lengths. Without limits each bone turns in the world on the shortest
     /// way. Within limits each joint's angles are blended, as its limit counts them (the swing as a vector,
     /// and the twist; a free joint on the shortest way against the bone before it), so that every pose
@@ -96,10 +96,10 @@ struct Options {
     /// Whether the state's rotations follow the joints in every solve. Limits, a tip orientation and a weight
     /// under 1 need them, so they follow there in any case; elsewhere it costs some 15 ns a bone, which for
     /// FABRIK following a target is a fifth to a third of the solve. A rotation that was left behind catches
-    /// up in the next solve that keeps them: by one least rotation, so its twist may differ.
+    /// up in the next solve that keeps them: by one minimal rotation, so its twist may differ.
     bool rotations = false;
-    /// Where given, element i receives the residual after iteration i + 1, as far as it has room. Metres. The
-    /// report's own is that of the nearest pose, so it may be less than the last of these.
+    /// Where given, element i receives the residual after iteration i + 1, as far as it is long. Metres.
+    /// The report's own is that of the nearest pose, so it may be less than the last of these.
     std::span<float> residuals{};
 };
 

@@ -9,13 +9,13 @@
 // same joints, state, target and options, whatever the solver did before.
 //
 // Before the first iteration, in O(n): what is out of reach or too close is answered at once, and a chain
-// that lies on one line with its target, where no method would bend it, is given a small bow, always the same
-// (but not for Method::FabrikPlain, which stalls there); within limits to a side to which its joints may
+// that lies on one line with its target, where no method would bend it, is given a small bend, always the
+// same (but not for Method::FabrikPlain, which stalls there); within limits to a side to which its joints may
 // bend, and also later where it stalls on a line. A solve that would end worse than it began, or than it once
 // was, ends with the nearest pose that it met.
 //
-// Cost: O(n) an iteration for every method; where limits stop one short, a few more to tell Limited from
-// Stalled.
+// Cost: O(n) an iteration for every method; where limits stop one short, a few more to distinguish Limited
+// from Stalled.
 //
 // Bones keep their lengths as in chain.hpp, except that Method::TwoBone may stretch them.
 #pragma once
@@ -27,7 +27,7 @@
 #include <span>
 
 #include "tendril/chain/chain.hpp"
-#include "tendril/ik/hold.hpp"
+#include "tendril/ik/active_limit.hpp"
 #include "tendril/ik/method.hpp"
 #include "tendril/ik/observer.hpp"
 #include "tendril/ik/options.hpp"
@@ -56,8 +56,8 @@ class Solver {
     State initial_state() const { return State(bones()); }
 
     /// Moves the joints (bones() + 1 of them, metres), all but the first, so that the last comes to the
-    /// target. What it starts from is laid to the bones' lengths first, if it was not. `state` goes with the
-    /// joints from solve to solve. InvalidInput changes neither.
+    /// target. What it starts from is brought to the bones' lengths first, if it was not. `state` goes with
+    /// the joints from solve to solve. InvalidInput changes neither.
     Report solve(Method method, std::span<glm::vec3> joints, State& state, glm::vec3 target,
                  const Options& options = {}, Observer* observer = nullptr) noexcept;
     /// The same for a chain of bones() + 1 segments. A chain keeps its lengths: two bones do not stretch. And
@@ -66,15 +66,15 @@ class Solver {
     Report solve(Method method, Chain& chain, State& state, glm::vec3 target, const Options& options = {},
                  Observer* observer = nullptr) noexcept;
 
-    /// After a solve that ended Limited: which joint holds the tip back. That is the one whose freeing,
+    /// After a solve that ended Limited: which joint stops the tip. That is the one whose freeing,
     /// alone, brings the tip nearest to the target. `joints` and `state` are those that the solve left. None
     /// where no single joint's freeing brings it nearer, or the input is not valid. Of all joints that stand
     /// at their limits the four whose limits stop most of the descent to the target are tried.
     ///
     /// Cost: at most 17 further solves of at most 60 iterations each, whatever the number of bones: one to
-    /// where the limits hold, one or two for each of the four, eight to find the angle.
-    std::optional<Hold> explain(std::span<const glm::vec3> joints, const State& state, glm::vec3 target,
-                                const Options& options) noexcept;
+    /// where the limits stop it, one or two for each of the four, eight to find the angle.
+    std::optional<ActiveLimit> explain(std::span<const glm::vec3> joints, const State& state,
+                                       glm::vec3 target, const Options& options) noexcept;
 
   private:
     struct Parts;

@@ -50,7 +50,7 @@ struct State {
 
     /// One a bone: the unit quaternion that takes the bone from its rest direction to where it lies, in the
     /// world. Which of all that do is a matter of history: each solve that keeps them up (Options::rotations)
-    /// turns a bone on by the least rotation (parallel transport), so that twist has a meaning.
+    /// turns a bone on by the minimal rotation (parallel transport), so that twist has a meaning.
     std::vector<glm::quat> rotations{};
     PoleMemory pole{};
     LimitMemory limits{};

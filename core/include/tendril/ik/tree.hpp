@@ -1,20 +1,20 @@
 // Inverse kinematics of a tree of chains: one root, several effectors, joints that branches share.
 //
 // A torso with two arms and a head, a spider, a hand: the joints are given as a list in which every joint
-// names the one that it hangs on, and any number of them, inner ones too, may be told where to go.
+// names the one that it hangs on, and any number of them, inner ones too, may have a target.
 //
-// Method: FABRIK for several end effectors. A pull from the effectors inward gives every joint a place that
-// each of its branches proposes; where branches meet, the proposals are averaged, each by the weight of all
-// effectors on its branch. A pull from the root outward then gives every bone its length again. A. Aristidou,
-// J. Lasenby, "FABRIK: A fast, iterative solver for the Inverse Kinematics problem", Graphical Models 73(5),
-// 2011, section on multiple end effectors; A. Aristidou, Y. Chrysanthou, J. Lasenby, "Extending FABRIK with
-// model constraints", Computer Animation and Virtual Worlds 27(1), 2016.
+// Method: FABRIK for several end effectors. Forward reaching, from the effectors inward, gives every joint a
+// place that each of its branches proposes; where branches meet, the proposals are averaged, each by the
+// weight of all effectors on its branch. Backward reaching, from the root outward, then gives every bone its
+// length again. A. Aristidou, J. Lasenby, "FABRIK: A fast, iterative solver for the Inverse Kinematics
+// problem", Graphical Models 73(5), 2011, section on multiple end effectors; A. Aristidou, Y. Chrysanthou, J.
+// Lasenby, "Extending FABRIK with model constraints", Computer Animation and Virtual Worlds 27(1), 2016.
 //
-// From the third iteration on a damped Gauss-Newton step follows each pair of pulls, and is kept where it
+// From the third iteration on a damped Gauss-Newton step follows each pair of passes, and is kept where it
 // brings the effectors nearer: of all moves that keep the lengths and bring the effectors to their targets,
 // each to first order, the one that moves the joints least (Levenberg 1944, Marquardt 1963). On a tree its
 // equations are solved from the leaves inward without fill-in (as D. Baraff, "Linear-time dynamics using
-// Lagrange multipliers", SIGGRAPH 1996, does for forces). Pulls alone crawl where branches must agree.
+// Lagrange multipliers", SIGGRAPH 1996, does for forces). Reaching alone crawls where branches must agree.
 //
 // A Tree holds the joints' list and scratch memory, nothing of the solves before: what goes on from solve to
 // solve are the joints' places and, where they are wanted, the bones' rotations, both the caller's.
@@ -24,8 +24,8 @@
 // effectors are listed.
 //
 // Branches without an effector take no part: each goes along, rigid, with the bone that it hangs on, turned
-// by the least rotation of that bone. What hangs on the root itself, or on a joint that stays, stays where it
-// is.
+// by the minimal rotation of that bone. What hangs on the root itself, or on a joint that stays, stays where
+// it is.
 //
 // Bones keep their lengths as in chain.hpp.
 #pragma once
@@ -48,7 +48,7 @@ struct TreeJoint {
     float length = 0.0f;            ///< metres to the parent, 0 to 1e9; the root's ties nothing
 };
 
-/// A joint that is told where to go.
+/// A joint with a target.
 struct Effector {
     std::size_t joint = 0;
     glm::vec3 target{0.0f};  ///< metres, at most max_magnitude
@@ -66,16 +66,16 @@ struct TreeOptions {
     /// Goes on to max_iterations whatever was reached; for measuring. Not where a single effector is out of
     /// reach: then there is nothing to iterate.
     bool every_iteration = false;
-    /// The two pulls alone, as published, for study: slower, and a straight branch stays on its line.
+    /// The two passes alone, as published, for study: slower, and a straight branch stays on its line.
     bool plain = false;
-    /// Where given, element i receives the worst residual after iteration i + 1, as far as it has room.
+    /// Where given, element i receives the worst residual after iteration i + 1, as far as it is long.
     std::span<float> residuals{};
     /// Where given, element i receives the metres from effector i's joint to its target when all is done, as
-    /// far as it has room; also for those that weigh nothing.
+    /// far as it is long; also for those that weigh nothing.
     std::span<float> effector_residuals{};
     /// Where given, one a joint: element k is the rotation, in the world, of the bone that leads to joint k
-    /// (the root's belongs to no bone and stays). Each is turned on by the least rotation from where its bone
-    /// lay (laid to its length) to where the solve leaves it. Unit quaternions, to 1e-3.
+    /// (the root's belongs to no bone and stays). Each is turned on by the minimal rotation from where its
+    /// bone lay (brought to its length) to where the solve leaves it. Unit quaternions, to 1e-3.
     std::span<glm::quat> rotations{};
 };
 
@@ -103,7 +103,7 @@ class Tree {
     double reach() const noexcept;
 
     /// Moves the joints (size() of them, metres), all but the root, so that the effectors' come to their
-    /// targets. What it starts from is laid to the bones' lengths first, if it was not. A target that its
+    /// targets. What it starts from is brought to the bones' lengths first, if it was not. A target that its
     /// effector cannot reach counts as the nearest point that it can: how far off it lies adds nothing to its
     /// weight. InvalidInput, and nothing is moved, where a joint's index or a number is out of its range, or
     /// two effectors that weigh something sit on one joint.

@@ -135,15 +135,15 @@ Problem Work::take_out(const Block& block, std::size_t lane, Workspace& scalar) 
     for (std::size_t i = 0; i < in_.bones; ++i) scalar.lengths[i] = block.length(i)[lane];
     scalar.reach = block.reach()[lane];
     scalar.longest = block.longest()[lane];
-    return {scalar.joints, block.target_of(lane), block.at(Row::Tolerance, lane), in_.options, scalar,
-            scalar.kept};
+    return {scalar.joints, block.target_of(lane), block.at(Row::Tolerance, lane), in_.options,
+            scalar,        scalar.saved};
 }
 
 /// What loop.cpp does with a chain that stalls.
 void Work::perturb(const Block& block, std::size_t lane, Scratch& scratch) const noexcept {
     Problem problem = take_out(block, lane, scratch.scalar);
     float& count = block.at(Row::Perturbations, lane);
-    shake(problem, static_cast<int>(count), Unwatched());
+    ik::detail::perturb(problem, static_cast<int>(count), Unwatched());
     count += 1.0f;
     start_again(block, lane, problem);
     block.set_activity(lane, Activity::Active);
@@ -152,8 +152,8 @@ void Work::perturb(const Block& block, std::size_t lane, Scratch& scratch) const
 /// What loop.cpp does before the first iteration with a chain that lies on one line with its target.
 void Work::leave_line(const Block& block, std::size_t lane, Scratch& scratch) const noexcept {
     Problem problem = take_out(block, lane, scratch.scalar);
-    if (!is_on_one_line(problem)) return;
-    kick_off_the_line(problem, Unwatched());
+    if (!is_collinear(problem)) return;
+    bend_collinear_chain(problem, Unwatched());
     start_again(block, lane, problem);
     block.at(Row::Residual, lane) = block.at(Row::Last, lane);
     const bool there = block.at(Row::Residual, lane) <= problem.tolerance;
@@ -175,16 +175,16 @@ void Work::solve_scalar_limited(const Block& block, std::size_t lane, std::size_
     const auto component = [&](std::size_t i, int k) -> float& {
         return rows[(4 * i + static_cast<std::size_t>(k)) * block_lanes];
     };
-    scalar.kept.reset();  // of the chain before, which must not matter
+    scalar.saved.reset();  // of the chain before, which must not matter
     for (std::size_t i = 0; i < in_.bones; ++i) {
-        for (int k = 0; k < 4; ++k) scalar.kept.rotations[i][k] = component(i, k);
+        for (int k = 0; k < 4; ++k) scalar.saved.rotations[i][k] = component(i, k);
         scalar.rest_directions[i] = in_.limits->rest_directions[i];
     }
     Problem problem = take_out(block, lane, scalar);
     const Report answer = ik::detail::run(Method::Fabrik, problem, Unwatched());
     for (std::size_t i = 0; i < in_.bones; ++i) {
         block.set_point(i + 1, lane, scalar.joints[i + 1]);
-        for (int k = 0; k < 4; ++k) component(i, k) = scalar.kept.rotations[i][k];
+        for (int k = 0; k < 4; ++k) component(i, k) = scalar.saved.rotations[i][k];
     }
     report_fallback(chain, answer);
 }

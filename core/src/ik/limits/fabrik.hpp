@@ -1,13 +1,13 @@
 // FABRIK's two passes within limits, after Aristidou, Chrysanthou and Lasenby (2016): wherever a bone is
-// laid, the rotation between it and the bone that was laid before it is clamped to the limit of their joint,
-// so backward reaching hands on to the root how the bones must be twisted. Not installed.
+// placed, the rotation between it and the bone that was placed before it is clamped to the limit of their
+// joint, so forward reaching hands on to the root how the bones must be twisted. Not installed.
 #pragma once
 
 #include "ik/solve/problem.hpp"
 
 namespace tendril::ik::detail {
 
-/// Backward and forward reaching, from workspace.pose to workspace.trial. Every joint of that is within its
+/// Forward and backward reaching, from workspace.pose to workspace.trial. Every joint of that is within its
 /// limit.
 template <class Watch>
 void limited_reaching(Problem& problem, Watch watch) noexcept;

@@ -20,7 +20,7 @@ void add_axis(Normal& normal, const glm::vec3& axis, const glm::vec3& arm, float
     const glm::dvec3 about = wide(axis), column = cross(about, wide(arm));
     add_product(normal.moves, column, column, by);
     if (scale == 0.0f) return;
-    add_product(normal.turns, about, about, by * static_cast<double>(scale * scale));
+    add_product(normal.rotations, about, about, by * static_cast<double>(scale * scale));
     add_product(normal.both, column, about, by * static_cast<double>(scale));
 }
 
@@ -34,7 +34,7 @@ void add_ball(Normal& normal, const glm::vec3& arm, float scale) noexcept {
     moves[1][0] = moves[0][1], moves[2][0] = moves[0][2], moves[2][1] = moves[1][2];
     if (scale == 0.0f) return;
     const double s = static_cast<double>(scale);
-    for (std::size_t k = 0; k < 3; ++k) normal.turns.at[k][k] += s * s;
+    for (std::size_t k = 0; k < 3; ++k) normal.rotations.at[k][k] += s * s;
     auto& both = normal.both.at;  // columns e_k x r
     both[0][1] += s * r.z, both[0][2] -= s * r.y, both[1][2] += s * r.x;
     both[1][0] -= s * r.z, both[2][0] += s * r.y, both[2][1] -= s * r.x;
@@ -65,28 +65,28 @@ bool forbid(JointFreedom& freedom, const glm::vec3& axis, float scale, Normal& n
 
 Wanted wanted_of(const Problem& problem) noexcept {
     Wanted wanted;
-    const LimitedPose& pose = problem.room.limited.pose;
-    const float unit_length = 1.0f / problem.room.reach;
+    const LimitedPose& pose = problem.scratch.limited.pose;
+    const float unit_length = 1.0f / problem.scratch.reach;
     wanted.move = times(minus(problem.target, pose.joints[problem.bones()]), unit_length);
     // A target far out of reach says no more than its direction.
     if (const float far = length(wanted.move); far > 1.0f) wanted.move = times(wanted.move, 1.0f / far);
     if (problem.options.tip_orientation) {
-        wanted.turn = times(orientation_error(problem, pose), unit_length);
+        wanted.rotation = times(orientation_error(problem, pose), unit_length);
         wanted.scale = 0.25f;
     }
     return wanted;
 }
 
 Normal linearize(Problem& problem, const Wanted& wanted) noexcept {
-    LimitedRoom& room = problem.room.limited;
-    const LimitedPose& pose = room.pose;
+    LimitedScratch& scratch = problem.scratch.limited;
+    const LimitedPose& pose = scratch.pose;
     const glm::vec3 tip = pose.joints[problem.bones()];
-    const float unit_length = 1.0f / problem.room.reach;
+    const float unit_length = 1.0f / problem.scratch.reach;
     Normal normal;
-    room.at_bounds = 0;
+    scratch.at_bounds = 0;
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        const LimitedJoint& joint = room.limits[i];
-        JointFreedom& freedom = room.freedoms[i];
+        const LimitedJoint& joint = scratch.limits[i];
+        JointFreedom& freedom = scratch.freedoms[i];
         freedom.arm = times(minus(tip, pose.joints[i]), unit_length);
         freedom.ball = !joint.hinge();
         freedom.count = 0;
@@ -98,8 +98,8 @@ Normal linearize(Problem& problem, const Wanted& wanted) noexcept {
         } else {
             add_ball(normal, freedom.arm, wanted.scale);
         }
-        if (is_inside(joint, pose.turns[i])) continue;
-        freedom.bounds = bounds_of(joint, pose.turns[i]);
+        if (is_inside(joint, pose.local[i])) continue;
+        freedom.bounds = bounds_of(joint, pose.local[i]);
         int open = 0;  // bounds on one side only
         for (int k = 0; k < freedom.bounds.count; ++k) {
             Bounds::Bound bound = freedom.bounds.at[k];
@@ -110,14 +110,14 @@ Normal linearize(Problem& problem, const Wanted& wanted) noexcept {
                 freedom.bounds.at[open++] = bound;
         }
         freedom.bounds.count = open;
-        if (open > 0) room.bounded[room.at_bounds++] = i;
+        if (open > 0) scratch.bounded[scratch.at_bounds++] = i;
     }
     return normal;
 }
 
-glm::vec3 turn_by(const JointFreedom& freedom, const Wanted& by) noexcept {
+glm::vec3 rotation_by(const JointFreedom& freedom, const Wanted& by) noexcept {
     if (freedom.ball && freedom.count == 3) return glm::vec3(0.0f);
-    const glm::vec3 whole = plus(cross(freedom.arm, by.move), times(by.turn, by.scale));
+    const glm::vec3 whole = plus(cross(freedom.arm, by.move), times(by.rotation, by.scale));
     glm::vec3 some{0.0f};
     for (int i = 0; i < freedom.count; ++i) {
         const glm::vec3& axis = freedom.axes[static_cast<std::size_t>(i)];
@@ -127,14 +127,14 @@ glm::vec3 turn_by(const JointFreedom& freedom, const Wanted& by) noexcept {
 }
 
 bool activate(Problem& problem, const Wanted& by, Normal& normal) noexcept {
-    LimitedRoom& room = problem.room.limited;
+    LimitedScratch& scratch = problem.scratch.limited;
     bool any = false;
-    for (std::size_t n = 0; n < room.at_bounds; ++n) {
-        JointFreedom& freedom = room.freedoms[room.bounded[n]];
+    for (std::size_t n = 0; n < scratch.at_bounds; ++n) {
+        JointFreedom& freedom = scratch.freedoms[scratch.bounded[n]];
         for (int k = 0; k < freedom.bounds.count; ++k) {
-            const glm::vec3 turn = turn_by(freedom, by), outward = freedom.bounds.at[k].outward;
-            const float push = dot(turn, outward);
-            if (push <= 0.0f || push * push <= 1e-8f * dot(turn, turn)) continue;
+            const glm::vec3 rotation = rotation_by(freedom, by), outward = freedom.bounds.at[k].outward;
+            const float push = dot(rotation, outward);
+            if (push <= 0.0f || push * push <= 1e-8f * dot(rotation, rotation)) continue;
             any = forbid(freedom, outward, by.scale, normal) || any;
         }
     }

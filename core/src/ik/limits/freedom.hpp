@@ -15,21 +15,21 @@ namespace tendril::ik::detail {
 /// What is asked, in reaches: the tip's way to go, and with an orientation the rotation to go, scaled as
 /// error_of has it.
 struct Wanted {
-    glm::vec3 move{0.0f}, turn{0.0f};
+    glm::vec3 move{0.0f}, rotation{0.0f};
     float scale = 0.0f;  ///< reaches a radian; 0 without an orientation
 };
 Wanted wanted_of(const Problem& problem) noexcept;
 
 /// J J' of the tip's three coordinates and, where an orientation is asked for, its three rotations.
 struct Normal {
-    math::Matrix3 moves{}, turns{}, both{};
+    math::Matrix3 moves{}, rotations{}, both{};
 };
 
 /// Fills workspace.freedoms from the pose, and the numbers of those at a bound; no limit is active yet.
 Normal linearize(Problem& problem, const Wanted& wanted) noexcept;
 
 /// How a joint turns if all follow `by`, about an axis in the world, radians: J' by.
-glm::vec3 turn_by(const JointFreedom& freedom, const Wanted& by) noexcept;
+glm::vec3 rotation_by(const JointFreedom& freedom, const Wanted& by) noexcept;
 
 /// Makes the bounds active that the turns by `by` push against, and takes them out of the matrix; whether
 /// there were any.

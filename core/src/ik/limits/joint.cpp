@@ -7,7 +7,7 @@
 namespace tendril::ik::detail {
 namespace {
 
-constexpr float flat = 1e-5f;  ///< half-angles under this leave no room
+constexpr float flat = 1e-5f;  ///< half-angles under this leave no freedom
 
 HalfAngle half_of(float angle) noexcept {
     return {std::max(std::cos(0.5f * angle), 0.0f), std::sin(0.5f * angle)};
@@ -36,12 +36,13 @@ struct Split {
     float cosine;         ///< of half its angle
 };
 
-Split split(const LimitedJoint& joint, const glm::quat& turn) noexcept {
-    const glm::vec3 vector{turn.x, turn.y, turn.z};
-    const float part = dot(vector, joint.hinge() ? joint.axis : joint.bone), sign = turn.w < 0 ? -1.0f : 1.0f;
-    const float size = std::sqrt(turn.w * turn.w + part * part);
+Split split(const LimitedJoint& joint, const glm::quat& rotation) noexcept {
+    const glm::vec3 vector{rotation.x, rotation.y, rotation.z};
+    const float part = dot(vector, joint.hinge() ? joint.axis : joint.bone),
+                sign = rotation.w < 0 ? -1.0f : 1.0f;
+    const float size = std::sqrt(rotation.w * rotation.w + part * part);
     const float scale = size >= 1e-6f ? sign / size : 0.0f;  // 0 after half a turn about the other
-    const float c = size >= 1e-6f ? scale * turn.w : 1.0f, s = scale * part;
+    const float c = size >= 1e-6f ? scale * rotation.w : 1.0f, s = scale * part;
     const float x = sign * dot(vector, joint.hinge() ? joint.side : joint.axis);
     const float y = sign * dot(vector, joint.hinge() ? joint.bone : joint.side);
     if (joint.hinge()) return {{c, s}, c * x - s * y, c * y + s * x, size};
@@ -137,10 +138,10 @@ Swing swing_of(const Split& parts) noexcept {
     return {parts.first * scale, parts.second * scale};
 }
 
-bool clamp_hinge(const LimitedJoint& joint, glm::quat& turn, float slack) noexcept {
-    const glm::vec3 vector{turn.x, turn.y, turn.z};
+bool clamp_hinge(const LimitedJoint& joint, glm::quat& rotation, float slack) noexcept {
+    const glm::vec3 vector{rotation.x, rotation.y, rotation.z};
     const float part = dot(vector, joint.axis);
-    HalfAngle about{turn.w, part};
+    HalfAngle about{rotation.w, part};
     if (about.cosine < 0.0f) about = {-about.cosine, -about.sine};
     const float squared = about.cosine * about.cosine + about.sine * about.sine;
     if (squared < 1e-12f) about = {1.0f, 0.0f};
@@ -153,13 +154,13 @@ bool clamp_hinge(const LimitedJoint& joint, glm::quat& turn, float slack) noexce
     else
         scale = 1.0f / std::sqrt(about.cosine * about.cosine + about.sine * about.sine);
     const float s = about.sine * scale;
-    turn = {about.cosine * scale, joint.axis.x * s, joint.axis.y * s, joint.axis.z * s};
+    rotation = {about.cosine * scale, joint.axis.x * s, joint.axis.y * s, joint.axis.z * s};
     return true;
 }
 
 /// A swing or a twist that may be over.
-bool clamp_parts(const LimitedJoint& joint, glm::quat& turn, float slack) noexcept {
-    Split parts = split(joint, turn);
+bool clamp_parts(const LimitedJoint& joint, glm::quat& rotation, float slack) noexcept {
+    Split parts = split(joint, rotation);
     const bool twisted = !in_range(joint, parts.about, 0.5f * slack);
     bool swung = parts.first * parts.first + parts.second * parts.second > joint.round;
     if (swung) {
@@ -170,7 +171,7 @@ bool clamp_parts(const LimitedJoint& joint, glm::quat& turn, float slack) noexce
     }
     if (!swung && !twisted) return false;
     if (twisted) parts.about = nearer_bound(joint, parts.about);
-    turn = joined(joint, parts);
+    rotation = joined(joint, parts);
     return true;
 }
 
@@ -204,7 +205,7 @@ void add_swing_bounds(const LimitedJoint& joint, const Split& parts, Bounds& bou
         const float x = swing.up / a, y = swing.left / b, size = std::sqrt(x * x / (a * a) + y * y / (b * b));
         if (x * x + y * y > 1.0f - 2.0f * at_bound) return add(x / (a * size), y / (b * size), false);
     }
-    // Quarters without room have edges instead of a rim.
+    // Quarters without freedom have edges instead of a rim.
     if (a < flat || b < flat || std::min(joint.up, joint.down) < flat) {
         add_edges(swing.up, joint.up, joint.down, 1.0f, 0.0f);
     }
@@ -242,26 +243,27 @@ LimitedJoint limited_joint(const Limit& limit, const glm::vec3& rest_direction) 
 
 LimitedJoint solvable_joint(const Limit& limit, const glm::vec3& rest_direction) noexcept {
     LimitedJoint joint = limited_joint(limit, rest_direction);
-    float least = std::min({joint.up, joint.down, joint.left, joint.right});
-    if (least >= pi - at_bound && joint.twist_max - joint.twist_min >= 2.0f * pi - at_bound) {
+    float minimum = std::min({joint.up, joint.down, joint.left, joint.right});
+    if (minimum >= pi - at_bound && joint.twist_max - joint.twist_min >= 2.0f * pi - at_bound) {
         joint.kind = joint.hinge() ? joint.kind : JointKind::Free;
     }
-    constexpr float most = pi - 0.02f;
-    for (float* angle : {&joint.up, &joint.down, &joint.left, &joint.right}) *angle = std::min(*angle, most);
-    const float sine = std::sin(0.5f * std::max(std::min(least, most) - 2.0f * at_bound, 0.0f));
+    constexpr float maximum = pi - 0.02f;
+    for (float* angle : {&joint.up, &joint.down, &joint.left, &joint.right})
+        *angle = std::min(*angle, maximum);
+    const float sine = std::sin(0.5f * std::max(std::min(minimum, maximum) - 2.0f * at_bound, 0.0f));
     joint.round = sine * sine;
     return joint;
 }
 
-JointAngles angles_of(const LimitedJoint& joint, const glm::quat& turn) noexcept {
-    const Split parts = split(joint, turn);
+JointAngles angles_of(const LimitedJoint& joint, const glm::quat& rotation) noexcept {
+    const Split parts = split(joint, rotation);
     const Swing swing = swing_of(parts);
     const float about = 2.0f * std::atan2(parts.about.sine, parts.about.cosine);
     return joint.hinge() ? JointAngles{about, swing.up, swing.left}
                          : JointAngles{swing.up, swing.left, about};
 }
 
-glm::quat turn_of(const LimitedJoint& joint, const JointAngles& angles) noexcept {
+glm::quat rotation_of(const LimitedJoint& joint, const JointAngles& angles) noexcept {
     if (joint.hinge()) return rotation_about(joint.axis, angles.up);
     Split parts{};
     parts.about = {std::cos(0.5f * angles.twist), std::sin(0.5f * angles.twist)};
@@ -289,19 +291,19 @@ float excess_of(const LimitedJoint& joint, const JointAngles& angles) noexcept {
 }
 
 bool is_at_limit(const LimitedJoint& joint, const JointAngles& angles) noexcept {
-    return bounds_of(joint, turn_of(joint, angles)).count > 0;
+    return bounds_of(joint, rotation_of(joint, angles)).count > 0;
 }
 
-bool clamp(const LimitedJoint& joint, glm::quat& turn, float slack) noexcept {
+bool clamp(const LimitedJoint& joint, glm::quat& rotation, float slack) noexcept {
     if (joint.free()) return false;
-    if (joint.hinge()) return clamp_hinge(joint, turn, slack);
-    return !is_inside(joint, turn) && clamp_parts(joint, turn, slack);
+    if (joint.hinge()) return clamp_hinge(joint, rotation, slack);
+    return !is_inside(joint, rotation) && clamp_parts(joint, rotation, slack);
 }
 
-bool is_inside(const LimitedJoint& joint, const glm::quat& turn) noexcept {
+bool is_inside(const LimitedJoint& joint, const glm::quat& rotation) noexcept {
     if (joint.free()) return true;
-    const glm::vec3 vector{turn.x, turn.y, turn.z};
-    HalfAngle about{turn.w, dot(vector, joint.hinge() ? joint.axis : joint.bone)};
+    const glm::vec3 vector{rotation.x, rotation.y, rotation.z};
+    HalfAngle about{rotation.w, dot(vector, joint.hinge() ? joint.axis : joint.bone)};
     if (about.cosine < 0.0f) about = {-about.cosine, -about.sine};
     if (!in_range(joint, about, -at_bound)) return false;
     if (joint.hinge()) return true;
@@ -309,10 +311,10 @@ bool is_inside(const LimitedJoint& joint, const glm::quat& turn) noexcept {
     return x * x + y * y <= joint.round;
 }
 
-Bounds bounds_of(const LimitedJoint& joint, const glm::quat& turn) noexcept {
+Bounds bounds_of(const LimitedJoint& joint, const glm::quat& rotation) noexcept {
     Bounds bounds;
     if (joint.free()) return bounds;
-    const Split parts = split(joint, turn);
+    const Split parts = split(joint, rotation);
     const bool whole =
         (joint.hinge() ? joint.max - joint.min : joint.twist_max - joint.twist_min) >= 2.0f * pi - at_bound;
     const bool over = !whole && beyond(parts.about, joint.high) >= -0.5f * at_bound;
@@ -320,7 +322,7 @@ Bounds bounds_of(const LimitedJoint& joint, const glm::quat& turn) noexcept {
     if (over || under) {
         glm::vec3 axis = joint.axis;
         if (!joint.hinge()) {  // twist alone changes about the line halfway between the bone and its rest
-            axis = plus(joint.bone, rotated(turn, joint.bone));
+            axis = plus(joint.bone, rotated(rotation, joint.bone));
             axis = times(axis, 1.0f / length(axis));
         }
         bounds.add(over ? axis : times(axis, -1.0f), over && under);

@@ -50,21 +50,21 @@ LimitedJoint limited_joint(const Limit& limit, const glm::vec3& rest_direction) 
 /// so where any of these is limited, it stays a little off that.
 LimitedJoint solvable_joint(const Limit& limit, const glm::vec3& rest_direction) noexcept;
 
-JointAngles angles_of(const LimitedJoint& joint, const glm::quat& turn) noexcept;
+JointAngles angles_of(const LimitedJoint& joint, const glm::quat& rotation) noexcept;
 /// The unit quaternion with these angles.
-glm::quat turn_of(const LimitedJoint& joint, const JointAngles& angles) noexcept;
+glm::quat rotation_of(const LimitedJoint& joint, const JointAngles& angles) noexcept;
 /// The nearest within the limit: the cone and the twist each by itself.
 JointAngles within(const LimitedJoint& joint, const JointAngles& angles) noexcept;
 float excess_of(const LimitedJoint& joint, const JointAngles& angles) noexcept;
-/// Whether any of the angles that the joint has is at its bound, or has no room at all.
+/// Whether any of the angles that the joint has is at its bound, or has no freedom at all.
 bool is_at_limit(const LimitedJoint& joint, const JointAngles& angles) noexcept;
 
 /// Brings a rotation to the nearest within; false, and it is left bit for bit, where it is over by no more
 /// than `slack`.
-bool clamp(const LimitedJoint& joint, glm::quat& turn, float slack = at_bound) noexcept;
+bool clamp(const LimitedJoint& joint, glm::quat& rotation, float slack = at_bound) noexcept;
 
 /// Whether a rotation is clear of every bound. Where it is not sure, which is seldom, false.
-bool is_inside(const LimitedJoint& joint, const glm::quat& turn) noexcept;
+bool is_inside(const LimitedJoint& joint, const glm::quat& rotation) noexcept;
 
 /// The bounds that a rotation stands at.
 struct Bounds {
@@ -77,6 +77,6 @@ struct Bounds {
     Bound at[3];
     void add(const glm::vec3& outward, bool both) noexcept { at[count++] = {outward, both}; }
 };
-Bounds bounds_of(const LimitedJoint& joint, const glm::quat& turn) noexcept;
+Bounds bounds_of(const LimitedJoint& joint, const glm::quat& rotation) noexcept;
 
 }  // namespace tendril::ik::detail

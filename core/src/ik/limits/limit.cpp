@@ -110,8 +110,8 @@ const char* fault(const Limit& limit, glm::vec3 rest_direction) noexcept {
                                           : "the limit's axis lies along the bone";
 }
 
-JointAngles measure(const Limit& limit, glm::vec3 rest_direction, glm::quat turn) noexcept {
-    return detail::angles_of(detail::limited_joint(limit, rest_direction), turn);
+JointAngles measure(const Limit& limit, glm::vec3 rest_direction, glm::quat rotation) noexcept {
+    return detail::angles_of(detail::limited_joint(limit, rest_direction), rotation);
 }
 
 float excess(const Limit& limit, const JointAngles& angles) noexcept {

@@ -12,7 +12,7 @@ namespace {
 constexpr float little = 0.002f;  ///< progress by less than this part of what is left
 
 /// SplitMix64 (Steele, Lea, Flood 2014), from 0 to under 1.
-float chance(std::uint64_t& state) noexcept {
+float random_unit(std::uint64_t& state) noexcept {
     std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
@@ -24,8 +24,8 @@ float between(float a, float b, float part) noexcept {
     return a + (b - a) * part;
 }
 
-JointAngles drawn_angles(const LimitedJoint& joint, std::uint64_t& state) noexcept {
-    const float a = chance(state), b = chance(state), c = chance(state);
+JointAngles sampled_angles(const LimitedJoint& joint, std::uint64_t& state) noexcept {
+    const float a = random_unit(state), b = random_unit(state), c = random_unit(state);
     if (joint.hinge()) return {between(joint.min, joint.max, a), 0.0f, 0.0f};
     if (joint.free()) return {between(-2.0f, 2.0f, a), between(-2.0f, 2.0f, b), between(-2.0f, 2.0f, c)};
     return within(joint, {between(-joint.down, joint.up, a), between(-joint.right, joint.left, b),
@@ -35,43 +35,43 @@ JointAngles drawn_angles(const LimitedJoint& joint, std::uint64_t& state) noexce
 }  // namespace
 
 void sample(const Problem& problem, int number) noexcept {
-    LimitedRoom& room = problem.room.limited;
+    LimitedScratch& scratch = problem.scratch.limited;
     std::uint64_t state = static_cast<std::uint64_t>(number) * 7919u;
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        room.trial.turns[i] = turn_of(room.limits[i], drawn_angles(room.limits[i], state));
+        scratch.trial.local[i] = rotation_of(scratch.limits[i], sampled_angles(scratch.limits[i], state));
     }
-    extend(problem, room.trial);
+    forward_kinematics(problem, scratch.trial);
 }
 
-void LimitedDescent::start_again(float error) noexcept {
+void LimitedDescent::restart(float error) noexcept {
     *this = LimitedDescent(error, std::numeric_limits<float>::infinity());
 }
 
-void LimitedDescent::go_on(float damping) noexcept {
+void LimitedDescent::continue_from(float damping) noexcept {
     damping_ = damping;
     reaches_ = false;
 }
 
 bool LimitedDescent::may_take(const Problem& problem) noexcept {
-    const LimitedRoom& room = problem.room.limited;
-    held_back_ = allowance_ < std::numeric_limits<float>::infinity() &&
-                 furthest_moved(problem, room.start, room.trial) > allowance_;
-    return !held_back_;
+    const LimitedScratch& scratch = problem.scratch.limited;
+    exceeds_allowance_ = allowance_ < std::numeric_limits<float>::infinity() &&
+                         furthest_moved(problem, scratch.start, scratch.trial) > allowance_;
+    return !exceeds_allowance_;
 }
 
 template <class Watch>
 void LimitedDescent::iterate(Problem& problem, Watch watch) noexcept {
-    LimitedRoom& room = problem.room.limited;
+    LimitedScratch& scratch = problem.scratch.limited;
     if (reaches_) {
         limited_reaching(problem, watch);
-        const float reached = error_of(problem, room.trial);
+        const float reached = error_of(problem, scratch.trial);
         reaches_ = reached < 0.5f * last_;
         if (reached < last_ && may_take(problem)) {
-            std::swap(room.pose, room.trial);
+            std::swap(scratch.pose, scratch.trial);
             last_ = reached;
         } else {
             reaches_ = false;
-            report_moves(problem, room.trial, room.pose, Phase::Keep, watch);
+            report_moves(problem, scratch.trial, scratch.pose, Phase::RestoreBest, watch);
         }
         return;
     }
@@ -81,7 +81,7 @@ void LimitedDescent::iterate(Problem& problem, Watch watch) noexcept {
         ++problem.least_squares_steps;
     }
     // Far away from a target that cannot be reached, only so much is left as may still be gained.
-    const float left = std::min(before, 0.1f * problem.room.reach);
+    const float left = std::min(before, 0.1f * problem.scratch.reach);
     slow_ = before - last_ < little * left ? slow_ + 1 : 0;
 }
 

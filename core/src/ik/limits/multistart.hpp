@@ -26,15 +26,15 @@ class LimitedDescent {
     void iterate(Problem& problem, Watch watch) noexcept;
 
     /// From another pose, as far as it takes: what was singular cannot be left by a little.
-    void start_again(float error) noexcept;
+    void restart(float error) noexcept;
     /// Steps at once, with the damping of the last solve.
-    void go_on(float damping) noexcept;
+    void continue_from(float damping) noexcept;
 
     bool stalled() const noexcept { return slow_ >= 2; }
     float error() const noexcept { return last_; }
     float damping() const noexcept { return damping_; }
     /// The last step was longer than the allowance.
-    bool held_back() const noexcept { return held_back_; }
+    bool exceeds_allowance() const noexcept { return exceeds_allowance_; }
 
   private:
     bool may_take(const Problem& problem) noexcept;
@@ -44,7 +44,7 @@ class LimitedDescent {
     float allowance_;
     int slow_ = 0;         ///< for how many steps there was little progress
     bool reaches_ = true;  ///< FABRIK's passes bring the tip half way or more
-    bool held_back_ = false;
+    bool exceeds_allowance_ = false;
 };
 
 /// A random pose within the limits into workspace.trial; the same for the same number.

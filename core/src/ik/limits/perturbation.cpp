@@ -7,8 +7,8 @@
 namespace tendril::ik::detail {
 namespace {
 
-constexpr float least_part = 0.1f;  ///< of the bow, for a joint before a short bone
-constexpr float alike = 1e-4f;      ///< errors nearer to each other than this, of the reach
+constexpr float min_part = 0.1f;  ///< of the angle, for a joint before a short bone
+constexpr float alike = 1e-4f;    ///< errors nearer to each other than this, of the reach
 
 /// Angles changed by a turn of so much about (up, left), as far as the limit lets them.
 JointAngles changed(const LimitedJoint& joint, const JointAngles& angles, float up, float left) noexcept {
@@ -20,8 +20,8 @@ float moved_by(const JointAngles& from, const JointAngles& to) noexcept {
     return std::sqrt(up * up + left * left);
 }
 
-/// The first of these that has half the room it wants, or the one with the most room: as given, the other way
-/// round, and for what swings two ways also at right angles to that.
+/// The first of these that has half the freedom it wants, or the one with the most freedom: as given, the
+/// other way round, and for what swings two ways also at right angles to that.
 JointAngles bent(const LimitedJoint& joint, const JointAngles& angles, float up, float left) noexcept {
     const float ways[4][2] = {{up, left}, {-up, -left}, {-left, up}, {left, -up}};
     const float wanted = std::sqrt(up * up + left * left);
@@ -35,57 +35,57 @@ JointAngles bent(const LimitedJoint& joint, const JointAngles& angles, float up,
 }
 
 /// The turn of a joint against the one before it, bent by `by`, a turn in the world.
-glm::quat bent_turn(const Problem& problem, std::size_t i, const glm::vec3& by) noexcept {
-    const LimitedRoom& room = problem.room.limited;
-    const LimitedJoint& joint = room.limits[i];
-    const glm::quat turn = room.pose.turns[i];
-    const glm::vec3 own = rotated(conjugate(parent_of(room.pose.rotations, i)), by);
+glm::quat bent_rotation(const Problem& problem, std::size_t i, const glm::vec3& by) noexcept {
+    const LimitedScratch& scratch = problem.scratch.limited;
+    const LimitedJoint& joint = scratch.limits[i];
+    const glm::quat rotation = scratch.pose.local[i];
+    const glm::vec3 own = rotated(conjugate(parent_of(scratch.pose.rotations, i)), by);
     if (joint.free()) {
         const glm::vec3 half = times(own, 0.5f);
-        return unit(compose(unit_quaternion(1.0f, half.x, half.y, half.z), turn));
+        return unit(compose(unit_quaternion(1.0f, half.x, half.y, half.z), rotation));
     }
-    const JointAngles angles = angles_of(joint, turn);
-    // A hinge has one way to bend: it goes there whatever the plane of the bow, which gives only the side.
+    const JointAngles angles = angles_of(joint, rotation);
+    // A hinge has one way to bend: it goes there whatever the plane of the arc, which gives only the side.
     if (joint.hinge()) {
         const float size = length(by);
-        return turn_of(joint, bent(joint, angles, dot(own, joint.axis) < 0.0f ? -size : size, 0.0f));
+        return rotation_of(joint, bent(joint, angles, dot(own, joint.axis) < 0.0f ? -size : size, 0.0f));
     }
-    return turn_of(joint, bent(joint, angles, dot(own, joint.axis), dot(own, joint.side)));
+    return rotation_of(joint, bent(joint, angles, dot(own, joint.axis), dot(own, joint.side)));
 }
 
 /// From the root to the tip; a chain that ends where it begins shows the line to its target instead.
 glm::vec3 line_to_bend(const Problem& problem) noexcept {
-    const LimitedPose& pose = problem.room.limited.pose;
+    const LimitedPose& pose = problem.scratch.limited.pose;
     for (const glm::vec3& end : {pose.joints[problem.bones()], problem.target}) {
         const glm::vec3 arm = minus(end, problem.root());
         const float far = length(arm);
-        if (far > 1e-3f * problem.room.reach) return times(arm, 1.0f / far);
+        if (far > 1e-3f * problem.scratch.reach) return times(arm, 1.0f / far);
     }
     return pose.directions[0];
 }
 
-void lay_bent(const Problem& problem, std::size_t i, const glm::vec3& by) noexcept {
-    problem.room.limited.trial.turns[i] = bent_turn(problem, i, by);
+void bend_joint(const Problem& problem, std::size_t i, const glm::vec3& by) noexcept {
+    problem.scratch.limited.trial.local[i] = bent_rotation(problem, i, by);
 }
 
 /// The first bone one way, the others back, so that the tip stays near the line.
-void bow(const Problem& problem, const glm::vec3& about) noexcept {
+void bend_in_arc(const Problem& problem, const glm::vec3& about) noexcept {
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        const float part = 2.0f * problem.lengths()[i] / problem.room.reach;
-        lay_bent(problem, i, times(about, i == 0 ? kick_bow : -kick_bow * std::max(part, least_part)));
+        const float part = 2.0f * problem.lengths()[i] / problem.scratch.reach;
+        bend_joint(problem, i, times(about, i == 0 ? bend_angle : -bend_angle * std::max(part, min_part)));
     }
-    extend(problem, problem.room.limited.trial);
+    forward_kinematics(problem, problem.scratch.limited.trial);
 }
 
 void scatter(const Problem& problem, const glm::vec3& line, const glm::vec3& side, int number) noexcept {
     const auto salt = static_cast<std::uint32_t>(number) * 2u;
     const glm::vec3 about = cross(line, side);
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        lay_bent(
+        bend_joint(
             problem, i,
-            times(plus(times(about, scattered(i, salt)), times(side, scattered(i, salt + 1))), kick_bow));
+            times(plus(times(about, scattered(i, salt)), times(side, scattered(i, salt + 1))), bend_angle));
     }
-    extend(problem, problem.room.limited.trial);
+    forward_kinematics(problem, problem.scratch.limited.trial);
 }
 
 }  // namespace
@@ -93,35 +93,36 @@ void scatter(const Problem& problem, const glm::vec3& line, const glm::vec3& sid
 bool is_singular(Problem& problem) noexcept {
     const Wanted wanted = wanted_of(problem);
     linearize(problem, wanted);
-    const float asked = dot(wanted.move, wanted.move) + dot(wanted.turn, wanted.turn);
+    const float asked = dot(wanted.move, wanted.move) + dot(wanted.rotation, wanted.rotation);
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        const glm::vec3 turn = turn_by(problem.room.limited.freedoms[i], wanted);
-        if (dot(turn, turn) > singular * singular * asked) return false;
+        const glm::vec3 rotation = rotation_by(problem.scratch.limited.freedoms[i], wanted);
+        if (dot(rotation, rotation) > singular * singular * asked) return false;
     }
     return true;
 }
 
 template <class Watch>
-void kick_within_limits(Problem& problem, int turn, Watch watch) noexcept {
-    LimitedRoom& room = problem.room.limited;
+void perturb_within_limits(Problem& problem, int number, Watch watch) noexcept {
+    LimitedScratch& scratch = problem.scratch.limited;
     const glm::vec3 line = line_to_bend(problem), side = side_of(problem, line);
     const glm::vec3 sides[] = {side, times(side, -1.0f), cross(line, side), cross(side, line)};
     const auto bend = [&](int way) {
-        turn == 0 ? bow(problem, cross(line, sides[way])) : scatter(problem, line, side, 4 * turn + way);
-        return error_of(problem, room.trial);
+        number == 0 ? bend_in_arc(problem, cross(line, sides[way]))
+                    : scatter(problem, line, side, 4 * number + way);
+        return error_of(problem, scratch.trial);
     };
     int best = 0;
-    float least = bend(0);
+    float minimum = bend(0);
     for (int way = 1; way < 4; ++way) {
         // Of ways that are as good the first is taken: rounding must not choose the side.
         const float error = bend(way);
-        if (error < least - alike * problem.room.reach) best = way, least = error;
+        if (error < minimum - alike * problem.scratch.reach) best = way, minimum = error;
     }
     bend(best);
-    take_trial(problem, Phase::Prepare, watch);
+    accept_trial(problem, Phase::Prepare, watch);
 }
 
-template void kick_within_limits(Problem&, int, Unwatched) noexcept;
-template void kick_within_limits(Problem&, int, Watched) noexcept;
+template void perturb_within_limits(Problem&, int, Unwatched) noexcept;
+template void perturb_within_limits(Problem&, int, Watched) noexcept;
 
 }  // namespace tendril::ik::detail

@@ -22,50 +22,50 @@ float angle_between(const Problem& problem, const LimitedPose& before, const glm
 }
 
 /// Turns the pose in `pose` about the line, into `trial`; whether the root's joint allows it.
-bool turns(Problem& problem, const glm::vec3& line, float angle) noexcept {
-    LimitedRoom& room = problem.room.limited;
+bool swivels(Problem& problem, const glm::vec3& line, float angle) noexcept {
+    LimitedScratch& scratch = problem.scratch.limited;
     const glm::quat by = rotation_about(line, angle);
-    room.trial.turns = room.pose.turns;
-    room.trial.turns[0] = unit(compose(by, room.pose.turns[0]));
-    return excess_of(room.limits[0], angles_of(room.limits[0], room.trial.turns[0])) <= at_bound;
+    scratch.trial.local = scratch.pose.local;
+    scratch.trial.local[0] = unit(compose(by, scratch.pose.local[0]));
+    return excess_of(scratch.limits[0], angles_of(scratch.limits[0], scratch.trial.local[0])) <= at_bound;
 }
 
-void turn_as_far_as_allowed(Problem& problem, const glm::vec3& line, float angle) noexcept {
-    if (turns(problem, line, angle)) return;
-    float least = 0.0f, most = 1.0f;
+void swivel_as_far_as_allowed(Problem& problem, const glm::vec3& line, float angle) noexcept {
+    if (swivels(problem, line, angle)) return;
+    float minimum = 0.0f, maximum = 1.0f;
     for (int i = 0; i < 10; ++i) {
-        const float part = 0.5f * (least + most);
-        (turns(problem, line, part * angle) ? least : most) = part;
+        const float part = 0.5f * (minimum + maximum);
+        (swivels(problem, line, part * angle) ? minimum : maximum) = part;
     }
-    turns(problem, line, least * angle);
+    swivels(problem, line, minimum * angle);
 }
 
 }  // namespace
 
-void expect_pole(Problem& problem) noexcept {
-    if (problem.options.pole) problem.room.pole.allowance = pole_allowance(problem);
+void set_pole_allowance(Problem& problem) noexcept {
+    if (problem.options.pole) problem.scratch.pole.allowance = pole_allowance(problem);
 }
 
 template <class Watch>
 void face_pole_within_limits(Problem& problem, Watch watch) noexcept {
     if (!problem.options.pole) return remember_pose(problem);
-    LimitedRoom& room = problem.room.limited;
+    LimitedScratch& scratch = problem.scratch.limited;
     Options options = problem.options;
     options.pole_turn = PoleTurn::WholeChain;
-    Problem whole{problem.joints, problem.target, problem.tolerance, options, problem.room, problem.state};
+    Problem whole{problem.joints, problem.target, problem.tolerance, options, problem.scratch, problem.state};
     face_pole(whole, Unwatched());
-    const glm::vec3 span = minus(room.pose.joints[problem.bones()], problem.root());
+    const glm::vec3 span = minus(scratch.pose.joints[problem.bones()], problem.root());
     const float size = length(span);
     const glm::vec3 line = size > 0.0f ? times(span, 1.0f / size) : span;
-    const float angle = size > 0.0f ? angle_between(problem, room.pose, line) : 0.0f;
+    const float angle = size > 0.0f ? angle_between(problem, scratch.pose, line) : 0.0f;
     commit(problem);
     if (std::abs(angle) <= at_bound) return;
-    turn_as_far_as_allowed(problem, line, angle);
-    extend(problem, room.trial);
-    // Laid anew, the tip is off by rounding; no turn is worth more than that.
-    const float allowed = std::max(error_of(problem, room.pose), problem.tolerance);
-    if (error_of(problem, room.trial) > allowed + 1e-6f * problem.room.reach) return;
-    take_trial(problem, Phase::Pole, watch);
+    swivel_as_far_as_allowed(problem, line, angle);
+    forward_kinematics(problem, scratch.trial);
+    // After forward kinematics the tip is off by rounding; no turn is worth more than that.
+    const float allowed = std::max(error_of(problem, scratch.pose), problem.tolerance);
+    if (error_of(problem, scratch.trial) > allowed + 1e-6f * problem.scratch.reach) return;
+    accept_trial(problem, Phase::Pole, watch);
     commit(problem);
     remember_pose(problem);
 }

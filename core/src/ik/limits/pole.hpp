@@ -8,7 +8,7 @@
 namespace tendril::ik::detail {
 
 /// Before the first iteration: how far the chain may turn in this solve.
-void expect_pole(Problem& problem) noexcept;
+void set_pole_allowance(Problem& problem) noexcept;
 
 /// After the last. The tip stays, to rounding.
 template <class Watch>

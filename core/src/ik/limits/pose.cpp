@@ -14,44 +14,44 @@ glm::vec3 rotation_vector(const glm::quat& rotation) noexcept {
 glm::vec3 orientation_error(const Problem& problem, const LimitedPose& pose) noexcept {
     const glm::quat& last = pose.rotations[problem.bones() - 1];
     const glm::quat left = compose(unit(*problem.options.tip_orientation), conjugate(last));
-    return times(rotation_vector(left), 0.25f * problem.room.reach);
+    return times(rotation_vector(left), 0.25f * problem.scratch.reach);
 }
 
 float error_of(const Problem& problem, const LimitedPose& pose) noexcept {
     const float squared = squared_distance(pose.joints[problem.bones()], problem.target);
     if (!problem.options.tip_orientation) return std::sqrt(squared);
-    const glm::vec3 turn = orientation_error(problem, pose);
-    return std::sqrt(squared + dot(turn, turn));
+    const glm::vec3 rotation = orientation_error(problem, pose);
+    return std::sqrt(squared + dot(rotation, rotation));
 }
 
 float furthest_moved(const Problem& problem, const LimitedPose& from, const LimitedPose& to) noexcept {
-    float most = 0.0f;
+    float maximum = 0.0f;
     for (std::size_t i = 1; i <= problem.bones(); ++i) {
-        most = std::max(most, squared_distance(from.joints[i], to.joints[i]));
+        maximum = std::max(maximum, squared_distance(from.joints[i], to.joints[i]));
     }
-    return std::sqrt(most);
+    return std::sqrt(maximum);
 }
 
-void extend(const Problem& problem, LimitedPose& pose) noexcept {
+void forward_kinematics(const Problem& problem, LimitedPose& pose) noexcept {
     pose.joints[0] = problem.root();
-    for (std::size_t i = 0; i < problem.bones(); ++i) extend_bone(problem, pose, i);
+    for (std::size_t i = 0; i < problem.bones(); ++i) place_bone(problem, pose, i);
 }
 
-void take_limits(Problem& problem) noexcept {
-    Workspace& room = problem.room;
+void load_limits(Problem& problem) noexcept {
+    Workspace& scratch = problem.scratch;
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         const Limit& limit = problem.options.limits[i];
-        if (room.limited.made && limit == room.limited.source[i]) continue;
-        room.limited.source[i] = limit;
-        room.limited.limits[i] = solvable_joint(limit, room.rest_directions[i]);
+        if (scratch.limited.made && limit == scratch.limited.source[i]) continue;
+        scratch.limited.source[i] = limit;
+        scratch.limited.limits[i] = solvable_joint(limit, scratch.rest_directions[i]);
     }
-    room.limited.made = true;
+    scratch.limited.made = true;
 }
 
 template <class Watch>
-bool take_pose(Problem& problem, Watch watch) noexcept {
-    Workspace& room = problem.room;
-    LimitedPose& pose = room.limited.pose;
+bool load_pose(Problem& problem, Watch watch) noexcept {
+    Workspace& scratch = problem.scratch;
+    LimitedPose& pose = scratch.limited.pose;
     pose.joints[0] = problem.root();
     bool same = true;  // so far nothing had to move
     float furthest = 0.0f;
@@ -59,19 +59,19 @@ bool take_pose(Problem& problem, Watch watch) noexcept {
         glm::quat rotation = problem.state.rotations[i];
         glm::vec3 bone = bone_direction(problem, rotation, i);
         const glm::vec3 along = math::direction(problem.joints[i], problem.joints[i + 1], bone);
-        // A rotation that agrees to rounding stays as it is, or each solve would shake it a little.
+        // A rotation that agrees to rounding stays as it is, or each solve would change it a little.
         const float off = squared_distance(bone, along);
         furthest = std::max(furthest, off);
-        if (off > 1e-10f) rotation = carried(rotation, bone, along), bone = along;
+        if (off > 1e-10f) rotation = transported(rotation, bone, along), bone = along;
         const glm::quat parent = parent_of(pose.rotations, i);
-        glm::quat turn = compose(conjugate(parent), rotation);
+        glm::quat local = compose(conjugate(parent), rotation);
         // More than a solve leaves, or the next one would begin by moving what the last has left.
-        if (clamp(room.limited.limits[i], turn, 5.0f * at_bound)) {
-            rotation = unit(compose(parent, turn));
+        if (clamp(scratch.limited.limits[i], local, 5.0f * at_bound)) {
+            rotation = unit(compose(parent, local));
             bone = bone_direction(problem, rotation, i);
             same = false;
         }
-        pose.turns[i] = turn;
+        pose.local[i] = local;
         pose.rotations[i] = rotation;
         pose.directions[i] = bone;
         pose.joints[i + 1] = same ? problem.joints[i + 1] : moved(pose.joints[i], bone, problem.lengths()[i]);
@@ -83,12 +83,12 @@ bool take_pose(Problem& problem, Watch watch) noexcept {
 }
 
 void commit(Problem& problem) noexcept {
-    const LimitedPose& pose = problem.room.limited.pose;
+    const LimitedPose& pose = problem.scratch.limited.pose;
     std::copy_n(pose.joints.begin(), problem.joints.size(), problem.joints.begin());
     std::copy_n(pose.rotations.begin(), problem.bones(), problem.state.rotations.begin());
 }
 
-template bool take_pose(Problem&, Unwatched) noexcept;
-template bool take_pose(Problem&, Watched) noexcept;
+template bool load_pose(Problem&, Unwatched) noexcept;
+template bool load_pose(Problem&, Watched) noexcept;
 
 }  // namespace tendril::ik::detail

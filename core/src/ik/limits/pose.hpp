@@ -27,17 +27,17 @@ static inline glm::quat parent_of(const std::vector<glm::quat>& rotations, std::
 }
 
 /// How a bone is turned against the one before.
-static inline glm::quat local_turn(const std::vector<glm::quat>& rotations, std::size_t bone) noexcept {
+static inline glm::quat local_rotation(const std::vector<glm::quat>& rotations, std::size_t bone) noexcept {
     return compose(conjugate(parent_of(rotations, bone)), rotations[bone]);
 }
 
-/// Turned on by the least rotation that takes one unit vector to another.
-static inline glm::quat carried(const glm::quat& rotation, const glm::vec3& from,
-                                const glm::vec3& to) noexcept {
+/// Turned on by the minimal rotation that takes one unit vector to another.
+static inline glm::quat transported(const glm::quat& rotation, const glm::vec3& from,
+                                    const glm::vec3& to) noexcept {
     const float w = 1.0f + dot(from, to);
     if (w < 1e-3f) {  // all but opposite: half a turn, and on from there
         const glm::vec3 half = perpendicular(from);
-        return carried(compose({0.0f, half.x, half.y, half.z}, rotation), times(from, -1.0f), to);
+        return transported(compose({0.0f, half.x, half.y, half.z}, rotation), times(from, -1.0f), to);
     }
     const glm::vec3 axis = cross(from, to);
     return unit(compose({w, axis.x, axis.y, axis.z}, rotation));
@@ -45,7 +45,7 @@ static inline glm::quat carried(const glm::quat& rotation, const glm::vec3& from
 
 static inline glm::vec3 bone_direction(const Problem& problem, const glm::quat& rotation,
                                        std::size_t bone) noexcept {
-    return rotated(rotation, problem.room.limited.limits[bone].bone);
+    return rotated(rotation, problem.scratch.limited.limits[bone].bone);
 }
 
 /// The vector along a rotation's axis whose length is its angle, the shorter way round.
@@ -61,23 +61,23 @@ glm::vec3 orientation_error(const Problem& problem, const LimitedPose& pose) noe
 float furthest_moved(const Problem& problem, const LimitedPose& from, const LimitedPose& to) noexcept;
 
 /// Forward kinematics: rotations, directions and joints from `turns`. The root is the problem's.
-void extend(const Problem& problem, LimitedPose& pose) noexcept;
+void forward_kinematics(const Problem& problem, LimitedPose& pose) noexcept;
 /// One bone of it; those before it are done.
-static inline void extend_bone(const Problem& problem, LimitedPose& pose, std::size_t bone) noexcept {
-    pose.rotations[bone] = nearly_unit(compose(parent_of(pose.rotations, bone), pose.turns[bone]));
+static inline void place_bone(const Problem& problem, LimitedPose& pose, std::size_t bone) noexcept {
+    pose.rotations[bone] = nearly_unit(compose(parent_of(pose.rotations, bone), pose.local[bone]));
     pose.directions[bone] = bone_direction(problem, pose.rotations[bone], bone);
     pose.joints[bone + 1] = moved(pose.joints[bone], pose.directions[bone], problem.lengths()[bone]);
 }
 
 /// At the start: makes the limits ready, unless they are those of the last solve.
-void take_limits(Problem& problem) noexcept;
+void load_limits(Problem& problem) noexcept;
 
 /// Takes the problem's joints and rotations into workspace.pose. Where joints were moved and rotations were
-/// not, the rotations are carried to where the joints are, each joint is clamped from the root on, and what
-/// hangs on it laid anew. What holds already is left as it is to the bit; true where all does, but for 0.01
-/// radians.
+/// not, the rotations are transported to where the joints are, each joint is clamped from the root on, and
+/// what follows it placed anew. What holds already is left as it is to the bit; true where all does, but for
+/// 0.01 radians.
 template <class Watch>
-bool take_pose(Problem& problem, Watch watch) noexcept;
+bool load_pose(Problem& problem, Watch watch) noexcept;
 /// Hands workspace.pose back to the problem.
 void commit(Problem& problem) noexcept;
 
@@ -96,10 +96,10 @@ void report_moves(const Problem& problem, const LimitedPose& from, const Limited
 
 /// The pose becomes what `trial` holds.
 template <class Watch>
-void take_trial(Problem& problem, Phase phase, Watch watch) noexcept {
-    LimitedRoom& room = problem.room.limited;
-    report_moves(problem, room.pose, room.trial, phase, watch);
-    std::swap(room.pose, room.trial);
+void accept_trial(Problem& problem, Phase phase, Watch watch) noexcept {
+    LimitedScratch& scratch = problem.scratch.limited;
+    report_moves(problem, scratch.pose, scratch.trial, phase, watch);
+    std::swap(scratch.pose, scratch.trial);
 }
 
 }  // namespace tendril::ik::detail

@@ -19,10 +19,11 @@ Wanted damped_step(const Normal& normal, const Wanted& wanted, float damping) no
     by.move = times(inverted, wanted.move);
     if (wanted.scale == 0.0f) return by;
     // [moves both; both' turns] [by.move; by.turn] = [wanted.move; wanted.turn], the first eliminated.
-    const Matrix3 carried_over = product(transposed(normal.both), inverted);
-    by.turn = times(inverse(difference(damped(normal.turns, damping), product(carried_over, normal.both))),
-                    minus(wanted.turn, times(carried_over, wanted.move)));
-    by.move = times(inverted, minus(wanted.move, times(normal.both, by.turn)));
+    const Matrix3 eliminated = product(transposed(normal.both), inverted);
+    by.rotation =
+        times(inverse(difference(damped(normal.rotations, damping), product(eliminated, normal.both))),
+              minus(wanted.rotation, times(eliminated, wanted.move)));
+    by.move = times(inverted, minus(wanted.move, times(normal.both, by.rotation)));
     return by;
 }
 
@@ -47,14 +48,14 @@ Wanted filtered_step(const Normal& normal, const Wanted& wanted, float damping) 
     return {narrow(by), glm::vec3(0.0f), 0.0f};
 }
 
-/// The step along the gradient after which the error, were it linear, would be least.
+/// The step along the gradient after which the error, were it linear, would be smallest.
 Wanted steepest_step(const Normal& normal, const Wanted& wanted) noexcept {
-    const glm::vec3 move = plus(times(normal.moves, wanted.move), times(normal.both, wanted.turn)),
-                    turn =
-                        plus(times(transposed(normal.both), wanted.move), times(normal.turns, wanted.turn));
-    const float size = dot(move, move) + dot(turn, turn);
-    const float best = size > 0.0f ? (dot(move, wanted.move) + dot(turn, wanted.turn)) / size : 0.0f;
-    return {times(wanted.move, best), times(wanted.turn, best), wanted.scale};
+    const glm::vec3 move = plus(times(normal.moves, wanted.move), times(normal.both, wanted.rotation)),
+                    rotation = plus(times(transposed(normal.both), wanted.move),
+                                    times(normal.rotations, wanted.rotation));
+    const float size = dot(move, move) + dot(rotation, rotation);
+    const float best = size > 0.0f ? (dot(move, wanted.move) + dot(rotation, wanted.rotation)) / size : 0.0f;
+    return {times(wanted.move, best), times(wanted.rotation, best), wanted.scale};
 }
 
 }  // namespace
@@ -71,28 +72,28 @@ Wanted projected_step(Problem& problem, Descent descent, float damping, const Wa
     return by;
 }
 
-void turn_joints(Problem& problem, const Wanted& by) noexcept {
-    LimitedRoom& room = problem.room.limited;
-    float most = 1.0f;
+void rotate_joints(Problem& problem, const Wanted& by) noexcept {
+    LimitedScratch& scratch = problem.scratch.limited;
+    float maximum = 1.0f;
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        const glm::vec3 turn = turn_by(room.freedoms[i], by);
-        most = std::max(most, dot(turn, turn));
+        const glm::vec3 rotation = rotation_by(scratch.freedoms[i], by);
+        maximum = std::max(maximum, dot(rotation, rotation));
     }
-    const float half = 0.5f / std::sqrt(most);
-    room.trial.joints[0] = problem.root();
+    const float half = 0.5f / std::sqrt(maximum);
+    scratch.trial.joints[0] = problem.root();
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        const glm::quat parent = parent_of(room.pose.rotations, i);
-        const glm::vec3 v = rotated(conjugate(parent), times(turn_by(room.freedoms[i], by), half));
-        room.trial.turns[i] = unit(compose({1.0f, v.x, v.y, v.z}, room.pose.turns[i]));
-        clamp(room.limits[i], room.trial.turns[i]);
-        extend_bone(problem, room.trial, i);
+        const glm::quat parent = parent_of(scratch.pose.rotations, i);
+        const glm::vec3 v = rotated(conjugate(parent), times(rotation_by(scratch.freedoms[i], by), half));
+        scratch.trial.local[i] = unit(compose({1.0f, v.x, v.y, v.z}, scratch.pose.local[i]));
+        clamp(scratch.limits[i], scratch.trial.local[i]);
+        place_bone(problem, scratch.trial, i);
     }
 }
 
 void limited_step(Problem& problem, Descent descent, float damping) noexcept {
     const Wanted wanted = wanted_of(problem);
     Normal normal = linearize(problem, wanted);
-    turn_joints(problem, projected_step(problem, descent, damping, wanted, normal));
+    rotate_joints(problem, projected_step(problem, descent, damping, wanted, normal));
 }
 
 }  // namespace tendril::ik::detail

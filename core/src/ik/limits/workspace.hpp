@@ -15,13 +15,13 @@ namespace tendril::ik::detail {
 struct LimitedPose {
     std::vector<glm::vec3> joints;      ///< n + 1
     std::vector<glm::quat> rotations;   ///< n: of the bones, in the world
-    std::vector<glm::quat> turns;       ///< n: of the bones against the ones before, within the limits
+    std::vector<glm::quat> local;       ///< n: of the bones against the ones before, within the limits
     std::vector<glm::vec3> directions;  ///< n: where the bones point, unit vectors
 
     void resize(std::size_t bones) {
         joints.resize(bones + 1);
         rotations.resize(bones);
-        turns.resize(bones);
+        local.resize(bones);
         directions.resize(bones);
     }
 };
@@ -35,7 +35,7 @@ struct JointFreedom {
     Bounds bounds;                    ///< which it stands at, on one side; in the world
 };
 
-struct LimitedRoom {
+struct LimitedScratch {
     std::vector<Limit> source;           ///< n: what `limits` were made from
     std::vector<LimitedJoint> limits;    ///< n
     std::vector<JointFreedom> freedoms;  ///< n
@@ -47,7 +47,7 @@ struct LimitedRoom {
     LimitedPose best;   ///< the nearest to the target so far, of a solve that goes on elsewhere
     LimitedPose start;  ///< where a solve begins that must not go far, or whose end must not change
 
-    LimitedPose kept;          ///< explain: the pose from which each joint is freed
+    LimitedPose saved;         ///< explain: the pose from which each joint is freed
     std::vector<Limit> freed;  ///< explain: the limits, but for one
 
     void resize(std::size_t bones) {
@@ -55,7 +55,7 @@ struct LimitedRoom {
         limits.resize(bones);
         freedoms.resize(bones);
         bounded.resize(bones);
-        for (LimitedPose* each : {&pose, &trial, &best, &start, &kept}) each->resize(bones);
+        for (LimitedPose* each : {&pose, &trial, &best, &start, &saved}) each->resize(bones);
         freed.resize(bones);
     }
 };

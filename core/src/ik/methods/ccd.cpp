@@ -2,32 +2,32 @@
 
 #include <algorithm>
 
-#include "ik/methods/turns.hpp"
+#include "ik/methods/rotations.hpp"
 
 namespace tendril::ik::detail {
 namespace {
 
-constexpr glm::quat no_turn{1.0f, 0.0f, 0.0f, 0.0f};
+constexpr glm::quat no_rotation{1.0f, 0.0f, 0.0f, 0.0f};
 
-/// The least turn about `at` that brings the tip onto the line to the target; none where the tip or the
+/// The minimal rotation about `at` that brings the tip onto the line to the target; none where the tip or the
 /// target lies nearer to `at` than `nothing`, for then there is no line. Opposite ones are half a turn apart,
 /// about some axis that is the same every time.
-glm::quat turn_towards(const glm::vec3& at, const glm::vec3& tip, const glm::vec3& target,
-                       float nothing) noexcept {
+glm::quat rotation_towards(const glm::vec3& at, const glm::vec3& tip, const glm::vec3& target,
+                           float nothing) noexcept {
     const glm::vec3 to_tip = minus(tip, at), to_target = minus(target, at);
     const float a = length(to_tip), b = length(to_target);
-    if (!(a > nothing && b > nothing)) return no_turn;
-    return least_rotation(times(to_tip, 1.0f / a), times(to_target, 1.0f / b));
+    if (!(a > nothing && b > nothing)) return no_rotation;
+    return minimal_rotation(times(to_tip, 1.0f / a), times(to_target, 1.0f / b));
 }
 
-/// Shows the turn of one joint while the others wait for theirs: room.old is what the observer has seen.
+/// Shows the turn of one joint while the others wait for theirs: scratch.old is what the observer has seen.
 template <class Watch>
-void show_turn(Problem& problem, std::size_t joint, Watch watch) noexcept {
-    std::vector<glm::vec3>& seen = problem.room.old;
+void show_rotation(Problem& problem, std::size_t joint, Watch watch) noexcept {
+    std::vector<glm::vec3>& seen = problem.scratch.old;
     const glm::vec3 at = seen[joint];
     for (std::size_t i = joint + 1; i < problem.joints.size(); ++i) {
-        const glm::vec3 to = plus(at, rotated(problem.room.turns[joint], minus(seen[i], at)));
-        watch.moved(problem.iteration, Phase::Turn, i, joint, seen[i], to);
+        const glm::vec3 to = plus(at, rotated(problem.scratch.rotations[joint], minus(seen[i], at)));
+        watch.moved(problem.iteration, Phase::Rotate, i, joint, seen[i], to);
         seen[i] = to;
     }
     watch.next_step();
@@ -35,9 +35,9 @@ void show_turn(Problem& problem, std::size_t joint, Watch watch) noexcept {
 
 /// The root's turn is the last: it brings every joint to where it really ends.
 template <class Watch>
-void show_last_turn(Problem& problem, Watch watch) noexcept {
+void show_last_rotation(Problem& problem, Watch watch) noexcept {
     for (std::size_t i = 1; i < problem.joints.size(); ++i) {
-        watch.moved(problem.iteration, Phase::Turn, i, 0, problem.room.old[i], problem.joints[i]);
+        watch.moved(problem.iteration, Phase::Rotate, i, 0, problem.scratch.old[i], problem.joints[i]);
     }
     watch.next_step();
 }
@@ -48,19 +48,19 @@ template <class Watch>
 void ccd_iteration(Problem& problem, Watch watch) noexcept {
     const std::span<glm::vec3> joints = problem.joints;
     // Differences of coordinates carry some 1e-7 of the reach in error; a tenth of that here would be noise.
-    const float nothing = std::max(1e-6f * problem.room.reach, FLT_MIN);
-    if constexpr (Watch::watching) std::copy(joints.begin(), joints.end(), problem.room.old.begin());
+    const float nothing = std::max(1e-6f * problem.scratch.reach, FLT_MIN);
+    if constexpr (Watch::watching) std::copy(joints.begin(), joints.end(), problem.scratch.old.begin());
     glm::vec3 tip = joints.back();
     for (std::size_t i = problem.bones(); i-- > 0;) {
-        const glm::quat turn = turn_towards(joints[i], tip, problem.target, nothing);
-        problem.room.turns[i] = turn;
-        tip = plus(joints[i], rotated(turn, minus(tip, joints[i])));
+        const glm::quat rotation = rotation_towards(joints[i], tip, problem.target, nothing);
+        problem.scratch.rotations[i] = rotation;
+        tip = plus(joints[i], rotated(rotation, minus(tip, joints[i])));
         if constexpr (Watch::watching) {
-            if (i > 0) show_turn(problem, i, watch);
+            if (i > 0) show_rotation(problem, i, watch);
         }
     }
-    carry_out_turns(problem);
-    if constexpr (Watch::watching) show_last_turn(problem, watch);
+    apply_rotations(problem);
+    if constexpr (Watch::watching) show_last_rotation(problem, watch);
 }
 
 template void ccd_iteration(Problem&, Unwatched) noexcept;

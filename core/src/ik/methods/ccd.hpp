@@ -5,7 +5,7 @@
 // problem of mechanical manipulators", IEEE Transactions on Robotics and Automation 7(4), 1991.
 //
 // Cost: O(n) an iteration. While a joint turns, those nearer to the root stand still; so the pass that finds
-// the turns moves nothing but the tip, and a second one carries all of them out.
+// the turns moves nothing but the tip, and a second one applies all of them.
 //
 // It converges to any target within reach, but near full reach it crawls, and it curls the bones near the tip
 // first: a joint there turns as willingly as one at the root, and gets to go first.

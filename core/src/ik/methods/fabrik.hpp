@@ -1,5 +1,5 @@
-// FABRIK: one iteration is a pull from the tip, then one from the root. The accelerated one adds a step that
-// fits the span from root to tip (spread.hpp). Not installed.
+// FABRIK: one iteration is forward reaching (from the tip), then backward reaching (from the root). The
+// accelerated one adds a step that fits the span from root to tip (accelerate.hpp). Not installed.
 #pragma once
 
 #include "ik/solve/problem.hpp"
@@ -10,6 +10,6 @@ template <class Watch>
 void fabrik_iteration(Problem& problem, Watch watch) noexcept;
 
 template <class Watch>
-void fast_fabrik_iteration(Problem& problem, Watch watch) noexcept;
+void accelerated_fabrik_iteration(Problem& problem, Watch watch) noexcept;
 
 }  // namespace tendril::ik::detail

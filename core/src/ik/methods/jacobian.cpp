@@ -4,16 +4,16 @@
 #include <cfloat>
 
 #include "ik/math.hpp"
-#include "ik/methods/turns.hpp"
+#include "ik/methods/rotations.hpp"
 #include "math/symmetric3.hpp"
 
 namespace tendril::ik::detail {
 namespace {
 
-constexpr double longest_error = 0.5;    ///< of the reach
-constexpr double largest_turn = 1.0;     ///< radians
-constexpr double small_singular = 0.4;   ///< of the reach: from here down the SVD is damped
-constexpr double least_damping = 1e-12;  ///< of the trace of J J', so that it can be inverted
+constexpr double max_error = 0.5;       ///< of the reach
+constexpr double max_rotation = 1.0;    ///< radians
+constexpr double small_singular = 0.4;  ///< of the reach: from here down the SVD is damped
+constexpr double min_damping = 1e-12;   ///< of the trace of J J', so that it can be inverted
 
 /// All in units of the reach, so that no size of chain overflows.
 struct Linear {
@@ -37,9 +37,9 @@ Linear linear(const Problem& problem, double unit) noexcept {
     }
     glm::dvec3 error = times(minus(wide(problem.target), tip), unit);
     const double size = length(error);
-    if (size > longest_error) error = times(error, longest_error / size);
+    if (size > max_error) error = times(error, max_error / size);
     const double l = static_cast<double>(problem.options.damping);
-    return {m, error, std::max(l * l * std::min(size, 1.0), least_damping * trace(m))};
+    return {m, error, std::max(l * l * std::min(size, 1.0), min_damping * trace(m))};
 }
 
 glm::dvec3 transpose(const Linear& at) noexcept {
@@ -67,48 +67,49 @@ glm::dvec3 filtered(const Linear& at) noexcept {
     return result;
 }
 
-/// The rotation by |turn| radians about `turn`, at most largest_turn. Series instead of sine and cosine:
+/// The rotation by |vector| radians about `vector`, at most max_rotation. Series instead of sine and cosine:
 /// exact to a float this near to zero, and the same with every C library.
-glm::quat exponential(const glm::dvec3& turn) noexcept {
-    const double h = 0.25 * dot(turn, turn);  // square of half the angle
+glm::quat exponential(const glm::dvec3& vector) noexcept {
+    const double h = 0.25 * dot(vector, vector);  // square of half the angle
     const double sine = 0.5 * (1.0 - h / 6.0 * (1.0 - h / 20.0 * (1.0 - h / 42.0 * (1.0 - h / 72.0))));
     const double cosine = 1.0 - h / 2.0 * (1.0 - h / 12.0 * (1.0 - h / 30.0 * (1.0 - h / 56.0)));
-    const glm::vec3 axis = narrow(times(turn, sine));
+    const glm::vec3 axis = narrow(times(vector, sine));
     return unit_quaternion(static_cast<float>(cosine), axis.x, axis.y, axis.z);
 }
 
 /// Joint i turns by r x force.
-void find_turns(Problem& problem, const glm::dvec3& force, double unit) noexcept {
+void find_rotations(Problem& problem, const glm::dvec3& force, double unit) noexcept {
     const glm::dvec3 tip = wide(problem.joints.back());
-    const auto turn = [&](std::size_t i) {
+    const auto rotation_at = [&](std::size_t i) {
         return cross(times(minus(tip, wide(problem.joints[i])), unit), force);
     };
     double largest = 0.0;
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        const glm::dvec3 t = turn(i);
+        const glm::dvec3 t = rotation_at(i);
         largest = std::max(largest, dot(t, t));
     }
     largest = std::sqrt(largest);
-    const double scale = largest > largest_turn ? largest_turn / largest : 1.0;
+    const double scale = largest > max_rotation ? max_rotation / largest : 1.0;
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        problem.room.turns[i] = exponential(times(turn(i), scale));
+        problem.scratch.rotations[i] = exponential(times(rotation_at(i), scale));
     }
 }
 
 template <class Watch, class Method>
 void iteration(Problem& problem, Method method, Watch watch) noexcept {
-    if (!(problem.room.reach > FLT_MIN)) return;
-    const double unit = 1.0 / static_cast<double>(problem.room.reach);
+    if (!(problem.scratch.reach > FLT_MIN)) return;
+    const double unit = 1.0 / static_cast<double>(problem.scratch.reach);
     const glm::dvec3 force = method(linear(problem, unit));
     if (!(dot(force, force) > 0.0)) return;
-    find_turns(problem, force, unit);
+    find_rotations(problem, force, unit);
     if constexpr (Watch::watching) {
-        std::copy(problem.joints.begin(), problem.joints.end(), problem.room.old.begin());
+        std::copy(problem.joints.begin(), problem.joints.end(), problem.scratch.old.begin());
     }
-    carry_out_turns(problem);
+    apply_rotations(problem);
     if constexpr (Watch::watching) {
         for (std::size_t i = 1; i < problem.joints.size(); ++i) {
-            watch.moved(problem.iteration, Phase::Gradient, i, i - 1, problem.room.old[i], problem.joints[i]);
+            watch.moved(problem.iteration, Phase::Gradient, i, i - 1, problem.scratch.old[i],
+                        problem.joints[i]);
         }
         watch.next_step();
     }

@@ -13,7 +13,7 @@
 // e is what the tip lacks to the target, s^2 and the columns of U eigenvalues and eigenvectors of J J'. All
 // three only need J J', which is 3x3 however many joints there are: J is never built, and an iteration is
 // O(n). Whatever they find at the tip, joint i turns by r x f, with r from the joint to the tip and f a
-// vector that is the same for all joints. Turns are carried out as exponentials, from root to tip.
+// vector that is the same for all joints. Turns are applied as exponentials, from root to tip.
 //
 // The transpose has the step that would be best if the tip moved as J says (S. R. Buss, "Introduction to
 // inverse kinematics with Jacobian transpose, pseudoinverse and damped least squares methods", 2004):

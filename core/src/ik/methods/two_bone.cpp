@@ -5,9 +5,9 @@
 #include <limits>
 #include <optional>
 
-#include "math/checks.hpp"
 #include "ik/math.hpp"
 #include "ik/pole/pole.hpp"
+#include "math/checks.hpp"
 #include "tendril/ik/two_bone.hpp"
 
 namespace tendril::ik {
@@ -39,11 +39,11 @@ Triangle triangle(double upper, double lower, double distance, const TwoBoneOpti
         if (folded <= distance && folded * t.scale > distance) t.scale = distance / folded;
     }
     const double a = upper * t.scale, b = lower * t.scale;
-    const double most = a + b, least = std::abs(a - b);
-    t.span = std::clamp(distance, least, most);
+    const double maximum = a + b, minimum = std::abs(a - b);
+    t.span = std::clamp(distance, minimum, maximum);
     t.reaches = t.span == distance;
-    if (distance > most + equal * reach) t.status = Status::Stretched;
-    if (distance < least - equal * reach) t.status = Status::TooClose;
+    if (distance > maximum + equal * reach) t.status = Status::Stretched;
+    if (distance < minimum - equal * reach) t.status = Status::TooClose;
     // Both as products of differences, so that nothing cancels out near full reach or when folded.
     t.along = t.span > 0.0 ? 0.5 * (t.span + (a - b) * (a + b) / t.span) : 0.0;
     const double squared = (a - t.along) * (a + t.along);
@@ -66,31 +66,31 @@ glm::dvec3 line_of(const Given& given) noexcept {
     return {1.0, 0.0, 0.0};
 }
 
-/// `v` at right angles to `from`, turned by the least rotation that takes `from` to `to`.
-glm::dvec3 carried(const glm::dvec3& v, const glm::dvec3& from, const glm::dvec3& to) noexcept {
+/// `v` at right angles to `from`, turned by the minimal rotation that takes `from` to `to`.
+glm::dvec3 transported(const glm::dvec3& v, const glm::dvec3& from, const glm::dvec3& to) noexcept {
     const double w = 1.0 + dot(from, to);
     if (w < 1e-12) return v;  // half a turn, about v itself
     return minus(v, times(plus(from, to), dot(v, to) / w));
 }
 
-/// The side to which the limb bends now, carried to its new line; none for a straight one.
+/// The side to which the limb bends now, transported to its new line; none for a straight one.
 std::optional<glm::dvec3> present_side(const Given& given, const glm::dvec3& line) noexcept {
-    const double least = no_side * given.reach;
-    const auto from = direction_of(given.tip, least);
-    if (!from) return direction_of(across(given.mid, line), least);
-    const auto side = direction_of(across(given.mid, *from), least);
+    const double minimum = no_side * given.reach;
+    const auto from = direction_of(given.tip, minimum);
+    if (!from) return direction_of(across(given.mid, line), minimum);
+    const auto side = direction_of(across(given.mid, *from), minimum);
     if (!side) return std::nullopt;
-    return direction_of(across(carried(*side, *from, line), line), 0.0);
+    return direction_of(across(transported(*side, *from, line), line), 0.0);
 }
 
 glm::dvec3 turned(const glm::dvec3& side, const glm::dvec3& line, double angle) noexcept {
     return plus(times(side, std::cos(angle)), times(cross(line, side), std::sin(angle)));
 }
 
-/// The side to which the limb shall bend. `most`: by how many radians it may differ from the present one when
-/// there is a pole.
+/// The side to which the limb shall bend. `maximum`: by how many radians it may differ from the present one
+/// when there is a pole.
 glm::dvec3 side_of(const Given& given, const glm::dvec3& line, const TwoBoneOptions& options,
-                   const glm::dvec3& root, double most) noexcept {
+                   const glm::dvec3& root, double maximum) noexcept {
     const auto present = present_side(given, line);
     const auto twist = static_cast<double>(options.twist);
     std::optional<glm::dvec3> pole;
@@ -104,7 +104,7 @@ glm::dvec3 side_of(const Given& given, const glm::dvec3& line, const TwoBoneOpti
     const glm::dvec3 wanted = twist != 0.0 ? turned(start, line, twist) : start;
     if (!pole || !present) return wanted;
     const double angle = std::atan2(dot(cross(*present, wanted), line), dot(*present, wanted));
-    return std::abs(angle) <= most ? wanted : turned(*present, line, std::copysign(most, angle));
+    return std::abs(angle) <= maximum ? wanted : turned(*present, line, std::copysign(maximum, angle));
 }
 
 /// `allowance`: how far the pole may move the middle joint, metres.
@@ -116,8 +116,8 @@ TwoBoneResult solve(const TwoBone& limb, const glm::vec3& target, const TwoBoneO
                       upper + lower};
     const Triangle t = triangle(upper, lower, length(given.target), options);
     const glm::dvec3 line = line_of(given);
-    const double most = t.height > 0.0 ? allowance / t.height : allowance;
-    const glm::dvec3 side = side_of(given, line, options, root, most);
+    const double maximum = t.height > 0.0 ? allowance / t.height : allowance;
+    const glm::dvec3 side = side_of(given, line, options, root, maximum);
     const glm::dvec3 mid = plus(times(line, t.along), times(side, t.height));
     TwoBoneResult result;
     result.status = t.status;
@@ -128,8 +128,8 @@ TwoBoneResult solve(const TwoBone& limb, const glm::vec3& target, const TwoBoneO
     return result;
 }
 
-bool is_within(float value, float least, float most) noexcept {
-    return value >= least && value <= most;  // false for NaN
+bool is_within(float value, float minimum, float maximum) noexcept {
+    return value >= minimum && value <= maximum;  // false for NaN
 }
 
 bool are_valid(const TwoBone& limb, const glm::vec3& target, const TwoBoneOptions& options) noexcept {

@@ -15,8 +15,8 @@ constexpr double follow = 20.0;     ///< times what has changed
 constexpr double jump = 0.02;       ///< of the reach: what changed more has jumped
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-constexpr int most_sweeps = 64;    ///< of EachJoint
-constexpr double settled = 1e-3;   ///< radians
+constexpr int max_sweeps = 64;     ///< of EachJoint
+constexpr double at_rest = 1e-3;   ///< radians
 constexpr double straight = 0.01;  ///< of the reach: no joint further off the line
 constexpr double no_side = 1e-6;   ///< of the reach: offsets below it are rounding
 
@@ -28,7 +28,7 @@ struct Bend {
 
 Bend bend_of(const Problem& problem, const glm::dvec3& line) noexcept {
     const glm::dvec3 root = wide(problem.root());
-    const double whole = 2.0 * static_cast<double>(problem.room.reach);
+    const double whole = 2.0 * static_cast<double>(problem.scratch.reach);
     Bend bend;
     for (std::size_t i = 1; i < problem.bones(); ++i) {
         const glm::dvec3 offset = across(minus(wide(problem.joints[i]), root), line);
@@ -46,11 +46,11 @@ double angle_about(const glm::dvec3& line, const glm::dvec3& from, const glm::dv
 }
 
 /// `v` turned about a unit axis.
-struct Turn {
+struct AxisAngle {
     glm::dvec3 axis;
     double sine, cosine;
 
-    Turn(const glm::dvec3& about, double angle) noexcept
+    AxisAngle(const glm::dvec3& about, double angle) noexcept
         : axis(about), sine(std::sin(angle)), cosine(std::cos(angle)) {}
     glm::dvec3 operator()(const glm::dvec3& v) const noexcept {
         const glm::dvec3 along = times(axis, dot(axis, v));
@@ -78,19 +78,19 @@ double half_angle_of_arc(double span) noexcept {
 std::optional<glm::dvec3> pole_side(const Problem& problem, const glm::dvec3& from,
                                     const glm::dvec3& line) noexcept {
     const glm::dvec3 arm = minus(wide(*problem.options.pole), from);
-    const double least = 10.0 * no_side * static_cast<double>(problem.room.reach);
-    return direction_of(across(arm, line), std::max(least, no_side * length(arm)));
+    const double minimum = 10.0 * no_side * static_cast<double>(problem.scratch.reach);
+    return direction_of(across(arm, line), std::max(minimum, no_side * length(arm)));
 }
 
 /// The angle about `line` by which the whole chain faces its pole, as far as the allowance goes.
 double whole_angle(Problem& problem, const glm::dvec3& line) noexcept {
     const Bend bend = bend_of(problem, line);
-    const double least = no_side * static_cast<double>(problem.room.reach);
+    const double minimum = no_side * static_cast<double>(problem.scratch.reach);
     const std::optional<glm::dvec3> to = pole_side(problem, wide(problem.root()), line);
-    if (!to || !direction_of(bend.side, least)) return 0.0;
+    if (!to || !direction_of(bend.side, minimum)) return 0.0;
     const double angle =
-        limited(angle_about(line, bend.side, *to), bend.furthest, problem.room.pole.allowance);
-    problem.room.pole.allowance -= std::abs(angle) * bend.furthest;
+        limited(angle_about(line, bend.side, *to), bend.furthest, problem.scratch.pole.allowance);
+    problem.scratch.pole.allowance -= std::abs(angle) * bend.furthest;
     return angle;
 }
 
@@ -102,56 +102,56 @@ void place(Problem& problem, std::size_t joint, std::size_t about, const glm::dv
     watch.moved(problem.iteration, Phase::Pole, joint, about, from, problem.joints[joint]);
 }
 
-/// The chain as one stiff piece about its root. Bones are laid to their lengths on the way: solves that move
-/// a chain in no other way would let them drift.
+/// The chain as one stiff piece about its root. Bones are brought to their lengths on the way: solves that
+/// move a chain in no other way would let them drift.
 template <class Watch>
-void carry(Problem& problem, const Turn& turn, Watch watch) noexcept {
+void rotate_chain(Problem& problem, const AxisAngle& rotation, Watch watch) noexcept {
     glm::vec3 before = problem.root();
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        const glm::dvec3 bone = turn(minus(wide(problem.joints[i + 1]), wide(before)));
+        const glm::dvec3 bone = rotation(minus(wide(problem.joints[i + 1]), wide(before)));
         const double size = length(bone), wanted = static_cast<double>(problem.lengths()[i]);
         before = problem.joints[i + 1];
-        const glm::dvec3 laid = size > 0.0 ? times(bone, wanted / size) : glm::dvec3(wanted, 0.0, 0.0);
-        place(problem, i + 1, 0, plus(wide(problem.joints[i]), laid), watch);
+        const glm::dvec3 with_length = size > 0.0 ? times(bone, wanted / size) : glm::dvec3(wanted, 0.0, 0.0);
+        place(problem, i + 1, 0, plus(wide(problem.joints[i]), with_length), watch);
     }
     watch.next_step();
 }
 
 /// All but root and tip about a line through the root.
 template <class Watch>
-void roll(Problem& problem, const Turn& turn, Watch watch) noexcept {
+void swivel(Problem& problem, const AxisAngle& rotation, Watch watch) noexcept {
     const glm::dvec3 root = wide(problem.root());
     for (std::size_t i = 1; i < problem.bones(); ++i) {
-        place(problem, i, 0, plus(root, turn(minus(wide(problem.joints[i]), root))), watch);
+        place(problem, i, 0, plus(root, rotation(minus(wide(problem.joints[i]), root))), watch);
     }
     watch.next_step();
 }
 
 template <class Watch>
 void face_with_whole_chain(Problem& problem, Watch watch) noexcept {
-    const double least = no_side * static_cast<double>(problem.room.reach);
+    const double minimum = no_side * static_cast<double>(problem.scratch.reach);
     const std::optional<glm::dvec3> line =
-        direction_of(minus(wide(problem.joints.back()), wide(problem.root())), least);
+        direction_of(minus(wide(problem.joints.back()), wide(problem.root())), minimum);
     if (!line) return;
     const double angle = whole_angle(problem, *line);
-    if (angle != 0.0) roll(problem, Turn(*line, angle), watch);
+    if (angle != 0.0) swivel(problem, AxisAngle(*line, angle), watch);
 }
 
 /// One joint about the line through its neighbours; how far it was turned, radians.
 template <class Watch>
 double face_with_joint(Problem& problem, std::size_t joint, Watch watch) noexcept {
-    const double least = no_side * static_cast<double>(problem.room.reach);
-    std::vector<glm::dvec3>& joints = problem.room.pole.wide_joints;
+    const double minimum = no_side * static_cast<double>(problem.scratch.reach);
+    std::vector<glm::dvec3>& joints = problem.scratch.pole.wide_joints;
     const glm::dvec3 before = joints[joint - 1];
-    const std::optional<glm::dvec3> line = direction_of(minus(joints[joint + 1], before), least);
+    const std::optional<glm::dvec3> line = direction_of(minus(joints[joint + 1], before), minimum);
     if (!line) return 0.0;
     const glm::dvec3 arm = minus(joints[joint], before), offset = across(arm, *line);
     const std::optional<glm::dvec3> to = pole_side(problem, before, *line);
-    if (!to || !direction_of(offset, least)) return 0.0;
+    if (!to || !direction_of(offset, minimum)) return 0.0;
     const double angle =
-        limited(angle_about(*line, offset, *to), length(offset), problem.room.pole.allowance);
+        limited(angle_about(*line, offset, *to), length(offset), problem.scratch.pole.allowance);
     if (angle == 0.0) return 0.0;
-    joints[joint] = plus(before, Turn(*line, angle)(arm));
+    joints[joint] = plus(before, AxisAngle(*line, angle)(arm));
     place(problem, joint, joint - 1, joints[joint], watch);
     watch.next_step();
     return std::abs(angle);
@@ -160,23 +160,24 @@ double face_with_joint(Problem& problem, std::size_t joint, Watch watch) noexcep
 template <class Watch>
 void face_with_each_joint(Problem& problem, Watch watch) noexcept {
     // In double throughout: a float would be rounded in every sweep, and bones would drift.
-    std::transform(problem.joints.begin(), problem.joints.end(), problem.room.pole.wide_joints.begin(), wide);
-    const int sweeps = problem.room.pole.allowance < unlimited ? 1 : most_sweeps;
+    std::transform(problem.joints.begin(), problem.joints.end(), problem.scratch.pole.wide_joints.begin(),
+                   wide);
+    const int sweeps = problem.scratch.pole.allowance < unlimited ? 1 : max_sweeps;
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         double largest = 0.0;
         for (std::size_t i = 1; i < problem.bones(); ++i) {
             largest = std::max(largest, face_with_joint(problem, i, watch));
         }
-        if (largest < settled) return;
+        if (largest < at_rest) return;
     }
 }
 
 }  // namespace
 
 template <class Watch>
-bool bow_to_pole(Problem& problem, Watch watch) noexcept {
+bool bend_to_pole(Problem& problem, Watch watch) noexcept {
     if (!problem.options.pole) return false;
-    const double reach = static_cast<double>(problem.room.reach);
+    const double reach = static_cast<double>(problem.scratch.reach);
     const glm::dvec3 root = wide(problem.root()), arm = minus(wide(problem.target), root);
     const std::optional<glm::dvec3> line = direction_of(arm, no_side * reach);
     if (!line || bend_of(problem, *line).furthest > straight * reach) return false;
@@ -208,14 +209,14 @@ double pole_allowance(const Problem& problem) noexcept {
     const double changed = std::sqrt(joints) +
                            length(minus(wide(minus(problem.target, root)), wide(last.target))) +
                            length(minus(wide(minus(*problem.options.pole, root)), wide(last.pole)));
-    const double reach = static_cast<double>(problem.room.reach);
+    const double reach = static_cast<double>(problem.scratch.reach);
     const double twisted = std::abs(static_cast<double>(problem.options.twist - last.twist)) * reach;
     const double all = changed + twisted;
     return all <= jump * reach ? free_part * reach + follow * all : unlimited;
 }
 
 void remember_pose(Problem& problem) noexcept {
-    problem.room.pole.allowance = unlimited;
+    problem.scratch.pole.allowance = unlimited;
     PoleMemory& memory = problem.state.pole;
     memory.valid = problem.options.pole.has_value();
     if (!memory.valid) return;
@@ -228,26 +229,26 @@ void remember_pose(Problem& problem) noexcept {
 }
 
 template <class Watch>
-void carry_to_pole(Problem& problem, Watch watch) noexcept {
+void transport_to_pole(Problem& problem, Watch watch) noexcept {
     if (!problem.options.pole) {
         problem.state.pole.valid = false;
         return;
     }
-    problem.room.pole.allowance = pole_allowance(problem);
-    const double least = 1e-4 * static_cast<double>(problem.room.reach);
+    problem.scratch.pole.allowance = pole_allowance(problem);
+    const double minimum = 1e-4 * static_cast<double>(problem.scratch.reach);
     const glm::dvec3 root = wide(problem.root());
-    const std::optional<glm::dvec3> from = direction_of(minus(wide(problem.joints.back()), root), least);
-    const std::optional<glm::dvec3> to = direction_of(minus(wide(problem.target), root), least);
+    const std::optional<glm::dvec3> from = direction_of(minus(wide(problem.joints.back()), root), minimum);
+    const std::optional<glm::dvec3> to = direction_of(minus(wide(problem.target), root), minimum);
     if (!from || !to) return;
     const glm::dvec3 normal = cross(*from, *to);
     const double sine = length(normal);
     // Opposite directions: any axis at right angles will do, and rounding has chosen one.
     const glm::dvec3 axis = sine > 1e-9 ? times(normal, 1.0 / sine) : perpendicular(*from);
     const double angle = std::atan2(sine, dot(*from, *to));
-    if (angle > 1e-9) carry(problem, Turn(axis, angle), watch);
+    if (angle > 1e-9) rotate_chain(problem, AxisAngle(axis, angle), watch);
     if (problem.options.pole_turn == PoleTurn::EachJoint) return;
     const double about = whole_angle(problem, *to);
-    if (about != 0.0) carry(problem, Turn(*to, about), watch);
+    if (about != 0.0) rotate_chain(problem, AxisAngle(*to, about), watch);
 }
 
 template <class Watch>
@@ -260,10 +261,10 @@ void face_pole(Problem& problem, Watch watch) noexcept {
     remember_pose(problem);
 }
 
-template void carry_to_pole(Problem&, Unwatched) noexcept;
-template void carry_to_pole(Problem&, Watched) noexcept;
-template bool bow_to_pole(Problem&, Unwatched) noexcept;
-template bool bow_to_pole(Problem&, Watched) noexcept;
+template void transport_to_pole(Problem&, Unwatched) noexcept;
+template void transport_to_pole(Problem&, Watched) noexcept;
+template bool bend_to_pole(Problem&, Unwatched) noexcept;
+template bool bend_to_pole(Problem&, Watched) noexcept;
 template void face_pole(Problem&, Unwatched) noexcept;
 template void face_pole(Problem&, Watched) noexcept;
 

@@ -14,9 +14,9 @@
 //
 //  1. Iterations know of no pole. They follow the target out of the plane in which the chain bends, solve for
 //     solve, until the chain is a corkscrew; its offsets cancel out and their sum turns at once. So the chain
-//     is first carried: turned as one stiff piece about the root, by the least rotation that brings the tip
-//     onto the line to the target, and about that line to its pole. The iterations then only change the
-//     distance, and what lies in a plane stays in it.
+//     is first transported: rotated as one stiff piece about the root, by the minimal rotation that brings
+//     the tip onto the line to the target, and about that line to its pole. The iterations then only change
+//     the distance, and what lies in a plane stays in it.
 //  2. From a shape whose offsets cancel out, as an S has it, no rule can find a side that changes smoothly:
 //     with three bones or more such a rule would be a section of Hopf's bundle, and that has none.
 //  3. Near the pole's line a small step of the target is a large turn about it. With the pole 0.05 R beside
@@ -29,10 +29,10 @@
 //
 // What remains: a flat chain whose bones come to lie folded upon one line while the target moves on has no
 // smooth way to go (three bones a, b, c at a distance of a + b - c, say), with or without a pole. Chains that
-// start straight are bowed and do not get there; EachJoint, which flattens a chain, can lead one of three
-// bones into it.
+// start straight are bent to an arc and do not get there; EachJoint, which flattens a chain, can lead one of
+// three bones into it.
 //
-// A pole on the line, or a chain that is straight, shows no side: the chain is left as it is carried.
+// A pole on the line, or a chain that is straight, shows no side: the chain is left as it is transported.
 //
 // Cost: O(n) before the iterations and O(n) after.
 #pragma once
@@ -42,15 +42,15 @@
 namespace tendril::ik::detail {
 
 /// Before the first iteration, once the bones have their lengths: limits the turns of this solve, then
-/// carries the chain as said above. Without a pole it only forgets what was remembered.
+/// transports the chain as said above. Without a pole it only forgets what was remembered.
 template <class Watch>
-void carry_to_pole(Problem& problem, Watch watch) noexcept;
+void transport_to_pole(Problem& problem, Watch watch) noexcept;
 
-/// A chain that is all but straight, laid along an arc towards its pole that spans about as far as the target
+/// A chain that is all but straight, placed on an arc towards its pole that spans about as far as the target
 /// is; true if it was. From a mere hint of a bend the iterations would fold the bones near the tip back upon
 /// the others, and a folded chain is on a line again before long.
 template <class Watch>
-bool bow_to_pole(Problem& problem, Watch watch) noexcept;
+bool bend_to_pole(Problem& problem, Watch watch) noexcept;
 
 /// After the last iteration: turns the middle joints to the pole and remembers the pose. The tip stays.
 template <class Watch>

@@ -16,33 +16,34 @@ JointAngles between(const JointAngles& a, const JointAngles& b, float part) noex
 }
 
 /// A limit's angles are convex, so what lies between two poses within it is within it.
-glm::quat blended_turn(const LimitedJoint& joint, const glm::quat& from, const glm::quat& to,
-                       float part) noexcept {
+glm::quat blended_rotation(const LimitedJoint& joint, const glm::quat& from, const glm::quat& to,
+                           float part) noexcept {
     if (joint.free()) return slerp(from, to, part);
-    return turn_of(joint, within(joint, between(angles_of(joint, from), angles_of(joint, to), part)));
+    return rotation_of(joint, within(joint, between(angles_of(joint, from), angles_of(joint, to), part)));
 }
 
 /// Within limits, into workspace.trial.
-void blend_turns(const Problem& problem) noexcept {
-    LimitedRoom& room = problem.room.limited;
+void blend_within_limits(const Problem& problem) noexcept {
+    LimitedScratch& scratch = problem.scratch.limited;
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        room.trial.turns[i] = blended_turn(room.limits[i], problem.room.given.turns[i],
-                                           local_turn(problem.state.rotations, i), problem.options.weight);
+        scratch.trial.local[i] =
+            blended_rotation(scratch.limits[i], problem.scratch.given.local[i],
+                             local_rotation(problem.state.rotations, i), problem.options.weight);
     }
-    extend(problem, room.trial);
+    forward_kinematics(problem, scratch.trial);
 }
 
 /// Without limits, into workspace.trial.
 void blend_rotations(const Problem& problem) noexcept {
-    LimitedPose& pose = problem.room.limited.trial;
+    LimitedPose& pose = problem.scratch.limited.trial;
     const float weight = problem.options.weight, stretch = 1.0f + weight * (problem.stretch - 1.0f);
     pose.joints[0] = problem.root();
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        pose.rotations[i] = slerp(problem.room.given.rotations[i], problem.state.rotations[i], weight);
-        const bool last = i + 1 == problem.bones();  // laid by itself where its orientation is asked for
+        pose.rotations[i] = slerp(problem.scratch.given.rotations[i], problem.state.rotations[i], weight);
+        const bool last = i + 1 == problem.bones();  // placed by itself where its orientation is asked for
         const float by = last && problem.options.tip_orientation ? 1.0f : stretch;
         pose.joints[i + 1] =
-            moved(pose.joints[i], rotated(pose.rotations[i], problem.room.rest_directions[i]),
+            moved(pose.joints[i], rotated(pose.rotations[i], problem.scratch.rest_directions[i]),
                   problem.lengths()[i] * by);
     }
 }
@@ -60,18 +61,18 @@ void commit(Problem& problem, const LimitedPose& pose, Watch watch) noexcept {
 }  // namespace
 
 template <class Watch>
-void keep_given(Problem& problem, Watch watch) noexcept {
-    LimitedPose& given = problem.room.given;
+void save_given(Problem& problem, Watch watch) noexcept {
+    LimitedPose& given = problem.scratch.given;
     if (problem.options.limits.empty()) {
-        lay_to_lengths(problem, watch);
-        carry_rotations(problem);
+        enforce_lengths(problem, watch);
+        transport_rotations(problem);
         std::copy(problem.joints.begin(), problem.joints.end(), given.joints.begin());
         std::copy_n(problem.state.rotations.begin(), problem.bones(), given.rotations.begin());
     } else {
-        take_limits(problem);
-        take_pose(problem, watch);
+        load_limits(problem);
+        load_pose(problem, watch);
         commit(problem);
-        given = problem.room.limited.pose;
+        given = problem.scratch.limited.pose;
     }
 }
 
@@ -79,18 +80,18 @@ template <class Watch>
 void blend(Problem& problem, Watch watch) noexcept {
     const bool within_limits = !problem.options.limits.empty();
     if (problem.options.weight == 0.0f) {
-        commit(problem, problem.room.given, watch);
+        commit(problem, problem.scratch.given, watch);
     } else {
-        within_limits ? blend_turns(problem) : blend_rotations(problem);
-        commit(problem, problem.room.limited.trial, watch);
+        within_limits ? blend_within_limits(problem) : blend_rotations(problem);
+        commit(problem, problem.scratch.limited.trial, watch);
     }
     if (!problem.state.pole.valid) return;
     for (std::size_t i = 0; i < problem.joints.size(); ++i)
         problem.state.pole.joints[i] = minus(problem.joints[i], problem.root());
 }
 
-template void keep_given(Problem&, Unwatched) noexcept;
-template void keep_given(Problem&, Watched) noexcept;
+template void save_given(Problem&, Unwatched) noexcept;
+template void save_given(Problem&, Watched) noexcept;
 template void blend(Problem&, Unwatched) noexcept;
 template void blend(Problem&, Watched) noexcept;
 

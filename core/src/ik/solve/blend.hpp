@@ -5,10 +5,10 @@
 
 namespace tendril::ik::detail {
 
-/// Before the solve: lays the given joints to their lengths, or brings them within their limits, and keeps
+/// Before the solve: brings the given joints to their lengths, or brings them within their limits, and keeps
 /// them.
 template <class Watch>
-void keep_given(Problem& problem, Watch watch) noexcept;
+void save_given(Problem& problem, Watch watch) noexcept;
 
 /// After the solve: the pose becomes the one that options.weight asks for, and is what the pole's memory
 /// holds.

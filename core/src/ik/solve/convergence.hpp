@@ -1,4 +1,5 @@
-// How a solve goes on: whether the tip still comes nearer, and when the chain is to be shaken. Not installed.
+// How a solve goes on: whether the tip still comes nearer, and when the chain is to be perturbed. Not
+// installed.
 #pragma once
 
 #include <algorithm>
@@ -8,18 +9,18 @@
 
 namespace tendril::ik::detail {
 
-class Progress {
+class Convergence {
   public:
-    explicit Progress(float residual) noexcept : best_(residual), nearest_(residual), last_(residual) {}
+    explicit Convergence(float residual) noexcept : best_(residual), nearest_(residual), last_(residual) {}
 
-    /// After the chain was bent by hand: what came before no longer counts.
-    void start_again(float residual) noexcept {
+    /// After a perturbation: what came before no longer counts.
+    void restart(float residual) noexcept {
         nearest_ = last_ = residual;
         idle_ = slow_ = 0;
     }
 
     /// After an iteration. True where no pose of the whole solve has been nearer.
-    bool note(float residual, float reach) noexcept {
+    bool record(float residual, float reach) noexcept {
         // A method that overshoots and comes back has not stalled.
         const bool moves = std::abs(residual - last_) > 1e-5f * reach;
         idle_ = moves || residual < nearest_ ? 0 : idle_ + 1;
@@ -37,23 +38,23 @@ class Progress {
     /// length), 72 instead of 1 stall with DLS, 168 instead of 15 with CCD, 278 instead of 25 with the
     /// transpose, and FABRIK leaves 606 instead of 576 short. The fast FABRIK takes all of the residual away
     /// in an iteration or two, unless the chain lies folded nearly on a line: then it is not waited for.
-    bool wants_a_shake(Method method) const noexcept {
-        if (method == Method::FabrikPlain || shakes_ >= 4) return false;
+    bool wants_perturbation(Method method) const noexcept {
+        if (method == Method::FabrikPlain || perturbations_ >= 4) return false;
         return stalled() || (method == Method::Fabrik && slow_ >= 2);
     }
     /// Which one it is, from 0.
-    int count_shake() noexcept { return shakes_++; }
+    int count_perturbation() noexcept { return perturbations_++; }
 
     /// The smallest residual of the whole solve.
     float best() const noexcept { return best_; }
 
   private:
     float best_;
-    float nearest_;  ///< since the chain was last bent by hand
+    float nearest_;  ///< since the last perturbation
     float last_;
     int idle_ = 0;  ///< iterations in which the residual neither fell below `nearest_` nor changed
-    int slow_ = 0;  ///< iterations that left most of the residual
-    int shakes_ = 0;
+    int slow_ = 0;  ///< iterations that left over 80 % of the residual
+    int perturbations_ = 0;
 };
 
 }  // namespace tendril::ik::detail

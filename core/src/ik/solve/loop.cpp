@@ -26,7 +26,7 @@ template <class Watch>
 void iterate(Method method, Problem& problem, Watch watch) noexcept {
     switch (method) {
         case Method::Fabrik:
-            return fast_fabrik_iteration(problem, watch);
+            return accelerated_fabrik_iteration(problem, watch);
         case Method::FabrikPlain:
             return fabrik_iteration(problem, watch);
         case Method::Ccd:
@@ -43,14 +43,15 @@ void iterate(Method method, Problem& problem, Watch watch) noexcept {
 }
 
 void save(Problem& problem) noexcept {
-    std::copy(problem.joints.begin(), problem.joints.end(), problem.room.best.begin());
+    std::copy(problem.joints.begin(), problem.joints.end(), problem.scratch.best.begin());
 }
 
 template <class Watch>
 void restore(Problem& problem, Watch watch) noexcept {
     for (std::size_t i = 1; i < problem.joints.size(); ++i) {
-        watch.moved(problem.iteration, Phase::Keep, i, no_joint, problem.joints[i], problem.room.best[i]);
-        problem.joints[i] = problem.room.best[i];
+        watch.moved(problem.iteration, Phase::RestoreBest, i, no_joint, problem.joints[i],
+                    problem.scratch.best[i]);
+        problem.joints[i] = problem.scratch.best[i];
     }
     watch.next_step();
 }
@@ -61,67 +62,67 @@ float residual_of(const Problem& problem) noexcept {
 
 /// `goal` is the target that was asked for; where the reach is soft the chain follows another.
 template <class Watch>
-void tell(const Problem& problem, const glm::vec3& goal, float residual, Watch watch) noexcept {
-    const std::span<float> told = problem.options.residuals;
+void report_iteration(const Problem& problem, const glm::vec3& goal, float residual, Watch watch) noexcept {
+    const std::span<float> residuals = problem.options.residuals;
     const auto iteration = static_cast<std::size_t>(problem.iteration);
-    if (!Watch::watching && iteration > told.size()) return;
+    if (!Watch::watching && iteration > residuals.size()) return;
     if (goal != problem.target) residual = distance(problem.joints.back(), goal);
-    if (iteration >= 1 && iteration <= told.size()) told[iteration - 1] = residual;
+    if (iteration >= 1 && iteration <= residuals.size()) residuals[iteration - 1] = residual;
     watch.iteration_done(problem.iteration, residual);
 }
 
 template <class Watch>
-Progress prepare(Method method, Problem& problem, Watch watch) noexcept {
-    Progress progress(residual_of(problem));
+Convergence prepare(Method method, Problem& problem, Watch watch) noexcept {
+    Convergence convergence(residual_of(problem));
     save(problem);
     snap_back(problem, watch);
     const bool there = residual_of(problem) <= problem.tolerance;
-    const bool bowed = !there && bow_to_pole(problem, watch);
-    const bool kicks = !there && !bowed && method != Method::FabrikPlain;
-    const bool kicked = kicks && is_on_one_line(problem);
-    if (kicked) kick_off_the_line(problem, watch);
-    if (bowed || kicked) ++problem.perturbations;
-    progress.start_again(residual_of(problem));
-    return progress;
+    const bool bent_to_pole = !there && bend_to_pole(problem, watch);
+    const bool perturbations = !there && !bent_to_pole && method != Method::FabrikPlain;
+    const bool perturbed = perturbations && is_collinear(problem);
+    if (perturbed) bend_collinear_chain(problem, watch);
+    if (bent_to_pole || perturbed) ++problem.perturbations;
+    convergence.restart(residual_of(problem));
+    return convergence;
 }
 
 template <class Watch>
 Report iterations(Method method, Problem& problem, const glm::vec3& goal, Watch watch) noexcept {
     const Options& options = problem.options;
-    Progress progress = prepare(method, problem, watch);
+    Convergence convergence = prepare(method, problem, watch);
     float residual = residual_of(problem);
-    tell(problem, goal, residual, watch);
+    report_iteration(problem, goal, residual, watch);
     while (problem.iteration < options.max_iterations) {
         const bool there = residual <= problem.tolerance;
-        if (!there && progress.wants_a_shake(method)) {
+        if (!there && convergence.wants_perturbation(method)) {
             ++problem.perturbations;
-            shake(problem, progress.count_shake(), watch);
-            progress.start_again(residual_of(problem));
+            perturb(problem, convergence.count_perturbation(), watch);
+            convergence.restart(residual_of(problem));
         }
-        if ((there || progress.stalled()) && !options.every_iteration) break;
+        if ((there || convergence.stalled()) && !options.every_iteration) break;
         ++problem.iteration;
         iterate(method, problem, watch);
         residual = residual_of(problem);
-        tell(problem, goal, residual, watch);
+        report_iteration(problem, goal, residual, watch);
         const bool goes_on = residual > problem.tolerance || options.every_iteration;
-        if (progress.note(residual, problem.room.reach) && goes_on) save(problem);
+        if (convergence.record(residual, problem.scratch.reach) && goes_on) save(problem);
     }
-    if (residual > problem.tolerance && progress.best() < residual) {
+    if (residual > problem.tolerance && convergence.best() < residual) {
         restore(problem, watch);
-        residual = progress.best();
+        residual = convergence.best();
     }
     const Status status = residual <= problem.tolerance ? Status::Converged
-                          : progress.stalled()          ? Status::Stalled
+                          : convergence.stalled()       ? Status::Stalled
                                                         : Status::IterationLimit;
     return problem.report(status, residual);
 }
 
 template <class Watch>
 Report closed_form(Problem& problem, const glm::vec3& goal, Watch watch) noexcept {
-    tell(problem, goal, residual_of(problem), watch);
+    report_iteration(problem, goal, residual_of(problem), watch);
     problem.iteration = 1;
     const Report report = two_bone_solve(problem, watch);
-    tell(problem, goal, report.residual, watch);
+    report_iteration(problem, goal, report.residual, watch);
     return report;
 }
 
@@ -131,9 +132,9 @@ Report solve_reached(Method method, Problem& problem, const glm::vec3& goal, Wat
     if (method == Method::TwoBone) return closed_form(problem, goal, watch);
     auto report = answer_beyond_reach(problem, watch);
     if (report) {
-        tell(problem, goal, report->residual, watch);
+        report_iteration(problem, goal, report->residual, watch);
     } else {
-        carry_to_pole(problem, watch);
+        transport_to_pole(problem, watch);
         report = iterations(method, problem, goal, watch);
     }
     face_pole(problem, watch);  // about the line from root to tip, so the residual stays
@@ -144,9 +145,9 @@ Report solve_reached(Method method, Problem& problem, const glm::vec3& goal, Wat
 glm::vec3 eased_target(Method method, const Problem& problem) noexcept {
     const bool stretches = method == Method::TwoBone && problem.options.limits.empty();
     const float scale = stretches ? problem.options.max_stretch_scale : 1.0f;
-    const float zone = problem.options.soft_zone, reach = problem.room.reach * scale;
+    const float zone = problem.options.soft_zone, reach = problem.scratch.reach * scale;
     const float far = exact_distance(problem.root(), problem.target);
-    const float nearest = 2.0f * problem.room.longest - problem.room.reach;
+    const float nearest = 2.0f * problem.scratch.longest - problem.scratch.reach;
     const float eased = eased_distance(far, reach, nearest, zone);
     if (zone == 0.0f || eased >= far) return problem.target;
     return moved(problem.root(), minus(problem.target, problem.root()), eased / far);
@@ -158,8 +159,8 @@ template <class Watch>
 Report run(Method method, Problem& problem, Watch watch) noexcept {
     const bool turned = problem.options.tip_orientation && problem.bones() > 0;
     const bool free = problem.options.limits.empty();
-    if (turned && free) return run_turned(method, problem, watch);
-    lay_to_lengths(problem, watch);
+    if (turned && free) return run_with_tip_orientation(method, problem, watch);
+    enforce_lengths(problem, watch);
     const glm::vec3 goal = problem.target;
     problem.target = eased_target(method, problem);
     Report report = solve_reached(method, problem, goal, watch);
@@ -172,14 +173,14 @@ Report run(Method method, Problem& problem, Watch watch) noexcept {
         if (!there && eased) report.status = Status::Stretched;
         problem.target = goal;
     }
-    if (free && (problem.options.rotations || problem.options.weight < 1.0f)) carry_rotations(problem);
+    if (free && (problem.options.rotations || problem.options.weight < 1.0f)) transport_rotations(problem);
     return report;
 }
 
 template <class Watch>
 Report run_weighted(Method method, Problem& problem, Watch watch) noexcept {
     if (problem.options.weight == 1.0f) return run(method, problem, watch);
-    keep_given(problem, watch);
+    save_given(problem, watch);
     const Report report = run(method, problem, watch);
     blend(problem, watch);
     return report;

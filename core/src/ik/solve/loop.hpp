@@ -6,7 +6,7 @@
 
 namespace tendril::ik::detail {
 
-/// All input has been checked. Moves the joints, carries the state along, and says how it ended. Takes
+/// All input has been checked. Moves the joints, updates the state, and says how it ended. Takes
 /// options.weight for 1.
 template <class Watch>
 Report run(Method method, Problem& problem, Watch watch) noexcept;

@@ -44,8 +44,9 @@ const char* name(Bound bound) noexcept {
 }
 
 const char* name(Phase phase) noexcept {
-    constexpr const char* names[] = {"prepare", "from_tip", "from_root", "spread", "turn", "gradient",
-                                     "pole",    "limit",    "analytic",  "keep",   "blend"};
+    constexpr const char* names[] = {
+        "prepare", "forward_reaching", "backward_reaching", "accelerate", "rotate", "gradient", "pole",
+        "limit",   "analytic",         "restore_best",      "blend"};
     return names[static_cast<std::size_t>(phase)];
 }
 

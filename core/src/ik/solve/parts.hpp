@@ -7,7 +7,7 @@
 namespace tendril::ik {
 
 struct Solver::Parts {
-    detail::Workspace room;
+    detail::Workspace scratch;
 };
 
 }  // namespace tendril::ik

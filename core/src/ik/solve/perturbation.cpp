@@ -13,9 +13,9 @@ bool is_near_line(const glm::vec3& arm, const glm::vec3& line, float near) noexc
     return dot(off, off) <= near * near;
 }
 
-/// Each bone is turned towards `by(i)`, given for a bone of length 1, and laid on from the root.
+/// Each bone is turned towards `by(i)`, given for a bone of length 1, and placed from the root on.
 template <class Watch, class By>
-void turn_bones(Problem& problem, int iteration, Watch watch, By by) noexcept {
+void bend_bones(Problem& problem, int iteration, Watch watch, By by) noexcept {
     const std::span<glm::vec3> joints = problem.joints;
     glm::vec3 old = problem.root();
     for (std::size_t i = 0; i < problem.bones(); ++i) {
@@ -25,7 +25,7 @@ void turn_bones(Problem& problem, int iteration, Watch watch, By by) noexcept {
         const float squared = dot(bone, bone);
         const float scale = squared > FLT_MIN ? size / std::sqrt(squared) : 0.0f;
         joints[i + 1] = squared > FLT_MIN ? moved(joints[i], bone, scale)
-                                          : moved(joints[i], problem.room.rest_directions[i], size);
+                                          : moved(joints[i], problem.scratch.rest_directions[i], size);
         watch.moved(iteration, Phase::Prepare, i + 1, i, old, joints[i + 1]);
     }
     watch.next_step();
@@ -40,7 +40,7 @@ glm::vec3 line_of(const Problem& problem) noexcept {
         if (dot(arm, arm) > dot(line, line)) line = arm;
     }
     const float far = length(line);
-    return far > FLT_MIN ? times(line, 1.0f / far) : problem.room.rest_directions.front();
+    return far > FLT_MIN ? times(line, 1.0f / far) : problem.scratch.rest_directions.front();
 }
 
 glm::vec3 side_of(const Problem& problem, const glm::vec3& line) noexcept {
@@ -48,7 +48,7 @@ glm::vec3 side_of(const Problem& problem, const glm::vec3& line) noexcept {
         const glm::vec3 arm = minus(*problem.options.pole, problem.root());
         const glm::vec3 off = minus(arm, times(line, dot(arm, line)));
         const float far = length(off);
-        if (far > 1e-5f * problem.room.reach) return times(off, 1.0f / far);
+        if (far > 1e-5f * problem.scratch.reach) return times(off, 1.0f / far);
     }
     return perpendicular(line);
 }
@@ -60,11 +60,11 @@ float scattered(std::size_t bone, std::uint32_t salt) noexcept {
     return static_cast<float>((bits ^ (bits >> 16)) >> 8) * 0x1p-23f - 1.0f;
 }
 
-bool is_on_one_line(const Problem& problem) noexcept {
-    const float near = 1e-5f * problem.room.reach;
+bool is_collinear(const Problem& problem) noexcept {
+    const float near = 1e-5f * problem.scratch.reach;
     const glm::vec3 first = minus(problem.target, problem.root());
     // Most chains are bent: three points tell, the line through the others is not needed.
-    if (const float far = length(first); far > 0.1f * problem.room.reach) {
+    if (const float far = length(first); far > 0.1f * problem.scratch.reach) {
         const glm::vec3 line = times(first, 1.0f / far);
         for (const glm::vec3& joint : problem.joints) {
             // Measured against a shorter line the same joints may seem further off.
@@ -80,29 +80,29 @@ bool is_on_one_line(const Problem& problem) noexcept {
 }
 
 template <class Watch>
-void kick_off_the_line(Problem& problem, Watch watch) noexcept {
+void bend_collinear_chain(Problem& problem, Watch watch) noexcept {
     const glm::vec3 side = side_of(problem, line_of(problem));
     float before = 0.0f;
-    turn_bones(problem, problem.iteration, watch, [&](std::size_t i) {
+    bend_bones(problem, problem.iteration, watch, [&](std::size_t i) {
         const float size = problem.lengths()[i];
-        const float middle = (before + 0.5f * size) / problem.room.reach;
+        const float middle = (before + 0.5f * size) / problem.scratch.reach;
         before += size;
-        return times(side, kick_bow * (1.0f - 2.0f * middle));
+        return times(side, bend_angle * (1.0f - 2.0f * middle));
     });
 }
 
 template <class Watch>
-void shake(Problem& problem, int turn, Watch watch) noexcept {
-    const auto salt = static_cast<std::uint32_t>(turn) * 3u;
-    turn_bones(problem, problem.iteration, watch, [&](std::size_t i) {
+void perturb(Problem& problem, int number, Watch watch) noexcept {
+    const auto salt = static_cast<std::uint32_t>(number) * 3u;
+    bend_bones(problem, problem.iteration, watch, [&](std::size_t i) {
         const glm::vec3 by{scattered(i, salt + 1), scattered(i, salt + 2), scattered(i, salt + 3)};
-        return times(by, kick_bow);
+        return times(by, bend_angle);
     });
 }
 
-template void kick_off_the_line(Problem&, Unwatched) noexcept;
-template void kick_off_the_line(Problem&, Watched) noexcept;
-template void shake(Problem&, int, Unwatched) noexcept;
-template void shake(Problem&, int, Watched) noexcept;
+template void bend_collinear_chain(Problem&, Unwatched) noexcept;
+template void bend_collinear_chain(Problem&, Watched) noexcept;
+template void perturb(Problem&, int, Unwatched) noexcept;
+template void perturb(Problem&, int, Watched) noexcept;
 
 }  // namespace tendril::ik::detail

@@ -1,5 +1,5 @@
-// The line trap: a chain that lies on a line with its target gets no hint from any method which way to bend.
-// It is bent a little, always in the same way. Not installed.
+// The collinear singularity: a chain that lies on a line with its target gets no hint from any method which
+// way to bend. It is bent a little, always in the same way. Not installed.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 namespace tendril::ik::detail {
 
 /// How far the first bone is turned one way and the last the other, about; radians.
-inline constexpr float kick_bow = 0.2f;
+inline constexpr float bend_angle = 0.2f;
 
 /// From the root to what is furthest from it: no other choice is as little bent by rounding.
 glm::vec3 line_of(const Problem& problem) noexcept;
@@ -22,16 +22,16 @@ float scattered(std::size_t bone, std::uint32_t salt) noexcept;
 
 /// Whether root, joints and target lie on one line, to 1e-5 of the reach. O(n), and O(1) as a rule: it ends
 /// at the first that does not.
-bool is_on_one_line(const Problem& problem) noexcept;
+bool is_collinear(const Problem& problem) noexcept;
 
 /// Bends the chain into a shallow bow, towards the pole where there is one that is off the line, else towards
 /// a fixed side of it.
 template <class Watch>
-void kick_off_the_line(Problem& problem, Watch watch) noexcept;
+void bend_collinear_chain(Problem& problem, Watch watch) noexcept;
 
 /// For a chain that stalled in some other way: every bone is turned a little, each in its own direction;
-/// another one for each `turn`, the same for the same.
+/// another one for each `number`, the same for the same.
 template <class Watch>
-void shake(Problem& problem, int turn, Watch watch) noexcept;
+void perturb(Problem& problem, int number, Watch watch) noexcept;
 
 }  // namespace tendril::ik::detail

@@ -35,7 +35,7 @@ void place(Problem& problem, std::size_t joint, const glm::vec3& to, Watch watch
 }  // namespace
 
 template <class Watch>
-void lay_to_lengths(Problem& problem, Watch watch) noexcept {
+void enforce_lengths(Problem& problem, Watch watch) noexcept {
     const std::span<glm::vec3> joints = problem.joints;
     const std::span<const float> lengths = problem.lengths();
     std::size_t i = 1;
@@ -43,7 +43,8 @@ void lay_to_lengths(Problem& problem, Watch watch) noexcept {
     if (i == joints.size()) return;
     glm::vec3 given_before = joints[i - 1];
     for (; i < joints.size(); ++i) {
-        const glm::vec3 given = joints[i], &at = joints[i - 1], &rest = problem.room.rest_directions[i - 1];
+        const glm::vec3 given = joints[i], &at = joints[i - 1],
+                        &rest = problem.scratch.rest_directions[i - 1];
         const bool shows_direction = !coincide(given_before, given);
         const glm::vec3 fallback = i > 1 ? tendril::math::direction(joints[i - 2], at, rest) : rest;
         place(problem, i, step(at, shows_direction ? given : at, lengths[i - 1], fallback), watch);
@@ -57,14 +58,14 @@ void snap_back(Problem& problem, Watch watch) noexcept {
     if (part == 0.0f) return;
     for (std::size_t i = 1; i < problem.joints.size(); ++i) {
         const float length = problem.lengths()[i - 1];
-        const glm::vec3 &at = problem.joints[i - 1], &rest = problem.room.rest_directions[i - 1];
+        const glm::vec3 &at = problem.joints[i - 1], &rest = problem.scratch.rest_directions[i - 1];
         const glm::vec3 old = problem.joints[i], resting = moved(at, rest, length);
         place(problem, i, step(at, moved(old, minus(resting, old), part), length, rest), watch);
     }
 }
 
-template void lay_to_lengths(Problem&, Unwatched) noexcept;
-template void lay_to_lengths(Problem&, Watched) noexcept;
+template void enforce_lengths(Problem&, Unwatched) noexcept;
+template void enforce_lengths(Problem&, Watched) noexcept;
 template void snap_back(Problem&, Unwatched) noexcept;
 template void snap_back(Problem&, Watched) noexcept;
 

@@ -5,11 +5,11 @@
 
 namespace tendril::ik::detail {
 
-/// From the first bone on that is not at its length, as far as chain.hpp allows, every joint is laid to it.
+/// From the first bone on that is not at its length, as far as chain.hpp allows, every joint is moved to it.
 /// A joint given at the point of the one before it goes straight on, or along its rest direction where
 /// nothing came before.
 template <class Watch>
-void lay_to_lengths(Problem& problem, Watch watch) noexcept;
+void enforce_lengths(Problem& problem, Watch watch) noexcept;
 
 /// Each joint is blended by options.snap_back towards its rest direction from the one before.
 template <class Watch>

@@ -2,7 +2,7 @@
 //
 // A method is a function `void iteration(Problem&, Watch)`, compiled twice: with Unwatched, where the calls
 // to the observer vanish, and with Watched. The loop around it (solver.cpp) checks input and reachability,
-// kicks a chain off the line, counts, and says how it ended.
+// perturbs, counts, and says how it ended.
 #pragma once
 
 #include <cstddef>
@@ -25,27 +25,27 @@ struct Workspace {
     std::vector<glm::vec3> rest_directions;  ///< n, unit vectors
     std::vector<glm::vec3> best;             ///< n + 1: the nearest to the target that the loop has seen
     std::vector<glm::vec3> old;              ///< n + 1: for a method's own use
-    std::vector<glm::quat> turns;            ///< n: the same
+    std::vector<glm::quat> rotations;        ///< n: the same
     std::vector<glm::vec3> joints;           ///< n + 1: those of a Chain while it is solved
-    LimitedRoom limited;                     ///< for solves with limits
+    LimitedScratch limited;                  ///< for solves with limits
     PoleScratch pole;                        ///< for solves with a pole
     LimitedPose given;                       ///< for solves with a weight under 1: what it blends from
-    State kept;                              ///< what a refused solve, or an explanation, goes back to
+    State saved;                             ///< what a refused solve, or an explanation, goes back to
     float reach = 0.0f;
     float longest = 0.0f;
 
-    /// Room for so many bones; they rest along +X and are not turned.
+    /// For so many bones; they rest along +X and are not turned.
     void resize(std::size_t bones) {
         lengths.resize(bones);
         rest_directions.resize(bones, glm::vec3(1.0f, 0.0f, 0.0f));
         best.resize(bones + 1);
         old.resize(bones + 1);
-        turns.resize(bones);
+        rotations.resize(bones);
         joints.resize(bones + 1);
         limited.resize(bones);
         pole.resize(bones);
         given.resize(bones);
-        kept = State(bones);
+        saved = State(bones);
     }
 };
 
@@ -54,14 +54,14 @@ struct Problem {
     glm::vec3 target;
     float tolerance;
     const Options& options;
-    Workspace& room;
+    Workspace& scratch;
     State& state;
     glm::vec3 goal = target;  ///< what was asked for; the target is nearer where the reach is soft
     int iteration = 0;        ///< the one that runs, from 1
 
     float stretch = 1.0f;  ///< of the bones, by Method::TwoBone
 
-    // What the report tells of.
+    // For the report.
     bool closed_form = false;
     int perturbations = 0;
     int least_squares_steps = 0;
@@ -69,7 +69,7 @@ struct Problem {
 
     std::size_t bones() const noexcept { return joints.size() - 1; }
     std::span<const float> lengths() const noexcept {
-        return std::span<const float>(room.lengths).first(bones());
+        return std::span<const float>(scratch.lengths).first(bones());
     }
     glm::vec3 root() const noexcept { return joints.front(); }
     Report report(Status status, float residual) const noexcept {

@@ -26,7 +26,7 @@ void place(Problem& problem, std::size_t joint, const glm::vec3& to, Watch watch
 /// Each joint straight towards the target from where the one before has really come to lie: so the roundings
 /// of many joints do not add up to a bend.
 template <class Watch>
-void lay_straight(Problem& problem, Watch watch) noexcept {
+void straighten(Problem& problem, Watch watch) noexcept {
     glm::dvec3 along = between(problem.root(), problem.target);
     for (std::size_t i = 1; i < problem.joints.size(); ++i) {
         const glm::dvec3 ahead = between(problem.joints[i - 1], problem.target);
@@ -54,7 +54,7 @@ glm::dvec3 nearest_line(const Problem& problem, std::size_t longest) noexcept {
     }
     const double far = length(sum);
     if (far > 0.0) return {sum.x / far, sum.y / far, sum.z / far};
-    return wide(problem.room.rest_directions[longest]);
+    return wide(problem.scratch.rest_directions[longest]);
 }
 
 /// `span` is where the tip ends on its line. A target so near to the root that every line leaves the same
@@ -82,10 +82,10 @@ std::optional<Report> answer_beyond_reach(Problem& problem, Watch watch) noexcep
     double reach = 0.0;
     for (const float bone : problem.lengths()) reach += static_cast<double>(bone);
     const double distance = length(between(problem.root(), problem.target)), equal = 1e-6 * reach;
-    const double nearest = 2.0 * static_cast<double>(problem.room.longest) - reach;
+    const double nearest = 2.0 * static_cast<double>(problem.scratch.longest) - reach;
     Status status = Status::Converged;
     if (distance >= reach - equal) {
-        lay_straight(problem, watch);
+        straighten(problem, watch);
         status = Status::Stretched;
     } else if (nearest > 0.0 && distance <= nearest + equal) {
         fold(problem, distance, nearest, watch);

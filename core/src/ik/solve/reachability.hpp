@@ -8,7 +8,7 @@
 namespace tendril::ik::detail {
 
 /// With R the reach, m the longest bone, s the sum of the others and D the target's distance from the root:
-/// where D > R the chain is laid straight towards the target (Stretched); where D < m - s the longest bone
+/// where D > R the chain is straightened towards the target (Stretched); where D < m - s the longest bone
 /// points at it and the others fold back (TooClose). Nothing, and none is moved, where it can be reached.
 /// Distances within a millionth of the reach count as equal: that is what floats leave of the sums.
 template <class Watch>

@@ -1,4 +1,5 @@
-// What a solver holds, and its door: what is checked before a solve. The solve itself is in loop.cpp.
+// What a solver contains, and its entry point: what is checked before a solve. The solve itself is in
+// loop.cpp.
 #include "tendril/ik/solver.hpp"
 
 #include <algorithm>
@@ -43,17 +44,17 @@ Result check_bones(std::span<const float> lengths, std::span<const glm::vec3> re
 }
 
 /// Makes the workspace for bones that have been checked.
-void fill(Workspace& room, std::span<const float> lengths, std::span<const glm::vec3> rest_directions) {
+void fill(Workspace& scratch, std::span<const float> lengths, std::span<const glm::vec3> rest_directions) {
     double reach = 0.0;
     for (const float length : lengths) {
         reach += static_cast<double>(length);
-        room.longest = std::max(room.longest, length);
+        scratch.longest = std::max(scratch.longest, length);
     }
-    room.reach = static_cast<float>(reach);
-    room.resize(lengths.size());
-    std::copy(lengths.begin(), lengths.end(), room.lengths.begin());
+    scratch.reach = static_cast<float>(reach);
+    scratch.resize(lengths.size());
+    std::copy(lengths.begin(), lengths.end(), scratch.lengths.begin());
     for (std::size_t i = 0; i < rest_directions.size(); ++i) {
-        room.rest_directions[i] = times(rest_directions[i], 1.0f / length(rest_directions[i]));
+        scratch.rest_directions[i] = times(rest_directions[i], 1.0f / length(rest_directions[i]));
     }
 }
 
@@ -70,14 +71,14 @@ Solver::Solver(std::unique_ptr<Parts> parts) noexcept : parts_(std::move(parts))
 Expected<Solver> Solver::make(std::span<const float> lengths, std::span<const glm::vec3> rest_directions) {
     if (const Result bad = check_bones(lengths, rest_directions); !bad) return bad;
     auto parts = std::make_unique<Parts>();
-    fill(parts->room, lengths, rest_directions);
+    fill(parts->scratch, lengths, rest_directions);
     return Solver(std::move(parts));
 }
 
 Solver::Solver(const Chain& chain) : parts_(std::make_unique<Parts>()) {
     std::vector<float> lengths;
     for (std::size_t i = 1; i < chain.size(); ++i) lengths.push_back(chain.length(i));
-    fill(parts_->room, lengths, std::vector<glm::vec3>(lengths.size(), chain.default_direction()));
+    fill(parts_->scratch, lengths, std::vector<glm::vec3>(lengths.size(), chain.default_direction()));
 }
 
 Solver::~Solver() = default;
@@ -85,23 +86,24 @@ Solver::Solver(Solver&&) noexcept = default;
 Solver& Solver::operator=(Solver&&) noexcept = default;
 
 std::size_t Solver::bones() const noexcept {
-    return parts_->room.lengths.size();
+    return parts_->scratch.lengths.size();
 }
 
 float Solver::reach() const noexcept {
-    return parts_->room.reach;
+    return parts_->scratch.reach;
 }
 
 Report Solver::solve(Method method, std::span<glm::vec3> joints, State& state, glm::vec3 target,
                      const Options& options, Observer* observer) noexcept {
-    // With a tip orientation the last bone is laid by itself.
+    // With a tip orientation the last bone is placed by itself.
     const bool taken = takes(method, bones()) || (options.tip_orientation && takes(method, bones() - 1));
     if (joints.size() != bones() + 1 || !taken) return invalid_input;
     if (!are_points(joints) || !are_points({&target, 1}) || !are_valid(options, bones()))
         return invalid_input;
-    if (!is_valid(state, bones()) || !fit(options.limits, parts_->room.rest_directions)) return invalid_input;
-    Problem problem{joints,  target,       options.tolerance.value_or(1e-3f * reach()),
-                    options, parts_->room, state};
+    if (!is_valid(state, bones()) || !fit(options.limits, parts_->scratch.rest_directions))
+        return invalid_input;
+    Problem problem{joints,  target,          options.tolerance.value_or(1e-3f * reach()),
+                    options, parts_->scratch, state};
     int order = 0;
     return observer ? run_weighted(method, problem, Watched(*observer, order))
                     : run_weighted(method, problem, Unwatched());
@@ -110,17 +112,17 @@ Report Solver::solve(Method method, std::span<glm::vec3> joints, State& state, g
 Report Solver::solve(Method method, Chain& chain, State& state, glm::vec3 target, const Options& options,
                      Observer* observer) noexcept {
     if (chain.size() != bones() + 1) return invalid_input;
-    std::vector<glm::vec3>& joints = parts_->room.joints;
+    std::vector<glm::vec3>& joints = parts_->scratch.joints;
     for (std::size_t i = 0; i < joints.size(); ++i) joints[i] = chain.segments()[i].position;
-    Options kept = options;
+    Options saved = options;
     // Checked first, so that what is wrong with it is not hidden.
-    if (are_valid(options, bones())) kept.max_stretch_scale = 1.0f;
+    if (are_valid(options, bones())) saved.max_stretch_scale = 1.0f;
     const bool risky = may_leave_range(chain, reach()) && state.bones() == bones();
-    if (risky) parts_->room.kept = state;
-    const Report report = solve(method, joints, state, target, kept, observer);
+    if (risky) parts_->scratch.saved = state;
+    const Report report = solve(method, joints, state, target, saved, observer);
     if (report.status == Status::InvalidInput) return report;
     if (!chain.set_positions(joints)) {  // a chain takes no joint that far out
-        if (risky) state = parts_->room.kept;
+        if (risky) state = parts_->scratch.saved;
         return invalid_input;
     }
     return report;

@@ -1,6 +1,6 @@
-// A tip orientation without limits: the last bone is laid as it is asked for, and the chain before it brings
-// its start to where that leaves it. Any method can do that. With limits the last joint has a say too, and
-// limited.cpp does both at once. Not installed.
+// A tip orientation without limits: the last bone is placed as it is asked for, and the chain before it
+// brings its start to where that leaves it. Any method can do that. With limits the last joint has a say too,
+// and limited.cpp does both at once. Not installed.
 #pragma once
 
 #include "ik/solve/problem.hpp"
@@ -12,6 +12,6 @@ namespace tendril::ik::detail {
 /// bone, the residual that of the tip. A two-bone solver takes three bones here, or two, of which one is
 /// left.
 template <class Watch>
-Report run_turned(Method method, Problem& problem, Watch watch) noexcept;
+Report run_with_tip_orientation(Method method, Problem& problem, Watch watch) noexcept;
 
 }  // namespace tendril::ik::detail

@@ -9,12 +9,12 @@ namespace tendril::ik::detail {
 namespace {
 
 /// False for NaN too.
-bool within(float value, float least, float most) noexcept {
-    return value >= least && value <= most;
+bool within(float value, float minimum, float maximum) noexcept {
+    return value >= minimum && value <= maximum;
 }
 
-bool over_zero(float value, float most) noexcept {
-    return value > 0.0f && value <= most;
+bool over_zero(float value, float maximum) noexcept {
+    return value > 0.0f && value <= maximum;
 }
 
 bool limits_are_valid(std::span<const Limit> limits, std::size_t bones) noexcept {

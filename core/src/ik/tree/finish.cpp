@@ -9,56 +9,57 @@ bool same(const glm::vec3& a, const glm::vec3& b) noexcept {
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-glm::quat turn_between(const glm::vec3& from, const glm::vec3& to) noexcept {
+glm::quat rotation_between(const glm::vec3& from, const glm::vec3& to) noexcept {
     const float a = length(from), b = length(to);
     if (same(from, to) || !(a > 1e-15f) || !(b > 1e-15f)) return {1.0f, 0.0f, 0.0f, 0.0f};
-    return least_rotation(times(from, 1.0f / a), times(to, 1.0f / b));
+    return minimal_rotation(times(from, 1.0f / a), times(to, 1.0f / b));
 }
 
 /// How the bone that `joint` ends has turned since the start. What sits on the root has no such bone.
-glm::quat turn_of(const TreeRoom& room, std::span<const glm::vec3> joints, std::size_t joint) noexcept {
-    const Slot& slot = room.slots[room.slot_of[joint]];
-    if (slot.joint == 0) return {1.0f, 0.0f, 0.0f, 0.0f};
-    const std::size_t parent = room.joints[slot.joint].parent;
-    return turn_between(minus(room.start[slot.joint], room.start[parent]),
-                        minus(joints[slot.joint], joints[parent]));
+glm::quat rotation_of(const TreeScratch& scratch, std::span<const glm::vec3> joints,
+                      std::size_t joint) noexcept {
+    const Node& node = scratch.nodes[scratch.node_of[joint]];
+    if (node.joint == 0) return {1.0f, 0.0f, 0.0f, 0.0f};
+    const std::size_t parent = scratch.joints[node.joint].parent;
+    return rotation_between(minus(scratch.start[node.joint], scratch.start[parent]),
+                            minus(joints[node.joint], joints[parent]));
 }
 
-void go_along(TreeRoom& room, std::span<glm::vec3> joints, std::size_t joint) noexcept {
-    const std::size_t parent = room.joints[joint].parent;
-    const bool first = room.slot_of[parent] != no_slot;
-    const glm::quat turn = first ? turn_of(room, joints, parent) : room.turns[parent];
-    room.turns[joint] = turn;
-    if (turn.w == 1.0f && same(joints[parent], room.start[parent])) {
-        joints[joint] = room.start[joint];
+void go_along(TreeScratch& scratch, std::span<glm::vec3> joints, std::size_t joint) noexcept {
+    const std::size_t parent = scratch.joints[joint].parent;
+    const bool first = scratch.node_of[parent] != no_node;
+    const glm::quat rotation = first ? rotation_of(scratch, joints, parent) : scratch.rotations[parent];
+    scratch.rotations[joint] = rotation;
+    if (rotation.w == 1.0f && same(joints[parent], scratch.start[parent])) {
+        joints[joint] = scratch.start[joint];
         return;
     }
-    const glm::vec3 bone = rotated(turn, minus(room.start[joint], room.start[parent]));
-    joints[joint] = lay(joints[parent], plus(joints[parent], bone), room.joints[joint].length);
+    const glm::vec3 bone = rotated(rotation, minus(scratch.start[joint], scratch.start[parent]));
+    joints[joint] = lay(joints[parent], plus(joints[parent], bone), scratch.joints[joint].length);
 }
 
 }  // namespace
 
-void carry_rotations(const TreeRoom& room, std::span<const glm::vec3> joints,
-                     std::span<glm::quat> rotations) noexcept {
+void transport_rotations(const TreeScratch& scratch, std::span<const glm::vec3> joints,
+                         std::span<glm::quat> rotations) noexcept {
     for (std::size_t k = 1; k < joints.size(); ++k) {
-        const std::size_t parent = room.joints[k].parent;
-        const glm::quat turn =
-            turn_between(minus(room.start[k], room.start[parent]), minus(joints[k], joints[parent]));
-        const glm::quat q = compose(turn, rotations[k]);
+        const std::size_t parent = scratch.joints[k].parent;
+        const glm::quat rotation = rotation_between(minus(scratch.start[k], scratch.start[parent]),
+                                                    minus(joints[k], joints[parent]));
+        const glm::quat q = compose(rotation, rotations[k]);
         rotations[k] = unit_quaternion(q.w, q.x, q.y, q.z);
     }
 }
 
-void finish(TreeRoom& room, std::span<glm::vec3> joints) noexcept {
-    joints[0] = room.start[0];
+void finish(TreeScratch& scratch, std::span<glm::vec3> joints) noexcept {
+    joints[0] = scratch.start[0];
     for (std::size_t k = 1; k < joints.size(); ++k) {
-        const std::size_t slot = room.slot_of[k];
-        if (slot == no_slot) {
-            go_along(room, joints, k);
+        const std::size_t node = scratch.node_of[k];
+        if (node == no_node) {
+            go_along(scratch, joints, k);
         } else {
-            const bool stays = same(room.at[slot], room.start[room.slots[slot].joint]);
-            joints[k] = stays ? room.start[k] : room.at[slot];
+            const bool stays = same(scratch.at[node], scratch.start[scratch.nodes[node].joint]);
+            joints[k] = stays ? scratch.start[k] : scratch.at[node];
         }
     }
 }

@@ -45,7 +45,7 @@ struct Factors {
     }
 };
 
-/// Adds the branch's parabola to what the parent has to carry.
+/// Adds the branch's parabola to what the parent feels.
 void add_branch(Response& parent, const Response& branch) noexcept {
     const glm::dvec3& u = branch.along;
     const double x = branch.stiffness * u.x, y = branch.stiffness * u.y, z = branch.stiffness * u.z;
@@ -60,28 +60,28 @@ void add_branch(Response& parent, const Response& branch) noexcept {
     parent.force.z += branch.wish * u.z;
 }
 
-void collect(TreeRoom& room, std::span<const glm::vec3> from, double damping) noexcept {
-    for (std::size_t k = 0; k < room.used; ++k) {
-        Response& r = room.responses[k];
+void collect(TreeScratch& scratch, std::span<const glm::vec3> from, double damping) noexcept {
+    for (std::size_t k = 0; k < scratch.used; ++k) {
+        Response& r = scratch.responses[k];
         r.xx = r.yy = r.zz = r.xy = r.xz = r.yz = 0.0;
         r.force = glm::dvec3(0.0);
     }
-    for (std::size_t k = room.used; k-- > 1;) {
-        const Slot& slot = room.slots[k];
-        Response& r = room.responses[k];
-        if (slot.weight > 0.0) {
-            const glm::dvec3 gap = between(from[k], slot.goal);
-            r.force.x += slot.weight * gap.x;
-            r.force.y += slot.weight * gap.y;
-            r.force.z += slot.weight * gap.z;
+    for (std::size_t k = scratch.used; k-- > 1;) {
+        const Node& node = scratch.nodes[k];
+        Response& r = scratch.responses[k];
+        if (node.weight > 0.0) {
+            const glm::dvec3 gap = between(from[k], node.goal);
+            r.force.x += node.weight * gap.x;
+            r.force.y += node.weight * gap.y;
+            r.force.z += node.weight * gap.z;
         }
-        r.along = direction_of(from[slot.parent], from[k]);
-        const Factors factors(r, slot.weight + damping);
+        r.along = direction_of(from[node.parent], from[k]);
+        const Factors factors(r, node.weight + damping);
         r.free = factors.solve(r.force);
         r.per_tension = factors.solve(r.along);
         r.stiffness = 1.0 / inner(r.along, r.per_tension);
         r.wish = inner(r.along, r.free) * r.stiffness;
-        add_branch(room.responses[slot.parent], r);
+        add_branch(scratch.responses[node.parent], r);
     }
 }
 
@@ -100,19 +100,19 @@ glm::vec3 placed(const glm::vec3& parent, const glm::vec3& from, const glm::dvec
 
 }  // namespace
 
-void newton_step(TreeRoom& room, std::span<const glm::vec3> from, double damping) noexcept {
-    collect(room, from, damping);
-    room.trial[0] = from[0];
-    room.responses[0].free = glm::dvec3(0.0);
-    for (std::size_t k = 1; k < room.used; ++k) {
-        const Slot& slot = room.slots[k];
-        Response& r = room.responses[k];
+void newton_step(TreeScratch& scratch, std::span<const glm::vec3> from, double damping) noexcept {
+    collect(scratch, from, damping);
+    scratch.trial[0] = from[0];
+    scratch.responses[0].free = glm::dvec3(0.0);
+    for (std::size_t k = 1; k < scratch.used; ++k) {
+        const Node& node = scratch.nodes[k];
+        Response& r = scratch.responses[k];
         // From here on `free` is the move itself.
-        const double tension = r.stiffness * inner(r.along, room.responses[slot.parent].free) - r.wish;
+        const double tension = r.stiffness * inner(r.along, scratch.responses[node.parent].free) - r.wish;
         r.free.x += tension * r.per_tension.x;
         r.free.y += tension * r.per_tension.y;
         r.free.z += tension * r.per_tension.z;
-        room.trial[k] = placed(room.trial[slot.parent], from[k], r.free, slot.length);
+        scratch.trial[k] = placed(scratch.trial[node.parent], from[k], r.free, node.length);
     }
 }
 

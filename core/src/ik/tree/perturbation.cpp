@@ -9,47 +9,48 @@ namespace tendril::ik::detail {
 namespace {
 
 constexpr float small_kick = 0.05f, large_kick = 0.3f;  ///< part of a bone's length
-constexpr float least_sine = 1e-3f;                     ///< a bone off the line by less is on it
+constexpr float min_sine = 1e-3f;                       ///< a bone off the line by less is on it
 
-/// Where a limb starts that ends at slot `tip`.
-std::size_t limb_base(const TreeRoom& room, std::size_t tip) noexcept {
-    std::size_t base = room.slots[tip].parent;
-    while (base != 0 && room.slots[base].branches == 1 && room.slots[base].weight == 0.0) {
-        base = room.slots[base].parent;
+/// Where a limb starts that ends at node `tip`.
+std::size_t limb_base(const TreeScratch& scratch, std::size_t tip) noexcept {
+    std::size_t base = scratch.nodes[tip].parent;
+    while (base != 0 && scratch.nodes[base].branches == 1 && scratch.nodes[base].weight == 0.0) {
+        base = scratch.nodes[base].parent;
     }
     return base;
 }
 
-bool on_line(const TreeRoom& room, std::size_t tip, std::size_t base, const glm::vec3& line) noexcept {
-    for (std::size_t k = tip; k != base; k = room.slots[k].parent) {
-        const glm::vec3 bone = minus(room.at[k], room.at[room.slots[k].parent]);
-        if (length(cross(bone, line)) > least_sine * room.slots[k].length) return false;
+bool on_line(const TreeScratch& scratch, std::size_t tip, std::size_t base, const glm::vec3& line) noexcept {
+    for (std::size_t k = tip; k != base; k = scratch.nodes[k].parent) {
+        const glm::vec3 bone = minus(scratch.at[k], scratch.at[scratch.nodes[k].parent]);
+        if (length(cross(bone, line)) > min_sine * scratch.nodes[k].length) return false;
     }
     return true;
 }
 
-bool kick_limb(TreeRoom& room, std::size_t tip, double tolerance) noexcept {
-    const std::size_t base = limb_base(room, tip);
-    if (room.slots[tip].parent == base) return false;  // one bone turns to its goal at once
-    const glm::vec3 &goal = room.slots[tip].goal, &place = room.at[tip];
+bool kick_limb(TreeScratch& scratch, std::size_t tip, double tolerance) noexcept {
+    const std::size_t base = limb_base(scratch, tip);
+    if (scratch.nodes[tip].parent == base) return false;  // one bone turns to its goal at once
+    const glm::vec3 &goal = scratch.nodes[tip].goal, &place = scratch.at[tip];
     if (static_cast<double>(distance(goal, place)) <= tolerance) return false;
-    glm::vec3 line = minus(goal, room.at[base]);
-    if (length(line) < 1e-3f * room.slots[tip].length) line = minus(place, room.at[room.slots[tip].parent]);
+    glm::vec3 line = minus(goal, scratch.at[base]);
+    if (length(line) < 1e-3f * scratch.nodes[tip].length)
+        line = minus(place, scratch.at[scratch.nodes[tip].parent]);
     const float size = length(line);
     if (!(size > 1e-15f)) return false;
     line = times(line, 1.0f / size);
-    if (!on_line(room, tip, base, line)) return false;
+    if (!on_line(scratch, tip, base, line)) return false;
     const glm::vec3 side = perpendicular(line);
-    for (std::size_t k = room.slots[tip].parent; k != base; k = room.slots[k].parent) {
-        room.at[k] = moved(room.at[k], side, small_kick * room.slots[k].length);
+    for (std::size_t k = scratch.nodes[tip].parent; k != base; k = scratch.nodes[k].parent) {
+        scratch.at[k] = moved(scratch.at[k], side, small_kick * scratch.nodes[k].length);
     }
     return true;
 }
 
-void lay_all(TreeRoom& room) noexcept {
-    for (std::size_t k = 1; k < room.used; ++k) {
-        const Slot& slot = room.slots[k];
-        room.at[k] = lay(room.at[slot.parent], room.at[k], slot.length);
+void enforce_all_lengths(TreeScratch& scratch) noexcept {
+    for (std::size_t k = 1; k < scratch.used; ++k) {
+        const Node& node = scratch.nodes[k];
+        scratch.at[k] = lay(scratch.at[node.parent], scratch.at[k], node.length);
     }
 }
 
@@ -59,11 +60,11 @@ float scattered(std::size_t number) noexcept {
     return static_cast<float>(bits >> 8) * (2.0f / 16777216.0f) - 1.0f;
 }
 
-/// The only effector that pulls at anything; null where there are more.
-const Effector* only_one(const TreeRoom& room, std::span<const Effector> effectors) noexcept {
+/// The only effector with any weight; null where there are more.
+const Effector* only_one(const TreeScratch& scratch, std::span<const Effector> effectors) noexcept {
     const Effector* only = nullptr;
     for (const Effector& effector : effectors) {
-        if (effector.weight == 0.0f || room.slot_of[effector.joint] == 0) continue;
+        if (effector.weight == 0.0f || scratch.node_of[effector.joint] == 0) continue;
         if (only) return nullptr;
         only = &effector;
     }
@@ -82,63 +83,64 @@ glm::vec3 stepped(const glm::vec3& from, const glm::dvec3& line, double by) noex
             static_cast<float>(static_cast<double>(from.z) + along.z * by)};
 }
 
-void lay_straight(TreeRoom& room, const glm::vec3& target) noexcept {
-    for (std::size_t k = 1; k < room.used; ++k) {
-        room.at[k] = stepped(room.at[k - 1], between(room.at[k - 1], target),
-                             static_cast<double>(room.slots[k].length));
+void straighten(TreeScratch& scratch, const glm::vec3& target) noexcept {
+    for (std::size_t k = 1; k < scratch.used; ++k) {
+        scratch.at[k] = stepped(scratch.at[k - 1], between(scratch.at[k - 1], target),
+                                static_cast<double>(scratch.nodes[k].length));
     }
 }
 
 /// The longest bone towards the goal, the others back along it.
-void fold(TreeRoom& room, const glm::vec3& goal) noexcept {
+void fold(TreeScratch& scratch, const glm::vec3& goal) noexcept {
     std::size_t longest = 1;
-    for (std::size_t k = 1; k < room.used; ++k) {
-        if (room.slots[k].length > room.slots[longest].length) longest = k;
+    for (std::size_t k = 1; k < scratch.used; ++k) {
+        if (scratch.nodes[k].length > scratch.nodes[longest].length) longest = k;
     }
-    const glm::dvec3 line = between(room.at[0], goal);
-    for (std::size_t k = 1; k < room.used; ++k) {
-        const double bone = static_cast<double>(room.slots[k].length);
-        room.at[k] = stepped(room.at[k - 1], line, k == longest ? bone : -bone);
+    const glm::dvec3 line = between(scratch.at[0], goal);
+    for (std::size_t k = 1; k < scratch.used; ++k) {
+        const double bone = static_cast<double>(scratch.nodes[k].length);
+        scratch.at[k] = stepped(scratch.at[k - 1], line, k == longest ? bone : -bone);
     }
 }
 
 }  // namespace
 
-bool lay_at_rim(TreeRoom& room, std::span<const Effector> effectors) noexcept {
-    const Effector* const effector = only_one(room, effectors);
+bool solve_at_rim(TreeScratch& scratch, std::span<const Effector> effectors) noexcept {
+    const Effector* const effector = only_one(scratch, effectors);
     if (!effector) return false;
-    const double furthest = room.path_reach[effector->joint];
-    const double nearest = 2.0 * room.path_longest[effector->joint] - furthest;
-    const double far = gap(room.at[0], effector->target);
+    const double furthest = scratch.path_reach[effector->joint];
+    const double nearest = 2.0 * scratch.path_longest[effector->joint] - furthest;
+    const double far = gap(scratch.at[0], effector->target);
     if (far > furthest) {
-        lay_straight(room, effector->target);
+        straighten(scratch, effector->target);
     } else if (far < nearest) {
-        fold(room, room.slots[room.goals[0]].goal);
+        fold(scratch, scratch.nodes[scratch.goals[0]].goal);
     } else {
         return false;
     }
     return true;
 }
 
-bool kick_lines(TreeRoom& room, double tolerance) noexcept {
-    bool kicked = false;
-    for (std::size_t i = 0; i < room.goal_count; ++i) kicked |= kick_limb(room, room.goals[i], tolerance);
-    if (kicked) lay_all(room);
-    return kicked;
+bool kick_lines(TreeScratch& scratch, double tolerance) noexcept {
+    bool perturbed = false;
+    for (std::size_t i = 0; i < scratch.goal_count; ++i)
+        perturbed |= kick_limb(scratch, scratch.goals[i], tolerance);
+    if (perturbed) enforce_all_lengths(scratch);
+    return perturbed;
 }
 
-void kick_all(TreeRoom& room) noexcept {
-    for (std::size_t k = 1; k < room.used; ++k) {
-        const Slot& slot = room.slots[k];
-        const glm::vec3 bone = minus(room.at[k], room.at[slot.parent]);
+void kick_all(TreeScratch& scratch) noexcept {
+    for (std::size_t k = 1; k < scratch.used; ++k) {
+        const Node& node = scratch.nodes[k];
+        const glm::vec3 bone = minus(scratch.at[k], scratch.at[node.parent]);
         const float size = length(bone);
         if (!(size > 1e-15f)) continue;
         const glm::vec3 along = times(bone, 1.0f / size), side = perpendicular(along);
-        const float by = large_kick * slot.length;
-        room.at[k] = moved(room.at[k], side, by * scattered(2 * k));
-        room.at[k] = moved(room.at[k], cross(along, side), by * scattered(2 * k + 1));
+        const float by = large_kick * node.length;
+        scratch.at[k] = moved(scratch.at[k], side, by * scattered(2 * k));
+        scratch.at[k] = moved(scratch.at[k], cross(along, side), by * scattered(2 * k + 1));
     }
-    lay_all(room);
+    enforce_all_lengths(scratch);
 }
 
 }  // namespace tendril::ik::detail

@@ -9,7 +9,7 @@
 namespace tendril::ik::detail {
 namespace {
 
-constexpr double least_weight = 1e-4;  ///< of the heaviest
+constexpr double min_weight = 1e-4;  ///< of the heaviest
 
 double largest_coordinate(const glm::vec3& p) noexcept {
     return static_cast<double>(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}));
@@ -25,56 +25,57 @@ bool holds(const glm::vec3& from, const glm::vec3& to, float length) noexcept {
     return std::abs(gap(from, to) - wanted) <= allowed;
 }
 
-void lay_start(TreeRoom& room, std::span<const glm::vec3> joints) noexcept {
-    room.start[0] = joints[0];
+void load_start(TreeScratch& scratch, std::span<const glm::vec3> joints) noexcept {
+    scratch.start[0] = joints[0];
     for (std::size_t k = 1; k < joints.size(); ++k) {
-        const glm::vec3& anchor = room.start[room.joints[k].parent];
-        const float length = room.joints[k].length;
-        room.start[k] = holds(anchor, joints[k], length) ? joints[k] : lay(anchor, joints[k], length);
+        const glm::vec3& anchor = scratch.start[scratch.joints[k].parent];
+        const float length = scratch.joints[k].length;
+        scratch.start[k] = holds(anchor, joints[k], length) ? joints[k] : lay(anchor, joints[k], length);
     }
 }
 
-/// Gives every joint on the way to an effector its slot.
-void assign_slots(TreeRoom& room) noexcept {
-    const std::size_t count = room.joints.size();
-    for (std::size_t k = 0; k < count; ++k) room.slot_of[k] = room.effector_at[k] == no_joint ? no_slot : 0;
+/// Gives every joint on the way to an effector its node.
+void assign_nodes(TreeScratch& scratch) noexcept {
+    const std::size_t count = scratch.joints.size();
+    for (std::size_t k = 0; k < count; ++k)
+        scratch.node_of[k] = scratch.effector_at[k] == no_joint ? no_node : 0;
     for (std::size_t k = count; k-- > 1;) {
-        if (room.slot_of[k] != no_slot) room.slot_of[room.joints[k].parent] = 0;
+        if (scratch.node_of[k] != no_node) scratch.node_of[scratch.joints[k].parent] = 0;
     }
-    room.slots[0] = Slot{};
-    room.at[0] = room.start[0];
-    room.slot_of[0] = 0;
-    room.used = 1;
+    scratch.nodes[0] = Node{};
+    scratch.at[0] = scratch.start[0];
+    scratch.node_of[0] = 0;
+    scratch.used = 1;
     for (std::size_t k = 1; k < count; ++k) {
-        if (room.slot_of[k] == no_slot) continue;
-        const TreeJoint& joint = room.joints[k];
-        const std::size_t parent = room.slot_of[joint.parent];
+        if (scratch.node_of[k] == no_node) continue;
+        const TreeJoint& joint = scratch.joints[k];
+        const std::size_t parent = scratch.node_of[joint.parent];
         if (joint.length == 0.0f) {
-            room.slot_of[k] = parent;
+            scratch.node_of[k] = parent;
             continue;
         }
-        Slot slot;
-        slot.parent = parent;
-        slot.joint = k;
-        slot.length = joint.length;
-        room.slots[room.used] = slot;
-        room.at[room.used] = room.start[k];
-        room.slot_of[k] = room.used++;
-        ++room.slots[parent].branches;
+        Node node;
+        node.parent = parent;
+        node.joint = k;
+        node.length = joint.length;
+        scratch.nodes[scratch.used] = node;
+        scratch.at[scratch.used] = scratch.start[k];
+        scratch.node_of[k] = scratch.used++;
+        ++scratch.nodes[parent].branches;
     }
 }
 
 /// The place nearest to the effector's target that it can reach by itself.
-glm::dvec3 reachable(const TreeRoom& room, const Effector& effector) noexcept {
-    const glm::vec3& root = room.start[0];
-    const double furthest = room.path_reach[effector.joint];
-    const double nearest = 2.0 * room.path_longest[effector.joint] - furthest;
+glm::dvec3 reachable(const TreeScratch& scratch, const Effector& effector) noexcept {
+    const glm::vec3& root = scratch.start[0];
+    const double furthest = scratch.path_reach[effector.joint];
+    const double nearest = 2.0 * scratch.path_longest[effector.joint] - furthest;
     glm::dvec3 way = between(root, effector.target);
     double far = std::sqrt(inner(way, way));
     const double wanted = far > furthest ? furthest : far < nearest ? nearest : far;
     if (wanted == far) return glm::dvec3(effector.target);
     if (far < 1e-6 * wanted) {  // the target is on the root: any side will do, so the one it is on
-        way = between(root, room.start[effector.joint]);
+        way = between(root, scratch.start[effector.joint]);
         far = std::sqrt(inner(way, way));
         if (far < 1e-6 * wanted) way = glm::dvec3(far = 1.0, 0.0, 0.0);
     }
@@ -83,58 +84,59 @@ glm::dvec3 reachable(const TreeRoom& room, const Effector& effector) noexcept {
             static_cast<double>(root.z) + way.z * scale};
 }
 
-void collect_goals(TreeRoom& room, std::span<const Effector> effectors) noexcept {
+void collect_goals(TreeScratch& scratch, std::span<const Effector> effectors) noexcept {
     double heaviest = 0.0;
-    room.lightest = 1.0;
+    scratch.lightest = 1.0;
     for (const Effector& effector : effectors) {
-        if (room.path_reach[effector.joint] == 0.0) continue;  // it cannot move
+        if (scratch.path_reach[effector.joint] == 0.0) continue;  // it cannot move
         heaviest = std::max(heaviest, static_cast<double>(effector.weight));
     }
-    // By joint and not by the list: what shares a slot is summed in an order of its own.
-    for (std::size_t k = 1; k < room.joints.size(); ++k) {
-        if (room.effector_at[k] == no_joint || room.slot_of[k] == 0) continue;
-        const Effector& effector = effectors[room.effector_at[k]];
-        const double weight = std::max(least_weight, static_cast<double>(effector.weight) / heaviest);
-        room.lightest = std::min(room.lightest, weight);
-        const glm::dvec3 goal = reachable(room, effector);
-        Slot& slot = room.slots[room.slot_of[k]];
-        slot.weight += weight;
-        slot.goal_sum = {slot.goal_sum.x + weight * goal.x, slot.goal_sum.y + weight * goal.y,
-                         slot.goal_sum.z + weight * goal.z};
+    // By joint and not by the list: what is at one node is summed in an order of its own.
+    for (std::size_t k = 1; k < scratch.joints.size(); ++k) {
+        if (scratch.effector_at[k] == no_joint || scratch.node_of[k] == 0) continue;
+        const Effector& effector = effectors[scratch.effector_at[k]];
+        const double weight = std::max(min_weight, static_cast<double>(effector.weight) / heaviest);
+        scratch.lightest = std::min(scratch.lightest, weight);
+        const glm::dvec3 goal = reachable(scratch, effector);
+        Node& node = scratch.nodes[scratch.node_of[k]];
+        node.weight += weight;
+        node.goal_sum = {node.goal_sum.x + weight * goal.x, node.goal_sum.y + weight * goal.y,
+                         node.goal_sum.z + weight * goal.z};
     }
 }
 
-void share_out(TreeRoom& room) noexcept {
-    room.goal_count = 0;
-    for (std::size_t k = room.used; k-- > 1;) {
-        Slot& slot = room.slots[k];
-        slot.pull += slot.weight;
-        room.slots[slot.parent].pull += slot.pull;
+void assign_centroid_weights(TreeScratch& scratch) noexcept {
+    scratch.goal_count = 0;
+    for (std::size_t k = scratch.used; k-- > 1;) {
+        Node& node = scratch.nodes[k];
+        node.branch_weight += node.weight;
+        scratch.nodes[node.parent].branch_weight += node.branch_weight;
     }
-    for (std::size_t k = 1; k < room.used; ++k) {
-        Slot& slot = room.slots[k];
-        slot.own_share = static_cast<float>(slot.weight / slot.pull);
-        slot.share = static_cast<float>(slot.pull / room.slots[slot.parent].pull);
-        if (slot.weight == 0.0) continue;
-        slot.goal = {static_cast<float>(slot.goal_sum.x / slot.weight),
-                     static_cast<float>(slot.goal_sum.y / slot.weight),
-                     static_cast<float>(slot.goal_sum.z / slot.weight)};
-        room.goals[room.goal_count++] = k;
+    for (std::size_t k = 1; k < scratch.used; ++k) {
+        Node& node = scratch.nodes[k];
+        node.own_weight = static_cast<float>(node.weight / node.branch_weight);
+        node.centroid_weight =
+            static_cast<float>(node.branch_weight / scratch.nodes[node.parent].branch_weight);
+        if (node.weight == 0.0) continue;
+        node.goal = {static_cast<float>(node.goal_sum.x / node.weight),
+                     static_cast<float>(node.goal_sum.y / node.weight),
+                     static_cast<float>(node.goal_sum.z / node.weight)};
+        scratch.goals[scratch.goal_count++] = k;
     }
 }
 
 }  // namespace
 
-void prepare(TreeRoom& room, std::span<const glm::vec3> joints,
+void prepare(TreeScratch& scratch, std::span<const glm::vec3> joints,
              std::span<const Effector> effectors) noexcept {
-    lay_start(room, joints);
-    std::fill(room.effector_at.begin(), room.effector_at.end(), no_joint);
+    load_start(scratch, joints);
+    std::fill(scratch.effector_at.begin(), scratch.effector_at.end(), no_joint);
     for (std::size_t i = 0; i < effectors.size(); ++i) {
-        if (effectors[i].weight > 0.0f) room.effector_at[effectors[i].joint] = i;
+        if (effectors[i].weight > 0.0f) scratch.effector_at[effectors[i].joint] = i;
     }
-    assign_slots(room);
-    collect_goals(room, effectors);
-    share_out(room);
+    assign_nodes(scratch);
+    collect_goals(scratch, effectors);
+    assign_centroid_weights(scratch);
 }
 
 }  // namespace tendril::ik::detail

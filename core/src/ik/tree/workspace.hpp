@@ -1,8 +1,8 @@
 // One solve of a tree, as its parts see it. Not installed.
 //
-// Only joints between the root and an effector take part. They are copied, in their order, into *slots*, so
-// that what an iteration walks over lies together; a joint at no distance from its parent shares the parent's
-// slot. Slot 0 is the root.
+// Only joints between the root and an effector take part. They are copied, in their order, into *nodes*, so
+// that what an iteration walks over lies together; a joint at no distance from its parent is at the parent's
+// node. Node 0 is the root.
 #pragma once
 
 #include <cmath>
@@ -16,22 +16,22 @@
 
 namespace tendril::ik::detail {
 
-inline constexpr std::size_t no_slot = static_cast<std::size_t>(-1);
+inline constexpr std::size_t no_node = static_cast<std::size_t>(-1);
 
-struct Slot {
-    std::size_t parent = 0;  ///< a slot before this one
-    std::size_t joint = 0;   ///< the joint that the slot's bone leads to
+struct Node {
+    std::size_t parent = 0;  ///< a node before this one
+    std::size_t joint = 0;   ///< the joint that the node's bone leads to
     float length = 0.0f;
-    float own_share = 0.0f;    ///< of its own goal in the mean of what is proposed for it
-    float share = 0.0f;        ///< of its proposal in the mean at its parent
-    glm::vec3 goal{0.0f};      ///< of the effectors here: the nearest that can be reached to their target
-    double weight = 0.0;       ///< of the effectors here, as part of the heaviest there is
-    double pull = 0.0;         ///< the same of all effectors here and beyond
-    glm::dvec3 goal_sum{0.0};  ///< weight times goal, while it is being worked out
-    std::size_t branches = 0;  ///< slots that hang on this one
+    float own_weight = 0.0f;       ///< of its own goal in the mean of what is proposed for it
+    float centroid_weight = 0.0f;  ///< of its proposal in the mean at its parent
+    glm::vec3 goal{0.0f};          ///< of the effectors here: the nearest that can be reached to their target
+    double weight = 0.0;           ///< of the effectors here, as part of the heaviest there is
+    double branch_weight = 0.0;    ///< the same of all effectors here and beyond
+    glm::dvec3 goal_sum{0.0};      ///< weight times goal, while it is being worked out
+    std::size_t branches = 0;      ///< nodes that hang on this one
 };
 
-/// What the Newton step keeps at a slot on its way in for the way out.
+/// What the Newton step keeps at a node on its way in for the way out.
 struct Response {
     double xx, yy, zz, xy, xz, yz;  ///< stiffness of what hangs on it
     glm::dvec3 force;               ///< what that asks for
@@ -40,7 +40,7 @@ struct Response {
     double stiffness, wish;         ///< of the bone, along itself, as its parent feels it
 };
 
-struct TreeRoom {
+struct TreeScratch {
     // Of the tree.
     std::vector<TreeJoint> joints;
     std::vector<double> path_reach;    ///< metres from the root along the bones
@@ -49,64 +49,65 @@ struct TreeRoom {
 
     // Of one solve, by joint.
     std::vector<glm::vec3> start;          ///< as given, laid to the lengths
-    std::vector<std::size_t> slot_of;      ///< or no_slot
+    std::vector<std::size_t> node_of;      ///< or no_node
     std::vector<std::size_t> effector_at;  ///< index into the caller's list, or no_joint
-    std::vector<glm::quat> turns;          ///< of the bones that idle branches go along with
+    std::vector<glm::quat> rotations;      ///< of the bones that idle branches go along with
 
-    // Of one solve, by slot: room for as many as there are joints, `used` of them in use.
+    // Of one solve, by node: room for as many as there are joints, `used` of them in use.
     std::size_t used = 0;
-    std::vector<Slot> slots;
+    std::vector<Node> nodes;
     double lightest = 1.0;  ///< weight of an effector, as part of the heaviest
     std::size_t goal_count = 0;
-    std::vector<std::size_t> goals;  ///< slots that have one, `goal_count` of them
+    std::vector<std::size_t> goals;  ///< nodes that have one, `goal_count` of them
     std::vector<glm::vec3> at, proposed, next, trial, best;
     std::vector<Response> responses;
 };
 
-/// How well some places of the slots fit the goals.
+/// How well some places of the nodes fit the goals.
 struct Fit {
     double cost = 0.0;   ///< sum of weight times squared distance
     double worst = 0.0;  ///< metres
 };
 
-/// Takes over the joints, laid to their lengths, and works out who takes part, goals and shares.
-void prepare(TreeRoom& room, std::span<const glm::vec3> joints, std::span<const Effector> effectors) noexcept;
+/// Takes over the joints, brought to their lengths, and works out who takes part, goals and centroid weights.
+void prepare(TreeScratch& scratch, std::span<const glm::vec3> joints,
+             std::span<const Effector> effectors) noexcept;
 
 /// Bends each limb (from an effector to the next joint that is shared, has an effector or is the root) that
-/// lies on the line to its goal and does not reach it: pulls would never leave the line. False where there is
-/// none.
-bool kick_lines(TreeRoom& room, double tolerance) noexcept;
+/// lies on the line to its goal and does not reach it: reaching would never leave the line. False where there
+/// is none.
+bool kick_lines(TreeScratch& scratch, double tolerance) noexcept;
 /// Turns every bone a little, each to a side of its own: out of where nothing moves any more.
-void kick_all(TreeRoom& room) noexcept;
+void kick_all(TreeScratch& scratch) noexcept;
 
 /// From the effectors inward: `at` to `proposed`.
-void pull_inward(TreeRoom& room) noexcept;
+void forward_reaching(TreeScratch& scratch) noexcept;
 /// From the root outward: `proposed` to `next`, every bone at its length.
-void pull_outward(TreeRoom& room) noexcept;
+void backward_reaching(TreeScratch& scratch) noexcept;
 /// From the places `from` to `trial`, every bone at its length. `damping`: over 0, against weights of 1.
-void newton_step(TreeRoom& room, std::span<const glm::vec3> from, double damping) noexcept;
-Fit fit(const TreeRoom& room, std::span<const glm::vec3> places) noexcept;
+void newton_step(TreeScratch& scratch, std::span<const glm::vec3> from, double damping) noexcept;
+Fit fit(const TreeScratch& scratch, std::span<const glm::vec3> places) noexcept;
 
 struct TreeRun {
     int iterations = 0;
     bool stalled = false;
 };
 /// Iterates on `at`.
-TreeRun iterate(TreeRoom& room, std::span<const Effector> effectors, const TreeOptions& options,
+TreeRun iterate(TreeScratch& scratch, std::span<const Effector> effectors, const TreeOptions& options,
                 double tolerance) noexcept;
 /// Metres, the worst of the effectors with a weight, in the places that `at` holds.
-double worst_residual(const TreeRoom& room, std::span<const Effector> effectors) noexcept;
+double worst_residual(const TreeScratch& scratch, std::span<const Effector> effectors) noexcept;
 
 /// Where one effector alone is at the rim of its reach or beyond, there is but one way to lie: straight
 /// towards its target, or folded against the longest bone. Lies so, or false where it is not the case.
-bool lay_at_rim(TreeRoom& room, std::span<const Effector> effectors) noexcept;
+bool solve_at_rim(TreeScratch& scratch, std::span<const Effector> effectors) noexcept;
 
-/// Turns every bone's rotation on by the least rotation from where the bone lay at the start.
-void carry_rotations(const TreeRoom& room, std::span<const glm::vec3> joints,
-                     std::span<glm::quat> rotations) noexcept;
+/// Turns every bone's rotation on by the minimal rotation from where the bone lay at the start.
+void transport_rotations(const TreeScratch& scratch, std::span<const glm::vec3> joints,
+                         std::span<glm::quat> rotations) noexcept;
 
-/// Writes the slots' places, and the branches without effector that go along, to the caller's joints.
-void finish(TreeRoom& room, std::span<glm::vec3> joints) noexcept;
+/// Writes the nodes' places, and the branches without effector that go along, to the caller's joints.
+void finish(TreeScratch& scratch, std::span<glm::vec3> joints) noexcept;
 
 static inline glm::dvec3 between(const glm::vec3& a, const glm::vec3& b) noexcept {
     return {static_cast<double>(b.x) - static_cast<double>(a.x),

@@ -1,4 +1,5 @@
-// A limit that holds, explained: "elbow (hinge) stops at 145 degrees; the target needs 162".
+// The active limit that keeps a tip from its target, explained: "elbow (hinge) stops at 145 degrees; the
+// target needs 162".
 #pragma once
 
 #include <cstddef>
@@ -13,7 +14,7 @@ enum class Bound : std::uint8_t { Min, Max, Up, Down, Left, Right, TwistMin, Twi
 /// "twist_max"
 const char* name(Bound bound) noexcept;
 
-struct Hold {
+struct ActiveLimit {
     std::size_t joint = 0;  ///< the bone's first joint, as limits are counted
     JointKind kind = JointKind::Free;
     Bound bound = Bound::Max;
@@ -25,7 +26,7 @@ struct Hold {
     float needed = 0.0f;
     bool enough = false;  ///< whether freeing this joint alone lets the tip reach the target
 
-    bool operator==(const Hold&) const = default;
+    bool operator==(const ActiveLimit&) const = default;
 };
 
 }  // namespace tendril::ik

@@ -1,5 +1,5 @@
-// What CCD and the Jacobian solvers end an iteration with: every joint has found its turn, and now all of
-// them are carried out in one sweep from root to tip. O(n). Not installed.
+// What CCD and the Jacobian solvers end an iteration with: every joint has found its rotation, and now all of
+// them are applied in one sweep from root to tip. O(n). Not installed.
 #pragma once
 
 #include <cfloat>
@@ -10,24 +10,25 @@
 namespace tendril::ik::detail {
 
 /// A bone of this length along `bone`; along +X where that has no direction.
-static inline glm::vec3 laid(const glm::vec3& bone, float length) noexcept {
+static inline glm::vec3 with_length(const glm::vec3& bone, float length) noexcept {
     const float squared = dot(bone, bone);
     if (squared < FLT_MIN) return {length, 0.0f, 0.0f};
     return times(bone, length / std::sqrt(squared));
 }
 
-/// Turns everything beyond joint i by room.turns[i], for every i. The turns are in the world, each as it is
-/// before any joint nearer to the root has turned. Bones come out at their lengths, so nothing drifts.
-static inline void carry_out_turns(Problem& problem) noexcept {
+/// Turns everything beyond joint i by scratch.rotations[i], for every i. The rotations are in the world, each
+/// as it is before any joint nearer to the root has turned. Bones come out at their lengths, so nothing
+/// drifts.
+static inline void apply_rotations(Problem& problem) noexcept {
     const std::span<glm::vec3> joints = problem.joints;
     const std::span<const float> lengths = problem.lengths();
     glm::quat all{1.0f, 0.0f, 0.0f, 0.0f};
     glm::vec3 before = joints.front(), at = before;
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        all = compose(all, problem.room.turns[i]);
+        all = compose(all, problem.scratch.rotations[i]);
         const glm::vec3 bone = minus(joints[i + 1], before);
         before = joints[i + 1];
-        at = plus(at, laid(rotated(all, bone), lengths[i]));
+        at = plus(at, with_length(rotated(all, bone), lengths[i]));
         joints[i + 1] = at;
     }
 }

@@ -1,4 +1,4 @@
-#include "ik/methods/spread.hpp"
+#include "ik/methods/accelerate.hpp"
 
 #include <algorithm>
 #include <cfloat>
@@ -11,18 +11,18 @@ namespace {
 
 constexpr int tries = 2;             ///< spans worked out for one family of shapes
 constexpr float strong_bend = 1e6f;  ///< of t^2: where the bones of a chain that was bent point sideways
-constexpr float most_bend = 1e10f;   ///< of t^2: there the last trace of a bend has become one
+constexpr float max_bend = 1e10f;    ///< of t^2: there the last trace of a bend has become one
 
 /// Shapes that differ by t. The longest bone may be left out of it.
 struct Family {
-    glm::vec3 line{0.0f};    ///< towards which the bones turn, a unit vector
-    std::size_t held = 0;    ///< the bone that does not turn; the number of bones for none
-    glm::vec3 first{0.0f};   ///< what the span starts with: the held bone, or nothing
-    glm::vec3 aim{0.0f};     ///< where the span is to end: so it is turned in the end
-    bool turns_held = true;  ///< then too
-    float wanted = 0.0f;     ///< the size of `aim`
-    float straight = 0.0f;   ///< the size of the span at t = 0
-    float now = 0.0f;        ///< at t = 1
+    glm::vec3 line{0.0f};       ///< towards which the bones turn, a unit vector
+    std::size_t fixed = 0;      ///< the bone that does not turn; the number of bones for none
+    glm::vec3 first{0.0f};      ///< what the span starts with: the fixed bone, or nothing
+    glm::vec3 aim{0.0f};        ///< where the span is to end: so it is turned in the end
+    bool rotates_fixed = true;  ///< then too
+    float wanted = 0.0f;        ///< the size of `aim`
+    float straight = 0.0f;      ///< the size of the span at t = 0
+    float now = 0.0f;           ///< at t = 1
 };
 
 struct Fit {
@@ -31,14 +31,14 @@ struct Fit {
     float size = 0.0f;       ///< of the span
     float error = FLT_MAX;   ///< by how much that misses
     bool found = false;      ///< whether one side of it was seen to be too much and the other too little
-    bool is_shaped = false;  ///< whether room.old holds this one
+    bool is_shaped = false;  ///< whether scratch.old holds this one
 };
 
-/// Writes the bones of a shape into room.old and returns their span.
+/// Writes the bones of a shape into scratch.old and returns their span.
 glm::vec3 shape(Problem& problem, const Family& family, float t) noexcept {
     const glm::vec3* joints = problem.joints.data();
     const float* lengths = problem.lengths().data();
-    glm::vec3* bones = problem.room.old.data();
+    glm::vec3* bones = problem.scratch.old.data();
     const glm::vec3 towards = times(family.line, 1.0f - t);
     const auto part = [&](std::size_t from, std::size_t to, glm::vec3 span) {
         for (std::size_t i = from; i < to; ++i) {
@@ -52,10 +52,10 @@ glm::vec3 shape(Problem& problem, const Family& family, float t) noexcept {
         return span;
     };
     const std::size_t count = problem.bones();
-    const glm::vec3 span = part(0, std::min(family.held, count), family.first);
-    if (family.held >= count) return span;
-    bones[family.held] = minus(joints[family.held + 1], joints[family.held]);
-    return part(family.held + 1, count, span);
+    const glm::vec3 span = part(0, std::min(family.fixed, count), family.first);
+    if (family.fixed >= count) return span;
+    bones[family.fixed] = minus(joints[family.fixed + 1], joints[family.fixed]);
+    return part(family.fixed + 1, count, span);
 }
 
 /// The best of a few tries at the t^2 where the span is as wanted: regula falsi.
@@ -66,7 +66,7 @@ Fit fit(Problem& problem, const Family& family, float near) noexcept {
     best.found = (at_low < 0.0f) != (at_high < 0.0f);
     float next = at_low / (at_low - at_high);
     for (int i = 0; i < tries; ++i) {
-        if (!(next >= 0.0f && next <= most_bend)) next = most_bend;  // and not a number: 0 / 0
+        if (!(next >= 0.0f && next <= max_bend)) next = max_bend;  // and not a number: 0 / 0
         const float t = std::sqrt(next);
         const glm::vec3 span = shape(problem, family, t);
         const float size = length(span), off = size - family.wanted;
@@ -88,10 +88,10 @@ Fit fit(Problem& problem, const Family& family, float near) noexcept {
     return best;
 }
 
-/// All bones but the held one bend or straighten; `span` is theirs.
-Family blend_of(const glm::vec3& span, const glm::vec3& aim, float reach, std::size_t held) noexcept {
+/// All bones but the fixed one bend or straighten; `span` is theirs.
+Family blend_of(const glm::vec3& span, const glm::vec3& aim, float reach, std::size_t fixed) noexcept {
     Family family;
-    family.held = held;
+    family.fixed = fixed;
     family.aim = aim;
     family.wanted = length(aim);
     family.straight = reach;
@@ -109,27 +109,27 @@ Family family_around_longest(const Problem& problem, const glm::vec3& span, cons
     const auto lengths = problem.lengths();
     const auto longest =
         static_cast<std::size_t>(std::max_element(lengths.begin(), lengths.end()) - lengths.begin());
-    const float size = lengths[longest], others = problem.room.reach - size;
+    const float size = lengths[longest], others = problem.scratch.reach - size;
     const glm::vec3 bone = minus(problem.joints[longest + 1], problem.joints[longest]);
     const glm::vec3 left = minus(all.aim, bone);
     if (length(left) <= others) {
         Family family = blend_of(minus(span, bone), left, others, longest);
-        family.turns_held = false;
+        family.rotates_fixed = false;
         return family;
     }
     Family family = all;
-    family.held = longest;
+    family.fixed = longest;
     family.first = bone;
     family.line = times(bone, -1.0f / size);
     family.straight = std::abs(size - others);
     return family;
 }
 
-/// The least rotation from one direction to another: a reflection that takes the one to the opposite of the
+/// The minimal rotation from one direction to another: a reflection that takes the one to the opposite of the
 /// other, then one that takes it back. None where one of them has no direction.
-class Turn {
+class ShortestRotation {
   public:
-    Turn(const glm::vec3& from, float from_size, const glm::vec3& to, float to_size) noexcept {
+    ShortestRotation(const glm::vec3& from, float from_size, const glm::vec3& to, float to_size) noexcept {
         if (!(from_size > FLT_MIN && to_size > FLT_MIN)) return;
         const glm::vec3 start = times(from, 1.0f / from_size), end = times(to, 1.0f / to_size);
         first_ = plus(start, end);
@@ -147,14 +147,14 @@ class Turn {
     glm::vec3 first_{0.0f}, second_{0.0f}, twice_first_{0.0f}, twice_second_{0.0f};
 };
 
-/// Lays the chain with the bones of room.old, turned so that `span` ends on the family's aim.
+/// Places the chain with the bones of scratch.old, turned so that `span` ends on the family's aim.
 template <class Watch>
-void lay(Problem& problem, const Family& family, const Turn& turn, Watch watch) noexcept {
+void lay(Problem& problem, const Family& family, const ShortestRotation& rotation, Watch watch) noexcept {
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        const glm::vec3& bone = problem.room.old[i];
-        const bool turns = i != family.held || family.turns_held;
-        const glm::vec3 to = plus(problem.joints[i], turns ? turn.of(bone) : bone);
-        watch.moved(problem.iteration, Phase::Spread, i + 1, i, problem.joints[i + 1], to);
+        const glm::vec3& bone = problem.scratch.old[i];
+        const bool rotates = i != family.fixed || family.rotates_fixed;
+        const glm::vec3 to = plus(problem.joints[i], rotates ? rotation.of(bone) : bone);
+        watch.moved(problem.iteration, Phase::Accelerate, i + 1, i, problem.joints[i + 1], to);
         problem.joints[i + 1] = to;
     }
     watch.next_step();
@@ -163,8 +163,8 @@ void lay(Problem& problem, const Family& family, const Turn& turn, Watch watch) 
 }  // namespace
 
 template <class Watch>
-void spread(Problem& problem, float residual, Watch watch) noexcept {
-    const float reach = problem.room.reach;
+void accelerate(Problem& problem, float residual, Watch watch) noexcept {
+    const float reach = problem.scratch.reach;
     const float near = std::max(0.25f * problem.tolerance, 1e-6f * reach);
     const glm::vec3 span = minus(problem.joints.back(), problem.root());
     Family family = blend_of(span, minus(problem.target, problem.root()), reach, problem.bones());
@@ -177,10 +177,10 @@ void spread(Problem& problem, float residual, Watch watch) noexcept {
     }
     if (!(best.error < residual)) return;
     if (!best.is_shaped) shape(problem, family, best.t);
-    lay(problem, family, Turn(best.span, best.size, family.aim, family.wanted), watch);
+    lay(problem, family, ShortestRotation(best.span, best.size, family.aim, family.wanted), watch);
 }
 
-template void spread(Problem&, float, Unwatched) noexcept;
-template void spread(Problem&, float, Watched) noexcept;
+template void accelerate(Problem&, float, Unwatched) noexcept;
+template void accelerate(Problem&, float, Watched) noexcept;
 
 }  // namespace tendril::ik::detail

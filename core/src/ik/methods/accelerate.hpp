@@ -1,9 +1,9 @@
 // The step that makes FABRIK fast near full reach, and wherever else it crawls. Not installed.
 //
-// A pull hands a bend on from joint to joint and takes little of it away; so a chain whose tip falls short by
-// one in a thousand needs hundreds of pulls to straighten that much. Here the shape that the pulls found is
-// kept and its bend as a whole made less or more. With u a bone's direction and l that of the line from root
-// to tip, every bone is given the direction of
+// A pass hands a bend on from joint to joint and takes little of it away; so a chain whose tip falls short by
+// one in a thousand needs hundreds of passes to straighten that much. Here the shape that the passes found is
+// preserved and its bend as a whole made less or more. With u a bone's direction and l that of the line from
+// root to tip, every bone is given the direction of
 //
 //     l + t (u - l)
 //
@@ -17,15 +17,15 @@
 // along the longest.
 //
 // Cost: O(n), as a rule one or two square roots a bone, none of which waits for the one before it as those of
-// a pull do: about as much as the pulls.
+// a pass do: about as much as the passes.
 #pragma once
 
 #include "ik/solve/problem.hpp"
 
 namespace tendril::ik::detail {
 
-/// After a pair of pulls that left the tip `residual` from the target. Moves nothing unless that gets less.
+/// After a pair of passes that left the tip `residual` from the target. Moves nothing unless that gets less.
 template <class Watch>
-void spread(Problem& problem, float residual, Watch watch) noexcept;
+void accelerate(Problem& problem, float residual, Watch watch) noexcept;
 
 }  // namespace tendril::ik::detail
