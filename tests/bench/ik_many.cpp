@@ -1,5 +1,5 @@
 // What solve_many gains over a plain loop over one Solver with Method::Fabrik: to tolerance, from the same
-// fresh poses, with all joints copied into the batch before each solve and out of it after.
+// fresh poses, with all joints read from the caller's memory and written there.
 //
 //     tendril_bench_ik_many            the tables and one line per claim
 //     tendril_bench_ik_many --check    the same, and exit code 1 when a claim does not hold
@@ -134,12 +134,12 @@ class Contest {
             reports_[i] = solver_.solve(Method::Fabrik, joints, crowd_.targets[i], {.limits = crowd_.limits});
         }
     }
-    /// With the transfers.
+    /// From the same joints to the same joints; the rotations go in and out of the batch.
     void many(std::string_view unit) {
         const bool limited = !crowd_.limits.empty();
-        if (!batch_.set_joints(joints_) || (limited && !batch_.set_rotations(rest_))) std::abort();
-        summary_ = solve_many(batch_, crowd_.targets, many_reports_, {.vector_unit = unit});
-        if (!batch_.copy_joints(joints_) || (limited && !batch_.copy_rotations(rotations_))) std::abort();
+        if (limited && !batch_.set_rotations(rest_)) std::abort();
+        summary_ = solve_many(batch_, joints_, crowd_.targets, many_reports_, {.vector_unit = unit});
+        if (limited && !batch_.copy_rotations(rotations_)) std::abort();
     }
     double mean_iterations() const {
         double sum = 0.0;

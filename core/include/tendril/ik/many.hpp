@@ -139,6 +139,8 @@ class Batch {
     std::unique_ptr<Parts> parts_;
     friend ManySummary solve_many(Batch&, std::span<const glm::vec3>, std::span<ManyReport>,
                                   const ManyOptions&) noexcept;
+    friend ManySummary solve_many(Batch&, std::span<glm::vec3>, std::span<const glm::vec3>,
+                                  std::span<ManyReport>, const ManyOptions&) noexcept;
 };
 
 /// Moves all joints but the roots so that every tip comes to its target: one target a chain, metres. Report i
@@ -149,5 +151,13 @@ class Batch {
 /// lists of the wrong size give it to all of them.
 ManySummary solve_many(Batch& batch, std::span<const glm::vec3> targets, std::span<ManyReport> reports = {},
                        const ManyOptions& options = {}) noexcept;
+
+/// The same for joints that the caller keeps: those of all chains, root first, one chain after the other. The
+/// solve starts from them and writes them; the batch's own stay as they were, and lengths, limits and
+/// rotations are the batch's. Same bits as set_joints, solve_many and copy_joints, in less time than these:
+/// the joints pass through the nearest cache only. A chain with a joint that set_joints would refuse gets
+/// Status::InvalidInput and stays as it was.
+ManySummary solve_many(Batch& batch, std::span<glm::vec3> joints, std::span<const glm::vec3> targets,
+                       std::span<ManyReport> reports, const ManyOptions& options = {}) noexcept;
 
 }  // namespace tendril::ik

@@ -4,11 +4,13 @@
 // for one block after the other: it stays in the nearest cache. Not installed.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <new>
+#include <span>
 
 namespace tendril::ik::detail {
 
@@ -54,20 +56,27 @@ enum class Class : std::uint8_t {
 /// One block; the rows belong to somebody else.
 class Block {
   public:
+    Block(float* joints, float* lengths, float* state, std::size_t bones) noexcept
+        : joints_(joints), lengths_(lengths), state_(state), bones_(bones) {}
+    /// The rows of joints and of lengths one after the other.
     Block(float* rows, float* state, std::size_t bones) noexcept
-        : rows_(rows), state_(state), bones_(bones) {}
+        : Block(rows, rows + joint_rows(bones) * block_lanes, state, bones) {}
 
-    /// Of the chains themselves: joints, lengths, reach and longest bone.
-    static std::size_t chain_rows(std::size_t bones) noexcept { return 3 * (bones + 1) + bones + 2; }
-    static std::size_t chain_floats(std::size_t bones) noexcept { return chain_rows(bones) * block_lanes; }
+    static std::size_t joint_rows(std::size_t bones) noexcept { return 3 * (bones + 1); }
+    /// Lengths, reach and longest bone.
+    static std::size_t length_rows(std::size_t bones) noexcept { return bones + 2; }
+    static std::size_t joint_floats(std::size_t bones) noexcept { return joint_rows(bones) * block_lanes; }
+    static std::size_t chain_floats(std::size_t bones) noexcept {
+        return (joint_rows(bones) + length_rows(bones)) * block_lanes;
+    }
     static std::size_t state_floats(std::size_t bones) noexcept {
         return (state_rows + 3 * bones) * block_lanes;
     }
 
     std::size_t bones() const noexcept { return bones_; }
     /// Three rows: x, y and z.
-    float* joint(std::size_t index) const noexcept { return rows_ + 3 * index * block_lanes; }
-    float* length(std::size_t bone) const noexcept { return joint(bones_ + 1) + bone * block_lanes; }
+    float* joint(std::size_t index) const noexcept { return joints_ + 3 * index * block_lanes; }
+    float* length(std::size_t bone) const noexcept { return lengths_ + bone * block_lanes; }
     float* reach() const noexcept { return length(bones_); }
     float* longest() const noexcept { return reach() + block_lanes; }
 
@@ -101,9 +110,37 @@ class Block {
     }
 
   private:
-    float* rows_;
+    float* joints_;
+    float* lengths_;
     float* state_;
     std::size_t bones_;
+};
+
+/// Some lanes of rows, side by side; in place where `to` is `from` and the lanes ascend.
+inline void gather_lanes(const float* from, std::span<const std::uint8_t> lanes, float* to,
+                         std::size_t rows) noexcept {
+    for (std::size_t row = 0; row < rows; ++row, from += block_lanes, to += block_lanes) {
+        for (std::size_t k = 0; k < lanes.size(); ++k) to[k] = from[lanes[k]];
+    }
+}
+/// The other way.
+inline void scatter_lanes(const float* from, std::span<const std::uint8_t> lanes, float* to,
+                          std::size_t rows) noexcept {
+    for (std::size_t row = 0; row < rows; ++row, from += block_lanes, to += block_lanes) {
+        for (std::size_t k = 0; k < lanes.size(); ++k) to[lanes[k]] = from[k];
+    }
+}
+inline void copy_lane(const float* from, float* to, std::size_t rows) noexcept {
+    for (std::size_t row = 0; row < rows; ++row) to[row * block_lanes] = from[row * block_lanes];
+}
+
+/// Lanes of a block, ascending as a rule.
+struct LaneList {
+    std::array<std::uint8_t, block_lanes> lanes;
+    std::size_t count = 0;
+
+    void add(std::size_t lane) noexcept { lanes[count++] = static_cast<std::uint8_t>(lane); }
+    std::span<const std::uint8_t> span() const noexcept { return {lanes.data(), count}; }
 };
 
 /// Memory for rows, aligned as the widest register wants it.

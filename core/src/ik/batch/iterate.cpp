@@ -82,23 +82,22 @@ HWY_INLINE Mask has_its_turn(const Block& block, std::size_t i) {
 /// Some lanes of a block, side by side in another one.
 struct Gathered {
     Block block;
-    std::array<std::uint8_t, block_lanes> home{};  ///< the lane that each comes from
-    std::size_t count = 0;
+    LaneList home;  ///< the lane that each comes from
 
     explicit Gathered(const Block& in) : block(in) {}
 
-    static void copy_column(const float* from, float* to, std::size_t rows) {
-        for (std::size_t row = 0; row < rows; ++row) to[row * block_lanes] = from[row * block_lanes];
-    }
-    /// What the accelerated step reads.
-    void add(const Block& from, std::size_t lane, std::size_t home_lane) {
-        copy_column(from.joint(0) + lane, block.joint(0) + count, Block::chain_rows(from.bones()));
-        copy_column(from.target() + lane, block.target() + count,
-                    1 + static_cast<std::size_t>(Row::Residual));
-        home[count++] = static_cast<std::uint8_t>(home_lane);
+    /// What the accelerated step reads. `home_of` says which lane each of them comes from.
+    template <class Home>
+    void add(const Block& from, const LaneList& lanes, Home home_of) {
+        const std::size_t bones = from.bones(), at = home.count;
+        gather_lanes(from.joint(0), lanes.span(), block.joint(0) + at, Block::joint_rows(bones));
+        gather_lanes(from.length(0), lanes.span(), block.length(0) + at, Block::length_rows(bones));
+        gather_lanes(from.target(), lanes.span(), block.target() + at,
+                     1 + static_cast<std::size_t>(Row::Residual));
+        for (const std::size_t lane : lanes.span()) home.add(home_of(lane));
     }
     void put_back(std::size_t index, const Block& to) const {
-        copy_column(block.joint(1) + index, to.joint(1) + home[index], 3 * to.bones());
+        copy_lane(block.joint(1) + index, to.joint(1) + home.lanes[index], 3 * to.bones());
     }
 };
 
@@ -138,10 +137,12 @@ HWY_INLINE void reshape(const Block& block, std::size_t i, Mask lanes, float* sh
     if (const Mask other = hn::And(lanes, short_of); any(other)) {
         HWY_ALIGN float errors[16];
         store(best.error, errors);
+        LaneList to_second;
         for_each_lane(other, [&](std::size_t lane) {
-            second.block.at(Row::Best, second.count) = errors[lane];
-            second.add(block, i + lane, home(i + lane));
+            second.block.at(Row::Best, second.home.count + to_second.count) = errors[lane];
+            to_second.add(i + lane);
         });
+        second.add(block, to_second, home);
     }
     lay_shape<false>(block, i, hn::And(lanes, hn::Lt(best.error, residual)), family, best, one, two);
 }
@@ -150,8 +151,8 @@ HWY_INLINE void reshape(const Block& block, std::size_t i, Mask lanes, float* sh
 HWY_INLINE void reshape_around_longest(const Gathered& second, const Block& to, float* shapes) {
     const Block& block = second.block;
     const Shape one(shapes), two(shapes + Shape::floats(block.bones()));
-    for (std::size_t i = 0; i < second.count; i += hn::Lanes(Floats())) {
-        const Mask lanes = hn::FirstN(Floats(), second.count - i);
+    for (std::size_t i = 0; i < second.home.count; i += hn::Lanes(Floats())) {
+        const Mask lanes = hn::FirstN(Floats(), second.home.count - i);
         Points span;
         const Family whole = whole_family(block, i, span);
         const Family family = family_around_longest(block, i, span, whole);
@@ -198,24 +199,25 @@ HWY_INLINE void take_step(const Block& block, const Registers& registers, const 
     const Takers takers = find_takers(block, registers);
     if (takers.count == 0) return;
     Gathered second(scratch.second);
+    const auto own = [](std::size_t lane) { return lane; };
     if (pays_to_gather(takers)) {
-        Gathered gathered(scratch.gathered);
+        LaneList taking;
         for (std::size_t k = 0; k < registers.count; ++k) {
             const std::size_t i = registers.first[k];
-            for_each_lane(takers.lanes[k],
-                          [&](std::size_t lane) { gathered.add(block, i + lane, i + lane); });
+            for_each_lane(takers.lanes[k], [&](std::size_t lane) { taking.add(i + lane); });
         }
-        const auto home = [&](std::size_t lane) { return gathered.home[lane]; };
-        for (std::size_t i = 0; i < gathered.count; i += hn::Lanes(Floats())) {
-            const Mask lanes = hn::FirstN(Floats(), gathered.count - i);
+        Gathered gathered(scratch.gathered);
+        gathered.add(block, taking, own);
+        const auto home = [&](std::size_t lane) { return gathered.home.lanes[lane]; };
+        for (std::size_t i = 0; i < taking.count; i += hn::Lanes(Floats())) {
+            const Mask lanes = hn::FirstN(Floats(), taking.count - i);
             reshape(gathered.block, i, lanes, scratch.shapes, second, home);
         }
-        for (std::size_t index = 0; index < gathered.count; ++index) gathered.put_back(index, block);
+        scatter_lanes(gathered.block.joint(1), taking.span(), block.joint(1), 3 * block.bones());
     } else {
-        const auto home = [](std::size_t lane) { return lane; };
         for (std::size_t k = 0; k < registers.count; ++k) {
             if (!any(takers.lanes[k])) continue;
-            reshape(block, registers.first[k], takers.lanes[k], scratch.shapes, second, home);
+            reshape(block, registers.first[k], takers.lanes[k], scratch.shapes, second, own);
         }
     }
     reshape_around_longest(second, block, scratch.shapes);

@@ -97,7 +97,8 @@ class LimitedTile {
         : home_(home), order_(order), used_(lanes) {
         for (std::size_t lane = 0; lane < lanes; ++lane) lanes_[lane] = static_cast<std::uint8_t>(lane);
         const std::size_t bones = home.bones();
-        std::copy_n(home.joint(0), Block::chain_floats(bones), order.tile.joint(0));
+        std::copy_n(home.joint(0), Block::joint_floats(bones), order.tile.joint(0));
+        std::copy_n(home.length(0), Block::length_rows(bones) * block_lanes, order.tile.length(0));
         std::copy_n(home.target(), state_rows * block_lanes, order.tile.target());
         for (std::size_t i = 0; i < lanes; i += Column::width()) begin(Limb(i, order), order.rotations);
     }
@@ -117,9 +118,6 @@ class LimitedTile {
     }
 
   private:
-    static void copy_column(const float* from, float* to, std::size_t rows) {
-        for (std::size_t row = 0; row < rows; ++row) to[row * block_lanes] = from[row * block_lanes];
-    }
     /// Chains are moved only where that leaves a register empty: it costs about as much as half a step.
     void clear_done() {
         const Block& tile = order_.tile;
@@ -143,9 +141,9 @@ class LimitedTile {
     void move(std::size_t from, std::size_t to) {
         const Block& tile = order_.tile;
         const std::size_t bones = home_.bones();
-        copy_column(tile.joint(0) + from, tile.joint(0) + to, Block::chain_rows(bones));
-        copy_column(tile.target() + from, tile.target() + to, state_rows);
-        copy_column(order_.poses + from, order_.poses + to, pose_rows(bones));
+        copy_lane(tile.joint(0) + from, tile.joint(0) + to, Block::chain_floats(bones) / block_lanes);
+        copy_lane(tile.target() + from, tile.target() + to, state_rows);
+        copy_lane(order_.poses + from, order_.poses + to, pose_rows(bones));
         lanes_[to] = std::exchange(lanes_[from], gone);
         tile.set_activity(from, Activity::Done);
     }
@@ -161,12 +159,12 @@ class LimitedTile {
         }
         const float* const joints = order_.poses + slot;
         const float* const world = joints + (3 * (bones + 1) + 4 * bones) * block_lanes;
-        copy_column(joints + 3 * block_lanes, home_.joint(1) + lane, 3 * bones);
+        copy_lane(joints + 3 * block_lanes, home_.joint(1) + lane, 3 * bones);
         for (std::size_t bone = 0; bone < bones; ++bone) {
             const float* const from = world + 4 * bone * block_lanes;
             float* const to = order_.rotations + 4 * bone * block_lanes + lane;
             to[row_of_w] = from[0];
-            copy_column(from + block_lanes, to + row_of_v, 3);
+            copy_lane(from + block_lanes, to + row_of_v, 3);
         }
         home_.at(Row::Residual, lane) = tile.at(Row::Residual, slot);
         home_.at(Row::Iterations, lane) = tile.at(Row::Iterations, slot);

@@ -53,6 +53,8 @@ struct Batch::Parts {
         return rotations.get() + chain / block_lanes * 4 * bones * block_lanes;
     }
     void forget_rotations() noexcept;
+    static ManySummary solve(Parts& parts, std::span<const glm::vec3> targets, glm::vec3* joints,
+                             std::span<ManyReport> reports, const ManyOptions& options) noexcept;
     /// Calls it with each block, the index of its first chain and how many it has.
     template <class Call>
     void for_each_block(Call call) const noexcept {
@@ -282,7 +284,21 @@ float Batch::reach(std::size_t chain) const noexcept {
 
 ManySummary solve_many(Batch& batch, std::span<const glm::vec3> targets, std::span<ManyReport> reports,
                        const ManyOptions& options) noexcept {
-    Batch::Parts& parts = *batch.parts_;
+    return Batch::Parts::solve(*batch.parts_, targets, nullptr, reports, options);
+}
+
+ManySummary solve_many(Batch& batch, std::span<glm::vec3> joints, std::span<const glm::vec3> targets,
+                       std::span<ManyReport> reports, const ManyOptions& options) noexcept {
+    if (joints.size() != batch.size() * (batch.bones() + 1)) {
+        std::fill(reports.begin(), reports.end(), ManyReport{.status = Status::InvalidInput});
+        return {.invalid = batch.size()};
+    }
+    return Batch::Parts::solve(*batch.parts_, targets, joints.data(), reports, options);
+}
+
+/// `joints` is null for those that the batch has.
+ManySummary Batch::Parts::solve(Parts& parts, std::span<const glm::vec3> targets, glm::vec3* joints,
+                                std::span<ManyReport> reports, const ManyOptions& options) noexcept {
     const VectorUnit* const unit =
         options.vector_unit.empty() ? &widest() : vector_unit_named(options.vector_unit);
     Options scalar;
@@ -296,7 +312,7 @@ ManySummary solve_many(Batch& batch, std::span<const glm::vec3> targets, std::sp
         std::fill(reports.begin(), reports.end(), ManyReport{.status = Status::InvalidInput});
         return {.invalid = parts.chains};
     }
-    Work work({parts.blocks.get(), parts.chains, parts.bones, targets, reports, scalar, *unit,
+    Work work({parts.blocks.get(), parts.chains, parts.bones, targets, joints, reports, scalar, *unit,
                parts.limits.get(), parts.rotations.get()});
     const std::size_t useful = std::min(parts.block_count(), parts.chains * parts.bones / bones_a_thread);
     const auto count = static_cast<std::uint32_t>(std::clamp<std::size_t>(useful, 1, parts.scratch.size()));

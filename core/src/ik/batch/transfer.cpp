@@ -19,76 +19,110 @@ HWY_BEFORE_NAMESPACE();
 namespace tendril::ik::detail {
 namespace HWY_NAMESPACE {
 
-/// From `lanes` lists of `count` floats, each `stride` after the one before, to rows.
-HWY_INLINE void transpose_in(const float* lists, std::size_t stride, std::size_t lanes, std::size_t count,
-                             float* rows) {
+#if HWY_TARGET != HWY_SCALAR
+
+/// Four floats of every fourth list: of lists 0, 4, 8 and so on, as many as fill a register.
+template <class D>
+HWY_INLINE hn::Vec<D> load_quads(D d, const float* from, std::size_t stride) {
+    if constexpr (hn::MaxLanes(D()) <= 4) {
+        return hn::LoadU(d, from);
+    } else {
+        const hn::Half<D> half;
+        const std::size_t lists = hn::MaxLanes(half);
+        return hn::Combine(d, load_quads(half, from + lists * stride, stride), load_quads(half, from, stride));
+    }
+}
+template <class D>
+HWY_INLINE void store_quads(D d, hn::Vec<D> value, float* to, std::size_t stride) {
+    if constexpr (hn::MaxLanes(D()) <= 4) {
+        hn::StoreU(value, d, to);
+    } else {
+        const hn::Half<D> half;
+        const std::size_t lists = hn::MaxLanes(half);
+        store_quads(half, hn::LowerHalf(half, value), to, stride);
+        store_quads(half, hn::UpperHalf(half, value), to + lists * stride, stride);
+    }
+}
+
+/// Four registers; each block of four lanes is a matrix of which they are the rows.
+template <class D>
+struct Quads {
+    hn::Vec<D> a, b, c, e;
+
+    HWY_INLINE void transpose(D d) {
+        const auto ac = hn::InterleaveLower(d, a, c), be = hn::InterleaveLower(d, b, e);
+        const auto ac2 = hn::InterleaveUpper(d, a, c), be2 = hn::InterleaveUpper(d, b, e);
+        a = hn::InterleaveLower(d, ac, be), b = hn::InterleaveUpper(d, ac, be);
+        c = hn::InterleaveLower(d, ac2, be2), e = hn::InterleaveUpper(d, ac2, be2);
+    }
+};
+
+template <class D>
+HWY_INLINE void quads_in(D d, const float* from, std::size_t stride, float* to) {
+    Quads<D> quads{load_quads(d, from, stride), load_quads(d, from + stride, stride),
+                   load_quads(d, from + 2 * stride, stride), load_quads(d, from + 3 * stride, stride)};
+    quads.transpose(d);
+    hn::Store(quads.a, d, to), hn::Store(quads.b, d, to + block_lanes);
+    hn::Store(quads.c, d, to + 2 * block_lanes), hn::Store(quads.e, d, to + 3 * block_lanes);
+}
+template <class D>
+HWY_INLINE void quads_out(D d, const float* from, std::size_t stride, float* to) {
+    Quads<D> quads{hn::Load(d, from), hn::Load(d, from + block_lanes), hn::Load(d, from + 2 * block_lanes),
+                   hn::Load(d, from + 3 * block_lanes)};
+    quads.transpose(d);
+    store_quads(d, quads.a, to, stride), store_quads(d, quads.b, to + stride, stride);
+    store_quads(d, quads.c, to + 2 * stride, stride), store_quads(d, quads.e, to + 3 * stride, stride);
+}
+
+/// Calls `quad` with each four of `count` floats; the last four may be of those before too.
+template <class Quad>
+HWY_INLINE void for_each_quad(std::size_t count, Quad quad) {
+    for (std::size_t i = 0; i + 4 <= count; i += 4) quad(i);
+    if (count % 4 != 0) quad(count - 4);
+}
+
+#endif
+
+/// From `lanes` lists of `count` floats to rows.
+void copy_in(const float* lists, std::size_t lanes, std::size_t count, float* rows) {
     std::size_t lane = 0;
 #if HWY_TARGET != HWY_SCALAR
-    const hn::FixedTag<float, 4> d;
-    for (; lane + 4 <= lanes; lane += 4) {
-        const float* const from = lists + lane * stride;
-        std::size_t i = 0;
-        for (; i + 4 <= count; i += 4) {
-            const auto a = hn::LoadU(d, from + i), b = hn::LoadU(d, from + stride + i),
-                       c = hn::LoadU(d, from + 2 * stride + i), e = hn::LoadU(d, from + 3 * stride + i);
-            const auto ac = hn::InterleaveLower(d, a, c), be = hn::InterleaveLower(d, b, e),
-                       ac2 = hn::InterleaveUpper(d, a, c), be2 = hn::InterleaveUpper(d, b, e);
-            float* const to = rows + i * block_lanes + lane;
-            hn::Store(hn::InterleaveLower(d, ac, be), d, to);
-            hn::Store(hn::InterleaveUpper(d, ac, be), d, to + block_lanes);
-            hn::Store(hn::InterleaveLower(d, ac2, be2), d, to + 2 * block_lanes);
-            hn::Store(hn::InterleaveUpper(d, ac2, be2), d, to + 3 * block_lanes);
+    const auto some = [&](auto d) {
+        for (; lane + hn::MaxLanes(d) <= lanes; lane += hn::MaxLanes(d)) {
+            for_each_quad(count, [&](std::size_t i) {
+                quads_in(d, lists + lane * count + i, count, rows + i * block_lanes + lane);
+            });
         }
-        for (; i < count; ++i) {
-            for (std::size_t k = 0; k < 4; ++k) rows[i * block_lanes + lane + k] = from[k * stride + i];
-        }
-    }
+    };
+    if (count >= 4) some(Floats()), some(hn::CappedTag<float, 4>());
 #endif
     for (; lane < lanes; ++lane) {
-        for (std::size_t i = 0; i < count; ++i) rows[i * block_lanes + lane] = lists[lane * stride + i];
+        for (std::size_t i = 0; i < count; ++i) rows[i * block_lanes + lane] = lists[lane * count + i];
     }
 }
 
 /// The other way.
-HWY_INLINE void transpose_out(const float* rows, std::size_t stride, std::size_t lanes, std::size_t count,
-                              float* lists) {
+void copy_out(const float* rows, std::size_t lanes, std::size_t count, float* lists) {
     std::size_t lane = 0;
 #if HWY_TARGET != HWY_SCALAR
-    const hn::FixedTag<float, 4> d;
-    for (; lane + 4 <= lanes; lane += 4) {
-        float* const to = lists + lane * stride;
-        std::size_t i = 0;
-        for (; i + 4 <= count; i += 4) {
-            const float* const from = rows + i * block_lanes + lane;
-            const auto a = hn::Load(d, from), b = hn::Load(d, from + block_lanes),
-                       c = hn::Load(d, from + 2 * block_lanes), e = hn::Load(d, from + 3 * block_lanes);
-            const auto ac = hn::InterleaveLower(d, a, c), be = hn::InterleaveLower(d, b, e),
-                       ac2 = hn::InterleaveUpper(d, a, c), be2 = hn::InterleaveUpper(d, b, e);
-            hn::StoreU(hn::InterleaveLower(d, ac, be), d, to + i);
-            hn::StoreU(hn::InterleaveUpper(d, ac, be), d, to + stride + i);
-            hn::StoreU(hn::InterleaveLower(d, ac2, be2), d, to + 2 * stride + i);
-            hn::StoreU(hn::InterleaveUpper(d, ac2, be2), d, to + 3 * stride + i);
+    const auto some = [&](auto d) {
+        for (; lane + hn::MaxLanes(d) <= lanes; lane += hn::MaxLanes(d)) {
+            for_each_quad(count, [&](std::size_t i) {
+                quads_out(d, rows + i * block_lanes + lane, count, lists + lane * count + i);
+            });
         }
-        for (; i < count; ++i) {
-            for (std::size_t k = 0; k < 4; ++k) to[k * stride + i] = rows[i * block_lanes + lane + k];
-        }
-    }
+    };
+    if (count >= 4) some(Floats()), some(hn::CappedTag<float, 4>());
 #endif
     for (; lane < lanes; ++lane) {
-        for (std::size_t i = 0; i < count; ++i) lists[lane * stride + i] = rows[i * block_lanes + lane];
+        for (std::size_t i = 0; i < count; ++i) lists[lane * count + i] = rows[i * block_lanes + lane];
     }
-}
-
-void copy_in(const float* lists, std::size_t lanes, std::size_t count, float* rows) {
-    transpose_in(lists, count, lanes, count, rows);
-}
-
-void copy_out(const float* rows, std::size_t lanes, std::size_t count, float* lists) {
-    transpose_out(rows, count, lanes, count, lists);
 }
 
 void set_targets(const Block& block, std::size_t lanes, const glm::vec3* targets, float tolerance) {
-    transpose_in(&targets->x, 3, lanes, 3, block.target());
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        for (int k = 0; k < 3; ++k) block.target()[static_cast<std::size_t>(k) * block_lanes + lane] = targets[lane][k];
+    }
     const Floats d;
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
         const Lanes own = hn::Mul(all(1e-3f), load(block.reach() + i));

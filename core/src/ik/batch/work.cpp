@@ -1,6 +1,7 @@
 #include "ik/batch/work.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "ik/math.hpp"
 #include "ik/solve/loop.hpp"
@@ -19,14 +20,12 @@ int first_burst(std::size_t bones) noexcept {
     return bones >= 8 ? 1 : 4;
 }
 
-void copy_column(const float* from, float* to, std::size_t rows) noexcept {
-    for (std::size_t row = 0; row < rows; ++row) to[row * block_lanes] = from[row * block_lanes];
-}
-
-void copy_lane(const Block& from, std::size_t from_lane, const Block& to, std::size_t to_lane) noexcept {
+/// Whole chains, side by side from a lane on.
+void gather_chains(const Block& from, const LaneList& lanes, const Block& to, std::size_t at) noexcept {
     const std::size_t bones = from.bones();
-    copy_column(from.joint(0) + from_lane, to.joint(0) + to_lane, Block::chain_rows(bones));
-    copy_column(from.target() + from_lane, to.target() + to_lane, state_rows + 3 * bones);
+    gather_lanes(from.joint(0), lanes.span(), to.joint(0) + at, Block::joint_rows(bones));
+    gather_lanes(from.length(0), lanes.span(), to.length(0) + at, Block::length_rows(bones));
+    gather_lanes(from.target(), lanes.span(), to.target() + at, state_rows + 3 * bones);
 }
 
 float residual_of(const Problem& problem) noexcept {
@@ -44,12 +43,14 @@ void start_again(const Block& block, std::size_t lane, const Problem& problem) n
 }  // namespace
 
 Scratch::Scratch(std::size_t bones)
-    : state(Block::state_floats(bones)),
+    : joints(Block::joint_floats(bones)),
+      state(Block::state_floats(bones)),
       shapes(shape_floats(bones)),
       gathered(bones),
       second(bones),
       tile(bones) {
     // Lanes that are not used take part in the passes: nothing in them may be what is not a number.
+    std::fill_n(joints.get(), Block::joint_floats(bones), 0.0f);
     std::fill_n(state.get(), Block::state_floats(bones), 0.0f);
     for (Tile* each : {&tile, &gathered, &second}) {
         std::fill_n(each->rows.get(), Block::chain_floats(bones), 0.0f);
@@ -65,24 +66,45 @@ void Work::run(Scratch& scratch) noexcept {
 }
 
 void Work::solve_block(std::size_t index, Scratch& scratch) noexcept {
-    const Block block = this->block(index, scratch.state.get());
+    const Block block = this->block(index, scratch);
     const std::size_t first = index * block_lanes, lanes = std::min(block_lanes, in_.chains - first);
     in_.unit.set_targets(block, lanes, &in_.targets[first], in_.options.tolerance.value_or(-1.0f));
+    if (in_.joints != nullptr) take_joints(block, index, lanes);
     if (in_.limits != nullptr) return solve_limited_block(block, index, lanes, scratch);
     const Left left = in_.unit.classify(block, lanes, in_.options.every_iteration);
     for (std::size_t lane = 0; left.perturb && lane < lanes; ++lane) {
         if (block.class_of(lane) == Class::Collinear) leave_line(block, lane, scratch);
     }
     if (left.active > 0) iterate_block(block, lanes, scratch);
+    LaneList active;
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         if (block.class_of(lane) == Class::Scalar) {
             solve_scalar(block, lane, first + lane, scratch);
         } else if (block.activity(lane) != Activity::Done) {
-            put_into_tile(block, lane, first + lane, scratch);
+            active.add(lane);
         } else {
             report(block, lane, first + lane);
         }
     }
+    if (in_.joints != nullptr) return_joints(block, index, lanes);
+    if (active.count > 0) put_into_tile(block, active, first, scratch);  // may write joints of this block
+}
+
+/// The caller's joints. A chain with a coordinate out of range gets a target that makes it invalid.
+void Work::take_joints(const Block& block, std::size_t index, std::size_t lanes) const noexcept {
+    const std::size_t each = in_.bones + 1;
+    const glm::vec3* const joints = in_.joints + index * block_lanes * each;
+    in_.unit.copy_in(&joints->x, lanes, 3 * each, block.joint(0));
+    if (in_.unit.are_valid(&joints->x, 3 * each * lanes)) return;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        if (in_.unit.are_valid(&joints[lane * each].x, 3 * each)) continue;
+        block.at(Row::TargetX, lane) = std::numeric_limits<float>::quiet_NaN();
+    }
+}
+
+void Work::return_joints(const Block& block, std::size_t index, std::size_t lanes) const noexcept {
+    const std::size_t each = in_.bones + 1;
+    in_.unit.copy_out(block.joint(0), lanes, 3 * each, &in_.joints[index * block_lanes * each].x);
 }
 
 void Work::solve_limited_block(const Block& block, std::size_t index, std::size_t lanes,
@@ -103,6 +125,7 @@ void Work::solve_limited_block(const Block& block, std::size_t index, std::size_
             report(block, lane, chain);
         }
     }
+    if (in_.joints != nullptr) return_joints(block, index, lanes);
 }
 
 /// Where a few keep a whole block waiting they are left active: they go on elsewhere, together with those of
@@ -195,11 +218,14 @@ void Work::report_fallback(std::size_t chain, const Report& answer) noexcept {
     in_.reports[chain] = {answer.status, true, answer.iterations, answer.residual};
 }
 
-void Work::put_into_tile(const Block& from, std::size_t lane, std::size_t chain, Scratch& scratch) noexcept {
+void Work::put_into_tile(const Block& from, const LaneList& lanes, std::size_t first,
+                         Scratch& scratch) noexcept {
     Tile& tile = scratch.tile;
-    if (tile.used == block_lanes) run_tile(block_lanes / 2, scratch);
-    copy_lane(from, lane, tile.block, tile.used);
-    tile.chains[tile.used++] = static_cast<std::uint32_t>(chain);
+    if (tile.used + lanes.count > block_lanes) run_tile(block_lanes - lanes.count, scratch);
+    gather_chains(from, lanes, tile.block, tile.used);
+    for (const std::size_t lane : lanes.span()) {
+        tile.chains[tile.used++] = static_cast<std::uint32_t>(first + lane);
+    }
 }
 
 /// Until no more than so many of its chains are left.
@@ -211,22 +237,34 @@ void Work::run_tile(std::size_t most_left, Scratch& scratch) noexcept {
     }
 }
 
-/// Chains that are done go home, and the last ones take their lanes.
+/// Chains that are done go home, and the others close the gaps.
 void Work::clear_done(Tile& tile) noexcept {
-    for (std::size_t lane = 0; lane < tile.used;) {
+    LaneList left;
+    for (std::size_t lane = 0; lane < tile.used; ++lane) {
         if (tile.block.activity(lane) != Activity::Done) {
-            ++lane;
+            left.add(lane);
             continue;
         }
-        const std::size_t chain = tile.chains[lane];
-        const Block home = block(chain / block_lanes, nullptr);
-        copy_column(tile.block.joint(1) + lane, home.joint(1) + chain % block_lanes, 3 * in_.bones);
-        report(tile.block, lane, chain);
-        if (lane != --tile.used) {
-            copy_lane(tile.block, tile.used, tile.block, lane);
-            tile.chains[lane] = tile.chains[tile.used];
-        }
-        tile.block.set_activity(tile.used, Activity::Done);
+        write_home(tile, lane);
+        report(tile.block, lane, tile.chains[lane]);
+    }
+    if (left.count == tile.used) return;
+    gather_chains(tile.block, left, tile.block, 0);
+    for (std::size_t i = 0; i < left.count; ++i) tile.chains[i] = tile.chains[left.lanes[i]];
+    for (std::size_t lane = left.count; lane < tile.used; ++lane) {
+        tile.block.set_activity(lane, Activity::Done);
+    }
+    tile.used = left.count;
+}
+
+/// The joints of a chain of the tile.
+void Work::write_home(const Tile& tile, std::size_t lane) const noexcept {
+    const std::size_t chain = tile.chains[lane], each = in_.bones + 1;
+    if (in_.joints != nullptr) {
+        for (std::size_t i = 1; i < each; ++i) in_.joints[chain * each + i] = tile.block.point(i, lane);
+    } else {
+        float* const rows = in_.blocks + chain / block_lanes * Block::chain_floats(in_.bones);
+        copy_lane(tile.block.joint(1) + lane, rows + 3 * block_lanes + chain % block_lanes, 3 * in_.bones);
     }
 }
 

@@ -32,7 +32,8 @@ struct Tile {
 struct Scratch {
     explicit Scratch(std::size_t bones);
 
-    Rows state;   ///< of the block that is solved
+    Rows joints;  ///< of the block that is solved, where the caller has them
+    Rows state;   ///< of that block
     Rows shapes;  ///< see StepScratch, with the next two
     Tile gathered, second;
     Tile tile;
@@ -46,6 +47,7 @@ class Work {
         float* blocks;
         std::size_t chains, bones;
         std::span<const glm::vec3> targets;
+        glm::vec3* joints;  ///< the caller's, one chain's after the other's; null for those in the blocks
         std::span<ManyReport> reports;
         const Options& options;
         const VectorUnit& unit;
@@ -61,9 +63,13 @@ class Work {
     ManySummary summary() const noexcept { return {invalid_.load(), scalar_fallbacks_.load()}; }
 
   private:
-    Block block(std::size_t index, float* state) const noexcept {
-        return {in_.blocks + index * Block::chain_floats(in_.bones), state, in_.bones};
+    Block block(std::size_t index, Scratch& scratch) const noexcept {
+        float* const own = in_.blocks + index * Block::chain_floats(in_.bones);
+        return {in_.joints != nullptr ? scratch.joints.get() : own, own + Block::joint_floats(in_.bones),
+                scratch.state.get(), in_.bones};
     }
+    void take_joints(const Block& block, std::size_t index, std::size_t lanes) const noexcept;
+    void return_joints(const Block& block, std::size_t index, std::size_t lanes) const noexcept;
     void solve_block(std::size_t index, Scratch& scratch) noexcept;
     void solve_limited_block(const Block& block, std::size_t index, std::size_t lanes,
                              Scratch& scratch) noexcept;
@@ -80,7 +86,9 @@ class Work {
     }
     Problem take_out(const Block& block, std::size_t lane, Workspace& scalar) const noexcept;
 
-    void put_into_tile(const Block& from, std::size_t lane, std::size_t chain, Scratch& scratch) noexcept;
+    void put_into_tile(const Block& from, const LaneList& lanes, std::size_t first,
+                       Scratch& scratch) noexcept;
+    void write_home(const Tile& tile, std::size_t lane) const noexcept;
     void run_tile(std::size_t most_left, Scratch& scratch) noexcept;
     void clear_done(Tile& tile) noexcept;
     void report(const Block& block, std::size_t lane, std::size_t chain) noexcept;
