@@ -42,12 +42,23 @@ class Column {
     std::size_t stride_;
 };
 
-/// Joints, and how each bone is turned against its parent and in the world.
+/// Joints, how each bone is turned against its parent and in the world, and which limits it stands at.
 struct Pose {
     Column joints, local, world;
+    Column outward;  ///< points: Standing::outward
+    Column ends;     ///< 2 a bone: Standing::upper and lower
     Pose(Column at, std::size_t bones)
-        : joints(at), local(at.after(3 * (bones + 1))), world(at.after(3 * (bones + 1) + 4 * bones)) {}
+        : joints(at),
+          local(joints.after(3 * (bones + 1))),
+          world(local.after(4 * bones)),
+          outward(world.after(4 * bones)),
+          ends(outward.after(3 * bones)) {}
     static std::size_t registers(std::size_t bones) { return pose_rows(bones); }
+
+    void set(std::size_t bone, const Rotations& turn, const Standing& standing) const {
+        local.set(bone, turn), outward.set(bone, standing.outward);
+        ends.set(2 * bone, standing.upper), ends.set(2 * bone + 1, standing.lower);
+    }
 };
 
 /// One register of the tile.
@@ -60,7 +71,6 @@ struct Limb {
     Column axes;     ///< points: the hinge's axis, or the way out of the cone where the joint lies on its rim
     Column bones;    ///< points: unit vectors along the bones
     Column changes;  ///< points: how far each joint is to turn; x alone for a hinge
-    Column ends;     ///< 2 a bone: 1 where the hinge or the twist is at the upper, the lower end of its range
     Column stopped;  ///< 2 a bone: 1 where swing, and hinge or twist, are stopped in this step
 
     Limb(std::size_t lane, const LimitedOrder& order)
@@ -73,8 +83,7 @@ struct Limb {
           axes(arms.after(3 * count())),
           bones(axes.after(3 * count())),
           changes(bones.after(3 * count())),
-          ends(changes.after(3 * count())),
-          stopped(ends.after(2 * count())) {}
+          stopped(changes.after(3 * count())) {}
     std::size_t count() const { return limits.size(); }
     Points tip(const Pose& of) const { return of.joints.points(count()); }
     Points target() const { return load_points(block.target() + i); }
@@ -140,13 +149,14 @@ HWY_INLINE Mask take_pose(const Limb& limb, const float* rotations) {
         const Rotations carried = normalized(compose(smallest_rotation(before, along), world));
         world = select(turned, carried, world);
         const Rotations turn = normalized(compose(conjugate(parent), world));
-        const Rotations within = clamp(limb.limits[bone], turn, nullptr);
+        Standing standing;
+        const Rotations within = clamp(limb.limits[bone], turn, standing);
         // A quaternion and its negative are one rotation.
         const Lanes cosine = hn::Add(hn::Mul(turn.w, within.w), dot(turn.v, within.v));
         const Lanes sign = hn::CopySign(all(1.0f), cosine), w = hn::Sub(turn.w, hn::Mul(within.w, sign));
         const Points v = minus(turn.v, times(within.v, sign));
         violated = hn::Or(violated, hn::Gt(hn::Add(hn::Mul(w, w), dot(v, v)), all(violation)));
-        limb.pose.local.set(bone, within);
+        limb.pose.set(bone, within, standing);
         parent = compose(parent, within);
     }
     forward_kinematics(limb, limb.pose);
@@ -187,17 +197,15 @@ HWY_INLINE void linearize(const Limb& limb) {
     for (std::size_t bone = 0; bone < limb.count(); ++bone) {
         const BatchLimit& limit = limb.limits[bone];
         limb.arms.set(bone, times(minus(tip, limb.pose.joints.points(bone)), unit));
-        Standing standing;
-        if (limit.kind != BatchLimit::Kind::Free) clamp(limit, limb.pose.local.rotations(bone), &standing);
         const bool hinge = limit.kind == BatchLimit::Kind::Hinge;
-        const Points axis = hinge ? all(limit.axis) : standing.outward;
+        const Points axis = hinge ? all(limit.axis) : limb.pose.outward.points(bone);
         const Rotations world = limb.pose.world.rotations(bone);
         limb.axes.set(bone, rotated(parent, axis));
         if (!hinge) limb.bones.set(bone, rotated(world, all(limit.bone)));
-        limb.ends.set(2 * bone, standing.upper), limb.ends.set(2 * bone + 1, standing.lower);
         limb.stopped.set(2 * bone, zero());
         // No room at all: stopped both ways.
-        limb.stopped.set(2 * bone + 1, hn::Mul(standing.upper, standing.lower));
+        limb.stopped.set(2 * bone + 1,
+                         hn::Mul(limb.pose.ends.lanes(2 * bone), limb.pose.ends.lanes(2 * bone + 1)));
         parent = world;
     }
 }
@@ -228,8 +236,8 @@ HWY_INLINE bool change_joints(const Limb& limb, const Points& by, Mask lanes) {
         limb.stopped.set(which, hn::IfThenElse(here, all(1.0f), limb.stopped.lanes(which)));
     };
     const auto pushes = [&](std::size_t bone, Lanes turn) {
-        const Mask up = hn::Gt(hn::Mul(turn, limb.ends.lanes(2 * bone)), all(1e-6f));
-        const Mask down = hn::Lt(hn::Mul(turn, limb.ends.lanes(2 * bone + 1)), all(-1e-6f));
+        const Mask up = hn::Gt(hn::Mul(turn, limb.pose.ends.lanes(2 * bone)), all(1e-6f));
+        const Mask down = hn::Lt(hn::Mul(turn, limb.pose.ends.lanes(2 * bone + 1)), all(-1e-6f));
         return hn::Or(up, down);
     };
     for (std::size_t bone = 0; bone < limb.count(); ++bone) {
@@ -268,7 +276,9 @@ HWY_INLINE void turn_joints(const Limb& limb) {
         const bool hinge = limit.kind == BatchLimit::Kind::Hinge;
         const Points own = hinge ? times(all(limit.axis), change.x) : rotated(conjugate(parent), change);
         const Rotations turned = compose(Rotations{all(1.0f), own}, limb.pose.local.rotations(bone));
-        limb.trial.local.set(bone, clamp(limit, normalized(turned), nullptr));
+        Standing standing;
+        const Rotations within = clamp(limit, normalized(turned), standing);
+        limb.trial.set(bone, within, standing);
         parent = limb.pose.world.rotations(bone);
     }
     forward_kinematics(limb, limb.trial);

@@ -42,25 +42,13 @@ HWY_INLINE Points rotated(const Rotations& q, const Points& p) {
     return plus(plus(p, times(twice, q.w)), cross(q.v, twice));
 }
 
-/// Angle of a point (cosine, sine) of the unit circle, both not negative: 0 to pi/2, to 1e-7.
-/// Polynomial 4.4.49 of Abramowitz and Stegun, Handbook of Mathematical Functions, for half of it.
-HWY_INLINE Lanes angle_of(Lanes cosine, Lanes sine) {
-    const Lanes t = hn::Div(sine, hn::Add(all(1.0f), cosine)), t2 = hn::Mul(t, t);
-    Lanes sum = all(0.0028662257f);
-    for (const float factor : {-0.0161657367f, 0.0429096138f, -0.0752896400f, 0.1065626393f, -0.1420889944f,
-                               0.1999355085f, -0.3333314528f, 1.0f}) {
-        sum = hn::Add(hn::Mul(sum, t2), all(factor));
-    }
-    return hn::Mul(hn::Mul(sum, t), all(2.0f));
-}
-/// Of an angle from 0 to pi/2, to 1e-7: the Taylor series.
-HWY_INLINE Lanes sine_of(Lanes angle) {
-    const Lanes x2 = hn::Mul(angle, angle);
+/// sin(x) / x of the square of an angle from 0 to pi/2, to 1e-7: the Taylor series.
+HWY_INLINE Lanes sinc_of(Lanes squared) {
     Lanes sum = all(-1.0f / 39916800.0f);
     for (const float factor : {1.0f / 362880.0f, -1.0f / 5040.0f, 1.0f / 120.0f, -1.0f / 6.0f, 1.0f}) {
-        sum = hn::Add(hn::Mul(sum, x2), all(factor));
+        sum = hn::Add(hn::Mul(sum, squared), all(factor));
     }
-    return hn::Mul(sum, angle);
+    return sum;
 }
 HWY_INLINE Lanes other_leg(Lanes sine) {
     return hn::Sqrt(hn::Max(hn::Sub(all(1.0f), hn::Mul(sine, sine)), zero()));
@@ -73,73 +61,93 @@ struct Standing {
     Standing() : outward{zero(), zero(), zero()}, upper(zero()), lower(zero()) {}
 };
 
-/// The rotation about a unit axis with this cosine and sine of half its angle, brought into the range.
-HWY_INLINE void clamp_half(const HalfRange& range, Lanes& cosine, Lanes& sine, Standing* standing) {
-    const Lanes size = hn::Sqrt(hn::Add(hn::Mul(cosine, cosine), hn::Mul(sine, sine)));
-    const Mask shows = hn::Gt(size, all(1e-6f));
-    const Lanes scale = hn::CopySign(hn::Div(all(1.0f), size), cosine);  // the shorter way round
-    sine = hn::IfThenElseZero(shows, hn::Mul(sine, scale));
-    cosine = hn::IfThenElse(shows, hn::Abs(hn::Mul(cosine, scale)), all(1.0f));
-    if (range.whole) return;
-    const Lanes clamped = hn::Min(hn::Max(sine, all(range.min)), all(range.max));
-    cosine = hn::IfThenElse(hn::Eq(clamped, sine), cosine, other_leg(clamped));
-    sine = clamped;
-    if (standing == nullptr) return;
+/// Half an angle, by its cosine, which is not negative, and its sine.
+struct HalfAngles {
+    Lanes cosine, sine;
+};
+
+/// Brought into the range.
+HWY_INLINE HalfAngles clamp(const HalfRange& range, const HalfAngles& half, Standing& standing) {
+    if (range.whole) return half;
+    const Lanes sine = hn::Min(hn::Max(half.sine, all(range.min)), all(range.max));
     constexpr float near = 5e-5f;  // half of at_bound
-    standing->upper = hn::IfThenElseZero(hn::Ge(sine, all(range.max - near)), all(1.0f));
-    standing->lower = hn::IfThenElseZero(hn::Le(sine, all(range.min + near)), all(1.0f));
+    standing.upper = hn::IfThenElseZero(hn::Ge(sine, all(range.max - near)), all(1.0f));
+    standing.lower = hn::IfThenElseZero(hn::Le(sine, all(range.min + near)), all(1.0f));
+    return {hn::IfThenElse(hn::Eq(sine, half.sine), half.cosine, other_leg(sine)), sine};
 }
 
-/// A swing, given by its half angle's cosine and by its vector across the bone, brought into its cone: along
-/// its own direction, to the rim.
-HWY_INLINE void clamp_swing(const BatchLimit& limit, Lanes& cosine, Lanes& up, Lanes& left,
-                            Standing* standing) {
-    const Mask upward = hn::Ge(up, zero()), leftward = hn::Ge(left, zero());
+/// The part of a unit quaternion about an axis: `along` is its vector's component there.
+HWY_INLINE HalfAngles twist_of(Lanes w, Lanes along) {
+    const Lanes size = hn::Sqrt(hn::Add(hn::Mul(w, w), hn::Mul(along, along)));
+    const Mask shows = hn::Gt(size, all(1e-6f));
+    const Lanes scale = hn::CopySign(hn::Div(all(1.0f), size), w);  // the shorter way round
+    return {hn::IfThenElse(shows, hn::Abs(hn::Mul(w, scale)), all(1.0f)),
+            hn::IfThenElseZero(shows, hn::Mul(along, scale))};
+}
+
+/// A swing: the cosine of half its angle, and its quaternion's vector, which lies across the bone.
+struct Swings {
+    Lanes cosine, up, left;
+};
+
+/// Brought into its cone: along its own direction, to the rim. The sines of half angles are compared, so no
+/// angle is measured.
+HWY_INLINE Swings clamp(const BatchLimit& limit, const Swings& swing, Standing& standing) {
+    const Mask upward = hn::Ge(swing.up, zero()), leftward = hn::Ge(swing.left, zero());
     const Lanes a = hn::IfThenElse(upward, all(limit.up), all(limit.down)),
                 b = hn::IfThenElse(leftward, all(limit.left), all(limit.right));
+    const Lanes up2 = hn::Mul(swing.up, swing.up), left2 = hn::Mul(swing.left, swing.left);
     // In units of the rim at that direction, squared, but for what the sine is less than the angle.
-    const Lanes outside = hn::Add(hn::Mul(hn::Mul(up, up), a), hn::Mul(hn::Mul(left, left), b));
+    const Lanes outside = hn::Add(hn::Mul(up2, a), hn::Mul(left2, b));
     constexpr float pi = 3.14159265f;
     const Mask surely_inside = hn::Lt(hn::Mul(outside, all(pi * pi)), all(1.0f));
-    if (hn::AllTrue(Floats(), surely_inside)) return;
-    const Lanes sine = hn::Sqrt(hn::Max(hn::Add(hn::Mul(up, up), hn::Mul(left, left)), all(1e-20f)));
-    const Lanes angle = hn::Mul(all(2.0f), angle_of(hn::Min(cosine, all(1.0f)), sine));
-    // The rim's angle is sine / sqrt(outside).
-    const Lanes rim = hn::Div(sine, hn::Sqrt(hn::Max(outside, all(1e-20f))));
-    const Mask beyond = hn::Gt(angle, rim);
-    const Lanes new_sine = sine_of(hn::Mul(all(0.5f), rim));
-    const Lanes scale = hn::IfThenElse(beyond, hn::Div(new_sine, sine), all(1.0f));
-    if (standing != nullptr) {
-        const Mask on_rim = hn::AndNot(surely_inside, hn::Gt(angle, hn::Mul(rim, all(1.0f - 1e-4f))));
-        // Outward is where the ellipse's normal points.
-        const Lanes nu = hn::Mul(up, a), nl = hn::Mul(left, b);
-        const Points normal = plus(times(all(limit.axis), nu), times(all(limit.side), nl));
-        const Lanes unit = hn::Div(all(1.0f), hn::Sqrt(hn::Max(dot(normal, normal), all(1e-20f))));
-        standing->outward = times(normal, hn::IfThenElseZero(on_rim, unit));
-    }
-    up = hn::Mul(up, scale), left = hn::Mul(left, scale);
-    cosine = hn::IfThenElse(beyond, other_leg(new_sine), cosine);
+    if (hn::AllTrue(Floats(), surely_inside)) return swing;
+    // The rim is at the angle sine / sqrt(outside); scale is the sine of half of it over that of the swing.
+    const Lanes squared = hn::Add(up2, left2);
+    const Lanes inverse = hn::Div(all(0.25f), hn::Max(outside, all(1e-20f)));
+    const Lanes scale = hn::Mul(sinc_of(hn::Mul(squared, inverse)), hn::Sqrt(inverse));
+    const Mask beyond = hn::AndNot(surely_inside, hn::Lt(scale, all(1.0f)));
+    const Lanes rim_cosine = hn::Sqrt(hn::Max(
+        hn::Sub(all(1.0f), hn::Mul(hn::Mul(scale, scale), squared)), zero()));
+    const Swings clamped{hn::IfThenElse(beyond, rim_cosine, swing.cosine),
+                         hn::IfThenElse(beyond, hn::Mul(swing.up, scale), swing.up),
+                         hn::IfThenElse(beyond, hn::Mul(swing.left, scale), swing.left)};
+    const Mask on_rim = hn::AndNot(surely_inside, hn::Lt(scale, all(1.0f + 1e-4f)));
+    if (!any(on_rim)) return clamped;
+    // Outward is where the ellipse's normal points.
+    const Lanes nu = hn::Mul(swing.up, a), nl = hn::Mul(swing.left, b);
+    const Lanes size = hn::Add(hn::Mul(nu, nu), hn::Mul(nl, nl));
+    const Lanes unit = hn::Div(all(1.0f), hn::Sqrt(hn::Max(size, all(1e-20f))));
+    standing.outward = times(plus(times(all(limit.axis), nu), times(all(limit.side), nl)),
+                             hn::IfThenElseZero(on_rim, unit));
+    return clamped;
 }
 
-/// The rotation of a bone against its parent, a unit quaternion, brought within its limit.
-HWY_INLINE Rotations clamp(const BatchLimit& limit, const Rotations& turn, Standing* standing) {
+/// The rotation of a bone against its parent, a unit quaternion, brought within its limit. A cone's is split
+/// as LimitedJoint has it: first the twist about the bone, then the swing.
+HWY_INLINE Rotations clamp(const BatchLimit& limit, const Rotations& turn, Standing& standing) {
     if (limit.kind == BatchLimit::Kind::Free) return turn;
+    const Lanes up = dot(turn.v, all(limit.axis));
     if (limit.kind == BatchLimit::Kind::Hinge) {
-        Lanes cosine = turn.w, sine = dot(turn.v, all(limit.axis));
-        clamp_half(limit.range, cosine, sine, standing);
-        return {cosine, times(all(limit.axis), sine)};
+        const HalfAngles half = clamp(limit.range, twist_of(turn.w, up), standing);
+        return {half.cosine, times(all(limit.axis), half.sine)};
     }
-    const Points bone = all(limit.bone);
-    Lanes twist_cosine = turn.w, twist_sine = dot(turn.v, bone);
-    clamp_half(HalfRange(), twist_cosine, twist_sine, nullptr);
-    const Rotations swing = compose(turn, conjugate({twist_cosine, times(bone, twist_sine)}));
-    const Lanes sign = hn::CopySign(all(1.0f), swing.w);
-    Lanes cosine = hn::Abs(swing.w), up = hn::Mul(sign, dot(swing.v, all(limit.axis))),
-          left = hn::Mul(sign, dot(swing.v, all(limit.side)));
-    clamp_swing(limit, cosine, up, left, standing);
-    clamp_half(limit.range, twist_cosine, twist_sine, standing);
-    const Rotations clamped{cosine, plus(times(all(limit.axis), up), times(all(limit.side), left))};
-    return compose(clamped, {twist_cosine, times(bone, twist_sine)});
+    const Lanes along = dot(turn.v, all(limit.bone)), left = dot(turn.v, all(limit.side));
+    const HalfAngles twist = twist_of(turn.w, along);
+    // The rotation after the twist's inverse: with w of no sign, so without a sign itself.
+    const Lanes sign = hn::CopySign(all(1.0f), turn.w);
+    const Lanes c = hn::Mul(twist.cosine, sign), s = hn::Mul(twist.sine, sign);
+    const Lanes cosine = hn::Add(hn::Mul(turn.w, c), hn::Mul(along, s));
+    const Swings from{cosine, hn::Add(hn::Mul(up, c), hn::Mul(left, s)),
+                      hn::Sub(hn::Mul(left, c), hn::Mul(up, s))};
+    const Swings swing = clamp(limit, from, standing);
+    const HalfAngles to = clamp(limit.range, twist, standing);
+    const Points bone = times(all(limit.bone), hn::Mul(swing.cosine, to.sine)),
+                 axis = times(all(limit.axis),
+                              hn::Sub(hn::Mul(swing.up, to.cosine), hn::Mul(swing.left, to.sine))),
+                 side = times(all(limit.side),
+                              hn::Add(hn::Mul(swing.left, to.cosine), hn::Mul(swing.up, to.sine)));
+    return {hn::Mul(swing.cosine, to.cosine), plus(bone, plus(axis, side))};
 }
 
 }  // namespace HWY_NAMESPACE

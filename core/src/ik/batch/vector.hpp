@@ -31,9 +31,10 @@ struct Order {
     StepScratch step;
 };
 
-/// Rows of the joints, and of how bones are turned against their parents and in the world.
+/// Rows of the joints, of how bones are turned against their parents and in the world, and of the limits that
+/// they stand at.
 inline std::size_t pose_rows(std::size_t bones) noexcept {
-    return 3 * (bones + 1) + 8 * bones;
+    return 3 * (bones + 1) + (4 + 4 + 3 + 2) * bones;
 }
 /// For a block of chains within limits.
 struct LimitedOrder {
@@ -46,7 +47,7 @@ struct LimitedOrder {
 };
 /// A pose of one register of chains, and what a step needs of each bone.
 inline std::size_t limited_floats(std::size_t bones) noexcept {
-    return (pose_rows(bones) + (3 + 3 + 3 + 3 + 2 + 2) * bones) * 16;
+    return (pose_rows(bones) + (3 + 3 + 3 + 3 + 2) * bones) * 16;
 }
 
 /// How many chains still iterate, and whether any of them waits for a perturbation first.
