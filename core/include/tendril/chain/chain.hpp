@@ -31,12 +31,12 @@
 #pragma once
 
 #include <cstddef>
-#include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
 #include "tendril/chain/segment.hpp"
 #include "tendril/result.hpp"
+#include "tendril/vec3.hpp"
 
 namespace tendril {
 

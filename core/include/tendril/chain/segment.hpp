@@ -1,9 +1,8 @@
 // One segment of a chain.
 #pragma once
 
-#include <glm/vec3.hpp>
-
 #include "tendril/magnitude.hpp"
+#include "tendril/vec3.hpp"
 
 namespace tendril {
 

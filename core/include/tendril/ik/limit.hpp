@@ -14,8 +14,9 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/vec3.hpp>
+
+#include "tendril/quat.hpp"
+#include "tendril/vec3.hpp"
 
 namespace tendril::ik {
 

@@ -29,8 +29,6 @@
 #pragma once
 
 #include <cstddef>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
 #include <span>
@@ -38,8 +36,10 @@
 
 #include "tendril/ik/limit.hpp"
 #include "tendril/ik/options.hpp"
+#include "tendril/quat.hpp"
 #include "tendril/result.hpp"
 #include "tendril/tasks.hpp"
+#include "tendril/vec3.hpp"
 
 namespace tendril::ik {
 

@@ -4,7 +4,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <glm/vec3.hpp>
+
+#include "tendril/vec3.hpp"
 
 namespace tendril::ik {
 

@@ -6,12 +6,12 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/vec3.hpp>
 #include <optional>
 #include <span>
 
 #include "tendril/ik/limit.hpp"
+#include "tendril/quat.hpp"
+#include "tendril/vec3.hpp"
 
 namespace tendril::ik {
 

@@ -21,7 +21,6 @@
 #pragma once
 
 #include <cstddef>
-#include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
 #include <span>
@@ -33,6 +32,7 @@
 #include "tendril/ik/options.hpp"
 #include "tendril/ik/state.hpp"
 #include "tendril/result.hpp"
+#include "tendril/vec3.hpp"
 
 namespace tendril::ik {
 

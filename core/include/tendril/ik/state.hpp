@@ -9,13 +9,13 @@
 #pragma once
 
 #include <cstddef>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
 #include "tendril/ik/options.hpp"
+#include "tendril/quat.hpp"
 #include "tendril/result.hpp"
+#include "tendril/vec3.hpp"
 
 namespace tendril::ik {
 

@@ -31,15 +31,15 @@
 #pragma once
 
 #include <cstddef>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
 #include <span>
 
 #include "tendril/ik/observer.hpp"
 #include "tendril/ik/options.hpp"
+#include "tendril/quat.hpp"
 #include "tendril/result.hpp"
+#include "tendril/vec3.hpp"
 
 namespace tendril::ik {
 

@@ -12,10 +12,10 @@
 // Cost: O(1), some twenty nanoseconds. Allocates nothing, throws nothing; same input, same bits.
 #pragma once
 
-#include <glm/vec3.hpp>
 #include <optional>
 
 #include "tendril/ik/options.hpp"
+#include "tendril/vec3.hpp"
 
 namespace tendril::ik {
 

@@ -4,11 +4,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <glm/vec3.hpp>
 #include <optional>
 #include <vector>
 
 #include "tendril/rope/handle.hpp"
+#include "tendril/vec3.hpp"
 
 namespace tendril::rope {
 

@@ -1,12 +1,12 @@
 // Bodies that ropes cannot enter.
 #pragma once
 
-#include <glm/gtc/quaternion.hpp>
-#include <glm/vec3.hpp>
 #include <variant>
 
+#include "tendril/quat.hpp"
 #include "tendril/result.hpp"
 #include "tendril/rope/handle.hpp"
+#include "tendril/vec3.hpp"
 
 namespace tendril::rope {
 

@@ -18,9 +18,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <glm/vec3.hpp>
 
 #include "tendril/result.hpp"
+#include "tendril/vec3.hpp"
 
 namespace tendril::rope {
 

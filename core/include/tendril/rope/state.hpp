@@ -5,12 +5,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <glm/vec3.hpp>
 #include <vector>
 
 #include "tendril/rope/body.hpp"
 #include "tendril/rope/collider.hpp"
 #include "tendril/rope/settings.hpp"
+#include "tendril/vec3.hpp"
 
 namespace tendril::rope {
 

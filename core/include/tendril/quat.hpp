@@ -1,0 +1,14 @@
+// GLM's rotations, and what the library's binary takes for granted of them; as vec3.hpp.
+#pragma once
+
+#include <cstddef>
+#include <glm/gtc/quaternion.hpp>
+
+namespace tendril {
+
+static_assert(sizeof(glm::quat) == 4 * sizeof(float) && alignof(glm::quat) == alignof(float),
+              "tendril: GLM's quaternions must be packed (no GLM_FORCE_DEFAULT_ALIGNED_GENTYPES)");
+static_assert(offsetof(glm::quat, x) == 0 && offsetof(glm::quat, w) == 3 * sizeof(float),
+              "tendril: GLM's quaternions must lie in memory as x, y, z, w (no GLM_FORCE_QUAT_DATA_WXYZ)");
+
+}  // namespace tendril

@@ -1,0 +1,13 @@
+// GLM's points and directions, and what the library's binary takes for granted of them: a program that sets GLM up
+// otherwise would read other memory than the library wrote, so it does not compile.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+namespace tendril {
+
+static_assert(sizeof(glm::vec3) == 3 * sizeof(float) && alignof(glm::vec3) == alignof(float) &&
+                  sizeof(glm::dvec3) == 3 * sizeof(double) && alignof(glm::dvec3) == alignof(double),
+              "tendril: GLM's vectors must be packed (no GLM_FORCE_DEFAULT_ALIGNED_GENTYPES)");
+
+}  // namespace tendril
