@@ -4,7 +4,6 @@
 #include "math/point.hpp"
 #include "math/rotation.hpp"
 #include "math/vector.hpp"
-#include "math/wide.hpp"
 
 namespace tendril::ik::detail {
 

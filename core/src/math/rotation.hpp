@@ -1,24 +1,12 @@
 // Vectors and unit quaternions in plain arithmetic, for the reason that point.hpp gives. Not installed.
 #pragma once
 
-#include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
 #include "math/vector.hpp"
 
 namespace tendril::math {
-
-/// Some unit vector at right angles to `a`, which must not be zero; the same for the same `a`.
-static inline glm::vec3 perpendicular(const glm::vec3& a) noexcept {
-    // Away from the axis that `a` has the smallest part of, so that the product is never small.
-    const float x = std::abs(a.x), y = std::abs(a.y), z = std::abs(a.z);
-    const glm::vec3 away = y <= x && y <= z ? glm::vec3(0, 1, 0)
-                           : z <= x         ? glm::vec3(0, 0, 1)
-                                            : glm::vec3(1, 0, 0);
-    const glm::vec3 side = minus(away, times(a, dot(away, a) / dot(a, a)));
-    return times(side, 1.0f / length(side));
-}
 
 static inline glm::quat unit_quaternion(float w, float x, float y, float z) noexcept {
     const float scale = 1.0f / std::sqrt(w * w + x * x + y * y + z * z);

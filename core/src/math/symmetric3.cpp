@@ -1,5 +1,7 @@
 #include "math/symmetric3.hpp"
 
+#include <algorithm>
+
 namespace tendril::math {
 namespace {
 
@@ -40,6 +42,19 @@ Eigen3 eigen(const Symmetric3& given) noexcept {
         rotate(m, result.vectors, 1, 2);
     }
     result.values = {m[0][0], m[1][1], m[2][2]};
+    return result;
+}
+
+glm::dvec3 filtered_solution(const Symmetric3& m, const glm::dvec3& v, double damping, double small,
+                             double floor) noexcept {
+    const Eigen3 e = eigen(m);
+    glm::dvec3 result(0.0);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double squared = std::max(e.values[k], 0.0);
+        const double part = std::max(1.0 - squared / (small * small), 0.0);
+        const double divisor = squared + std::max(damping * part, floor);
+        if (divisor > 0.0) result = plus(result, times(e.vectors[k], dot(e.vectors[k], v) / divisor));
+    }
     return result;
 }
 

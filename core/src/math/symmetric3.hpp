@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <glm/vec3.hpp>
 
-#include "math/wide.hpp"
+#include "math/vector.hpp"
 
 namespace tendril::math {
 
@@ -24,19 +24,44 @@ static inline glm::dvec3 product(const Symmetric3& m, const glm::dvec3& v) noexc
             m.xz * v.x + m.yz * v.y + m.zz * v.z};
 }
 
-/// x with m x = v, for a positive definite m: Cholesky's decomposition in the form L D L', which needs
-/// neither roots nor pivots (Golub, Van Loan, "Matrix Computations", 4th ed. 2013, 4.1 and 4.2).
-static inline glm::dvec3 solution(const Symmetric3& m, const glm::dvec3& v) noexcept {
-    const double l_yx = m.xy / m.xx, l_zx = m.xz / m.xx;
-    const double d_y = m.yy - l_yx * m.xy;
-    const double rest = m.yz - l_zx * m.xy;
-    const double l_zy = rest / d_y;
-    const double d_z = m.zz - l_zx * m.xz - l_zy * rest;
-    const double y = v.y - l_yx * v.x;
-    const double z = (v.z - l_zx * v.x - l_zy * y) / d_z;
-    const double solved_y = y / d_y - l_zy * z;
-    return {v.x / m.xx - l_yx * solved_y - l_zx * z, solved_y, z};
+/// m += by * v v'
+static inline void add_square(Symmetric3& m, const glm::dvec3& v, double by) noexcept {
+    const double x = by * v.x, y = by * v.y, z = by * v.z;
+    m.xx += x * v.x, m.yy += y * v.y, m.zz += z * v.z;
+    m.xy += x * v.y, m.xz += x * v.z, m.yz += y * v.z;
 }
+/// m += |v|^2 I - v v': what turning about all three axes adds to J J', `v` from the joint to the tip.
+static inline void add_ball_joint(Symmetric3& m, const glm::dvec3& v) noexcept {
+    const double x = v.x * v.x, y = v.y * v.y, z = v.z * v.z;
+    m.xx += y + z, m.yy += x + z, m.zz += x + y;
+    m.xy -= v.x * v.y, m.xz -= v.x * v.z, m.yz -= v.y * v.z;
+}
+
+/// Solves (m + diagonal I) x = v for a positive definite m: Cholesky's decomposition in the form L D L',
+/// which needs neither roots nor pivots (Golub, Van Loan, "Matrix Computations", 4th ed. 2013, 4.1 and 4.2).
+/// The inverse by cofactors would lose what counts along a straight tree's branch, where the stiffness across
+/// the bones is a millionth of that along them.
+class Factors3 {
+  public:
+    explicit Factors3(const Symmetric3& m, double diagonal = 0.0) noexcept {
+        i0_ = 1.0 / (m.xx + diagonal);
+        l10_ = m.xy * i0_;
+        l20_ = m.xz * i0_;
+        i1_ = 1.0 / (m.yy + diagonal - l10_ * m.xy);
+        const double rest = m.yz - l20_ * m.xy;
+        l21_ = rest * i1_;
+        i2_ = 1.0 / (m.zz + diagonal - l20_ * m.xz - l21_ * rest);
+    }
+    glm::dvec3 solve(const glm::dvec3& v) const noexcept {
+        const double below = v.y - l10_ * v.x;
+        const double z = (v.z - l20_ * v.x - l21_ * below) * i2_;
+        const double y = below * i1_ - l21_ * z;
+        return {v.x * i0_ - l10_ * y - l20_ * z, y, z};
+    }
+
+  private:
+    double l10_, l20_, l21_, i0_, i1_, i2_;
+};
 
 struct Eigen3 {
     std::array<double, 3> values;       ///< in no order
@@ -46,5 +71,11 @@ struct Eigen3 {
 /// Jacobi's method (Golub, Van Loan, 8.5), which finds small eigenvalues of a positive semidefinite matrix as
 /// well as large ones. Its convergence is quadratic: a handful of sweeps, and eight at most.
 Eigen3 eigen(const Symmetric3& m) noexcept;
+
+/// m^-1 v, but damped along eigenvectors whose singular value is under `small`: by (1 - (s / small)^2) times
+/// `damping`, and by `floor` at least, so that what m has not got comes out as nothing rather than vast (the
+/// law of S. Chiaverini, B. Siciliano, O. Egeland 1994, see ik/methods/jacobian.hpp).
+glm::dvec3 filtered_solution(const Symmetric3& m, const glm::dvec3& v, double damping, double small,
+                             double floor) noexcept;
 
 }  // namespace tendril::math

@@ -219,7 +219,7 @@ class Turn {
         HWY_ALIGN float x[16], y[16], z[16];
         store(to.x, x), store(to.y, y), store(to.z, z);
         for (std::size_t lane = 0; lane < hn::Lanes(Floats()); ++lane) {
-            const glm::vec3 side = math::perpendicular({x[lane], y[lane], z[lane]});
+            const glm::vec3 side = math::perpendicular(glm::vec3(x[lane], y[lane], z[lane]));
             x[lane] = side.x, y[lane] = side.y, z[lane] = side.z;
         }
         return {load(x), load(y), load(z)};

@@ -7,7 +7,7 @@
 
 namespace tendril::ik::detail {
 
-/// Forward and backward reaching, from workspace.pose to workspace.trial. Every joint of that is within its
+/// Forward and backward reaching, from scratch.pose to scratch.trial. Every joint of that is within its
 /// limit.
 template <class Watch>
 void limited_reaching(Problem& problem, Watch watch) noexcept;

@@ -5,39 +5,27 @@
 namespace tendril::ik::detail {
 namespace {
 
-using math::Matrix3;
-
-/// matrix += by * a b'
-void add_product(Matrix3& matrix, const glm::dvec3& a, const glm::dvec3& b, double by) noexcept {
-    const double p[] = {by * a.x, by * a.y, by * a.z}, q[] = {b.x, b.y, b.z};
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t k = 0; k < 3; ++k) matrix.at[i][k] += p[i] * q[k];
-    }
-}
-
 /// What turning about a unit axis adds.
 void add_axis(Normal& normal, const glm::vec3& axis, const glm::vec3& arm, float scale, double by) noexcept {
     const glm::dvec3 about = wide(axis), column = cross(about, wide(arm));
-    add_product(normal.moves, column, column, by);
+    add_square(normal.moves, column, by);
     if (scale == 0.0f) return;
-    add_product(normal.rotations, about, about, by * static_cast<double>(scale * scale));
-    add_product(normal.both, column, about, by * static_cast<double>(scale));
+    const double s = static_cast<double>(scale);
+    add_square(normal.rotations, about, by * s * s);
+    const double weights[] = {by * s * about.x, by * s * about.y, by * s * about.z};
+    for (std::size_t k = 0; k < 3; ++k) normal.both[k] = plus(normal.both[k], times(column, weights[k]));
 }
 
 /// The same for all three axes.
 void add_ball(Normal& normal, const glm::vec3& arm, float scale) noexcept {
     const glm::dvec3 r = wide(arm);
-    const double xx = r.x * r.x, yy = r.y * r.y, zz = r.z * r.z;
-    auto& moves = normal.moves.at;
-    moves[0][0] += yy + zz, moves[1][1] += xx + zz, moves[2][2] += xx + yy;
-    moves[0][1] -= r.x * r.y, moves[0][2] -= r.x * r.z, moves[1][2] -= r.y * r.z;
-    moves[1][0] = moves[0][1], moves[2][0] = moves[0][2], moves[2][1] = moves[1][2];
+    add_ball_joint(normal.moves, r);
     if (scale == 0.0f) return;
     const double s = static_cast<double>(scale);
-    for (std::size_t k = 0; k < 3; ++k) normal.rotations.at[k][k] += s * s;
-    auto& both = normal.both.at;  // columns e_k x r
-    both[0][1] += s * r.z, both[0][2] -= s * r.y, both[1][2] += s * r.x;
-    both[1][0] -= s * r.z, both[2][0] += s * r.y, both[2][1] -= s * r.x;
+    normal.rotations.xx += s * s, normal.rotations.yy += s * s, normal.rotations.zz += s * s;
+    normal.both[0] = plus(normal.both[0], {0.0, -s * r.z, s * r.y});  // columns e_k x r
+    normal.both[1] = plus(normal.both[1], {s * r.z, 0.0, -s * r.x});
+    normal.both[2] = plus(normal.both[2], {-s * r.y, s * r.x, 0.0});
 }
 
 /// Takes an axis from what the joint may do, and from the matrix; whether there was any of it.

@@ -8,7 +8,7 @@
 
 #include "ik/limits/workspace.hpp"
 #include "ik/solve/problem.hpp"
-#include "math/matrix3.hpp"
+#include "math/symmetric3.hpp"
 
 namespace tendril::ik::detail {
 
@@ -20,12 +20,14 @@ struct Wanted {
 };
 Wanted wanted_of(const Problem& problem) noexcept;
 
-/// J J' of the tip's three coordinates and, where an orientation is asked for, its three rotations.
+/// J J' of the tip's three coordinates and, where an orientation is asked for, its three rotations. `both`:
+/// the columns of the block that ties them.
 struct Normal {
-    math::Matrix3 moves{}, rotations{}, both{};
+    math::Symmetric3 moves, rotations;
+    std::array<glm::dvec3, 3> both{};
 };
 
-/// Fills workspace.freedoms from the pose, and the numbers of those at a bound; no limit is active yet.
+/// Fills scratch.freedoms from the pose, and the numbers of those at a bound; no limit is active yet.
 Normal linearize(Problem& problem, const Wanted& wanted) noexcept;
 
 /// How a joint turns if all follow `by`, about an axis in the world, radians: J' by.

@@ -10,30 +10,32 @@
 #include "ik/limits/pole.hpp"
 #include "ik/limits/pose.hpp"
 #include "ik/limits/stopped.hpp"
+#include "ik/solve/convergence.hpp"
 #include "ik/solve/prepare.hpp"
+#include "ik/solve/reachability.hpp"
 
 namespace tendril::ik::detail {
 namespace {
 
 constexpr float orientation_tolerance = 1e-3f;  ///< radians
 constexpr float straight_tolerance = 1e-4f;     ///< of the reach
-constexpr int max_perturbations = 4;            ///< out of singular poses
-constexpr int default_restarts = 8;             ///< options.hpp has what it was chosen by
-constexpr float near_target = 0.05f;            ///< of the reach: a target that moved less is dragged
-constexpr float follow = 20.0f;                 ///< how far joints may follow it, in steps of the target
+/// For the methods that have no second try.
+constexpr StallRule stall_rule{.window = 20, .relative = 1e-3f};
+constexpr int max_perturbations = 4;  ///< out of singular poses
+constexpr int default_restarts = 8;   ///< options.hpp has what it was chosen by
+constexpr float near_target = 0.05f;  ///< of the reach: a target that moved less is dragged
+constexpr float follow = 20.0f;       ///< how far joints may follow it, in steps of the target
 
-/// Out of reach, too near for the longest bone, or neither; and what no pose can better.
+/// Whether the target is out of reach, and what no pose can better.
 struct Reachable {
     Status status = Status::Converged;
     float residual = 0.0f;
 };
 
 Reachable reachable(const Problem& problem) noexcept {
-    const float away = distance(problem.root(), problem.target), reach = problem.scratch.reach;
-    const float nearest = 2.0f * problem.scratch.longest - reach;
-    if (away > reach) return {Status::Stretched, away - reach};
-    if (away < nearest) return {Status::TooClose, nearest - away};
-    return {};
+    const Reachability can = reachability_of(problem);
+    const double far = length(between(problem.root(), problem.target));
+    return {can.status(far, 1e-6 * can.furthest), static_cast<float>(can.residual(far))};
 }
 
 float residual_of(const Problem& problem) noexcept {
@@ -80,28 +82,6 @@ bool straighten_within_limits(Problem& problem, const Reachable& can, float allo
     return true;
 }
 
-/// For the methods that have no second try: they stall when the best has hardly become better for long.
-class Convergence {
-  public:
-    explicit Convergence(float error) noexcept : mark_(error), best_(error) {}
-    void record(float error) noexcept {
-        best_ = std::min(best_, error);
-        since_ = best_ < 0.999f * mark_ ? 0 : since_ + 1;
-        if (since_ == 0) mark_ = best_;
-    }
-    /// After a perturbation: what came before no longer counts.
-    void restart(float error) noexcept {
-        mark_ = best_ = error;
-        since_ = 0;
-    }
-    bool stalled() const noexcept { return since_ >= 20; }
-
-  private:
-    float mark_;
-    float best_;  ///< since the last perturbation
-    int since_ = 0;
-};
-
 /// What the last iteration says of a pose that has not arrived.
 enum class End { Stalled, StalledInDescent, StillOnItsWay };
 
@@ -118,7 +98,7 @@ Status status_of(Problem& problem, const Reachable& can, End end) noexcept {
     return limited ? Status::Limited : Status::Stalled;
 }
 
-/// What the loop knows besides the pose: workspace.best has the error `best`.
+/// What the loop knows besides the pose: scratch.best has the error `best`.
 struct Attempt {
     Reachable can;
     float best = 0.0f;
@@ -199,8 +179,7 @@ bool next_start(Problem& problem, Attempt& attempt, int& perturbations, Watch wa
 template <class Watch>
 End solve_with_restarts(Problem& problem, Attempt& attempt, Watch watch) noexcept {
     LimitMemory& memory = problem.state.limits;
-    const LimitedPose& pose = problem.scratch.limited.pose;
-    LimitedDescent descent(error_of(problem, pose), attempt.allowance);
+    LimitedDescent descent(problem, attempt.allowance);
     if (attempt.dragged && memory.limited) descent.continue_from(memory.damping);
     int perturbations = 0;
     bool over = false;
@@ -208,7 +187,7 @@ End solve_with_restarts(Problem& problem, Attempt& attempt, Watch watch) noexcep
         const bool there = arrived(problem, attempt.can);
         if (!there && !over && descent.stalled()) {
             over = !next_start(problem, attempt, perturbations, watch);
-            if (!over) descent.restart(error_of(problem, pose));
+            if (!over) descent.restart(problem);
         }
         if ((there || over) && !problem.options.every_iteration) break;
         ++problem.iteration;
@@ -225,7 +204,7 @@ End solve_with_restarts(Problem& problem, Attempt& attempt, Watch watch) noexcep
 template <class Watch>
 End continue_from(Method method, Problem& problem, Attempt& attempt, Watch watch) noexcept {
     problem.state.limits.valid = false;
-    Convergence convergence(attempt.best);
+    Convergence convergence(stall_rule, attempt.best, problem.scratch.reach);
     bool stalled = false;
     int perturbations = method == Method::FabrikPlain ? max_perturbations : 0;
     while (problem.iteration < problem.options.max_iterations) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 
 #include "ik/limits/fabrik.hpp"
 #include "ik/limits/step.hpp"
@@ -9,7 +10,8 @@
 namespace tendril::ik::detail {
 namespace {
 
-constexpr float little = 0.002f;  ///< progress by less than this part of what is left
+constexpr StallRule step_rule{.window = 2, .relative = 3e-3f};
+constexpr float reaching_pays = 0.5f;  ///< of the error that passes may leave
 
 /// SplitMix64 (Steele, Lea, Flood 2014), from 0 to under 1.
 float random_unit(std::uint64_t& state) noexcept {
@@ -43,8 +45,13 @@ void sample(const Problem& problem, int number) noexcept {
     forward_kinematics(problem, scratch.trial);
 }
 
-void LimitedDescent::restart(float error) noexcept {
-    *this = LimitedDescent(error, std::numeric_limits<float>::infinity());
+LimitedDescent::LimitedDescent(const Problem& problem, float allowance) noexcept
+    : error_(error_of(problem, problem.scratch.limited.pose)),
+      allowance_(allowance),
+      convergence_(step_rule, error_, problem.scratch.reach) {}
+
+void LimitedDescent::restart(const Problem& problem) noexcept {
+    *this = LimitedDescent(problem, std::numeric_limits<float>::infinity());
 }
 
 void LimitedDescent::continue_from(float damping) noexcept {
@@ -60,29 +67,45 @@ bool LimitedDescent::may_take(const Problem& problem) noexcept {
 }
 
 template <class Watch>
-void LimitedDescent::iterate(Problem& problem, Watch watch) noexcept {
+void LimitedDescent::reach(Problem& problem, Watch watch) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
-    if (reaches_) {
-        limited_reaching(problem, watch);
-        const float reached = error_of(problem, scratch.trial);
-        reaches_ = reached < 0.5f * last_;
-        if (reached < last_ && may_take(problem)) {
-            std::swap(scratch.pose, scratch.trial);
-            last_ = reached;
-        } else {
-            reaches_ = false;
-            report_moves(problem, scratch.trial, scratch.pose, Phase::RestoreBest, watch);
+    limited_reaching(problem, watch);
+    const float reached = error_of(problem, scratch.trial);
+    reaches_ = reached < reaching_pays * error_;
+    if (reached < error_ && may_take(problem)) {
+        std::swap(scratch.pose, scratch.trial);
+        error_ = reached;
+    } else {
+        reaches_ = false;
+        report_moves(problem, scratch.trial, scratch.pose, Phase::RestoreBest, watch);
+    }
+    convergence_.restart(error_);
+}
+
+/// A damped step, taken where it brings the tip nearer, or else one with more damping.
+template <class Watch>
+void LimitedDescent::step(Problem& problem, Watch watch) noexcept {
+    const Wanted wanted = wanted_of(problem);
+    Normal normal = linearize(problem, wanted);
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        rotate_joints(problem, projected_step(problem, Descent::Damped, damping_, wanted, normal));
+        const float then = error_of(problem, problem.scratch.limited.trial);
+        if (then < error_ && may_take(problem)) {
+            accept_trial(problem, Phase::Gradient, watch);
+            error_ = then;
+            damping_ = std::max(0.3f * damping_, min_damping);
+            ++problem.least_squares_steps;
+            return;
         }
-        return;
+        damping_ = std::min(5.0f * damping_, max_damping);
     }
-    const float before = last_;
-    if (descend(
-            problem, damping_, last_, [&] { return may_take(problem); }, watch)) {
-        ++problem.least_squares_steps;
-    }
-    // Far away from a target that cannot be reached, only so much is left as may still be gained.
-    const float left = std::min(before, 0.1f * problem.scratch.reach);
-    slow_ = before - last_ < little * left ? slow_ + 1 : 0;
+}
+
+template <class Watch>
+void LimitedDescent::iterate(Problem& problem, Watch watch) noexcept {
+    if (reaches_) return reach(problem, watch);
+    step(problem, watch);
+    convergence_.record(error_);
 }
 
 template void LimitedDescent::iterate(Problem&, Unwatched) noexcept;

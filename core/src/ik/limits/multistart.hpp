@@ -9,45 +9,48 @@
 //   taking only what is clearly nearer gain nothing (99.97 percent arrive with all of them, 99.99 without).
 #pragma once
 
-#include <limits>
-
-#include "ik/limits/pose.hpp"
+#include "ik/limits/step.hpp"
+#include "ik/solve/convergence.hpp"
 
 namespace tendril::ik::detail {
 
 /// Where and how a start begins, and how it goes on.
 class LimitedDescent {
   public:
-    /// `allowance`: no joint goes further than this from where workspace.start has it, metres.
-    LimitedDescent(float error, float allowance) noexcept : last_(error), allowance_(allowance) {}
+    /// `allowance`: no joint goes further than this from where scratch.start has it, metres.
+    LimitedDescent(const Problem& problem, float allowance) noexcept;
 
     /// FABRIK's passes or a least-squares step, taken only where the tip comes nearer.
     template <class Watch>
     void iterate(Problem& problem, Watch watch) noexcept;
 
     /// From another pose, as far as it takes: what was singular cannot be left by a little.
-    void restart(float error) noexcept;
-    /// Steps at once, with the damping of the last solve.
+    void restart(const Problem& problem) noexcept;
+    /// Least squares at once, with this damping, of the last solve.
     void continue_from(float damping) noexcept;
 
-    bool stalled() const noexcept { return slow_ >= 2; }
-    float error() const noexcept { return last_; }
+    bool stalled() const noexcept { return convergence_.stalled(); }
+    float error() const noexcept { return error_; }
     float damping() const noexcept { return damping_; }
     /// The last step was longer than the allowance.
     bool exceeds_allowance() const noexcept { return exceeds_allowance_; }
 
   private:
     bool may_take(const Problem& problem) noexcept;
+    template <class Watch>
+    void reach(Problem& problem, Watch watch) noexcept;
+    template <class Watch>
+    void step(Problem& problem, Watch watch) noexcept;
 
-    float damping_ = 1e-3f;  ///< in reach squared
-    float last_;             ///< the error of the pose
+    float damping_ = first_damping;  ///< in reach squared
+    float error_;                    ///< of the pose
     float allowance_;
-    int slow_ = 0;         ///< for how many steps there was little progress
-    bool reaches_ = true;  ///< FABRIK's passes bring the tip half way or more
+    Convergence convergence_;  ///< of the least-squares steps
+    bool reaches_ = true;      ///< FABRIK's passes bring the tip half way or more
     bool exceeds_allowance_ = false;
 };
 
-/// A random pose within the limits into workspace.trial; the same for the same number.
+/// A random pose within the limits into scratch.trial; the same for the same number.
 void sample(const Problem& problem, int number) noexcept;
 
 }  // namespace tendril::ik::detail

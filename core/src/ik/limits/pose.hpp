@@ -72,13 +72,13 @@ static inline void place_bone(const Problem& problem, LimitedPose& pose, std::si
 /// At the start: makes the limits ready, unless they are those of the last solve.
 void load_limits(Problem& problem) noexcept;
 
-/// Takes the problem's joints and rotations into workspace.pose. Where joints were moved and rotations were
+/// Takes the problem's joints and rotations into scratch.pose. Where joints were moved and rotations were
 /// not, the rotations are transported to where the joints are, each joint is clamped from the root on, and
 /// what follows it placed anew. What holds already is left as it is to the bit; true where all does, but for
 /// 0.01 radians.
 template <class Watch>
 bool load_pose(Problem& problem, Watch watch) noexcept;
-/// Hands workspace.pose back to the problem.
+/// Hands scratch.pose back to the problem.
 void commit(Problem& problem) noexcept;
 
 /// The joints that are elsewhere in another pose go there, as one step.

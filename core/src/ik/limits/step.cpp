@@ -1,60 +1,54 @@
 #include "ik/limits/step.hpp"
 
 #include "ik/math.hpp"
-#include "math/symmetric3.hpp"
+#include "ik/methods/jacobian.hpp"
 
 namespace tendril::ik::detail {
 namespace {
 
-using namespace tendril::math;
+constexpr double min_inverse = 1e-9;  ///< under this a squared singular value is rounding
 
-Matrix3 damped(Matrix3 matrix, float damping) noexcept {
-    for (std::size_t k = 0; k < 3; ++k) matrix.at[k][k] += static_cast<double>(damping);
-    return matrix;
+/// A linear combination of the block's columns; and what each column has of a vector.
+glm::dvec3 combined(const Normal& normal, const glm::dvec3& by) noexcept {
+    const auto& both = normal.both;
+    return plus(plus(times(both[0], by.x), times(both[1], by.y)), times(both[2], by.z));
+}
+glm::dvec3 parts_of(const Normal& normal, const glm::dvec3& v) noexcept {
+    return {dot(normal.both[0], v), dot(normal.both[1], v), dot(normal.both[2], v)};
 }
 
 Wanted damped_step(const Normal& normal, const Wanted& wanted, float damping) noexcept {
-    const Matrix3 inverted = inverse(damped(normal.moves, damping));
-    Wanted by = wanted;
-    by.move = times(inverted, wanted.move);
-    if (wanted.scale == 0.0f) return by;
-    // [moves both; both' turns] [by.move; by.turn] = [wanted.move; wanted.turn], the first eliminated.
-    const Matrix3 eliminated = product(transposed(normal.both), inverted);
-    by.rotation =
-        times(inverse(difference(damped(normal.rotations, damping), product(eliminated, normal.both))),
-              minus(wanted.rotation, times(eliminated, wanted.move)));
-    by.move = times(inverted, minus(wanted.move, times(normal.both, by.rotation)));
-    return by;
+    const auto diagonal = static_cast<double>(damping);
+    const Factors3 factors(normal.moves, diagonal);
+    const glm::dvec3 move = wide(wanted.move);
+    if (wanted.scale == 0.0f) return {narrow(factors.solve(move)), glm::vec3(0.0f), 0.0f};
+    // [moves both; both' rotations] [by.move; by.rotation] = wanted, with by.move eliminated.
+    Symmetric3 rest = normal.rotations;
+    const glm::dvec3 x = parts_of(normal, factors.solve(normal.both[0])),
+                     y = parts_of(normal, factors.solve(normal.both[1])),
+                     z = parts_of(normal, factors.solve(normal.both[2]));
+    rest.xx -= x.x, rest.yy -= y.y, rest.zz -= z.z, rest.xy -= x.y, rest.xz -= x.z, rest.yz -= y.z;
+    const glm::dvec3 rotation =
+        Factors3(rest, diagonal).solve(minus(wide(wanted.rotation), parts_of(normal, factors.solve(move))));
+    return {narrow(factors.solve(minus(move, combined(normal, rotation)))), narrow(rotation), wanted.scale};
 }
 
 /// Damped only along eigenvectors of J J' whose singular value is small, as the solver without limits has it;
 /// with an orientation there are six rows, and all are damped.
 Wanted filtered_step(const Normal& normal, const Wanted& wanted, float damping) noexcept {
     if (wanted.scale != 0.0f) return damped_step(normal, wanted, damping);
-    constexpr double small_singular = 0.4;
-    const auto& m = normal.moves.at;
-    Symmetric3 jj;
-    jj.xx = m[0][0], jj.yy = m[1][1], jj.zz = m[2][2];
-    jj.xy = m[0][1], jj.xz = m[0][2], jj.yz = m[1][2];
-    const Eigen3 e = eigen(jj);
-    const glm::dvec3 move = wide(wanted.move);
-    glm::dvec3 by{0.0};
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double squared = std::max(e.values[k], 0.0);
-        const double small = std::max(1.0 - squared / (small_singular * small_singular), 0.0);
-        const double divisor = squared + std::max(static_cast<double>(damping) * small, 1e-9);
-        by = plus(by, times(e.vectors[k], dot(e.vectors[k], move) / divisor));
-    }
+    const glm::dvec3 by = filtered_solution(normal.moves, wide(wanted.move), static_cast<double>(damping),
+                                            small_singular, min_inverse);
     return {narrow(by), glm::vec3(0.0f), 0.0f};
 }
 
 /// The step along the gradient after which the error, were it linear, would be smallest.
 Wanted steepest_step(const Normal& normal, const Wanted& wanted) noexcept {
-    const glm::vec3 move = plus(times(normal.moves, wanted.move), times(normal.both, wanted.rotation)),
-                    rotation = plus(times(transposed(normal.both), wanted.move),
-                                    times(normal.rotations, wanted.rotation));
-    const float size = dot(move, move) + dot(rotation, rotation);
-    const float best = size > 0.0f ? (dot(move, wanted.move) + dot(rotation, wanted.rotation)) / size : 0.0f;
+    const glm::dvec3 m = wide(wanted.move), r = wide(wanted.rotation);
+    const glm::dvec3 move = plus(product(normal.moves, m), combined(normal, r)),
+                     rotation = plus(parts_of(normal, m), product(normal.rotations, r));
+    const double size = dot(move, move) + dot(rotation, rotation);
+    const auto best = static_cast<float>(size > 0.0 ? (dot(move, m) + dot(rotation, r)) / size : 0.0);
     return {times(wanted.move, best), times(wanted.rotation, best), wanted.scale};
 }
 

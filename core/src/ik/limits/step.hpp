@@ -20,7 +20,7 @@ enum class Descent {
     Transpose  ///< along J' e, as far as is best
 };
 
-/// From workspace.pose to workspace.trial. `damping` in reach squared.
+/// From scratch.pose to scratch.trial. `damping` in reach squared.
 void limited_step(Problem& problem, Descent descent, float damping) noexcept;
 
 inline constexpr float first_damping = 1e-3f, min_damping = 1e-6f, max_damping = 100.0f;
@@ -29,29 +29,7 @@ inline constexpr float first_damping = 1e-3f, min_damping = 1e-6f, max_damping =
 Wanted projected_step(Problem& problem, Descent descent, float damping, const Wanted& wanted,
                       Normal& normal) noexcept;
 /// Turns every joint by it, but none by more than a radian (further the matrix says nothing), into
-/// workspace.trial.
+/// scratch.trial.
 void rotate_joints(Problem& problem, const Wanted& by) noexcept;
-
-/// A damped step that is only taken where it brings the tip nearer and `may_take()`, or else one with more
-/// damping; whether either did. `error` is that of the pose and stays so; `damping` falls with success and
-/// grows with failure (Levenberg 1944, Marquardt 1963).
-template <class MayTake, class Watch>
-bool descend(Problem& problem, float& damping, float& error, MayTake may_take, Watch watch) noexcept {
-    LimitedScratch& scratch = problem.scratch.limited;
-    const Wanted wanted = wanted_of(problem);
-    Normal normal = linearize(problem, wanted);
-    for (int attempt = 0; attempt < 2; ++attempt) {
-        rotate_joints(problem, projected_step(problem, Descent::Damped, damping, wanted, normal));
-        const float then = error_of(problem, scratch.trial);
-        if (then < error && may_take()) {
-            accept_trial(problem, Phase::Gradient, watch);
-            error = then;
-            damping = std::max(0.3f * damping, min_damping);
-            return true;
-        }
-        damping = std::min(5.0f * damping, max_damping);
-    }
-    return false;
-}
 
 }  // namespace tendril::ik::detail

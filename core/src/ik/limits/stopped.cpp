@@ -1,17 +1,17 @@
 #include "ik/limits/stopped.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "ik/limits/freedom.hpp"
+#include "ik/limits/multistart.hpp"
 #include "ik/limits/perturbation.hpp"
 #include "ik/limits/pose.hpp"
-#include "ik/limits/step.hpp"
 
 namespace tendril::ik::detail {
 namespace {
 
 constexpr float good_part = 0.01f;  ///< of the descent
-constexpr float slow = 0.002f;      ///< progress by less than this part of what is left is none
 constexpr int max_steps = 40, max_perturbations = 4;
 
 bool all_free(const Problem& problem) noexcept {
@@ -20,17 +20,14 @@ bool all_free(const Problem& problem) noexcept {
                        [](const LimitedJoint& joint) { return joint.free(); });
 }
 
-/// Downwards within the limits until there is no progress.
+/// Downwards within the limits until there is no convergence.
 float descend_to_stall(Problem& problem, float there) noexcept {
-    float error = error_of(problem, problem.scratch.limited.pose), damping = first_damping;
-    for (int step = 0, idle = 0; step < max_steps && idle < 2 && error > there; ++step) {
-        const float before = error;
-        descend(
-            problem, damping, error, [] { return true; }, Unwatched());
-        // Far from a target that cannot be reached only so much may still be gained.
-        idle = before - error < slow * std::min(before, 0.1f * problem.scratch.reach) ? idle + 1 : 0;
+    LimitedDescent descent(problem, std::numeric_limits<float>::infinity());
+    descent.continue_from(first_damping);
+    for (int step = 0; step < max_steps && !descent.stalled() && descent.error() > there; ++step) {
+        descent.iterate(problem, Unwatched());
     }
-    return error;
+    return descent.error();
 }
 
 /// The same, and on from singular poses where a bend leads on. The error that is left.
@@ -72,9 +69,11 @@ bool is_stopped_by_limits(Problem& problem) noexcept {
 
 bool limits_stop_tip(Problem& problem, float there) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
+    const int steps = problem.least_squares_steps;
     scratch.start = scratch.pose;
     const bool holds = descend_past_singularities(problem, there) > there && is_stopped_by_limits(problem);
     std::swap(scratch.pose, scratch.start);
+    problem.least_squares_steps = steps;  // these are not the method's
     return holds;
 }
 

@@ -10,10 +10,9 @@
 namespace tendril::ik::detail {
 namespace {
 
-constexpr double max_error = 0.5;       ///< of the reach
-constexpr double max_rotation = 1.0;    ///< radians
-constexpr double small_singular = 0.4;  ///< of the reach: from here down the SVD is damped
-constexpr double min_damping = 1e-12;   ///< of the trace of J J', so that it can be inverted
+constexpr double max_error = 0.5;      ///< of the reach
+constexpr double max_rotation = 1.0;   ///< radians
+constexpr double min_damping = 1e-12;  ///< of the trace of J J', so that it can be inverted
 
 /// All in units of the reach, so that no size of chain overflows.
 struct Linear {
@@ -27,13 +26,7 @@ Linear linear(const Problem& problem, double unit) noexcept {
     const glm::dvec3 tip = wide(problem.joints.back());
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         const glm::dvec3 r = times(minus(tip, wide(problem.joints[i])), unit);
-        const double x = r.x * r.x, y = r.y * r.y, z = r.z * r.z;
-        m.xx += y + z;
-        m.yy += x + z;
-        m.zz += x + y;
-        m.xy -= r.x * r.y;
-        m.xz -= r.x * r.z;
-        m.yz -= r.y * r.z;
+        add_ball_joint(m, r);
     }
     glm::dvec3 error = times(minus(wide(problem.target), tip), unit);
     const double size = length(error);
@@ -48,23 +41,12 @@ glm::dvec3 transpose(const Linear& at) noexcept {
     return squared > 0.0 ? times(at.error, dot(at.error, moved) / squared) : glm::dvec3(0.0);
 }
 
-glm::dvec3 damped(Linear at) noexcept {
-    at.jj.xx += at.damping;
-    at.jj.yy += at.damping;
-    at.jj.zz += at.damping;
-    return at.jj.xx > 0.0 ? solution(at.jj, at.error) : glm::dvec3(0.0);
+glm::dvec3 damped(const Linear& at) noexcept {
+    return at.jj.xx + at.damping > 0.0 ? Factors3(at.jj, at.damping).solve(at.error) : glm::dvec3(0.0);
 }
 
 glm::dvec3 filtered(const Linear& at) noexcept {
-    const Eigen3 e = eigen(at.jj);
-    glm::dvec3 result(0.0);
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double squared = std::max(e.values[k], 0.0);
-        const double small = std::max(1.0 - squared / (small_singular * small_singular), 0.0);
-        const double divisor = squared + at.damping * small;
-        if (divisor > 0.0) result = plus(result, times(e.vectors[k], dot(e.vectors[k], at.error) / divisor));
-    }
-    return result;
+    return filtered_solution(at.jj, at.error, at.damping, small_singular, 0.0);
 }
 
 /// The rotation by |vector| radians about `vector`, at most max_rotation. Series instead of sine and cosine:

@@ -22,7 +22,7 @@ glm::quat blended_rotation(const LimitedJoint& joint, const glm::quat& from, con
     return rotation_of(joint, within(joint, between(angles_of(joint, from), angles_of(joint, to), part)));
 }
 
-/// Within limits, into workspace.trial.
+/// Within limits, into scratch.trial.
 void blend_within_limits(const Problem& problem) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
     for (std::size_t i = 0; i < problem.bones(); ++i) {
@@ -33,7 +33,7 @@ void blend_within_limits(const Problem& problem) noexcept {
     forward_kinematics(problem, scratch.trial);
 }
 
-/// Without limits, into workspace.trial.
+/// Without limits, into scratch.trial.
 void blend_rotations(const Problem& problem) noexcept {
     LimitedPose& pose = problem.scratch.limited.trial;
     const float weight = problem.options.weight, stretch = 1.0f + weight * (problem.stretch - 1.0f);

@@ -1,60 +1,56 @@
-// How a solve goes on: whether the tip still comes nearer, and when the chain is to be perturbed. Not
-// installed.
+// Whether an iteration still gets anywhere: one rule for all loops. Not installed.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
-
-#include "tendril/ik/solver.hpp"
+#include <limits>
 
 namespace tendril::ik::detail {
 
+/// When a loop has stalled: after `window` iterations in which the error neither fell, by both of these since
+/// it last did so, nor moved.
+struct StallRule {
+    int window;
+    float relative = 0.0f;  ///< of the error, or of a tenth of the reach where that is less
+    float absolute = 0.0f;  ///< metres
+    /// Metres: an error that changes by more in an iteration moves. A method that overshoots and comes back
+    /// has not stalled.
+    float moves = std::numeric_limits<float>::infinity();
+};
+
 class Convergence {
   public:
-    explicit Convergence(float residual) noexcept : best_(residual), nearest_(residual), last_(residual) {}
+    Convergence(const StallRule& rule, float error, float reach) noexcept
+        : rule_(rule), scale_(0.1f * reach), best_(error), mark_(error), last_(error) {}
 
-    /// After a perturbation: what came before no longer counts.
-    void restart(float residual) noexcept {
-        nearest_ = last_ = residual;
-        idle_ = slow_ = 0;
+    /// After a perturbation: what came before no longer counts, but for `best`.
+    void restart(float error) noexcept {
+        mark_ = last_ = error;
+        idle_ = 0;
     }
-
-    /// After an iteration. True where no pose of the whole solve has been nearer.
-    bool record(float residual, float reach) noexcept {
-        // A method that overshoots and comes back has not stalled.
-        const bool moves = std::abs(residual - last_) > 1e-5f * reach;
-        idle_ = moves || residual < nearest_ ? 0 : idle_ + 1;
-        slow_ = residual > 0.8f * last_ ? slow_ + 1 : 0;
-        nearest_ = std::min(nearest_, residual);
-        last_ = residual;
-        if (!(residual < best_)) return false;
-        best_ = residual;
+    /// After an iteration. True where the error has never been smaller.
+    bool record(float error) noexcept {
+        // Far from a target that cannot be reached only so much may still be gained.
+        const float gain = std::max(rule_.relative * std::min(mark_, scale_), rule_.absolute);
+        const bool fell = error<mark_ - gain, moved = std::abs(error - last_)> rule_.moves;
+        idle_ = fell || moved ? 0 : idle_ + 1;
+        if (fell) mark_ = error;
+        last_ = error;
+        if (!(error < best_)) return false;
+        best_ = error;
         return true;
     }
-
-    bool stalled() const noexcept { return idle_ >= 10; }
-
-    /// Before a stall is believed. Without it, of 20 000 hostile chains (folded, straight, bones of no
-    /// length), 72 instead of 1 stall with DLS, 168 instead of 15 with CCD, 278 instead of 25 with the
-    /// transpose, and FABRIK leaves 606 instead of 576 short. The fast FABRIK takes all of the residual away
-    /// in an iteration or two, unless the chain lies folded nearly on a line: then it is not waited for.
-    bool wants_perturbation(Method method) const noexcept {
-        if (method == Method::FabrikPlain || perturbations_ >= 4) return false;
-        return stalled() || (method == Method::Fabrik && slow_ >= 2);
-    }
-    /// Which one it is, from 0.
-    int count_perturbation() noexcept { return perturbations_++; }
-
-    /// The smallest residual of the whole solve.
+    bool stalled() const noexcept { return idle_ >= rule_.window; }
+    float last() const noexcept { return last_; }
+    /// The smallest error of the whole solve.
     float best() const noexcept { return best_; }
 
   private:
-    float best_;
-    float nearest_;  ///< since the last perturbation
+    StallRule rule_;
+    float scale_, best_;
+    float mark_;  ///< where the error last fell to
     float last_;
-    int idle_ = 0;  ///< iterations in which the residual neither fell below `nearest_` nor changed
-    int slow_ = 0;  ///< iterations that left over 80 % of the residual
-    int perturbations_ = 0;
+    int idle_ = 0;
 };
 
 }  // namespace tendril::ik::detail

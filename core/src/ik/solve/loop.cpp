@@ -16,11 +16,21 @@
 #include "ik/solve/prepare.hpp"
 #include "ik/solve/reachability.hpp"
 #include "ik/solve/rotations.hpp"
-#include "ik/solve/soft_reach.hpp"
 #include "ik/solve/tip.hpp"
 
 namespace tendril::ik::detail {
 namespace {
+
+constexpr int stall_window = 10;      ///< iterations
+constexpr float stall_moves = 1e-5f;  ///< of the reach
+/// Before a stall is believed the chain is perturbed. Without it, of 20 000 hostile chains (folded, straight,
+/// bones of no length), 72 instead of 1 stall with DLS, 168 instead of 15 with CCD, 278 instead of 25 with
+/// the transpose, and FABRIK leaves 606 instead of 576 short.
+constexpr int max_perturbations = 4;
+/// Accelerated FABRIK takes all of the residual away in an iteration or two, unless the chain lies folded
+/// nearly on a line. So it is perturbed after this many that each left more than this part.
+constexpr int slow_window = 2;
+constexpr float slow_part = 0.8f;
 
 template <class Watch>
 void iterate(Method method, Problem& problem, Watch watch) noexcept {
@@ -72,40 +82,46 @@ void report_iteration(const Problem& problem, const glm::vec3& goal, float resid
 }
 
 template <class Watch>
-Convergence prepare(Method method, Problem& problem, Watch watch) noexcept {
-    Convergence convergence(residual_of(problem));
+void prepare(Method method, Problem& problem, Watch watch) noexcept {
     save(problem);
     snap_back(problem, watch);
-    const bool there = residual_of(problem) <= problem.tolerance;
-    const bool bent_to_pole = !there && bend_to_pole(problem, watch);
-    const bool perturbations = !there && !bent_to_pole && method != Method::FabrikPlain;
-    const bool perturbed = perturbations && is_collinear(problem);
-    if (perturbed) bend_collinear_chain(problem, watch);
-    if (bent_to_pole || perturbed) ++problem.perturbations;
-    convergence.restart(residual_of(problem));
-    return convergence;
+    if (residual_of(problem) <= problem.tolerance) return;
+    bool bent = bend_to_pole(problem, watch);
+    if (!bent && method != Method::FabrikPlain && is_collinear(problem)) {
+        bend_collinear_chain(problem, watch);
+        bent = true;
+    }
+    problem.perturbations += bent;
 }
 
 template <class Watch>
 Report iterations(Method method, Problem& problem, const glm::vec3& goal, Watch watch) noexcept {
     const Options& options = problem.options;
-    Convergence convergence = prepare(method, problem, watch);
+    const float reach = problem.scratch.reach;
+    Convergence convergence({.window = stall_window, .moves = stall_moves * reach}, residual_of(problem),
+                            reach);
+    prepare(method, problem, watch);
     float residual = residual_of(problem);
+    convergence.restart(residual);
     report_iteration(problem, goal, residual, watch);
+    int slow = 0, perturbations = method == Method::FabrikPlain ? max_perturbations : 0;
     while (problem.iteration < options.max_iterations) {
         const bool there = residual <= problem.tolerance;
-        if (!there && convergence.wants_perturbation(method)) {
+        const bool waits = convergence.stalled() || (method == Method::Fabrik && slow >= slow_window);
+        if (!there && waits && perturbations < max_perturbations) {
             ++problem.perturbations;
-            perturb(problem, convergence.count_perturbation(), watch);
+            perturb(problem, perturbations++, watch);
             convergence.restart(residual_of(problem));
+            slow = 0;
         }
         if ((there || convergence.stalled()) && !options.every_iteration) break;
         ++problem.iteration;
         iterate(method, problem, watch);
         residual = residual_of(problem);
         report_iteration(problem, goal, residual, watch);
+        slow = residual > slow_part * convergence.last() ? slow + 1 : 0;
         const bool goes_on = residual > problem.tolerance || options.every_iteration;
-        if (convergence.record(residual, problem.scratch.reach) && goes_on) save(problem);
+        if (convergence.record(residual) && goes_on) save(problem);
     }
     if (residual > problem.tolerance && convergence.best() < residual) {
         restore(problem, watch);
@@ -143,14 +159,14 @@ Report solve_reached(Method method, Problem& problem, const glm::vec3& goal, Wat
 
 /// Where the chain goes if the reach is soft. Two bones that may stretch reach further.
 glm::vec3 eased_target(Method method, const Problem& problem) noexcept {
+    const float zone = problem.options.soft_zone;
+    if (zone == 0.0f) return problem.target;
     const bool stretches = method == Method::TwoBone && problem.options.limits.empty();
-    const float scale = stretches ? problem.options.max_stretch_scale : 1.0f;
-    const float zone = problem.options.soft_zone, reach = problem.scratch.reach * scale;
-    const float far = exact_distance(problem.root(), problem.target);
-    const float nearest = 2.0f * problem.scratch.longest - problem.scratch.reach;
-    const float eased = eased_distance(far, reach, nearest, zone);
-    if (zone == 0.0f || eased >= far) return problem.target;
-    return moved(problem.root(), minus(problem.target, problem.root()), eased / far);
+    Reachability can = reachability_of(problem);
+    if (stretches) can.furthest *= static_cast<double>(problem.options.max_stretch_scale);
+    const glm::dvec3 way = between(problem.root(), problem.target);
+    const double far = length(way), eased = can.eased(far, static_cast<double>(zone));
+    return eased < far ? moved(problem.root(), way, eased / far) : problem.target;
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "ik/math.hpp"
+#include "ik/solve/convergence.hpp"
 #include "ik/tree/workspace.hpp"
 
 namespace tendril::ik::detail {
@@ -13,30 +13,6 @@ constexpr int newton_from = 3;  ///< reaching alone gets the gross shape right a
 constexpr double first_damping = 1e-3, min_damping = 1e-9, max_damping = 1e3;
 constexpr int patience = 8;  ///< iterations without progress that make a stall
 constexpr int max_perturbations = 1;
-
-/// Sees when nothing gets better any more.
-class Convergence {
-  public:
-    Convergence(Fit fit, double minimum) noexcept : minimum_(minimum) { reset(fit); }
-    void reset(Fit fit) noexcept {
-        mark_ = best_ = {std::sqrt(fit.cost), fit.worst};
-        since_ = 0;
-    }
-    bool stalled(Fit fit) noexcept {
-        best_.cost = std::min(best_.cost, std::sqrt(fit.cost));
-        best_.worst = std::min(best_.worst, fit.worst);
-        if (++since_ < patience) return false;
-        const bool better = mark_.cost - best_.cost > minimum_ || mark_.worst - best_.worst > minimum_;
-        mark_ = best_;
-        since_ = 0;
-        return !better;
-    }
-
-  private:
-    double minimum_;   ///< metres
-    Fit mark_, best_;  ///< the cost as its root
-    int since_ = 0;
-};
 
 class Iteration {
   public:
@@ -70,12 +46,12 @@ class Iteration {
 
     void leave_lines() noexcept {
         save_best();
-        if (kick_lines(scratch_, tolerance_)) now_ = fit(scratch_, scratch_.at);
+        if (perturb_collinear_limbs(scratch_, tolerance_)) now_ = fit(scratch_, scratch_.at);
     }
 
-    void kick() noexcept {
+    void perturb() noexcept {
         save_best();
-        kick_all(scratch_);
+        perturb_all(scratch_);
         now_ = fit(scratch_, scratch_.at);
         damping_ = first_damping;
     }
@@ -125,7 +101,13 @@ TreeRun iterate(TreeScratch& scratch, std::span<const Effector> effectors, const
     TreeRun run;
     Iteration iteration(scratch, options, tolerance);
     if (!options.plain) iteration.leave_lines();
-    Convergence convergence(iteration.now(), std::max(0.01 * tolerance, 1e-6 * scratch.reach));
+    // The effectors may come nearer taken together, or the one that is furthest off.
+    const StallRule rule{.window = patience,
+                         .absolute = static_cast<float>(std::max(0.01 * tolerance, 1e-6 * scratch.reach))};
+    const auto cost = [&] { return static_cast<float>(std::sqrt(iteration.now().cost)); };
+    const auto worst = [&] { return static_cast<float>(iteration.now().worst); };
+    const auto reach = static_cast<float>(scratch.reach);
+    Convergence together(rule, cost(), reach), furthest(rule, worst(), reach);
     int perturbations = options.plain ? max_perturbations : 0;
     while (run.iterations < options.max_iterations) {
         if (!options.every_iteration && iteration.now().worst <= tolerance) break;
@@ -134,11 +116,14 @@ TreeRun iterate(TreeScratch& scratch, std::span<const Effector> effectors, const
         if (done <= options.residuals.size()) {
             options.residuals[done - 1] = static_cast<float>(worst_residual(scratch, effectors));
         }
-        if (options.every_iteration || !convergence.stalled(iteration.now())) continue;
+        together.record(cost());
+        furthest.record(worst());
+        if (options.every_iteration || !together.stalled() || !furthest.stalled()) continue;
         if (iteration.now().worst <= tolerance) break;
         if ((run.stalled = perturbations++ == max_perturbations)) break;
-        iteration.kick();
-        convergence.reset(iteration.now());
+        iteration.perturb();
+        together.restart(cost());
+        furthest.restart(worst());
     }
     iteration.restore_best();
     return run;

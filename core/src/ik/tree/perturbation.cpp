@@ -8,7 +8,7 @@
 namespace tendril::ik::detail {
 namespace {
 
-constexpr float small_kick = 0.05f, large_kick = 0.3f;  ///< part of a bone's length
+constexpr float small_bend = 0.05f, large_bend = 0.3f;  ///< part of a bone's length
 constexpr float min_sine = 1e-3f;                       ///< a bone off the line by less is on it
 
 /// Where a limb starts that ends at node `tip`.
@@ -28,7 +28,7 @@ bool on_line(const TreeScratch& scratch, std::size_t tip, std::size_t base, cons
     return true;
 }
 
-bool kick_limb(TreeScratch& scratch, std::size_t tip, double tolerance) noexcept {
+bool perturb_limb(TreeScratch& scratch, std::size_t tip, double tolerance) noexcept {
     const std::size_t base = limb_base(scratch, tip);
     if (scratch.nodes[tip].parent == base) return false;  // one bone turns to its goal at once
     const glm::vec3 &goal = scratch.nodes[tip].goal, &place = scratch.at[tip];
@@ -42,7 +42,7 @@ bool kick_limb(TreeScratch& scratch, std::size_t tip, double tolerance) noexcept
     if (!on_line(scratch, tip, base, line)) return false;
     const glm::vec3 side = perpendicular(line);
     for (std::size_t k = scratch.nodes[tip].parent; k != base; k = scratch.nodes[k].parent) {
-        scratch.at[k] = moved(scratch.at[k], side, small_kick * scratch.nodes[k].length);
+        scratch.at[k] = moved(scratch.at[k], side, small_bend * scratch.nodes[k].length);
     }
     return true;
 }
@@ -71,72 +71,37 @@ const Effector* only_one(const TreeScratch& scratch, std::span<const Effector> e
     return only;
 }
 
-/// `by` metres from `from` along `line`. One step after the other, so that no bone is off by the rounding of
-/// both its ends.
-glm::vec3 stepped(const glm::vec3& from, const glm::dvec3& line, double by) noexcept {
-    const double size = std::sqrt(inner(line, line));
-    // Too near to each other for floats to tell: any way will do.
-    const glm::dvec3 along =
-        size > 1e-30 ? glm::dvec3(line.x / size, line.y / size, line.z / size) : glm::dvec3(1.0, 0.0, 0.0);
-    return {static_cast<float>(static_cast<double>(from.x) + along.x * by),
-            static_cast<float>(static_cast<double>(from.y) + along.y * by),
-            static_cast<float>(static_cast<double>(from.z) + along.z * by)};
-}
-
-void straighten(TreeScratch& scratch, const glm::vec3& target) noexcept {
-    for (std::size_t k = 1; k < scratch.used; ++k) {
-        scratch.at[k] = stepped(scratch.at[k - 1], between(scratch.at[k - 1], target),
-                                static_cast<double>(scratch.nodes[k].length));
-    }
-}
-
-/// The longest bone towards the goal, the others back along it.
-void fold(TreeScratch& scratch, const glm::vec3& goal) noexcept {
-    std::size_t longest = 1;
-    for (std::size_t k = 1; k < scratch.used; ++k) {
-        if (scratch.nodes[k].length > scratch.nodes[longest].length) longest = k;
-    }
-    const glm::dvec3 line = between(scratch.at[0], goal);
-    for (std::size_t k = 1; k < scratch.used; ++k) {
-        const double bone = static_cast<double>(scratch.nodes[k].length);
-        scratch.at[k] = stepped(scratch.at[k - 1], line, k == longest ? bone : -bone);
-    }
-}
-
 }  // namespace
 
 bool solve_at_rim(TreeScratch& scratch, std::span<const Effector> effectors) noexcept {
     const Effector* const effector = only_one(scratch, effectors);
     if (!effector) return false;
-    const double furthest = scratch.path_reach[effector->joint];
-    const double nearest = 2.0 * scratch.path_longest[effector->joint] - furthest;
-    const double far = gap(scratch.at[0], effector->target);
-    if (far > furthest) {
-        straighten(scratch, effector->target);
-    } else if (far < nearest) {
-        fold(scratch, scratch.nodes[scratch.goals[0]].goal);
-    } else {
-        return false;
-    }
-    return true;
+    const Reachability& can = scratch.path[effector->joint];
+    const Status status = can.status(gap(scratch.at[0], effector->target), 0.0);
+    const auto length_of = [&](std::size_t i) { return scratch.nodes[i + 1].length; };
+    const auto place = [&](std::size_t i, const glm::vec3& to) { scratch.at[i] = to; };
+    const auto joints = std::span<const glm::vec3>(scratch.at).first(scratch.used);
+    if (status == Status::Stretched) straighten(joints, effector->target, length_of, place);
+    if (status == Status::TooClose) fold(joints, effector->target, can.nearest, length_of, place);
+    return status != Status::Converged;
 }
 
-bool kick_lines(TreeScratch& scratch, double tolerance) noexcept {
+bool perturb_collinear_limbs(TreeScratch& scratch, double tolerance) noexcept {
     bool perturbed = false;
     for (std::size_t i = 0; i < scratch.goal_count; ++i)
-        perturbed |= kick_limb(scratch, scratch.goals[i], tolerance);
+        perturbed |= perturb_limb(scratch, scratch.goals[i], tolerance);
     if (perturbed) enforce_all_lengths(scratch);
     return perturbed;
 }
 
-void kick_all(TreeScratch& scratch) noexcept {
+void perturb_all(TreeScratch& scratch) noexcept {
     for (std::size_t k = 1; k < scratch.used; ++k) {
         const Node& node = scratch.nodes[k];
         const glm::vec3 bone = minus(scratch.at[k], scratch.at[node.parent]);
         const float size = length(bone);
         if (!(size > 1e-15f)) continue;
         const glm::vec3 along = times(bone, 1.0f / size), side = perpendicular(along);
-        const float by = large_kick * node.length;
+        const float by = large_bend * node.length;
         scratch.at[k] = moved(scratch.at[k], side, by * scattered(2 * k));
         scratch.at[k] = moved(scratch.at[k], cross(along, side), by * scattered(2 * k + 1));
     }

@@ -68,27 +68,20 @@ void assign_nodes(TreeScratch& scratch) noexcept {
 /// The place nearest to the effector's target that it can reach by itself.
 glm::dvec3 reachable(const TreeScratch& scratch, const Effector& effector) noexcept {
     const glm::vec3& root = scratch.start[0];
-    const double furthest = scratch.path_reach[effector.joint];
-    const double nearest = 2.0 * scratch.path_longest[effector.joint] - furthest;
     glm::dvec3 way = between(root, effector.target);
-    double far = std::sqrt(inner(way, way));
-    const double wanted = far > furthest ? furthest : far < nearest ? nearest : far;
-    if (wanted == far) return glm::dvec3(effector.target);
-    if (far < 1e-6 * wanted) {  // the target is on the root: any side will do, so the one it is on
-        way = between(root, scratch.start[effector.joint]);
-        far = std::sqrt(inner(way, way));
-        if (far < 1e-6 * wanted) way = glm::dvec3(far = 1.0, 0.0, 0.0);
-    }
-    const double scale = wanted / far;
-    return {static_cast<double>(root.x) + way.x * scale, static_cast<double>(root.y) + way.y * scale,
-            static_cast<double>(root.z) + way.z * scale};
+    const double far = length(way), wanted = scratch.path[effector.joint].clamped(far);
+    if (wanted == far) return wide(effector.target);
+    // A target on the root may be on any side, so it is the one that the joint is on.
+    if (far < 1e-6 * wanted) way = between(root, scratch.start[effector.joint]);
+    const glm::dvec3 along = direction_of(way, 1e-6 * wanted).value_or(glm::dvec3(1.0, 0.0, 0.0));
+    return plus(wide(root), times(along, wanted));
 }
 
 void collect_goals(TreeScratch& scratch, std::span<const Effector> effectors) noexcept {
     double heaviest = 0.0;
     scratch.lightest = 1.0;
     for (const Effector& effector : effectors) {
-        if (scratch.path_reach[effector.joint] == 0.0) continue;  // it cannot move
+        if (scratch.path[effector.joint].furthest == 0.0) continue;  // it cannot move
         heaviest = std::max(heaviest, static_cast<double>(effector.weight));
     }
     // By joint and not by the list: what is at one node is summed in an order of its own.
@@ -100,8 +93,7 @@ void collect_goals(TreeScratch& scratch, std::span<const Effector> effectors) no
         const glm::dvec3 goal = reachable(scratch, effector);
         Node& node = scratch.nodes[scratch.node_of[k]];
         node.weight += weight;
-        node.goal_sum = {node.goal_sum.x + weight * goal.x, node.goal_sum.y + weight * goal.y,
-                         node.goal_sum.z + weight * goal.z};
+        node.goal_sum = plus(node.goal_sum, times(goal, weight));
     }
 }
 
@@ -118,9 +110,7 @@ void assign_centroid_weights(TreeScratch& scratch) noexcept {
         node.centroid_weight =
             static_cast<float>(node.branch_weight / scratch.nodes[node.parent].branch_weight);
         if (node.weight == 0.0) continue;
-        node.goal = {static_cast<float>(node.goal_sum.x / node.weight),
-                     static_cast<float>(node.goal_sum.y / node.weight),
-                     static_cast<float>(node.goal_sum.z / node.weight)};
+        node.goal = narrow(times(node.goal_sum, 1.0 / node.weight));
         scratch.goals[scratch.goal_count++] = k;
     }
 }

@@ -36,7 +36,7 @@ Fit fit(const TreeScratch& scratch, std::span<const glm::vec3> places) noexcept 
         const std::size_t k = scratch.goals[i];
         const Node& node = scratch.nodes[k];
         const glm::dvec3 way = between(places[k], node.goal);
-        const double squared = inner(way, way);
+        const double squared = dot(way, way);
         result.cost += node.weight * squared;
         if (squared > worst) worst = squared;
     }

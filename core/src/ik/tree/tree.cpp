@@ -70,10 +70,9 @@ Status out_of_reach(const TreeScratch& scratch, std::span<const Effector> effect
     for (const Effector& effector : effectors) {
         if (effector.weight == 0.0f) continue;
         const double far = gap(scratch.start[0], effector.target);
-        const double furthest = scratch.path_reach[effector.joint];
-        if (far - furthest > tolerance) return Status::Stretched;
-        if (2.0 * scratch.path_longest[effector.joint] - furthest - far > tolerance)
-            status = Status::TooClose;
+        const Status here = scratch.path[effector.joint].status(far, tolerance);
+        if (here == Status::Stretched) return here;
+        if (here == Status::TooClose) status = here;
     }
     return status;
 }
@@ -102,13 +101,13 @@ Expected<Tree> Tree::make(std::span<const TreeJoint> joints) {
     TreeScratch& scratch = parts->scratch;
     const std::size_t count = joints.size();
     scratch.joints.assign(joints.begin(), joints.end());
-    scratch.path_reach.resize(count);
-    scratch.path_longest.resize(count);
+    scratch.path.resize(count);
+    std::vector<double> longest(count);
     for (std::size_t k = 1; k < count; ++k) {
         const double length = static_cast<double>(joints[k].length);
-        scratch.path_reach[k] = scratch.path_reach[joints[k].parent] + length;
-        scratch.path_longest[k] = std::max(scratch.path_longest[joints[k].parent], length);
-        scratch.reach = std::max(scratch.reach, scratch.path_reach[k]);
+        longest[k] = std::max(longest[joints[k].parent], length);
+        scratch.path[k] = Reachability::of(scratch.path[joints[k].parent].furthest + length, longest[k]);
+        scratch.reach = std::max(scratch.reach, scratch.path[k].furthest);
     }
     for (auto* places :
          {&scratch.start, &scratch.at, &scratch.proposed, &scratch.next, &scratch.trial, &scratch.best}) {

@@ -12,6 +12,9 @@
 #include <span>
 #include <vector>
 
+#include "ik/math.hpp"
+#include "ik/solve/reachability.hpp"
+#include "math/symmetric3.hpp"
 #include "tendril/ik/tree.hpp"
 
 namespace tendril::ik::detail {
@@ -33,18 +36,17 @@ struct Node {
 
 /// What the Newton step keeps at a node on its way in for the way out.
 struct Response {
-    double xx, yy, zz, xy, xz, yz;  ///< stiffness of what hangs on it
-    glm::dvec3 force;               ///< what that asks for
-    glm::dvec3 along;               ///< unit vector of the bone
-    glm::dvec3 free, per_tension;   ///< its move without the bone; what a unit of tension in it adds
-    double stiffness, wish;         ///< of the bone, along itself, as its parent feels it
+    Symmetric3 branches;           ///< stiffness of what hangs on it
+    glm::dvec3 force;              ///< what that asks for
+    glm::dvec3 along;              ///< unit vector of the bone
+    glm::dvec3 free, per_tension;  ///< its move without the bone; what a unit of tension in it adds
+    double stiffness, wish;        ///< of the bone, along itself, as its parent feels it
 };
 
 struct TreeScratch {
     // Of the tree.
     std::vector<TreeJoint> joints;
-    std::vector<double> path_reach;    ///< metres from the root along the bones
-    std::vector<double> path_longest;  ///< the longest bone on that way
+    std::vector<Reachability> path;  ///< of each joint from the root, along the bones between
     double reach = 0.0;
 
     // Of one solve, by joint.
@@ -76,9 +78,9 @@ void prepare(TreeScratch& scratch, std::span<const glm::vec3> joints,
 /// Bends each limb (from an effector to the next joint that is shared, has an effector or is the root) that
 /// lies on the line to its goal and does not reach it: reaching would never leave the line. False where there
 /// is none.
-bool kick_lines(TreeScratch& scratch, double tolerance) noexcept;
+bool perturb_collinear_limbs(TreeScratch& scratch, double tolerance) noexcept;
 /// Turns every bone a little, each to a side of its own: out of where nothing moves any more.
-void kick_all(TreeScratch& scratch) noexcept;
+void perturb_all(TreeScratch& scratch) noexcept;
 
 /// From the effectors inward: `at` to `proposed`.
 void forward_reaching(TreeScratch& scratch) noexcept;
@@ -109,18 +111,9 @@ void transport_rotations(const TreeScratch& scratch, std::span<const glm::vec3> 
 /// Writes the nodes' places, and the branches without effector that go along, to the caller's joints.
 void finish(TreeScratch& scratch, std::span<glm::vec3> joints) noexcept;
 
-static inline glm::dvec3 between(const glm::vec3& a, const glm::vec3& b) noexcept {
-    return {static_cast<double>(b.x) - static_cast<double>(a.x),
-            static_cast<double>(b.y) - static_cast<double>(a.y),
-            static_cast<double>(b.z) - static_cast<double>(a.z)};
-}
-static inline double inner(const glm::dvec3& a, const glm::dvec3& b) noexcept {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
 /// In double, so that what is within tolerance here is so for everybody.
 static inline double gap(const glm::vec3& a, const glm::vec3& b) noexcept {
-    const glm::dvec3 way = between(a, b);
-    return std::sqrt(inner(way, way));
+    return length(between(a, b));
 }
 
 /// As step() of math/point.hpp, but for bones of any size: only what is nearer than 1e-15 m shows no
