@@ -1,8 +1,8 @@
 // The frame: events in, commands out, document changed, lab stepped, picture drawn. The real window and the
 // one off screen run this very same code; only where events come from and where pixels go differs.
 //
-// Time runs in ticks of 1/60 s. A tick takes at most one event, so a recording, which is a list of events and
-// of empty ticks, plays back exactly.
+// Time passes in ticks of 1/60 s. A tick takes at most one event, so a recording, which is a list of events
+// and of empty ticks, plays back exactly.
 #pragma once
 
 #include <memory>

@@ -9,9 +9,9 @@
 namespace tendril::app {
 namespace {
 
-constexpr double most_credit = 0.25;    ///< after a long stall time is dropped rather than raced through
-constexpr double least_credit = -0.05;  ///< a burst of events may run this far ahead
-constexpr double longest_sleep = 1.0;   ///< so that a signal or an autosave never waits longer
+constexpr double most_credit = 0.25;   ///< after a long stall time is dropped rather than raced through
+constexpr double min_credit = -0.05;   ///< a burst of events may run this far ahead
+constexpr double longest_sleep = 1.0;  ///< so that a signal or an autosave never waits longer
 
 std::filesystem::path settings_file() {
     return config_folder() / "settings.json";
@@ -106,7 +106,7 @@ bool LiveLoop::take_ticks(Player& player) {
     bool ticked = false;
     // What was clicked and typed is taken at once; moves, which come a thousand a second, wait for their
     // tick.
-    while (!queue_.empty() && !(is_move(queue_.front()) && queue_.size() == 1) && credit_ > least_credit) {
+    while (!queue_.empty() && !(is_move(queue_.front()) && queue_.size() == 1) && credit_ > min_credit) {
         tick(player);
         ticked = true;
     }

@@ -204,7 +204,7 @@ class BatchLine {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App line("Tendril: see, tune and carry away procedural animation.", "tendril");
+    CLI::App line("Tendril: see, tune and export procedural animation.", "tendril");
     SessionLine session;
     session.add_to(line);
     BatchLine batch(line);

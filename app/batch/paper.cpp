@@ -99,15 +99,15 @@ std::optional<PaperRow> measure(const PaperTargets& targets, const PaperSolve& s
     const std::size_t count = targets.targets.size();
     const std::size_t blocks = (count + block - 1) / block;
     std::vector<ik::Report> reports(count);
-    // The least of several: other programs only ever add to what a block takes.
-    std::vector<double> least(blocks, 1e300);
+    // The fastest of several rounds: other programs only ever add to what a block takes.
+    std::vector<double> fastest(blocks, 1e300);
     for (std::size_t round = 0; round < rounds; ++round) {
         std::vector<glm::vec3> joints = targets.starts;
         for (std::size_t i = 0; i < blocks; ++i) {
             if (!go_on(static_cast<double>(round * blocks + i) / static_cast<double>(rounds * blocks)))
                 return std::nullopt;
             const std::size_t from = i * block, to = std::min(count, from + block);
-            least[i] = std::min(least[i], solve_block(targets, solve, from, to, joints, reports));
+            fastest[i] = std::min(fastest[i], solve_block(targets, solve, from, to, joints, reports));
         }
     }
 
@@ -115,7 +115,7 @@ std::optional<PaperRow> measure(const PaperTargets& targets, const PaperSolve& s
     std::vector<int> iterations;
     for (const ik::Report& report : reports) iterations.push_back(report.iterations);
     const double all = std::accumulate(iterations.begin(), iterations.end(), 0.0);
-    const double time = std::accumulate(least.begin(), least.end(), 0.0);
+    const double time = std::accumulate(fastest.begin(), fastest.end(), 0.0);
     const auto solved = std::count_if(reports.begin(), reports.end(),
                                       [&](const auto& report) { return report.status == targets.solved; });
     const auto solves = static_cast<double>(count);

@@ -26,7 +26,7 @@ std::string head(bool csv) {
                      paper_bones, static_cast<double>(paper_bone_length), paper_count,
                      static_cast<double>(paper_tolerance), paper_iterations) +
            "                                            iterations           time\n"
-           "targets      solver                solved     mean  median   us/solve  ns/iteration\n";
+           "targets      solver                solved     mean  median   µs/solve  ns/iteration\n";
 }
 
 std::string row_text(const PaperTargets& targets, ik::Method method, const PaperRow& row, bool csv) {
@@ -65,7 +65,8 @@ const char* const paper_help =
     "Repeats the comparison of Aristidou and Lasenby, \"FABRIK: A fast, iterative solver for the Inverse\n"
     "Kinematics problem\" (2011), here and now: ten joints that turn freely, targets at 0.05 to 0.95 of the\n"
     "reach and at 1.05 to 2 times the reach, the same random poses to start from for every solver. Solved\n"
-    "means within tolerance, or, out of reach, laid straight; all solvers here see that without iterating,\n"
-    "where those of the paper go on. Times are the least of three rounds. Ctrl+C keeps the rows done so far.";
+    "means within tolerance, or, out of reach, straight; all solvers here see that without iterating,\n"
+    "where those of the paper go on. Times are those of the fastest of three rounds. Ctrl+C keeps the rows "
+    "done so far.";
 
 }  // namespace tendril::app

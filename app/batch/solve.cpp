@@ -188,7 +188,7 @@ const char* const solve_help =
     "  \"start\"   a point for each joint, one more than lengths; straight along +X from the origin if left "
     "out\n"
     "  \"rest\"    the same for the pose that limits are measured from\n"
-    "  \"pole\"    the point that the bend faces\n"
+    "  \"pole\"    the pole target: what the elbow points at\n"
     "  \"limits\"  for each bone, null or one at the joint that it starts from:\n"
     "            {\"kind\": \"hinge\", \"axis\": [0, 0, 1], \"min_deg\": 0, \"max_deg\": 145} or\n"
     "            {\"kind\": \"ball_and_socket\", \"axis\": [0, 0, 1], \"up_deg\": 90, \"down_deg\": 40, "

@@ -196,7 +196,7 @@ void add_time_commands(CommandTable& table) {
                               .help = "seconds that pass in a second; below 1 is slow motion",
                               .low = slowest,
                               .high = fastest}},
-               .help = "Sets how fast time runs",
+               .help = "Sets the speed of the simulation",
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments& a) { w.clock.speed = a.number("factor"); }});
     table.add({.name = "time.seek",

@@ -114,7 +114,7 @@ Json report_json(ik::Method method, const ik::Report& report, bool within_limits
             {"ran", ran_text(method, report, within_limits)}};
 }
 
-Json hold_json(const ik::ActiveLimit& hold) {
+Json active_limit_json(const ik::ActiveLimit& hold) {
     return {{"joint", hold.joint},
             {"kind", ik::name(hold.kind)},
             {"bound", ik::name(hold.bound)},

@@ -19,7 +19,7 @@ Json limit_json(const ik::Limit& limit);
 /// A limit of any kind. A field that is left out is as ik::Limit::of(kind) has it; one that its kind does not
 /// have is not looked at. Throws std::runtime_error in json.hpp's manner, beginning with the place
 /// ("limits.2" and what follows from there): a kind unknown, a value of the wrong type or out of its range, a
-/// least angle over the greatest, an axis without length.
+/// minimum over the maximum, an axis without length.
 ik::Limit limit_from_json(const Json& json, const std::string& where);
 
 /// {"solver", "status", "iterations", "residual", "ran"}; a residual that is not finite is null. "ran" is
@@ -27,7 +27,7 @@ ik::Limit limit_from_json(const Json& json, const std::string& where);
 Json report_json(ik::Method method, const ik::Report& report, bool within_limits);
 
 /// {"joint", "kind", "bound", "limit_deg", "needed_deg", "enough"}
-Json hold_json(const ik::ActiveLimit& hold);
+Json active_limit_json(const ik::ActiveLimit& hold);
 
 /// Throws std::runtime_error that begins with `where` and lists the names there are.
 ik::Method method_from_name(const std::string& name, const std::string& where);

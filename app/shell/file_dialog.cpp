@@ -48,7 +48,7 @@ void FileDialog::take(bool saving, const fs::path& mine, Emit& emit) {
     if (saving && path.extension().empty()) path += ".json";
     if (saving && path != mine && path != confirmed_ && fs::exists(path, error)) {
         confirmed_ = path;
-        complaint_ = path.filename().string() + " is there already. Save once more to replace it.";
+        complaint_ = path.filename().string() + " already exists. Press Save again to replace it.";
         return;
     }
     // The command closes the dialog where it succeeds: a refused name stays, to be mended.

@@ -7,9 +7,9 @@ namespace tendril::app {
 
 Layout lay_out(glm::vec2 window, float scale, const Settings& settings, bool has_timeline) {
     constexpr float bar = 44.0f, status = 28.0f, timeline = 46.0f, folded = 12.0f;
-    constexpr float least_view = 0.34f;  // of the width: what the 3D view keeps, whatever the panels ask for
+    constexpr float min_view = 0.34f;  // of the width: what the 3D view keeps, whatever the panels ask for
 
-    const float most = std::max(0.0f, 0.5f * (1.0f - least_view) * window.x);
+    const float most = std::max(0.0f, 0.5f * (1.0f - min_view) * window.x);
     const auto side = [&](bool open, float width) {
         return std::round(std::min((open ? width : folded) * scale, most));
     };

@@ -15,7 +15,7 @@ struct Palette {
     // what things are
     glm::vec3 target, head, tail, selection, limit, ghost;
     // what is not special: joints and the links between them
-    glm::vec3 joint, link;
+    glm::vec3 joint, neutral;
     // axes
     glm::vec3 axis_x, axis_y, axis_z;
     // the room

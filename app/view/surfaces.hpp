@@ -1,4 +1,4 @@
-// Surfaces as triangles: tubes, boxes, sheets, patches of planes. Each function appends to the list's mesh,
+// Surfaces as triangles: tubes, boxes, cloth, patches of planes. Each function appends to the list's mesh,
 // and to its strokes what makes the edges clean as seen by this camera (app/view/edges.hpp) and what throws
 // the surface's shadow on the ground; neither can be picked. Balls and capsules are strokes, and need nothing
 // from here.
@@ -31,19 +31,19 @@ void box(DrawList& list, const Camera& camera, glm::vec3 centre, glm::vec3 half_
 
 /// A cloth of columns x rows points, given row by row. Where the columns run to the right and the rows down,
 /// one sees its front.
-struct SheetGrid {
+struct ClothGrid {
     int columns = 0, rows = 0;
     std::span<const glm::vec3> positions;
     /// What is left of each of the (columns - 1) x (rows - 1) cells, row by row; empty: all of it.
-    /// SheetGrid::upper is the triangle at the corner nearest to the first point, between the cell's first
-    /// row and column; SheetGrid::lower is the other one.
+    /// ClothGrid::upper is the triangle at the corner nearest to the first point, between the cell's first
+    /// row and column; ClothGrid::lower is the other one.
     std::span<const std::uint8_t> cells{};
 
     static constexpr std::uint8_t upper = 1, lower = 2, whole = 3;
 };
 /// `colours`, one for each point or none, take the place of `front` and `back`.
-void sheet(DrawList& list, const Camera& camera, const SheetGrid& grid, glm::vec3 front, glm::vec3 back,
-           std::span<const glm::vec3> colours = {});
+void cloth_surface(DrawList& list, const Camera& camera, const ClothGrid& grid, glm::vec3 front,
+                   glm::vec3 back, std::span<const glm::vec3> colours = {});
 
 /// A round piece of an endless plane. On the ground it is only a rim, as the ground has its grid and shadows.
 void plane_patch(DrawList& list, const Camera& camera, glm::vec3 point, glm::vec3 normal, float radius,

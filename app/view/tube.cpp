@@ -34,9 +34,9 @@ class Tube {
             if (!can_be_built(centre)) continue;
             const glm::vec3 colour =
                 colours.empty() ? glm::vec3(1.0f) : colours[std::min(i, colours.size() - 1)];
-            const float least = std::max(
+            const float min_step = std::max(
                 {0.25f * radius_, camera_.metres_per_pixel(centre), 1e-6f * glm::length(centre), 1e-9f});
-            if (points_.empty() || glm::distance(points_.back(), centre) >= least) {
+            if (points_.empty() || glm::distance(points_.back(), centre) >= min_step) {
                 points_.push_back(centre);
                 colours_.push_back(colour);
             } else if (points_.size() > 1 && i + 1 == centres.size()) {

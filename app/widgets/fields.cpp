@@ -155,8 +155,8 @@ bool row_button(const char* title, int of, bool enabled, const char* tooltip) {
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float whole = ImGui::GetWindowContentRegionMax().x - ImGui::GetWindowContentRegionMin().x;
     // Fewer to a row where they would be smaller than this; four or more are marks rather than words.
-    const float least = (of > 3 ? 2.2f : 4.5f) * ImGui::GetFontSize();
-    of = std::clamp(static_cast<int>((whole + gap) / (least + gap)), 1, of);
+    const float min_width = (of > 3 ? 2.2f : 4.5f) * ImGui::GetFontSize();
+    of = std::clamp(static_cast<int>((whole + gap) / (min_width + gap)), 1, of);
     const float width = (whole - gap * static_cast<float>(of - 1)) / static_cast<float>(of);
     const std::string shown = elided(title, width - ImGui::GetStyle().FramePadding.x);
     ImGui::BeginDisabled(!enabled);

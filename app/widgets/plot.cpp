@@ -28,23 +28,22 @@ class Plot {
   public:
     Plot(std::span<const Curve> curves, const PlotAxes& axes, ImVec2 at, ImVec2 size)
         : curves_(curves), axes_(axes), list_(ImGui::GetWindowDrawList()) {
-        float most_y = axes.level > 0.0f ? axes.level : -1e30f, least_y = 1e30f;
+        float max_y = axes.level > 0.0f ? axes.level : -1e30f, min_y = 1e30f;
         for (const Curve& curve : curves) {
             for (const glm::vec2 p : curve.points) {
                 most_x_ = std::max(most_x_, p.x);
-                most_y = std::max(most_y, p.y);
-                least_y = std::min(least_y, p.y);
+                max_y = std::max(max_y, p.y);
+                min_y = std::min(min_y, p.y);
             }
         }
         if (logarithmic()) {
-            low_ = std::floor(std::log10(axes.least_y));
-            high_ = std::max(low_ + 1.0f, std::ceil(std::log10(std::max(most_y, axes.least_y)) - 1e-4f));
-        } else if (least_y <= most_y) {
+            low_ = std::floor(std::log10(axes.min_y));
+            high_ = std::max(low_ + 1.0f, std::ceil(std::log10(std::max(max_y, axes.min_y)) - 1e-4f));
+        } else if (min_y <= max_y) {
             // A curve that is all but level is shown so.
-            const float room =
-                std::max(0.05f * (most_y - least_y), 1e-3f * std::max(std::abs(most_y), 1e-3f));
-            low_ = least_y - room;
-            high_ = most_y + room;
+            const float room = std::max(0.05f * (max_y - min_y), 1e-3f * std::max(std::abs(max_y), 1e-3f));
+            low_ = min_y - room;
+            high_ = max_y + room;
         }
         const float text = ImGui::GetFontSize();
         from_ = {at.x + ImGui::CalcTextSize(logarithmic() ? "1e-6" : "000.00").x + 0.4f * text,
@@ -68,11 +67,11 @@ class Plot {
     void tell(ImVec2 mouse) const {
         const Curve* nearest = nullptr;
         glm::vec2 point{0.0f};
-        float least = 1e9f;
+        float nearest_away = 1e9f;
         for (const Curve& curve : curves_) {
             for (const glm::vec2 p : curve.points) {
                 const float away = std::hypot(x(p.x) - mouse.x, y(p.y) - mouse.y);
-                if (away < least) least = away, nearest = &curve, point = p;
+                if (away < nearest_away) nearest_away = away, nearest = &curve, point = p;
             }
         }
         if (nearest == nullptr) return;
@@ -83,9 +82,9 @@ class Plot {
 
   private:
     float x(float value) const { return from_.x + (to_.x - from_.x) * value / std::max(most_x_, 1e-9f); }
-    bool logarithmic() const { return axes_.least_y > 0.0f; }
+    bool logarithmic() const { return axes_.min_y > 0.0f; }
     float y(float value) const {
-        const float power = logarithmic() ? std::log10(std::max(value, axes_.least_y)) : value;
+        const float power = logarithmic() ? std::log10(std::max(value, axes_.min_y)) : value;
         return to_.y + (from_.y - to_.y) * (power - low_) / (high_ - low_);
     }
     static ImU32 dim() { return ImGui::GetColorU32(ImGuiCol_TextDisabled); }
@@ -114,8 +113,8 @@ class Plot {
             list_->AddText({from_.x - size.x - 4.0f, at - 0.5f * size.y}, dim(), text);
         }
         const int room = std::max(1, static_cast<int>((to_.x - from_.x) / (3.5f * ImGui::GetFontSize())));
-        const float least = axes_.whole_x ? 1.0f : 0.0f;
-        const float step = std::max(least, tick_step(most_x_, room));
+        const float min_step = axes_.whole_x ? 1.0f : 0.0f;
+        const float step = std::max(min_step, tick_step(most_x_, room));
         for (float value = 0.0f; value <= most_x_ * 1.0001f; value += step) {
             list_->AddLine({x(value), from_.y}, {x(value), to_.y}, line);
             std::snprintf(text, sizeof text, "%.4g", static_cast<double>(value));

@@ -19,8 +19,8 @@ struct PlotAxes {
     const char* x = "";
     const char* y = "";
     /// The y axis is logarithmic and begins here; values below lie on its edge. 0: it is even, and goes from
-    /// the least value to the greatest.
-    float least_y = 1e-6f;
+    /// the lowest value to the highest.
+    float min_y = 1e-6f;
     float level = 0.0f;    ///< a dashed line at this y, where it is over 0
     float at_x = -1.0f;    ///< a line at this x, where it is not negative
     bool whole_x = false;  ///< x counts something: marks at whole numbers only

@@ -9,13 +9,13 @@
 namespace tendril::app {
 namespace {
 
-/// The smallest of 0.1, 0.2, 0.5, 1, 2, 5, ... seconds whose marks lie at least `apart` pixels from each
+/// The smallest of 0.1, 0.2, 0.5, 1, 2, 5, ... seconds whose marks lie at min_step `apart` pixels from each
 /// other.
 double mark_seconds(double seconds_per_pixel, double apart) {
-    const double least = seconds_per_pixel * apart;
-    double step = std::pow(10.0, std::floor(std::log10(std::max(least, 1e-3))));
+    const double min_step = seconds_per_pixel * apart;
+    double step = std::pow(10.0, std::floor(std::log10(std::max(min_step, 1e-3))));
     for (const double factor : {1.0, 2.0, 5.0, 10.0}) {
-        if (step * factor >= least) return step * factor;
+        if (step * factor >= min_step) return step * factor;
     }
     return step * 10.0;
 }

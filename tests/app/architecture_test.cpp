@@ -135,7 +135,7 @@ TEST(Architecture, what_is_saved_drawn_or_scripted_is_described_without_gl) {
         const bool plain = starts_with_any(
             source.path, {"app/document/", "app/script/", "app/io/", "app/batch/", "app/view/draw_list.",
                           "app/view/camera.", "app/view/picking.", "app/view/mesh.", "app/view/surface",
-                          "app/view/tube", "app/view/sheet", "app/view/spline", "app/view/edges."});
+                          "app/view/tube", "app/view/cloth", "app/view/spline", "app/view/edges."});
         if (!plain) continue;
         for (const std::string& include : source.includes)
             EXPECT_FALSE(starts_with_any(include, window_parts)) << source.path << " includes " << include;

@@ -41,7 +41,8 @@ void cloth(DrawList& list, int side) {
             positions.emplace_back(3.0f * at.x - 1.5f, 2.0f - 1.8f * at.y, 0.2f * std::sin(12.0f * at.x));
         }
     }
-    sheet(list, camera, {side, side, positions}, glm::vec3(0.3f, 0.6f, 0.8f), glm::vec3(0.6f, 0.3f, 0.5f));
+    cloth_surface(list, camera, {side, side, positions}, glm::vec3(0.3f, 0.6f, 0.8f),
+                  glm::vec3(0.6f, 0.3f, 0.5f));
 }
 
 template <void (*Fill)(DrawList&, int)>

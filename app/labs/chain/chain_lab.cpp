@@ -132,7 +132,8 @@ std::string ChainLab::hint(const Workspace& workspace, PickId pick) const {
                "Shift for the ground plane.";
     }
     if (pick == pole_pick)
-        return "Pole: the bend faces it. Drag to turn the chain about its line to the target.";
+        return "Pole target: the elbow or knee points at it. Drag to swivel the chain about the root-tip "
+               "line.";
     const std::size_t index = picked_segment(pick);
     if (part.mode == ChainMode::Reach) return joint_hint(part, index);
     return name_of(part, "Segment", index) + ": click selects it, drag pulls it.";
@@ -200,7 +201,7 @@ std::vector<Shortcut> ChainLab::shortcuts() const {
                         repeats};
     };
     return {
-        {*chord_from_name("delete"), "chain.remove_selected", {}, "Remove what is selected", "Edit"},
+        {*chord_from_name("delete"), "chain.remove_selected", {}, "Delete selection", "Edit"},
         {*chord_from_name("b"), "view.segments", {}, "Bones or spheres", "View", in_menu},
         step("right", "by", 1, "Microscope: a step on"),
         step("left", "by", -1, "Microscope: a step back"),

@@ -18,7 +18,7 @@ inline constexpr const char* chain_lab = "chain";
 inline constexpr std::size_t max_segments = 500'000;          ///< a scene of more would be too large a file
 inline constexpr std::size_t max_limited_segments = 100'000;  ///< of a chain with limits, for the same reason
 inline constexpr int max_iterations = 10'000;
-inline constexpr float least_damping = 1e-4f, most_damping = 10.0f;
+inline constexpr float min_damping = 1e-4f, max_damping = 10.0f;
 
 /// How the chain follows its target: the library's four modes, and Reach, which pins the head and iterates.
 enum class ChainMode { Forward, Backward, Fixed, WithIndex, Reach };
@@ -90,7 +90,7 @@ void check_range(const ChainPart& part);
 /// began.
 void reach_for(ChainPart& part, glm::vec3 target, ChainRuntime& runtime);
 
-/// How far link `index` is from its length, in metres; 0 for the head.
+/// How far bone `index` is from its length, in metres; 0 for the head.
 float length_error(const Chain& chain, std::size_t index);
 
 }  // namespace tendril::app

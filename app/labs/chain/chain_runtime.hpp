@@ -1,5 +1,5 @@
 // The Chain lab's solvers, kept from solve to solve as their header asks: one per chain, and one for each
-// piece of it that a drag solves by itself.
+// part of it that a drag solves by itself.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ class ChainRuntime final : public Runtime {
 
   private:
     static constexpr std::size_t most =
-        4;  ///< a chain, and the two pieces that a drag makes of it, and one more
+        4;  ///< a chain, and the two parts that a drag makes of it, and one more
     struct Kept {
         std::vector<float> lengths;
         glm::vec3 rest_direction{};

@@ -73,7 +73,7 @@ std::size_t ChainProgram::limit_count() const {
 }
 
 void ChainProgram::head() {
-    line("// A chain of " + std::to_string(part_.chain.size()) + " segments, carried away from Tendril. " +
+    line("// A chain of " + std::to_string(part_.chain.size()) + " segments, exported from Tendril. " +
          mode_help(part_.mode));
     line("//");
     line("// CMake: find_package(tendril REQUIRED)");
@@ -160,7 +160,7 @@ void ChainProgram::options() {
         chosen.tolerance ? "  // metres" : "  // metres: 1e-3 of the reach");
     set("max_iterations", std::to_string(options.max_iterations));
     if (options.pole) {
-        say("options.pole = glm::vec3" + braced(*options.pole) + ";  // the bend faces this point");
+        say("options.pole = glm::vec3" + braced(*options.pole) + ";  // the elbow or knee points at it");
         if (options.pole_turn != plain_options.pole_turn) set("pole_turn", "ik::PoleTurn::EachJoint");
     }
     if (options.snap_back != plain_options.snap_back) set("snap_back", literal(options.snap_back));
@@ -192,7 +192,7 @@ void ChainProgram::limits() {
 void ChainProgram::rotations() {
     const auto rotations = rotations_to_write();
     if (rotations.empty()) return;
-    say("// How each bone was turned about itself when it was carried away (w, x, y, z).");
+    say("// How each bone was turned about itself when it was exported (w, x, y, z).");
     if (rotations.size() > most_in_a_list) {
         say("std::vector<glm::quat> rotations;");
         say("for (std::size_t i = 0; i < std::size(rotation_numbers); i += 4) {");

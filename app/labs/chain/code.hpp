@@ -1,4 +1,4 @@
-// Carry it away: a chain, how it follows its target and with what, as a program against tendril::core.
+// Export: a chain, how it follows its target and with what, as a program against tendril::core.
 #pragma once
 
 #include <string>

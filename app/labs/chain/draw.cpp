@@ -8,7 +8,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t most_labels = 2000;  ///< more would never find room beside one another
+constexpr std::size_t most_labels = 2000;  ///< more would never find space beside one another
 
 /// How large a joint's ball is, in pixels: a handle of steady size, smaller only where the joints crowd
 /// together.
@@ -36,7 +36,7 @@ class Drawing {
         if (racing) {
             draw_race(view_, part_, list_);
         } else {
-            for (std::size_t i = 1; i < part_.chain.size(); ++i) link(i);
+            for (std::size_t i = 1; i < part_.chain.size(); ++i) bone(i);
             for (std::size_t i = 0; i < part_.chain.size(); ++i) joint(i);
         }
         if (part_.study.trace) draw_microscope(view_, part_, list_);
@@ -75,11 +75,11 @@ class Drawing {
     }
 
     /// From joint i - 1 to joint i.
-    void link(std::size_t i) {
+    void bone(std::size_t i) {
         Stroke& stroke = [&]() -> Stroke& {
             if (!bones_) {
                 const float width = std::clamp(0.45f * ball_, px(1.5f), px(3.0f));
-                return list_.line(at(i - 1), at(i), width, glm::vec4(view_.palette.link, 1.0f));
+                return list_.line(at(i - 1), at(i), width, glm::vec4(view_.palette.neutral, 1.0f));
             }
             const float thick = bone_radius(i);
             return list_.bone(at(i - 1), at(i), thick, 0.35f * thick, glm::vec4(view_.palette.joint, 1.0f));
@@ -132,11 +132,11 @@ class Drawing {
     /// The way that a moving target goes.
     void path() {
         if (part_.motion.path == Motion::Path::Still) return;
-        constexpr std::uint32_t pieces = 96;
+        constexpr std::uint32_t sides = 96;
         const std::uint32_t round = ticks_per_round(part_.motion);
         glm::vec3 from = motion_point(part_.motion, 0);
-        for (std::uint32_t i = 1; i <= pieces; ++i) {
-            const glm::vec3 to = motion_point(part_.motion, round * i / pieces);
+        for (std::uint32_t i = 1; i <= sides; ++i) {
+            const glm::vec3 to = motion_point(part_.motion, round * i / sides);
             list_.line(from, to, px(1.5f), glm::vec4(view_.palette.target, 0.3f));
             from = to;
         }

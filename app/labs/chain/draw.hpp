@@ -1,4 +1,4 @@
-// The pieces that the Chain lab's picture is put together from.
+// What the Chain lab's picture is drawn with.
 #pragma once
 
 #include <glm/vec3.hpp>

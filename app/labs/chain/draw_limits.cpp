@@ -77,15 +77,15 @@ class LimitDrawing {
 
     /// A hinge's range as an arc with its two ends, and where the bone is in it.
     void fan() {
-        constexpr int pieces = 40;
+        constexpr int sides = 40;
         glm::vec3 from = centre_ + radius_ * direction(limit_.min, 0.0f);
         line(centre_, from, 2.0f, 0.9f);
-        for (int i = 1; i <= pieces; ++i) {
-            const float share = static_cast<float>(i) / pieces;
+        for (int i = 1; i <= sides; ++i) {
+            const float share = static_cast<float>(i) / sides;
             const glm::vec3 to =
                 centre_ + radius_ * direction(limit_.min + (limit_.max - limit_.min) * share, 0.0f);
             line(from, to, 2.0f, 0.9f);
-            if (i % 4 == 0 && i < pieces) line(centre_ + 0.9f * (to - centre_), to, 1.0f, 0.6f);
+            if (i % 4 == 0 && i < sides) line(centre_ + 0.9f * (to - centre_), to, 1.0f, 0.6f);
             from = to;
         }
         line(centre_, from, 2.0f, 0.9f);
@@ -94,10 +94,10 @@ class LimitDrawing {
 
     /// The rim of the cone, with spokes.
     void cone() {
-        constexpr int pieces = 64;
+        constexpr int sides = 64;
         glm::vec3 from{};
-        for (int i = 0; i <= pieces; ++i) {
-            const float phi = glm::two_pi<float>() * static_cast<float>(i) / pieces;
+        for (int i = 0; i <= sides; ++i) {
+            const float phi = glm::two_pi<float>() * static_cast<float>(i) / sides;
             const float up = std::sin(phi), left = std::cos(phi);
             const glm::vec3 to =
                 centre_ + radius_ * direction(up * (up > 0.0f ? limit_.up : limit_.down),
@@ -137,7 +137,7 @@ class LimitDrawing {
     /// Twist, as an arc about the bone with a needle.
     void dial(glm::vec3 bone) {
         if (limit_.twist_max <= limit_.twist_min) return;
-        constexpr int pieces = 32;
+        constexpr int sides = 32;
         const glm::vec3 middle = centre_ + 0.5f * radius_ * bone;
         const float size = 0.22f * radius_;
         const glm::quat swing = least_rotation(parent_ * rest_, bone) * parent_;
@@ -146,8 +146,8 @@ class LimitDrawing {
         };
         glm::vec3 from = at(limit_.twist_min);
         line(middle, from, 1.5f, 0.8f);
-        for (int i = 1; i <= pieces; ++i) {
-            const float share = static_cast<float>(i) / pieces;
+        for (int i = 1; i <= sides; ++i) {
+            const float share = static_cast<float>(i) / sides;
             const glm::vec3 to = at(limit_.twist_min + (limit_.twist_max - limit_.twist_min) * share);
             line(from, to, 1.5f, 0.8f);
             from = to;

@@ -11,7 +11,7 @@ namespace tendril::app {
 namespace {
 
 constexpr int most_ghosts = 6;
-constexpr int circle_pieces = 64;
+constexpr int circle_sides = 64;
 
 class StudyDrawing {
   public:
@@ -97,9 +97,9 @@ class StudyDrawing {
     }
 
     void dashes(glm::vec3 from, glm::vec3 to, glm::vec4 colour) {
-        constexpr int pieces = 24;
-        for (int i = 0; i < pieces; ++i) {
-            const float a = static_cast<float>(i) / pieces, b = a + 0.5f / pieces;
+        constexpr int dashes = 24;
+        for (int i = 0; i < dashes; ++i) {
+            const float a = static_cast<float>(i) / dashes, b = a + 0.5f / dashes;
             list_.line(from + (to - from) * a, from + (to - from) * b, px(1.5f), colour);
         }
     }
@@ -110,8 +110,8 @@ class StudyDrawing {
         for (int plane = 0; plane < 3; ++plane) {
             const glm::vec3 u = axes[plane], v = axes[(plane + 1) % 3];
             glm::vec3 from = centre + radius * u;
-            for (int i = 1; i <= circle_pieces; ++i) {
-                const float angle = glm::two_pi<float>() * static_cast<float>(i) / circle_pieces;
+            for (int i = 1; i <= circle_sides; ++i) {
+                const float angle = glm::two_pi<float>() * static_cast<float>(i) / circle_sides;
                 const glm::vec3 to = centre + radius * (std::cos(angle) * u + std::sin(angle) * v);
                 list_.line(from, to, px(1.0f), faded(view_.palette, view_.palette.accent, 0.45f));
                 from = to;

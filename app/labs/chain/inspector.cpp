@@ -125,8 +125,10 @@ void follow_selection(const ChainPart& part, float row_height) {
     const int selected = part.selected ? static_cast<int>(*part.selected) : -1;
     if (std::exchange(followed, selected) == selected || selected < 0) return;
     const float top = static_cast<float>(selected) * row_height;
-    const float room = ImGui::GetWindowHeight() - 2.0f * row_height;  // below the header, and the row itself
-    if (top < ImGui::GetScrollY() || top > ImGui::GetScrollY() + room) ImGui::SetScrollY(top - 0.5f * room);
+    const float visible =
+        ImGui::GetWindowHeight() - 2.0f * row_height;  // below the header, and the row itself
+    if (top < ImGui::GetScrollY() || top > ImGui::GetScrollY() + visible)
+        ImGui::SetScrollY(top - 0.5f * visible);
 }
 
 void segment_table(const ChainPart& part, const Joints& joints, Emit& emit) {
@@ -136,8 +138,8 @@ void segment_table(const ChainPart& part, const Joints& joints, Emit& emit) {
     const ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY |
                                   ImGuiTableFlags_NoPadOuterX |
                                   (narrow ? ImGuiTableFlags_ScrollX : ImGuiTableFlags_None);
-    const float least = 8.0f * ImGui::GetTextLineHeightWithSpacing();
-    const float height = std::max(least, ImGui::GetContentRegionAvail().y);
+    const float min_height = 8.0f * ImGui::GetTextLineHeightWithSpacing();
+    const float height = std::max(min_height, ImGui::GetContentRegionAvail().y);
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(3.0f, 2.0f));
     if (ImGui::BeginTable("segments", 6, flags, {0.0f, height})) {
         header_row(narrow);

@@ -109,7 +109,7 @@ void add_mode_commands(CommandTable& table) {
           .choices = names(all_motions, motion_name)},
          {.name = "radius", .required = false, .help = "metres", .low = 0, .high = 1e4},
          {.name = "period", .required = false, .help = "seconds a round", .low = 0.1, .high = 600}},
-        "Lets the target follow a path while time runs", set_motion));
+        "Lets the target follow a path while the simulation runs", set_motion));
     table.add(chain_command(
         "chain.seek", {{.name = "tick", .type = ArgumentType::Integer, .help = "of the round", .low = 0}},
         "Takes the moving target to a tick of its round", seek));

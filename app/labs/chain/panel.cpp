@@ -57,8 +57,7 @@ void segment_rows(const ChainPart& part, Emit& emit) {
             emit.continuously("chain.set_length", {{"index", *part.selected}, {"length", selected}});
         }
     } else {
-        note(part.chain.empty() ? "Add a segment, or begin with one of these."
-                                : "Click a joint to select it.");
+        note(part.chain.empty() ? "Add a joint, or take a preset." : "Click a joint to select it.");
     }
 }
 
@@ -73,7 +72,7 @@ void target_rows(const ChainPart& part, bool playing, Emit& emit) {
         emit("chain.motion", {{"path", motion_name(all_motions[static_cast<std::size_t>(path)])}});
     }
     if (part.motion.path == Motion::Path::Still) return;
-    if (!playing) note("Time is paused: Space lets it run.");
+    if (!playing) note("The simulation is paused. Space runs it.");
     const auto with = [&](const char* name, float value) {
         emit.continuously("chain.motion", {{"path", motion_name(part.motion.path)}, {name, value}});
     };
@@ -83,7 +82,7 @@ void target_rows(const ChainPart& part, bool playing, Emit& emit) {
 }
 
 void preset_rows(Emit& emit) {
-    section("Begin with");
+    section("Presets");
     for (const Preset& preset : presets()) {
         const std::string tip = std::to_string(preset.count) + " segments";
         if (!row_button(preset.title, 3, true, tip.c_str())) continue;
@@ -105,7 +104,7 @@ void ChainLab::panel(const Workspace& workspace, Emit& emit) const {
     segment_rows(part, emit);
     target_rows(part, workspace.clock.playing, emit);
     preset_rows(emit);
-    carry_rows(emit);
+    export_rows(emit);
 }
 
 void ChainLab::timeline(const Workspace& workspace, Emit& emit) const {

@@ -1,4 +1,4 @@
-// The pieces that the Chain lab's panel and inspector are put together from.
+// The rows that the Chain lab's panel and inspector are put together from.
 #pragma once
 
 #include "app/labs/chain/chain_lab.hpp"
@@ -10,7 +10,7 @@ void solver_rows(const ChainPart& part, Emit& emit);
 /// The panel: microscope and race.
 void study_rows(const ChainPart& part, Emit& emit);
 /// The panel: what to copy.
-void carry_rows(Emit& emit);
+void export_rows(Emit& emit);
 /// The inspector: how the last solve went, with the joints where they are shown.
 void report_rows(const ChainPart& part, const std::vector<glm::vec3>& joints, const Palette& palette);
 /// The inspector: the limit of the selected joint.

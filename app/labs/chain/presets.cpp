@@ -12,9 +12,10 @@ namespace {
 
 using Segments = std::vector<Segment>;
 
-/// Lays `count` segments along the steps that `step(i)` gives, head first; a step's length is its segment's.
+/// Places `count` segments along the steps that `step(i)` gives, head first; a step's length is its
+/// segment's.
 template <class Step>
-Segments laid(glm::vec3 head, std::size_t count, Step step) {
+Segments placed(glm::vec3 head, std::size_t count, Step step) {
     Segments segments;
     segments.reserve(count);
     glm::vec3 at = head;
@@ -32,13 +33,13 @@ float part_of(std::size_t i, std::size_t count) {
 
 /// The lab's first chain: metre by metre along +X.
 Segments start(std::size_t count) {
-    return laid({0, 0, 0}, count, [](std::size_t) { return glm::vec3(1, 0, 0); });
+    return placed({0, 0, 0}, count, [](std::size_t) { return glm::vec3(1, 0, 0); });
 }
 
 /// Rises from the ground in an S and grows finer towards its tip.
 Segments tentacle(std::size_t count) {
     const float scale = 7.0f / static_cast<float>(count);
-    return laid({0, 0, 0}, count, [=](std::size_t i) {
+    return placed({0, 0, 0}, count, [=](std::size_t i) {
         const float t = part_of(i, count);
         const float lean = 1.1f * std::sin(6.0f * t) * (0.3f + 0.7f * t);
         return scale * (1.5f - 0.9f * t) *
@@ -48,7 +49,7 @@ Segments tentacle(std::size_t count) {
 
 /// Shoulder, elbow, wrist and finger joints, in metres; longer counts add finger joints.
 Segments arm(std::size_t count) {
-    return laid({0, 3, 0}, count, [](std::size_t i) {
+    return placed({0, 3, 0}, count, [](std::size_t i) {
         switch (i) {
             case 0:
                 return glm::vec3(1.0f, 0.0f, 0.0f);
@@ -67,7 +68,7 @@ Segments arm(std::size_t count) {
 /// A wave on the ground.
 Segments snake(std::size_t count) {
     const float step = 9.0f / static_cast<float>(count);
-    return laid({-4.5f, 0.1f, 0}, count, [=](std::size_t i) {
+    return placed({-4.5f, 0.1f, 0}, count, [=](std::size_t i) {
         const float lean = 1.0f * std::cos(15.0f * part_of(i, count));
         return step * glm::vec3(std::cos(lean), 0.0f, std::sin(lean));
     });
@@ -76,7 +77,7 @@ Segments snake(std::size_t count) {
 /// A rising coil.
 Segments coil(std::size_t count) {
     const float step = 26.0f / static_cast<float>(count);
-    return laid({2, 0.1f, 0}, count, [=](std::size_t i) {
+    return placed({2, 0.1f, 0}, count, [=](std::size_t i) {
         const float turn = 13.0f * part_of(i, count);
         return step * glm::vec3(-std::sin(turn), 0.14f, std::cos(turn));
     });
@@ -88,7 +89,7 @@ Segments random_walk(std::size_t count, std::uint32_t seed) {
     // Its own mapping to [-1, 1]: the standard's distributions differ from library to library.
     const auto signed_unit = [&] { return static_cast<float>(generator() >> 8) / 8388608.0f - 1.0f; };
     const float scale = 8.0f / std::sqrt(static_cast<float>(count));
-    return laid({0, 2.5f, 0}, count, [&](std::size_t) {
+    return placed({0, 2.5f, 0}, count, [&](std::size_t) {
         const glm::vec3 direction{signed_unit(), 0.8f * signed_unit(), signed_unit()};
         return scale * 0.6f * (direction + glm::vec3(0.25f, 0.0f, 0.0f));
     });

@@ -1,4 +1,4 @@
-// Chains to begin with.
+// Preset chains.
 #pragma once
 
 #include <cstdint>

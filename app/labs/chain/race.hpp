@@ -23,8 +23,8 @@ struct Racer {
     std::vector<float> residuals;
     /// Whether that was not the best pose, so that the best came back: the report's residual is the best's.
     bool restored = false;
-    /// Of the whole solve, the least of several; measured here and now, so it differs from run to run: never
-    /// in a state, nor in a picture that is compared.
+    /// Of the whole solve, the fastest of several; measured here and now, so it differs from run to run:
+    /// never in a state, nor in a picture that is compared.
     double microseconds = 0.0;
 };
 

@@ -46,7 +46,7 @@ struct ReachSettings {
 struct ReachResult {
     ik::Method method = ik::Method::Fabrik;
     ik::Report report;
-    std::optional<ik::ActiveLimit> hold;  ///< the joint that holds the chain back, where one does
+    std::optional<ik::ActiveLimit> hold;  ///< the active limit that keeps the tip back, if any
     bool operator==(const ReachResult&) const = default;
 };
 
@@ -92,7 +92,7 @@ ik::Limit limit_of(const ReachSettings& settings, std::size_t joint);
 void set_limit(ReachSettings& settings, std::size_t joint, const ik::Limit& limit, const Chain& chain);
 
 /// "joint 2 (hinge) stops at 145 degrees; the target needs 162".
-std::string hold_text(const ik::ActiveLimit& hold);
+std::string active_limit_text(const ik::ActiveLimit& hold);
 /// "162": as that sentence has it.
 std::string needed_degrees(const ik::ActiveLimit& hold);
 const char* solver_help(ik::Method method);

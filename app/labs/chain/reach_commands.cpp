@@ -95,8 +95,8 @@ void add_reach_commands(CommandTable& table) {
          switch_argument("default_tolerance", "true: 1e-3 of the reach"),
          number_argument("snap_back", "how far joints go back to rest before iterating", 0, 1),
          number_argument("soft_zone", "part of the reach in which the chain eases off", 0, 1),
-         number_argument("damping", "of dls and svd_dls, part of the reach",
-                         static_cast<double>(least_damping), static_cast<double>(most_damping)),
+         number_argument("damping", "of dls and svd_dls, part of the reach", static_cast<double>(min_damping),
+                         static_cast<double>(max_damping)),
          number_argument("twist_deg", "two_bone: turns the bend about the line to the target", -180, 180),
          integer_argument("restarts", "within limits: from how many other poses to start again at most", 0,
                           max_restarts),
@@ -111,9 +111,10 @@ void add_reach_commands(CommandTable& table) {
                             {{.name = "to",
                               .type = ArgumentType::Point,
                               .required = false,
-                              .help = "metres; the bend faces this point"},
+                              .help = "metres; the elbow or knee points at it"},
                              switch_argument("off", "true: no pole")},
-                            "Sets the point that the bend faces in mode reach", set_pole));
+                            "Sets the pole target of mode reach: what the elbow or knee points at",
+                            set_pole));
 }
 
 }  // namespace tendril::app

@@ -12,45 +12,45 @@ namespace {
 constexpr float drag_tolerance = 1e-4f;  ///< of the reach to the dragged joint: a fraction of a pixel
 
 /// Some bones of a chain in a row, as a chain of their own that starts where the first one does.
-struct Piece {
+struct Section {
     std::size_t first = 0, count = 0;  ///< bones
     std::vector<float> lengths;        ///< metres, one a bone
     std::vector<glm::vec3> joints;     ///< one more than bones
     std::vector<glm::quat> rotations;  ///< one a bone; only with limits
 };
 
-Piece piece_of(const Chain& chain, const ReachSettings& settings, std::size_t first, std::size_t count) {
-    Piece piece{first, count, {}, {}, {}};
+Section section_of(const Chain& chain, const ReachSettings& settings, std::size_t first, std::size_t count) {
+    Section section{first, count, {}, {}, {}};
     for (std::size_t i = 0; i <= count; ++i) {
-        piece.joints.push_back(chain.segments()[first + i].position);
-        if (i < count) piece.lengths.push_back(chain.segments()[first + i + 1].length);
+        section.joints.push_back(chain.segments()[first + i].position);
+        if (i < count) section.lengths.push_back(chain.segments()[first + i + 1].length);
     }
     if (!settings.limits.empty()) {
         const auto begin = settings.state.rotations.begin() + static_cast<std::ptrdiff_t>(first);
-        piece.rotations.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
+        section.rotations.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
     }
-    return piece;
+    return section;
 }
 
-/// Solves the piece by itself; its first joint stays.
-void solve_piece(Piece& piece, const Chain& chain, const ReachSettings& settings, glm::vec3 target,
-                 ik::Options options, ChainRuntime& runtime) {
-    ik::State state(piece.count);
-    if (!piece.rotations.empty()) {
-        options.limits = std::span(settings.limits).subspan(piece.first, piece.count);
-        state.rotations = piece.rotations;
+/// Solves the section by itself; its first joint stays.
+void solve_section(Section& section, const Chain& chain, const ReachSettings& settings, glm::vec3 target,
+                   ik::Options options, ChainRuntime& runtime) {
+    ik::State state(section.count);
+    if (!section.rotations.empty()) {
+        options.limits = std::span(settings.limits).subspan(section.first, section.count);
+        state.rotations = section.rotations;
     }
-    const bool fits = settings.method != ik::Method::TwoBone || piece.count == 2;
+    const bool fits = settings.method != ik::Method::TwoBone || section.count == 2;
     const ik::Method method = fits ? settings.method : ik::Method::Fabrik;
-    ik::Solver& solver = runtime.solver(piece.lengths, chain.default_direction());
-    if (solver.solve(method, piece.joints, state, target, options).status == ik::Status::InvalidInput) {
+    ik::Solver& solver = runtime.solver(section.lengths, chain.default_direction());
+    if (solver.solve(method, section.joints, state, target, options).status == ik::Status::InvalidInput) {
         throw std::invalid_argument("the solver does not take this point");
     }
-    if (!piece.rotations.empty()) piece.rotations = state.rotations;
+    if (!section.rotations.empty()) section.rotations = state.rotations;
 }
 
-/// What a piece that is no whole chain is solved with.
-ik::Options piece_options(const ReachSettings& settings, float tolerance) {
+/// What a section that is no whole chain is solved with.
+ik::Options section_options(const ReachSettings& settings, float tolerance) {
     ik::Options options;
     options.tolerance = tolerance;
     options.max_iterations = settings.iterations;
@@ -61,48 +61,48 @@ ik::Options piece_options(const ReachSettings& settings, float tolerance) {
 }
 
 /// From the root to the dragged joint.
-void solve_before(Piece& piece, const Chain& chain, const ReachSettings& settings, glm::vec3 to,
+void solve_before(Section& section, const Chain& chain, const ReachSettings& settings, glm::vec3 to,
                   ChainRuntime& runtime) {
     float reach = 0.0f;
-    for (const float length : piece.lengths) reach += length;
+    for (const float length : section.lengths) reach += length;
     const float tolerance = std::min(drag_tolerance * reach, reach_tolerance(settings, chain.reach()));
-    solve_piece(piece, chain, settings, to, piece_options(settings, tolerance), runtime);
+    solve_section(section, chain, settings, to, section_options(settings, tolerance), runtime);
 }
 
 /// From the dragged joint to the tip. Its first limit is relative to the bone before it, which is turned by
-/// `parent` from rest, so the piece is solved in that bone's frame, where that limit is a root's.
-void solve_beyond(Piece& piece, const Chain& chain, const ReachSettings& settings, glm::vec3 target,
+/// `parent` from rest, so the section is solved in that bone's frame, where that limit is a root's.
+void solve_beyond(Section& section, const Chain& chain, const ReachSettings& settings, glm::vec3 target,
                   glm::quat parent, ChainRuntime& runtime) {
-    const glm::vec3 root = piece.joints.front();
+    const glm::vec3 root = section.joints.front();
     const glm::quat inverse = glm::conjugate(parent);
     const auto turn = [&](const glm::quat& by) {
-        for (glm::vec3& joint : piece.joints) joint = by * joint;
-        for (glm::quat& rotation : piece.rotations) rotation = glm::normalize(by * rotation);
+        for (glm::vec3& joint : section.joints) joint = by * joint;
+        for (glm::quat& rotation : section.rotations) rotation = glm::normalize(by * rotation);
     };
     const auto shift = [&](glm::vec3 by) {
-        for (glm::vec3& joint : piece.joints) joint += by;
+        for (glm::vec3& joint : section.joints) joint += by;
     };
     shift(-root);
     turn(inverse);
-    solve_piece(piece, chain, settings, inverse * (target - root),
-                piece_options(settings, reach_tolerance(settings, chain.reach())), runtime);
+    solve_section(section, chain, settings, inverse * (target - root),
+                  section_options(settings, reach_tolerance(settings, chain.reach())), runtime);
     turn(parent);
     shift(root);
-    piece.joints.front() = root;
+    section.joints.front() = root;
 }
 
-/// Takes the bones beyond the dragged joint along with it; with limits as one stiff piece with the bone
+/// Takes the bones beyond the dragged joint along with it; with limits as one stiff body with the bone
 /// before it, so that its own limit goes on holding.
-void carry(Piece& beyond, glm::vec3 to, glm::quat by) {
+void move_along(Section& beyond, glm::vec3 to, glm::quat by) {
     const glm::vec3 from = beyond.joints.front();
     for (glm::vec3& joint : beyond.joints) joint = to + by * (joint - from);
     for (glm::quat& rotation : beyond.rotations) rotation = glm::normalize(by * rotation);
 }
 
-void put_back(const Piece& piece, std::vector<glm::vec3>& joints, ReachSettings& settings) {
-    const auto at = static_cast<std::ptrdiff_t>(piece.first);
-    std::copy(piece.joints.begin(), piece.joints.end(), joints.begin() + at);
-    std::copy(piece.rotations.begin(), piece.rotations.end(), settings.state.rotations.begin() + at);
+void put_back(const Section& section, std::vector<glm::vec3>& joints, ReachSettings& settings) {
+    const auto at = static_cast<std::ptrdiff_t>(section.first);
+    std::copy(section.joints.begin(), section.joints.end(), joints.begin() + at);
+    std::copy(section.rotations.begin(), section.rotations.end(), settings.state.rotations.begin() + at);
 }
 
 void drag_root(Chain& chain, ReachSettings& settings, glm::vec3 to, glm::vec3 target, ChainRuntime& runtime) {
@@ -124,8 +124,8 @@ void drag_tip(Chain& chain, ReachSettings& settings, glm::vec3 to, ChainRuntime&
 void drag_middle(Chain& chain, ReachSettings& settings, std::size_t index, glm::vec3 to, glm::vec3 target,
                  ChainRuntime& runtime) {
     const std::size_t bones = chain.size() - 1;
-    Piece before = piece_of(chain, settings, 0, index);
-    Piece beyond = piece_of(chain, settings, index, bones - index);
+    Section before = section_of(chain, settings, 0, index);
+    Section beyond = section_of(chain, settings, index, bones - index);
     glm::quat turned(1, 0, 0, 0), parent(1, 0, 0, 0);
     if (!before.rotations.empty()) turned = glm::conjugate(before.rotations.back());
     solve_before(before, chain, settings, to, runtime);
@@ -133,7 +133,7 @@ void drag_middle(Chain& chain, ReachSettings& settings, std::size_t index, glm::
         parent = before.rotations.back();
         turned = glm::normalize(parent * turned);
     }
-    carry(beyond, before.joints.back(), turned);
+    move_along(beyond, before.joints.back(), turned);
     solve_beyond(beyond, chain, settings, target, parent, runtime);
     std::vector<glm::vec3> joints = positions(chain);
     put_back(before, joints, settings);

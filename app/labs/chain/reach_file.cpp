@@ -165,7 +165,7 @@ ReachSettings load_reach(const Json& json, const std::string& where, const Chain
     }
     settings.snap_back = value("snap_back", 0.0f, 1.0f);
     settings.soft_zone = value("soft_zone", 0.0f, 1.0f);
-    settings.damping = value("damping", least_damping, most_damping);
+    settings.damping = value("damping", min_damping, max_damping);
     settings.twist_deg = value("twist_deg", -180.0f, 180.0f);
     if (const Json* restarts = optional_member(json, "restarts"))  // version 1 had no such option
         settings.restarts = json_integer(*restarts, at("restarts"), 0, max_restarts);

@@ -74,7 +74,7 @@ std::string needed_degrees(const ik::ActiveLimit& hold) {
     return degrees_text(hold, hold.needed);
 }
 
-std::string hold_text(const ik::ActiveLimit& hold) {
+std::string active_limit_text(const ik::ActiveLimit& hold) {
     std::string text = "joint " + std::to_string(hold.joint) + " (" + kind_title(hold.kind) + ") ";
     text += std::string(bound_phrase(hold.bound)) + " " + degrees_text(hold, hold.limit) + " degrees";
     text += "; the target needs " + needed_degrees(hold);

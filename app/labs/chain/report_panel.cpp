@@ -30,7 +30,7 @@ struct AngleRow {
 std::vector<AngleRow> angle_rows(ik::JointKind kind) {
     if (kind == ik::JointKind::Free) return {};
     if (kind == ik::JointKind::Hinge)
-        return {{"least", "min_deg", -180.0f}, {"greatest", "max_deg", -180.0f}};
+        return {{"minimum", "min_deg", -180.0f}, {"maximum", "max_deg", -180.0f}};
     std::vector<AngleRow> rows{{"up", "up_deg", 0.0f},
                                {"down", "down_deg", 0.0f},
                                {"left", "left_deg", 0.0f},
@@ -59,7 +59,7 @@ void report_rows(const ChainPart& part, const std::vector<glm::vec3>& joints, co
     reading("iterations", "%d", result.report.iterations);
     note(ran_text(result.method, result.report, !part.reach.limits.empty()) + ".");
     note(status_help(result.report.status));
-    if (result.hold) coloured_note(hold_text(*result.hold) + ".", palette.limit);
+    if (result.hold) coloured_note(active_limit_text(*result.hold) + ".", palette.limit);
 }
 
 void limit_rows(const ChainPart& part, Emit& emit) {

@@ -1,4 +1,4 @@
-// The chain itself: its segments, and chains to begin with.
+// The chain itself: its segments, and its presets.
 #include <algorithm>
 
 #include "app/labs/chain/command_support.hpp"
@@ -19,7 +19,7 @@ Argument position_argument() {
             .help = "where it is given, before its length is kept; straight on when left out"};
 }
 
-void check_room(const ChainPart& part) {
+void check_size(const ChainPart& part) {
     if (part.chain.size() >= max_segments) {
         throw Refused("the chain is full: it has " + std::to_string(max_segments) + " segments");
     }
@@ -37,7 +37,7 @@ void set_length(ChainPart& part, const Arguments& given) {
 }
 
 void add(ChainPart& part, const Arguments& given) {
-    check_room(part);
+    check_size(part);
     if (given.has("position")) {
         require_ok(part.chain.add(Segment{given.point("position"), given.number("length")}));
     } else {
@@ -48,7 +48,7 @@ void add(ChainPart& part, const Arguments& given) {
 }
 
 void insert(ChainPart& part, const Arguments& given) {
-    check_room(part);
+    check_size(part);
     const std::size_t index = index_of(given);
     if (given.has("position")) {
         require_ok(part.chain.insert(index, Segment{given.point("position"), given.number("length")}));
@@ -126,7 +126,7 @@ void add_shape_commands(CommandTable& table) {
                             {{.name = "default_direction",
                               .type = ArgumentType::Point,
                               .required = false,
-                              .help = "unit vector along which a chain without a direction is laid"}},
+                              .help = "unit vector along which a chain without a direction extends"}},
                             "Takes every segment away", clear));
     table.add(chain_command("chain.add", {length_argument(), position_argument()},
                             "Appends a segment at the tail", add));
@@ -138,7 +138,7 @@ void add_shape_commands(CommandTable& table) {
     table.add(chain_command("chain.remove_selected", {}, "Removes the selected segment", remove_selected));
     table.add(chain_command("chain.reset", {}, "Everything in this lab as at the first start", reset));
     table.add(chain_command("chain.set_length", {index_argument(true, "which segment"), length_argument()},
-                            "Sets a segment's length and lays the chain anew", set_length));
+                            "Sets the length of a segment's bone", set_length));
     table.add(chain_command(
         "chain.preset",
         {{.name = "name",
@@ -152,7 +152,7 @@ void add_shape_commands(CommandTable& table) {
           .low = 1,
           .high = static_cast<double>(max_segments)},
          {.name = "seed", .type = ArgumentType::Integer, .required = false, .help = "for random", .low = 0}},
-        "Begins with a ready-made chain, the target on its tail", take_preset));
+        "Makes a preset chain, the target on its tail", take_preset));
 }
 
 }  // namespace tendril::app

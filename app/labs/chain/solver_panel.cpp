@@ -50,7 +50,7 @@ void option_rows(const ReachSettings& reach, Emit& emit) {
     number_row(ik::Option::SnapBack, "rest blend", "snap_back", reach.snap_back, 0.005f, 0.0f, 1.0f, "%.2f");
     number_row(ik::Option::SoftZone, "soft zone", "soft_zone", reach.soft_zone, 0.002f, 0.0f, 1.0f,
                "%.3f of reach");
-    number_row(ik::Option::Damping, "damping", "damping", reach.damping, 0.001f, least_damping, most_damping,
+    number_row(ik::Option::Damping, "damping", "damping", reach.damping, 0.001f, min_damping, max_damping,
                "%.3f of reach");
     number_row(ik::Option::Twist, "twist", "twist_deg", reach.twist_deg, 0.5f, -180.0f, 180.0f, "%.0f deg");
     option_row(reach, ik::Option::Restarts, [&] {
@@ -71,7 +71,7 @@ glm::vec3 first_pole(const ChainPart& part) {
 void pole_rows(const ChainPart& part, Emit& emit) {
     if (part.chain.empty()) return;
     bool on = part.reach.pole.has_value();
-    if (ImGui::Checkbox("Pole: the bend faces it", &on)) {
+    if (ImGui::Checkbox("Pole target: the elbow points at it", &on)) {
         emit("chain.pole", on ? ArgumentList{{"to", first_pole(part)}} : ArgumentList{{"off", true}});
     }
     if (!part.reach.pole) return;

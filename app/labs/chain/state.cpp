@@ -16,8 +16,8 @@ Json reach_state(const ChainPart& part) {
     if (!part.result) return json;
     json["report"] = report_json(part.result->method, part.result->report, !part.reach.limits.empty());
     if (part.result->hold) {
-        json["hold"] = hold_json(*part.result->hold);
-        json["explanation"] = hold_text(*part.result->hold);
+        json["hold"] = active_limit_json(*part.result->hold);
+        json["explanation"] = active_limit_text(*part.result->hold);
     }
     return json;
 }

@@ -1,4 +1,4 @@
-// Looking into a solve. While the microscope or the race is open, every solve begins at the same start, so
+// Analysing a solve. While the microscope or the race is open, every solve begins at the same start, so
 // that moving the target shows another way from the same place.
 #pragma once
 

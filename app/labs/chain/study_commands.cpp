@@ -1,4 +1,4 @@
-// Looking into a solve: microscope.* and race.*.
+// Analysing a solve: microscope.* and race.*.
 #include <algorithm>
 #include <stdexcept>
 
@@ -91,7 +91,7 @@ void lay_out_race(ChainPart& part, const Arguments& given) {
 
 void add_microscope_commands(CommandTable& table) {
     table.add(chain_command("microscope.open", {start_argument()},
-                            "Looks inside a solve, step by step, from a start that stays", open_microscope,
+                            "Shows a solve step by step, from a start that stays", open_microscope,
                             Effect::Edit));
     table.add(chain_command("microscope.seek",
                             {{.name = "step",

@@ -23,14 +23,14 @@ std::vector<glm::vec2> by_iteration(const std::vector<float>& residuals) {
 }
 
 /// Where the y axis of a plot of residuals begins: two decades under the tolerance shows what matters.
-float least_residual(float tolerance) {
+float min_residual(float tolerance) {
     return std::max(1e-7f, 1e-2f * tolerance);
 }
 
 void start_buttons(const char* command, Emit& emit) {
     if (row_button("Start here", 2, true, "Each solve starts from the pose that the chain has now"))
         emit(command, {{"start", "here"}});
-    if (row_button("Start straight", 2, true, "Each solve starts from the chain laid in line"))
+    if (row_button("Start straight", 2, true, "Each solve starts from the chain in a straight line"))
         emit(command, {{"start", "straight"}});
 }
 
@@ -89,7 +89,7 @@ void race_plot(const Race& race, bool time, const Palette& palette) {
     plot("race plot", curves,
          {.x = time ? "\xc2\xb5s" : "iterations",
           .y = "tip to target, m",
-          .least_y = least_residual(race.tolerance),
+          .min_y = min_residual(race.tolerance),
           .level = race.tolerance,
           .whole_x = !time},
          plot_lines);
@@ -98,7 +98,7 @@ void race_plot(const Race& race, bool time, const Palette& palette) {
 }  // namespace
 
 void study_rows(const ChainPart& part, Emit& emit) {
-    section("Look inside");
+    section("Analyse");
     const bool solvable = part.chain.size() > 1 && part.chain.size() <= max_studied_segments;
     const char* why_not =
         part.chain.size() < 2 ? "Needs a chain of at least one bone" : "For chains of up to 512 segments";
@@ -117,8 +117,8 @@ void study_rows(const ChainPart& part, Emit& emit) {
         emit(racing ? "race.close" : "race.open");
 }
 
-void carry_rows(Emit& emit) {
-    section("Carry away");
+void export_rows(Emit& emit) {
+    section("Export");
     if (row_button("Copy as C++", 2, true, "This chain, mode and solver as a program against the library"))
         emit("chain.copy", {{"as", "cpp"}});
     if (row_button("Copy as JSON", 2, true, "The scene as text")) emit("chain.copy", {{"as", "json"}});
@@ -148,7 +148,7 @@ void microscope_rows(const ChainPart& part, const Palette& palette, Emit& emit) 
     plot("error", {&curve, 1},
          {.x = "iterations",
           .y = "tip to target, m",
-          .least_y = least_residual(tolerance),
+          .min_y = min_residual(tolerance),
           .level = tolerance,
           .at_x = static_cast<float>(trace.iteration(step)),
           .whole_x = true},
@@ -170,7 +170,7 @@ void race_rows(const Workspace& workspace, const Palette& palette, Emit& emit) {
     }
     race_plot(*study.race, time, palette);
     ImGui::Checkbox("Against time", &time);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Measured here and now, the least of several runs");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Measured here and now, the fastest of several runs");
     bool apart = study.side_by_side;
     if (ImGui::Checkbox("Side by side", &apart)) {
         emit("race.side_by_side", {{"on", apart}});

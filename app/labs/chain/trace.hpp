@@ -40,7 +40,7 @@ std::vector<int> iteration_ends(const Trace& trace);
 /// Solves a copy of the chain, and watches.
 Trace record_trace(Chain chain, ReachSettings settings, glm::vec3 target, ChainRuntime& runtime);
 
-/// "Pull from the tip: joint 2 goes to 1.00 m from joint 3, on the line through where it was."
+/// "Forward reaching: joint 2 goes to 1.00 m from joint 3, on the line through where it was."
 std::string describe_frame(const Trace& trace, std::size_t frame);
 
 }  // namespace tendril::app

@@ -22,15 +22,15 @@ std::string joints_of(std::span<const ik::Step> steps) {
 std::string pull(const Trace& trace, std::size_t frame, const ik::Step& step) {
     if (step.neighbour == ik::no_joint) {
         return step.phase == ik::Phase::ForwardReaching
-                   ? "Pull from the tip: the tip goes onto the target."
-                   : "Pull from the root: the root goes back to its place.";
+                   ? "Forward reaching: the tip goes onto the target."
+                   : "Backward reaching: the root goes back to its place.";
     }
     const float length = glm::distance(trace.pose(frame)[step.neighbour], step.to);
     char text[200];
     std::snprintf(text, sizeof text,
-                  "Pull from the %s: joint %zu slides along its line to joint %zu until it is %.3f m away.",
-                  step.phase == ik::Phase::ForwardReaching ? "tip" : "root", step.joint, step.neighbour,
-                  static_cast<double>(length));
+                  "%s reaching: joint %zu slides along its line to joint %zu until it is %.3f m away.",
+                  step.phase == ik::Phase::ForwardReaching ? "Forward" : "Backward", step.joint,
+                  step.neighbour, static_cast<double>(length));
     return text;
 }
 
@@ -59,7 +59,7 @@ std::string describe_frame(const Trace& trace, std::size_t frame) {
         case ik::Phase::Gradient:
             return "All joints turn a little, as the Jacobian says (" + joints + ").";
         case ik::Phase::Pole:
-            return "The bend turns to face the pole (" + joints + ").";
+            return "The chain swivels until the elbow points at the pole target (" + joints + ").";
         case ik::Phase::Limit:
             return "Limits: " + joints + (steps.size() == 1 ? " is" : " are") + " brought back within.";
         case ik::Phase::Analytic:

@@ -1,4 +1,4 @@
-// What the Rope lab's panel adds: where there is room for it, and selected at once.
+// What the Rope lab's panel adds: where there is free space, and selected at once.
 #include <imgui.h>
 
 #include <algorithm>
@@ -69,11 +69,11 @@ class Adding {
                   {"down", glm::vec3(0.0f, -0.6f, 0.8f)},
                   {"pins", "corners"}});
         }
-        const bool on_collider = part_.choice && !part_.choice->collider.empty();
+        const bool on_collider = part_.selection && !part_.selection->collider.empty();
         if (row_button("Hair", 3, true, "Strands of hair: on the selected collider, or from a point")) {
             ArgumentList arguments{{"strands", 48}, {"length", 0.6f}};
             if (on_collider)
-                arguments.push_back({"attach", part_.choice->collider});
+                arguments.push_back({"attach", part_.selection->collider});
             else
                 arguments.push_back({"centre", free_place(workspace_) + glm::vec3(0.0f, 0.5f, 0.0f)});
             body("rope.hair.add", "hair", std::move(arguments));

@@ -27,7 +27,7 @@ void add(RopeEdit& edit, const Arguments& given) {
     if (given.has("radius")) shape.radius = given.number("radius");
     if (given.has("pin_start")) shape.pin_start = given.boolean("pin_start");
     if (given.has("pin_end")) shape.pin_end = given.boolean("pin_end");
-    check_particle_room(edit.seen(), count_of(shape.segments) + 1);
+    check_particle_count(edit.seen(), count_of(shape.segments) + 1);
     edit.world().add_rope(name_of(given), shape);
 }
 
@@ -45,7 +45,7 @@ void add_cloth(RopeEdit& edit, const Arguments& given) {
         const auto* const pins = std::find(std::begin(pins_names), std::end(pins_names), given.text("pins"));
         shape.pins = static_cast<rope::ClothShape::Pins>(pins - std::begin(pins_names));
     }
-    check_particle_room(edit.seen(), count_of(shape.columns) * count_of(shape.rows));
+    check_particle_count(edit.seen(), count_of(shape.columns) * count_of(shape.rows));
     edit.world().add_cloth(name_of(given), shape);
 }
 
@@ -61,7 +61,7 @@ void add_hair(RopeEdit& edit, const Arguments& given) {
     if (given.has("direction")) patch.direction = given.point("direction");
     if (given.has("strands")) patch.strands = given.integer("strands");
     if (given.has("spread")) patch.radius = given.number("spread");
-    check_particle_room(edit.seen(), count_of(patch.strands) * (count_of(shape.segments) + 1));
+    check_particle_count(edit.seen(), count_of(patch.strands) * (count_of(shape.segments) + 1));
     if (given.has("attach")) {
         if (given.has("centre")) throw Refused("centre is not for hair that is attached to a collider");
         const rope::Collider& collider = collider_of(edit.seen(), given.text("attach"));
@@ -82,12 +82,12 @@ void remove(RopeEdit& edit, const Arguments& given) {
 }
 
 void remove_selected(RopeEdit& edit, const Arguments&) {
-    const std::optional<RopeChoice> choice = edit.part.choice;
-    if (!choice) throw Refused("nothing is selected");
-    if (choice->collider.empty())
-        edit.world().remove(choice->body);
+    const std::optional<RopeSelection> selection = edit.part.selection;
+    if (!selection) throw Refused("nothing is selected");
+    if (selection->collider.empty())
+        edit.world().remove(selection->body);
     else
-        edit.world().remove_collider(choice->collider);
+        edit.world().remove_collider(selection->collider);
     forget_missing(edit.part);
 }
 
@@ -125,7 +125,7 @@ void cut(RopeEdit& edit, const Arguments& given) {
     }
     const std::string rest = edit.world().cut(name, segment);
     RopePart& part = edit.part;
-    if (part.choice) follow_cut(part.choice->body, part.choice->particle, name, segment, rest);
+    if (part.selection) follow_cut(part.selection->body, part.selection->particle, name, segment, rest);
     if (part.hold) follow_cut(part.hold->body, part.hold->particle, name, segment, rest);
     forget_missing(part);
 }

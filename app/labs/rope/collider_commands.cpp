@@ -84,7 +84,7 @@ void add(RopeEdit& edit, const Arguments& given) {
     const Kind& kind = kind_of(given.text("kind"));
     check_needs(kind, given);
     const rope::Shape shape = changed(kind.shape, kind, given);
-    check_collider_room(edit.seen());
+    check_collider_count(edit.seen());
     edit.world().add_collider(name, shape);
 }
 
@@ -168,7 +168,7 @@ void add_collider_commands(CommandTable& table) {
                            "Gives a collider another place, size or rotation at once", set));
     table.add(rope_command("rope.collider.move",
                            {name_argument(), point_argument("to", true, "where its centre goes, metres")},
-                           "Moves a collider; it carries what it meets", move));
+                           "Moves a collider; it pushes what it meets", move));
     table.add(rope_command("rope.collider.remove", {name_argument()}, "Removes a collider", remove));
     table.add(rope_command("rope.collider.swing",
                            {name_argument(), point_argument("by", true, "metres to each side; 0: off"),

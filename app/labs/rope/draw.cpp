@@ -27,7 +27,7 @@ class Drawing {
         positions_.reserve(world_.size());
         for (std::size_t i = 0; i < world_.size(); ++i) positions_.push_back(world_.position(i));
         colours_ = particle_colours(world_, view_.palette, part_.view.strain);
-        if (!part_.view.strain) mark_choice();
+        if (!part_.view.strain) mark_selection();
         for (const rope::Body& body : world_.state().bodies) {
             if (body.kind == rope::Body::Kind::Cloth) {
                 cloth(body);
@@ -45,15 +45,16 @@ class Drawing {
     float px(float pixels) const { return pixels * view_.scale; }
     bool lit(PickId pick) const { return view_.hovered == pick || view_.dragged == pick; }
     bool chosen(const rope::Body& body) const {
-        return part_.choice && part_.choice->collider.empty() && part_.choice->body == world_.name(body);
+        return part_.selection && part_.selection->collider.empty() &&
+               part_.selection->body == world_.name(body);
     }
     bool chosen(const rope::Body& body, std::size_t i) const {
-        return chosen(body) && part_.choice->particle == i;
+        return chosen(body) && part_.selection->particle == i;
     }
 
     glm::vec3 collider_colour(std::size_t i) const {
         const bool selected =
-            part_.choice && part_.choice->collider == world_.name(world_.state().colliders[i]);
+            part_.selection && part_.selection->collider == world_.name(world_.state().colliders[i]);
         if (selected) return glm::mix(view_.palette.ghost, view_.palette.selection, 0.5f);
         return lit(collider_pick(i)) ? view_.palette.accent : view_.palette.ghost;
     }
@@ -95,7 +96,7 @@ class Drawing {
         }
     }
 
-    void mark_choice() {
+    void mark_selection() {
         for (const rope::Body& body : world_.state().bodies) {
             if (!chosen(body)) continue;
             for (std::size_t i = body.first; i < body.first + body.count; ++i)
@@ -116,12 +117,12 @@ class Drawing {
         const int columns = static_cast<int>(body.row), rows = static_cast<int>(body.count / body.row);
         const std::span<const glm::vec3> points(positions_), colours(colours_);
         const std::vector<std::uint8_t> cells = whole_cells(world_, body);
-        const SheetGrid grid{columns, rows, points.subspan(body.first, body.count), cells};
+        const ClothGrid grid{columns, rows, points.subspan(body.first, body.count), cells};
         if (part_.view.strain || chosen(body)) {
-            sheet(list_, view_.camera, grid, view_.palette.head, view_.palette.link,
-                  colours.subspan(body.first, body.count));
+            cloth_surface(list_, view_.camera, grid, view_.palette.head, view_.palette.neutral,
+                          colours.subspan(body.first, body.count));
         } else {
-            sheet(list_, view_.camera, grid, cloth_front(view_.palette), view_.palette.link);
+            cloth_surface(list_, view_.camera, grid, cloth_front(view_.palette), view_.palette.neutral);
         }
     }
 
@@ -132,9 +133,9 @@ class Drawing {
         for (const rope::Body& body : world_.state().bodies) {
             if (body.kind != rope::Body::Kind::Rope) continue;
             const auto first = mass.begin() + static_cast<std::ptrdiff_t>(body.first);
-            const double least = *std::min_element(first, first + static_cast<std::ptrdiff_t>(body.count));
+            const double lightest = *std::min_element(first, first + static_cast<std::ptrdiff_t>(body.count));
             for (std::size_t i = body.first; i < body.first + body.count; ++i) {
-                if (mass[i] < heavy_from * least) continue;
+                if (mass[i] < heavy_from * lightest) continue;
                 const auto radius =
                     static_cast<float>(std::cbrt(0.75 * mass[i] / (3.14159265358979 * weight_density)));
                 if (radius <= body.radius) continue;

@@ -32,10 +32,7 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     const bool held = held_particle(part) == particle, pinned = world.pinned(particle) && !held;
     const ArgumentList which{{"rope", world.name(body)}, {"particle", index}};
     reading("of", "%s", world.name(body).c_str());
-    reading("particle", "%zu of 0 to %zu%s", index, body.count - 1,
-            pinned ? ", pinned"
-            : held ? ", held"
-                   : "");
+    reading("particle", "%zu of %zu%s", index + 1, body.count, pinned ? ", pinned" : held ? ", held" : "");
     glm::vec3 at = world.position(particle);
     if (pinned) {
         if (point_field("at", at, 0.01f)) {
@@ -130,12 +127,12 @@ Curve curve(const char* name, glm::vec3 colour, const std::vector<RopeSample>& s
 void selection_rows(const Workspace& workspace, Emit& emit) {
     section("Selection");
     const RopePart& part = rope_part(workspace);
-    if (part.choice) {
-        if (const rope::Collider* collider = part.world->find_collider(part.choice->collider))
+    if (part.selection) {
+        if (const rope::Collider* collider = part.world->find_collider(part.selection->collider))
             return collider_rows(part, *collider, emit);
-        const rope::Body* body = part.world->find(part.choice->body);
-        if (body != nullptr && part.choice->particle < body->count)
-            return particle_rows(part, *body, part.choice->particle, emit);
+        const rope::Body* body = part.world->find(part.selection->body);
+        if (body != nullptr && part.selection->particle < body->count)
+            return particle_rows(part, *body, part.selection->particle, emit);
     }
     note("Nothing is selected. Click a rope or a collider.");
 }
@@ -148,17 +145,17 @@ void number_rows(const Workspace& workspace, const Palette& palette) {
     const RopeSample last = part.samples.empty() ? RopeSample{} : part.samples.back();
     reading("stretch", "%.4f %%", 100.0 * static_cast<double>(last.stretch));
     explain(
-        "How far the segment that is worst is from its length, as the solver left it, before colliders "
-        "pushed for the last time.");
+        "How far the segment that is worst is from its length, as the solver left it, before "
+        "contact.");
     reading("length error", "%.4f %%", 100.0 * static_cast<double>(last.error));
-    explain("The same as one sees it: with what the last push out of colliders has added.");
+    explain("The same as one sees it: after contact, with what depenetration adds.");
     reading("energy", "%.3f J", static_cast<double>(last.energy));
     reading("substeps dropped", "%llu", static_cast<unsigned long long>(state.dropped));
     explain(
-        "Time that was let go, rather than fall behind: frames over the longest frame, and more work than a "
-        "tick has room for.");
+        "Time that was dropped, rather than fall behind: frames over the longest frame, and more work than "
+        "fits in a tick.");
     if (workspace.clock.measured && part.cost > 0.0f)
-        reading("time a frame", "%.0f us", static_cast<double>(part.cost));
+        reading("time a frame", "%.0f \xc2\xb5s", static_cast<double>(part.cost));
     if (part.quiet_ticks > 0) note("At rest.");
     if (part.samples.size() < 2) return;
     section("Last ten seconds");
@@ -171,9 +168,9 @@ void number_rows(const Workspace& workspace, const Palette& palette) {
     ImGui::TextDisabled("length error");
     const Curve errors[] = {curve("length error", palette.ghost, part.samples, &RopeSample::error, 100.0f),
                             curve("stretch", palette.limit, part.samples, &RopeSample::stretch, 100.0f)};
-    plot("stretch", errors, {.x = "s", .y = "%", .least_y = 1e-6f}, 9.0f);
+    plot("stretch", errors, {.x = "s", .y = "%", .min_y = 1e-6f}, 9.0f);
     const Curve energy[] = {curve("energy", palette.accent, part.samples, &RopeSample::energy, 1.0f)};
-    plot("energy", energy, {.x = "s", .y = "energy, J", .least_y = 0.0f}, 9.0f);
+    plot("energy", energy, {.x = "s", .y = "energy, J", .min_y = 0.0f}, 9.0f);
 }
 
 }  // namespace tendril::app

@@ -1,4 +1,4 @@
-// What is chosen, held and shown. But for what a drag does to a rope, it leaves no step to undo.
+// What is selected, held and shown. But for what a drag does to a rope, it leaves no step to undo.
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_names.hpp"
 
@@ -9,15 +9,15 @@ void select(RopeEdit& edit, const Arguments& given) {
     const bool particle = given.has("rope") || given.has("particle");
     if (particle && given.has("collider"))
         throw Refused("a particle or a collider can be selected, not both");
-    edit.part.choice.reset();
+    edit.part.selection.reset();
     if (given.has("collider")) {
         collider_of(edit.seen(), given.text("collider"));
-        edit.part.choice = RopeChoice{{}, 0, given.text("collider")};
+        edit.part.selection = RopeSelection{{}, 0, given.text("collider")};
     } else if (particle) {
         if (!given.has("rope")) throw Refused("rope is missing (a text)");
         if (!given.has("particle")) throw Refused("particle is missing (a whole number)");
         const NamedParticle chosen = named_particle(edit.seen(), given);
-        edit.part.choice = RopeChoice{chosen.body, chosen.index, {}};
+        edit.part.selection = RopeSelection{chosen.body, chosen.index, {}};
     }
 }
 

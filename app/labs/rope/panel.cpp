@@ -15,7 +15,7 @@ namespace tendril::app {
 namespace {
 
 void scene_rows(Emit& emit) {
-    section("Begin with");
+    section("Presets");
     for (const RopeSceneEntry& scene : rope_scenes())
         if (row_button(scene.title, 3)) emit("rope.preset", {{"name", scene.name}});
     end_row();
@@ -26,8 +26,8 @@ void scene_rows(Emit& emit) {
 }
 
 void tool_rows(const RopePart& part, Emit& emit) {
-    section("A click");
-    static constexpr const char* titles[] = {"Selects", "Pins, or lets go", "Cuts"};
+    section("Click action");
+    static constexpr const char* titles[] = {"Select", "Pin or unpin", "Cut"};
     for (const RopeTool tool : all_tools) {
         if (option_button(titles[static_cast<std::size_t>(tool)], part.tool == tool))
             emit("rope.tool", {{"name", tool_name(tool)}});

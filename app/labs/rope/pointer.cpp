@@ -112,7 +112,7 @@ void RopeLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
     }
     const auto place = picked_particle(world, pick);
     if (!place) {
-        if (part.choice) emit("rope.select");
+        if (part.selection) emit("rope.select");
         return;
     }
     emit("rope.select", of_particle(world, *place));
@@ -129,7 +129,7 @@ std::string RopeLab::hint(const Workspace& workspace, PickId pick) const {
     const RopePart& part = rope_part(workspace);
     if (const auto* collider = picked_collider(*part.world, pick)) {
         return part.world->name(*collider) + " (" + rope::kind(collider->shape) +
-               "): drag moves it, and it carries what it meets. Click selects it.";
+               "): drag moves it, and it pushes what it meets. Click selects it.";
     }
     const auto place = picked_particle(*part.world, pick);
     if (!place) return {};
@@ -138,7 +138,7 @@ std::string RopeLab::hint(const Workspace& workspace, PickId pick) const {
         case RopeTool::Move:
             break;
         case RopeTool::Pin:
-            return name + ": click pins it, or lets it go.";
+            return name + ": click pins or unpins it.";
         case RopeTool::Cut:
             if (place->body->kind != rope::Body::Kind::Rope) return name + ": only ropes can be cut.";
             if (place->body->count > 1) return name + ": click cuts here.";

@@ -60,10 +60,10 @@ Command rope_command(const char* name, std::vector<Argument> arguments, const ch
 
 bool operator==(const RopePart& a, const RopePart& b) {
     return a.world == b.world && a.swings == b.swings && a.time == b.time && a.tool == b.tool &&
-           a.choice == b.choice && a.hold == b.hold && a.jitter == b.jitter && a.view == b.view;
+           a.selection == b.selection && a.hold == b.hold && a.jitter == b.jitter && a.view == b.view;
 }
 
-void check_particle_room(const NamedWorld& world, std::size_t more) {
+void check_particle_count(const NamedWorld& world, std::size_t more) {
     const std::size_t all = world.size() + more;
     if (all > max_lab_particles) {
         throw Refused("that would make " + std::to_string(all) + " particles; the most is " +
@@ -71,7 +71,7 @@ void check_particle_room(const NamedWorld& world, std::size_t more) {
     }
 }
 
-void check_collider_room(const NamedWorld& world) {
+void check_collider_count(const NamedWorld& world) {
     const std::size_t all = world.state().colliders.size() + 1;
     if (all > max_lab_colliders) {
         throw Refused("that would make " + std::to_string(all) + " colliders; the most is " +
@@ -129,11 +129,11 @@ void forget_missing(RopePart& part) {
         return body != nullptr && particle < body->count;
     };
     if (part.hold && !there(part.hold->body, part.hold->particle)) part.hold.reset();
-    if (part.choice) {
-        const RopeChoice& choice = *part.choice;
-        const bool stays = choice.collider.empty() ? there(choice.body, choice.particle)
-                                                   : world.find_collider(choice.collider) != nullptr;
-        if (!stays) part.choice.reset();
+    if (part.selection) {
+        const RopeSelection& selection = *part.selection;
+        const bool stays = selection.collider.empty() ? there(selection.body, selection.particle)
+                                                      : world.find_collider(selection.collider) != nullptr;
+        if (!stays) part.selection.reset();
     }
     std::erase_if(part.swings,
                   [&](const Swing& swing) { return world.find_collider(swing.collider) == nullptr; });

@@ -21,8 +21,8 @@ class RopeEdit {
     /// the world as it is.
     const NamedWorld& seen() const { return *part.world; }
     NamedWorld& world();
-    /// Each gets there in the length of one tick, so that it carries evenly what it meets; while time stands,
-    /// at once, by a quasi-static drag.
+    /// Each gets there in the length of one tick, so that it carries evenly what it meets; while the
+    /// simulation is paused, at once, by a quasi-static drag.
     void move_pin(std::size_t particle, const glm::vec3& at);
     void move_collider(const std::string& name, const glm::vec3& to);
     void set_collider(const std::string& name, const rope::Shape& shape);  ///< there at once
@@ -31,7 +31,7 @@ class RopeEdit {
     void dragged();
 
     std::shared_ptr<NamedWorld> copy_;
-    double seconds_;  ///< of the world that the next tick takes; 0 while time stands
+    double seconds_;  ///< of the world that the next tick takes; 0 while the simulation is paused
 };
 
 /// A command on a copy of the lab's part; what it changes in the world wakes it.
@@ -42,8 +42,8 @@ Command rope_command(const char* name, std::vector<Argument> arguments, const ch
 bool operator==(const RopePart& a, const RopePart& b);
 
 /// Throws Refused where there would be too many, before there are.
-void check_particle_room(const NamedWorld& world, std::size_t more);
-void check_collider_room(const NamedWorld& world);
+void check_particle_count(const NamedWorld& world, std::size_t more);
+void check_collider_count(const NamedWorld& world);
 /// Throws std::length_error where a substep of it would take too long.
 void check_work(const NamedWorld& world);
 /// Throws Refused where there is none of that name.

@@ -59,28 +59,29 @@ std::vector<Swing> load_swings(const Json& json, const std::string& where, const
     return swings;
 }
 
-Json save_choice(const std::optional<RopeChoice>& choice) {
-    if (!choice) return nullptr;
-    if (!choice->collider.empty()) return Json{{"collider", choice->collider}};
-    return Json{{"rope", choice->body}, {"particle", choice->particle}};
+Json save_selection(const std::optional<RopeSelection>& selection) {
+    if (!selection) return nullptr;
+    if (!selection->collider.empty()) return Json{{"collider", selection->collider}};
+    return Json{{"rope", selection->body}, {"particle", selection->particle}};
 }
 
-std::optional<RopeChoice> load_choice(const Json& json, const std::string& where, const NamedWorld& world) {
+std::optional<RopeSelection> load_selection(const Json& json, const std::string& where,
+                                            const NamedWorld& world) {
     if (json.is_null()) return std::nullopt;
-    RopeChoice choice;
+    RopeSelection selection;
     if (json.is_object() && json.contains("collider")) {
-        choice.collider = json_text(json["collider"], where + ".collider");
-        if (world.find_collider(choice.collider) == nullptr)
+        selection.collider = json_text(json["collider"], where + ".collider");
+        if (world.find_collider(selection.collider) == nullptr)
             fail(where + ".collider", "there is no collider " + json_summary(json["collider"]));
-        return choice;
+        return selection;
     }
-    choice.body = json_text(json_member(json, "rope", where), where + ".rope");
-    const rope::Body* body = world.find(choice.body);
+    selection.body = json_text(json_member(json, "rope", where), where + ".rope");
+    const rope::Body* body = world.find(selection.body);
     if (body == nullptr) fail(where + ".rope", "there is no rope " + json_summary(json["rope"]));
     const int last = body->count == 0 ? 0 : static_cast<int>(body->count) - 1;
-    choice.particle = static_cast<std::size_t>(
+    selection.particle = static_cast<std::size_t>(
         json_integer(json_member(json, "particle", where), where + ".particle", 0, last));
-    return choice;
+    return selection;
 }
 
 Json save_jitter(const Jitter& jitter) {
@@ -105,7 +106,7 @@ RopeView load_view(const Json& json, const std::string& where) {
     RopeView view;
     view.particles = json_bool(read("particles"), where + ".particles");
     // Version 1 of scene files called it stress.
-    const char* const strain = json.contains("strain") ? "strain" : "stress";
+    const char* const strain = json.contains("strain") ? "strain" : "stress" /* version 1 */;
     view.strain = json_bool(read(strain), where + "." + strain);
     view.sides = json_integer(read("sides"), where + ".sides", fewest_sides, most_sides);
     return view;
@@ -127,7 +128,7 @@ Json RopePart::save() const {
     for (const Swing& swing : swings) moving.push_back(save_swing(swing));
     return Json{{"time", time},
                 {"tool", tool_name(tool)},
-                {"selected", save_choice(choice)},
+                {"selected", save_selection(selection)},
                 {"view", {{"particles", view.particles}, {"strain", view.strain}, {"sides", view.sides}}},
                 {"jitter", save_jitter(jitter)},
                 {"swings", std::move(moving)},
@@ -149,7 +150,7 @@ std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where)
         part->world = std::make_shared<const NamedWorld>(load_world(read("world"), place));
         check_work(*part->world);
         part->swings = load_swings(read("swings"), where + ".swings", *part->world);
-        part->choice = load_choice(read("selected"), where + ".selected", *part->world);
+        part->selection = load_selection(read("selected"), where + ".selected", *part->world);
     } catch (const std::logic_error& error) {  // the core's own words, told where in the file
         fail(place, error.what());
     }

@@ -59,14 +59,14 @@ void take_sample(RopePart& part) {
     part.samples.push_back(sample_of(*part.world));
 }
 
-std::optional<Bounds> choice_bounds(const RopePart& part) {
-    if (!part.choice) return std::nullopt;
+std::optional<Bounds> selection_bounds(const RopePart& part) {
+    if (!part.selection) return std::nullopt;
     const NamedWorld& world = *part.world;
-    if (const rope::Collider* collider = world.find_collider(part.choice->collider))
+    if (const rope::Collider* collider = world.find_collider(part.selection->collider))
         return Bounds{rope::centre(collider->shape), std::max(2.0f * rope::size(collider->shape), 0.2f)};
-    const rope::Body* body = world.find(part.choice->body);
+    const rope::Body* body = world.find(part.selection->body);
     if (body == nullptr) return std::nullopt;
-    return Bounds{world.position(body->first + part.choice->particle), 0.3f};
+    return Bounds{world.position(body->first + part.selection->particle), 0.3f};
 }
 
 }  // namespace
@@ -107,18 +107,18 @@ void RopeLab::step(Workspace& workspace) const {
     });
     if (stopped) {
         workspace.clock.playing = false;
-        workspace.toast("Time stands: " + *stopped, ToastKind::Refusal);
+        workspace.toast("The simulation is paused: " + *stopped, ToastKind::Refusal);
     } else if (!modified) {
         workspace.saved = workspace.document;  // that time passes is nothing that wants saving
     }
 }
 
 std::vector<Shortcut> RopeLab::shortcuts() const {
-    return {{*chord_from_name("delete"), "rope.remove_selected", {}, "Remove what is selected", "Edit"}};
+    return {{*chord_from_name("delete"), "rope.remove_selected", {}, "Delete selection", "Edit"}};
 }
 
 std::vector<MouseHelp> RopeLab::mouse_help() const {
-    return {{"Click, as the panel says", "selects, pins, or cuts"}};
+    return {{"Left click", "selects, pins or unpins, or cuts, as the panel says"}};
 }
 
 std::vector<TestScene> RopeLab::test_scenes() const {
@@ -133,7 +133,7 @@ std::vector<TestScene> RopeLab::test_scenes() const {
 Bounds RopeLab::bounds(const Workspace& workspace, bool selection_only) const {
     const RopePart& part = rope_part(workspace);
     if (selection_only) {
-        if (const auto chosen = choice_bounds(part)) return *chosen;
+        if (const auto chosen = selection_bounds(part)) return *chosen;
     }
     constexpr float none = 1e30f;
     glm::vec3 low(none), high(-none);

@@ -40,7 +40,7 @@ std::shared_ptr<const Part> RopePart::at_moment(std::shared_ptr<const Part> then
     let_go(edit);
     part->tool = tool;
     part->view = view;
-    part->choice = choice;
+    part->selection = selection;
     part->jitter.dial = jitter.dial;
     if (edit.seen().settings() != world->settings()) edit.world().set_settings(world->settings());
     part->cost = cost;

@@ -40,11 +40,11 @@ struct Hold {
 };
 
 /// What is selected: a particle of a body, or a collider.
-struct RopeChoice {
+struct RopeSelection {
     std::string body;
     std::size_t particle = 0;
     std::string collider;  ///< not empty: this, and no particle
-    bool operator==(const RopeChoice&) const = default;
+    bool operator==(const RopeSelection&) const = default;
 };
 
 /// Frame-time jitter: frames of uneven length, from 1 ms to 250 ms. At 0 a frame is a tick; at 1 they swing
@@ -67,7 +67,7 @@ struct RopeView {
 /// What a tick came to, for the curves.
 struct RopeSample {
     float stretch = 0.0f;  ///< the largest relative length error of all ropes, as the solver left it
-    float error = 0.0f;    ///< the same with what pushing out of colliders added
+    float error = 0.0f;    ///< the same after contact: with what depenetration added
     float energy = 0.0f;   ///< joules, of all bodies
     bool operator==(const RopeSample&) const = default;
 };
@@ -78,7 +78,7 @@ struct RopePart final : Part {
     std::vector<Swing> swings;
     double time = 0.0;  ///< seconds that the world has been let run
     RopeTool tool = RopeTool::Move;
-    std::optional<RopeChoice> choice;
+    std::optional<RopeSelection> selection;
     std::optional<Hold> hold;
     Jitter jitter;
     RopeView view;

@@ -31,22 +31,22 @@ void aim(const RopePart& part, NamedWorld& world, double time) {
         world.move_collider(swing.collider, swing_point(swing, time), tick_seconds);
 }
 
-/// Lets time pass in a world, and takes what that takes from the work that there is still room for.
-void advance(NamedWorld& world, double seconds, rope::Workspace& workspace, std::uint64_t& room) {
+/// Lets time pass in a world, and takes what that takes from the work that is left.
+void advance(NamedWorld& world, double seconds, rope::Workspace& workspace, std::uint64_t& work_left) {
     const std::uint64_t each = std::max(work_of_substep(world), std::uint64_t{1});
     // One always fits: else a world that is too large would stand still without a word.
-    const std::uint64_t most = std::max(room / each, std::uint64_t{room == max_lab_work});
+    const std::uint64_t most = std::max(work_left / each, std::uint64_t{work_left == max_lab_work});
     const rope::Advance done = world.advance(seconds, workspace, most);
-    room -= std::min(room, each * static_cast<std::uint64_t>(done.substeps));
+    work_left -= std::min(work_left, each * static_cast<std::uint64_t>(done.substeps));
 }
 
 /// A frame of the lab. While something swings it is cut where ticks of the lab's own time end, and aimed
 /// there: so the swing is the same however its time is cut.
 void pass_frame(RopePart& part, NamedWorld& world, double seconds, rope::Workspace& workspace,
-                std::uint64_t& room) {
+                std::uint64_t& work_left) {
     constexpr double rounding = 1e-6;  // of a tick
     if (part.swings.empty()) {
-        advance(world, seconds, workspace, room);
+        advance(world, seconds, workspace, work_left);
         part.time += seconds;
         return;
     }
@@ -56,7 +56,7 @@ void pass_frame(RopePart& part, NamedWorld& world, double seconds, rope::Workspa
         const double next = ((at_tick ? std::round(ticks) : std::floor(ticks)) + 1.0) * tick_seconds;
         if (at_tick) aim(part, world, next);
         const double piece = std::min(seconds, next - part.time);
-        advance(world, piece, workspace, room);
+        advance(world, piece, workspace, work_left);
         part.time += piece;
         seconds -= piece;
     }
@@ -66,18 +66,19 @@ void pass_frame(RopePart& part, NamedWorld& world, double seconds, rope::Workspa
 
 void pass_time(RopePart& part, double seconds, rope::Workspace& workspace) {
     auto world = std::make_shared<NamedWorld>(*part.world);
-    std::uint64_t room = max_lab_work;
+    std::uint64_t work_left = max_lab_work;
     Jitter& jitter = part.jitter;
     if (jitter.dial == 0.0f) {
-        if (jitter.owed > 0.0) pass_frame(part, *world, std::exchange(jitter.owed, 0.0), workspace, room);
+        if (jitter.owed > 0.0)
+            pass_frame(part, *world, std::exchange(jitter.owed, 0.0), workspace, work_left);
         jitter.frame = 0.0;
-        pass_frame(part, *world, seconds, workspace, room);
+        pass_frame(part, *world, seconds, workspace, work_left);
     } else {
         jitter.owed += seconds;
         if (jitter.frame == 0.0) jitter.frame = jitter_frame(jitter.dial, jitter.frames);
         while (jitter.owed >= jitter.frame) {
             jitter.owed -= jitter.frame;
-            pass_frame(part, *world, jitter.frame, workspace, room);
+            pass_frame(part, *world, jitter.frame, workspace, work_left);
             jitter.frame = jitter_frame(jitter.dial, ++jitter.frames);
         }
     }

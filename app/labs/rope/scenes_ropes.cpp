@@ -73,7 +73,7 @@ RopeScene bridge_scene() {
                                                          .pin_start = true,
                                                          .pin_end = true});
     }
-    const glm::vec3 roll(0.0f, 0.92f, 0.0f);  // so low that the deck gives way under it
+    const glm::vec3 roll(0.0f, 0.92f, 0.0f);  // so low that it presses the deck down
     world.add_collider("ball", rope::Sphere{roll, 0.22f});
     scene.swings.push_back({"ball", roll, {1.1f, 0.0f, 0.0f}, 9.0f});
     rope::Settings settings = world.settings();

@@ -34,10 +34,10 @@ Json collider_state(const RopePart& part, const rope::Collider& collider) {
     return json;
 }
 
-Json choice_state(const std::optional<RopeChoice>& choice) {
-    if (!choice) return nullptr;
-    if (!choice->collider.empty()) return Json{{"collider", choice->collider}};
-    return Json{{"rope", choice->body}, {"particle", choice->particle}};
+Json selection_state(const std::optional<RopeSelection>& selection) {
+    if (!selection) return nullptr;
+    if (!selection->collider.empty()) return Json{{"collider", selection->collider}};
+    return Json{{"rope", selection->body}, {"particle", selection->particle}};
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ Json RopeLab::state(const Workspace& workspace) const {
                 {"seconds", part.time},
                 {"speed", number(workspace.clock.speed)},
                 {"tool", tool_name(part.tool)},
-                {"selected", choice_state(part.choice)},
+                {"selected", selection_state(part.selection)},
                 {"held", std::move(held)},
                 {"jitter", number(part.jitter.dial)},
                 {"moving", moving(workspace)}};

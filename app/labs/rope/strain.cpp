@@ -10,14 +10,14 @@
 namespace tendril::app {
 namespace {
 
-constexpr float least_strain = 1e-4f, full_strain = 0.1f;
+constexpr float min_strain = 1e-4f, full_strain = 0.1f;
 
 }  // namespace
 
 glm::vec3 strain_colour(float strain, const Palette& palette) {
     const float size = std::abs(strain);
     const float share =
-        std::log(std::max(size, least_strain) / least_strain) / std::log(full_strain / least_strain);
+        std::log(std::max(size, min_strain) / min_strain) / std::log(full_strain / min_strain);
     // From a gray that is lighter than both, in either theme.
     const glm::vec3 none = glm::mix(palette.ghost, glm::vec3(1.0f), 0.35f);
     return glm::mix(none, strain > 0.0f ? palette.limit : palette.head, std::min(share, 1.0f));
@@ -69,8 +69,8 @@ std::vector<std::uint8_t> whole_cells(const NamedWorld& world, const rope::Body&
         for (std::size_t c = 0; c + 1 < columns; ++c) {
             const std::size_t i = r * columns + c;
             std::uint8_t& cell = cells[r * (columns - 1) + c];
-            if (along[i] != 0 && down[i] != 0) cell |= SheetGrid::upper;
-            if (along[i + columns] != 0 && down[i + 1] != 0) cell |= SheetGrid::lower;
+            if (along[i] != 0 && down[i] != 0) cell |= ClothGrid::upper;
+            if (along[i + columns] != 0 && down[i + 1] != 0) cell |= ClothGrid::lower;
         }
     }
     return cells;

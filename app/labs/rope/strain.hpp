@@ -18,7 +18,7 @@ std::vector<glm::vec3> particle_colours(const NamedWorld& world, const Palette& 
 
 glm::vec3 cloth_front(const Palette& palette);
 
-/// What is left of each cell of a cloth, as SheetGrid has it: a triangle goes with either of its links.
+/// What is left of each cell of a cloth, as ClothGrid has it: a triangle goes with either of its links.
 std::vector<std::uint8_t> whole_cells(const NamedWorld& world, const rope::Body& cloth);
 
 }  // namespace tendril::app

@@ -25,7 +25,7 @@ void take_scene(Workspace& workspace, const Arguments& given) {
     part.swings = std::move(scene.swings);
     part.time = 0.0;
     part.jitter = {.dial = part.jitter.dial};
-    part.choice.reset();
+    part.selection.reset();
     part.hold.reset();
     part.quiet_ticks = 0;
     part.samples.clear();
@@ -86,7 +86,7 @@ void add_world_commands(CommandTable& table) {
         {.name = "rope.preset",
          .arguments = {choice_argument("name", true, "which scene",
                                        names(rope_scenes(), [](const auto& each) { return each.name; }))},
-         .help = "Begins with a ready-made scene",
+         .help = "Opens a preset",
          .effect = Effect::Edit,
          .apply = take_scene});
     table.add(rope_command("rope.settings", settings_arguments(),

@@ -112,12 +112,12 @@ TEST(SolverJson, reports_and_holds_are_finite_whatever_they_hold) {
     ran.restarts = 1;
     EXPECT_EQ(ran_text(ik::Method::TwoBone, ran, true), "Two-bone + least squares, 1 restart");
     EXPECT_EQ(ran_text(ik::Method::Fabrik, {}, false), "FABRIK, accelerated");
-    const Json hold = hold_json({.joint = 1,
-                                 .kind = ik::JointKind::Hinge,
-                                 .bound = ik::Bound::Max,
-                                 .limit = std::numbers::pi_v<float> / 2,
-                                 .needed = std::numbers::pi_v<float>,
-                                 .enough = true});
+    const Json hold = active_limit_json({.joint = 1,
+                                         .kind = ik::JointKind::Hinge,
+                                         .bound = ik::Bound::Max,
+                                         .limit = std::numbers::pi_v<float> / 2,
+                                         .needed = std::numbers::pi_v<float>,
+                                         .enough = true});
     EXPECT_EQ(
         hold.dump(),
         R"({"joint":1,"kind":"hinge","bound":"max","limit_deg":90.0,"needed_deg":180.0,"enough":true})");

@@ -255,7 +255,7 @@ TEST_P(Meshes, EdgesOfASheetAreClean) {
         DrawList list;
         Points at = corners;
         if (turned) std::swap(at[0], at[1]), std::swap(at[2], at[3]);
-        sheet(list, camera, {2, 2, at}, red, red);
+        cloth_surface(list, camera, {2, 2, at}, red, red);
         const std::vector<float> edges = left_edges(draw(list, pose), 80, 160);
         const glm::vec2 a = *camera.project(corners[0]), b = *camera.project(corners[2]);
         for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -317,9 +317,10 @@ TEST_P(Meshes, ThrowAShadowOnTheGround) {
     DrawList lists[3];
     tube(lists[0], camera, Points{{-0.5f, 0.3f, 0}, {0.5f, 0.3f, 0}}, 0.1f, 16, {});
     box(lists[1], camera, {0, 0.4f, 0}, glm::vec3(0.2f), glm::quat(1, 0, 0, 0), red);
-    sheet(lists[2], camera,
-          {2, 2, Points{{-0.5f, 0.3f, -0.3f}, {0.5f, 0.3f, -0.3f}, {-0.5f, 0.3f, 0.1f}, {0.5f, 0.3f, 0.1f}}},
-          red, red);
+    cloth_surface(
+        lists[2], camera,
+        {2, 2, Points{{-0.5f, 0.3f, -0.3f}, {0.5f, 0.3f, -0.3f}, {-0.5f, 0.3f, 0.1f}, {0.5f, 0.3f, 0.1f}}},
+        red, red);
     for (const DrawList& list : lists) {
         const Image image = draw(list, pose, true);
         float darkest = 0.0f;

@@ -247,15 +247,15 @@ struct Cloth {
     Points positions;
     std::vector<std::uint8_t> cells;
 
-    Cloth() : cells(12, SheetGrid::whole) {
+    Cloth() : cells(12, ClothGrid::whole) {
         for (int r = 0; r < rows; ++r)
             for (int c = 0; c < columns; ++c)
                 positions.emplace_back(0.1f * static_cast<float>(c), -0.1f * static_cast<float>(r), 0.0f);
     }
     DrawList drawn(const Points& colours = {}) const {
         DrawList list;
-        sheet(list, Camera({.distance = 2.0f}, viewport), {columns, rows, positions, cells}, red, blue,
-              colours);
+        cloth_surface(list, Camera({.distance = 2.0f}, viewport), {columns, rows, positions, cells}, red,
+                      blue, colours);
         expect_sound(list);
         expect_fronts_agree(list.mesh);
         return list;
@@ -279,11 +279,11 @@ TEST(Sheet, HasHolesWhereItIsTorn) {
     DrawList list = cloth.drawn();
     EXPECT_EQ(list.mesh.indices.size(), 11u * 6);
     EXPECT_EQ(outlines(list), 14u + 4);
-    cloth.cells[5] = SheetGrid::upper;
+    cloth.cells[5] = ClothGrid::upper;
     list = cloth.drawn();
     EXPECT_EQ(list.mesh.indices.size(), 11u * 6 + 3);
     EXPECT_EQ(outlines(list), 14u + 3);
-    cloth.cells[5] = SheetGrid::lower;
+    cloth.cells[5] = ClothGrid::lower;
     EXPECT_EQ(outlines(cloth.drawn()), 14u + 3);
     cloth.cells.assign(12, 0);
     list = cloth.drawn();
@@ -311,7 +311,7 @@ TEST(Sheet, AFoldHasAnOutlineInTheColourOfTheNearerSide) {
         const float z = towards ? 0.2f : -0.2f;
         cloth.positions = {{0, 0, 0.0f},     {0.3f, 0, 0.5f * z},     {0.05f, 0, z},
                            {0, -0.1f, 0.0f}, {0.3f, -0.1f, 0.5f * z}, {0.05f, -0.1f, z}};
-        cloth.cells.assign(2, SheetGrid::whole);
+        cloth.cells.assign(2, ClothGrid::whole);
         const DrawList list = cloth.drawn();
         int folds = 0;
         for (const Stroke& stroke : list.strokes) {
@@ -329,9 +329,9 @@ TEST(Sheet, NormalsWeighTrianglesByTheirArea) {
     cloth.rows = 2;
     // A large cell that faces up and a small one that faces the eye meet in the middle.
     cloth.positions = {{0, 0, 0}, {1, 0, 0}, {1, -0.01f, 0}, {0, 0, 1}, {1, 0, 1}, {1, -0.01f, 1}};
-    cloth.cells.assign(2, SheetGrid::whole);
+    cloth.cells.assign(2, ClothGrid::whole);
     DrawList list;
-    sheet(list, camera_at(3.0f), {3, 2, cloth.positions, cloth.cells}, red, blue);
+    cloth_surface(list, camera_at(3.0f), {3, 2, cloth.positions, cloth.cells}, red, blue);
     EXPECT_GT(std::abs(list.mesh.vertices[1].normal.y), 0.999f);
 }
 

@@ -8,9 +8,9 @@
 namespace tendril::app {
 namespace {
 
-class Sheet {
+class ClothSurface {
   public:
-    Sheet(DrawList& list, const Camera& camera, const SheetGrid& grid)
+    ClothSurface(DrawList& list, const Camera& camera, const ClothGrid& grid)
         : list_(list),
           edges_(list, camera),
           grid_(grid),
@@ -74,16 +74,16 @@ class Sheet {
         for (std::uint32_t row = 0; row + 1 < rows_; ++row) {
             for (std::uint32_t column = 0; column + 1 < columns_; ++column) {
                 const std::size_t cell = std::size_t{row} * (columns_ - 1) + column;
-                const unsigned left = cell < grid_.cells.size() ? grid_.cells[cell] : SheetGrid::whole;
+                const unsigned left = cell < grid_.cells.size() ? grid_.cells[cell] : ClothGrid::whole;
                 const std::uint32_t a = point(column, row), b = point(column + 1, row);
                 const std::uint32_t c = point(column, row + 1), d = point(column + 1, row + 1);
-                halves_.push_back(half((left & SheetGrid::upper) != 0, a, c, b));
-                halves_.push_back(half((left & SheetGrid::lower) != 0, b, c, d));
+                halves_.push_back(half((left & ClothGrid::upper) != 0, a, c, b));
+                halves_.push_back(half((left & ClothGrid::lower) != 0, b, c, d));
             }
         }
     }
 
-    /// Half of a cell, or nothing beyond the sheet.
+    /// Half of a cell, or nothing beyond the cloth.
     Half half_at(std::uint32_t column, std::uint32_t row, bool lower) const {
         if (column >= columns_ - 1 || row >= rows_ - 1) return {};  // what is before the first is huge
         return halves_[2 * (std::size_t{row} * (columns_ - 1) + column) + (lower ? 1 : 0)];
@@ -102,7 +102,7 @@ class Sheet {
         }
     }
 
-    /// An edge is an outline where the sheet ends and where it turns its other side to the eye.
+    /// An edge is an outline where the cloth ends and where it turns its other side to the eye.
     void edge(std::uint32_t a, std::uint32_t b, const Half& one, const Half& other) {
         if (one.whole == other.whole && one.front == other.front) return;
         const Half* nearer = one.whole ? &one : &other;
@@ -152,7 +152,7 @@ class Sheet {
 
     DrawList& list_;
     Edges edges_;
-    const SheetGrid& grid_;
+    const ClothGrid& grid_;
     std::uint32_t columns_, rows_, first_ = 0;
     std::vector<bool> good_;
     std::vector<Half> halves_;
@@ -160,12 +160,12 @@ class Sheet {
 
 }  // namespace
 
-void sheet(DrawList& list, const Camera& camera, const SheetGrid& grid, glm::vec3 front, glm::vec3 back,
-           std::span<const glm::vec3> colours) {
+void cloth_surface(DrawList& list, const Camera& camera, const ClothGrid& grid, glm::vec3 front,
+                   glm::vec3 back, std::span<const glm::vec3> colours) {
     if (grid.columns < 2 || grid.rows < 2) return;
     const auto count = static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows);
     if (grid.positions.size() < count) return;
-    Sheet(list, camera, grid).build(front, back, colours);
+    ClothSurface(list, camera, grid).build(front, back, colours);
 }
 
 }  // namespace tendril::app
