@@ -98,7 +98,8 @@ std::vector<std::string> lines_of(const std::string& text) {
     }
     for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
         const std::string next = std::regex_replace(lines[i + 1], margin, "");
-        lines[i] += "\n" + next.substr(0, next.find(' '));
+        lines[i] += '\n';
+        lines[i] += next.substr(0, next.find(' '));
     }
     return lines;
 }

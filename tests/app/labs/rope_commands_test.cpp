@@ -313,7 +313,7 @@ TEST_F(RopeCommands, WhatIsSelectedIsRemoved) {
     run("rope.select", {{"collider", "s"}});
     run("rope.remove_selected");
     EXPECT_EQ(world().find_collider("s"), nullptr);
-    EXPECT_FALSE(part().choice);
+    EXPECT_FALSE(part().selection);
     run("rope.select", {{"rope", "rope"}, {"particle", 3}});
     run("rope.remove_selected");
     EXPECT_EQ(world().size(), 0u);

@@ -46,7 +46,7 @@ void SpringLab::add_commands(CommandTable& table) const {
 
 void SpringLab::draw(const View& view, DrawList& list) const {
     const SpringPart& part = part_of(view.workspace);
-    list.line(part.anchor, part.ball, 2.0f * view.scale, glm::vec4(view.palette.link, 1.0f));
+    list.line(part.anchor, part.ball, 2.0f * view.scale, glm::vec4(view.palette.neutral, 1.0f));
     list.sphere(part.anchor, 6.0f * view.scale, Unit::Pixels, glm::vec4(view.palette.joint, 1.0f)).pick =
         anchor_pick;
     list.sphere(part.ball, 10.0f * view.scale, Unit::Pixels, glm::vec4(view.palette.target, 1.0f)).pick =
