@@ -10,47 +10,17 @@ namespace {
 constexpr float min_part = 0.1f;  ///< of the angle, for a joint before a short bone
 constexpr float alike = 1e-4f;    ///< errors nearer to each other than this, of the reach
 
-/// Angles changed by a turn of so much about (up, left), as far as the limit lets them.
-JointAngles changed(const LimitedJoint& joint, const JointAngles& angles, float up, float left) noexcept {
-    return within(joint, {angles.up + up, angles.left + left, angles.twist});
-}
-
-float moved_by(const JointAngles& from, const JointAngles& to) noexcept {
-    const float up = to.up - from.up, left = to.left - from.left;
-    return std::sqrt(up * up + left * left);
-}
-
-/// The first of these that has half the freedom it wants, or the one with the most freedom: as given, the
-/// other way round, and for what swings two ways also at right angles to that.
-JointAngles bent(const LimitedJoint& joint, const JointAngles& angles, float up, float left) noexcept {
-    const float ways[4][2] = {{up, left}, {-up, -left}, {-left, up}, {left, -up}};
-    const float wanted = std::sqrt(up * up + left * left);
-    JointAngles best = angles;
-    for (int i = 0; i < (joint.hinge() ? 2 : 4); ++i) {
-        const JointAngles there = changed(joint, angles, ways[i][0], ways[i][1]);
-        if (moved_by(angles, there) > moved_by(angles, best)) best = there;
-        if (moved_by(angles, best) >= 0.5f * wanted) break;
-    }
-    return best;
-}
-
-/// The turn of a joint against the one before it, bent by `by`, a turn in the world.
+/// A joint's rotation against the one before it, bent by `by`, a rotation vector in the world, as far as its
+/// limit lets it. A hinge has one way to bend: it goes there whatever the plane of the arc, which gives only
+/// the side.
 glm::quat bent_rotation(const Problem& problem, std::size_t i, const glm::vec3& by) noexcept {
     const LimitedScratch& scratch = problem.scratch.limited;
     const LimitedJoint& joint = scratch.limits[i];
-    const glm::quat rotation = scratch.pose.local[i];
-    const glm::vec3 own = rotated(conjugate(parent_of(scratch.pose.rotations, i)), by);
-    if (joint.free()) {
-        const glm::vec3 half = times(own, 0.5f);
-        return unit(compose(unit_quaternion(1.0f, half.x, half.y, half.z), rotation));
-    }
-    const JointAngles angles = angles_of(joint, rotation);
-    // A hinge has one way to bend: it goes there whatever the plane of the arc, which gives only the side.
-    if (joint.hinge()) {
-        const float size = length(by);
-        return rotation_of(joint, bent(joint, angles, dot(own, joint.axis) < 0.0f ? -size : size, 0.0f));
-    }
-    return rotation_of(joint, bent(joint, angles, dot(own, joint.axis), dot(own, joint.side)));
+    glm::vec3 half = times(rotated(conjugate(parent_of(scratch.pose.rotations, i)), by), 0.5f);
+    if (joint.hinge()) half = times(joint.axis, dot(half, joint.axis) < 0.0f ? -length(half) : length(half));
+    glm::quat rotation = unit(compose({1.0f, half.x, half.y, half.z}, scratch.pose.local[i]));
+    clamp(joint, rotation);
+    return rotation;
 }
 
 /// From the root to the tip; a chain that ends where it begins shows the line to its target instead.

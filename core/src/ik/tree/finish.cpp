@@ -35,7 +35,7 @@ void go_along(TreeScratch& scratch, std::span<glm::vec3> joints, std::size_t joi
         return;
     }
     const glm::vec3 bone = rotated(rotation, minus(scratch.start[joint], scratch.start[parent]));
-    joints[joint] = lay(joints[parent], plus(joints[parent], bone), scratch.joints[joint].length);
+    joints[joint] = at_length(joints[parent], plus(joints[parent], bone), scratch.joints[joint].length);
 }
 
 }  // namespace

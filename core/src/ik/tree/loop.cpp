@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "ik/solve/convergence.hpp"
+#include "ik/solve/perturbation.hpp"
 #include "ik/tree/workspace.hpp"
 
 namespace tendril::ik::detail {
@@ -11,8 +12,22 @@ namespace {
 
 constexpr int newton_from = 3;  ///< reaching alone gets the gross shape right and moves the joints least
 constexpr double first_damping = 1e-3, min_damping = 1e-9, max_damping = 1e3;
-constexpr int patience = 8;  ///< iterations without progress that make a stall
+constexpr int patience = 4;  ///< iterations without convergence that make a stall
 constexpr int max_perturbations = 1;
+constexpr float bend = 0.3f;  ///< of a bone's length
+
+/// Rotates every bone a little, each to a side of its own: out of where nothing moves any more.
+void perturb_all(TreeScratch& scratch) noexcept {
+    for (std::size_t k = 1; k < scratch.used; ++k) {
+        const Node& node = scratch.nodes[k];
+        const glm::vec3 by{scattered(k, 1), scattered(k, 2), scattered(k, 3)};
+        scratch.trial[k] = moved(scratch.at[k], by, bend * node.length);
+    }
+    for (std::size_t k = 1; k < scratch.used; ++k) {
+        const Node& node = scratch.nodes[k];
+        scratch.at[k] = at_length(scratch.at[node.parent], scratch.trial[k], node.length);
+    }
+}
 
 class Iteration {
   public:
@@ -42,11 +57,6 @@ class Iteration {
         }
         damping_ = std::min(damping_ * 8.0, max_damping);
         if (nearer) take(scratch_.next, reached);
-    }
-
-    void leave_lines() noexcept {
-        save_best();
-        if (perturb_collinear_limbs(scratch_, tolerance_)) now_ = fit(scratch_, scratch_.at);
     }
 
     void perturb() noexcept {
@@ -100,7 +110,6 @@ TreeRun iterate(TreeScratch& scratch, std::span<const Effector> effectors, const
                 double tolerance) noexcept {
     TreeRun run;
     Iteration iteration(scratch, options, tolerance);
-    if (!options.plain) iteration.leave_lines();
     // The effectors may come nearer taken together, or the one that is furthest off.
     const StallRule rule{.window = patience,
                          .absolute = static_cast<float>(std::max(0.01 * tolerance, 1e-6 * scratch.reach))};

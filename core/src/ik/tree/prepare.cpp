@@ -30,7 +30,8 @@ void load_start(TreeScratch& scratch, std::span<const glm::vec3> joints) noexcep
     for (std::size_t k = 1; k < joints.size(); ++k) {
         const glm::vec3& anchor = scratch.start[scratch.joints[k].parent];
         const float length = scratch.joints[k].length;
-        scratch.start[k] = holds(anchor, joints[k], length) ? joints[k] : lay(anchor, joints[k], length);
+        scratch.start[k] =
+            holds(anchor, joints[k], length) ? joints[k] : at_length(anchor, joints[k], length);
     }
 }
 
@@ -115,6 +116,17 @@ void assign_centroid_weights(TreeScratch& scratch) noexcept {
     }
 }
 
+/// The only effector with any weight; null where there are more.
+const Effector* only_one(const TreeScratch& scratch, std::span<const Effector> effectors) noexcept {
+    const Effector* only = nullptr;
+    for (const Effector& effector : effectors) {
+        if (effector.weight == 0.0f || scratch.node_of[effector.joint] == 0) continue;
+        if (only) return nullptr;
+        only = &effector;
+    }
+    return only;
+}
+
 }  // namespace
 
 void prepare(TreeScratch& scratch, std::span<const glm::vec3> joints,
@@ -127,6 +139,19 @@ void prepare(TreeScratch& scratch, std::span<const glm::vec3> joints,
     assign_nodes(scratch);
     collect_goals(scratch, effectors);
     assign_centroid_weights(scratch);
+}
+
+bool solve_at_rim(TreeScratch& scratch, std::span<const Effector> effectors) noexcept {
+    const Effector* const effector = only_one(scratch, effectors);
+    if (!effector) return false;
+    const Reachability& can = scratch.path[effector->joint];
+    const Status status = can.status(gap(scratch.at[0], effector->target), 0.0);
+    const auto length_of = [&](std::size_t i) { return scratch.nodes[i + 1].length; };
+    const auto place = [&](std::size_t i, const glm::vec3& to) { scratch.at[i] = to; };
+    const auto joints = std::span<const glm::vec3>(scratch.at).first(scratch.used);
+    if (status == Status::Stretched) straighten(joints, effector->target, length_of, place);
+    if (status == Status::TooClose) fold(joints, effector->target, can.nearest, length_of, place);
+    return status != Status::Converged;
 }
 
 }  // namespace tendril::ik::detail

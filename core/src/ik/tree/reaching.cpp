@@ -16,7 +16,7 @@ void forward_reaching(TreeScratch& scratch) noexcept {
     for (std::size_t k = scratch.used; k-- > 1;) {
         const Node& node = scratch.nodes[k];
         if (node.parent == 0) continue;
-        const glm::vec3 proposal = lay(scratch.proposed[k], scratch.at[node.parent], node.length);
+        const glm::vec3 proposal = at_length(scratch.proposed[k], scratch.at[node.parent], node.length);
         scratch.proposed[node.parent] = moved(scratch.proposed[node.parent], proposal, node.centroid_weight);
     }
 }
@@ -25,7 +25,7 @@ void backward_reaching(TreeScratch& scratch) noexcept {
     scratch.next[0] = scratch.at[0];
     for (std::size_t k = 1; k < scratch.used; ++k) {
         const Node& node = scratch.nodes[k];
-        scratch.next[k] = lay(scratch.next[node.parent], scratch.proposed[k], node.length);
+        scratch.next[k] = at_length(scratch.next[node.parent], scratch.proposed[k], node.length);
     }
 }
 

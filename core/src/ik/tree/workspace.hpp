@@ -75,13 +75,6 @@ struct Fit {
 void prepare(TreeScratch& scratch, std::span<const glm::vec3> joints,
              std::span<const Effector> effectors) noexcept;
 
-/// Bends each limb (from an effector to the next joint that is shared, has an effector or is the root) that
-/// lies on the line to its goal and does not reach it: reaching would never leave the line. False where there
-/// is none.
-bool perturb_collinear_limbs(TreeScratch& scratch, double tolerance) noexcept;
-/// Turns every bone a little, each to a side of its own: out of where nothing moves any more.
-void perturb_all(TreeScratch& scratch) noexcept;
-
 /// From the effectors inward: `at` to `proposed`.
 void forward_reaching(TreeScratch& scratch) noexcept;
 /// From the root outward: `proposed` to `next`, every bone at its length.
@@ -118,7 +111,7 @@ static inline double gap(const glm::vec3& a, const glm::vec3& b) noexcept {
 
 /// As step() of math/point.hpp, but for bones of any size: only what is nearer than 1e-15 m shows no
 /// direction.
-static inline glm::vec3 lay(const glm::vec3& anchor, const glm::vec3& old, float length) noexcept {
+static inline glm::vec3 at_length(const glm::vec3& anchor, const glm::vec3& old, float length) noexcept {
     const float x = old.x - anchor.x, y = old.y - anchor.y, z = old.z - anchor.z;
     const float squared = x * x + y * y + z * z;
     if (squared < 1e-30f) return {anchor.x + length, anchor.y, anchor.z};
