@@ -4,6 +4,7 @@
 
 #include "rope_support.hpp"
 #include "tendril/ik/many.hpp"
+#include "tendril/rope/quasi_static.hpp"
 
 namespace tendril::test {
 namespace {
@@ -43,11 +44,18 @@ class Hostile {
 /// One edit, mostly a sensible one. What the library refuses is no matter.
 class Editor {
   public:
-    Editor(rope::World& world, Hostile& hostile)
-        : world_(world), hostile_(hostile), random_(hostile.random) {}
+    Editor(rope::World& world, rope::Workspace& workspace, Hostile& hostile)
+        : world_(world), workspace_(workspace), hostile_(hostile), random_(hostile.random) {}
 
+    // One random draw a statement: compilers draw arguments of one call in different orders.
     Result edit() {
-        switch (random_.below(19)) {
+        const std::size_t what = random_.below(20);
+        const rope::BodyId body = some_body();
+        const rope::ColliderId collider = some_collider();
+        const std::size_t particle = world_.size() == 0 ? 0 : random_.below(world_.size());
+        const glm::vec3 at = hostile_.point(2);
+        const double seconds = random_.chance(2) ? 0.0 : static_cast<double>(hostile_.amount(1));
+        switch (what) {
             case 0:
                 return add_rope();
             case 1:
@@ -55,56 +63,56 @@ class Editor {
             case 2:
                 return add_hair();
             case 3:
-                return world_.remove(body());
+                return world_.remove(body);
             case 4:
             case 5:
-                return world_.pin(particle(), glm::dvec3(hostile_.point(2)), seconds());
+                return world_.pin(particle, glm::dvec3(at), seconds);
             case 6:
-                return world_.attach(particle(), collider());
+                return world_.attach(particle, collider);
             case 7:
-                return world_.unpin(particle());
+                return world_.unpin(particle);
             case 8:
-                return world_.cut(body(), random_.below(12)).error();
+                return world_.cut(body, random_.below(12)).error();
             case 9:
             case 10:
                 if (world_.state().colliders.size() < 5) return world_.add_collider(hostile_.shape()).error();
                 [[fallthrough]];
             case 11:
             case 12:
-                return world_.move_collider(collider(), hostile_.point(2), seconds());
+                return world_.move_collider(collider, at, seconds);
             case 13:
-                return world_.set_collider(collider(), hostile_.shape());
+                return world_.set_collider(collider, hostile_.shape());
             case 14:
-                return world_.remove_collider(collider());
+                return world_.remove_collider(collider);
             case 15:
             case 16:
                 return settings();
             case 17:
-                return material();
+                return material(body);
+            case 18:
+                return random_.chance(2) ? drag_pin(world_, workspace_, particle, glm::dvec3(at))
+                                         : drag_collider(world_, workspace_, collider, at);
             default:
                 return {};
         }
     }
 
   private:
-    rope::BodyId body() {
+    rope::BodyId some_body() {
         const auto& all = world_.state().bodies;
         return all.empty() ? rope::BodyId{} : all[random_.below(all.size())].id;
     }
-    rope::ColliderId collider() {
+    rope::ColliderId some_collider() {
         const auto& all = world_.state().colliders;
         return all.empty() ? rope::ColliderId{} : all[random_.below(all.size())].id;
     }
-    std::size_t particle() { return world_.size() == 0 ? 0 : random_.below(world_.size()); }
-    double seconds() { return random_.chance(2) ? 0.0 : static_cast<double>(hostile_.amount(1)); }
     /// Small worlds go through more.
-    bool full() {
+    void keep_small() {
         if (world_.size() > 80) world_.clear();
-        return false;
     }
 
     Result add_rope() {
-        full();
+        keep_small();
         rope::RopeShape shape{.from = hostile_.point(2),
                               .to = hostile_.point(2),
                               .segments = 1 + static_cast<int>(random_.below(20)),
@@ -117,7 +125,7 @@ class Editor {
         return world_.add_rope(shape).error();
     }
     Result add_cloth() {
-        full();
+        keep_small();
         return world_
             .add_cloth({.corner = hostile_.point(2),
                         .along = hostile_.point(2),
@@ -133,7 +141,7 @@ class Editor {
             .error();
     }
     Result add_hair() {
-        full();
+        keep_small();
         rope::HairShape shape{.length = hostile_.amount(1),
                               .segments = 2 + static_cast<int>(random_.below(5)),
                               .radius = hostile_.amount(0.05f),
@@ -141,7 +149,7 @@ class Editor {
                               .bend = hostile_.amount(1)};
         for (std::size_t i = 0, count = 1 + random_.below(9); i < count; ++i)
             shape.roots.push_back({hostile_.point(2), hostile_.point(1)});
-        if (random_.chance(2)) shape.attach = collider();
+        if (random_.chance(2)) shape.attach = some_collider();
         return world_.add_hair(shape).error();
     }
     Result settings() {
@@ -177,23 +185,24 @@ class Editor {
         }
         return world_.set_settings(wanted);
     }
-    Result material() {
+    Result material(rope::BodyId body) {
+        const auto kind = static_cast<rope::Link::Kind>(random_.below(3));
         switch (random_.below(5)) {
             case 0:
-                return world_.set_radius(body(), hostile_.amount(0.05f));
+                return world_.set_radius(body, hostile_.amount(0.05f));
             case 1:
-                return world_.set_mass(body(), static_cast<double>(hostile_.amount(1)));
+                return world_.set_mass(body, static_cast<double>(hostile_.amount(1)));
             case 2:
-                return world_.set_tear(body(), hostile_.amount(1));
+                return world_.set_tear(body, hostile_.amount(1));
             case 3:
-                return world_.set_compliance(body(), static_cast<rope::Link::Kind>(random_.below(3)),
-                                             hostile_.amount(1));
+                return world_.set_compliance(body, kind, hostile_.amount(1));
             default:
-                return world_.set_length(body(), hostile_.amount(2));
+                return world_.set_length(body, hostile_.amount(2));
         }
     }
 
     rope::World& world_;
+    rope::Workspace& workspace_;
     Hostile& hostile_;
     Random& random_;
 };
@@ -207,7 +216,7 @@ void play(std::uint64_t seed, int operations) {
     const auto units = ik::vector_units();
     for (int i = 0; i < operations; ++i) {
         if (i % 400 == 0) world = rope::World();
-        static_cast<void>(Editor(world, hostile).edit());
+        static_cast<void>(Editor(world, kept, hostile).edit());
         rope::World copy = world;
         Expected<rope::World> again = rope::World::from_state(world.state());
         ASSERT_TRUE(again) << seed << ' ' << i << ": " << again.message();
@@ -225,7 +234,7 @@ void play(std::uint64_t seed, int operations) {
 }
 
 TEST(RopeRollback, ACopyIsTheOriginalWhateverWasDone) {
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) play(seed, 1500);
+    for (std::uint64_t seed = 201; seed <= 204; ++seed) play(seed, 1500);
 }
 
 /// For a long run by hand: a million operations take some twenty minutes.

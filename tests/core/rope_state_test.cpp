@@ -50,6 +50,45 @@ TEST(RopeState, CopiesAreOfTheirOwn) {
     EXPECT_TRUE(all_finite(copy));
 }
 
+/// What two states can differ in; the handle's generation stands for all handles.
+TEST(RopeState, EveryFieldCountsWhenStatesAreCompared) {
+    const World world = busy_world(rope::Solver::Direct);
+    void (*const changes[])(State&) = {
+        [](State& s) { s.settings.longest_frame = 1.0f; },
+        [](State& s) { s.bodies[0].id.generation += 2; },
+        [](State& s) { s.bodies[2].stretch += 1.0f; },
+        [](State& s) { s.bodies.pop_back(); },
+        [](State& s) { s.links[3].tension += 1.0f; },
+        [](State& s) { s.position[5].z += 1e-15; },
+        [](State& s) { s.displacement[5].x += 1e-15; },
+        [](State& s) { s.earlier[5].y += 1e-15; },
+        [](State& s) { s.mass.back() *= 2.0; },
+        [](State& s) { s.pins[0].collider = s.colliders[1].id; },
+        [](State& s) { s.pins.back().seconds += 1.0; },
+        [](State& s) { std::get<rope::Plane>(s.colliders[1].shape).normal.x = 0.1f; },
+        [](State& s) { s.colliders[0].goal.x += 1.0; },
+        [](State& s) { s.colliders[0].id.generation += 2; },
+        [](State& s) { s.body_slots.push_back(2); },
+        [](State& s) { s.collider_slots.push_back(2); },
+        [](State& s) { s.remainder += 1e-9; },
+        [](State& s) { s.displaced_in += 1e-9; },
+        [](State& s) { ++s.substeps; },
+        [](State& s) { ++s.dropped; },
+    };
+    EXPECT_TRUE(same_bits(world.state(), State(world.state())));
+    EXPECT_EQ(world.state(), State(world.state()));
+    for (std::size_t i = 0; i < std::size(changes); ++i) {
+        State other = world.state();
+        changes[i](other);
+        EXPECT_FALSE(same_bits(world.state(), other)) << i;
+        EXPECT_NE(world.state(), other) << i;
+    }
+    State other = world.state();
+    other.earlier[0].x = -other.earlier[0].x;  // a pinned particle's: no value changes, but a bit does
+    EXPECT_EQ(world.state(), other);
+    EXPECT_FALSE(same_bits(world.state(), other));
+}
+
 struct Broken {
     const char* word;  ///< that the refusal has in it
     void (*how)(State&);

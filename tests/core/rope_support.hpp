@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <glm/geometric.hpp>
 #include <string>
 
 #include "chain_support.hpp"
 #include "random.hpp"
 #include "rope_named.hpp"
+#include "rope_same_bits.hpp"
 
 namespace tendril::test {
 
@@ -83,40 +83,6 @@ inline bool all_finite(const World& world) {
            std::all_of(state.displacement.begin(), state.displacement.end(), finite) &&
            std::all_of(state.links.begin(), state.links.end(),
                        [](const rope::Link& link) { return std::isfinite(link.tension); });
-}
-
-template <class T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
-
-/// Whether two worlds are in the same state to the last bit.
-inline bool same_bits(const rope::State& a, const rope::State& b) {
-    const auto same_body = [](const rope::Body& x, const rope::Body& y) {
-        return x.kind == y.kind && x.first == y.first && x.count == y.count && x.row == y.row &&
-               x.radius == y.radius && x.tear == y.tear;
-    };
-    const auto same_link = [](const rope::Link& x, const rope::Link& y) {
-        return x.a == y.a && x.b == y.b && x.rest == y.rest && x.kind == y.kind &&
-               x.compliance == y.compliance && std::memcmp(&x.tension, &y.tension, sizeof x.tension) == 0;
-    };
-    const auto same_pin = [](const rope::Pin& x, const rope::Pin& y) {
-        return x.particle == y.particle && x.goal == y.goal && x.seconds == y.seconds &&
-               static_cast<bool>(x.collider) == static_cast<bool>(y.collider);
-    };
-    const auto same_collider = [](const rope::Collider& x, const rope::Collider& y) {
-        return x.shape.index() == y.shape.index() && centre(x.shape) == centre(y.shape) &&
-               size(x.shape) == size(y.shape) && x.goal == y.goal && x.seconds == y.seconds;
-    };
-    return a.settings == b.settings && same_bytes(a.position, b.position) &&
-           same_bytes(a.displacement, b.displacement) && same_bytes(a.earlier, b.earlier) &&
-           same_bytes(a.mass, b.mass) && a.remainder == b.remainder && a.displaced_in == b.displaced_in &&
-           a.substeps == b.substeps && a.dropped == b.dropped &&
-           std::equal(a.bodies.begin(), a.bodies.end(), b.bodies.begin(), b.bodies.end(), same_body) &&
-           std::equal(a.links.begin(), a.links.end(), b.links.begin(), b.links.end(), same_link) &&
-           std::equal(a.pins.begin(), a.pins.end(), b.pins.begin(), b.pins.end(), same_pin) &&
-           std::equal(a.colliders.begin(), a.colliders.end(), b.colliders.begin(), b.colliders.end(),
-                      same_collider);
 }
 
 }  // namespace tendril::test

@@ -27,6 +27,7 @@ struct Body {
     /// The largest relative length error of its stretch links, |length / rest - 1| (or the length, where a
     /// rest is 0), as the solver left it last, before the last contacts. World::length_error() has it after.
     float stretch = 0.0f;
+    bool operator==(const Body&) const = default;
 };
 
 /// Keeps two particles at a distance.
@@ -38,6 +39,7 @@ struct Link {
     Kind kind = Kind::Stretch;
     float compliance = 0.0f;  ///< m/N; of stretch links in addition to the settings'
     float tension = 0.0f;     ///< newtons, as last solved; below zero where it pushes
+    bool operator==(const Link&) const = default;
 };
 
 /// A rope of equal segments.

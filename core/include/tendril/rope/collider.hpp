@@ -63,6 +63,7 @@ struct Collider {
     Shape shape;           ///< where it is now
     glm::dvec3 goal{0.0};  ///< where its centre is going
     double seconds = 0.0;  ///< of simulated time until it is there; 0: it stays
+    bool operator==(const Collider&) const = default;
 };
 
 }  // namespace tendril::rope

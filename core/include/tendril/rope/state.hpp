@@ -22,6 +22,7 @@ struct Pin {
     glm::dvec3 goal{0.0};  ///< where it is going, or where in its collider's frame of centre it is held
     double seconds = 0.0;  ///< of simulated time until it is there; 0: it stays there
     ColliderId collider;   ///< that it moves with; empty: none
+    bool operator==(const Pin&) const = default;
 };
 
 struct State {
@@ -39,6 +40,8 @@ struct State {
     double remainder = 0.0;     ///< seconds that are not simulated yet
     double displaced_in = 0.0;  ///< seconds of the last substep; 0: nothing has moved yet
     std::uint64_t substeps = 0, dropped = 0;
+
+    bool operator==(const State&) const = default;
 };
 
 /// Gives every body (collider) of a state that was put together by hand a handle, in their order, where the

@@ -1,0 +1,97 @@
+// Equality of rope states to the last bit: every field of every struct in them. Each struct is taken apart by
+// a structured binding, so a field that is added to one does not compile until it is added here.
+#pragma once
+
+#include <cstring>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "tendril/rope/state.hpp"
+
+namespace tendril::test {
+
+/// All numbers of a state, one behind the other.
+class StateBits {
+  public:
+    explicit StateBits(const rope::State& state) {
+        const auto& [settings, bodies, links, position, displacement, earlier, mass, pins, colliders,
+                     body_slots, collider_slots, remainder, displaced_in, substeps, dropped] = state;
+        add(settings, bodies, links, position, displacement, earlier, mass, pins, colliders, body_slots,
+            collider_slots, remainder, displaced_in, substeps, dropped);
+    }
+    bool operator==(const StateBits&) const = default;
+
+  private:
+    template <class... Fields>
+    void add(const Fields&... fields) {
+        (put(fields), ...);
+    }
+
+    template <class Number>
+    requires std::is_arithmetic_v<Number> || std::is_enum_v<Number>
+    void put(const Number& number) { bytes_.append(reinterpret_cast<const char*>(&number), sizeof number); }
+    template <class T>
+    void put(const std::vector<T>& list) {
+        put(list.size());
+        for (const T& each : list) put(each);
+    }
+    template <glm::length_t size, class T>
+    void put(const glm::vec<size, T>& point) {
+        for (glm::length_t i = 0; i < size; ++i) put(point[i]);
+    }
+    void put(const glm::quat& rotation) { add(rotation.x, rotation.y, rotation.z, rotation.w); }
+    template <class Kind>
+    void put(const rope::Handle<Kind>& handle) {
+        const auto& [index, generation] = handle;
+        add(index, generation);
+    }
+    void put(const rope::Settings& settings) {
+        const auto& [substep, iterations, solver, damping, gravity, gravity_scale, external, compliance,
+                     friction, longest_frame] = settings;
+        add(substep, iterations, solver, damping, gravity, gravity_scale, external, compliance, friction,
+            longest_frame);
+    }
+    void put(const rope::Body& body) {
+        const auto& [id, kind, first, count, row, radius, tear, stretch] = body;
+        add(id, kind, first, count, row, radius, tear, stretch);
+    }
+    void put(const rope::Link& link) {
+        const auto& [a, b, rest, kind, compliance, tension] = link;
+        add(a, b, rest, kind, compliance, tension);
+    }
+    void put(const rope::Pin& pin) {
+        const auto& [particle, goal, seconds, collider] = pin;
+        add(particle, goal, seconds, collider);
+    }
+    void put(const rope::Collider& collider) {
+        const auto& [id, shape, goal, seconds] = collider;
+        add(id, shape.index(), goal, seconds);
+        std::visit([&](const auto& each) { put(each); }, shape);
+    }
+    void put(const rope::Sphere& sphere) {
+        const auto& [centre, radius] = sphere;
+        add(centre, radius);
+    }
+    void put(const rope::Capsule& capsule) {
+        const auto& [a, b, radius] = capsule;
+        add(a, b, radius);
+    }
+    void put(const rope::Plane& plane) {
+        const auto& [point, normal] = plane;
+        add(point, normal);
+    }
+    void put(const rope::Box& box) {
+        const auto& [centre, half_extents, rotation] = box;
+        add(centre, half_extents, rotation);
+    }
+
+    std::string bytes_;
+};
+
+/// Whether two worlds are in the same state to the last bit: zeros of different sign are not the same.
+inline bool same_bits(const rope::State& a, const rope::State& b) {
+    return StateBits(a) == StateBits(b);
+}
+
+}  // namespace tendril::test
