@@ -115,8 +115,8 @@ class World {
     }
     void remove_collider(std::string_view collider) { allow(world_.remove_collider(collider_id(collider))); }
 
-    rope::Advance advance(double seconds, std::uint64_t most_substeps = std::uint64_t{1} << 40) {
-        return world_.advance(seconds, workspace_, {.most_substeps = most_substeps});
+    rope::Advance advance(double seconds, std::uint64_t max_substeps = std::uint64_t{1} << 40) {
+        return world_.advance(seconds, workspace_, {.max_substeps = max_substeps});
     }
 
     std::size_t size() const { return world_.size(); }

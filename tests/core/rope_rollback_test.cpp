@@ -225,9 +225,9 @@ void play(std::uint64_t seed, int operations) {
                                    : world.settings().substep * static_cast<double>(hostile.random.below(3));
         rope::Workspace fresh, other;
         static_cast<void>(other.use_vector_unit(units[hostile.random.below(units.size())]));
-        world.advance(seconds, kept, {.most_substeps = 3});
-        copy.advance(seconds, fresh, {.most_substeps = 3});
-        again->advance(seconds, other, {.most_substeps = 3});
+        world.advance(seconds, kept, {.max_substeps = 3});
+        copy.advance(seconds, fresh, {.max_substeps = 3});
+        again->advance(seconds, other, {.max_substeps = 3});
         ASSERT_TRUE(same_bits(world.state(), copy.state())) << "a copy, " << seed << ' ' << i;
         ASSERT_TRUE(same_bits(world.state(), again->state())) << "of its state, " << seed << ' ' << i;
     }

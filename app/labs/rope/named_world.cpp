@@ -151,8 +151,8 @@ void NamedWorld::drag_collider(std::string_view name, const rope::Shape& shape) 
     require_ok(rope::drag_collider(world_, workspace, collider_id(name), shape));
 }
 
-rope::Advance NamedWorld::advance(double seconds, rope::Workspace& workspace, std::uint64_t most_substeps) {
-    return world_.advance(seconds, workspace, {.most_substeps = most_substeps});
+rope::Advance NamedWorld::advance(double seconds, rope::Workspace& workspace, std::uint64_t max_substeps) {
+    return world_.advance(seconds, workspace, {.max_substeps = max_substeps});
 }
 
 }  // namespace tendril::app

@@ -58,7 +58,7 @@ class NamedWorld {
     void drag_collider(std::string_view name, const glm::vec3& to);
     void drag_collider(std::string_view name, const rope::Shape& shape);
 
-    rope::Advance advance(double seconds, rope::Workspace& workspace, std::uint64_t most_substeps);
+    rope::Advance advance(double seconds, rope::Workspace& workspace, std::uint64_t max_substeps);
 
     std::size_t size() const { return world_.size(); }
     // In single precision, as pictures have it.

@@ -21,7 +21,7 @@ double part_of(double h, double& seconds) {
     return part;
 }
 
-/// Links that are longer than their cloth bears are gone; whether there were any.
+/// Removes the links that are over their body's tear strain; whether there were any.
 bool tear(State& state) {
     std::size_t b = 0;  // links of a body lie together, nearly always
     const auto torn = [&](const Link& link) {
@@ -37,9 +37,9 @@ bool tear(State& state) {
     return std::erase_if(state.links, torn) > 0;
 }
 
-/// Whether every coordinate is at most `most`; false where one is no number.
-bool within(const dvec3& v, double most) {
-    return std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most;
+/// Whether every coordinate is at most `limit`; false where one is no number.
+bool within(const dvec3& v, double limit) {
+    return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
 }
 
 /// Displacements and velocities that a world's own numbers never exceed.
@@ -50,7 +50,7 @@ dvec3 bounded(const dvec3& displacement) {
 
 /// Where a particle ends up: the world has an edge, max_magnitude from the origin each way, where what flies
 /// further stops. Where the solver found no number, it stays where it was. Zeros lose their sign, which would
-/// tell how many ropes were solved side by side.
+/// depend on how many ropes were solved side by side.
 dvec3 landed(const dvec3& place, const dvec3& was) {
     constexpr double edge = max_magnitude;
     if (within(place, edge)) return place + dvec3(0.0);
@@ -59,10 +59,10 @@ dvec3 landed(const dvec3& place, const dvec3& was) {
 }
 
 /// Newtons, of a Lagrange multiplier over h^2.
-float tension_of(double pull, double square) {
-    constexpr double most = 1e30;
-    const double tension = pull / square;
-    return std::isfinite(tension) ? static_cast<float>(std::clamp(tension, -most, most)) + 0.0f : 0.0f;
+float tension_of(double multiplier, double square) {
+    constexpr double limit = 1e30;
+    const double tension = multiplier / square;
+    return std::isfinite(tension) ? static_cast<float>(std::clamp(tension, -limit, limit)) + 0.0f : 0.0f;
 }
 
 }  // namespace
@@ -82,17 +82,17 @@ void Substep::run() {
     const Solver solver = state_.settings.solver;
     report_.passes += solver == Solver::Direct ? direct() : relax(solver == Solver::Xpbd);
     depenetrate();
-    keep();
+    commit();
     ++report_.substeps;
     ++state_.substeps;
 }
 
-/// The settings' iterations, or fewer where they would look at more than max_pass_work links and contacts.
+/// The settings' iterations, or fewer where they would take more than max_pass_work links and contacts.
 int Substep::passes_allowed() const {
     std::size_t work = state_.links.size() + 1;
     for (const Scratch::Near& near : scratch_.near) work += plan_.chunks[near.chunk].count;
-    const auto most = std::max(static_cast<std::size_t>(unbounded_passes), max_pass_work / work);
-    return static_cast<int>(std::min(static_cast<std::size_t>(state_.settings.iterations), most));
+    const auto limit = std::max(static_cast<std::size_t>(unbounded_passes), max_pass_work / work);
+    return static_cast<int>(std::min(static_cast<std::size_t>(state_.settings.iterations), limit));
 }
 
 void Substep::move_colliders() {
@@ -111,7 +111,7 @@ void Substep::move_colliders() {
 }
 
 void Substep::move_particles() {
-    const double kept = std::exp(-static_cast<double>(state_.settings.damping) * h_);
+    const double damping = std::exp(-static_cast<double>(state_.settings.damping) * h_);
     // Where the step before was not as long as this one, Verlet's rule for uneven steps.
     const bool before = state_.displaced_in > 0.0;
     const double same = before ? h_ / state_.displaced_in : 0.0;
@@ -119,7 +119,7 @@ void Substep::move_particles() {
     for (std::size_t i = 0; i < state_.position.size(); ++i) {
         state_.displacement[i] =
             same * state_.displacement[i];  // had the substep before been as long as this one
-        scratch_.base[i] = state_.position[i] + (kept * state_.displacement[i] + fall);
+        scratch_.base[i] = state_.position[i] + (damping * state_.displacement[i] + fall);
         scratch_.weight[i] = 1.0 / state_.mass[i];
     }
     for (Pin& pin : state_.pins) {
@@ -141,7 +141,7 @@ void Substep::move_particles() {
 /// How far links are from their rest lengths now, by body.
 void Substep::measure() {
     if (!measures) return;
-    constexpr double most = max_magnitude;  // where a rest is next to nothing
+    constexpr double limit = max_magnitude;  // where a rest is next to nothing
     for (Body& body : state_.bodies) body.stretch = 0.0f;
     std::size_t b = 0;
     for (const Link& link : state_.links) {
@@ -151,11 +151,11 @@ void Substep::measure() {
         const double length = detail::length(scratch_.place[link.b] - scratch_.place[link.a]);
         const double error = link.rest > 0.0f ? std::abs(length / link.rest - 1.0) : length;
         state_.bodies[b].stretch =
-            std::max(state_.bodies[b].stretch, static_cast<float>(std::min(error, most)));
+            std::max(state_.bodies[b].stretch, static_cast<float>(std::min(error, limit)));
     }
 }
 
-void Substep::keep() {
+void Substep::commit() {
     for (std::size_t i = 0; i < state_.position.size(); ++i) {
         const dvec3 place = landed(scratch_.place[i], state_.position[i]);
         state_.earlier[i] = bounded(state_.displacement[i]);
@@ -190,8 +190,8 @@ Advance World::advance(double seconds, Workspace& workspace, const AdvanceOption
     done.dropped = static_cast<std::uint64_t>(over / substep + rounding);
     state_.remainder += std::max(0.0, seconds - static_cast<double>(done.dropped) * substep);
     const auto due = static_cast<std::uint64_t>(state_.remainder / substep + rounding);
-    if (due > options.most_substeps) {
-        const std::uint64_t more = due - options.most_substeps;
+    if (due > options.max_substeps) {
+        const std::uint64_t more = due - options.max_substeps;
         state_.remainder = std::max(0.0, state_.remainder - static_cast<double>(more) * substep);
         done.dropped += more;
     }

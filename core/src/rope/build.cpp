@@ -16,9 +16,9 @@ using tendril::detail::check_length;
 using tendril::detail::check_point;
 using tendril::detail::refused;
 
-Result check_least(const char* operation, const char* what, int count, int least) {
-    if (count >= least) return {};
-    return refused(operation, what, least == 1 ? "at least 1" : "at least 2", count);
+Result check_minimum(const char* operation, const char* what, int count, int minimum) {
+    if (count >= minimum) return {};
+    return refused(operation, what, minimum == 1 ? "at least 1" : "at least 2", count);
 }
 Result check_positive(const char* operation, const char* what, float value) {
     if (value > 0.0f && value <= max_magnitude) return {};
@@ -134,7 +134,7 @@ Result draft_rope(const State& state, const RopeShape& shape, Draft& draft) {
     const auto segments = static_cast<std::size_t>(std::max(shape.segments, 0));
     const Result checked = first_of(
         check_point(op, "from", shape.from), check_point(op, "to", shape.to),
-        check_least(op, "segments", shape.segments, 1),
+        check_minimum(op, "segments", shape.segments, 1),
         check_length(op, "length", shape.length.value_or(0.0f)), check_length(op, "radius", shape.radius),
         check_positive(op, "density", shape.density), check_fit(op, state, segments + 1));
     if (!checked) return checked;
@@ -160,8 +160,8 @@ Result draft_cloth(const State& state, const ClothShape& shape, Draft& draft) {
     const std::size_t count = static_cast<std::size_t>(columns) * rows;
     const Result checked =
         first_of(check_point(op, "corner", shape.corner), check_point(op, "along", shape.along),
-                 check_point(op, "down", shape.down), check_least(op, "columns", shape.columns, 2),
-                 check_least(op, "rows", shape.rows, 2), check_length(op, "radius", shape.radius),
+                 check_point(op, "down", shape.down), check_minimum(op, "columns", shape.columns, 2),
+                 check_minimum(op, "rows", shape.rows, 2), check_length(op, "radius", shape.radius),
                  check_positive(op, "density", shape.density), check_length(op, "shear", shape.shear),
                  check_length(op, "bend", shape.bend), check_length(op, "tear", shape.tear),
                  check_fit(op, state, count));
@@ -212,7 +212,7 @@ Result draft_hair(const State& state, const HairShape& shape, Draft& draft) {
     const std::size_t row = static_cast<std::size_t>(segments) + 1;
     const std::size_t count = row * std::min(shape.roots.size(), max_particles);
     const Result checked =
-        first_of(check_positive(op, "length", shape.length), check_least(op, "segments", shape.segments, 2),
+        first_of(check_positive(op, "length", shape.length), check_minimum(op, "segments", shape.segments, 2),
                  check_roots(op, shape), check_length(op, "radius", shape.radius),
                  check_positive(op, "density", shape.density), check_length(op, "bend", shape.bend),
                  check_fit(op, state, count));
@@ -240,7 +240,7 @@ Result draft_hair(const State& state, const HairShape& shape, Draft& draft) {
     draft.body.kind = Body::Kind::Hair;
     draft.body.row = row;
     draft.body.radius = shape.radius;
-    // The first link of a strand is held whole: so it keeps its direction.
+    // Both ends of a strand's first link are pinned, so that it keeps its direction.
     for (std::size_t at = 0; at < count; at += row) {
         for (const std::size_t particle : {at, at + 1}) {
             draft.pin(particle);

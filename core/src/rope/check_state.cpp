@@ -15,8 +15,8 @@ using tendril::detail::refused;
 
 const char* const op = "World";
 
-bool is_within(const glm::dvec3& p, double most) {
-    return std::abs(p.x) <= most && std::abs(p.y) <= most && std::abs(p.z) <= most;
+bool is_within(const glm::dvec3& p, double limit) {
+    return std::abs(p.x) <= limit && std::abs(p.y) <= limit && std::abs(p.z) <= limit;
 }
 bool is_point(const glm::dvec3& p) {
     return is_within(p, max_magnitude);

@@ -1,4 +1,4 @@
-// Whether a state holds together. Not installed.
+// Whether a state is consistent. Not installed.
 #pragma once
 
 #include "tendril/magnitude.hpp"

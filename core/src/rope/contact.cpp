@@ -1,8 +1,8 @@
 // Keeping particles and links out of colliders while the solver works.
 //
-// What a collider has pushed a particle in a substep is remembered: its part along the normal bounds friction
-// (Coulomb's law, as displacements). What tension has drawn into the collider is part of it, so a rope around
-// a post grips it the harder the more it is drawn.
+// How far a collider has displaced a particle in a substep is remembered: the part along the normal bounds
+// friction (Coulomb's law, as displacements). What tension has drawn into the collider is part of it, so the
+// tauter a rope around a post is, the more friction it has.
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -77,44 +77,44 @@ Touch& Substep::touch(std::uint32_t i, std::uint32_t collider, const dvec3& norm
     Touch& touch = scratch_.touch[i];
     if (!touch.touching) {
         touch.touching = true;
-        touch.carried = scratch_.colliders[collider].by;
+        touch.collider_displacement = scratch_.colliders[collider].by;
         touch.normal = normal;
         scratch_.touched.push_back(i);
     }
     return touch;
 }
 
-void Substep::grip(std::uint32_t i) {
+void Substep::apply_friction(std::uint32_t i) {
     Touch& touch = scratch_.touch[i];
-    const double pressed = detail::dot(touch.push, touch.normal);
-    const dvec3 rubbed = touch.push - pressed * touch.normal;
-    const dvec3 slip = scratch_.place[i] - state_.position[i] - touch.carried;
-    dvec3 wanted = rubbed - (slip - detail::dot(slip, touch.normal) * touch.normal);
+    const double normal_part = detail::dot(touch.displacement, touch.normal);
+    const dvec3 friction = touch.displacement - normal_part * touch.normal;
+    const dvec3 slip = scratch_.place[i] - state_.position[i] - touch.collider_displacement;
+    dvec3 wanted = friction - (slip - detail::dot(slip, touch.normal) * touch.normal);
     const double size = detail::length(wanted),
-                 most = static_cast<double>(state_.settings.friction) * pressed;
-    if (size > most) wanted = (most / size) * wanted;
-    scratch_.place[i] += wanted - rubbed;
-    touch.push = pressed * touch.normal + wanted;
+                 limit = static_cast<double>(state_.settings.friction) * normal_part;
+    if (size > limit) wanted = (limit / size) * wanted;
+    scratch_.place[i] += wanted - friction;
+    touch.displacement = normal_part * touch.normal + wanted;
 }
 
-void Substep::push_out(bool first) {
+void Substep::resolve_contacts(bool first) {
     for (const Scratch::Near& near : scratch_.near) {
         const Plan::Chunk& chunk = plan_.chunks[near.chunk];
         const double radius = state_.bodies[chunk.body].radius;
         report_.work += chunk.count;
         for (std::uint32_t i = chunk.first; i < chunk.first + chunk.count; ++i) {
-            push_particle(i, near.collider, radius, first);
+            resolve_particle(i, near.collider, radius, first);
         }
         // Where links are longer than the collider is thick it could slip through between two particles.
         if (chunk.reach <= scratch_.colliders[near.collider].size) continue;
         for (std::uint32_t l = 0; l < chunk.links; ++l) {
             const Link& link = state_.links[plan_.chunk_links[chunk.first_link + l]];
-            push_link(link, near.collider, radius);
+            resolve_link(link, near.collider, radius);
         }
     }
 }
 
-void Substep::push_particle(std::uint32_t i, std::uint32_t number, double radius, bool first) {
+void Substep::resolve_particle(std::uint32_t i, std::uint32_t number, double radius, bool first) {
     if (scratch_.weight[i] == 0.0) return;
     const Scratch::Moving& collider = scratch_.colliders[number];
     dvec3& place = scratch_.place[i];
@@ -127,10 +127,10 @@ void Substep::push_particle(std::uint32_t i, std::uint32_t number, double radius
         const dvec3 from = state_.position[i] + collider.by, way = place - from;
         const double far = detail::length(way), step = 0.5 * collider.size + radius;
         if (far > step && surface.distance < far + radius) {
-            const int looks = static_cast<int>(std::min(64.0, std::ceil(far / std::max(step, 1e-9))));
-            report_.work += static_cast<std::uint64_t>(looks);
-            for (int k = 0; k < looks; ++k) {
-                const dvec3 on_the_way = from + (static_cast<double>(k) / looks) * way;
+            const int samples = static_cast<int>(std::min(64.0, std::ceil(far / std::max(step, 1e-9))));
+            report_.work += static_cast<std::uint64_t>(samples);
+            for (int k = 0; k < samples; ++k) {
+                const dvec3 on_the_way = from + (static_cast<double>(k) / samples) * way;
                 const SurfaceDistance there = surface_distance(*collider.shape, on_the_way);
                 if (there.distance >= radius) continue;
                 place = on_the_way;
@@ -144,17 +144,17 @@ void Substep::push_particle(std::uint32_t i, std::uint32_t number, double radius
     place += depth * surface.normal;
     Touch& contact = touch(i, number, surface.normal);
     if (detail::dot(contact.normal, surface.normal) < 0.9) return;  // the second of two
-    contact.push += depth * surface.normal;
-    grip(i);
+    contact.displacement += depth * surface.normal;
+    apply_friction(i);
 }
 
-void Substep::push_link(const Link& link, std::uint32_t number, double radius) {
+void Substep::resolve_link(const Link& link, std::uint32_t number, double radius) {
     const Scratch::Moving& collider = scratch_.colliders[number];
     if (link.rest <= collider.size) return;
     dvec3 &a = scratch_.place[link.a], &b = scratch_.place[link.b];
     const dvec3 along = b - a;
     if (collider.far_from(a + 0.5 * along, radius + 0.5 * detail::length(along))) return;
-    report_.work += detail::most_line_looks;
+    report_.work += detail::max_line_samples;
     const std::optional<double> nearest = detail::nearest_between(*collider.shape, a, b, radius);
     if (!nearest) return;
     const double t = *nearest;
@@ -163,18 +163,18 @@ void Substep::push_link(const Link& link, std::uint32_t number, double radius) {
     const double share_a = scratch_.weight[link.a] * (1.0 - t), share_b = scratch_.weight[link.b] * t;
     const double shares = share_a * (1.0 - t) + share_b * t;
     if (!(depth > 0.0) || shares <= 0.0) return;
-    const auto push = [&](std::uint32_t i, double wanted) {
-        // Beside an end that is held the other one would have to go very far.
+    const auto displace = [&](std::uint32_t i, double wanted) {
+        // Beside a pinned end the other one would have to go very far.
         const double by = std::min(wanted, 1.5 * depth);
         if (by <= 0.0) return;
         scratch_.place[i] += by * surface.normal;
         Touch& contact = touch(i, number, surface.normal);
         if (detail::dot(contact.normal, surface.normal) < 0.9) return;
-        contact.push += by * surface.normal;
-        grip(i);
+        contact.displacement += by * surface.normal;
+        apply_friction(i);
     };
-    push(link.a, depth * share_a / shares);
-    push(link.b, depth * share_b / shares);
+    displace(link.a, depth * share_a / shares);
+    displace(link.b, depth * share_b / shares);
 }
 
 }  // namespace tendril::rope

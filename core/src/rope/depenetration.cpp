@@ -16,8 +16,8 @@ using glm::dvec3;
 /// How far inside a particle may stay, metres: far less than what anybody may rely on.
 constexpr double tolerance = 1e-6;
 constexpr int rounds = 12;
-/// Distances that the search for a way out may look at in a substep: what it does not find by then is left
-/// inside and counted. A particle between two surfaces takes some hundred; in 10^5 random scenes no substep
+/// Distances that searches for a way out may take in a substep: what is not found by then is left inside and
+/// counted. A particle between two surfaces takes some hundred; in 10^5 random scenes no substep
 /// took more than 1300 in all.
 constexpr std::uint64_t searches_per_particle = 64, fewest_searches = 8192;
 constexpr int newton_steps = 16;
@@ -26,13 +26,13 @@ constexpr int newton_steps = 16;
 struct Neighbours {
     const Scratch& scratch;
     std::span<const Scratch::Near> near;
-    std::uint64_t& searches;  ///< distances that searches may still look at
-    std::uint64_t& looked;    ///< counts all that were looked at
+    std::uint64_t& searches;         ///< distances that searches may still take
+    std::uint64_t& distances_taken;  ///< counts all distances
 
     /// Those that a ball may touch.
     template <class Visit>
     void each(const dvec3& at, double radius, Visit visit) const {
-        looked += near.size();
+        distances_taken += near.size();
         for (const Scratch::Near& each : near) {
             const Scratch::Moving& collider = scratch.colliders[each.collider];
             if (!collider.far_from(at, radius)) visit(*collider.shape);
@@ -54,9 +54,9 @@ struct Neighbours {
     double depth(const dvec3& at, double radius) const { return deepest(at, radius).depth; }
 };
 
-/// The least move that brings a ball out of the two half spaces that it is deepest in; of one, where that
-/// does.
-dvec3 least_move(const Neighbours& neighbours, const dvec3& at, double radius) {
+/// The smallest displacement that brings a ball out of the two half spaces that it is deepest in; of one,
+/// where that does.
+dvec3 smallest_displacement(const Neighbours& neighbours, const dvec3& at, double radius) {
     std::array<dvec3, 2> normal{};
     std::array<double, 2> depth{0.0, 0.0};
     neighbours.each(at, radius, [&](const Shape& shape) {
@@ -80,10 +80,10 @@ dvec3 least_move(const Neighbours& neighbours, const dvec3& at, double radius) {
 /// is further. The distance to a convex shape is convex along a line, so Newton's method comes back from the
 /// limit without ever going too far.
 double way_out_of(const Shape& shape, const dvec3& from, const dvec3& along, double radius, double limit,
-                  std::uint64_t& looked) {
+                  std::uint64_t& distances_taken) {
     double way = limit;
     for (int i = 0; i < newton_steps; ++i) {
-        ++looked;
+        ++distances_taken;
         const SurfaceDistance surface = surface_distance(shape, from + way * along);
         const double over = surface.distance - radius, slope = detail::dot(surface.normal, along);
         if (over <= tolerance || slope <= 0.0) break;
@@ -98,11 +98,11 @@ double way_out(const Neighbours& neighbours, const dvec3& from, const dvec3& alo
                double limit) {
     double way = 0.0;
     for (std::size_t i = 0; i <= neighbours.near.size() && way < limit && neighbours.searches > 0; ++i) {
-        const std::uint64_t before = neighbours.looked;
+        const std::uint64_t before = neighbours.distances_taken;
         const Shape* const inside = neighbours.deepest(from + way * along, thickness).shape;
         if (inside == nullptr) return way;
-        way = way_out_of(*inside, from, along, thickness, limit, neighbours.looked);
-        neighbours.searches -= std::min(neighbours.searches, neighbours.looked - before);
+        way = way_out_of(*inside, from, along, thickness, limit, neighbours.distances_taken);
+        neighbours.searches -= std::min(neighbours.searches, neighbours.distances_taken - before);
     }
     return limit;
 }
@@ -129,7 +129,7 @@ bool bring_out(const Neighbours& neighbours, dvec3& place, double radius) {
         dvec3 at = place;
         bool out = neighbours.depth(at, thickness) <= tolerance;
         for (int i = 0; i < rounds && !out; ++i) {
-            at += least_move(neighbours, at, thickness);
+            at += smallest_displacement(neighbours, at, thickness);
             out = neighbours.depth(at, thickness) <= tolerance;
         }
         if (!out && !search(neighbours, place, thickness, at)) continue;

@@ -1,12 +1,13 @@
 // The direct solver: whole chains at once, as many side by side as a vector register has lanes.
 //
-// A chain that nothing else is linked to first takes in the tension that it had, then one or two passes make
-// its lengths right. Where it moves too fast for that (a whip cracks), or would gain energy, it begins again
-// with what tension was found, pulling along where its links will be: that converges, and costs energy.
+// A chain that nothing else is linked to first moves by the tension that it had, applied implicitly; then one
+// or two passes correct its lengths. Where it moves too fast for that (a whip cracks), or would gain energy,
+// it is solved again from the tension that was found, which now acts along the links' new directions: that
+// converges, and costs energy.
 //
-// Colliders push last. So what tension draws into them shows as depth, and friction is bounded by it: a rope
-// around a post holds as Euler and Eytelwein have it. The lengths that this costs are made good in the next
-// substep.
+// Contacts are resolved last. So what tension draws into a collider shows as depth, and bounds friction: a
+// rope around a post has the friction of Euler and Eytelwein. The length errors that this causes are
+// corrected in the next substep.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,19 +23,20 @@ using detail::Order;
 using detail::Row;
 using glm::dvec3;
 
-constexpr double arrived = 1e-7;        ///< relative length error that is made no better
-constexpr double good_enough = 1e-4;    ///< a chain with more begins again
-constexpr double shared_enough = 1e-3;  ///< the same where chains share particles
-constexpr double hopeless = 0.02;       ///< a chain with more in the end is relaxed instead
-constexpr int beginnings = 6, fallback_passes = 16;
-/// Passes that chains which share particles take at least while something pushes them.
-constexpr int pushed_passes = 4;
-/// A chain that others pull at may be asked for lengths that it cannot have, straight between two pins: its
-/// system is damped (Levenberg, Marquardt), or it would fling its particles about.
+constexpr double tolerance = 1e-7;              ///< relative length error that is not improved
+constexpr double accepted_error = 1e-4;         ///< a chain with more is solved again
+constexpr double accepted_shared_error = 1e-3;  ///< the same where chains share particles
+constexpr double fallback_error = 0.02;         ///< a chain with more in the end: its body is relaxed
+constexpr int max_restarts = 6, fallback_passes = 16;
+/// Minimum of passes of chains that share particles, while they are near a collider.
+constexpr int min_contact_passes = 4;
+/// A chain whose particles others share may be asked for lengths that it cannot have, straight between two
+/// pins: its system is damped (Levenberg, Marquardt), or it would fling its particles about.
 constexpr double shared_damping = 2e-2;
-/// Of a perfect pull along the mean so much is left out: it takes the jitter of single particles away within
-/// a second, and from a pendulum of a second's period a few percent of its energy in a minute.
-constexpr double least_backward = 0.01;
+/// By so much tension acts along the new direction rather than the mean: that damps the jitter of single
+/// particles within a second, and takes from a pendulum of a second's period a few percent of its energy in a
+/// minute.
+constexpr double min_backward = 0.01;
 
 }  // namespace
 
@@ -49,56 +51,57 @@ int Substep::direct() {
     for (const Plan::Chain& chain : plan_.chains) {
         if (!chain.alone) std::fill_n(scratch_.multiplier.begin() + chain.first_link, chain.links, 0.0);
     }
-    const bool pushed = !scratch_.near.empty();
-    const int most = passes_allowed();
+    const bool contact = !scratch_.near.empty();
+    const int max_passes = passes_allowed();
     int passes = 0;
-    bool settled = false;
-    while (!settled && passes < most) {
+    bool converged = false;
+    while (!converged && passes < max_passes) {
         report_.work += state_.links.size();
         satisfy_soft();
         double worst = 0.0;
         for (const Plan::Group& group : plan_.groups) worst = std::max(worst, solve_group(group, passes));
         measure();
-        push_out(passes == 0);
+        resolve_contacts(passes == 0);
         ++passes;
-        settled = plan_.all_alone || (worst <= shared_enough && (!pushed || passes >= pushed_passes));
+        converged =
+            plan_.all_alone || (worst <= accepted_shared_error && (!contact || passes >= min_contact_passes));
     }
-    if (!settled && most < state_.settings.iterations) ++report_.shortened;
-    fall_back();
+    if (!converged && max_passes < state_.settings.iterations) ++report_.shortened;
+    relax_failed_bodies();
     limit_energy();
     return passes;
 }
 
-/// A body that could not be solved (or cannot be: it is asked for the impossible) is relaxed: that always
-/// ends somewhere sensible.
-void Substep::fall_back() {
+/// The fallback: a body that could not be solved (or cannot be: it is asked for the impossible) is relaxed,
+/// which always ends somewhere sensible.
+void Substep::relax_failed_bodies() {
     bool any = false;
-    std::fill(scratch_.body_lost.begin(), scratch_.body_lost.end(), std::uint8_t{0});
+    std::fill(scratch_.body_failed.begin(), scratch_.body_failed.end(), std::uint8_t{0});
     for (std::uint32_t r = 0; r < plan_.chains.size(); ++r) {
-        if (scratch_.chain_error[r] <= hopeless) continue;  // not so where it is no number
+        if (scratch_.chain_error[r] <= fallback_error) continue;  // not so where it is no number
         any = true;
-        scratch_.body_lost[plan_.chains[r].body] = 1;
+        scratch_.body_failed[plan_.chains[r].body] = 1;
     }
     if (!any) return;
     for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
-        if (scratch_.body_lost[b] == 0) continue;
+        if (scratch_.body_failed[b] == 0) continue;
         const Body& body = state_.bodies[b];
         for (std::size_t i = body.first; i < body.first + body.count; ++i) {
             scratch_.place[i] = scratch_.base[i];
-            scratch_.touch[i].push = dvec3(0.0);
+            scratch_.touch[i].displacement = dvec3(0.0);
         }
     }
     for (int pass = 0; pass < fallback_passes; ++pass) {
         report_.work += state_.links.size();
         for (const Plan::Chain& chain : plan_.chains) {
-            if (scratch_.body_lost[chain.body] == 0) continue;
+            if (scratch_.body_failed[chain.body] == 0) continue;
             for (std::uint32_t k = chain.first_link; k < chain.first_link + chain.links; ++k) {
-                scratch_.multiplier[k] = 0.0;  // whatever it was, it is not what held the chain
+                scratch_.multiplier[k] = 0.0;  // whatever it was, it did not solve the chain
                 satisfy(k, 0.0);
             }
         }
         if (pass + 1 == fallback_passes) measure();
-        push_out(pass == 0);
+        resolve_contacts(pass == 0);
     }
 }
 
@@ -123,17 +126,17 @@ double Substep::solve_batch(const Batch& batch, int iteration) {
     Order order;
     gather(block, batch);
     order.implicit = first.alone && iteration == 0;
-    for (std::uint32_t lane = 0; lane < detail::most_lanes; ++lane) {
-        // Runs that share particles undo part of what the others did, and what colliders pushed has wrong
-        // lengths to begin with: there the plain direction serves best.
+    for (std::uint32_t lane = 0; lane < detail::max_lanes; ++lane) {
+        // Chains that share particles undo part of what the others did, and contacts leave length errors to
+        // begin with: there the plain direction serves best.
         const std::uint32_t body = plan_.chains[batch.chain + std::min(lane, batch.count - 1)].body;
-        const bool pushed = scratch_.body_near[body] != 0;
-        order.backward[lane] = first.alone && !pushed ? least_backward : 1.0;
-        const int most = !first.alone ? 1 : pushed ? 4 : 2;
-        order.passes[lane] = std::min(most, state_.settings.iterations);
+        const bool contact = scratch_.body_near[body] != 0;
+        order.backward[lane] = first.alone && !contact ? min_backward : 1.0;
+        const int max_passes = !first.alone ? 1 : contact ? 4 : 2;
+        order.passes[lane] = std::min(max_passes, state_.settings.iterations);
     }
     if (!first.alone) order.damping = shared_damping;
-    order.tolerance = arrived;
+    order.tolerance = tolerance;
     (batch.single ? scratch_.unit.single : scratch_.unit.solve)(block, order);
     double worst = 0.0;
     for (std::uint32_t lane = 0; lane < batch.count; ++lane) {
@@ -143,29 +146,29 @@ double Substep::solve_batch(const Batch& batch, int iteration) {
     }
     for (std::uint32_t chain = batch.chain; chain < batch.chain + batch.count; ++chain) {
         scratch_.chain_gain[chain] = energy_gained(chain);
-        if (first.alone && iteration == 0) again(chain);
+        if (first.alone && iteration == 0) solve_again(chain);
         worst = std::max(worst, scratch_.chain_error[chain]);
     }
     return worst;
 }
 
-void Substep::again(std::uint32_t chain) {
+void Substep::solve_again(std::uint32_t chain) {
     const double enough =
-        scratch_.body_near[plan_.chains[chain].body] != 0 ? 10.0 * good_enough : good_enough;
+        scratch_.body_near[plan_.chains[chain].body] != 0 ? 10.0 * accepted_error : accepted_error;
     if (scratch_.chain_error[chain] <= enough && !gains_energy(chain, 1e-4)) return;
     const Plan::Chain& it = plan_.chains[chain];
     Block block{scratch_.block.data() + scratch_.block_offset, it.links, 1};
-    const int most = std::min(beginnings, state_.settings.iterations);
+    const int restarts = std::min(max_restarts, state_.settings.iterations);
     for (std::uint32_t k = it.first_link; k < it.first_link + it.links; ++k) {
         scratch_.multiplier[k] = static_cast<double>(state_.links[k].tension) * (h_ * h_);
     }
-    for (int i = 0; i < most; ++i) {
+    for (int i = 0; i < restarts; ++i) {
         Order order;
         gather(block, {chain, 1, true});
         order.implicit = true;
         order.backward[0] = 1.0;
-        order.passes[0] = i + 1 < most ? 2.0 : 8.0;
-        order.tolerance = arrived;
+        order.passes[0] = i + 1 < restarts ? 2.0 : 8.0;
+        order.tolerance = tolerance;
         scratch_.unit.single(block, order);
         scratch_.chain_error[chain] = order.worst[0];
         scatter(block, 0, chain);
@@ -179,7 +182,7 @@ void Substep::gather(const Block& block, const Batch& batch) const {
     const auto put = [](double* at, const dvec3& value, std::size_t lanes) {
         at[0] = value.x, at[lanes] = value.y, at[2 * lanes] = value.z;
     };
-    std::array<const Plan::Chain*, detail::most_lanes> lane_chains{};
+    std::array<const Plan::Chain*, detail::max_lanes> lane_chains{};
     for (std::size_t lane = 0; lane < block.lanes; ++lane) {
         lane_chains[lane] = &plan_.chains[batch.chain + std::min<std::size_t>(lane, batch.count - 1)];
     }

@@ -17,7 +17,7 @@ enum Row : std::size_t {
     OldX,
     OldY,
     OldZ,        ///< where it was one substep before the last; then: the unit direction of its link there
-    Weight,      ///< inverse mass; 0: it is held
+    Weight,      ///< inverse mass; 0: pinned
     Rest,        ///< of its link: length
     Compliance,  ///< compliance, m/N, over h^2
     Multiplier,  ///< tension times h^2
@@ -29,9 +29,9 @@ enum Row : std::size_t {
     rows
 };
 
-inline constexpr std::size_t most_lanes = 8;
+inline constexpr std::size_t max_lanes = 8;
 
-/// Runs of `links` links each, in `lanes` lanes. Where there are fewer chains the last one is there again.
+/// Chains of `links` links each, in `lanes` lanes. Where there are fewer chains the last one is repeated.
 struct Block {
     double* data = nullptr;  ///< aligned to 64 bytes
     std::size_t links = 0;
@@ -41,15 +41,16 @@ struct Block {
     static std::size_t doubles(std::size_t links, std::size_t lanes) { return (links + 1) * rows * lanes; }
 };
 
-/// What the solver does to a block. What it says is one value a lane.
+/// What the solver does to a block. Outputs have one value a lane.
 struct Order {
-    bool implicit = false;             ///< first take the tension that there is in implicitly
-    double backward[most_lanes] = {};  ///< 0: pull along the mean of before and after; 1: after
-    double passes[most_lanes] = {};    ///< at most
-    double damping = 1e-9;             ///< of the system's diagonal, as a part of it
-    double tolerance = 1e-7;           ///< relative length error at which a lane is done
-    double worst[most_lanes];          ///< out: the largest relative length error
-    int taken = 0;                     ///< out: passes taken
+    bool implicit = false;  ///< first apply the tension that there is implicitly
+    /// Tension acts along the mean of the link's directions before and after at 0, along the one after at 1.
+    double backward[max_lanes] = {};
+    double passes[max_lanes] = {};  ///< at most
+    double damping = 1e-9;          ///< of the system's diagonal, as a part of it
+    double tolerance = 1e-7;        ///< relative length error at which a lane is done
+    double worst[max_lanes];        ///< out: the largest relative length error
+    int taken = 0;                  ///< out: passes taken
 };
 
 using SolveBlock = void(const Block& block, Order& order);

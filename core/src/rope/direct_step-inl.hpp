@@ -1,13 +1,13 @@
 // The direct solver on a block, for a register of any width. Not installed; it is included once for each
 // vector unit.
 //
-// Let q_k be the direction in which link k pulls, n_k the one in which it lies, and w_k the inverse mass of
-// node k. To first order link k gets shorter by
+// Let q_k be the direction in which the tension of link k acts, n_k the direction of the link, and w_k the
+// inverse mass of node k. To first order link k gets shorter by
 //
 //     -w_k (n_k q_{k-1}) t_{k-1} + (w_k + w_{k+1}) (n_k q_k) t_k - w_{k+1} (n_k q_{k+1}) t_{k+1}
 //
-// for pulls t: one tridiagonal system a run. No operation is fused, so every lane has the same bits with
-// every vector unit.
+// for Lagrange multipliers t: one tridiagonal system a chain. No operation is fused, so every lane has the
+// same bits with every vector unit.
 #if defined(TENDRIL_ROPE_DIRECT_STEP_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef TENDRIL_ROPE_DIRECT_STEP_INL
 #undef TENDRIL_ROPE_DIRECT_STEP_INL
@@ -38,19 +38,20 @@ class BlockSolver {
     explicit BlockSolver(const Block& block) : block_(block) {}
 
     void run(Order& order) {
-        lay_old_directions();
-        if (order.implicit) take_implicitly(order);
+        store_old_directions();
+        if (order.implicit) apply_implicit_tension(order);
         // The first pass is always worth it: looking whether it is costs half as much.
-        const V most = hn::LoadU(d_, order.passes);
+        const V max_passes = hn::LoadU(d_, order.passes);
         V worst = set(1e300);
         order.taken = 0;
         for (;; ++order.taken) {
-            const auto open = hn::And(hn::Gt(worst, set(order.tolerance)), hn::Lt(set(order.taken), most));
+            const auto open =
+                hn::And(hn::Gt(worst, set(order.tolerance)), hn::Lt(set(order.taken), max_passes));
             if (hn::AllFalse(d_, open)) break;
             improve(open, order);
             worst = largest_error();
         }
-        HWY_ALIGN double lanes[most_lanes] = {};
+        HWY_ALIGN double lanes[max_lanes] = {};
         hn::Store(worst, d_, lanes);
         for (std::size_t i = 0; i < block_.lanes; ++i) order.worst[i] = lanes[i];
     }
@@ -91,7 +92,7 @@ class BlockSolver {
                 hn::IfThenZeroElse(none, along.z)};
     }
 
-    void lay_old_directions() const {
+    void store_old_directions() const {
         V length;
         V3 from = load3(0, OldX);
         for (std::size_t k = 0; k < block_.links; ++k) {
@@ -115,9 +116,9 @@ class BlockSolver {
         return smaller(half, hn::Div(set(1e8), larger(both, set(1e-30))));
     }
 
-    /// Nodes move from their base by tensions along the old and the new directions. Tension has no way to
-    /// push sideways here: all three coordinates share one tridiagonal matrix.
-    void take_implicitly(const Order& order) const {
+    /// Nodes move from their base by tensions along the old and the new directions. Tension never acts
+    /// sideways here: all three coordinates share one tridiagonal matrix.
+    void apply_implicit_tension(const Order& order) const {
         const V backward = hn::LoadU(d_, order.backward);
         const V ahead = hn::Add(set(1.0), backward), behind = hn::Sub(set(1.0), backward);
         V stiff_before = hn::Zero(d_), upper = hn::Zero(d_);
@@ -132,12 +133,12 @@ class BlockSolver {
             const V down = hn::Mul(hn::Mul(weight, ahead), stiff_before);
             const V pivot = hn::Add(hn::Add(hn::Add(set(1.0), up), down), hn::Mul(down, upper));
             const V inverse = hn::Div(set(1.0), pivot);
-            const V3 pulled = times(hn::Mul(weight, behind), minus(old, old_before));
-            right = times(inverse, plus(plus(load3(k, BaseX), pulled), times(down, right)));
+            const V3 moved = times(hn::Mul(weight, behind), minus(old, old_before));
+            right = times(inverse, plus(plus(load3(k, BaseX), moved), times(down, right)));
             upper = hn::Neg(hn::Mul(up, inverse));
             store(upper, k, Upper);
             store3(right, k, X);
-            // What was taken in is what counts from here on.
+            // The tension that was applied is what counts from here on.
             if (!last) store(hn::Mul(hn::Mul(set(2.0), stiff), length), k, Multiplier);
             stiff_before = stiff;
             old_before = old;
@@ -157,7 +158,7 @@ class BlockSolver {
             const V rest = load(k, Rest);
             const V error = hn::Sub(hn::Sub(hn::Sqrt(dot(by, by)), rest),
                                     hn::Mul(load(k, Compliance), load(k, Multiplier)));
-            // What is no number counts as hopeless.
+            // What is no number counts as failed.
             const V part = hn::Div(hn::Abs(error), larger(rest, set(1e-9)));
             worst = larger(worst, smaller(part, set(1e300)));
             from = to;
@@ -170,17 +171,17 @@ class BlockSolver {
     void improve(M open, const Order& order) const {
         eliminate(order);
         const V zero = hn::Zero(d_);
-        V pull_after = zero;
-        V3 pulls_after{zero, zero, zero};  // pull and direction of the link after
+        V change_after = zero;
+        V3 impulse_after = {zero, zero, zero};  // the change times its direction
         for (std::size_t k = block_.links; k-- > 0;) {
-            pull_after = hn::Sub(load(k, Right), hn::Mul(load(k, Upper), pull_after));
-            const V pull = hn::IfThenElseZero(open, pull_after);
-            store(hn::Add(load(k, Multiplier), pull), k, Multiplier);
-            const V3 pulls = times(pull, load3(k, DirectionX));
-            move(k + 1, minus(pulls_after, pulls));
-            pulls_after = pulls;
+            change_after = hn::Sub(load(k, Right), hn::Mul(load(k, Upper), change_after));
+            const V change = hn::IfThenElseZero(open, change_after);
+            store(hn::Add(load(k, Multiplier), change), k, Multiplier);
+            const V3 impulse = times(change, load3(k, DirectionX));
+            move(k + 1, minus(impulse_after, impulse));
+            impulse_after = impulse;
         }
-        move(0, pulls_after);
+        move(0, impulse_after);
     }
 
     void move(std::size_t k, const V3& by) const {
@@ -192,7 +193,7 @@ class BlockSolver {
         const V after = hn::Add(half, hn::Mul(half, backward)),
                 before = hn::Sub(half, hn::Mul(half, backward));
         V upper_before = zero, right_before = zero;
-        V3 pull_before{zero, zero, zero}, lies_before = pull_before;
+        V3 acts_before{zero, zero, zero}, lies_before = acts_before;
         V3 from = load3(0, X);
         for (std::size_t k = 0; k < block_.links; ++k) {
             const V3 to = load3(k + 1, X);
@@ -201,15 +202,15 @@ class BlockSolver {
             // Over a right angle in two substeps is too fast for the mean to be of use.
             const auto slow = hn::Gt(dot(lies, old), zero);
             const V3 mean = plus(times(after, lies), times(before, old));
-            const V3 pull{hn::IfThenElse(slow, mean.x, lies.x), hn::IfThenElse(slow, mean.y, lies.y),
+            const V3 acts{hn::IfThenElse(slow, mean.x, lies.x), hn::IfThenElse(slow, mean.y, lies.y),
                           hn::IfThenElse(slow, mean.z, lies.z)};
-            store3(pull, k, DirectionX);
+            store3(acts, k, DirectionX);
             const V compliance = load(k, Compliance);
             const V error = hn::Sub(hn::Sub(length, load(k, Rest)), hn::Mul(compliance, load(k, Multiplier)));
             const V weight = load(k, Weight), both = hn::Add(weight, load(k + 1, Weight));
-            const V diagonal = hn::Add(hn::Mul(both, dot(lies, pull)), compliance);
-            const V lower = hn::Neg(hn::Mul(weight, dot(lies, pull_before)));
-            const V up_before = hn::Neg(hn::Mul(weight, dot(lies_before, pull)));  // of row k - 1
+            const V diagonal = hn::Add(hn::Mul(both, dot(lies, acts)), compliance);
+            const V lower = hn::Neg(hn::Mul(weight, dot(lies, acts_before)));
+            const V up_before = hn::Neg(hn::Mul(weight, dot(lies_before, acts)));  // of row k - 1
             // The row before is finished only now that its upper entry is known.
             V upper_ready = zero;
             if (k > 0) {
@@ -219,13 +220,13 @@ class BlockSolver {
             const V pivot =
                 hn::Sub(hn::Add(diagonal, hn::Mul(set(order.damping), both)), hn::Mul(lower, upper_ready));
             const V inverse = hn::Div(set(1.0), larger(pivot, larger(hn::Mul(set(1e-10), both), set(1e-30))));
-            // Between two nodes that are held there is nothing to solve.
+            // Between two pinned nodes there is nothing to solve.
             const auto fixed = hn::Le(both, zero);
             right_before =
                 hn::IfThenZeroElse(fixed, hn::Mul(inverse, hn::Sub(error, hn::Mul(lower, right_before))));
             upper_before = hn::IfThenZeroElse(fixed, inverse);
             store(right_before, k, Right);
-            pull_before = pull;
+            acts_before = acts;
             lies_before = lies;
             from = to;
         }

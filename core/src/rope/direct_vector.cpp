@@ -17,7 +17,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tendril::rope::detail {
 namespace HWY_NAMESPACE {
 
-using Wide = hn::CappedTag<double, most_lanes>;
+using Wide = hn::CappedTag<double, max_lanes>;
 using Single = hn::CappedTag<double, 1>;
 
 void solve_wide(const Block& block, Order& order) {

@@ -24,8 +24,8 @@ struct Seat {
 
 std::vector<Seat> seats(const HairPatch& patch, glm::vec3 direction) {
     constexpr float golden_angle = 2.3999632f;
-    const glm::vec3 least = std::abs(direction.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
-    const glm::vec3 first = glm::normalize(glm::cross(direction, least));
+    const glm::vec3 across = std::abs(direction.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
+    const glm::vec3 first = glm::normalize(glm::cross(direction, across));
     const glm::vec3 second = glm::cross(direction, first);
     std::vector<Seat> found;
     found.reserve(static_cast<std::size_t>(patch.strands));

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double substeps = 8.0;  ///< a large move is not made good in one
 /// A stiff link that is further from its length than contacts leave it gets it back.
-constexpr double most_error = 0.05;
+constexpr double max_error = 0.05;
 
 bool is_stiff(const Settings& settings) {
     return settings.solver == Solver::Direct && settings.compliance == 0.0f;
@@ -31,7 +31,7 @@ State frozen(const World& world) {
     for (Link& link : still.links) {
         const double length = detail::length(was.position[link.b] - was.position[link.a]), rest = link.rest;
         const bool kept = stiff && link.kind == Link::Kind::Stretch;
-        if (!kept || std::abs(length - rest) <= most_error * rest)
+        if (!kept || std::abs(length - rest) <= max_error * rest)
             link.rest = static_cast<float>(std::min(length, static_cast<double>(max_magnitude)));
         link.tension = 0.0f;
     }

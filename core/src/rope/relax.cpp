@@ -29,7 +29,7 @@ int Substep::relax(bool compliant) {
     const int passes = passes_allowed();
     for (int pass = 0; pass < passes; ++pass) {
         report_.work += state_.links.size();
-        push_out(pass == 0);
+        resolve_contacts(pass == 0);
         for (std::uint32_t i = 0; i < state_.links.size(); ++i) {
             const Link& link = state_.links[i];
             if (link.kind != Link::Kind::Stretch) continue;

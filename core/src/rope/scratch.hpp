@@ -14,14 +14,14 @@ namespace tendril::rope {
 /// A particle's touch with a collider, in one substep.
 struct Touch {
     glm::dvec3 normal{0.0};
-    glm::dvec3 push{0.0};     ///< how the collider has moved it so far, metres
-    glm::dvec3 carried{0.0};  ///< how the collider itself moves in the substep
+    glm::dvec3 displacement{0.0};           ///< by the collider so far, metres
+    glm::dvec3 collider_displacement{0.0};  ///< of the collider itself, in the substep
     bool touching = false;
 };
 
 struct Scratch {
     std::vector<glm::dvec3> place;   ///< where each particle is as yet
-    std::vector<glm::dvec3> base;    ///< where it would be if nothing held it
+    std::vector<glm::dvec3> base;    ///< where it would be without links and colliders
     std::vector<double> weight;      ///< inverse mass; 0: pinned
     std::vector<double> multiplier;  ///< of each link: tension times h^2
     std::vector<Touch> touch;
@@ -29,10 +29,10 @@ struct Scratch {
     struct Near {
         std::uint32_t chunk, collider;
     };
-    std::vector<Near> near;               ///< chunk by chunk
-    std::vector<std::uint32_t> close;     ///< colliders that anything is near
-    std::vector<std::uint8_t> body_near;  ///< whether any collider is near a body
-    std::vector<std::uint8_t> body_lost;  ///< whether a body could not be solved
+    std::vector<Near> near;                 ///< chunk by chunk
+    std::vector<std::uint32_t> close;       ///< colliders that anything is near
+    std::vector<std::uint8_t> body_near;    ///< whether any collider is near a body
+    std::vector<std::uint8_t> body_failed;  ///< whether a body could not be solved
     std::vector<glm::dvec3> chunk_low, chunk_high;
     struct Moving {
         const Shape* shape = nullptr;  ///< at the end of the substep

@@ -10,7 +10,7 @@ class Substep {
   public:
     /// What it did is added to `report`.
     Substep(State& state, const Plan& plan, Scratch& scratch, Advance& report);
-    /// Whether bodies are told how far they are stretched in the end.
+    /// Whether bodies get their length error in the end.
     bool measures = false;
     void run();
 
@@ -19,18 +19,18 @@ class Substep {
     void move_colliders();
     void move_particles();
     void measure();
-    void keep();
+    void commit();
     int passes_allowed() const;
 
-    // contact.cpp: looks for what is near, and keeps it out
+    // contact.cpp: finds what is near, and keeps it out of colliders
     void find_near();
-    void push_out(bool first);
-    void push_particle(std::uint32_t i, std::uint32_t collider, double radius, bool first);
-    void push_link(const Link& link, std::uint32_t collider, double radius);
-    void grip(std::uint32_t i);  ///< Coulomb's friction
+    void resolve_contacts(bool first);
+    void resolve_particle(std::uint32_t i, std::uint32_t collider, double radius, bool first);
+    void resolve_link(const Link& link, std::uint32_t collider, double radius);
+    void apply_friction(std::uint32_t i);  ///< Coulomb's friction
     Touch& touch(std::uint32_t i, std::uint32_t collider, const glm::dvec3& normal);
 
-    // last_push.cpp: what is still inside after the last pass
+    // depenetration.cpp: what is still inside after the last pass
     void depenetrate();
 
     // relax.cpp: one link after the other
@@ -43,8 +43,8 @@ class Substep {
     int direct();
     double solve_group(const Plan::Group& group, int iteration);
     double solve_batch(const Batch& batch, int iteration);
-    void again(std::uint32_t chain);
-    void fall_back();
+    void solve_again(std::uint32_t chain);
+    void relax_failed_bodies();
     void gather(const detail::Block& block, const Batch& batch) const;
     void scatter(const detail::Block& block, std::uint32_t lane, std::uint32_t chain);
     double energy_gained(std::uint32_t chain) const;

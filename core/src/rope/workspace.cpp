@@ -17,7 +17,7 @@ void size(Scratch& scratch, const State& state, const Plan& plan) {
     scratch.touched.clear();
     scratch.touched.reserve(particles);
     scratch.body_near.assign(state.bodies.size(), 0);
-    scratch.body_lost.assign(state.bodies.size(), 0);
+    scratch.body_failed.assign(state.bodies.size(), 0);
     scratch.multiplier.resize(state.links.size());
     scratch.chunk_low.resize(plan.chunks.size());
     scratch.chunk_high.resize(plan.chunks.size());

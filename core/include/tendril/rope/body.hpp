@@ -20,12 +20,12 @@ struct Body {
     std::size_t first = 0, count = 0;  ///< particles
     /// Particles in a row of a cloth, in a strand of hair; `count` for a rope.
     std::size_t row = 0;
-    float radius = 0.02f;  ///< metres: how far from colliders its particles are kept, and how thick it is
-    /// Relative length at which a stretch link of a cloth tears, 0.1 for 10 % over its rest; 0: never. What
-    /// only shapes the cloth tears at half a length more.
+    float radius = 0.02f;  ///< metres: distance of its particles from colliders: half of its thickness
+    /// Strain at which a stretch link of a cloth tears, 0.1 for 10 % over its rest; 0: never. Shear and bend
+    /// links tear at 0.5 more.
     float tear = 0.0f;
     /// The largest relative length error of its stretch links, |length / rest - 1| (or the length, where a
-    /// rest is 0), as the solver left it last, before the last contacts. World::length_error() has it after.
+    /// rest is 0), as the solver left it last: before contact. World::length_error() has it after.
     float stretch = 0.0f;
     bool operator==(const Body&) const = default;
 };
@@ -38,7 +38,7 @@ struct Link {
     float rest = 0.0f;  ///< metres
     Kind kind = Kind::Stretch;
     float compliance = 0.0f;  ///< m/N; of stretch links in addition to the settings'
-    float tension = 0.0f;     ///< newtons, as last solved; below zero where it pushes
+    float tension = 0.0f;     ///< newtons, as last solved; below zero in compression
     bool operator==(const Link&) const = default;
 };
 
@@ -63,7 +63,7 @@ struct ClothShape {
     float radius = 0.01f;
     float density = 0.2f;               ///< kg/m^2, over 0
     float shear = 1e-4f, bend = 1e-2f;  ///< compliance of shear and bend links, m/N
-    float tear = 0.0f;                  ///< relative length at which links tear; 0: never
+    float tear = 0.0f;                  ///< strain at which links tear; 0: never
     enum class Pins : std::uint8_t { None, Corners, Row } pins = Pins::None;  ///< of the first row
 };
 
@@ -73,7 +73,7 @@ struct HairRoot {
     glm::vec3 direction{0.0f, -1.0f, 0.0f};  ///< of any length but 0
 };
 
-/// Hair: strands of equal length, each held at its root, where it keeps its direction.
+/// Hair: strands of equal length, each pinned at its root, where it keeps its direction.
 struct HairShape {
     std::vector<HairRoot> roots{};
     float length = 0.5f;  ///< metres, over 0

@@ -1,6 +1,6 @@
 // How a rope world is simulated.
 //
-// Time runs in fixed substeps, so a second of it comes out the same however it was cut into frames. In each
+// Time runs in fixed substeps, so a second of it has the same result however it was cut into frames. In each
 // substep every free particle is moved on by Verlet's rule and is then put back to where distances, pins and
 // colliders let it be. Three solvers do the putting back:
 //
@@ -10,9 +10,9 @@
 // * Xpbd does the same with compliance: the stretch is that of a material (M. Macklin, M. Mueller,
 //   N. Chentanez, "XPBD", 2016), once the iterations suffice.
 // * Direct solves all distances along a rope at once: their linearisation is tridiagonal, O(n) a pass. The
-//   tension of the substep before is taken in implicitly, because it makes a fine rope stiff sideways
-//   (M. Tournier et al., "Stable Constrained Dynamics", 2015), and it pulls along the mean of the directions
-//   before and after, which neither adds energy nor takes it (O. Gonzalez, "Mechanical systems subject to
+//   tension of the substep before is applied implicitly, because it makes a fine rope stiff sideways
+//   (M. Tournier et al., "Stable Constrained Dynamics", 2015), and it acts along the mean of the directions
+//   before and after, which neither adds energy nor removes it (O. Gonzalez, "Mechanical systems subject to
 //   holonomic constraints", 1999). A cloth is solved row by row and column by column.
 #pragma once
 
@@ -42,7 +42,7 @@ struct Settings {
     /// Acceleration of everything beside gravity, m/s^2: a wind.
     glm::vec3 external{0.0f};
     /// Strain per newton, 1/N, 0 to max_compliance: how much longer a metre of rope gets under one newton.
-    /// Relaxation does not know it.
+    /// Relaxation ignores it.
     float compliance = 0.0f;
     /// Coulomb's coefficient between rope and colliders, 0 to max_friction.
     float friction = 0.5f;
@@ -55,7 +55,7 @@ struct Settings {
 inline constexpr double min_substep = 1e-5, max_substep = 0.1;
 inline constexpr int max_iterations = 10'000;
 /// A substep's work is bounded: passes over the 16th are left out (and counted) where all passes together
-/// would look at more links and contacts than this.
+/// would take more links and contacts than this.
 inline constexpr std::size_t max_pass_work = std::size_t{1} << 16;
 inline constexpr int unbounded_passes = 16;
 inline constexpr float max_rate = 1e3f, max_acceleration = 1e4f, max_scale = 1e3f, max_compliance = 1e3f,

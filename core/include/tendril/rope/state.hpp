@@ -16,10 +16,10 @@ namespace tendril::rope {
 
 inline constexpr std::size_t max_particles = 1'000'000;
 
-/// A particle that is held.
+/// A pinned particle.
 struct Pin {
     std::size_t particle = 0;
-    glm::dvec3 goal{0.0};  ///< where it is going, or where in its collider's frame of centre it is held
+    glm::dvec3 goal{0.0};  ///< where it is going; of one attached to a collider: from the collider's centre
     double seconds = 0.0;  ///< of simulated time until it is there; 0: it stays there
     ColliderId collider;   ///< that it moves with; empty: none
     bool operator==(const Pin&) const = default;

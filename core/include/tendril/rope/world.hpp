@@ -13,10 +13,10 @@
 // A world is a value: a copy of it goes on as the original does, bit for bit, so rollback is a copy and an
 // assignment. What time needs besides is in the workspace, which nothing depends on.
 //
-// Units are metres, kilograms and seconds. Particles are kept in double precision: a rope works a thousand
-// kilometres from the origin as it does near it. The world has an edge, max_magnitude from the origin each
-// way, where what flies further stops. The same calls give the same bits with every compiler and every vector
-// unit.
+// Units are metres, kilograms and seconds. Particles are kept in double precision: a rope a thousand
+// kilometres from the origin moves as it does near it. The world has an edge, max_magnitude from the origin
+// each way, where what flies further stops. The same calls give the same bits with every compiler and every
+// vector unit.
 //
 // Editing calls answer with the argument and its value where they refuse, and leave the world as it was.
 // advance() allocates nothing once the workspace has seen the world in its shape, unless more colliders are
@@ -34,21 +34,21 @@ struct Advance {
     int substeps = 0;
     std::uint64_t dropped = 0;  ///< substeps that there was no time for
     int passes = 0;  ///< of the solver over all links, in all substeps; Direct may solve one chain more often
-    std::uint64_t work = 0;  ///< links solved and distances to colliders looked at: what the time goes into
-    int shortened = 0;       ///< substeps whose passes max_pass_work cut
+    std::uint64_t work = 0;        ///< links solved and distances to colliders taken: what the time goes into
+    int shortened = 0;             ///< substeps whose passes max_pass_work cut
     std::uint64_t unresolved = 0;  ///< times a particle was left inside colliders: there was no way out, or
-                                   ///< looking for it took too long
+                                   ///< the search for one took too long
     bool refused = false;          ///< `seconds` was no number from 0 to 1e9: nothing was done
 };
 
 struct AdvanceOptions {
-    std::uint64_t most_substeps = std::uint64_t{1} << 40;  ///< what is over is dropped and counted
+    std::uint64_t max_substeps = std::uint64_t{1} << 40;  ///< what is over is dropped and counted
 };
 
 class World {
   public:
     World() = default;
-    /// Refuses a state that holds together badly: lists of different lengths, links to particles that there
+    /// Refuses an inconsistent state: lists of different lengths, links to particles that there
     /// are not, numbers out of range, a handle twice. O(n).
     static Expected<World> from_state(State state);
 
@@ -62,21 +62,21 @@ class World {
     Expected<BodyId> add_hair(const HairShape& shape);
     Result remove(BodyId body) noexcept;
 
-    /// Null where there is none. The pointer holds until the next body comes or goes.
+    /// Null where there is none. The pointer is valid until the next body comes or goes.
     const Body* find(BodyId body) const noexcept;
-    /// The number of a body's particle, which holds until a body before it goes.
+    /// The number of a body's particle in the world, valid until a body before it goes.
     Expected<std::size_t> particle(BodyId body, std::size_t index) const noexcept;
 
-    /// Holds a particle and takes it to `at` evenly in the next `seconds` of simulated time; 0: within the
+    /// Pins a particle and moves it to `at` evenly in the next `seconds` of simulated time; 0: within the
     /// next substep.
     Result pin(std::size_t particle, const glm::dvec3& at, double seconds = 0.0);
-    /// Holds a particle where it is, moving with a collider.
+    /// Pins a particle where it is to a collider, with which it moves.
     Result attach(std::size_t particle, ColliderId collider);
     Result unpin(std::size_t particle) noexcept;
     bool pinned(std::size_t particle) const noexcept;
 
-    /// Parts a rope: segment `segment` goes, what is behind it becomes a rope of its own, which is given
-    /// back.
+    /// Cuts a rope in two: segment `segment` goes, and what is behind it becomes a rope of its own, which is
+    /// returned.
     Expected<BodyId> cut(BodyId rope, std::size_t segment);
 
     // What a body is made of can change while it hangs; it goes on from where it is.
@@ -84,7 +84,7 @@ class World {
     /// The sum of its particles' masses, each of which changes in proportion. Kilograms, over 0 to 1e18.
     Result set_mass(BodyId body, double kilograms) noexcept;
     double mass(const Body& body) const noexcept;
-    /// Relative length at which its links tear; 0: never.
+    /// Strain at which its links tear; 0: never.
     Result set_tear(BodyId body, float tear) noexcept;
     /// Of its links of that kind, m/N. Stretch links have it in addition to the settings'.
     Result set_compliance(BodyId body, Link::Kind kind, float compliance) noexcept;
@@ -93,11 +93,11 @@ class World {
     Result set_length(BodyId body, float metres) noexcept;
 
     Expected<ColliderId> add_collider(const Shape& shape);
-    /// Takes a collider to `to` evenly in the next `seconds` of simulated time, 0: within the next substep;
-    /// it carries what it meets.
+    /// Moves a collider to `to` evenly in the next `seconds` of simulated time, 0: within the next substep;
+    /// it pushes what it meets.
     Result move_collider(ColliderId collider, const glm::vec3& to, double seconds = 0.0) noexcept;
     Result set_collider(ColliderId collider, const Shape& shape) noexcept;  ///< there at once
-    /// What is attached to it is let go.
+    /// What is attached to it is unpinned.
     Result remove_collider(ColliderId collider) noexcept;
     const Collider* find(ColliderId collider) const noexcept;
 
@@ -107,8 +107,8 @@ class World {
     std::size_t size() const noexcept { return state_.position.size(); }
     const glm::dvec3& position(std::size_t particle) const noexcept { return state_.position[particle]; }
     glm::dvec3 velocity(std::size_t particle) const noexcept;  ///< m/s
-    /// The largest relative length error of a body's stretch links as they are now. It has in it what pushing
-    /// out of colliders added, which Body::stretch has not.
+    /// The largest relative length error of a body's stretch links as they are now. It includes what
+    /// depenetration added, which Body::stretch does not.
     double length_error(const Body& body) const noexcept;
     double length_error() const noexcept;  ///< of all bodies
     /// Kinetic energy, by central differences, and potential, joules, as of one substep ago; potential is 0
