@@ -141,8 +141,8 @@ void add_adding_commands(CommandTable& table) {
                             integer_argument("segments", "32 when left out", 1, most_particles - 1),
                             number_argument("length", "metres; the distance when left out", 0.0, 1e9),
                             number_argument("radius", "metres; 0.02 when left out", 0.0, 1e9),
-                            switch_argument("pin_start", "holds its first particle"),
-                            switch_argument("pin_end", "holds its last particle")},
+                            switch_argument("pin_start", "pins its first particle"),
+                            switch_argument("pin_end", "pins its last particle")},
                            "Adds a rope: straight, or hanging where it is longer than the distance", add));
     table.add(
         rope_command("rope.cloth.add",
@@ -156,7 +156,7 @@ void add_adding_commands(CommandTable& table) {
                       number_argument("density", "kg/m^2; 0.2 when left out", 0.0, 1e9),
                       number_argument("shear", "compliance, m/N", 0.0, 1e9),
                       number_argument("bend", "compliance, m/N", 0.0, 1e9),
-                      number_argument("tear", "relative length at which links tear; 0: never", 0.0, 1e9),
+                      number_argument("tear", "strain at which links tear; 0: never", 0.0, 1e9),
                       choice_argument("pins", false, "of its first row",
                                       names(pins_names, [](const char* name) { return name; }))},
                      "Adds a cloth", add_cloth));
@@ -173,7 +173,7 @@ void add_adding_commands(CommandTable& table) {
          number_argument("radius", "metres; 0.004 when left out", 0.0, 1e9),
          number_argument("density", "kg/m; 0.05 when left out", 0.0, 1e9),
          number_argument("bend", "compliance, m/N", 0.0, 1e9)},
-        "Adds strands of hair, held at their roots", add_hair));
+        "Adds strands of hair, pinned at their roots", add_hair));
 }
 
 }  // namespace
@@ -186,9 +186,9 @@ void add_body_commands(CommandTable& table) {
     table.add(rope_command("rope.pin",
                            {rope_argument(true, "which"), particle_argument(true, "which"),
                             point_argument("at", false, "metres; where it is when left out")},
-                           "Holds a particle at a point", pin));
+                           "Pins a particle to a point", pin));
     table.add(rope_command("rope.unpin", {rope_argument(true, "which"), particle_argument(true, "which")},
-                           "Lets a particle go", unpin));
+                           "Unpins a particle", unpin));
     table.add(rope_command("rope.cut",
                            {rope_argument(true, "which"),
                             {.name = "segment",
@@ -196,7 +196,7 @@ void add_body_commands(CommandTable& table) {
                              .help = "that goes",
                              .low = 0,
                              .high = most_particles - 1}},
-                           "Parts a rope in two", cut));
+                           "Cuts a rope in two", cut));
 }
 
 }  // namespace tendril::app

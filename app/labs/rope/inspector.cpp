@@ -32,7 +32,7 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     const bool held = held_particle(part) == particle, pinned = world.pinned(particle) && !held;
     const ArgumentList which{{"rope", world.name(body)}, {"particle", index}};
     reading("of", "%s", world.name(body).c_str());
-    reading("particle", "%zu of %zu%s", index + 1, body.count, pinned ? ", pinned" : held ? ", held" : "");
+    reading("particle", "%zu of %zu%s", index, body.count, pinned ? ", pinned" : held ? ", held" : "");
     glm::vec3 at = world.position(particle);
     if (pinned) {
         if (point_field("at", at, 0.01f)) {
@@ -50,9 +50,9 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
             world.length(body));
     if (row_button(pinned ? "Unpin" : "Pin", 3)) emit(pinned ? "rope.unpin" : "rope.pin", which);
     const bool rope = body.kind == rope::Body::Kind::Rope;
-    if (row_button("Cut", 3, rope && body.count > 1, "Parts the rope behind this particle"))
+    if (row_button("Cut", 3, rope && body.count > 1, "Cuts the rope behind this particle"))
         emit("rope.cut", {{"rope", world.name(body)}, {"segment", std::min(index, body.count - 2)}});
-    if (row_button("Remove", 3, true, "Takes all of it away"))
+    if (row_button("Remove", 3, true, "Removes the whole body"))
         emit("rope.remove", {{"name", world.name(body)}});
     end_row();
 }
@@ -79,11 +79,11 @@ void shape_rows(const rope::Collider& collider, const std::string& name, Emit& e
     }
     if (const auto* box = std::get_if<rope::Box>(&collider.shape)) {
         glm::vec3 half = box->half_extents;
-        if (point_field("half size", half, 0.005f, 1e3f)) set("half_extents", glm::abs(half));
+        if (point_field("half extents", half, 0.005f, 1e3f)) set("half_extents", glm::abs(half));
         // Turned on about its own axes: the angles that it is told by meet at a pole, a box does not.
         const glm::vec3 was = glm::degrees(glm::eulerAngles(box->rotation)) + 0.0f;  // no -0
         glm::vec3 turned = was;
-        if (point_field("turned", turned, 0.5f, 360.0f, "%.1f\xC2\xB0")) {
+        if (point_field("rotation", turned, 0.5f, 360.0f, "%.1f\xC2\xB0")) {
             const glm::quat q = box->rotation * glm::quat(glm::radians(turned - was));
             set("rotation", q);
         }
@@ -107,8 +107,7 @@ void collider_rows(const RopePart& part, const rope::Collider& collider, Emit& e
     };
     if (point_field("swings by", by, 0.01f)) swing();
     if (swings && number_field("period", period, 0.02f, shortest_swing, longest_swing, "%.2f s")) swing();
-    if (row_button("Remove", 3, true, "Takes the collider away"))
-        emit("rope.collider.remove", {{"name", name}});
+    if (row_button("Remove", 3, true, "Removes the collider")) emit("rope.collider.remove", {{"name", name}});
     end_row();
 }
 
@@ -143,32 +142,31 @@ void number_rows(const Workspace& workspace, const Palette& palette) {
     section("Numbers");
     reading("particles", "%zu", state.position.size());
     const RopeSample last = part.samples.empty() ? RopeSample{} : part.samples.back();
-    reading("stretch", "%.4f %%", 100.0 * static_cast<double>(last.stretch));
-    explain(
-        "How far the segment that is worst is from its length, as the solver left it, before "
-        "contact.");
     reading("length error", "%.4f %%", 100.0 * static_cast<double>(last.error));
-    explain("The same as one sees it: after contact, with what depenetration adds.");
+    explain("How far the worst segment is from its length, as one sees it: after contact.");
+    reading("before contact", "%.4f %%", 100.0 * static_cast<double>(last.stretch));
+    explain("The length error as the solver left it, before colliders displaced anything.");
     reading("energy", "%.3f J", static_cast<double>(last.energy));
     reading("substeps dropped", "%llu", static_cast<unsigned long long>(state.dropped));
     explain(
-        "Time that was dropped, rather than fall behind: frames over the longest frame, and more work than "
-        "fits in a tick.");
+        "Substeps left out so as not to fall behind: of frames over the longest frame, and of more work than "
+        "a tick allows.");
     if (workspace.clock.measured && part.cost > 0.0f)
         reading("time a frame", "%.0f \xc2\xb5s", static_cast<double>(part.cost));
     if (part.quiet_ticks > 0) note("At rest.");
     if (part.samples.size() < 2) return;
     section("Last ten seconds");
-    colour_mark(palette.limit);
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextDisabled("stretch");
-    ImGui::SameLine(0.0f, ImGui::GetFontSize());
     colour_mark(palette.ghost);
     ImGui::AlignTextToFramePadding();
     ImGui::TextDisabled("length error");
-    const Curve errors[] = {curve("length error", palette.ghost, part.samples, &RopeSample::error, 100.0f),
-                            curve("stretch", palette.limit, part.samples, &RopeSample::stretch, 100.0f)};
-    plot("stretch", errors, {.x = "s", .y = "%", .min_y = 1e-6f}, 9.0f);
+    ImGui::SameLine(0.0f, ImGui::GetFontSize());
+    colour_mark(palette.limit);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("before contact");
+    const Curve errors[] = {
+        curve("length error", palette.ghost, part.samples, &RopeSample::error, 100.0f),
+        curve("before contact", palette.limit, part.samples, &RopeSample::stretch, 100.0f)};
+    plot("length error", errors, {.x = "s", .y = "%", .min_y = 1e-6f}, 9.0f);
     const Curve energy[] = {curve("energy", palette.accent, part.samples, &RopeSample::energy, 1.0f)};
     plot("energy", energy, {.x = "s", .y = "energy, J", .min_y = 0.0f}, 9.0f);
 }

@@ -62,11 +62,12 @@ void add_look_commands(CommandTable& table) {
         "What a click does to what it hits",
         [](RopeEdit& edit, const Arguments& given) { edit.part.tool = tool_from_name(given.text("name")); },
         Effect::Look));
-    table.add(rope_command("rope.view",
-                           {switch_argument("particles", "shown as balls"),
-                            switch_argument("strain", "colours by how far each link is over its length"),
-                            integer_argument("sides", "of the tube", fewest_sides, most_sides)},
-                           "How ropes are shown; what is left out stays", set_view, Effect::Look));
+    table.add(
+        rope_command("rope.view",
+                     {switch_argument("particles", "shown as balls"),
+                      switch_argument("strain", "colours by strain: how far each link is over its length"),
+                      integer_argument("sides", "of the tube", fewest_sides, most_sides)},
+                     "How ropes are shown; what is left out stays", set_view, Effect::Look));
 }
 
 }  // namespace tendril::app

@@ -19,7 +19,7 @@ void scene_rows(Emit& emit) {
     for (const RopeSceneEntry& scene : rope_scenes())
         if (row_button(scene.title, 3)) emit("rope.preset", {{"name", scene.name}});
     end_row();
-    if (row_button("Empty", 2, true, "Takes every rope and collider away")) emit("rope.clear");
+    if (row_button("Empty", 2, true, "Removes every rope and collider")) emit("rope.clear");
     if (row_button("Reset", 2, true, "Everything as at the first start; undo brings it back"))
         emit("rope.reset");
     end_row();
@@ -32,18 +32,18 @@ void tool_rows(const RopePart& part, Emit& emit) {
         if (option_button(titles[static_cast<std::size_t>(tool)], part.tool == tool))
             emit("rope.tool", {{"name", tool_name(tool)}});
     }
-    note(part.tool == RopeTool::Cut ? "Click a segment of a rope: it parts there."
+    note(part.tool == RopeTool::Cut ? "Click a segment of a rope to cut it there."
                                     : "Drag any particle of a rope, and any collider.");
 }
 
 const char* solver_help(rope::Solver solver) {
     switch (solver) {
         case rope::Solver::Relaxation:
-            return "One segment after the other, again and again. How far it stretches is a matter of "
-                   "iterations and "
-                   "substep, not of the material.";
+            return "One segment after the other. How far a rope stretches depends on iterations and substep, "
+                   "not on its material.";
         case rope::Solver::Xpbd:
-            return "As relaxation, but compliance is a material's, given enough iterations.";
+            return "As relaxation, but with compliance: enough iterations stretch it as a material "
+                   "stretches.";
         case rope::Solver::Direct:
             return "All segments of a rope at once: it does not stretch, and keeps its energy.";
     }
@@ -103,7 +103,7 @@ void time_rows(const Workspace& workspace, Emit& emit) {
     if (number_field("frame-time jitter", dial, 0.5f, 0.0f, 100.0f, "%.0f %%"))
         emit.continuously("rope.jitter", {{"dial", dial / 100.0f}});
     note(part.jitter.dial > 0.0f
-             ? "Frames of 1 to 250 ms: the picture stutters, the ropes do not mind."
+             ? "Frames of 1 to 250 ms: the picture stutters, the simulation stays the same."
              : "Frame-time jitter cuts time into uneven frames, as a program that stutters does.");
 }
 

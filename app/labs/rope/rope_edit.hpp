@@ -21,7 +21,7 @@ class RopeEdit {
     /// the world as it is.
     const NamedWorld& seen() const { return *part.world; }
     NamedWorld& world();
-    /// Each gets there in the length of one tick, so that it carries evenly what it meets; while the
+    /// Each gets there in the length of one tick, so that it pushes evenly what it meets; while the
     /// simulation is paused, at once, by a quasi-static drag.
     void move_pin(std::size_t particle, const glm::vec3& at);
     void move_collider(const std::string& name, const glm::vec3& to);

@@ -60,7 +60,7 @@ std::vector<Argument> settings_arguments() {
     return {
         number_argument("substep", "seconds", rope::min_substep, rope::max_substep),
         integer_argument("iterations", "passes in a substep", 1, rope::max_iterations),
-        choice_argument("solver", false, "how distances are kept", names(all_solvers, rope::name)),
+        choice_argument("solver", false, "how lengths are kept", names(all_solvers, rope::name)),
         number_argument("damping", "how fast motion dies away, 1/s", 0.0, rope::max_rate),
         {.name = "gravity",
          .type = ArgumentType::NumberOrPoint,
@@ -68,10 +68,9 @@ std::vector<Argument> settings_arguments() {
          .help = "m/s^2: downwards, or [x, y, z]",
          .low = -rope::max_acceleration,
          .high = rope::max_acceleration},
-        number_argument("gravity_scale", "gravity is taken so many times", -rope::max_scale, rope::max_scale),
+        number_argument("gravity_scale", "factor on gravity", -rope::max_scale, rope::max_scale),
         point_argument("external", false, "m/s^2 beside gravity: a wind"),
-        number_argument("compliance", "strain per newton; relaxation does not know it", 0.0,
-                        rope::max_compliance),
+        number_argument("compliance", "strain per newton; relaxation ignores it", 0.0, rope::max_compliance),
         number_argument("friction", "between ropes and colliders", 0.0, rope::max_friction),
         number_argument("longest_frame", "seconds that a frame simulates at most; the rest is dropped", 0.001,
                         10.0)};
@@ -80,7 +79,7 @@ std::vector<Argument> settings_arguments() {
 }  // namespace
 
 void add_world_commands(CommandTable& table) {
-    table.add(rope_command("rope.clear", {}, "Takes every rope and collider away", clear));
+    table.add(rope_command("rope.clear", {}, "Removes every rope and collider", clear));
     table.add(rope_command("rope.reset", {}, "Everything in this lab as at the first start", reset));
     table.add(
         {.name = "rope.preset",
