@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <map>
 #include <string>
+#include <tendril/chain/segment.hpp>
 #include <tendril/version.hpp>
 
 #include "app/batch/code.hpp"

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 #include <random>
+#include <tendril/ik/solver.hpp>
 
 namespace tendril::app {
 namespace {

@@ -12,7 +12,8 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <tendril/ik/solver.hpp>
+#include <tendril/ik/method.hpp>
+#include <tendril/ik/report.hpp>
 #include <vector>
 
 namespace tendril::app {

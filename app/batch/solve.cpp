@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <tendril/ik/solver.hpp>
 
 #include "app/batch/cases.hpp"
 #include "app/batch/output.hpp"

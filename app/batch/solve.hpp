@@ -4,7 +4,7 @@
 #include <atomic>
 #include <optional>
 #include <string>
-#include <tendril/ik/solver.hpp>
+#include <tendril/ik/method.hpp>
 #include <vector>
 
 namespace tendril::app {

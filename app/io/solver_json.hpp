@@ -7,7 +7,10 @@
 #pragma once
 
 #include <string>
-#include <tendril/ik/solver.hpp>
+#include <tendril/ik/active_limit.hpp>
+#include <tendril/ik/limit.hpp>
+#include <tendril/ik/method.hpp>
+#include <tendril/ik/report.hpp>
 
 #include "app/document/json.hpp"
 

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <string>
-#include <tendril/ik/solver.hpp>
+#include <tendril/ik/method.hpp>
+#include <tendril/ik/report.hpp>
 
 namespace tendril::app {
 

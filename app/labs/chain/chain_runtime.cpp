@@ -1,11 +1,21 @@
 #include "app/labs/chain/chain_runtime.hpp"
 
 #include <algorithm>
+#include <tendril/ik/solver.hpp>
 #include <utility>
 
 #include "app/labs/kit/require.hpp"
 
 namespace tendril::app {
+
+struct ChainRuntime::Kept {
+    std::vector<float> lengths;
+    glm::vec3 rest_direction{};
+    ik::Solver solver;
+};
+
+ChainRuntime::ChainRuntime() = default;
+ChainRuntime::~ChainRuntime() = default;
 
 ik::Solver& ChainRuntime::solver(std::span<const float> lengths, glm::vec3 rest_direction) {
     const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) {

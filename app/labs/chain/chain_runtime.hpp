@@ -7,15 +7,21 @@
 #include <list>
 #include <span>
 #include <tendril/chain/chain.hpp>
-#include <tendril/ik/solver.hpp>
 #include <vector>
 
 #include "app/document/workspace.hpp"
+
+namespace tendril::ik {
+class Solver;
+}
 
 namespace tendril::app {
 
 class ChainRuntime final : public Runtime {
   public:
+    ChainRuntime();
+    ~ChainRuntime() override;
+
     /// A solver for these bones: one that was made for the same before, or a new one. The reference holds
     /// until the next call. Throws std::invalid_argument for lengths that no chain has.
     ik::Solver& solver(std::span<const float> lengths, glm::vec3 rest_direction);
@@ -27,11 +33,7 @@ class ChainRuntime final : public Runtime {
   private:
     static constexpr std::size_t most =
         4;  ///< a chain, and the two parts that a drag makes of it, and one more
-    struct Kept {
-        std::vector<float> lengths;
-        glm::vec3 rest_direction{};
-        ik::Solver solver;
-    };
+    struct Kept;
     std::list<Kept> kept_;  ///< the one that was asked for last is first
     std::size_t made_ = 0;
 };

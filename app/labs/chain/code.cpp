@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <tendril/ik/solver.hpp>
 #include <utility>
 
 #include "app/labs/chain/chain_lab.hpp"

@@ -6,7 +6,8 @@
 #include <glm/vec3.hpp>
 #include <string>
 #include <tendril/chain/chain.hpp>
-#include <tendril/ik/solver.hpp>
+#include <tendril/ik/limit.hpp>
+#include <tendril/ik/method.hpp>
 #include <vector>
 
 namespace tendril::app {

@@ -1,7 +1,7 @@
 // The colours that only this lab needs; view/palette.hpp has the rest.
 #pragma once
 
-#include <tendril/ik/solver.hpp>
+#include <tendril/ik/method.hpp>
 
 #include "app/view/palette.hpp"
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <tendril/ik/solver.hpp>
 
 #include "app/document/units.hpp"
 #include "app/labs/chain/chain_runtime.hpp"

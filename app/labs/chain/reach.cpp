@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <stdexcept>
+#include <tendril/ik/solver.hpp>
 
 namespace tendril::app {
 

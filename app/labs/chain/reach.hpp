@@ -8,11 +8,20 @@
 #include <span>
 #include <string>
 #include <tendril/chain/chain.hpp>
-#include <tendril/ik/solver.hpp>
+#include <tendril/ik/active_limit.hpp>
+#include <tendril/ik/limit.hpp>
+#include <tendril/ik/method.hpp>
+#include <tendril/ik/pole_turn.hpp>
+#include <tendril/ik/report.hpp>
+#include <tendril/ik/state.hpp>
 #include <vector>
 
 #include "app/document/json.hpp"
 #include "app/io/solver_text.hpp"
+
+namespace tendril::ik {
+struct Options;
+}
 
 namespace tendril::app {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <tendril/ik/solver.hpp>
 
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/kit/require.hpp"

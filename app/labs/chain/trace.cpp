@@ -1,6 +1,7 @@
 #include "app/labs/chain/trace.hpp"
 
 #include <algorithm>
+#include <tendril/ik/solver.hpp>
 
 #include "app/labs/chain/chain_runtime.hpp"
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <tendril/chain/chain.hpp>
+#include <tendril/ik/observer.hpp>
 #include <vector>
 
 #include "app/labs/chain/reach.hpp"

@@ -35,7 +35,7 @@
 #include <string_view>
 
 #include "tendril/ik/limit.hpp"
-#include "tendril/ik/options.hpp"
+#include "tendril/ik/report.hpp"
 #include "tendril/quat.hpp"
 #include "tendril/result.hpp"
 #include "tendril/tasks.hpp"

@@ -1,40 +1,20 @@
-// What goes into a solve and what comes out.
+// What goes into a solve. What comes out is in report.hpp.
 //
 // Every number is checked before anything moves. A number that is not finite, is over max_magnitude or out of
 // its range, or a list of the wrong size, gives Status::InvalidInput and leaves the joints bit for bit as
 // they were; nothing here throws.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <span>
 
 #include "tendril/ik/limit.hpp"
+#include "tendril/ik/pole_turn.hpp"
+#include "tendril/ik/report.hpp"
 #include "tendril/quat.hpp"
 #include "tendril/vec3.hpp"
 
 namespace tendril::ik {
-
-/// How a solve ended.
-enum class Status : std::uint8_t {
-    Converged,       ///< the tip is within tolerance of the target
-    Stretched,       ///< the target is out of reach and the chain lies straight towards it; or the soft zone
-                     ///< keeps it short of the target by more than the tolerance
-    TooClose,        ///< the target is nearer than the longest bone lets the tip fold
-    Limited,         ///< the joint limits keep the tip away: a descent within them ends short of the target,
-                     ///< at limits without which it would go on. By another way there may be one that arrives
-    Stalled,         ///< further iterations of this method would change nothing, and no limit is to blame
-    IterationLimit,  ///< still on its way when the iterations were used up
-    InvalidInput     ///< a number that is not finite or out of range: nothing was moved
-};
-/// "Converged"
-const char* name(Status status) noexcept;
-
-/// How a chain is turned to face its pole.
-enum class PoleTurn : std::uint8_t {
-    WholeChain,  ///< all joints at once about the line from root to tip: smooth
-    EachJoint    ///< every middle joint about the line between its neighbours; within limits as WholeChain
-};
 
 /// Which method honours which option: the table in method.hpp.
 struct Options {
@@ -101,20 +81,6 @@ struct Options {
     /// Where given, element i receives the residual after iteration i + 1, as far as it is long. Metres.
     /// The report's own is that of the nearest pose, so it may be less than the last of these.
     std::span<float> residuals{};
-};
-
-/// How a solve ended, and what really ran.
-struct Report {
-    Status status = Status::Converged;
-    int iterations = 0;
-    float residual = 0.0f;  ///< metres from the tip to the target
-    /// The answer, or what the iterations started from, was worked out in closed form: two bones, or a target
-    /// out of reach or too close.
-    bool closed_form = false;
-    int perturbations = 0;  ///< times the chain was bent a little, to leave a pose from which no way led on
-    int least_squares_steps = 0;  ///< iterations within limits that took such a step beside the method's own
-    int restarts = 0;             ///< other poses that the solve started from again
-    bool operator==(const Report&) const = default;
 };
 
 }  // namespace tendril::ik

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "tendril/ik/options.hpp"
+#include "tendril/ik/pole_turn.hpp"
 #include "tendril/quat.hpp"
 #include "tendril/result.hpp"
 #include "tendril/vec3.hpp"

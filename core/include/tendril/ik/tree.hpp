@@ -36,7 +36,7 @@
 #include <span>
 
 #include "tendril/ik/observer.hpp"
-#include "tendril/ik/options.hpp"
+#include "tendril/ik/report.hpp"
 #include "tendril/quat.hpp"
 #include "tendril/result.hpp"
 #include "tendril/vec3.hpp"

@@ -14,7 +14,7 @@
 
 #include <optional>
 
-#include "tendril/ik/options.hpp"
+#include "tendril/ik/report.hpp"
 #include "tendril/vec3.hpp"
 
 namespace tendril::ik {

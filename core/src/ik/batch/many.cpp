@@ -10,6 +10,7 @@
 #include "ik/solve/validate.hpp"
 #include "math/checks.hpp"
 #include "math/tasks.hpp"
+#include "tendril/ik/options.hpp"
 
 namespace tendril::ik {
 

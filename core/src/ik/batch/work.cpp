@@ -6,6 +6,7 @@
 #include "ik/math.hpp"
 #include "ik/solve/loop.hpp"
 #include "ik/solve/perturbation.hpp"
+#include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 namespace {

@@ -11,7 +11,6 @@
 #include "ik/batch/vector.hpp"
 #include "ik/solve/problem.hpp"
 #include "tendril/ik/many.hpp"
-#include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 

@@ -9,6 +9,7 @@
 #include "ik/limits/pose.hpp"
 #include "ik/solve/parts.hpp"
 #include "ik/solve/validate.hpp"
+#include "tendril/ik/options.hpp"
 
 namespace tendril::ik {
 

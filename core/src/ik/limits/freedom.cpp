@@ -1,6 +1,7 @@
 #include "ik/limits/freedom.hpp"
 
 #include "ik/limits/pose.hpp"
+#include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 namespace {

@@ -13,6 +13,7 @@
 #include "ik/solve/convergence.hpp"
 #include "ik/solve/prepare.hpp"
 #include "ik/solve/reachability.hpp"
+#include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 namespace {

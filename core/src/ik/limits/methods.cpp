@@ -5,6 +5,7 @@
 #include "ik/limits/fabrik.hpp"
 #include "ik/limits/pose.hpp"
 #include "ik/limits/step.hpp"
+#include "tendril/ik/options.hpp"
 #include "tendril/ik/two_bone.hpp"
 
 namespace tendril::ik::detail {

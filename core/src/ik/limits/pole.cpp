@@ -2,6 +2,7 @@
 
 #include "ik/limits/pose.hpp"
 #include "ik/pole/pole.hpp"
+#include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 namespace {

@@ -1,5 +1,7 @@
 #include "ik/limits/pose.hpp"
 
+#include "tendril/ik/options.hpp"
+
 namespace tendril::ik::detail {
 
 glm::vec3 rotation_vector(const glm::quat& rotation) noexcept {

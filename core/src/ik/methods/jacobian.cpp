@@ -6,6 +6,7 @@
 #include "ik/math.hpp"
 #include "ik/methods/rotations.hpp"
 #include "math/symmetric3.hpp"
+#include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 namespace {

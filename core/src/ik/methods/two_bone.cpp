@@ -8,6 +8,7 @@
 #include "ik/math.hpp"
 #include "ik/pole/pole.hpp"
 #include "math/checks.hpp"
+#include "tendril/ik/options.hpp"
 #include "tendril/ik/two_bone.hpp"
 
 namespace tendril::ik {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "ik/math.hpp"
+#include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 namespace {

@@ -6,6 +6,7 @@
 #include "ik/math.hpp"
 #include "ik/solve/prepare.hpp"
 #include "ik/solve/rotations.hpp"
+#include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 namespace {

@@ -17,6 +17,7 @@
 #include "ik/solve/reachability.hpp"
 #include "ik/solve/rotations.hpp"
 #include "ik/solve/tip.hpp"
+#include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 namespace {

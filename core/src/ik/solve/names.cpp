@@ -1,7 +1,11 @@
 // What things are called in commands, files and messages.
 #include <cstddef>
 
-#include "tendril/ik/solver.hpp"
+#include "tendril/ik/active_limit.hpp"
+#include "tendril/ik/limit.hpp"
+#include "tendril/ik/method.hpp"
+#include "tendril/ik/observer.hpp"
+#include "tendril/ik/report.hpp"
 
 namespace tendril::ik {
 

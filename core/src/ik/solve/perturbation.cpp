@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "ik/math.hpp"
+#include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 namespace {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "ik/math.hpp"
+#include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 namespace {

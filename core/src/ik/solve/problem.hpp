@@ -14,8 +14,12 @@
 #include "ik/limits/workspace.hpp"
 #include "ik/pole/workspace.hpp"
 #include "tendril/ik/observer.hpp"
-#include "tendril/ik/options.hpp"
+#include "tendril/ik/report.hpp"
 #include "tendril/ik/state.hpp"
+
+namespace tendril::ik {
+struct Options;
+}
 
 namespace tendril::ik::detail {
 

@@ -11,6 +11,7 @@
 #include "ik/solve/parts.hpp"
 #include "ik/solve/validate.hpp"
 #include "math/checks.hpp"
+#include "tendril/ik/options.hpp"
 
 namespace tendril::ik {
 

@@ -7,6 +7,7 @@
 #include "ik/solve/prepare.hpp"
 #include "ik/solve/reachability.hpp"
 #include "ik/solve/rotations.hpp"
+#include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 namespace {

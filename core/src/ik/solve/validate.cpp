@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/checks.hpp"
+#include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 namespace {

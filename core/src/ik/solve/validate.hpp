@@ -4,7 +4,13 @@
 #include <glm/vec3.hpp>
 #include <span>
 
-#include "tendril/ik/solver.hpp"
+#include "tendril/ik/limit.hpp"
+#include "tendril/ik/method.hpp"
+#include "tendril/ik/state.hpp"
+
+namespace tendril::ik {
+struct Options;
+}
 
 namespace tendril::ik::detail {
 

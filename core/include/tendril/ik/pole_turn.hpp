@@ -1,0 +1,14 @@
+// How a solve turns a chain to its pole: an option, and part of what a state remembers.
+#pragma once
+
+#include <cstdint>
+
+namespace tendril::ik {
+
+/// How a chain is turned to face its pole.
+enum class PoleTurn : std::uint8_t {
+    WholeChain,  ///< all joints at once about the line from root to tip: smooth
+    EachJoint    ///< every middle joint about the line between its neighbours; within limits as WholeChain
+};
+
+}  // namespace tendril::ik
