@@ -29,7 +29,7 @@ void hold(RopeEdit& edit, const Arguments& given) {
             throw Refused("particle " + std::to_string(held.index) + " of \"" + held.body +
                           "\" is pinned; rope.pin moves it");
         }
-        let_go(edit);
+        let_go(edit.part);
     }
     edit.move_pin(held.particle, given.point("at"));
     edit.part.hold = wanted;
@@ -56,7 +56,7 @@ void add_look_commands(CommandTable& table) {
                            "Holds a free particle, as a drag does, until rope.let_go", hold));
     table.add(rope_command(
         "rope.let_go", {}, "Lets go of what rope.hold holds",
-        [](RopeEdit& edit, const Arguments&) { let_go(edit); }, Effect::Look));
+        [](RopeEdit& edit, const Arguments&) { let_go(edit.part); }, Effect::Look));
     table.add(rope_command(
         "rope.tool", {choice_argument("name", true, "which", names(all_tools, tool_name))},
         "What a click does to what it hits",

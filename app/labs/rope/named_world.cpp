@@ -137,17 +137,13 @@ void NamedWorld::remove_collider(std::string_view name) {
     require_ok(world_.remove_collider(collider_id(name)));
 }
 
-// A drag is rare beside ticks: it makes its workspace anew.
-void NamedWorld::drag_pin(std::size_t particle, const glm::vec3& to) {
-    rope::Workspace workspace;
+void NamedWorld::drag_pin(rope::Workspace& workspace, std::size_t particle, const glm::vec3& to) {
     require_ok(rope::drag_pin(world_, workspace, particle, glm::dvec3(to)));
 }
-void NamedWorld::drag_collider(std::string_view name, const glm::vec3& to) {
-    rope::Workspace workspace;
+void NamedWorld::drag_collider(rope::Workspace& workspace, std::string_view name, const glm::vec3& to) {
     require_ok(rope::drag_collider(world_, workspace, collider_id(name), to));
 }
-void NamedWorld::drag_collider(std::string_view name, const rope::Shape& shape) {
-    rope::Workspace workspace;
+void NamedWorld::drag_collider(rope::Workspace& workspace, std::string_view name, const rope::Shape& shape) {
     require_ok(rope::drag_collider(world_, workspace, collider_id(name), shape));
 }
 

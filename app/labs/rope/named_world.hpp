@@ -54,9 +54,9 @@ class NamedWorld {
     void remove_collider(std::string_view name);
 
     // Quasi-static drags, for while the simulation is paused.
-    void drag_pin(std::size_t particle, const glm::vec3& to);
-    void drag_collider(std::string_view name, const glm::vec3& to);
-    void drag_collider(std::string_view name, const rope::Shape& shape);
+    void drag_pin(rope::Workspace& workspace, std::size_t particle, const glm::vec3& to);
+    void drag_collider(rope::Workspace& workspace, std::string_view name, const glm::vec3& to);
+    void drag_collider(rope::Workspace& workspace, std::string_view name, const rope::Shape& shape);
 
     rope::Advance advance(double seconds, rope::Workspace& workspace, std::uint64_t max_substeps);
 

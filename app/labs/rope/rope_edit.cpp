@@ -8,11 +8,13 @@
 
 namespace tendril::app {
 
-RopeEdit::RopeEdit(RopePart& changed, const Clock& clock)
-    : part(changed), seconds_(clock.playing ? tick_seconds * static_cast<double>(clock.speed) : 0.0) {}
+RopeEdit::RopeEdit(RopePart& changed, const Clock& clock, rope::Workspace& workspace)
+    : part(changed),
+      workspace_(workspace),
+      seconds_(clock.playing ? tick_seconds * static_cast<double>(clock.speed) : 0.0) {}
 
 NamedWorld& RopeEdit::world() {
-    if (!copy_) {
+    if (!copy_ || copy_ != part.world) {
         copy_ = std::make_shared<NamedWorld>(*part.world);
         part.world = copy_;
     }
@@ -21,19 +23,19 @@ NamedWorld& RopeEdit::world() {
 
 void RopeEdit::move_pin(std::size_t particle, const glm::vec3& at) {
     if (seconds_ > 0.0) return world().pin(particle, at, seconds_);
-    world().drag_pin(particle, at);
+    world().drag_pin(workspace_, particle, at);
     dragged();
 }
 
 void RopeEdit::move_collider(const std::string& name, const glm::vec3& to) {
     if (seconds_ > 0.0) return world().move_collider(name, to, seconds_);
-    world().drag_collider(name, to);
+    world().drag_collider(workspace_, name, to);
     dragged();
 }
 
 void RopeEdit::set_collider(const std::string& name, const rope::Shape& shape) {
     if (seconds_ > 0.0) return world().set_collider(name, shape);
-    world().drag_collider(name, shape);
+    world().drag_collider(workspace_, name, shape);
     dragged();
 }
 
@@ -50,7 +52,8 @@ Command rope_command(const char* name, std::vector<Argument> arguments, const ch
             .effect = effect,
             .apply = [change](Workspace& workspace, const Arguments& given) {
                 change_part<RopePart>(workspace, rope_lab, [&](RopePart& part, const RopePart& old) {
-                    RopeEdit edit(part, workspace.clock);
+                    auto& runtime = workspace.runtimes.of<RopeRuntime>(rope_lab);
+                    RopeEdit edit(part, workspace.clock, runtime.workspace);
                     change(edit, given);
                     if (part.world != old.world) check_work(*part.world);
                     if (part.world != old.world || part.swings != old.swings) part.quiet_ticks = 0;
@@ -116,10 +119,13 @@ std::optional<std::size_t> held_particle(const RopePart& part) {
     return part.world->pinned(particle) ? std::optional(particle) : std::nullopt;
 }
 
-void let_go(RopeEdit& edit) {
-    if (!edit.part.hold) return;
-    if (const auto held = held_particle(edit.part)) edit.world().unpin(*held);
-    edit.part.hold.reset();
+void let_go(RopePart& part) {
+    if (const auto held = held_particle(part)) {
+        NamedWorld world = *part.world;
+        world.unpin(*held);
+        part.world = std::make_shared<const NamedWorld>(std::move(world));
+    }
+    part.hold.reset();
 }
 
 void forget_missing(RopePart& part) {

@@ -14,7 +14,8 @@ namespace tendril::app {
 /// A change of the lab's part.
 class RopeEdit {
   public:
-    RopeEdit(RopePart& changed, const Clock& clock);
+    /// `workspace` is what drags are simulated with: the lab runtime's.
+    RopeEdit(RopePart& changed, const Clock& clock, rope::Workspace& workspace);
 
     RopePart& part;
     /// The world to look at, and a copy of it to change, put in its place: what does not ask for that leaves
@@ -30,6 +31,7 @@ class RopeEdit {
   private:
     void dragged();
 
+    rope::Workspace& workspace_;
     std::shared_ptr<NamedWorld> copy_;
     double seconds_;  ///< of the world that the next tick takes; 0 while the simulation is paused
 };
@@ -60,7 +62,7 @@ NamedParticle named_particle(const NamedWorld& world, const Arguments& given);
 /// What a drag holds, if it still does.
 std::optional<std::size_t> held_particle(const RopePart& part);
 /// Lets go of what a drag holds.
-void let_go(RopeEdit& edit);
+void let_go(RopePart& part);
 /// Whatever is gone is neither chosen nor held nor swings.
 void forget_missing(RopePart& part);
 

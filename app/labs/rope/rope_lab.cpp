@@ -14,11 +14,6 @@ namespace {
 
 constexpr int resting_ticks = 60;  ///< of rest after which the lab stands still
 
-/// What worlds are advanced with, kept from tick to tick.
-struct RopeRuntime final : Runtime {
-    rope::Workspace workspace;
-};
-
 /// Measures in a live window alone: pictures and states off screen hold no timings.
 class Stopwatch {
   public:

@@ -27,8 +27,7 @@ RopePart first_ropes() {
 std::shared_ptr<const Part> RopePart::brought_back() const {
     if (!hold) return nullptr;
     auto part = std::make_shared<RopePart>(*this);
-    RopeEdit edit(*part, Clock{});
-    let_go(edit);
+    let_go(*part);
     return part;
 }
 
@@ -36,13 +35,16 @@ std::shared_ptr<const Part> RopePart::brought_back() const {
 /// drag holds it now.
 std::shared_ptr<const Part> RopePart::at_moment(std::shared_ptr<const Part> then) const {
     auto part = std::make_shared<RopePart>(dynamic_cast<const RopePart&>(*then));
-    RopeEdit edit(*part, Clock{});
-    let_go(edit);
+    let_go(*part);
     part->tool = tool;
     part->view = view;
     part->selection = selection;
     part->jitter.dial = jitter.dial;
-    if (edit.seen().settings() != world->settings()) edit.world().set_settings(world->settings());
+    if (part->world->settings() != world->settings()) {
+        NamedWorld with = *part->world;
+        with.set_settings(world->settings());
+        part->world = std::make_shared<const NamedWorld>(std::move(with));
+    }
     part->cost = cost;
     forget_missing(*part);
     return part;

@@ -3,9 +3,15 @@
 
 #include <cstdint>
 
+#include "app/document/runtime.hpp"
 #include "app/labs/rope/rope_part.hpp"
 
 namespace tendril::app {
+
+/// What worlds are advanced and dragged with, kept from tick to tick.
+struct RopeRuntime final : Runtime {
+    rope::Workspace workspace;
+};
 
 /// Lets `seconds` pass in the lab. The world that comes of it does not depend on how they are cut, as long as
 /// none are dropped: there are max_lab_work.
