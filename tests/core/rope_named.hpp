@@ -1,5 +1,5 @@
-// A rope world as tests like it: bodies and colliders have names, time passes in a workspace of its own, and
-// what the library refuses is thrown.
+// A rope world with names for bodies and colliders and a workspace of its own, where what the library refuses
+// is thrown: so a test reads as what it tests. All else is the library's World.
 #pragma once
 
 #include <stdexcept>
@@ -20,18 +20,18 @@ T allowed(Expected<T> given) {
     return *std::move(given);
 }
 
-class World {
+class World : public rope::World {
   public:
     World() = default;
     /// Bodies and colliders have the names that they would have been given.
-    explicit World(rope::State state) : world_(allowed(rope::World::from_state(std::move(state)))) {
+    explicit World(rope::State state) : rope::World(allowed(from_state(std::move(state)))) {
         bodies_.resize(this->state().body_slots.size());
         for (const rope::Body& body : this->state().bodies) name_body(body.id, "");
         for (const rope::Collider& collider : this->state().colliders)
             set_name(colliders_, collider.id.index, "collider " + std::to_string(collider.id.index));
     }
     World(const World& other)
-        : world_(other.world_), bodies_(other.bodies_), colliders_(other.colliders_), unit_(other.unit_) {
+        : rope::World(other), bodies_(other.bodies_), colliders_(other.colliders_), unit_(other.unit_) {
         if (!unit_.empty()) use_vector_unit(unit_);
     }
     World(World&&) noexcept = default;
@@ -42,36 +42,33 @@ class World {
     World& operator=(World&&) noexcept = default;
     ~World() = default;
 
-    rope::World& core() { return world_; }
-    const rope::World& core() const { return world_; }
-    const rope::State& state() const { return world_.state(); }
-    const rope::Settings& settings() const { return world_.settings(); }
-    void set_settings(const rope::Settings& settings) { allow(world_.set_settings(settings)); }
+    rope::World& core() { return *this; }
+    const rope::World& core() const { return *this; }
+    void set_settings(const rope::Settings& settings) { allow(rope::World::set_settings(settings)); }
     void use_vector_unit(std::string_view name) {
         unit_ = name;
         allow(workspace_.use_vector_unit(name));
     }
 
-    void clear() { world_.clear(); }
     std::string add_rope(const rope::RopeShape& shape) { return add_rope("", shape); }
     std::string add_rope(const std::string& name, const rope::RopeShape& shape) {
-        return name_body(allowed(world_.add_rope(shape)), name);
+        return name_body(allowed(rope::World::add_rope(shape)), name);
     }
     std::string add_cloth(const rope::ClothShape& shape) { return add_cloth("", shape); }
     std::string add_cloth(const std::string& name, const rope::ClothShape& shape) {
-        return name_body(allowed(world_.add_cloth(shape)), name);
+        return name_body(allowed(rope::World::add_cloth(shape)), name);
     }
     std::string add_hair(const rope::HairShape& shape, const std::string& attach = {}) {
         return add_hair("", shape, attach);
     }
     std::string add_hair(const std::string& name, rope::HairShape shape, const std::string& attach = {}) {
         if (!attach.empty()) shape.attach = collider_id(attach);
-        return name_body(allowed(world_.add_hair(shape)), name);
+        return name_body(allowed(rope::World::add_hair(shape)), name);
     }
-    void remove(std::string_view body) { allow(world_.remove(id(body))); }
+    void remove(std::string_view body) { allow(rope::World::remove(id(body))); }
     std::string cut(std::string_view rope, std::size_t segment) {
         const std::string name(rope);
-        return name_body(allowed(world_.cut(id(rope), segment)), "", name);
+        return name_body(allowed(rope::World::cut(id(rope), segment)), "", name);
     }
 
     /// One that there never was, where none has the name.
@@ -87,46 +84,42 @@ class World {
     }
     const std::string& name(const rope::Body& body) const { return bodies_[body.id.index]; }
     const std::string& name(const rope::Collider& collider) const { return colliders_[collider.id.index]; }
-    const rope::Body* find(std::string_view body) const { return world_.find(id(body)); }
+    const rope::Body* find(std::string_view body) const { return rope::World::find(id(body)); }
     const rope::Collider* find_collider(std::string_view collider) const {
-        return world_.find(collider_id(collider));
+        return rope::World::find(collider_id(collider));
     }
     std::size_t particle(std::string_view body, std::size_t index) const {
-        return allowed(world_.particle(id(body), index));
+        return allowed(rope::World::particle(id(body), index));
     }
 
     void pin(std::size_t particle, const glm::vec3& at, double seconds = 0.0) {
-        allow(world_.pin(particle, glm::dvec3(at), seconds));
+        allow(rope::World::pin(particle, glm::dvec3(at), seconds));
     }
     void attach(std::size_t particle, std::string_view collider) {
-        allow(world_.attach(particle, collider_id(collider)));
+        allow(rope::World::attach(particle, collider_id(collider)));
     }
-    void unpin(std::size_t particle) { allow(world_.unpin(particle)); }
-    bool pinned(std::size_t particle) const { return world_.pinned(particle); }
+    void unpin(std::size_t particle) { allow(rope::World::unpin(particle)); }
 
     void add_collider(const std::string& name, const rope::Shape& shape) {
-        set_name(colliders_, allowed(world_.add_collider(shape)).index, name);
+        set_name(colliders_, allowed(rope::World::add_collider(shape)).index, name);
     }
     void move_collider(std::string_view collider, const glm::vec3& to, double seconds = 0.0) {
-        allow(world_.move_collider(collider_id(collider), to, seconds));
+        allow(rope::World::move_collider(collider_id(collider), to, seconds));
     }
     void set_collider(std::string_view collider, const rope::Shape& shape) {
-        allow(world_.set_collider(collider_id(collider), shape));
+        allow(rope::World::set_collider(collider_id(collider), shape));
     }
-    void remove_collider(std::string_view collider) { allow(world_.remove_collider(collider_id(collider))); }
+    void remove_collider(std::string_view collider) {
+        allow(rope::World::remove_collider(collider_id(collider)));
+    }
 
     rope::Advance advance(double seconds, std::uint64_t max_substeps = std::uint64_t{1} << 40) {
-        return world_.advance(seconds, workspace_, {.max_substeps = max_substeps});
+        return rope::World::advance(seconds, workspace_, {.max_substeps = max_substeps});
     }
 
-    std::size_t size() const { return world_.size(); }
-    glm::vec3 position(std::size_t particle) const { return glm::vec3(world_.position(particle)); }
-    glm::vec3 velocity(std::size_t particle) const { return glm::vec3(world_.velocity(particle)); }
-    double length_error(const rope::Body& body) const { return world_.length_error(body); }
-    double length_error() const { return world_.length_error(); }
-    double energy(const rope::Body& body) const { return world_.energy(body); }
-    double energy() const { return world_.energy(); }
-    double length(const rope::Body& body) const { return world_.length(body); }
+    // In single precision, for comparison with what was given.
+    glm::vec3 position(std::size_t particle) const { return glm::vec3(rope::World::position(particle)); }
+    glm::vec3 velocity(std::size_t particle) const { return glm::vec3(rope::World::velocity(particle)); }
 
   private:
     static void set_name(std::vector<std::string>& names, std::size_t slot, const std::string& name) {
@@ -139,7 +132,7 @@ class World {
         if (bodies_.size() <= id.index) bodies_.resize(id.index + 1);
         bodies_[id.index].clear();
         const std::string first =
-            stem.empty() ? kinds[static_cast<std::size_t>(world_.find(id)->kind)] : stem;
+            stem.empty() ? kinds[static_cast<std::size_t>(rope::World::find(id)->kind)] : stem;
         for (int i = stem.empty() ? 1 : 2; wanted.empty(); ++i) {
             const std::string name = i == 1 ? first : first + " " + std::to_string(i);
             if (find(name) == nullptr) wanted = name;
@@ -147,7 +140,6 @@ class World {
         return bodies_[id.index] = wanted;
     }
 
-    rope::World world_;
     rope::Workspace workspace_;
     std::vector<std::string> bodies_, colliders_;  ///< by slot
     std::string unit_;
