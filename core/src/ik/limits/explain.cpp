@@ -9,19 +9,15 @@
 #include "ik/limits/pose.hpp"
 #include "ik/solve/parts.hpp"
 #include "ik/solve/validate.hpp"
+#include "ik/tunables.hpp"
 #include "tendril/ik/options.hpp"
 
 namespace tendril::ik {
 
 using namespace detail;
+using namespace detail::tune::explain;
 
 namespace {
-
-constexpr int iterations = 60;
-constexpr std::size_t max_candidates = 4;  ///< joints that are freed
-constexpr int halvings = 8;                ///< of the range that the best of them needs: to 0.4 % of it
-constexpr float fine = 1e-4f;              ///< of the reach: what counts as there
-constexpr float noticeable = 1e-3f;        ///< of the distance that was left: what counts as nearer
 
 /// How a joint stands after the solve with some limits, and how far the tip is then.
 struct Outcome {
@@ -174,7 +170,7 @@ float stopped(const Workspace& scratch, const glm::vec3& target, const Options& 
     const glm::vec3 tip = pose.joints.back();
     glm::vec3 torque = cross(minus(tip, pose.joints[i]), minus(target, tip));
     if (options.tip_orientation) {  // as error_of has it
-        const float arm = 0.25f * scratch.reach;
+        const float arm = tune::limits::orientation_arm * scratch.reach;
         const glm::quat missing = compose(unit(*options.tip_orientation), conjugate(pose.rotations.back()));
         torque = plus(torque, times(rotation_vector(missing), arm * arm));
     }

@@ -1,6 +1,7 @@
 #include "ik/limits/freedom.hpp"
 
 #include "ik/limits/pose.hpp"
+#include "ik/tunables.hpp"
 #include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
@@ -61,7 +62,7 @@ Wanted wanted_of(const Problem& problem) noexcept {
     if (const float far = length(wanted.move); far > 1.0f) wanted.move = times(wanted.move, 1.0f / far);
     if (problem.options.tip_orientation) {
         wanted.rotation = times(orientation_error(problem, pose), unit_length);
-        wanted.scale = 0.25f;
+        wanted.scale = tune::limits::orientation_arm;
     }
     return wanted;
 }

@@ -13,19 +13,13 @@
 #include "ik/solve/convergence.hpp"
 #include "ik/solve/prepare.hpp"
 #include "ik/solve/reachability.hpp"
+#include "ik/tunables.hpp"
 #include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 namespace {
 
-constexpr float orientation_tolerance = 1e-3f;  ///< radians
-constexpr float straight_tolerance = 1e-4f;     ///< of the reach
-/// For the methods that have no second try.
-constexpr StallRule stall_rule{.window = 20, .relative = 1e-3f};
-constexpr int max_perturbations = 4;  ///< out of singular poses
-constexpr int default_restarts = 8;   ///< options.hpp has what it was chosen by
-constexpr float near_target = 0.05f;  ///< of the reach: a target that moved less is dragged
-constexpr float follow = 20.0f;       ///< how far joints may follow it, in steps of the target
+using namespace tune::limits;
 
 /// Whether the target is out of reach, and what no pose can better.
 struct Reachable {
@@ -46,7 +40,7 @@ float residual_of(const Problem& problem) noexcept {
 bool is_turned(const Problem& problem) noexcept {
     if (!problem.options.tip_orientation) return true;
     const glm::vec3 rotation = orientation_error(problem, problem.scratch.limited.pose);
-    return length(rotation) <= orientation_tolerance * 0.25f * problem.scratch.reach;
+    return length(rotation) <= orientation_tolerance * orientation_arm * problem.scratch.reach;
 }
 
 /// The tip is where it should be, or as near as any pose brings it.
@@ -119,7 +113,7 @@ void detect_drag(Method method, const Problem& problem, bool as_left, Attempt& a
     const LimitMemory& memory = problem.state.limits;
     if (method != Method::Fabrik || !memory.valid || !as_left || problem.options.restarts) return;
     const float step = distance(minus(problem.target, problem.root()), memory.target);
-    attempt.dragged = step <= near_target * problem.scratch.reach;
+    attempt.dragged = step <= tune::limits::dragged * problem.scratch.reach;
     if (attempt.dragged) attempt.allowance = follow * (step + problem.tolerance);
 }
 
@@ -205,7 +199,7 @@ End solve_with_restarts(Problem& problem, Attempt& attempt, Watch watch) noexcep
 template <class Watch>
 End continue_from(Method method, Problem& problem, Attempt& attempt, Watch watch) noexcept {
     problem.state.limits.valid = false;
-    Convergence convergence(stall_rule, attempt.best, problem.scratch.reach);
+    Convergence convergence(stall, attempt.best, problem.scratch.reach);
     bool stalled = false;
     int perturbations = method == Method::FabrikPlain ? max_perturbations : 0;
     while (problem.iteration < problem.options.max_iterations) {

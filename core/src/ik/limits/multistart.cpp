@@ -6,12 +6,12 @@
 
 #include "ik/limits/fabrik.hpp"
 #include "ik/limits/step.hpp"
+#include "ik/tunables.hpp"
 
 namespace tendril::ik::detail {
 namespace {
 
-constexpr StallRule step_rule{.window = 2, .relative = 3e-3f};
-constexpr float reaching_pays = 0.5f;  ///< of the error that passes may leave
+using namespace tune::limits;
 
 /// SplitMix64 (Steele, Lea, Flood 2014), from 0 to under 1.
 float random_unit(std::uint64_t& state) noexcept {
@@ -48,7 +48,7 @@ void sample(const Problem& problem, int number) noexcept {
 LimitedDescent::LimitedDescent(const Problem& problem, float allowance) noexcept
     : error_(error_of(problem, problem.scratch.limited.pose)),
       allowance_(allowance),
-      convergence_(step_rule, error_, problem.scratch.reach) {}
+      convergence_(step_stall, error_, problem.scratch.reach) {}
 
 void LimitedDescent::restart(const Problem& problem) noexcept {
     *this = LimitedDescent(problem, std::numeric_limits<float>::infinity());
@@ -93,11 +93,11 @@ void LimitedDescent::step(Problem& problem, Watch watch) noexcept {
         if (then < error_ && may_take(problem)) {
             accept_trial(problem, Phase::Gradient, watch);
             error_ = then;
-            damping_ = std::max(0.3f * damping_, min_damping);
+            damping_ = std::max(damping_falls * damping_, min_damping);
             ++problem.least_squares_steps;
             return;
         }
-        damping_ = std::min(5.0f * damping_, max_damping);
+        damping_ = std::min(damping_grows * damping_, max_damping);
     }
 }
 

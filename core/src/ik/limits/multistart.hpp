@@ -10,7 +10,7 @@
 #pragma once
 
 #include "ik/limits/step.hpp"
-#include "ik/solve/convergence.hpp"
+#include "ik/tunables.hpp"
 
 namespace tendril::ik::detail {
 
@@ -42,8 +42,8 @@ class LimitedDescent {
     template <class Watch>
     void step(Problem& problem, Watch watch) noexcept;
 
-    float damping_ = first_damping;  ///< in reach squared
-    float error_;                    ///< of the pose
+    float damping_ = tune::limits::first_damping;  ///< in reach squared
+    float error_;                                  ///< of the pose
     float allowance_;
     Convergence convergence_;  ///< of the least-squares steps
     bool reaches_ = true;      ///< FABRIK's passes bring the tip half way or more

@@ -3,12 +3,12 @@
 #include "ik/limits/freedom.hpp"
 #include "ik/limits/pose.hpp"
 #include "ik/solve/perturbation.hpp"
+#include "ik/tunables.hpp"
 
 namespace tendril::ik::detail {
 namespace {
 
-constexpr float min_part = 0.1f;  ///< of the angle, for a joint before a short bone
-constexpr float alike = 1e-4f;    ///< errors nearer to each other than this, of the reach
+using namespace tune::limits;
 
 /// A joint's rotation against the one before it, bent by `by`, a rotation vector in the world, as far as its
 /// limit lets it. A hinge has one way to bend: it goes there whatever the plane of the arc, which gives only
@@ -42,7 +42,9 @@ void bend_joint(const Problem& problem, std::size_t i, const glm::vec3& by) noex
 void bend_in_arc(const Problem& problem, const glm::vec3& about) noexcept {
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         const float part = 2.0f * problem.lengths()[i] / problem.scratch.reach;
-        bend_joint(problem, i, times(about, i == 0 ? bend_angle : -bend_angle * std::max(part, min_part)));
+        bend_joint(problem, i,
+                   times(about, i == 0 ? tune::chain::bend_angle
+                                       : -tune::chain::bend_angle * std::max(part, min_part)));
     }
     forward_kinematics(problem, problem.scratch.limited.trial);
 }
@@ -51,9 +53,9 @@ void scatter(const Problem& problem, const glm::vec3& line, const glm::vec3& sid
     const auto salt = static_cast<std::uint32_t>(number) * 2u;
     const glm::vec3 about = cross(line, side);
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        bend_joint(
-            problem, i,
-            times(plus(times(about, scattered(i, salt)), times(side, scattered(i, salt + 1))), bend_angle));
+        bend_joint(problem, i,
+                   times(plus(times(about, scattered(i, salt)), times(side, scattered(i, salt + 1))),
+                         tune::chain::bend_angle));
     }
     forward_kinematics(problem, problem.scratch.limited.trial);
 }

@@ -8,10 +8,6 @@
 
 namespace tendril::ik::detail {
 
-/// Of |e|, in reaches a radian: what counts as nothing. A method that stalls on its way to a line comes no
-/// nearer to it than about this.
-inline constexpr float singular = 5e-3f;
-
 /// Whether the pose is singular towards what is asked: J' e is nothing, before any limit has been counted
 /// against it. O(n).
 bool is_singular(Problem& problem) noexcept;

@@ -1,5 +1,6 @@
 #include "ik/limits/pose.hpp"
 
+#include "ik/tunables.hpp"
 #include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
@@ -16,7 +17,7 @@ glm::vec3 rotation_vector(const glm::quat& rotation) noexcept {
 glm::vec3 orientation_error(const Problem& problem, const LimitedPose& pose) noexcept {
     const glm::quat& last = pose.rotations[problem.bones() - 1];
     const glm::quat left = compose(unit(*problem.options.tip_orientation), conjugate(last));
-    return times(rotation_vector(left), 0.25f * problem.scratch.reach);
+    return times(rotation_vector(left), tune::limits::orientation_arm * problem.scratch.reach);
 }
 
 float error_of(const Problem& problem, const LimitedPose& pose) noexcept {

@@ -2,6 +2,7 @@
 
 #include "ik/math.hpp"
 #include "ik/methods/jacobian.hpp"
+#include "ik/tunables.hpp"
 
 namespace tendril::ik::detail {
 namespace {
@@ -38,7 +39,7 @@ Wanted damped_step(const Normal& normal, const Wanted& wanted, float damping) no
 Wanted filtered_step(const Normal& normal, const Wanted& wanted, float damping) noexcept {
     if (wanted.scale != 0.0f) return damped_step(normal, wanted, damping);
     const glm::dvec3 by = filtered_solution(normal.moves, wide(wanted.move), static_cast<double>(damping),
-                                            small_singular, min_inverse);
+                                            tune::jacobian::small_singular, min_inverse);
     return {narrow(by), glm::vec3(0.0f), 0.0f};
 }
 

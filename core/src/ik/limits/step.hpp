@@ -23,8 +23,6 @@ enum class Descent {
 /// From scratch.pose to scratch.trial. `damping` in reach squared.
 void limited_step(Problem& problem, Descent descent, float damping) noexcept;
 
-inline constexpr float first_damping = 1e-3f, min_damping = 1e-6f, max_damping = 100.0f;
-
 /// The step, solved anew until no joint is pushed out of its limit.
 Wanted projected_step(Problem& problem, Descent descent, float damping, const Wanted& wanted,
                       Normal& normal) noexcept;

@@ -7,12 +7,12 @@
 #include "ik/limits/multistart.hpp"
 #include "ik/limits/perturbation.hpp"
 #include "ik/limits/pose.hpp"
+#include "ik/tunables.hpp"
 
 namespace tendril::ik::detail {
 namespace {
 
-constexpr float good_part = 0.01f;  ///< of the descent
-constexpr int max_steps = 40, max_perturbations = 4;
+using namespace tune::limits;
 
 bool all_free(const Problem& problem) noexcept {
     const std::vector<LimitedJoint>& limits = problem.scratch.limited.limits;
@@ -24,7 +24,7 @@ bool all_free(const Problem& problem) noexcept {
 float descend_to_stall(Problem& problem, float there) noexcept {
     LimitedDescent descent(problem, std::numeric_limits<float>::infinity());
     descent.continue_from(first_damping);
-    for (int step = 0; step < max_steps && !descent.stalled() && descent.error() > there; ++step) {
+    for (int step = 0; step < blame_steps && !descent.stalled() && descent.error() > there; ++step) {
         descent.iterate(problem, Unwatched());
     }
     return descent.error();
@@ -66,7 +66,7 @@ bool is_stopped_by_limits(Problem& problem) noexcept {
     const float asked = dot(wanted.move, wanted.move) + dot(wanted.rotation, wanted.rotation);
     // On a line with its target every chain of ball joints would have bent.
     if (free <= singular * singular * asked) return !all_free(problem);
-    return free - allowed >= good_part * free;
+    return free - allowed >= blamed_part * free;
 }
 
 bool limits_stop_tip(Problem& problem, float there) noexcept {

@@ -5,13 +5,12 @@
 #include <cmath>
 
 #include "ik/math.hpp"
+#include "ik/tunables.hpp"
 
 namespace tendril::ik::detail {
 namespace {
 
-constexpr int tries = 2;             ///< spans worked out for one family of shapes
-constexpr float strong_bend = 1e6f;  ///< of t^2: where the bones of a chain that was bent point sideways
-constexpr float max_bend = 1e10f;    ///< of t^2: there the last trace of a bend has become one
+using namespace tune::chain;
 
 /// Shapes that differ by t. The longest bone may be left out of it.
 struct Family {

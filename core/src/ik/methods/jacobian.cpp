@@ -5,14 +5,15 @@
 
 #include "ik/math.hpp"
 #include "ik/methods/rotations.hpp"
+#include "ik/tunables.hpp"
 #include "math/symmetric3.hpp"
 #include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 namespace {
 
-constexpr double max_error = 0.5;      ///< of the reach
-constexpr double max_rotation = 1.0;   ///< radians
+using namespace tune::jacobian;
+
 constexpr double min_damping = 1e-12;  ///< of the trace of J J', so that it can be inverted
 
 /// All in units of the reach, so that no size of chain overflows.

@@ -40,9 +40,6 @@
 
 namespace tendril::ik::detail {
 
-/// Of the reach: from here down the SVD is damped.
-inline constexpr double small_singular = 0.4;
-
 template <class Watch>
 void jacobian_transpose_iteration(Problem& problem, Watch watch) noexcept;
 template <class Watch>

@@ -6,20 +6,17 @@
 #include <optional>
 
 #include "ik/math.hpp"
+#include "ik/tunables.hpp"
 #include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 namespace {
 
-constexpr double free_part = 5e-4;  ///< of the reach, each solve
-constexpr double follow = 20.0;     ///< times what has changed
-constexpr double jump = 0.02;       ///< of the reach: what changed more has jumped
+using namespace tune::pole;
+
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-constexpr int max_sweeps = 64;     ///< of EachJoint
-constexpr double at_rest = 1e-3;   ///< radians
-constexpr double straight = 0.01;  ///< of the reach: no joint further off the line
-constexpr double no_side = 1e-6;   ///< of the reach: offsets below it are rounding
+constexpr double no_side = 1e-6;  ///< of the reach: offsets below it are rounding
 
 /// Which way, and how far, the chain is off a line through its root.
 struct Bend {

@@ -17,21 +17,13 @@
 #include "ik/solve/reachability.hpp"
 #include "ik/solve/rotations.hpp"
 #include "ik/solve/tip.hpp"
+#include "ik/tunables.hpp"
 #include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 namespace {
 
-constexpr int stall_window = 10;      ///< iterations
-constexpr float stall_moves = 1e-5f;  ///< of the reach
-/// Before a stall is believed the chain is perturbed. Without it, of 20 000 hostile chains (folded, straight,
-/// bones of no length), 72 instead of 1 stall with DLS, 168 instead of 15 with CCD, 278 instead of 25 with
-/// the transpose, and FABRIK leaves 606 instead of 576 short.
-constexpr int max_perturbations = 4;
-/// Accelerated FABRIK takes all of the residual away in an iteration or two, unless the chain lies folded
-/// nearly on a line. So it is perturbed after this many that each left more than this part.
-constexpr int slow_window = 2;
-constexpr float slow_part = 0.8f;
+using namespace tune::chain;
 
 template <class Watch>
 void iterate(Method method, Problem& problem, Watch watch) noexcept {

@@ -4,10 +4,13 @@
 #include <cstdint>
 
 #include "ik/math.hpp"
+#include "ik/tunables.hpp"
 #include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 namespace {
+
+using namespace tune::chain;
 
 bool is_near_line(const glm::vec3& arm, const glm::vec3& line, float near) noexcept {
     const glm::vec3 off = cross(arm, line);

@@ -8,9 +8,6 @@
 
 namespace tendril::ik::detail {
 
-/// How far the first bone is turned one way and the last the other, about; radians.
-inline constexpr float bend_angle = 0.2f;
-
 /// From the root to what is furthest from it: no other choice is as little bent by rounding.
 glm::vec3 line_of(const Problem& problem) noexcept;
 

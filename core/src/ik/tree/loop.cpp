@@ -6,15 +6,12 @@
 #include "ik/solve/convergence.hpp"
 #include "ik/solve/perturbation.hpp"
 #include "ik/tree/workspace.hpp"
+#include "ik/tunables.hpp"
 
 namespace tendril::ik::detail {
 namespace {
 
-constexpr int newton_from = 3;  ///< reaching alone gets the gross shape right and moves the joints least
-constexpr double first_damping = 1e-3, min_damping = 1e-9, max_damping = 1e3;
-constexpr int patience = 4;  ///< iterations without convergence that make a stall
-constexpr int max_perturbations = 1;
-constexpr float bend = 0.3f;  ///< of a bone's length
+using namespace tune::tree;
 
 /// Rotates every bone a little, each to a side of its own: out of where nothing moves any more.
 void perturb_all(TreeScratch& scratch) noexcept {
@@ -52,10 +49,10 @@ class Iteration {
                     damping_ * scratch_.lightest / static_cast<double>(scratch_.used));
         const Fit tried = fit(scratch_, scratch_.trial);
         if (tried.cost < before) {
-            damping_ = std::max(damping_ / 4.0, min_damping);
+            damping_ = std::max(damping_falls * damping_, min_damping);
             return take(scratch_.trial, tried);
         }
-        damping_ = std::min(damping_ * 8.0, max_damping);
+        damping_ = std::min(damping_grows * damping_, max_damping);
         if (nearer) take(scratch_.next, reached);
     }
 
@@ -111,7 +108,7 @@ TreeRun iterate(TreeScratch& scratch, std::span<const Effector> effectors, const
     TreeRun run;
     Iteration iteration(scratch, options, tolerance);
     // The effectors may come nearer taken together, or the one that is furthest off.
-    const StallRule rule{.window = patience,
+    const StallRule rule{.window = stall_window,
                          .absolute = static_cast<float>(std::max(0.01 * tolerance, 1e-6 * scratch.reach))};
     const auto cost = [&] { return static_cast<float>(std::sqrt(iteration.now().cost)); };
     const auto worst = [&] { return static_cast<float>(iteration.now().worst); };

@@ -5,11 +5,12 @@
 
 #include "ik/math.hpp"
 #include "ik/tree/workspace.hpp"
+#include "ik/tunables.hpp"
 
 namespace tendril::ik::detail {
 namespace {
 
-constexpr double min_weight = 1e-4;  ///< of the heaviest
+using namespace tune::tree;
 
 double largest_coordinate(const glm::vec3& p) noexcept {
     return static_cast<double>(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}));
