@@ -111,8 +111,11 @@ void check_value(const Argument& argument, const Json& value, const std::string&
         const bool whole = argument.type == ArgumentType::Integer;
         return whole ? std::to_string(static_cast<long long>(limit)) : plain(limit);
     };
-    if (number < argument.low) refuse("at least " + bound(argument.low));
-    if (number > argument.high) refuse("at most " + bound(argument.high));
+    if (number >= argument.low && number <= argument.high) return;
+    const bool any_low = argument.low <= -1e9, any_high = argument.high >= 1e9;
+    refuse(any_low    ? "at most " + bound(argument.high)
+           : any_high ? "at least " + bound(argument.low)
+                      : bound(argument.low) + " to " + bound(argument.high));
 }
 
 void check_arguments(const Command& command, const Json& given) {

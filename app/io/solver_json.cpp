@@ -114,13 +114,13 @@ Json report_json(ik::Method method, const ik::Report& report, bool within_limits
             {"ran", ran_text(method, report, within_limits)}};
 }
 
-Json active_limit_json(const ik::ActiveLimit& hold) {
-    return {{"joint", hold.joint},
-            {"kind", ik::name(hold.kind)},
-            {"bound", ik::name(hold.bound)},
-            {"limit_deg", degrees(hold.limit)},
-            {"needed_deg", degrees(hold.needed)},
-            {"enough", hold.enough}};
+Json active_limit_json(const ik::ActiveLimit& limit) {
+    return {{"joint", limit.joint},
+            {"kind", ik::name(limit.kind)},
+            {"bound", ik::name(limit.bound)},
+            {"limit_deg", degrees(limit.limit)},
+            {"needed_deg", degrees(limit.needed)},
+            {"enough", limit.enough}};
 }
 
 ik::Method method_from_name(const std::string& name, const std::string& where) {

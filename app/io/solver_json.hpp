@@ -30,7 +30,7 @@ ik::Limit limit_from_json(const Json& json, const std::string& where);
 Json report_json(ik::Method method, const ik::Report& report, bool within_limits);
 
 /// {"joint", "kind", "bound", "limit_deg", "needed_deg", "enough"}
-Json active_limit_json(const ik::ActiveLimit& hold);
+Json active_limit_json(const ik::ActiveLimit& limit);
 
 /// Throws std::runtime_error that begins with `where` and lists the names there are.
 ik::Method method_from_name(const std::string& name, const std::string& where);

@@ -11,6 +11,7 @@
 
 #include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
+#include "app/document/units.hpp"
 #include "app/widgets/text.hpp"
 
 namespace tendril::app {
@@ -212,7 +213,7 @@ void CommandPalette::explain(const Found& found) {
         ImGui::PopStyleColor();
     } else {
         text_elided(
-            std::to_string(found.size()) + " commands.  Up and Down choose, Enter runs, Escape closes.", room,
+            count_text(found.size(), "command") + ".  Up and Down choose, Enter runs, Escape closes.", room,
             true);
     }
 }

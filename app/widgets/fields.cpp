@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "app/document/units.hpp"
 #include "app/widgets/text.hpp"
 
 namespace tendril::app {
@@ -26,6 +27,10 @@ bool narrow() {
 std::string begin_row(const char* name) {
     const float from = ImGui::GetWindowContentRegionMin().x;
     const float field = name_share * ImGui::GetWindowContentRegionMax().x;
+    if (name[0] == '#') {  // an id, and no name to be read
+        ImGui::SetNextItemWidth(-1.0f);
+        return name;
+    }
     const bool below = narrow() || ImGui::CalcTextSize(name).x > field;
     if (below) {
         text_elided(name, ImGui::GetContentRegionAvail().x, true);
@@ -36,6 +41,17 @@ std::string begin_row(const char* name) {
     }
     ImGui::SetNextItemWidth(-1.0f);
     return std::string("##") + name;
+}
+
+/// A drag ends at the range; what is typed beyond it is passed on, to be refused with the reason.
+bool drag_number(const char* id, float& value, float speed, float low, float high, const char* format) {
+    char text[64];
+    std::snprintf(text, sizeof text, format, static_cast<double>(value));
+    float shown = without_signed_zero(text) == text ? value : 0.0f;
+    if (!ImGui::DragFloat(id, &shown, speed, low, high, format)) return false;
+    constexpr float most = std::numeric_limits<float>::max();  // JSON has no infinity
+    value = std::isfinite(shown) ? shown : std::copysign(most, shown);
+    return true;
 }
 
 }  // namespace
@@ -59,12 +75,12 @@ void note(const std::string& text) {
 
 bool number_field(const char* name, float& value, float speed, float low, float high, const char* format) {
     const std::string id = begin_row(name);
-    return ImGui::DragFloat(id.c_str(), &value, speed, low, high, format, ImGuiSliderFlags_AlwaysClamp);
+    return drag_number(id.c_str(), value, speed, low, high, format);
 }
 
 bool integer_field(const char* name, int& value, int low, int high) {
     const std::string id = begin_row(name);
-    return ImGui::DragInt(id.c_str(), &value, 0.1f, low, high, "%d", ImGuiSliderFlags_AlwaysClamp);
+    return ImGui::DragInt(id.c_str(), &value, 0.1f, low, high);
 }
 
 bool integer_slider(const char* name, int& value, int low, int high) {
@@ -73,7 +89,7 @@ bool integer_slider(const char* name, int& value, int low, int high) {
     const float room =
         ImGui::CalcTextSize(std::to_string(high).c_str()).x + ImGui::GetStyle().ItemInnerSpacing.x;
     ImGui::SetNextItemWidth(-room);
-    const bool changed = ImGui::SliderInt(id.c_str(), &value, low, high, "", ImGuiSliderFlags_AlwaysClamp);
+    const bool changed = ImGui::SliderInt(id.c_str(), &value, low, high, "");
     ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
     ImGui::Text("%d", value);
     return changed;
@@ -84,9 +100,7 @@ bool point_field(const char* name, glm::vec3& value, float speed, float most, co
     for (int i = 0; i < 3; ++i) {
         const std::string row = std::string(name) + " " + "xyz"[i];
         const std::string id = begin_row(row.c_str());
-        // A drag ends at the range; what is typed beyond it is passed on, to be refused with the reason.
-        changed |= ImGui::DragFloat(id.c_str(), &value[i], speed, -most, most, format);
-        if (!std::isfinite(value[i])) value[i] = std::numeric_limits<float>::max();  // JSON has no infinity
+        changed |= drag_number(id.c_str(), value[i], speed, -most, most, format);
     }
     return changed;
 }
@@ -129,7 +143,8 @@ void reading(const char* name, const char* format, ...) {
     va_start(arguments, format);
     std::vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    const float needed = ImGui::CalcTextSize(name).x + ImGui::CalcTextSize(text).x + ImGui::GetFontSize();
+    const std::string shown = without_signed_zero(text);
+    const float needed = ImGui::CalcTextSize(name).x + ImGui::CalcTextSize(shown.c_str()).x + ImGui::GetFontSize();
     if (needed > ImGui::GetContentRegionAvail().x) {
         text_elided(name, ImGui::GetContentRegionAvail().x, true);
     } else {
@@ -137,7 +152,7 @@ void reading(const char* name, const char* format, ...) {
         ImGui::TextDisabled("%s", name);
         ImGui::SameLine();
     }
-    text_flush_right(text);
+    text_flush_right(shown);
 }
 
 void explain(const char* text) {

@@ -1,6 +1,7 @@
 // The rows of a panel: a dim name on the left, a field on the right (below, where there is no room beside
 // it); numbers of fixed width, with their units. Each field returns true in a frame in which a person changed
-// its value. The names are ids too: unique in a panel.
+// its value. The names are ids too: unique in a panel; a
+// name that begins with ## is an id only, and its field takes the whole row.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -13,10 +14,11 @@ void section(const char* title);
 /// Dim text, wrapped.
 void note(const std::string& text);
 
+// A drag ends at the range. What is typed beyond it is passed on: the command that takes it refuses it, and
+// says the value and the range.
 bool number_field(const char* name, float& value, float speed, float low, float high, const char* format);
 bool integer_field(const char* name, int& value, int low, int high);
 bool integer_slider(const char* name, int& value, int low, int high);
-/// A coordinate that is typed may be out of range: the command that takes it refuses it and says why.
 bool point_field(const char* name, glm::vec3& value, float speed, float most = 1e9f,
                  const char* format = "%.3f m");
 /// `why_not`, where given: one for each choice, null for one that can be chosen; else it is grey and the

@@ -16,11 +16,14 @@ struct Curve {
 };
 
 struct PlotAxes {
-    const char* x = "";
+    const char* x = "";  ///< what it is: "iterations", "tip to target"
+    const char* x_unit = "";
     const char* y = "";
+    const char* y_unit = "";
     /// The y axis is logarithmic and begins here; values below lie on its edge. 0: it is even, and goes from
     /// the lowest value to the highest.
     float min_y = 1e-6f;
+    float min_x = 1.0f;    ///< the x axis goes from 0 to this at least
     float level = 0.0f;    ///< a dashed line at this y, where it is over 0
     float at_x = -1.0f;    ///< a line at this x, where it is not negative
     bool whole_x = false;  ///< x counts something: marks at whole numbers only

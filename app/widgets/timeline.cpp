@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
+
+#include "app/document/units.hpp"
 
 namespace tendril::app {
 namespace {
@@ -88,9 +91,8 @@ bool timeline(const char* id, int& tick, int ticks, double seconds, int known) {
     const double step =
         mark_seconds(whole / static_cast<double>(strip.span()), 60.0 * static_cast<double>(Strip::unit()));
     for (double t = 0.0; t <= whole + 1e-9; t += step) {
-        char text[16];
-        std::snprintf(text, sizeof text, "%.3g s", t);
-        strip.mark(static_cast<float>(t / whole), text);
+        const std::string text = fixed_text(t, step < 1.0 ? 1 : 0) + " s";
+        strip.mark(static_cast<float>(t / whole), text.c_str());
     }
     if (known > tick) strip.ahead(static_cast<float>(known) / static_cast<float>(ticks));
     strip.head(static_cast<float>(tick) / static_cast<float>(ticks));

@@ -14,15 +14,15 @@
 namespace tendril::app {
 namespace {
 
-/// "Segment 0 (head)", "Joint 3"
-std::string name_of(const ChainPart& part, const char* what, std::size_t index) {
+/// "Joint 0 (head)", "Joint 3"
+std::string name_of(const ChainPart& part, std::size_t index) {
     const std::string end = end_name(part, index);
-    return std::string(what) + " " + std::to_string(index) + (end.empty() ? "" : " (" + end + ")");
+    return "Joint " + std::to_string(index) + (end.empty() ? "" : " (" + end + ")");
 }
 
 /// What the mouse would do to a joint in Reach.
 std::string joint_hint(const ChainPart& part, std::size_t index) {
-    const std::string joint = name_of(part, "Joint", index);
+    const std::string joint = name_of(part, index);
     if (part.study.open()) return joint + ": click selects it.";
     return joint + ": click selects it, drag moves it; " +
            (index == 0 ? "the tip keeps reaching for the target." : "root and target stay.");
@@ -68,7 +68,7 @@ void ChainLab::step(Workspace& workspace) const {
             reach_for(part, motion_point(part.motion, part.motion.ticks), runtime);
             check_range(part);
         }
-        part.study.refresh(part.chain, part.reach, part.target, runtime);
+        keep_step(part, runtime);
     });
     if (!stopped) return;
     workspace.document.edit<ChainPart>(chain_lab).motion.path = Motion::Path::Still;
@@ -79,7 +79,7 @@ std::vector<Handle> ChainLab::handles(const Workspace& workspace) const {
     const ChainPart& part = chain_part(workspace);
     std::vector<Handle> handles{*handle(workspace, target_pick)};
     if (part.mode == ChainMode::Reach && part.reach.pole) handles.push_back(*handle(workspace, pole_pick));
-    const std::vector<glm::vec3> joints = shown_joints(part);
+    const std::vector<glm::vec3> joints = shown_joints(shown_chain(workspace));
     for (std::size_t i = 0; i < joints.size(); ++i) handles.push_back(joint_handle(part, i, joints[i]));
     return handles;
 }
@@ -90,8 +90,8 @@ std::optional<Handle> ChainLab::handle(const Workspace& workspace, PickId pick) 
     if (pick == pole_pick && part.reach.pole) return Handle{"pole", pole_pick, {*part.reach.pole}};
     if (pick < segment_pick(0) || picked_segment(pick) >= part.chain.size()) return std::nullopt;
     const std::size_t index = picked_segment(pick);
-    return joint_handle(part, index,
-                        part.study.trace ? shown_joints(part)[index] : part.chain.position(index));
+    const ShownChain shown = shown_chain(workspace);
+    return joint_handle(part, index, shown.trace ? shown_joints(shown)[index] : part.chain.position(index));
 }
 
 void ChainLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const {
@@ -136,7 +136,7 @@ std::string ChainLab::hint(const Workspace& workspace, PickId pick) const {
                "line.";
     const std::size_t index = picked_segment(pick);
     if (part.mode == ChainMode::Reach) return joint_hint(part, index);
-    return name_of(part, "Segment", index) + ": click selects it, drag pulls it.";
+    return name_of(part, index) + ": click selects it, drag pulls it.";
 }
 
 Bounds ChainLab::bounds(const Workspace& workspace, bool selection_only) const {
@@ -155,19 +155,20 @@ Bounds ChainLab::bounds(const Workspace& workspace, bool selection_only) const {
         low = glm::min(low, *part.reach.pole);
         high = glm::max(high, *part.reach.pole);
     }
-    if (part.study.race) {
-        const glm::vec3 lanes = race_lane(part.study) * static_cast<float>(part.study.race->racers.size());
-        high += glm::max(lanes - glm::abs(race_lane(part.study)), 0.0f);
+    if (const ShownChain shown = shown_chain(workspace); shown.race) {
+        const glm::vec3 lane = race_lane(shown);
+        high += glm::max(lane * static_cast<float>(shown.race->racers.size()) - glm::abs(lane), 0.0f);
     }
     return {0.5f * (low + high), std::max(0.5f * glm::distance(low, high), 0.5f)};
 }
 
 std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
     const Palette& colours = palette(workspace.settings.theme);
-    const ChainPart& part = chain_part(workspace);
+    const ShownChain shown = shown_chain(workspace);
+    const ChainPart& part = shown.part;
     std::vector<LegendRow> rows;
-    if (part.study.race) {
-        for (const Racer& racer : part.study.race->racers) {
+    if (shown.race) {
+        for (const Racer& racer : shown.race->racers) {
             rows.push_back({solver_title(racer.method), solver_colour(colours, racer.method)});
         }
         rows.push_back({"start", colours.ghost});
@@ -179,8 +180,8 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
             {reaches ? "tip" : "tail", colours.tail},
             {"target", colours.target},
             {"selection", colours.selection, true}};
-    if (part.study.trace) rows.push_back({"this step", colours.accent, true});
-    if (part.study.trace) rows.push_back({"start, earlier iterations", colours.ghost});
+    if (shown.trace) rows.push_back({"this step", colours.accent, true});
+    if (shown.trace) rows.push_back({"start, earlier iterations", colours.ghost});
     if (part.mode != ChainMode::Reach) return rows;
     if (part.reach.pole) rows.push_back({"pole", pole_colour(colours)});
     if (!part.reach.limits.empty()) rows.push_back({"limit", colours.ghost, true});
@@ -201,7 +202,7 @@ std::vector<Shortcut> ChainLab::shortcuts() const {
                         repeats};
     };
     return {
-        {*chord_from_name("delete"), "chain.remove_selected", {}, "Delete selection", "Edit"},
+        delete_shortcut("chain.remove_selected"),
         {*chord_from_name("b"), "view.segments", {}, "Bones or spheres", "View", in_menu},
         step("right", "by", 1, "Microscope: a step on"),
         step("left", "by", -1, "Microscope: a step back"),

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
 #include <glm/vector_relational.hpp>
 #include <stdexcept>
 
+#include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/presets.hpp"
+#include "app/labs/kit/names.hpp"
 #include "app/labs/kit/require.hpp"
 
 namespace tendril::app {
@@ -33,8 +34,6 @@ const ModeText& text_of(ChainMode mode) {
                          [&](const auto& t) { return t.mode == mode; });
 }
 
-constexpr const char* motion_names[] = {"still", "circle", "figure_eight", "sweep"};
-
 }  // namespace
 
 const char* mode_name(ChainMode mode) {
@@ -48,42 +47,7 @@ const char* mode_help(ChainMode mode) {
 }
 
 ChainMode mode_from_name(const std::string& name) {
-    for (const auto& text : mode_texts) {
-        if (name == text.name) return text.mode;
-    }
-    throw std::invalid_argument("unknown mode \"" + name + "\"");
-}
-
-const char* motion_name(Motion::Path path) {
-    return motion_names[static_cast<std::size_t>(path)];
-}
-
-Motion::Path motion_from_name(const std::string& name) {
-    for (const Motion::Path path : all_motions) {
-        if (name == motion_name(path)) return path;
-    }
-    throw std::invalid_argument("unknown path \"" + name + "\"");
-}
-
-std::uint32_t ticks_per_round(const Motion& motion) {
-    return static_cast<std::uint32_t>(std::max(1L, std::lround(motion.period * 60.0f)));
-}
-
-glm::vec3 motion_point(const Motion& motion, std::uint32_t ticks) {
-    const std::uint32_t round = ticks_per_round(motion);
-    const float angle = glm::two_pi<float>() * static_cast<float>(ticks % round) / static_cast<float>(round);
-    const float c = std::cos(angle), s = std::sin(angle);
-    switch (motion.path) {
-        case Motion::Path::Still:
-            break;
-        case Motion::Path::Circle:
-            return motion.centre + motion.radius * glm::vec3(c, s, 0.0f);
-        case Motion::Path::FigureEight:
-            return motion.centre + motion.radius * glm::vec3(c, s * c, 0.5f * s);
-        case Motion::Path::Sweep:
-            return motion.centre + motion.radius * glm::vec3(s, 0.0f, 0.0f);
-    }
-    return motion.centre;
+    return named(all_modes, mode_name, name, "mode");
 }
 
 ChainPart first_chain() {
@@ -152,6 +116,11 @@ void reach_for(ChainPart& part, glm::vec3 target, ChainRuntime& runtime) {
             break;
     }
     part.target = target;
+}
+
+void keep_step(ChainPart& part, ChainRuntime& runtime) {
+    if (const auto trace = runtime.studied(part).trace)
+        part.study.step = std::min(part.study.step, trace->frames());
 }
 
 std::size_t ChainPart::bytes() const {

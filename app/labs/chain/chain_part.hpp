@@ -11,6 +11,7 @@
 #include "app/document/document.hpp"
 #include "app/labs/chain/reach.hpp"
 #include "app/labs/chain/study.hpp"
+#include "app/labs/kit/motion.hpp"
 
 namespace tendril::app {
 
@@ -22,22 +23,6 @@ inline constexpr float min_damping = 1e-4f, max_damping = 10.0f;
 
 /// How the chain follows its target: the library's four modes, and Reach, which pins the head and iterates.
 enum class ChainMode { Forward, Backward, Fixed, WithIndex, Reach };
-
-/// A path that the target follows by itself, so that time means something here: a student watches what a mode
-/// makes of a steady movement, and can pause and step it.
-struct Motion {
-    enum class Path { Still, Circle, FigureEight, Sweep } path = Path::Still;
-    glm::vec3 centre{0.0f};
-    float radius = 2.0f;      ///< metres
-    float period = 4.0f;      ///< seconds a round
-    std::uint32_t ticks = 0;  ///< since it was set going
-    bool operator==(const Motion&) const = default;
-};
-
-/// Where the path is after so many ticks; starts at its centre's right, or wherever the path has its first
-/// point.
-glm::vec3 motion_point(const Motion& motion, std::uint32_t ticks);
-std::uint32_t ticks_per_round(const Motion& motion);
 
 struct ChainPart final : Part {
     Chain chain;
@@ -75,11 +60,6 @@ ChainMode mode_from_name(const std::string& name);
 int& iterations_of(ChainPart& part, ChainMode mode);
 int iterations_of(const ChainPart& part, ChainMode mode);
 
-const char* motion_name(Motion::Path path);
-Motion::Path motion_from_name(const std::string& name);
-inline constexpr std::array all_motions{Motion::Path::Still, Motion::Path::Circle, Motion::Path::FigureEight,
-                                        Motion::Path::Sweep};
-
 bool operator==(const ChainPart& a, const ChainPart& b);
 
 /// Throws std::invalid_argument where a point has left the range that a scene file can hold: a saved chain
@@ -89,6 +69,9 @@ void check_range(const ChainPart& part);
 /// Moves the target and applies the mode once. While something is studied, Reach solves from where that
 /// began.
 void reach_for(ChainPart& part, glm::vec3 target, ChainRuntime& runtime);
+
+/// Keeps the step under the microscope within the solve that it now shows.
+void keep_step(ChainPart& part, ChainRuntime& runtime);
 
 /// How far bone `index` is from its length, in metres; 0 for the head.
 float length_error(const Chain& chain, std::size_t index);

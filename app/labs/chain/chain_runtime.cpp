@@ -4,9 +4,20 @@
 #include <tendril/ik/solver.hpp>
 #include <utility>
 
+#include "app/labs/chain/chain_part.hpp"
 #include "app/labs/kit/require.hpp"
 
 namespace tendril::app {
+namespace {
+
+/// Whether trace and race would come out the same.
+bool same_study(const ChainPart& a, const ChainPart& b) {
+    return a.study.kind == b.study.kind && a.study.start == b.study.start &&
+           a.study.start_state == b.study.start_state && a.study.racers == b.study.racers &&
+           a.target == b.target && a.reach == b.reach && a.chain == b.chain;
+}
+
+}  // namespace
 
 struct ChainRuntime::Kept {
     std::vector<float> lengths;
@@ -31,6 +42,15 @@ ik::Solver& ChainRuntime::solver(std::span<const float> lengths, glm::vec3 rest_
     if (kept_.size() > most) kept_.pop_back();
     ++made_;
     return kept_.front().solver;
+}
+
+Studied ChainRuntime::studied(const ChainPart& part) {
+    if (!part.study.open()) return {};
+    if (!studied_part_ || !same_study(*studied_part_, part)) {
+        studied_ = work_out(part.study, part.chain, part.reach, part.target, *this);
+        studied_part_ = std::make_shared<const ChainPart>(part);
+    }
+    return studied_;
 }
 
 ik::Solver& ChainRuntime::solver(const Chain& chain) {

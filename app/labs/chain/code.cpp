@@ -33,6 +33,7 @@ class ChainProgram {
     void reach();
     void limits();
     void rotations();
+    void memory();
     /// Only limits need them.
     std::vector<glm::quat> rotations_to_write() const {
         return part_.reach.limits.empty() ? std::vector<glm::quat>() : part_.reach.state.rotations;
@@ -139,10 +140,17 @@ void ChainProgram::reach() {
     options();
     limits();
     line("");
-    say("// Make it once and keep it: solving allocates nothing.");
+    say("// Make both once. The solver is scratch memory, and solving allocates nothing. The state goes "
+        "with");
+    say("// the chain from frame to frame: how bones are twisted, on which side of its pole target the "
+        "chain");
+    say("// is, and how the last solve within limits went.");
     say("ik::Solver solver(chain);");
-    say("ik::State state = solver.initial_state();  // goes with the chain from solve to solve");
+    say("ik::State state = solver.initial_state();");
     rotations();
+    memory();
+    line("");
+    say("// From here on once a frame, with the same solver, state and options.");
     say("const ik::Report report = solver.solve(ik::Method::" + enumerator(part_.reach.method) +
         ", chain, state, target, options);");
     say("std::printf(\"%s after %d iterations, %g m from the target\\n\", ik::name(report.status),");
@@ -208,6 +216,33 @@ void ChainProgram::rotations() {
         say("};");
     }
     say("state.rotations = rotations;");
+}
+
+/// What the last solve left in the state, so that the next one goes on from there.
+void ChainProgram::memory() {
+    const auto set = [&](const char* what, const std::string& value) {
+        say("state." + std::string(what) + " = " + value + ";");
+    };
+    if (const ik::LimitMemory& limits = part_.reach.state.limits; limits.valid) {
+        set("limits.valid", "true");
+        if (limits.limited) set("limits.limited", "true");
+        set("limits.target", "glm::vec3" + braced(limits.target));
+        set("limits.damping", literal(limits.damping));
+    }
+    const ik::PoleMemory& pole = part_.reach.state.pole;
+    if (!pole.valid) return;
+    set("pole.valid", "true");
+    if (pole.turn == ik::PoleTurn::EachJoint) set("pole.turn", "ik::PoleTurn::EachJoint");
+    set("pole.pole", "glm::vec3" + braced(pole.pole));
+    set("pole.target", "glm::vec3" + braced(pole.target));
+    if (pole.twist != 0.0f) set("pole.twist", literal(pole.twist));
+    say("state.pole.joints.clear();");
+    if (pole.joints == from_root(positions(part_.chain))) {
+        say("for (const tendril::Segment& each : segments)");
+        say("    state.pole.joints.push_back(each.position - segments.front().position);");
+    } else {
+        for (const glm::vec3& joint : pole.joints) say("state.pole.joints.push_back(" + braced(joint) + ");");
+    }
 }
 
 void ChainProgram::end() {

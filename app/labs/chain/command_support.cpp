@@ -6,17 +6,6 @@
 
 namespace tendril::app {
 
-namespace {
-
-/// Whether trace and race would come out the same.
-bool same_study(const ChainPart& a, const ChainPart& b) {
-    return a.study.kind == b.study.kind && a.study.start == b.study.start &&
-           a.study.start_state == b.study.start_state && a.study.racers == b.study.racers &&
-           a.target == b.target && a.reach == b.reach && a.chain == b.chain;
-}
-
-}  // namespace
-
 Command chain_command(const char* name, std::vector<Argument> arguments, const char* help, ChainSolve change,
                       Effect effect) {
     return {.name = name,
@@ -25,13 +14,12 @@ Command chain_command(const char* name, std::vector<Argument> arguments, const c
             .effect = effect,
             .apply = [change, effect](Workspace& workspace, const Arguments& given) {
                 ChainRuntime& runtime = workspace.runtimes.of<ChainRuntime>(chain_lab);
-                change_part<ChainPart>(workspace, chain_lab, [&](ChainPart& part, const ChainPart& old) {
+                change_part<ChainPart>(workspace, chain_lab, [&](ChainPart& part, const ChainPart&) {
                     change(part, given, runtime);
                     // What is studied is always the solve that the chain shows.
                     if (part.study.open() && effect == Effect::Edit) reach_for(part, part.target, runtime);
                     check_range(part);
-                    if (!same_study(part, old))
-                        part.study.refresh(part.chain, part.reach, part.target, runtime);
+                    keep_step(part, runtime);
                 });
             }};
 }
@@ -45,12 +33,7 @@ Command chain_command(const char* name, std::vector<Argument> arguments, const c
 }
 
 Argument index_argument(bool required, const char* help) {
-    return {.name = "index",
-            .type = ArgumentType::Integer,
-            .required = required,
-            .help = help,
-            .low = 0,
-            .high = static_cast<double>(max_segments) - 1};
+    return index_argument("index", required, help, max_segments);
 }
 
 std::size_t index_of(const Arguments& given) {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/document/command.hpp"
-#include "app/labs/arguments.hpp"
 #include "app/labs/chain/chain_part.hpp"
+#include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
 
@@ -15,7 +15,7 @@ using ChainChange = void (*)(ChainPart&, const Arguments&);
 /// One that solves too, with the lab's solvers.
 using ChainSolve = std::function<void(ChainPart&, const Arguments&, ChainRuntime&)>;
 
-/// A command on a copy of the lab's part; what is being studied is worked out anew after it.
+/// A command on a copy of the lab's part.
 Command chain_command(const char* name, std::vector<Argument> arguments, const char* help, ChainChange change,
                       Effect effect = Effect::Edit);
 Command chain_command(const char* name, std::vector<Argument> arguments, const char* help, ChainSolve change,

@@ -3,6 +3,7 @@
 #include "app/document/scene_file.hpp"
 #include "app/labs/chain/code.hpp"
 #include "app/labs/chain/command_support.hpp"
+#include "app/labs/chain/shown.hpp"
 
 namespace tendril::app {
 
@@ -24,9 +25,9 @@ void add_copy_commands(CommandTable& table) {
                .help = "Puts every solver's residual at each iteration on the clipboard, as CSV",
                .effect = Effect::Look,
                .apply = [](Workspace& workspace, const Arguments&) {
-                   const ChainPart& part = workspace.document.get<ChainPart>(chain_lab);
-                   if (!part.study.race) throw Refused("no race is open");
-                   workspace.ui.copied = race_csv(*part.study.race);
+                   const ShownChain shown = shown_chain(workspace);
+                   if (!shown.race) throw Refused("no race is open");
+                   workspace.ui.copied = race_csv(*shown.race);
                    workspace.toast("The race is on the clipboard, as CSV.");
                }});
 }

@@ -1,7 +1,8 @@
 #include <algorithm>
-#include <cstdio>
 #include <glm/geometric.hpp>
+#include <utility>
 
+#include "app/document/units.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/draw.hpp"
 
@@ -25,23 +26,24 @@ class Drawing {
     Drawing(const View& view, DrawList& list)
         : view_(view),
           list_(list),
-          part_(chain_part(view.workspace)),
-          shown_(shown_joints(part_)),
+          chain_(shown_chain(view.workspace)),
+          part_(chain_.part),
+          shown_(shown_joints(chain_)),
           ball_(joint_pixels(part_, view.camera, view.scale)),
           bones_(segment_style().chosen(view.workspace.settings) == 1) {}
 
     void run() {
         list_.strokes.reserve(2 * part_.chain.size() + 16);
-        const bool racing = part_.study.race != nullptr;
+        const bool racing = chain_.race != nullptr;
         if (racing) {
-            draw_race(view_, part_, list_);
+            draw_race(view_, chain_, list_);
         } else {
             for (std::size_t i = 1; i < part_.chain.size(); ++i) bone(i);
             for (std::size_t i = 0; i < part_.chain.size(); ++i) joint(i);
         }
-        if (part_.study.trace) draw_microscope(view_, part_, list_);
+        if (chain_.trace) draw_microscope(view_, chain_, list_);
         if (part_.mode == ChainMode::Reach) {
-            draw_limits(view_, part_, list_);
+            draw_limits(view_, chain_, list_);
             draw_pole(view_, part_, list_);
         }
         path();
@@ -143,20 +145,18 @@ class Drawing {
     }
 
     void label(std::size_t i, int rank) {
-        char text[64];
         const std::string end = end_name(part_, i);
-        const std::string name = std::to_string(i) + (end.empty() ? "" : " " + end);
-        if (i == 0) {
-            std::snprintf(text, sizeof text, "%s", name.c_str());
-        } else {
-            std::snprintf(text, sizeof text, "%s  %.3g m", name.c_str(), static_cast<double>(length(i)));
-        }
+        std::string text = std::to_string(i) + (end.empty() ? "" : " " + end);
+        if (i > 0) text += "  " + short_text(static_cast<double>(length(i)), "m");
         // The target's ring is wider than a joint.
         const float target_pixels =
             glm::distance(at(i), part_.target) / view_.camera.metres_per_pixel(part_.target);
         const float clearance = target_pixels < ball_ ? px(20.0f) : ball_ + px(7.0f);
-        list_.labels.push_back(
-            {.at = at(i), .clearance = clearance, .text = text, .colour = view_.palette.text, .rank = rank});
+        list_.labels.push_back({.at = at(i),
+                                .clearance = clearance,
+                                .text = std::move(text),
+                                .colour = view_.palette.text,
+                                .rank = rank});
     }
 
     void labels() {
@@ -178,6 +178,7 @@ class Drawing {
 
     const View& view_;
     DrawList& list_;
+    const ShownChain chain_;
     const ChainPart& part_;
     std::vector<glm::vec3> shown_;
     float ball_;

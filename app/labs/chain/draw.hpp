@@ -13,15 +13,15 @@ namespace tendril::app {
 LabSetting segment_style();
 
 /// The limits, from the numbers that the solver uses, and the angles that the joints have.
-void draw_limits(const View& view, const ChainPart& part, DrawList& list);
+void draw_limits(const View& view, const ShownChain& shown, DrawList& list);
 /// The pole, and the line that it turns the chain about.
 void draw_pole(const View& view, const ChainPart& part, DrawList& list);
 /// What the step under the microscope does, over the poses that the iterations before it ended in.
-void draw_microscope(const View& view, const ChainPart& part, DrawList& list);
+void draw_microscope(const View& view, const ShownChain& shown, DrawList& list);
 /// The chains that the solvers of a race ended in.
-void draw_race(const View& view, const ChainPart& part, DrawList& list);
+void draw_race(const View& view, const ShownChain& shown, DrawList& list);
 
 /// How far apart the lanes of a race are that is shown side by side, metres; 0 overlaid.
-glm::vec3 race_lane(const Study& study);
+glm::vec3 race_lane(const ShownChain& shown);
 
 }  // namespace tendril::app

@@ -12,29 +12,29 @@ namespace tendril::app {
 namespace {
 
 constexpr std::size_t most_limits =
-    24;  ///< drawn; in longer chains those of the selected and the holding joint
+    24;  ///< drawn; in longer chains those of the selected joint and of the active limit
 
 class LimitDrawing {
   public:
-    LimitDrawing(const View& view, const ChainPart& part, DrawList& list)
+    LimitDrawing(const View& view, const ShownChain& shown, DrawList& list)
         : view_(view),
-          part_(part),
+          part_(shown.part),
           list_(list),
-          hold_(shown_active_limit(part)),
-          joints_(shown_joints(part)),
-          turns_(rotations_at(joints_, part.reach.state.rotations, part.chain.default_direction())) {}
+          active_(shown_active_limit(shown)),
+          joints_(shown_joints(shown)),
+          turns_(rotations_at(joints_, part_.reach.state.rotations, part_.chain.default_direction())) {}
 
     void run() {
         const std::size_t bones = joints_.size() - 1;
         for (std::size_t i = 0; i < bones; ++i) {
-            const bool shown = bones <= most_limits || holds(i) || part_.selected == i;
+            const bool shown = bones <= most_limits || is_active(i) || part_.selected == i;
             if (shown && limit_of(part_.reach, i).kind != ik::JointKind::Free) joint(i);
         }
     }
 
   private:
     float px(float pixels) const { return pixels * view_.scale; }
-    bool holds(std::size_t i) const { return hold_ != nullptr && hold_->joint == i; }
+    bool is_active(std::size_t i) const { return active_ != nullptr && active_->joint == i; }
 
     void joint(std::size_t i) {
         limit_ = limit_of(part_.reach, i);
@@ -47,17 +47,17 @@ class LimitDrawing {
         axis_ = limit_.axis - rest_ * glm::dot(limit_.axis, rest_);
         axis_ = glm::length(axis_) > 1e-6f ? glm::normalize(axis_) : glm::vec3(0, 0, 1);
         left_axis_ = glm::cross(axis_, rest_);
-        const bool held = holds(i);
-        const bool lit = held || part_.selected == i;
-        colour_ = held ? view_.palette.limit : lit ? view_.palette.selection : view_.palette.ghost;
+        const bool active = is_active(i);
+        const bool lit = active || part_.selected == i;
+        colour_ = active ? view_.palette.limit : lit ? view_.palette.selection : view_.palette.ghost;
         strength_ = lit ? 1.0f : 0.75f;
         const glm::quat turn = glm::conjugate(parent_) * turns_[i];
         angles_ = ik::measure(limit_, rest_, turn);
         limit_.kind == ik::JointKind::Hinge ? fan() : cone();
         if (limit_.kind != ik::JointKind::Hinge) dial(glm::normalize(turns_[i] * rest_));
         line(centre_, centre_ + radius_ * direction(0.0f, 0.0f), 1.0f, 0.35f);  // where it points at rest
-        if (held) {
-            needed(*hold_);
+        if (active) {
+            needed(*active_);
             list_.ring(centre_, px(13.0f), px(3.0f), glm::vec4(view_.palette.limit, 1.0f)).layer =
                 Layer::Overlay;
         }
@@ -110,11 +110,11 @@ class LimitDrawing {
     }
 
     /// Where the bone would have to point for the target, dashed, with the angle beside it.
-    void needed(const ik::ActiveLimit& hold) {
-        if (hold.bound == ik::Bound::TwistMin || hold.bound == ik::Bound::TwistMax) return;
-        const bool sideways = hold.bound == ik::Bound::Left || hold.bound == ik::Bound::Right;
-        const bool down = hold.bound == ik::Bound::Down || hold.bound == ik::Bound::Right;
-        const float angle = down ? -std::abs(hold.needed) : hold.needed;
+    void needed(const ik::ActiveLimit& limit) {
+        if (limit.bound == ik::Bound::TwistMin || limit.bound == ik::Bound::TwistMax) return;
+        const bool sideways = limit.bound == ik::Bound::Left || limit.bound == ik::Bound::Right;
+        const bool down = limit.bound == ik::Bound::Down || limit.bound == ik::Bound::Right;
+        const float angle = down ? -std::abs(limit.needed) : limit.needed;
         const glm::vec3 towards = sideways ? direction(angles_.up, angle) : direction(angle, angles_.left);
         constexpr int dashes = 7;
         for (int i = 0; i < dashes; ++i) {
@@ -124,7 +124,7 @@ class LimitDrawing {
         }
         list_.labels.push_back({.at = centre_ + 1.05f * radius_ * towards,
                                 .clearance = px(6.0f),
-                                .text = "needs " + needed_degrees(hold) + "\xc2\xb0",
+                                .text = "needs " + needed_degrees(limit) + "\xc2\xb0",
                                 .colour = view_.palette.text,
                                 .rank = 3});
     }
@@ -159,7 +159,7 @@ class LimitDrawing {
     const View& view_;
     const ChainPart& part_;
     DrawList& list_;
-    const ik::ActiveLimit* hold_;
+    const ik::ActiveLimit* active_;
     std::vector<glm::vec3> joints_;
     std::vector<glm::quat> turns_;
     // of the joint that is being drawn
@@ -172,9 +172,9 @@ class LimitDrawing {
 
 }  // namespace
 
-void draw_limits(const View& view, const ChainPart& part, DrawList& list) {
-    if (part.reach.limits.empty() || part.chain.size() < 2) return;
-    LimitDrawing(view, part, list).run();
+void draw_limits(const View& view, const ShownChain& shown, DrawList& list) {
+    if (shown.part.reach.limits.empty() || shown.part.chain.size() < 2) return;
+    LimitDrawing(view, shown, list).run();
 }
 
 void draw_pole(const View& view, const ChainPart& part, DrawList& list) {

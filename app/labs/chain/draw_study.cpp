@@ -15,11 +15,11 @@ constexpr int circle_sides = 64;
 
 class StudyDrawing {
   public:
-    StudyDrawing(const View& view, const ChainPart& part, DrawList& list)
-        : view_(view), part_(part), list_(list) {}
+    StudyDrawing(const View& view, const ShownChain& shown, DrawList& list)
+        : view_(view), shown_(shown), part_(shown.part), list_(list) {}
 
     void microscope() {
-        const Trace& trace = *part_.study.trace;
+        const Trace& trace = *shown_.trace;
         const std::size_t step = part_.study.step;
         ghosts(trace, step);
         const auto moves = trace.frame(step);
@@ -36,8 +36,8 @@ class StudyDrawing {
     }
 
     void race() {
-        const Race& race = *part_.study.race;
-        const glm::vec3 lane = race_lane(part_.study);
+        const Race& race = *shown_.race;
+        const glm::vec3 lane = race_lane(shown_);
         polyline(part_.study.start, ghost(0.8f), 2.0f, {});
         for (std::size_t i = 0; i < race.racers.size(); ++i) {
             const glm::vec3 apart = lane * static_cast<float>(i);
@@ -145,29 +145,31 @@ class StudyDrawing {
     }
 
     const View& view_;
+    const ShownChain& shown_;
     const ChainPart& part_;
     DrawList& list_;
 };
 
 }  // namespace
 
-glm::vec3 race_lane(const Study& study) {
-    if (!study.side_by_side || !study.race) return glm::vec3(0.0f);
+glm::vec3 race_lane(const ShownChain& shown) {
+    const Study& study = shown.part.study;
+    if (!study.side_by_side || !shown.race) return glm::vec3(0.0f);
     float low = 1e30f, high = -1e30f;
     const auto take = [&](const std::vector<glm::vec3>& joints) {
         for (const glm::vec3& joint : joints) low = std::min(low, joint.x), high = std::max(high, joint.x);
     };
     take(study.start);
-    for (const Racer& racer : study.race->racers) take(racer.joints);
+    for (const Racer& racer : shown.race->racers) take(racer.joints);
     return {1.1f * (high - low) + 0.5f, 0.0f, 0.0f};
 }
 
-void draw_microscope(const View& view, const ChainPart& part, DrawList& list) {
-    StudyDrawing(view, part, list).microscope();
+void draw_microscope(const View& view, const ShownChain& shown, DrawList& list) {
+    StudyDrawing(view, shown, list).microscope();
 }
 
-void draw_race(const View& view, const ChainPart& part, DrawList& list) {
-    StudyDrawing(view, part, list).race();
+void draw_race(const View& view, const ShownChain& shown, DrawList& list) {
+    StudyDrawing(view, shown, list).race();
 }
 
 }  // namespace tendril::app

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <glm/geometric.hpp>
-#include <string_view>
 #include <utility>
 
 #include "app/document/units.hpp"
 #include "app/labs/chain/panels.hpp"
-#include "app/labs/chain/shown.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/text.hpp"
@@ -18,18 +16,19 @@ namespace {
 
 using Joints = std::vector<glm::vec3>;
 
-/// Under the microscope a segment is read, not set: it is where the step has it.
-void selected_in_step(const ChainPart& part, const Joints& joints, std::size_t i) {
-    const ShownSegment shown = shown_segment(part, joints, i);
+/// Under the microscope a joint is read, not set: it is where the step has it.
+void selected_in_step(const ShownChain& chain, const Joints& joints, std::size_t i) {
+    const ShownSegment shown = shown_segment(chain, joints, i);
     reading("x", "%.3f m", static_cast<double>(shown.position.x));
     reading("y", "%.3f m", static_cast<double>(shown.position.y));
     reading("z", "%.3f m", static_cast<double>(shown.position.z));
-    reading("length in this step", "%.3f m", static_cast<double>(shown.length));
-    reading("to the target", "%.3f m", static_cast<double>(glm::distance(shown.position, part.target)));
+    reading("bone in this step", "%.3f m", static_cast<double>(shown.length));
+    reading("to the target", "%.3f m", static_cast<double>(glm::distance(shown.position, chain.part.target)));
 }
 
-void selection_rows(const ChainPart& part, const Joints& joints, Emit& emit) {
+void selection_rows(const ShownChain& shown, const Joints& joints, Emit& emit) {
     section("Selection");
+    const ChainPart& part = shown.part;
     if (!part.selected) {
         note("Nothing is selected.");
         return;
@@ -37,23 +36,26 @@ void selection_rows(const ChainPart& part, const Joints& joints, Emit& emit) {
     const std::size_t i = *part.selected;
     const glm::vec3 at = joints[i];
     const std::string end = end_name(part, i);
-    reading(part.mode == ChainMode::Reach ? "joint" : "segment", "%zu%s", i,
+    reading("joint", "%zu%s", i,
             end.empty() ? "" : (" (" + end + ")").c_str());
-    if (part.study.trace) return selected_in_step(part, joints, i);
+    if (shown.trace) return selected_in_step(shown, joints, i);
     glm::vec3 to = at;
     if (point_field("at", to, 0.01f)) emit.continuously("chain.pull", {{"index", i}, {"to", to}});
     float length = part.chain.length(i);
-    if (number_field("length", length, 0.01f, 0.0f, 1000.0f, "%.3f m")) {
+    if (number_field(i == 0 ? "length" : "bone length", length, 0.01f, 0.0f, 1000.0f, "%.3f m")) {
         emit.continuously("chain.set_length", {{"index", i}, {"length", length}});
     }
-    if (i == 0) note("The head's length ties nothing; it counts once something is inserted before it.");
+    if (i == 0)
+        note("No bone leads to this joint: its length counts once a joint is inserted before it.");
     reading("to the target", "%.3f m", static_cast<double>(glm::distance(at, part.target)));
 }
 
-void chain_rows(const ChainPart& part, const Joints& joints) {
+void chain_rows(const ShownChain& shown, const Joints& joints) {
     section("Chain");
+    const ChainPart& part = shown.part;
     const Chain& chain = part.chain;
-    reading("segments", "%zu", chain.size());
+    reading("size", "%s, %s", count_text(chain.size(), "joint").c_str(),
+            count_text(chain.empty() ? 0 : chain.size() - 1, "bone").c_str());
     if (chain.empty()) return;
     reading("reach", "%.3f m", static_cast<double>(chain.reach()));
     const bool reaches = part.mode == ChainMode::Reach;  // "tip to target" stands in its report
@@ -62,32 +64,25 @@ void chain_rows(const ChainPart& part, const Joints& joints) {
     if (!reaches) reading("tail to target", "%.3f m", static_cast<double>(shown_residual(part, joints)));
     float worst = 0.0f;
     for (std::size_t i = 1; i < joints.size(); ++i)
-        worst = std::max(worst, shown_segment(part, joints, i).error);
+        worst = std::max(worst, shown_segment(shown, joints, i).error);
     reading("worst error", "%s", si_text(static_cast<double>(worst), "m").c_str());
 }
 
-void number_cell(const char* format, float value) {
-    char text[24];
-    std::snprintf(text, sizeof text, format, static_cast<double>(value));
-    if (std::string_view(text) == "-0.00") std::snprintf(text, sizeof text, "0.00");
-    text_flush_right(text);
-}
-
-void segment_row(const ChainPart& part, const Joints& joints, std::size_t i, Emit& emit) {
-    const ShownSegment segment = shown_segment(part, joints, i);
+void joint_row(const ShownChain& shown, const Joints& joints, std::size_t i, Emit& emit) {
+    const ShownSegment segment = shown_segment(shown, joints, i);
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     char id[24];
     std::snprintf(id, sizeof id, "%zu", i);
-    if (ImGui::Selectable(id, part.selected == i, ImGuiSelectableFlags_SpanAllColumns)) {
+    if (ImGui::Selectable(id, shown.part.selected == i, ImGuiSelectableFlags_SpanAllColumns)) {
         emit("chain.select", {{"index", i}});
     }
     for (int axis = 0; axis < 3; ++axis) {
         ImGui::TableNextColumn();
-        number_cell("%.2f", segment.position[axis]);
+        text_flush_right(fixed_text(static_cast<double>(segment.position[axis]), 2));
     }
     ImGui::TableNextColumn();
-    number_cell("%.3f", segment.length);
+    text_flush_right(fixed_text(static_cast<double>(segment.length), 3));
     ImGui::TableNextColumn();
     text_flush_right(si_text(static_cast<double>(segment.error), "m"));
 }
@@ -100,7 +95,7 @@ void header_row(bool fixed) {
         float share;
     };
     constexpr Column columns[] = {{"#", 0.7f}, {"x", 1.0f},       {"y", 1.0f},
-                                  {"z", 1.0f}, {"length", 1.05f}, {"error", 1.4f}};
+                                  {"z", 1.0f}, {"bone", 1.05f}, {"error", 1.4f}};
     for (const Column& column : columns) {
         const float width = fixed ? 3.6f * column.share * ImGui::GetFontSize() : column.share;
         ImGui::TableSetupColumn(column.name,
@@ -131,8 +126,8 @@ void follow_selection(const ChainPart& part, float row_height) {
         ImGui::SetScrollY(top - 0.5f * visible);
 }
 
-void segment_table(const ChainPart& part, const Joints& joints, Emit& emit) {
-    section("Segments, in metres");
+void joint_table(const ShownChain& shown, const Joints& joints, Emit& emit) {
+    section("Joints, in metres");
     ImGui::PushFont(small_font());
     const bool narrow = ImGui::GetContentRegionAvail().x < 16.0f * ImGui::GetFontSize();
     const ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY |
@@ -141,16 +136,16 @@ void segment_table(const ChainPart& part, const Joints& joints, Emit& emit) {
     const float min_height = 8.0f * ImGui::GetTextLineHeightWithSpacing();
     const float height = std::max(min_height, ImGui::GetContentRegionAvail().y);
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(3.0f, 2.0f));
-    if (ImGui::BeginTable("segments", 6, flags, {0.0f, height})) {
+    if (ImGui::BeginTable("joints", 6, flags, {0.0f, height})) {
         header_row(narrow);
         ImGuiListClipper clipper;
-        clipper.Begin(static_cast<int>(part.chain.size()));
+        clipper.Begin(static_cast<int>(joints.size()));
         while (clipper.Step()) {
             for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-                segment_row(part, joints, static_cast<std::size_t>(i), emit);
+                joint_row(shown, joints, static_cast<std::size_t>(i), emit);
             }
         }
-        follow_selection(part, clipper.ItemsHeight);
+        follow_selection(shown.part, clipper.ItemsHeight);
         ImGui::EndTable();
     }
     ImGui::PopStyleVar();
@@ -160,16 +155,17 @@ void segment_table(const ChainPart& part, const Joints& joints, Emit& emit) {
 }  // namespace
 
 void ChainLab::inspector(const Workspace& workspace, Emit& emit) const {
-    const ChainPart& part = chain_part(workspace);
+    const ShownChain shown = shown_chain(workspace);
     const Palette& colours = palette(workspace.settings.theme);
-    if (part.study.trace) microscope_rows(part, colours, emit);
-    if (part.study.race) race_rows(workspace, colours, emit);
-    const Joints joints = shown_joints(part);
-    if (part.mode == ChainMode::Reach) report_rows(part, joints, colours);
-    selection_rows(part, joints, emit);
-    if (part.mode == ChainMode::Reach) limit_rows(part, emit);
-    chain_rows(part, joints);
-    segment_table(part, joints, emit);
+    const bool reaches = shown.part.mode == ChainMode::Reach;
+    if (shown.trace) microscope_rows(shown, colours, emit);
+    if (shown.race) race_rows(shown, colours, emit);
+    const Joints joints = shown_joints(shown);
+    if (reaches) report_rows(shown, joints, colours);
+    selection_rows(shown, joints, emit);
+    if (reaches) limit_rows(shown.part, emit);
+    chain_rows(shown, joints);
+    joint_table(shown, joints, emit);
 }
 
 }  // namespace tendril::app

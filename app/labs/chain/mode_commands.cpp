@@ -74,28 +74,17 @@ void seek(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
 }  // namespace
 
 void add_mode_commands(CommandTable& table) {
-    table.add(chain_command("chain.mode",
-                            {{.name = "mode",
-                              .type = ArgumentType::Text,
-                              .help = "how the chain reaches",
-                              .choices = names(all_modes, mode_name)},
-                             index_argument(false, "which segment with_index pulls"),
-                             {.name = "iterations",
-                              .type = ArgumentType::Integer,
-                              .required = false,
-                              .help = "repeats of fixed, or of reach at most",
-                              .low = 1,
-                              .high = max_iterations},
-                             {.name = "tolerance",
-                              .required = false,
-                              .help = "metres at which fixed or reach stops repeating",
-                              .low = 0}},
-                            "Sets how the chain reaches; it moves when the target next does", set_mode));
-    table.add(chain_command("chain.target", {{.name = "to", .type = ArgumentType::Point, .help = "metres"}},
+    table.add(chain_command(
+        "chain.mode",
+        {choice_argument("mode", true, "how the chain reaches", names(all_modes, mode_name)),
+         index_argument(false, "which segment with_index pulls"),
+         integer_argument("iterations", "repeats of fixed, or of reach at most", 1, max_iterations),
+         number_argument("tolerance", "metres at which fixed or reach stops repeating", 0, 1e9)},
+        "Sets how the chain reaches; it moves when the target next does", set_mode));
+    table.add(chain_command("chain.target", {point_argument("to", true, "metres")},
                             "Moves the target and applies the mode once", set_target));
     table.add(chain_command("chain.pull",
-                            {index_argument(true, "which segment"),
-                             {.name = "to", .type = ArgumentType::Point, .help = "metres"}},
+                            {index_argument(true, "which segment"), point_argument("to", true, "metres")},
                             "Pulls one segment, and the target with it; the mode stays as it is. In mode "
                             "reach: drags one joint, the root and the target stay",
                             pull));
@@ -103,12 +92,10 @@ void add_mode_commands(CommandTable& table) {
                             "Selects a segment", select, Effect::Look));
     table.add(chain_command(
         "chain.motion",
-        {{.name = "path",
-          .type = ArgumentType::Text,
-          .help = "what the target follows by itself",
-          .choices = names(all_motions, motion_name)},
-         {.name = "radius", .required = false, .help = "metres", .low = 0, .high = 1e4},
-         {.name = "period", .required = false, .help = "seconds a round", .low = 0.1, .high = 600}},
+        {choice_argument("path", true, "what the target follows by itself", names(all_motions, motion_name)),
+         number_argument("radius", "metres", 0, static_cast<double>(max_motion_radius)),
+         number_argument("period", "seconds a round", shortest_decimal(shortest_period),
+                         shortest_decimal(longest_period))},
         "Lets the target follow a path while the simulation runs", set_motion));
     table.add(chain_command(
         "chain.seek", {{.name = "tick", .type = ArgumentType::Integer, .help = "of the round", .low = 0}},

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "app/document/units.hpp"
 #include "app/labs/chain/panels.hpp"
 #include "app/labs/chain/presets.hpp"
+#include "app/labs/kit/preset_rows.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/timeline.hpp"
 
@@ -40,19 +42,20 @@ void mode_rows(const ChainPart& part, Emit& emit) {
 }
 
 void segment_rows(const ChainPart& part, Emit& emit) {
-    section("Segments");
-    number_field("new length", next_length(), 0.01f, 0.0f, 1000.0f, "%.3f m");
+    section("Joints");
+    number_field("new bone", next_length(), 0.01f, 0.0f, 1000.0f, "%.3f m");
     const float length = next_length();
-    if (row_button("Add", 3, true, "Appends a segment at the tail")) emit("chain.add", {{"length", length}});
-    if (row_button("Insert", 3, part.selected.has_value(), "Inserts a segment before the selected one")) {
+    if (row_button("Add", 3, true, "Adds a joint at the end, with a bone of that length"))
+        emit("chain.add", {{"length", length}});
+    if (row_button("Insert", 3, part.selected.has_value(), "Inserts a joint before the selected one")) {
         emit("chain.insert", {{"index", *part.selected}, {"length", length}});
     }
-    if (row_button("Remove", 3, part.selected.has_value(), "Removes the selected segment")) {
+    if (row_button("Remove", 3, part.selected.has_value(), "Removes the selected joint")) {
         emit("chain.remove", {{"index", *part.selected}});
     }
     if (part.selected) {
         float selected = part.chain.length(*part.selected);
-        const std::string name = "length of " + std::to_string(*part.selected);
+        const std::string name = "bone of joint " + std::to_string(*part.selected);
         if (number_field(name.c_str(), selected, 0.01f, 0.0f, 1000.0f, "%.3f m")) {
             emit.continuously("chain.set_length", {{"index", *part.selected}, {"length", selected}});
         }
@@ -82,16 +85,11 @@ void target_rows(const ChainPart& part, bool playing, Emit& emit) {
 }
 
 void preset_rows(Emit& emit) {
-    section("Presets");
-    for (const Preset& preset : presets()) {
-        const std::string tip = std::to_string(preset.count) + " segments";
-        if (!row_button(preset.title, 3, true, tip.c_str())) continue;
-        emit("chain.preset", {{"name", preset.name}});
+    std::vector<PresetButton> buttons;
+    for (const Preset& preset : presets())
+        buttons.push_back({preset.name, preset.title, count_text(preset.count, "joint")});
+    if (app::preset_rows(chain_lab, buttons, "Removes every joint", emit))
         emit("camera.frame", {{"what", "all"}});  // they differ in size
-    }
-    if (row_button("Empty", 2, true, "Takes every segment away")) emit("chain.clear");
-    if (row_button("Reset", 2, true, "Everything as at the first start; undo brings it back"))
-        emit("chain.reset");
 }
 
 }  // namespace
@@ -108,9 +106,10 @@ void ChainLab::panel(const Workspace& workspace, Emit& emit) const {
 }
 
 void ChainLab::timeline(const Workspace& workspace, Emit& emit) const {
-    const ChainPart& part = chain_part(workspace);
-    if (part.study.trace) {
-        const Trace& trace = *part.study.trace;
+    const ShownChain chain = shown_chain(workspace);
+    const ChainPart& part = chain.part;
+    if (chain.trace) {
+        const Trace& trace = *chain.trace;
         int shown = static_cast<int>(part.study.step);
         if (step_timeline("solve", shown, iteration_ends(trace))) {
             emit.continuously("microscope.seek", {{"step", shown}});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/labs/chain/chain_lab.hpp"
+#include "app/labs/chain/shown.hpp"
 
 namespace tendril::app {
 
@@ -12,12 +13,12 @@ void study_rows(const ChainPart& part, Emit& emit);
 /// The panel: what to copy.
 void export_rows(Emit& emit);
 /// The inspector: how the last solve went, with the joints where they are shown.
-void report_rows(const ChainPart& part, const std::vector<glm::vec3>& joints, const Palette& palette);
+void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, const Palette& palette);
 /// The inspector: the limit of the selected joint.
 void limit_rows(const ChainPart& part, Emit& emit);
 /// The inspector: the step that the microscope shows.
-void microscope_rows(const ChainPart& part, const Palette& palette, Emit& emit);
+void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit);
 /// The inspector: who takes part in the race, and how they do.
-void race_rows(const Workspace& workspace, const Palette& palette, Emit& emit);
+void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit);
 
 }  // namespace tendril::app

@@ -18,6 +18,13 @@ std::vector<glm::vec3> positions(const Chain& chain) {
     return joints;
 }
 
+std::vector<glm::vec3> from_root(const std::vector<glm::vec3>& joints) {
+    std::vector<glm::vec3> relative;
+    relative.reserve(joints.size());
+    for (const glm::vec3& joint : joints) relative.push_back(joint - joints.front());
+    return relative;
+}
+
 glm::quat least_rotation(glm::vec3 from, glm::vec3 to) {
     const float w = 1.0f + glm::dot(from, to);
     if (w < 1e-6f) {
@@ -96,9 +103,8 @@ std::optional<ReachResult> solve_reach(Chain& chain, ReachSettings& settings, gl
     }
     forget_what_is_not_valid(state);
     if (settings.limits.empty()) return result;
-    if (result.report.status == ik::Status::Limited && solver.bones() <= max_explained_bones) {
-        result.hold = solver.explain(positions(chain), state, target, options);
-    }
+    if (result.report.status == ik::Status::Limited)
+        result.active_limit = solver.explain(positions(chain), state, target, options);
     return result;
 }
 

@@ -26,8 +26,7 @@ struct Options;
 namespace tendril::app {
 
 class ChainRuntime;
-
-inline constexpr std::size_t max_explained_bones = 64;  ///< explaining frees them one by one
+class JsonPlace;
 
 inline constexpr int max_restarts = 1000;
 inline constexpr int default_restarts = 8;  ///< as ik::Options has it, but none while the target is dragged
@@ -55,12 +54,14 @@ struct ReachSettings {
 struct ReachResult {
     ik::Method method = ik::Method::Fabrik;
     ik::Report report;
-    std::optional<ik::ActiveLimit> hold;  ///< the active limit that keeps the tip back, if any
+    std::optional<ik::ActiveLimit> active_limit;  ///< the active limit that keeps the tip back, if any
     bool operator==(const ReachResult&) const = default;
 };
 
 /// Where the segments are, head first.
 std::vector<glm::vec3> positions(const Chain& chain);
+/// Where the joints are from the root, as a solver's memory counts it.
+std::vector<glm::vec3> from_root(const std::vector<glm::vec3>& joints);
 /// The least rotation from one unit vector to another.
 glm::quat least_rotation(glm::vec3 from, glm::vec3 to);
 /// How each bone is turned from rest, where the joints are now: as the last solve left it (`rotations`, or
@@ -101,9 +102,9 @@ ik::Limit limit_of(const ReachSettings& settings, std::size_t joint);
 void set_limit(ReachSettings& settings, std::size_t joint, const ik::Limit& limit, const Chain& chain);
 
 /// "joint 2 (hinge) stops at 145 degrees; the target needs 162".
-std::string active_limit_text(const ik::ActiveLimit& hold);
+std::string active_limit_text(const ik::ActiveLimit& limit);
 /// "162": as that sentence has it.
-std::string needed_degrees(const ik::ActiveLimit& hold);
+std::string needed_degrees(const ik::ActiveLimit& limit);
 const char* solver_help(ik::Method method);
 /// What a status means, in a sentence.
 const char* status_help(ik::Status status);
@@ -118,9 +119,9 @@ inline constexpr std::array all_joint_kinds{
 /// As "state", where there is one. `joints` is where the chain is that the state belongs to: what the pole's
 /// memory has in common with it is not written twice.
 void save_state(Json& json, const ik::State& state, const std::vector<glm::vec3>& joints);
-ik::State load_state(const Json& json, const std::string& where, const std::vector<glm::vec3>& joints);
+ik::State load_state(const JsonPlace& owner, const std::vector<glm::vec3>& joints);
 Json save_reach(const ReachSettings& settings, const Chain& chain);
 /// Throws std::runtime_error naming the place.
-ReachSettings load_reach(const Json& json, const std::string& where, const Chain& chain);
+ReachSettings load_reach(const JsonPlace& place, const Chain& chain);
 
 }  // namespace tendril::app

@@ -1,59 +1,29 @@
 // Reach mode in a scene file.
 #include <algorithm>
-#include <cmath>
-#include <stdexcept>
 
 #include "app/document/json_complete.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/chain/chain_part.hpp"
+#include "app/labs/kit/json_place.hpp"
 
 namespace tendril::app {
 namespace {
 
-glm::quat json_quaternion(const Json& json, const std::string& where) {
-    if (!json.is_array() || json.size() != 4) throw std::runtime_error(where + " must be [x, y, z, w]");
-    float c[4];
-    for (std::size_t i = 0; i < 4; ++i) c[i] = json_number(json[i], where + "." + std::to_string(i));
-    const glm::quat q(c[3], c[0], c[1], c[2]);
-    if (!(std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0f) <= 1e-3f)) {
-        throw std::runtime_error(where + " must be a unit quaternion, got " + json_summary(json));
-    }
-    return q;
-}
-
-const Json* optional_member(const Json& json, const char* key) {
-    const auto found = json.find(key);
-    return found == json.end() || found->is_null() ? nullptr : &*found;
-}
-
-/// One a bone, or null for none.
-const Json* bone_list(const Json& json, const char* key, const std::string& where, std::size_t bones) {
-    const Json* list = optional_member(json, key);
-    if (list == nullptr || (list->is_array() && list->empty())) return nullptr;
-    if (!list->is_array() || list->size() != bones) {
-        throw std::runtime_error(where + "." + key + " must be a list of " + std::to_string(bones) +
-                                 ", one a bone");
-    }
+/// One a bone; nothing where there is none, or none of them.
+std::optional<JsonPlace> bone_list(const JsonPlace& owner, const char* key, std::size_t bones) {
+    std::optional<JsonPlace> list = owner.optional(key);
+    if (!list || (list->json().is_array() && list->json().empty())) return std::nullopt;
+    list->check_size(bones, "values, one a bone");
     return list;
 }
 
-/// Where the joints are from the root, as the solver counts it.
-std::vector<glm::vec3> from_root(const std::vector<glm::vec3>& joints) {
-    std::vector<glm::vec3> relative;
-    relative.reserve(joints.size());
-    for (const glm::vec3& joint : joints) relative.push_back(joint - joints.front());
-    return relative;
-}
-
 /// A place from the root: two coordinates of at most 1e9 may lie twice as far apart.
-glm::vec3 json_offset(const Json& json, const std::string& where) {
-    if (!json.is_array() || json.size() != 3) throw std::runtime_error(where + " must be [x, y, z]");
-    glm::vec3 offset;
-    for (int axis = 0; axis < 3; ++axis) {
-        offset[axis] = static_cast<float>(
-            json_real(json[static_cast<std::size_t>(axis)], where + "." + std::to_string(axis), -4e9, 4e9));
-    }
-    return offset;
+glm::vec3 offset(const JsonPlace& place) {
+    place.check_size(3, "numbers [x, y, z]");
+    glm::vec3 at;
+    for (int axis = 0; axis < 3; ++axis)
+        at[axis] = static_cast<float>(place.element(static_cast<std::size_t>(axis)).real(-4e9, 4e9));
+    return at;
 }
 
 /// Its joints are left out where they are the chain's, as they are right after a solve.
@@ -68,25 +38,20 @@ Json save_memory(const ik::PoleMemory& memory, const std::vector<glm::vec3>& joi
     return json;
 }
 
-ik::PoleMemory load_memory(const Json& json, const std::string& where, const std::vector<glm::vec3>& joints) {
+ik::PoleMemory load_memory(const JsonPlace& place, const std::vector<glm::vec3>& joints) {
     ik::PoleMemory memory;
     memory.valid = true;
-    memory.turn = pole_turn_from_name(json_text(json_member(json, "turn", where), where + ".turn"));
-    memory.pole = json_offset(json_member(json, "pole", where), where + ".pole");
-    memory.target = json_offset(json_member(json, "target", where), where + ".target");
-    memory.twist = json_degrees(json_member(json, "twist_deg", where), where + ".twist_deg");
-    const Json* list = optional_member(json, "joints");
-    if (list == nullptr) {
+    memory.turn = pole_turn_from_name(place["turn"].text());
+    memory.pole = offset(place["pole"]);
+    memory.target = offset(place["target"]);
+    memory.twist = place["twist_deg"].degrees();
+    const auto list = place.optional("joints");
+    if (!list) {
         memory.joints = from_root(joints);
         return memory;
     }
-    if (!list->is_array() || list->size() != joints.size()) {
-        throw std::runtime_error(where + ".joints must be a list of " + std::to_string(joints.size()) +
-                                 " places, one a joint");
-    }
-    for (const Json& each : *list) {
-        memory.joints.push_back(json_offset(each, where + ".joints." + std::to_string(memory.joints.size())));
-    }
+    list->check_size(joints.size(), "places, one a joint");
+    for (std::size_t i = 0; i < joints.size(); ++i) memory.joints.push_back(offset(list->element(i)));
     return memory;
 }
 
@@ -108,27 +73,22 @@ void save_state(Json& json, const ik::State& state, const std::vector<glm::vec3>
     if (state.pole.valid) saved["pole"] = save_memory(state.pole, joints);
 }
 
-ik::State load_state(const Json& json, const std::string& where, const std::vector<glm::vec3>& joints) {
-    const Json* saved = optional_member(json, "state");
-    if (saved == nullptr) return {};
-    const std::string here = where + ".state";
+ik::State load_state(const JsonPlace& owner, const std::vector<glm::vec3>& joints) {
+    const auto saved = owner.optional("state");
+    if (!saved) return {};
     const std::size_t bones = joints.empty() ? 0 : joints.size() - 1;
     ik::State state(bones);
-    if (const Json* list = bone_list(*saved, "rotations", here, bones)) {
-        for (std::size_t i = 0; i < bones; ++i)
-            state.rotations[i] = json_quaternion((*list)[i], here + ".rotations." + std::to_string(i));
+    if (const auto list = bone_list(*saved, "rotations", bones)) {
+        for (std::size_t i = 0; i < bones; ++i) state.rotations[i] = list->element(i).rotation();
     }
-    if (const Json* limits = optional_member(*saved, "limits")) {
-        const std::string at = here + ".limits";
+    if (const auto limits = saved->optional("limits")) {
         state.limits.valid = true;
-        state.limits.limited = json_bool(json_member(*limits, "limited", at), at + ".limited");
-        state.limits.target = json_offset(json_member(*limits, "target", at), at + ".target");
-        state.limits.damping = json_number(json_member(*limits, "damping", at), at + ".damping");
+        state.limits.limited = (*limits)["limited"].flag();
+        state.limits.target = offset((*limits)["target"]);
+        state.limits.damping = (*limits)["damping"].number();
     }
-    if (const Json* pole = optional_member(*saved, "pole"))
-        state.pole = load_memory(*pole, here + ".pole", joints);
-    if (const Result bad = ik::check(state, bones); !bad)
-        throw std::runtime_error(here + ": " + bad.message());
+    if (const auto pole = saved->optional("pole")) state.pole = load_memory(*pole, joints);
+    if (const Result bad = ik::check(state, bones); !bad) saved->fail(bad.message());
     return state;
 }
 
@@ -147,41 +107,33 @@ Json save_reach(const ReachSettings& settings, const Chain& chain) {
     return json;
 }
 
-ReachSettings load_reach(const Json& json, const std::string& where, const Chain& chain) {
+ReachSettings load_reach(const JsonPlace& place, const Chain& chain) {
     const std::size_t bones = chain.size() < 2 ? 0 : chain.size() - 1;
     ReachSettings settings;
-    const auto at = [&](const char* key) { return where + "." + key; };
-    const auto value = [&](const char* key, float low, float high) {
-        return json_number(json_member(json, key, where), at(key), low, high);
-    };
-    const std::string name = json_text(json_member(json, "solver", where), at("solver"));
-    const auto method = ik::method_named(name);
-    if (!method) throw std::runtime_error(at("solver") + ": there is no solver \"" + name + "\"");
+    const JsonPlace solver = place["solver"];
+    const auto method = ik::method_named(solver.text());
+    if (!method) solver.fail("there is no solver \"" + solver.text() + "\"");
     settings.method = *method;
-    settings.iterations =
-        json_integer(json_member(json, "iterations", where), at("iterations"), 1, max_iterations);
-    if (const Json* tolerance = optional_member(json, "tolerance")) {
-        settings.tolerance = json_number(*tolerance, at("tolerance"), 0.0f, max_magnitude);
-    }
-    settings.snap_back = value("snap_back", 0.0f, 1.0f);
-    settings.soft_zone = value("soft_zone", 0.0f, 1.0f);
-    settings.damping = value("damping", min_damping, max_damping);
-    settings.twist_deg = value("twist_deg", -180.0f, 180.0f);
-    if (const Json* restarts = optional_member(json, "restarts"))  // version 1 had no such option
-        settings.restarts = json_integer(*restarts, at("restarts"), 0, max_restarts);
-    if (const Json* pole = optional_member(json, "pole")) settings.pole = json_point(*pole, at("pole"));
-    settings.pole_turn =
-        pole_turn_from_name(json_text(json_member(json, "pole_turn", where), at("pole_turn")));
-    if (const Json* limits = bone_list(json, "limits", where, bones)) {
+    settings.iterations = place["iterations"].integer(1, max_iterations);
+    if (const auto tolerance = place.optional("tolerance"))
+        settings.tolerance = tolerance->number(0.0f, max_magnitude);
+    settings.snap_back = place["snap_back"].number(0.0f, 1.0f);
+    settings.soft_zone = place["soft_zone"].number(0.0f, 1.0f);
+    settings.damping = place["damping"].number(min_damping, max_damping);
+    settings.twist_deg = place["twist_deg"].number(-180.0f, 180.0f);
+    if (const auto restarts = place.optional("restarts"))  // version 1 had no such option
+        settings.restarts = restarts->integer(0, max_restarts);
+    if (const auto pole = place.optional("pole")) settings.pole = pole->point();
+    settings.pole_turn = pole_turn_from_name(place["pole_turn"].text());
+    if (const auto limits = bone_list(place, "limits", bones)) {
         for (std::size_t i = 0; i < bones; ++i) {
-            const std::string here = at("limits") + "." + std::to_string(i);
-            settings.limits.push_back(limit_from_json((*limits)[i], here));
-            if (const char* why = ik::fault(settings.limits.back(), chain.default_direction())) {
-                throw std::runtime_error(here + ": " + why);
-            }
+            const JsonPlace each = limits->element(i);
+            settings.limits.push_back(limit_from_json(each.json(), each.where()));
+            if (const char* why = ik::fault(settings.limits.back(), chain.default_direction()))
+                each.fail(why);
         }
     }
-    settings.state = load_state(json, where, positions(chain));
+    settings.state = load_state(place, positions(chain));
     return settings;
 }
 

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/trigonometric.hpp>
-#include <stdexcept>
 
 #include "app/labs/chain/reach.hpp"
+#include "app/labs/kit/names.hpp"
 
 namespace tendril::app {
 namespace {
@@ -22,10 +22,10 @@ const char* bound_phrase(ik::Bound bound) {
 }
 
 /// Whole degrees, or tenths where limit and need would look the same.
-std::string degrees_text(const ik::ActiveLimit& hold, float angle) {
+std::string degrees_text(const ik::ActiveLimit& limit, float angle) {
     const auto whole = [](float radians) { return std::lround(glm::degrees(radians)); };
     char text[32];
-    std::snprintf(text, sizeof text, "%.*f", whole(hold.limit) == whole(hold.needed) ? 1 : 0,
+    std::snprintf(text, sizeof text, "%.*f", whole(limit.limit) == whole(limit.needed) ? 1 : 0,
                   glm::degrees(static_cast<double>(angle)) + 0.0);
     return text;
 }
@@ -70,15 +70,15 @@ const char* kind_title(ik::JointKind kind) {
     return titles[static_cast<std::size_t>(kind)];
 }
 
-std::string needed_degrees(const ik::ActiveLimit& hold) {
-    return degrees_text(hold, hold.needed);
+std::string needed_degrees(const ik::ActiveLimit& limit) {
+    return degrees_text(limit, limit.needed);
 }
 
-std::string active_limit_text(const ik::ActiveLimit& hold) {
-    std::string text = "joint " + std::to_string(hold.joint) + " (" + kind_title(hold.kind) + ") ";
-    text += std::string(bound_phrase(hold.bound)) + " " + degrees_text(hold, hold.limit) + " degrees";
-    text += "; the target needs " + needed_degrees(hold);
-    if (!hold.enough) text += " and more of the others";
+std::string active_limit_text(const ik::ActiveLimit& limit) {
+    std::string text = "joint " + std::to_string(limit.joint) + " (" + kind_title(limit.kind) + ") ";
+    text += std::string(bound_phrase(limit.bound)) + " " + degrees_text(limit, limit.limit) + " degrees";
+    text += "; the target needs " + needed_degrees(limit);
+    if (!limit.enough) text += " and more of the others";
     return text;
 }
 
@@ -87,10 +87,7 @@ const char* pole_turn_name(ik::PoleTurn turn) {
 }
 
 ik::PoleTurn pole_turn_from_name(const std::string& name) {
-    for (const ik::PoleTurn turn : all_pole_turns) {
-        if (name == pole_turn_name(turn)) return turn;
-    }
-    throw std::invalid_argument("unknown pole turn \"" + name + "\"");
+    return named(all_pole_turns, pole_turn_name, name, "pole turn");
 }
 
 }  // namespace tendril::app

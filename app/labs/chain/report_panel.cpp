@@ -7,7 +7,6 @@
 #include "app/document/json_complete.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/chain/panels.hpp"
-#include "app/labs/chain/shown.hpp"
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {
@@ -42,10 +41,11 @@ std::vector<AngleRow> angle_rows(ik::JointKind kind) {
 
 }  // namespace
 
-void report_rows(const ChainPart& part, const std::vector<glm::vec3>& joints, const Palette& palette) {
+void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, const Palette& palette) {
     section("Reach");
+    const ChainPart& part = shown.part;
     reading("tip to target", "%.4f m", static_cast<double>(shown_residual(part, joints)));
-    if (!shows_end(part)) {
+    if (!shows_end(shown)) {
         reading("status", "on its way");
         note("A step of the solve; its report comes with the last one.");
         return;
@@ -59,7 +59,7 @@ void report_rows(const ChainPart& part, const std::vector<glm::vec3>& joints, co
     reading("iterations", "%d", result.report.iterations);
     note(ran_text(result.method, result.report, !part.reach.limits.empty()) + ".");
     note(status_help(result.report.status));
-    if (result.hold) coloured_note(active_limit_text(*result.hold) + ".", palette.limit);
+    if (result.active_limit) coloured_note(active_limit_text(*result.active_limit) + ".", palette.limit);
 }
 
 void limit_rows(const ChainPart& part, Emit& emit) {

@@ -105,10 +105,10 @@ void reset(ChainPart& part, const Arguments&) {
 
 void take_preset(ChainPart& part, const Arguments& given) {
     const std::string name = given.text("name");
-    const auto preset =
-        std::find_if(presets().begin(), presets().end(), [&](const Preset& p) { return p.name == name; });
+    const Preset& preset = named(
+        presets(), [](const Preset& p) { return p.name; }, name, "preset");
     const std::size_t count =
-        given.has("count") ? static_cast<std::size_t>(given.integer("count")) : preset->count;
+        given.has("count") ? static_cast<std::size_t>(given.integer("count")) : preset.count;
     const std::uint32_t seed = given.has("seed") ? static_cast<std::uint32_t>(given.integer("seed")) : 1u;
     part.chain = make_preset(name, count, seed);
     part.target = part.chain.position(part.chain.size() - 1);
@@ -123,10 +123,8 @@ void take_preset(ChainPart& part, const Arguments& given) {
 
 void add_shape_commands(CommandTable& table) {
     table.add(chain_command("chain.clear",
-                            {{.name = "default_direction",
-                              .type = ArgumentType::Point,
-                              .required = false,
-                              .help = "unit vector along which a chain without a direction extends"}},
+                            {point_argument("default_direction", false,
+                                            "unit vector along which a chain without a direction extends")},
                             "Takes every segment away", clear));
     table.add(chain_command("chain.add", {length_argument(), position_argument()},
                             "Appends a segment at the tail", add));
@@ -141,16 +139,9 @@ void add_shape_commands(CommandTable& table) {
                             "Sets the length of a segment's bone", set_length));
     table.add(chain_command(
         "chain.preset",
-        {{.name = "name",
-          .type = ArgumentType::Text,
-          .help = "which chain",
-          .choices = names(presets(), [](const Preset& p) { return p.name; })},
-         {.name = "count",
-          .type = ArgumentType::Integer,
-          .required = false,
-          .help = "segments",
-          .low = 1,
-          .high = static_cast<double>(max_segments)},
+        {choice_argument("name", true, "which chain",
+                         names(presets(), [](const Preset& p) { return p.name; })),
+         integer_argument("count", "segments", 1, static_cast<double>(max_segments)),
          {.name = "seed", .type = ArgumentType::Integer, .required = false, .help = "for random", .low = 0}},
         "Makes a preset chain, the target on its tail", take_preset));
 }

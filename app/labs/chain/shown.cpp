@@ -2,27 +2,38 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
+
+#include "app/labs/chain/chain_lab.hpp"
+#include "app/labs/chain/chain_runtime.hpp"
 
 namespace tendril::app {
 
-std::vector<glm::vec3> shown_joints(const ChainPart& part) {
-    return part.study.trace ? part.study.trace->pose(part.study.step) : positions(part.chain);
+ShownChain shown_chain(const Workspace& workspace) {
+    const ChainPart& part = chain_part(workspace);
+    Studied studied = workspace.runtimes.of<ChainRuntime>(chain_lab).studied(part);
+    return {part, std::move(studied.trace), std::move(studied.race)};
 }
 
-bool shows_end(const ChainPart& part) {
-    return !part.study.trace || part.study.step == part.study.trace->frames();
+std::vector<glm::vec3> shown_joints(const ShownChain& shown) {
+    return shown.trace ? shown.trace->pose(shown.part.study.step) : positions(shown.part.chain);
 }
 
-const ik::ActiveLimit* shown_active_limit(const ChainPart& part) {
-    return part.result && part.result->hold && shows_end(part) ? &*part.result->hold : nullptr;
+bool shows_end(const ShownChain& shown) {
+    return !shown.trace || shown.part.study.step == shown.trace->frames();
 }
 
-ShownSegment shown_segment(const ChainPart& part, const std::vector<glm::vec3>& joints, std::size_t index) {
-    const float length = part.chain.segments()[index].length;
+const ik::ActiveLimit* shown_active_limit(const ShownChain& shown) {
+    const auto& result = shown.part.result;
+    return result && result->active_limit && shows_end(shown) ? &*result->active_limit : nullptr;
+}
+
+ShownSegment shown_segment(const ShownChain& shown, const std::vector<glm::vec3>& joints, std::size_t index) {
+    const float length = shown.part.chain.segments()[index].length;
     if (index == 0) return {joints[0], length, 0.0f};
     const float distance = glm::distance(joints[index], joints[index - 1]);
     // Outside a solve a bone has its length, but for rounding, which is the error's to show.
-    return {joints[index], shows_end(part) ? length : distance, std::abs(distance - length)};
+    return {joints[index], shows_end(shown) ? length : distance, std::abs(distance - length)};
 }
 
 const char* end_name(const ChainPart& part, std::size_t index) {

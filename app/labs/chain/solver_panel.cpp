@@ -97,7 +97,7 @@ void solver_rows(const ChainPart& part, Emit& emit) {
     std::array<const char*, ik::all_methods.size()> why_not{};
     std::transform(ik::all_methods.begin(), ik::all_methods.end(), why_not.begin(),
                    [&](ik::Method each) { return takes(each, part.chain) ? nullptr : needs_two_bones; });
-    if (choice_field("solver", method, titles.data(), static_cast<int>(titles.size()), why_not.data())) {
+    if (choice_field("##solver", method, titles.data(), static_cast<int>(titles.size()), why_not.data())) {
         emit("chain.solver", {{"name", ik::name(ik::all_methods[static_cast<std::size_t>(method)])}});
     }
     note(takes(part.reach.method, part.chain) ? solver_help(part.reach.method)

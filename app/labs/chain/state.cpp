@@ -11,21 +11,22 @@ Json reach_state(const ChainPart& part) {
     Json json = save_reach(part.reach, part.chain);
     json.erase("state");
     json["report"] = nullptr;
-    json["hold"] = nullptr;
+    json["active_limit"] = nullptr;
     json["explanation"] = nullptr;
     if (!part.result) return json;
     json["report"] = report_json(part.result->method, part.result->report, !part.reach.limits.empty());
-    if (part.result->hold) {
-        json["hold"] = active_limit_json(*part.result->hold);
-        json["explanation"] = active_limit_text(*part.result->hold);
+    if (part.result->active_limit) {
+        json["active_limit"] = active_limit_json(*part.result->active_limit);
+        json["explanation"] = active_limit_text(*part.result->active_limit);
     }
     return json;
 }
 
 /// The step that is shown.
-Json microscope_state(const ChainPart& part) {
+Json microscope_state(const ShownChain& shown) {
+    const ChainPart& part = shown.part;
     const Study& study = part.study;
-    const Trace& trace = *study.trace;
+    const Trace& trace = *shown.trace;
     Json json{{"step", study.step}, {"steps", trace.frames()}, {"iteration", trace.iteration(study.step)}};
     json["report"] = report_json(trace.method, trace.report, !part.reach.limits.empty());
     json["moves"] = Json::array();
@@ -37,11 +38,11 @@ Json microscope_state(const ChainPart& part) {
                                  {"from", point(step.from)},
                                  {"to", point(step.to)}});
     }
-    const std::vector<glm::vec3> joints = shown_joints(part);
+    const std::vector<glm::vec3> joints = shown_joints(shown);
     json["residual"] = number(shown_residual(part, joints));
     for (std::size_t i = 0; i < joints.size(); ++i) {
         json["positions"].push_back(point(joints[i]));
-        json["lengths"].push_back(number(shown_segment(part, joints, i).length));
+        json["lengths"].push_back(number(shown_segment(shown, joints, i).length));
     }
     for (const float residual : trace.residuals) json["residuals"].push_back(number(residual));
     return json;
@@ -87,8 +88,9 @@ Json ChainLab::state(const Workspace& workspace) const {
               {"motion", motion_name(part.motion.path)},
               {"segments", std::move(list)}};
     if (part.mode == ChainMode::Reach) json["solve"] = reach_state(part);
-    if (part.study.trace) json["microscope"] = microscope_state(part);
-    if (part.study.race) json["race"] = race_state(*part.study.race);
+    const ShownChain shown = shown_chain(workspace);
+    if (shown.trace) json["microscope"] = microscope_state(shown);
+    if (shown.race) json["race"] = race_state(*shown.race);
     return json;
 }
 

@@ -5,6 +5,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/labs/chain/chain_part.hpp"
+#include "app/labs/kit/json_place.hpp"
 #include "app/labs/kit/require.hpp"
 
 namespace tendril::app {
@@ -57,32 +58,24 @@ void Study::rewind(Chain& chain, ReachSettings& settings) const {
     settings.state = start_state;
 }
 
-void Study::refresh(const Chain& chain, const ReachSettings& settings, glm::vec3 target,
-                    ChainRuntime& runtime) {
-    trace.reset();
-    race.reset();
-    if (!open()) return;
-    Chain begin = chain;
-    ReachSettings turned = settings;
-    rewind(begin, turned);
-    if (kind == Kind::Race) {
-        race = std::make_shared<const Race>(run_race(begin, turned, target, racers, runtime));
-        return;
+Studied work_out(const Study& study, Chain chain, ReachSettings settings, glm::vec3 target,
+                 ChainRuntime& runtime) {
+    study.rewind(chain, settings);
+    switch (study.kind) {
+        case Study::Kind::None:
+            break;
+        case Study::Kind::Microscope:
+            return {std::make_shared<const Trace>(record_trace(chain, settings, target, runtime)), nullptr};
+        case Study::Kind::Race:
+            return {nullptr,
+                    std::make_shared<const Race>(run_race(chain, settings, target, study.racers, runtime))};
     }
-    trace = std::make_shared<const Trace>(record_trace(begin, turned, target, runtime));
-    step = std::min(step, trace->frames());
+    return {};
 }
 
 std::size_t Study::bytes() const {
-    std::size_t sum =
-        (start.size() + last_start.size()) * sizeof(glm::vec3) + bytes_of(start_state) + bytes_of(last_state);
-    if (trace) sum += trace->steps.size() * (sizeof(ik::Step) + sizeof(std::size_t));
-    if (race) {
-        for (const Racer& racer : race->racers) {
-            sum += racer.joints.size() * sizeof(glm::vec3) + racer.residuals.size() * sizeof(float);
-        }
-    }
-    return sum;
+    return (start.size() + last_start.size()) * sizeof(glm::vec3) + bytes_of(start_state) +
+           bytes_of(last_state);
 }
 
 bool Study::operator==(const Study& other) const {
@@ -102,34 +95,25 @@ Json save_study(const Study& study) {
     return json;
 }
 
-Study load_study(const Json& json, const std::string& where, const Chain& chain) {
+Study load_study(const JsonPlace& place, const Chain& chain) {
     Study study;
-    const std::string kind = json_text(json_member(json, "kind", where), where + ".kind");
-    if (kind != "race" && kind != "microscope") {
-        throw std::runtime_error(where + ".kind must be race or microscope, got \"" + kind + "\"");
-    }
-    study.begin(kind == "race" ? Study::Kind::Race : Study::Kind::Microscope, Study::From::Here, chain, {});
-    const Json& start = json_member(json, "start", where);
-    if (!start.is_array() || start.size() != chain.size()) {
-        throw std::runtime_error(where + ".start must be a list of " + std::to_string(chain.size()) +
-                                 " positions, one a segment");
-    }
-    for (std::size_t i = 0; i < start.size(); ++i) {
-        study.start[i] = json_point(start[i], where + ".start." + std::to_string(i));
-    }
-    study.start_state = load_state(json, where, study.start);
-    study.step = static_cast<std::size_t>(
-        json_integer(json_member(json, "step", where), where + ".step", 0, max_trace_steps));
+    const JsonPlace kind = place["kind"];
+    if (kind.text() != "race" && kind.text() != "microscope")
+        kind.fail("must be race or microscope, got \"" + kind.text() + "\"");
+    study.begin(kind.text() == "race" ? Study::Kind::Race : Study::Kind::Microscope, Study::From::Here, chain,
+                {});
+    const JsonPlace start = place["start"];
+    start.check_size(chain.size(), "positions, one a segment");
+    for (std::size_t i = 0; i < chain.size(); ++i) study.start[i] = start.element(i).point();
+    study.start_state = load_state(place, study.start);
+    study.step = static_cast<std::size_t>(place["step"].integer(0, max_trace_steps));
     study.racers.fill(false);
-    const Json& solvers = json_member(json, "solvers", where);
-    if (!solvers.is_array()) throw std::runtime_error(where + ".solvers must be a list");
-    for (const Json& each : solvers) {
-        const std::string name = json_text(each, where + ".solvers");
-        const auto method = ik::method_named(name);
-        if (!method) throw std::runtime_error(where + ".solvers: there is no solver \"" + name + "\"");
+    place["solvers"].for_each("solvers", ik::all_methods.size(), [&](const JsonPlace& each) {
+        const auto method = ik::method_named(each.text());
+        if (!method) each.fail("there is no solver \"" + each.text() + "\"");
         study.racers[static_cast<std::size_t>(*method)] = true;
-    }
-    study.side_by_side = json_bool(json_member(json, "side_by_side", where), where + ".side_by_side");
+    });
+    study.side_by_side = place["side_by_side"].flag();
     return study;
 }
 

@@ -30,9 +30,6 @@ struct Study {
     /// Where the last solve began, for a study that is opened after it; not saved, nothing for long chains.
     std::vector<glm::vec3> last_start;
     ik::State last_state;
-    /// Worked out from all the above; neither saved nor compared.
-    std::shared_ptr<const Trace> trace;
-    std::shared_ptr<const Race> race;
 
     bool operator==(const Study& other) const;
 
@@ -47,12 +44,19 @@ struct Study {
     void close();
     /// Puts the chain back to the start; nothing while nothing is studied.
     void rewind(Chain& chain, ReachSettings& settings) const;
-    /// Works out trace or race anew.
-    void refresh(const Chain& chain, const ReachSettings& settings, glm::vec3 target, ChainRuntime& runtime);
     std::size_t bytes() const;
 };
 
+/// What a study comes to: the trace of the solve under the microscope, or the race. Worked out, never saved:
+/// the lab's runtime has it.
+struct Studied {
+    std::shared_ptr<const Trace> trace;
+    std::shared_ptr<const Race> race;
+};
+Studied work_out(const Study& study, Chain chain, ReachSettings settings, glm::vec3 target,
+                 ChainRuntime& runtime);
+
 Json save_study(const Study& study);
-Study load_study(const Json& json, const std::string& where, const Chain& chain);
+Study load_study(const JsonPlace& place, const Chain& chain);
 
 }  // namespace tendril::app

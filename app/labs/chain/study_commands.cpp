@@ -3,7 +3,9 @@
 #include <stdexcept>
 
 #include "app/document/atomic_file.hpp"
+#include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/command_support.hpp"
+#include "app/labs/chain/shown.hpp"
 
 namespace tendril::app {
 namespace {
@@ -39,18 +41,20 @@ void check_race(const ChainPart& part) {
     if (part.study.kind != Study::Kind::Race) throw Refused("no race is open");
 }
 
-void seek(ChainPart& part, const Arguments& given) {
+void seek(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     check_microscope(part);
     part.study.step = static_cast<std::size_t>(given.integer("step"));
-    if (part.study.step > part.study.trace->frames()) {
-        throw Refused("step must be 0 to " + std::to_string(part.study.trace->frames()) + ", got " +
+    const std::size_t last = runtime.studied(part).trace->frames();
+    if (part.study.step > last) {
+        throw Refused("step must be 0 to " + std::to_string(last) + ", got " +
                       std::to_string(part.study.step));
     }
 }
 
-void step(ChainPart& part, const Arguments& given) {
+void step(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     check_microscope(part);
-    const Trace& trace = *part.study.trace;
+    const std::shared_ptr<const Trace> shown = runtime.studied(part).trace;
+    const Trace& trace = *shown;
     const auto last = static_cast<long>(trace.frames());
     long to = static_cast<long>(part.study.step);
     if (given.has("iterations")) {
@@ -117,9 +121,9 @@ Command race_save() {
             .help = "Writes every solver's residual at each iteration as CSV",
             .effect = Effect::Look,
             .apply = [](Workspace& workspace, const Arguments& given) {
-                const ChainPart& part = workspace.document.get<ChainPart>(chain_lab);
-                check_race(part);
-                write_file_atomically(given.text("path"), race_csv(*part.study.race));
+                const ShownChain shown = shown_chain(workspace);
+                check_race(shown.part);
+                write_file_atomically(given.text("path"), race_csv(*shown.race));
                 workspace.toast("Written: " + given.text("path"));
             }};
 }

@@ -45,13 +45,13 @@ void small_right(const std::string& text) {
     ImGui::PopFont();
 }
 
-void racer_row(const Study& study, ik::Method method, bool time, const Palette& palette, Emit& emit) {
+void racer_row(const ShownChain& shown, ik::Method method, bool time, const Palette& palette, Emit& emit) {
     const auto index = static_cast<std::size_t>(method);
-    bool on = study.racers[index];
+    bool on = shown.part.study.racers[index];
     colour_mark(solver_colour(palette, method));
     if (ImGui::Checkbox(solver_title(method), &on))
         emit("race.solver", {{"name", ik::name(method)}, {"on", on}});
-    const auto& racers = study.race->racers;
+    const auto& racers = shown.race->racers;
     const auto racer =
         std::find_if(racers.begin(), racers.end(), [&](const Racer& r) { return r.method == method; });
     if (racer == racers.end()) return;
@@ -59,7 +59,7 @@ void racer_row(const Study& study, ik::Method method, bool time, const Palette& 
     text_flush_right(time ? si_text(1e-6 * racer->microseconds, "s")
                           : std::to_string(racer->report.iterations));
     if (racer->report.status == ik::Status::InvalidInput) return small_right("does not take this chain");
-    const std::string ran = ran_text(method, racer->report, study.race->within_limits);
+    const std::string ran = ran_text(method, racer->report, shown.race->within_limits);
     if (ran != solver_title(method)) small_right(ran);
     small_right(end_text(*racer));
     if (racer->restored) small_right(restored_text(*racer));
@@ -82,14 +82,17 @@ void race_plot(const Race& race, bool time, const Palette& palette) {
                     by_iteration(racer.residuals)};
         const float last = std::max(1.0f, static_cast<float>(racer.residuals.size() - 1));
         if (time) {
-            for (glm::vec2& p : curve.points) p.x *= static_cast<float>(racer.microseconds) / last;
+            for (glm::vec2& p : curve.points) p.x *= 1e-6f * static_cast<float>(racer.microseconds) / last;
         }
         curves.push_back(std::move(curve));
     }
     plot("race plot", curves,
-         {.x = time ? "\xc2\xb5s" : "iterations",
-          .y = "tip to target, m",
+         {.x = time ? "time" : "iterations",
+          .x_unit = time ? "s" : "",
+          .y = "tip to target",
+          .y_unit = "m",
           .min_y = min_residual(race.tolerance),
+          .min_x = time ? 0.0f : 1.0f,
           .level = race.tolerance,
           .whole_x = !time},
          plot_lines);
@@ -101,7 +104,7 @@ void study_rows(const ChainPart& part, Emit& emit) {
     section("Analyse");
     const bool solvable = part.chain.size() > 1 && part.chain.size() <= max_studied_segments;
     const char* why_not =
-        part.chain.size() < 2 ? "Needs a chain of at least one bone" : "For chains of up to 512 segments";
+        part.chain.size() < 2 ? "Needs a chain of at least one bone" : "For chains of up to 512 joints";
     static_assert(max_studied_segments == 512);
     const bool magnified = part.study.kind == Study::Kind::Microscope;
     const bool racing = part.study.kind == Study::Kind::Race;
@@ -124,9 +127,10 @@ void export_rows(Emit& emit) {
     if (row_button("Copy as JSON", 2, true, "The scene as text")) emit("chain.copy", {{"as", "json"}});
 }
 
-void microscope_rows(const ChainPart& part, const Palette& palette, Emit& emit) {
+void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
     section("Microscope");
-    const Trace& trace = *part.study.trace;
+    const ChainPart& part = shown.part;
+    const Trace& trace = *shown.trace;
     const std::size_t step = part.study.step;
     reading("step", "%zu of %zu", step, trace.frames());
     reading("iteration", "%d of %d", trace.iteration(step), trace.report.iterations);
@@ -147,7 +151,8 @@ void microscope_rows(const ChainPart& part, const Palette& palette, Emit& emit) 
     const float tolerance = reach_tolerance(part.reach, part.chain.reach());
     plot("error", {&curve, 1},
          {.x = "iterations",
-          .y = "tip to target, m",
+          .y = "tip to target",
+          .y_unit = "m",
           .min_y = min_residual(tolerance),
           .level = tolerance,
           .at_x = static_cast<float>(trace.iteration(step)),
@@ -155,23 +160,21 @@ void microscope_rows(const ChainPart& part, const Palette& palette, Emit& emit) 
          plot_lines);
 }
 
-void race_rows(const Workspace& workspace, const Palette& palette, Emit& emit) {
+void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
     section("Race");
-    const ChainPart& part = chain_part(workspace);
-    const Study& study = part.study;
     bool& time = against_time();
     small_right(time ? "time" : "iterations");
     for (const ik::Method method : ik::all_methods) {
-        if (takes(method, part.chain)) {
-            racer_row(study, method, time, palette, emit);
+        if (takes(method, shown.part.chain)) {
+            racer_row(shown, method, time, palette, emit);
         } else {
             missing_racer_row(method, palette);
         }
     }
-    race_plot(*study.race, time, palette);
+    race_plot(*shown.race, time, palette);
     ImGui::Checkbox("Against time", &time);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Measured here and now, the fastest of several runs");
-    bool apart = study.side_by_side;
+    bool apart = shown.part.study.side_by_side;
     if (ImGui::Checkbox("Side by side", &apart)) {
         emit("race.side_by_side", {{"on", apart}});
         emit("camera.frame", {{"what", "all"}});

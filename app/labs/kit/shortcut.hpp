@@ -20,6 +20,11 @@ struct Shortcut {
     std::string lab{};          ///< works in this lab alone; empty: in all of them
 };
 
+/// Delete, as every lab in which something can be selected has it.
+inline Shortcut delete_shortcut(const char* command) {
+    return {*chord_from_name("delete"), command, {}, "Delete selection", "Edit"};
+}
+
 /// What the mouse does: a row of the help.
 struct MouseHelp {
     std::string gesture, effect;

@@ -172,8 +172,8 @@ void add_collider_commands(CommandTable& table) {
     table.add(rope_command("rope.collider.remove", {name_argument()}, "Removes a collider", remove));
     table.add(rope_command("rope.collider.swing",
                            {name_argument(), point_argument("by", true, "metres to each side; 0: off"),
-                            number_argument("period", "seconds", shortest_decimal(shortest_swing),
-                                            shortest_decimal(longest_swing))},
+                            number_argument("period", "seconds", shortest_decimal(shortest_period),
+                                            shortest_decimal(longest_period))},
                            "Lets a collider swing to and fro by itself", set_swing));
 }
 

@@ -106,7 +106,7 @@ void collider_rows(const RopePart& part, const rope::Collider& collider, Emit& e
         emit.continuously("rope.collider.swing", {{"name", name}, {"by", by}, {"period", period}});
     };
     if (point_field("swings by", by, 0.01f)) swing();
-    if (swings && number_field("period", period, 0.02f, shortest_swing, longest_swing, "%.2f s")) swing();
+    if (swings && number_field("period", period, 0.02f, shortest_period, longest_period, "%.2f s")) swing();
     if (row_button("Remove", 3, true, "Removes the collider")) emit("rope.collider.remove", {{"name", name}});
     end_row();
 }
@@ -166,9 +166,9 @@ void number_rows(const Workspace& workspace, const Palette& palette) {
     const Curve errors[] = {
         curve("length error", palette.ghost, part.samples, &RopeSample::error, 100.0f),
         curve("before contact", palette.limit, part.samples, &RopeSample::stretch, 100.0f)};
-    plot("length error", errors, {.x = "s", .y = "%", .min_y = 1e-6f}, 9.0f);
+    plot("length error", errors, {.x = "time", .x_unit = "s", .y = "", .y_unit = "%", .min_y = 1e-4f}, 9.0f);
     const Curve energy[] = {curve("energy", palette.accent, part.samples, &RopeSample::energy, 1.0f)};
-    plot("energy", energy, {.x = "s", .y = "energy, J", .min_y = 0.0f}, 9.0f);
+    plot("energy", energy, {.x = "time", .x_unit = "s", .y = "energy", .y_unit = "J", .min_y = 0.0f}, 9.0f);
 }
 
 }  // namespace tendril::app

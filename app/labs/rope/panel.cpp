@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "app/labs/kit/preset_rows.hpp"
 #include "app/labs/rope/panels.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/rope/rope_names.hpp"
@@ -15,14 +16,9 @@ namespace tendril::app {
 namespace {
 
 void scene_rows(Emit& emit) {
-    section("Presets");
-    for (const RopeSceneEntry& scene : rope_scenes())
-        if (row_button(scene.title, 3)) emit("rope.preset", {{"name", scene.name}});
-    end_row();
-    if (row_button("Empty", 2, true, "Removes every rope and collider")) emit("rope.clear");
-    if (row_button("Reset", 2, true, "Everything as at the first start; undo brings it back"))
-        emit("rope.reset");
-    end_row();
+    std::vector<PresetButton> buttons;
+    for (const RopeSceneEntry& scene : rope_scenes()) buttons.push_back({scene.name, scene.title});
+    preset_rows(rope_lab, buttons, "Removes every rope and collider", emit);
 }
 
 void tool_rows(const RopePart& part, Emit& emit) {
@@ -71,7 +67,7 @@ void solver_rows(const RopePart& part, Emit& emit) {
         emit.continuously("rope.settings", {{"iterations", iterations}});
     float per_second = static_cast<float>(1.0 / now.substep);
     if (number_field("substeps", per_second, 2.0f, 10.0f, 10000.0f, "%.0f /s"))
-        emit.continuously("rope.settings", {{"substep", 1.0f / per_second}});
+        emit.continuously("rope.settings", {{"substep", 1.0f / std::max(per_second, 1e-9f)}});
     if (now.solver != rope::Solver::Relaxation)
         setting("compliance", "compliance", now.compliance, 1e-5f, 0.0f, 1.0f, "%.5f /N", emit);
 }

@@ -150,12 +150,7 @@ Argument rope_argument(bool required, const char* help) {
 }
 
 Argument particle_argument(bool required, const char* help) {
-    return {.name = "particle",
-            .type = ArgumentType::Integer,
-            .required = required,
-            .help = help,
-            .low = 0,
-            .high = static_cast<double>(max_lab_particles) - 1};
+    return index_argument("particle", required, help, max_lab_particles);
 }
 
 }  // namespace tendril::app

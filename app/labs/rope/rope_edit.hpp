@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/document/command.hpp"
-#include "app/labs/arguments.hpp"
+#include "app/labs/kit/arguments.hpp"
 #include "app/labs/rope/rope_part.hpp"
 
 namespace tendril::app {

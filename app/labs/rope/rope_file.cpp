@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "app/document/json_complete.hpp"
+#include "app/labs/kit/json_place.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_names.hpp"
 #include "app/labs/rope/rope_part.hpp"
@@ -12,10 +13,6 @@
 namespace tendril::app {
 namespace {
 
-[[noreturn]] void fail(const std::string& where, const std::string& what) {
-    throw std::runtime_error(where + ": " + what);
-}
-
 Json save_swing(const Swing& swing) {
     return Json{{"collider", swing.collider},
                 {"middle", point(swing.middle)},
@@ -23,39 +20,31 @@ Json save_swing(const Swing& swing) {
                 {"period", number(swing.period)}};
 }
 
-Swing load_swing(const Json& json, const std::string& where) {
-    const auto read = [&](const char* key) -> const Json& { return json_member(json, key, where); };
+Swing load_swing(const JsonPlace& place) {
     Swing swing;
-    swing.collider = json_text(read("collider"), where + ".collider");
-    swing.middle = json_point(read("middle"), where + ".middle");
-    swing.swing = json_point(read("swing"), where + ".swing");
-    swing.period = json_number(read("period"), where + ".period", shortest_swing, longest_swing);
+    swing.collider = place["collider"].text();
+    swing.middle = place["middle"].point();
+    swing.swing = place["swing"].point();
+    swing.period = place["period"].number(shortest_period, longest_period);
     try {
         require(swing);
     } catch (const std::invalid_argument& error) {
-        fail(where, error.what());
+        place.fail(error.what());
     }
     return swing;
 }
 
-std::vector<Swing> load_swings(const Json& json, const std::string& where, const NamedWorld& world) {
-    if (!json.is_array()) fail(where, "expected a list, found " + json_summary(json));
-    if (json.size() > max_lab_colliders) {
-        fail(where, "has " + std::to_string(json.size()) + " swings; the most is " +
-                        std::to_string(max_lab_colliders));
-    }
+std::vector<Swing> load_swings(const JsonPlace& place, const NamedWorld& world) {
     std::vector<Swing> swings;
-    for (std::size_t i = 0; i < json.size(); ++i) {
-        const std::string here = where + "." + std::to_string(i);
-        swings.push_back(load_swing(json[i], here));
-        const std::string& name = swings.back().collider;
-        if (world.find_collider(name) == nullptr)
-            fail(here + ".collider", "there is no collider " + json_summary(Json(name)));
-        for (std::size_t before = 0; before < i; ++before) {
-            if (swings[before].collider == name)
-                fail(here + ".collider", json_summary(Json(name)) + " swings twice");
-        }
-    }
+    place.for_each("swings", max_lab_colliders, [&](const JsonPlace& each) {
+        const Swing swing = load_swing(each);
+        const JsonPlace name = each["collider"];
+        if (world.find_collider(swing.collider) == nullptr)
+            name.fail("there is no collider " + json_summary(name.json()));
+        for (const Swing& before : swings)
+            if (before.collider == swing.collider) name.fail(json_summary(name.json()) + " swings twice");
+        swings.push_back(swing);
+    });
     return swings;
 }
 
@@ -65,22 +54,22 @@ Json save_selection(const std::optional<RopeSelection>& selection) {
     return Json{{"rope", selection->body}, {"particle", selection->particle}};
 }
 
-std::optional<RopeSelection> load_selection(const Json& json, const std::string& where,
-                                            const NamedWorld& world) {
-    if (json.is_null()) return std::nullopt;
+std::optional<RopeSelection> load_selection(const JsonPlace& place, const NamedWorld& world) {
+    if (place.json().is_null()) return std::nullopt;
     RopeSelection selection;
-    if (json.is_object() && json.contains("collider")) {
-        selection.collider = json_text(json["collider"], where + ".collider");
+    if (place.has("collider")) {
+        const JsonPlace collider = place["collider"];
+        selection.collider = collider.text();
         if (world.find_collider(selection.collider) == nullptr)
-            fail(where + ".collider", "there is no collider " + json_summary(json["collider"]));
+            collider.fail("there is no collider " + json_summary(collider.json()));
         return selection;
     }
-    selection.body = json_text(json_member(json, "rope", where), where + ".rope");
+    const JsonPlace rope = place["rope"];
+    selection.body = rope.text();
     const rope::Body* body = world.find(selection.body);
-    if (body == nullptr) fail(where + ".rope", "there is no rope " + json_summary(json["rope"]));
+    if (body == nullptr) rope.fail("there is no rope " + json_summary(rope.json()));
     const int last = body->count == 0 ? 0 : static_cast<int>(body->count) - 1;
-    selection.particle = static_cast<std::size_t>(
-        json_integer(json_member(json, "particle", where), where + ".particle", 0, last));
+    selection.particle = static_cast<std::size_t>(place["particle"].integer(0, last));
     return selection;
 }
 
@@ -91,24 +80,20 @@ Json save_jitter(const Jitter& jitter) {
                 {"frame", jitter.frame}};
 }
 
-Jitter load_jitter(const Json& json, const std::string& where) {
-    const auto read = [&](const char* key) -> const Json& { return json_member(json, key, where); };
+Jitter load_jitter(const JsonPlace& place) {
     Jitter jitter;
-    jitter.dial = json_number(read("dial"), where + ".dial", 0.0f, 1.0f);
-    jitter.frames = static_cast<std::uint32_t>(json_count(read("frames"), where + ".frames", 0xffffffffu));
-    jitter.owed = json_real(read("owed"), where + ".owed", 0.0, 10.0);
-    jitter.frame = json_real(read("frame"), where + ".frame", 0.0, longest_jitter_frame);
+    jitter.dial = place["dial"].number(0.0f, 1.0f);
+    jitter.frames = static_cast<std::uint32_t>(place["frames"].count(0xffffffffu));
+    jitter.owed = place["owed"].real(0.0, 10.0);
+    jitter.frame = place["frame"].real(0.0, longest_jitter_frame);
     return jitter;
 }
 
-RopeView load_view(const Json& json, const std::string& where) {
-    const auto read = [&](const char* key) -> const Json& { return json_member(json, key, where); };
+RopeView load_view(const JsonPlace& place) {
     RopeView view;
-    view.particles = json_bool(read("particles"), where + ".particles");
-    // Version 1 of scene files called it stress.
-    const char* const strain = json.contains("strain") ? "strain" : "stress" /* version 1 */;
-    view.strain = json_bool(read(strain), where + "." + strain);
-    view.sides = json_integer(read("sides"), where + ".sides", fewest_sides, most_sides);
+    view.particles = place["particles"].flag();
+    view.strain = place[place.has("strain") ? "strain" : "stress"].flag();  // as version 1 called it
+    view.sides = place["sides"].integer(fewest_sides, most_sides);
     return view;
 }
 
@@ -136,24 +121,23 @@ Json RopePart::save() const {
 }
 
 std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where) const {
-    const auto read = [&](const char* key) -> const Json& { return json_member(json, key, where); };
+    const JsonPlace place(json, where);
     auto part = std::make_shared<RopePart>();
-    std::string place = where;  // of what the core may find wrong
+    part->time = place["time"].real(0.0, 1e9);
+    part->view = load_view(place["view"]);
+    part->jitter = load_jitter(place[place.has("jitter") ? "jitter" : "torture"]);  // as version 1 called it
+    const JsonPlace tool_place = place["tool"], world_place = place["world"];
+    const JsonPlace* reading = &tool_place;
     try {
-        part->time = json_real(read("time"), where + ".time", 0.0, 1e9);
-        place = where + ".tool";
-        part->tool = tool_from_name(json_text(read("tool"), place));
-        part->view = load_view(read("view"), where + ".view");
-        const char* const key = json.contains("jitter") ? "jitter" : "torture";  // as version 1 called it
-        part->jitter = load_jitter(read(key), where + "." + key);
-        place = where + ".world";
-        part->world = std::make_shared<const NamedWorld>(load_world(read("world"), place));
+        part->tool = tool_from_name(tool_place.text());
+        reading = &world_place;
+        part->world = std::make_shared<const NamedWorld>(load_world(world_place));
         check_work(*part->world);
-        part->swings = load_swings(read("swings"), where + ".swings", *part->world);
-        part->selection = load_selection(read("selected"), where + ".selected", *part->world);
     } catch (const std::logic_error& error) {  // the core's own words, told where in the file
-        fail(place, error.what());
+        reading->fail(error.what());
     }
+    part->swings = load_swings(place["swings"], *part->world);
+    part->selection = load_selection(place["selected"], *part->world);
     return part;
 }
 

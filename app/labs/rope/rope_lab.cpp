@@ -109,7 +109,7 @@ void RopeLab::step(Workspace& workspace) const {
 }
 
 std::vector<Shortcut> RopeLab::shortcuts() const {
-    return {{*chord_from_name("delete"), "rope.remove_selected", {}, "Delete selection", "Edit"}};
+    return {delete_shortcut("rope.remove_selected")};
 }
 
 std::vector<MouseHelp> RopeLab::mouse_help() const {

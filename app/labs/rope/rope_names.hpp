@@ -1,15 +1,14 @@
 // Names and ranges that files, commands and panels of this lab share.
 #pragma once
 
-#include <algorithm>
-#include <stdexcept>
 #include <string>
 
+#include "app/labs/kit/motion.hpp"
+#include "app/labs/kit/names.hpp"
 #include "app/labs/rope/rope_part.hpp"
 
 namespace tendril::app {
 
-inline constexpr float shortest_swing = 0.1f, longest_swing = 600.0f;  ///< periods, seconds
 inline constexpr int fewest_sides = 3, most_sides = 64;
 inline constexpr double shortest_jitter_frame = 0.001, longest_jitter_frame = 0.25;  ///< seconds
 
@@ -22,9 +21,7 @@ inline const char* tool_name(RopeTool tool) {
 
 /// Throws std::invalid_argument for an unknown name.
 inline RopeTool tool_from_name(const std::string& name) {
-    for (const RopeTool tool : all_tools)
-        if (name == tool_name(tool)) return tool;
-    throw std::invalid_argument("unknown tool \"" + name + "\"");
+    return named(all_tools, tool_name, name, "tool");
 }
 
 }  // namespace tendril::app

@@ -10,6 +10,7 @@
 #include <tendril/chain/segment.hpp>
 #include <utility>
 
+#include "app/labs/kit/motion.hpp"
 #include "app/labs/rope/rope_names.hpp"
 
 namespace tendril::app {
@@ -112,9 +113,7 @@ double jitter_frame(float dial, std::uint32_t number) {
 }
 
 glm::vec3 swing_point(const Swing& swing, double time) {
-    const double turns = time / static_cast<double>(swing.period);
-    const double angle = glm::two_pi<double>() * (turns - std::floor(turns));
-    return swing.middle + static_cast<float>(std::sin(angle)) * swing.swing;
+    return swing.middle + static_cast<float>(std::sin(round_angle(time, swing.period))) * swing.swing;
 }
 
 void require(const Swing& swing) {

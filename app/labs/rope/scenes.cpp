@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
-#include <stdexcept>
+
+#include "app/labs/kit/names.hpp"
 
 namespace tendril::app {
 namespace {
@@ -38,9 +39,8 @@ const std::vector<RopeSceneEntry>& rope_scenes() {
 }
 
 const RopeSceneEntry& rope_scene(const std::string& name) {
-    for (const RopeSceneEntry& entry : rope_scenes())
-        if (name == entry.name) return entry;
-    throw std::invalid_argument("unknown scene \"" + name + "\"");
+    return named(
+        rope_scenes(), [](const RopeSceneEntry& each) { return each.name; }, name, "scene");
 }
 
 RopeScene make_rope_scene(const RopeSceneEntry& entry) {

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <stdexcept>
 
 #include "app/document/json_complete.hpp"
+#include "app/labs/kit/json_place.hpp"
+#include "app/labs/kit/names.hpp"
 #include "app/labs/rope/rope_part.hpp"
 
 namespace tendril::app {
@@ -15,32 +16,13 @@ constexpr const char* body_kinds[] = {"rope", "cloth", "hair"};
 constexpr const char* body_kinds_of_version_1[] = {"rope", "sheet", "lock"};
 constexpr const char* link_kinds[] = {"stretch", "shear", "bend"};
 
-[[noreturn]] void fail(const std::string& where, const std::string& what) {
-    throw std::runtime_error(where + ": " + what);
-}
-
 /// The enumerator whose name the text is.
 template <class Kind, std::size_t count>
-Kind kind_of(const Json& json, const std::string& where, const char* const (&kinds)[count]) {
-    const std::string text = json_text(json, where);
+Kind kind_of(const JsonPlace& place, const char* const (&kinds)[count]) {
+    const std::string text = place.text();
     for (std::size_t i = 0; i < count; ++i)
         if (text == kinds[i]) return static_cast<Kind>(i);
-    fail(where, "unknown kind " + json_summary(json));
-}
-
-std::size_t size_of(const Json& json, const std::string& where, std::size_t high) {
-    return static_cast<std::size_t>(json_count(json, where, high));
-}
-
-/// Each element of a list of at most `most`, with the place where it stands.
-template <class Take>
-void for_each(const Json& json, const std::string& where, const char* what, std::size_t most, Take take) {
-    if (!json.is_array()) fail(where, "expected a list, found " + json_summary(json));
-    if (json.size() > most) {
-        fail(where,
-             "has " + std::to_string(json.size()) + " " + what + "; the most is " + std::to_string(most));
-    }
-    for (std::size_t i = 0; i < json.size(); ++i) take(json[i], where + "." + std::to_string(i));
+    place.fail("unknown kind " + json_summary(place.json()));
 }
 
 bool is_zero(const glm::dvec3& v) {
@@ -60,18 +42,19 @@ Json save_particle(const rope::State& state, std::size_t i) {
     return row;
 }
 
-void load_particle(rope::State& state, const Json& row, const std::string& where) {
+void load_particle(rope::State& state, const JsonPlace& place) {
+    const Json& row = place.json();
     if (!row.is_array() || (row.size() != 4 && row.size() != 10))
-        fail(where, "expected a row of 4 or 10 numbers, found " + json_summary(row));
+        place.fail("expected a row of 4 or 10 numbers, found " + json_summary(row));
     const auto point_at = [&](std::size_t i) {
-        return glm::dvec3(json_real(row[i], where), json_real(row[i + 1], where),
-                          json_real(row[i + 2], where));
+        return glm::dvec3(json_real(row[i], place.where()), json_real(row[i + 1], place.where()),
+                          json_real(row[i + 2], place.where()));
     };
     const bool moved = row.size() == 10;
     state.position.push_back(point_at(0));
     state.displacement.push_back(moved ? point_at(3) : glm::dvec3(0.0));
     state.earlier.push_back(moved ? point_at(6) : glm::dvec3(0.0));
-    state.mass.push_back(json_real(row.back(), where, 0.0, 1e30));
+    state.mass.push_back(json_real(row.back(), place.where(), 0.0, 1e30));
 }
 
 /// [a, b, rest, "stretch", compliance, tension]; zeros at its end are left out.
@@ -85,23 +68,25 @@ Json save_link(const rope::Link& link) {
 }
 
 /// Newtons, which may be more than any other number: a heavy thing stops at once.
-float load_tension(const Json& json, const std::string& where) {
-    const float tension = json.is_number() ? json.get<float>() : std::nanf("");
-    if (!std::isfinite(tension)) fail(where, "expected a finite number, found " + json_summary(json));
+float load_tension(const JsonPlace& place) {
+    const float tension = place.json().is_number() ? place.json().get<float>() : std::nanf("");
+    if (!std::isfinite(tension)) place.fail("expected a finite number, found " + json_summary(place.json()));
     return tension;
 }
 
-rope::Link load_link(const Json& row, const std::string& where, std::size_t particles) {
+rope::Link load_link(const JsonPlace& place, std::size_t particles) {
+    const Json& row = place.json();
     if (!row.is_array() || row.size() < 4 || row.size() > 6)
-        fail(where, "expected [a, b, rest, kind, compliance, tension], found " + json_summary(row));
+        place.fail("expected [a, b, rest, kind, compliance, tension], found " + json_summary(row));
+    const auto at = [&](std::size_t i) { return JsonPlace(row[i], place.where()); };
     const std::size_t last = particles == 0 ? 0 : particles - 1;
     rope::Link link;
-    link.a = static_cast<std::uint32_t>(size_of(row[0], where, last));
-    link.b = static_cast<std::uint32_t>(size_of(row[1], where, last));
-    link.rest = json_number(row[2], where);
-    link.kind = kind_of<rope::Link::Kind>(row[3], where, link_kinds);
-    if (row.size() > 4) link.compliance = json_number(row[4], where);
-    if (row.size() > 5) link.tension = load_tension(row[5], where);
+    link.a = static_cast<std::uint32_t>(at(0).index(last));
+    link.b = static_cast<std::uint32_t>(at(1).index(last));
+    link.rest = at(2).number();
+    link.kind = kind_of<rope::Link::Kind>(at(3), link_kinds);
+    if (row.size() > 4) link.compliance = at(4).number();
+    if (row.size() > 5) link.tension = load_tension(at(5));
     return link;
 }
 
@@ -117,25 +102,21 @@ Json save_body(const rope::Body& body, const std::string& name) {
     return json;
 }
 
-rope::Body::Kind load_body_kind(const Json& json, const std::string& where) {
+rope::Body::Kind load_body_kind(const JsonPlace& place) {
     for (std::size_t i = 0; i < std::size(body_kinds_of_version_1); ++i)
-        if (json == body_kinds_of_version_1[i]) return static_cast<rope::Body::Kind>(i);
-    return kind_of<rope::Body::Kind>(json, where, body_kinds);
+        if (place.json() == body_kinds_of_version_1[i]) return static_cast<rope::Body::Kind>(i);
+    return kind_of<rope::Body::Kind>(place, body_kinds);
 }
 
-rope::Body load_body(const Json& json, const std::string& where) {
-    const auto read = [&](const char* key) -> const Json& { return json_member(json, key, where); };
-    const auto size = [&](const char* key) {
-        return size_of(read(key), where + "." + key, max_lab_particles);
-    };
+rope::Body load_body(const JsonPlace& place) {
     rope::Body body;
-    body.kind = load_body_kind(read("kind"), where + ".kind");
-    body.first = size("first");
-    body.count = size("count");
-    body.row = size("row");
-    body.radius = json_number(read("radius"), where + ".radius");
-    if (json.contains("tear")) body.tear = json_number(json["tear"], where + ".tear");
-    if (json.contains("stretch")) body.stretch = json_number(json["stretch"], where + ".stretch");
+    body.kind = load_body_kind(place["kind"]);
+    body.first = place["first"].index(max_lab_particles);
+    body.count = place["count"].index(max_lab_particles);
+    body.row = place["row"].index(max_lab_particles);
+    body.radius = place["radius"].number();
+    if (const auto tear = place.optional("tear")) body.tear = tear->number();
+    if (const auto stretch = place.optional("stretch")) body.stretch = stretch->number();
     return body;
 }
 
@@ -146,17 +127,15 @@ Json save_pin(const NamedWorld& world, const rope::Pin& pin) {
     return json;
 }
 
-rope::Pin load_pin(const Json& json, const std::string& where, std::size_t particles,
-                   const Names& colliders) {
+rope::Pin load_pin(const JsonPlace& place, std::size_t particles, const Names& colliders) {
     rope::Pin pin;
-    pin.particle = size_of(json_member(json, "particle", where), where + ".particle",
-                           particles == 0 ? 0 : particles - 1);
-    pin.goal = json_dpoint(json_member(json, "goal", where), where + ".goal");
-    if (json.contains("seconds")) pin.seconds = json_real(json["seconds"], where + ".seconds", 0.0, 1e9);
-    if (json.contains("collider")) {
-        const std::string name = json_text(json["collider"], where + ".collider");
+    pin.particle = place["particle"].index(particles == 0 ? 0 : particles - 1);
+    pin.goal = place["goal"].dpoint();
+    if (const auto seconds = place.optional("seconds")) pin.seconds = seconds->real(0.0, 1e9);
+    if (const auto collider = place.optional("collider")) {
+        const std::string name = collider->text();
         const auto found = std::find(colliders.begin(), colliders.end(), name);
-        if (found == colliders.end()) fail(where, "moves with \"" + name + "\", which is no collider");
+        if (found == colliders.end()) place.fail("moves with \"" + name + "\", which is no collider");
         pin.collider = {static_cast<std::uint32_t>(found - colliders.begin()), 1};  // as slots are numbered
     }
     return pin;
@@ -171,52 +150,37 @@ Json save_collider(const rope::Collider& collider, const std::string& name) {
     return json;
 }
 
-glm::quat load_rotation(const Json& json, const std::string& where) {
-    if (!json.is_array() || json.size() != 4)
-        fail(where, "expected a quaternion [x, y, z, w], found " + json_summary(json));
-    const auto at = [&](std::size_t i) { return json_number(json[i], where); };
-    return {at(3), at(0), at(1), at(2)};
+rope::Shape load_shape(const JsonPlace& place) {
+    const JsonPlace kind = place["kind"];
+    const auto at = [&](const char* key) { return place[key].point(); };
+    if (kind.text() == "sphere") return rope::Sphere{at("centre"), place["radius"].number()};
+    if (kind.text() == "capsule") return rope::Capsule{at("a"), at("b"), place["radius"].number()};
+    if (kind.text() == "plane") return rope::Plane{at("point"), at("normal")};
+    if (kind.text() == "box")
+        return rope::Box{at("centre"), at("half_extents"), place["rotation"].rotation()};
+    kind.fail("unknown kind \"" + kind.text() + "\"");
 }
 
-rope::Shape load_shape(const Json& json, const std::string& where) {
-    const auto point_of = [&](const char* key) {
-        return json_point(json_member(json, key, where), where + "." + key);
-    };
-    const auto radius = [&] { return json_number(json_member(json, "radius", where), where + ".radius"); };
-    const std::string kind = json_text(json_member(json, "kind", where), where + ".kind");
-    if (kind == "sphere") return rope::Sphere{point_of("centre"), radius()};
-    if (kind == "capsule") return rope::Capsule{point_of("a"), point_of("b"), radius()};
-    if (kind == "plane") return rope::Plane{point_of("point"), point_of("normal")};
-    if (kind == "box") {
-        return rope::Box{point_of("centre"), point_of("half_extents"),
-                         load_rotation(json_member(json, "rotation", where), where + ".rotation")};
-    }
-    fail(where + ".kind", "unknown kind \"" + kind + "\"");
-}
-
-rope::Collider load_collider(const Json& json, const std::string& where) {
+rope::Collider load_collider(const JsonPlace& place) {
     rope::Collider collider;
-    collider.shape = load_shape(json, where);
-    collider.goal = json_dpoint(json_member(json, "goal", where), where + ".goal");
-    if (json.contains("seconds")) collider.seconds = json_real(json["seconds"], where + ".seconds", 0.0, 1e9);
+    collider.shape = load_shape(place);
+    collider.goal = place["goal"].dpoint();
+    if (const auto seconds = place.optional("seconds")) collider.seconds = seconds->real(0.0, 1e9);
     return collider;
 }
 
-rope::Settings load_settings(const Json& json, const std::string& where) {
-    const auto place = [&](const char* key) { return where + "." + key; };
-    const auto read = [&](const char* key) -> const Json& { return json_member(json, key, where); };
-    const auto real = [&](const char* key) { return json_number(read(key), place(key)); };
+rope::Settings load_settings(const JsonPlace& place) {
     rope::Settings settings;
-    settings.substep = json_real(read("substep"), place("substep"));
-    settings.iterations = json_integer(read("iterations"), place("iterations"), 1, rope::max_iterations);
-    settings.solver = solver_from_name(json_text(read("solver"), place("solver")));
-    settings.damping = real("damping");
-    settings.gravity = json_point(read("gravity"), place("gravity"));
-    settings.gravity_scale = real("gravity_scale");
-    settings.external = json_point(read("external"), place("external"));
-    settings.compliance = real("compliance");
-    settings.friction = real("friction");
-    settings.longest_frame = real("longest_frame");
+    settings.substep = place["substep"].real();
+    settings.iterations = place["iterations"].integer(1, rope::max_iterations);
+    settings.solver = solver_from_name(place["solver"].text());
+    settings.damping = place["damping"].number();
+    settings.gravity = place["gravity"].point();
+    settings.gravity_scale = place["gravity_scale"].number();
+    settings.external = place["external"].point();
+    settings.compliance = place["compliance"].number();
+    settings.friction = place["friction"].number();
+    settings.longest_frame = place["longest_frame"].number();
     return settings;
 }
 
@@ -227,9 +191,7 @@ const char* body_kind_name(rope::Body::Kind kind) {
 }
 
 rope::Solver solver_from_name(const std::string& name) {
-    for (const rope::Solver solver : all_solvers)
-        if (name == rope::name(solver)) return solver;
-    throw std::invalid_argument("unknown solver \"" + name + "\"");
+    return named(all_solvers, rope::name, name, "solver");
 }
 
 Json save_settings(const rope::Settings& settings) {
@@ -283,38 +245,33 @@ Json save_world(const NamedWorld& world) {
                 {"links", std::move(links)}};
 }
 
-NamedWorld load_world(const Json& json, const std::string& where) {
-    const auto place = [&](const char* key) { return where + "." + key; };
-    const auto read = [&](const char* key) -> const Json& { return json_member(json, key, where); };
+NamedWorld load_world(const JsonPlace& place) {
     constexpr std::uint64_t most = std::uint64_t{1} << 53;
     constexpr std::size_t most_links = 8 * max_lab_particles;  // a cloth has six to a particle
     rope::State state;
     Names body_names, collider_names;
     // The sizes first: what is too large is refused before anything of it is read.
-    for_each(read("particles"), place("particles"), "particles", max_lab_particles,
-             [&](const Json& row, const std::string& here) { load_particle(state, row, here); });
+    place["particles"].for_each("particles", max_lab_particles,
+                                [&](const JsonPlace& row) { load_particle(state, row); });
     const std::size_t size = state.position.size();
-    state.settings = load_settings(read("settings"), place("settings"));
-    state.remainder = json_real(read("remainder"), place("remainder"), 0.0, 10.0);
-    state.displaced_in = json_real(read("moved_in"), place("moved_in"), 0.0, 10.0);
-    state.substeps = json_count(read("substeps"), place("substeps"), most);
-    state.dropped = json_count(read("dropped"), place("dropped"), most);
-    for_each(read("colliders"), place("colliders"), "colliders", max_lab_colliders,
-             [&](const Json& each, const std::string& here) {
-                 state.colliders.push_back(load_collider(each, here));
-                 collider_names.push_back(json_text(json_member(each, "name", here), here + ".name"));
-             });
-    for_each(read("bodies"), place("bodies"), "bodies", max_lab_particles,
-             [&](const Json& each, const std::string& here) {
-                 state.bodies.push_back(load_body(each, here));
-                 body_names.push_back(json_text(json_member(each, "name", here), here + ".name"));
-             });
-    for_each(read("pins"), place("pins"), "pins", size, [&](const Json& each, const std::string& here) {
-        state.pins.push_back(load_pin(each, here, size, collider_names));
+    state.settings = load_settings(place["settings"]);
+    state.remainder = place["remainder"].real(0.0, 10.0);
+    state.displaced_in = place["moved_in"].real(0.0, 10.0);
+    state.substeps = place["substeps"].count(most);
+    state.dropped = place["dropped"].count(most);
+    place["colliders"].for_each("colliders", max_lab_colliders, [&](const JsonPlace& each) {
+        state.colliders.push_back(load_collider(each));
+        collider_names.push_back(each["name"].text());
     });
-    for_each(
-        read("links"), place("links"), "links", most_links,
-        [&](const Json& row, const std::string& here) { state.links.push_back(load_link(row, here, size)); });
+    place["bodies"].for_each("bodies", max_lab_particles, [&](const JsonPlace& each) {
+        state.bodies.push_back(load_body(each));
+        body_names.push_back(each["name"].text());
+    });
+    place["pins"].for_each("pins", size, [&](const JsonPlace& each) {
+        state.pins.push_back(load_pin(each, size, collider_names));
+    });
+    place["links"].for_each("links", most_links,
+                            [&](const JsonPlace& row) { state.links.push_back(load_link(row, size)); });
     return {std::move(state), body_names, collider_names};
 }
 

@@ -8,11 +8,13 @@
 
 namespace tendril::app {
 
+class JsonPlace;
+
 /// Everything that a world remembers, bit for bit.
 Json save_world(const NamedWorld& world);
 /// Throws std::runtime_error with the place and what is wrong there, std::invalid_argument where its parts do
 /// not fit together.
-NamedWorld load_world(const Json& json, const std::string& where);
+NamedWorld load_world(const JsonPlace& place);
 
 Json save_settings(const rope::Settings& settings);
 /// {"kind": "sphere", "centre": ..., "radius": ...}

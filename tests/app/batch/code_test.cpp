@@ -63,8 +63,8 @@ TEST(Code, each_mode_makes_its_own_call) {
 
 TEST(Code, options_that_are_the_librarys_own_are_not_said) {
     const std::string plain = chain_code(reaching());
-    for (const char* option :
-         {"pole", "snap_back", "soft_zone", "damping", "twist", "limits", "restarts", "rotations"})
+    for (const char* option : {"options.pole", "options.snap_back", "options.soft_zone", "options.damping",
+                               "options.twist", "options.limits", "options.restarts", "state.rotations"})
         EXPECT_TRUE(lacks(plain, option)) << option;
     ChainPart part = reaching();
     part.reach.method = ik::Method::SvdDls;
@@ -87,6 +87,26 @@ TEST(Code, options_that_are_the_librarys_own_are_not_said) {
           "limits[3] = {.kind = ik::JointKind::BallAndSocket,"})
         EXPECT_TRUE(has(code, said));
     EXPECT_TRUE(lacks(code, "limits[0]"));
+}
+
+TEST(Code, what_the_solver_remembers_goes_along) {
+    ChainPart part = reaching();
+    part.reach.pole = glm::vec3(2, 1, 0);
+    EXPECT_TRUE(lacks(chain_code(part), "state.pole"));
+    ChainRuntime runtime;
+    reach_for(part, {2, 2, 0}, runtime);
+    std::string code = chain_code(part);
+    for (const char* said : {"state.pole.valid = true;", "state.pole.pole = glm::vec3{2.0f, 1.0f, 0.0f};",
+                             "state.pole.target = glm::vec3{2.0f, 2.0f, 0.0f};",
+                             "state.pole.joints.push_back(each.position - segments.front().position);"})
+        EXPECT_TRUE(has(code, said));
+    EXPECT_TRUE(lacks(code, "state.limits"));
+    part.reach.limits.resize(7);
+    part.reach.limits[2] = ik::Limit::hinge({0, 0, 1}, 0.0f, 0.1f);
+    reach_for(part, {-2, 2, 0}, runtime);
+    code = chain_code(part);
+    EXPECT_TRUE(has(code, "state.limits.valid = true;"));
+    EXPECT_TRUE(has(code, "state.limits.target = glm::vec3{-2.0f, 2.0f, 0.0f};"));
 }
 
 TEST(Code, chains_too_short_for_their_mode_are_left_alone) {

@@ -35,5 +35,36 @@ TEST(Units, nothing_is_written_with_an_exponent_or_a_negative_zero) {
         EXPECT_EQ(si_text(value, "m").find('e'), std::string::npos) << value;
 }
 
+TEST(Units, a_fixed_number_has_its_decimals_and_no_signed_zero) {
+    EXPECT_EQ(fixed_text(1.005, 1), "1.0");
+    EXPECT_EQ(fixed_text(-0.04, 1), "0.0");
+    EXPECT_EQ(fixed_text(-0.06, 1), "-0.1");
+    EXPECT_EQ(fixed_text(-0.0, 0), "0");
+    EXPECT_EQ(without_signed_zero("-0.00 m"), "0.00 m");
+    EXPECT_EQ(without_signed_zero("-0.01 m"), "-0.01 m");
+    EXPECT_EQ(without_signed_zero("-"), "-");
+    EXPECT_EQ(without_signed_zero("-m"), "-m");
+}
+
+TEST(Units, what_marks_say_is_short_and_has_no_exponent) {
+    EXPECT_EQ(short_text(2.0, "s"), "2 s");
+    EXPECT_EQ(short_text(1e-3, "m"), "1 mm");
+    EXPECT_EQ(short_text(1.5e-7, "m"), "150 nm");
+    EXPECT_EQ(short_text(100.0, "m"), "100 m");
+    EXPECT_EQ(short_text(1e-4, "%"), "0.0001 %");
+    EXPECT_EQ(short_text(12.345, "%"), "12.3 %");
+    EXPECT_EQ(short_text(120.0, ""), "120");
+    EXPECT_EQ(short_text(-0.0, ""), "0");
+    for (const char* unit : {"m", "%", ""})
+        for (double value = 1e-7; value < 1e9; value *= 1.7)
+            EXPECT_EQ(short_text(value, unit).find("e"), std::string::npos) << value;
+}
+
+TEST(Units, plurals_agree) {
+    EXPECT_EQ(count_text(0, "joint"), "0 joints");
+    EXPECT_EQ(count_text(1, "command"), "1 command");
+    EXPECT_EQ(count_text(7, "bone"), "7 bones");
+}
+
 }  // namespace
 }  // namespace tendril::app

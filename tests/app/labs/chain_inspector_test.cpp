@@ -36,7 +36,8 @@ TEST_F(ChainInspector, shows_the_step_that_is_under_the_microscope) {
     run("chain.target", {{"to", {1.2, 2.1, 0.7}}});
     run("microscope.open", {{"start", "straight"}});
     run("chain.select", {{"index", 4}});
-    const Trace& trace = *part().study.trace;
+    const auto shown = shown_chain(workspace).trace;
+    const Trace& trace = *shown;
     // The tip was put onto the target; nothing else has moved, so its bone is far too long.
     run("microscope.seek", {{"step", 1}});
     const std::vector<glm::vec3> joints = trace.pose(1);
@@ -44,7 +45,7 @@ TEST_F(ChainInspector, shows_the_step_that_is_under_the_microscope) {
                 bone = glm::distance(joints[4], joints[3]);
     ASSERT_GT(bone, 2.0f);
     expect_says("tip to target " + metres(residual, "%.4f m"));
-    expect_says("length in this step " + metres(bone, "%.3f m"));
+    expect_says("bone in this step " + metres(bone, "%.3f m"));
     expect_says("x " + metres(joints[4].x, "%.3f m"));
     expect_says("y " + metres(joints[4].y, "%.3f m"));
     expect_silent_about("Converged");
@@ -70,9 +71,10 @@ TEST_F(ChainInspector, shows_the_table_of_the_step) {
     run("chain.solver", {{"name", "fabrik_plain"}});
     run("chain.target", {{"to", {0.5, 1.25, 0}}});
     run("microscope.open", {{"start", "straight"}});
-    for (std::size_t step = 0; step <= part().study.trace->frames(); ++step) {
+    const auto trace = shown_chain(workspace).trace;
+    for (std::size_t step = 0; step <= trace->frames(); ++step) {
         run("microscope.seek", {{"step", step}});
-        const std::vector<glm::vec3> joints = part().study.trace->pose(step);
+        const std::vector<glm::vec3> joints = trace->pose(step);
         const std::string said = text();
         for (const glm::vec3& joint : joints) {
             const std::string y = metres(joint.y, "%.2f");
@@ -90,6 +92,12 @@ TEST_F(ChainInspector, names_the_ends_root_and_tip_where_the_chain_reaches) {
     expect_says("7 (tip)");
     expect_says("root to target");
     expect_silent_about("tail to target");
+}
+
+TEST_F(ChainInspector, counts_joints_and_bones) {
+    expect_says("8 joints, 7 bones");
+    run("chain.preset", {{"name", "start"}, {"count", 2}});
+    expect_says("2 joints, 1 bone\n");
 }
 
 TEST_F(ChainInspector, a_moving_target_waits_while_the_microscope_is_open) {

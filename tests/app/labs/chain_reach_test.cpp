@@ -89,9 +89,9 @@ TEST_F(ChainReach, an_elbow_just_out_of_range_is_named_with_its_limit_and_what_i
     const Json reach = state()["solve"];
     EXPECT_EQ(reach["report"]["status"], "Limited");
     EXPECT_EQ(reach["explanation"], "joint 1 (hinge) stops at 145 degrees; the target needs 162");
-    EXPECT_EQ(reach["hold"]["joint"], 1);
-    EXPECT_NEAR(reach["hold"]["limit_deg"].get<float>(), 145.0f, 0.01f);
-    EXPECT_NEAR(reach["hold"]["needed_deg"].get<float>(), 162.0f, 1.0f);
+    EXPECT_EQ(reach["active_limit"]["joint"], 1);
+    EXPECT_NEAR(reach["active_limit"]["limit_deg"].get<float>(), 145.0f, 0.01f);
+    EXPECT_NEAR(reach["active_limit"]["needed_deg"].get<float>(), 162.0f, 1.0f);
     EXPECT_NEAR(reach["report"]["residual"].get<float>(), distance_at(145.0f) - distance_at(162.0f), 2e-3f);
 
     run("chain.target", {{"to", {distance_at(140.0f), 0, 0}}});

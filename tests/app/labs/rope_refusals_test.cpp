@@ -18,7 +18,7 @@ TEST_F(RopeRefusals, SayWhyInOneLine) {
     EXPECT_EQ(refused("rope.pin", {{"rope", "line"}, {"particle", 0}}),
               "rope.pin: there is no rope \"line\"");
     EXPECT_EQ(refused("rope.unpin", {{"rope", "rope"}, {"particle", -1}}),
-              "rope.unpin: particle must be at least 0, got -1");
+              "rope.unpin: particle must be 0 to 99999, got -1");
     EXPECT_EQ(refused("rope.cut", {{"rope", "rope"}, {"segment", 8}}),
               "rope.cut: segment 8 is out of range, \"rope\" has 8");
     EXPECT_EQ(refused("rope.remove", {{"name", "x"}}), "rope.remove: there is no rope \"x\"");
@@ -31,11 +31,11 @@ TEST_F(RopeRefusals, SayWhyInOneLine) {
     EXPECT_EQ(refused("rope.settings", {{"solver", "magic"}}),
               "rope.settings: solver must be one of relaxation, xpbd, direct, got \"magic\"");
     EXPECT_EQ(refused("rope.settings", {{"substep", 0}}),
-              "rope.settings: substep must be at least 1e-05, got 0");
+              "rope.settings: substep must be 1e-05 to 0.1, got 0");
     EXPECT_EQ(refused("rope.settings", {{"gravity", "down"}}),
               "rope.settings: gravity must be a number or a point [x, y, z], got \"down\"");
-    EXPECT_EQ(refused("rope.jitter", {{"dial", 1.5}}), "rope.jitter: dial must be at most 1.0, got 1.5");
-    EXPECT_EQ(refused("rope.view", {{"sides", 2}}), "rope.view: sides must be at least 3, got 2");
+    EXPECT_EQ(refused("rope.jitter", {{"dial", 1.5}}), "rope.jitter: dial must be 0.0 to 1.0, got 1.5");
+    EXPECT_EQ(refused("rope.view", {{"sides", 2}}), "rope.view: sides must be 3 to 64, got 2");
     EXPECT_EQ(refused("rope.tool", {{"name", "glue"}}),
               "rope.tool: name must be one of move, pin, cut, got \"glue\"");
     EXPECT_EQ(refused("rope.preset", {{"name", "anchor"}}).substr(0, 41),
@@ -96,7 +96,7 @@ TEST_F(RopeRefusals, WhatWouldTakeTooLongIsRefusedWithItsSize) {
 TEST_F(RopeRefusals, TooManyAreRefusedWithTheNumberAndTheLimit) {
     single_rope(8);
     EXPECT_EQ(refused("rope.add", {{"from", origin}, {"to", right}, {"segments", 10'000'000}}),
-              "rope.add: segments must be at most 99999, got 10000000");
+              "rope.add: segments must be 1 to 99999, got 10000000");
     EXPECT_EQ(refused("rope.add", {{"from", origin}, {"to", right}, {"segments", 99'999}}),
               "rope.add: that would make 100009 particles; the most is 100000");
     EXPECT_EQ(refused("rope.cloth.add", {{"corner", origin},

@@ -67,7 +67,8 @@ TEST_F(SceneVersion1, that_is_broken_is_refused_in_the_words_of_today) {
         return test::message_of([&] { load_scene(workspace, scene); });
     };
     const Json unit = {1, 0, 0, 0};
-    EXPECT_NE(refusal_of({unit, unit, unit, {1, 0, 0}}).find("state.rotations.3 must be [x, y, z, w]"),
+    EXPECT_NE(refusal_of({unit, unit, unit, {1, 0, 0}})
+                  .find("state.rotations.3: expected a quaternion [x, y, z, w]"),
               std::string::npos);
     EXPECT_NE(refusal_of({unit, unit, unit, {2, 0, 0, 0}}).find("state.rotations.3"), std::string::npos);
     EXPECT_NE(refusal_of(7).find("rotations"), std::string::npos);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/document/command.hpp"
+#include "app/labs/kit/names.hpp"
 
 namespace tendril::app {
 
@@ -16,11 +17,7 @@ Argument switch_argument(const char* name, const char* help);
 // These may be left out where not `required`.
 Argument text_argument(const char* name, bool required, const char* help);
 Argument point_argument(const char* name, bool required, const char* help);
-
-std::vector<std::string> names(const auto& list, auto name_of) {
-    std::vector<std::string> result;
-    for (const auto& each : list) result.emplace_back(name_of(each));
-    return result;
-}
+/// One of `count` things that are counted from 0.
+Argument index_argument(const char* name, bool required, const char* help, std::size_t count);
 
 }  // namespace tendril::app

@@ -1,4 +1,4 @@
-#include "app/labs/arguments.hpp"
+#include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
 
@@ -34,6 +34,15 @@ Argument text_argument(const char* name, bool required, const char* help) {
 
 Argument point_argument(const char* name, bool required, const char* help) {
     return {.name = name, .type = ArgumentType::Point, .required = required, .help = help};
+}
+
+Argument index_argument(const char* name, bool required, const char* help, std::size_t count) {
+    return {.name = name,
+            .type = ArgumentType::Integer,
+            .required = required,
+            .help = help,
+            .low = 0,
+            .high = static_cast<double>(count) - 1};
 }
 
 }  // namespace tendril::app

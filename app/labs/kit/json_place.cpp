@@ -1,0 +1,54 @@
+#include "app/labs/kit/json_place.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "app/document/json_complete.hpp"
+
+namespace tendril::app {
+
+void JsonPlace::fail(const std::string& what) const {
+    throw std::runtime_error(where_ + ": " + what);
+}
+
+bool JsonPlace::has(const char* key) const {
+    return json_->is_object() && json_->contains(key);
+}
+
+JsonPlace JsonPlace::operator[](const char* key) const {
+    return {json_member(*json_, key, where_), where_ + "." + key};
+}
+
+std::optional<JsonPlace> JsonPlace::optional(const char* key) const {
+    if (!has(key) || (*json_)[key].is_null()) return std::nullopt;
+    return (*this)[key];
+}
+
+JsonPlace JsonPlace::element(std::size_t index) const {
+    return {(*json_)[index], where_ + "." + std::to_string(index)};
+}
+
+std::size_t JsonPlace::list_size(const char* what, std::size_t most) const {
+    if (!json_->is_array()) fail("expected a list, found " + json_summary(*json_));
+    if (json_->size() > most) {
+        fail("has " + std::to_string(json_->size()) + " " + what + "; the most is " + std::to_string(most));
+    }
+    return json_->size();
+}
+
+void JsonPlace::check_size(std::size_t size, const char* of) const {
+    if (json_->is_array() && json_->size() == size) return;
+    fail("expected a list of " + std::to_string(size) + " " + of + ", found " + json_summary(*json_));
+}
+
+glm::quat JsonPlace::rotation() const {
+    if (!json_->is_array() || json_->size() != 4)
+        fail("expected a quaternion [x, y, z, w], found " + json_summary(*json_));
+    const auto at = [&](std::size_t i) { return element(i).number(); };
+    const glm::quat q(at(3), at(0), at(1), at(2));
+    if (!(std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0f) <= 1e-3f))
+        fail("expected a unit quaternion, found " + json_summary(*json_));
+    return q;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,61 @@
+// A value in a scene file together with where it stands, so that whatever is wrong with it is told with its
+// place: "labs.chain.reach.damping: expected ...".
+#pragma once
+
+#include <cstdint>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "app/document/json.hpp"
+
+namespace tendril::app {
+
+/// Refers to the JSON. Everything it reads is checked as json.hpp says; what does not fit throws
+/// std::runtime_error that begins with the place.
+class JsonPlace {
+  public:
+    JsonPlace(const Json& json, std::string where) : json_(&json), where_(std::move(where)) {}
+
+    const Json& json() const { return *json_; }
+    const std::string& where() const { return where_; }
+    [[noreturn]] void fail(const std::string& what) const;
+
+    bool has(const char* key) const;
+    /// A member that has to be there.
+    JsonPlace operator[](const char* key) const;
+    /// One that may be missing, or null.
+    std::optional<JsonPlace> optional(const char* key) const;
+    JsonPlace element(std::size_t index) const;
+    /// Every element of a list of at most `most`, which messages call `what`: "segments".
+    void for_each(const char* what, std::size_t most, auto take) const {
+        const std::size_t size = list_size(what, most);
+        for (std::size_t i = 0; i < size; ++i) take(element(i));
+    }
+    /// A list of exactly so many: `of` says which, "positions, one a segment".
+    void check_size(std::size_t size, const char* of) const;
+
+    float number() const { return json_number(*json_, where_); }
+    float number(float low, float high) const { return json_number(*json_, where_, low, high); }
+    double real() const { return json_real(*json_, where_); }
+    double real(double low, double high) const { return json_real(*json_, where_, low, high); }
+    float degrees() const { return json_degrees(*json_, where_); }  ///< in radians
+    int integer(int low, int high) const { return json_integer(*json_, where_, low, high); }
+    std::uint64_t count(std::uint64_t high) const { return json_count(*json_, where_, high); }
+    std::size_t index(std::size_t high) const { return static_cast<std::size_t>(count(high)); }
+    bool flag() const { return json_bool(*json_, where_); }
+    std::string text() const { return json_text(*json_, where_); }
+    glm::vec3 point() const { return json_point(*json_, where_); }
+    glm::dvec3 dpoint() const { return json_dpoint(*json_, where_); }
+    glm::quat rotation() const;  ///< [x, y, z, w], of unit length within 1e-3
+
+  private:
+    std::size_t list_size(const char* what, std::size_t most) const;
+
+    const Json* json_;
+    std::string where_;
+};
+
+}  // namespace tendril::app

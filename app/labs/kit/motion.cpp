@@ -1,0 +1,68 @@
+#include "app/labs/kit/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "app/document/json_complete.hpp"
+#include "app/document/workspace.hpp"
+#include "app/labs/kit/json_place.hpp"
+#include "app/labs/kit/names.hpp"
+
+namespace tendril::app {
+
+double round_angle(double seconds, float period) {
+    const double rounds = seconds / static_cast<double>(period);
+    return glm::two_pi<double>() * (rounds - std::floor(rounds));
+}
+
+const char* motion_name(Motion::Path path) {
+    static constexpr const char* names[] = {"still", "circle", "figure_eight", "sweep"};
+    return names[static_cast<std::size_t>(path)];
+}
+
+Motion::Path motion_from_name(const std::string& name) {
+    return named(all_motions, motion_name, name, "path");
+}
+
+std::uint32_t ticks_per_round(const Motion& motion) {
+    return static_cast<std::uint32_t>(std::max(1L, std::lround(motion.period * 60.0f)));
+}
+
+glm::vec3 motion_point(const Motion& motion, std::uint32_t ticks) {
+    const std::uint32_t round = ticks_per_round(motion);
+    const float angle = glm::two_pi<float>() * static_cast<float>(ticks % round) / static_cast<float>(round);
+    const float c = std::cos(angle), s = std::sin(angle);
+    switch (motion.path) {
+        case Motion::Path::Still:
+            break;
+        case Motion::Path::Circle:
+            return motion.centre + motion.radius * glm::vec3(c, s, 0.0f);
+        case Motion::Path::FigureEight:
+            return motion.centre + motion.radius * glm::vec3(c, s * c, 0.5f * s);
+        case Motion::Path::Sweep:
+            return motion.centre + motion.radius * glm::vec3(s, 0.0f, 0.0f);
+    }
+    return motion.centre;
+}
+
+Json save_motion(const Motion& motion) {
+    return {{"path", motion_name(motion.path)},
+            {"centre", point(motion.centre)},
+            {"radius", number(motion.radius)},
+            {"period", number(motion.period)},
+            {"ticks", motion.ticks}};
+}
+
+Motion load_motion(const JsonPlace& place) {
+    Motion motion;
+    motion.path = motion_from_name(place["path"].text());
+    motion.centre = place["centre"].point();
+    motion.radius = place["radius"].number(0.0f, max_motion_radius);
+    motion.period = place["period"].number(shortest_period, longest_period);
+    const int last = static_cast<int>(ticks_per_round(motion)) - 1;
+    motion.ticks = static_cast<std::uint32_t>(place["ticks"].integer(0, last));
+    return motion;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,46 @@
+// A path that something follows by itself, so that time means something in a lab: a target in the Chain lab,
+// a collider in the Rope lab. A student watches what a method makes of a steady movement, and can pause it
+// and step it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <string>
+
+#include "app/document/json.hpp"
+
+namespace tendril::app {
+
+class JsonPlace;
+
+inline constexpr float shortest_period = 0.1f, longest_period = 600.0f;  ///< seconds a round
+
+/// How far around it is after so many seconds, from 0 to 2 pi.
+double round_angle(double seconds, float period);
+
+struct Motion {
+    enum class Path { Still, Circle, FigureEight, Sweep } path = Path::Still;
+    glm::vec3 centre{0.0f};
+    float radius = 2.0f;      ///< metres
+    float period = 4.0f;      ///< seconds a round
+    std::uint32_t ticks = 0;  ///< since it was set going
+    bool operator==(const Motion&) const = default;
+};
+inline constexpr float max_motion_radius = 1e4f;  ///< metres
+
+inline constexpr std::array all_motions{Motion::Path::Still, Motion::Path::Circle, Motion::Path::FigureEight,
+                                        Motion::Path::Sweep};
+const char* motion_name(Motion::Path path);
+/// Throws std::invalid_argument for an unknown name.
+Motion::Path motion_from_name(const std::string& name);
+
+/// Where the path is after so many ticks; it starts to the right of its centre, or wherever its first point
+/// is.
+glm::vec3 motion_point(const Motion& motion, std::uint32_t ticks);
+std::uint32_t ticks_per_round(const Motion& motion);
+
+Json save_motion(const Motion& motion);
+Motion load_motion(const JsonPlace& place);
+
+}  // namespace tendril::app

@@ -1,0 +1,25 @@
+#include "app/labs/kit/preset_rows.hpp"
+
+#include "app/widgets/fields.hpp"
+
+namespace tendril::app {
+
+bool preset_rows(const std::string& lab, const std::vector<PresetButton>& presets, const char* clears,
+                 Emit& emit) {
+    section("Presets");
+    bool opened = false;
+    for (const PresetButton& preset : presets) {
+        const char* const tooltip = preset.tooltip.empty() ? nullptr : preset.tooltip.c_str();
+        if (!row_button(preset.title.c_str(), 3, true, tooltip)) continue;
+        emit(lab + ".preset", {{"name", preset.name}});
+        opened = true;
+    }
+    end_row();
+    if (row_button("Empty", 2, true, clears)) emit(lab + ".clear");
+    if (row_button("Reset", 2, true, "Everything as at the first start; undo brings it back"))
+        emit(lab + ".reset");
+    end_row();
+    return opened;
+}
+
+}  // namespace tendril::app
