@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/document/atomic_file.hpp"
+#include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/shell/labels_view.hpp"
@@ -40,7 +41,7 @@ App::App(Window& window, bool complain, Labs labs)
     : window_(window),
       complain_(complain),
       labs_(std::move(labs)),
-      commands_(make_command_table(labs_)),
+      commands_(std::make_unique<CommandTable>(make_command_table(labs_))),
       shortcuts_(labs_),
       workspace_(make_blank_workspace(labs_)) {
     ImGui::GetIO().SetClipboardTextFn = [](void* data, const char* text) {
@@ -53,6 +54,8 @@ App::App(Window& window, bool complain, Labs labs)
     base_scale_ = window_.content_scale();
     for (int i = 0; i < settling_ticks; ++i) compose(nullptr, Pass::Settle);
 }
+
+App::~App() = default;
 
 void App::start_from(const RecordingStart& start) {
     load_scene(workspace_, start.scene);
@@ -118,7 +121,7 @@ void App::compose(const Event* event, Pass pass) {
     }
     if (hint.empty())
         hint = "Right-drag turns the view, middle-drag shifts it, the wheel zooms. ? shows every key.";
-    shell_.frame({workspace_, labs_, lab(), commands_, shortcuts_, layout_, hint}, emit);
+    shell_.frame({workspace_, labs_, lab(), *commands_, shortcuts_, layout_, hint}, emit);
     if (pass == Pass::Picture) emit.take();
     run_emitted(emit);
     if (in_tick) advance_time();
@@ -165,14 +168,14 @@ void App::take_shortcut(Emit& emit) {
     if (shortcut == nullptr || (ui_.wants_text() && !shortcut->while_typing)) return;
     // A key does not change the scene under a hand that is moving it: Delete in mid-drag would remove what is
     // dragged.
-    if (busy() && commands_.find(shortcut->command)->effect == Effect::Edit) return;
+    if (busy() && commands_->find(shortcut->command)->effect == Effect::Edit) return;
     emit(shortcut->command, shortcut->arguments);
 }
 
 void App::run_emitted(Emit& emit) {
     for (Emitted& command : emit.take()) {
         try {
-            commands_.run(workspace_, command.name, command.arguments, command.continuous ? gesture_ : 0);
+            commands_->run(workspace_, command.name, command.arguments, command.continuous ? gesture_ : 0);
             if (command.continuous && pointer_.dragged() != no_pick) workspace_.settings.hint_seen = true;
         } catch (const Refused& refusal) {
             workspace_.toast(refusal.what(), ToastKind::Refusal);
@@ -183,7 +186,7 @@ void App::run_emitted(Emit& emit) {
 
 void App::run(const RunCommand& command) {
     try {
-        commands_.run(workspace_, command.name, command.arguments);
+        commands_->run(workspace_, command.name, command.arguments);
         if (recorder_) recorder_->command(command.name, command.arguments, false);
     } catch (const Refused& refusal) {
         if (recorder_) recorder_->command(command.name, command.arguments, true);

@@ -10,7 +10,6 @@
 #include <string>
 
 #include "app/document/autosave.hpp"
-#include "app/document/command.hpp"
 #include "app/io/image.hpp"
 #include "app/labs/labs.hpp"
 #include "app/script/player.hpp"
@@ -28,9 +27,10 @@ class App final : public Stage {
     /// `window` must outlive the app, with its context current. Where `complain`, refusals also go to stderr.
     /// `labs`: the program's, unless a test has more.
     explicit App(Window& window, bool complain = false, Labs labs = Labs());
+    ~App() override;
 
     Workspace& workspace() { return workspace_; }
-    const CommandTable& commands() const { return commands_; }
+    const CommandTable& commands() const { return *commands_; }
     const Labs& labs() const { return labs_; }
 
     /// What a recording starts from: taken on from there, and written down from now on.
@@ -76,7 +76,7 @@ class App final : public Stage {
     Window& window_;
     bool complain_;
     Labs labs_;
-    CommandTable commands_;
+    std::unique_ptr<const CommandTable> commands_;
     Shortcuts shortcuts_;
     Workspace workspace_;
     Renderer renderer_;

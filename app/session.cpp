@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "app/app.hpp"
+#include "app/document/command.hpp"
 #include "app/document/atomic_file.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/document/text.hpp"

@@ -6,26 +6,14 @@
 #include <functional>
 #include <glm/gtc/quaternion.hpp>
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "app/document/text.hpp"
+#include "app/document/refused.hpp"
 #include "app/document/workspace.hpp"
 
 namespace tendril::app {
-
-/// A command said no: what() is one line that says why. The document is as it was.
-class Refused : public std::runtime_error {
-  public:
-    explicit Refused(const std::string& why) : std::runtime_error(single_line(why)) {}
-};
-/// The command itself is not known: a mistake in a script, not a refusal.
-class UnknownCommand : public Refused {
-  public:
-    using Refused::Refused;
-};
 
 /// NumberOrPoint: one number, or three. Rotation: a unit quaternion [x, y, z, w], or degrees about X, then Y,
 /// then Z.

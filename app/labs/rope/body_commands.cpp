@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "app/labs/kit/require.hpp"
-#include "app/labs/rope/rope_edit.hpp"
+#include "app/labs/rope/rope_commands.hpp"
 
 namespace tendril::app {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "app/labs/rope/rope_edit.hpp"
+#include "app/labs/rope/rope_commands.hpp"
 #include "app/labs/rope/rope_names.hpp"
 #include "app/labs/rope/rope_time.hpp"
 

@@ -1,5 +1,5 @@
 // What is selected, held and shown. But for what a drag does to a rope, it leaves no step to undo.
-#include "app/labs/rope/rope_edit.hpp"
+#include "app/labs/rope/rope_commands.hpp"
 #include "app/labs/rope/rope_names.hpp"
 
 namespace tendril::app {

@@ -1,4 +1,4 @@
-#include "app/labs/rope/rope_edit.hpp"
+#include "app/labs/rope/rope_commands.hpp"
 
 #include <algorithm>
 #include <stdexcept>

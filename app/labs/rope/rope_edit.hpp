@@ -1,15 +1,15 @@
-// What the files of this lab's commands share.
+// What the lab's commands and its pointer change, and what they check.
 #pragma once
 
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "app/document/command.hpp"
-#include "app/labs/kit/arguments.hpp"
 #include "app/labs/rope/rope_part.hpp"
 
 namespace tendril::app {
+
+class Arguments;
 
 /// A change of the lab's part.
 class RopeEdit {
@@ -36,10 +36,6 @@ class RopeEdit {
     double seconds_;  ///< of the world that the next tick takes; 0 while the simulation is paused
 };
 
-/// A command on a copy of the lab's part; what it changes in the world wakes it.
-Command rope_command(const char* name, std::vector<Argument> arguments, const char* help,
-                     void (*change)(RopeEdit&, const Arguments&), Effect effect = Effect::Edit);
-
 /// Whether the two hold the very same; the same world, and not merely an equal one.
 bool operator==(const RopePart& a, const RopePart& b);
 
@@ -65,13 +61,5 @@ std::optional<std::size_t> held_particle(const RopePart& part);
 void let_go(RopePart& part);
 /// Whatever is gone is neither chosen nor held nor swings.
 void forget_missing(RopePart& part);
-
-Argument rope_argument(bool required, const char* help);
-Argument particle_argument(bool required, const char* help);
-
-void add_world_commands(CommandTable& table);
-void add_body_commands(CommandTable& table);
-void add_collider_commands(CommandTable& table);
-void add_look_commands(CommandTable& table);
 
 }  // namespace tendril::app

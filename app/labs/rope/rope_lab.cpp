@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/labs/kit/guarded_step.hpp"
-#include "app/labs/rope/rope_edit.hpp"
+#include "app/labs/rope/rope_commands.hpp"
 #include "app/labs/rope/rope_time.hpp"
 #include "app/labs/rope/scenes.hpp"
 

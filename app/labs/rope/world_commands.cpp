@@ -1,5 +1,5 @@
 // The whole of the lab: what it begins with, and how it is simulated.
-#include "app/labs/rope/rope_edit.hpp"
+#include "app/labs/rope/rope_commands.hpp"
 #include "app/labs/rope/scenes.hpp"
 #include "app/labs/rope/world_file.hpp"
 

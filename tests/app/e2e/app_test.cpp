@@ -1,4 +1,5 @@
 // The frame itself, run in this process on a window off screen.
+#include "app/document/refused.hpp"
 #include "app/app.hpp"
 
 #include <glm/geometric.hpp>

@@ -1,5 +1,6 @@
 // What holds for every lab of the table, and for one that only the tests have: random events and commands let
 // loose on each of its scenes break nothing, and all of it comes out the same when it is played again.
+#include "app/document/command.hpp"
 #include "app/document/scene_file.hpp"
 #include "tests/app/e2e/monkey.hpp"
 #include "tests/app/labs/spring/spring_lab.hpp"

@@ -1,5 +1,6 @@
 // New, opened and saved scenes among undo and redo: a recording of them replays with the same refusals, and
 // ends in the same state.
+#include "app/document/refused.hpp"
 #include "app/document/scene_file.hpp"
 #include "tests/app/e2e/monkey.hpp"
 

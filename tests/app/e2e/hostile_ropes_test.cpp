@@ -1,5 +1,6 @@
 // The same into the Rope lab: nothing that is not finite gets in, no rope loses a particle that nobody took,
 // and undo leads back to what was there.
+#include "app/document/command.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "tests/app/e2e/monkey.hpp"
 

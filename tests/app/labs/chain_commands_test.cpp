@@ -2,6 +2,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "app/document/refused.hpp"
 #include "tests/app/labs/chain_support.hpp"
 
 namespace tendril::app {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <glm/geometric.hpp>
 
+#include "app/document/command.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
 #include "tests/app/labs/chain_support.hpp"
 #include "tests/app/support/play.hpp"

@@ -154,7 +154,7 @@ TEST_F(ChainReach, everything_comes_back_from_a_file_bit_for_bit) {
     // And goes on as this one does.
     const Json on{{"to", {0.9, -0.8, 0.5}}};
     run("chain.target", on);
-    table.run(other, "chain.target", on);
+    run_in(other, "chain.target", on);
     EXPECT_EQ(save_scene(other), save_scene(workspace));
 }
 

@@ -2,6 +2,7 @@
 // undone, saved, recorded and found in palette, help and shortcuts, and nothing but the table knows of it.
 #include <gtest/gtest.h>
 
+#include "app/document/command.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/shell/command_palette.hpp"
 #include "tests/app/e2e/monkey.hpp"

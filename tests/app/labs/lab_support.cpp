@@ -1,0 +1,41 @@
+#include "tests/app/labs/lab_support.hpp"
+
+#include "app/document/command.hpp"
+
+namespace tendril::app {
+
+LabTest::LabTest(const char* lab)
+    : table_(std::make_unique<CommandTable>(make_command_table(labs))),
+      table(*table_),
+      workspace(make_blank_workspace(labs)),
+      lab_(lab) {
+    run("lab.open", {{"name", lab}});
+}
+
+LabTest::~LabTest() = default;
+
+void LabTest::run(const char* name, const Json& arguments, Gesture gesture) {
+    table.run(workspace, name, arguments, gesture);
+}
+
+void LabTest::run_in(Workspace& other, const char* name, const Json& arguments) const {
+    table.run(other, name, arguments);
+}
+
+std::string LabTest::refused(const char* name, const Json& arguments) {
+    const Document before = workspace.document;
+    const Json scene = save_scene(workspace);
+    const std::size_t history = workspace.history.size();
+    try {
+        table.run(workspace, name, arguments);
+    } catch (const Refused& refusal) {
+        EXPECT_TRUE(workspace.document == before) << name << " changed something, though refused";
+        EXPECT_EQ(save_scene(workspace), scene) << name << " changed something, though refused";
+        EXPECT_EQ(workspace.history.size(), history);
+        return refusal.what();
+    }
+    ADD_FAILURE() << name << " " << arguments << " was accepted";
+    return {};
+}
+
+}  // namespace tendril::app
