@@ -23,7 +23,8 @@ const fs::path top = TENDRIL_SOURCE_DIR;
 // Folders and files from the top of the project that are clean.
 const Places program{"app", "README.md"};
 const Places chains{"app/labs/chain", "app/batch", "app/io"};
-const Places ropes{"app/labs/rope"};
+const Places ropes{"app/labs/rope", "core/src/rope", "core/include/tendril/rope"};
+const Places solvers{"core/src/ik", "core/include/tendril/ik", "core/src/math"};
 
 /// A word as people would write it again, and what to write.
 struct Rule {
@@ -63,6 +64,14 @@ const std::vector<Rule>& rules() {
          R"(\bre laid\b|\blays? out\b)"},
         {chains, R"(\bcarr(y|ies|ied)\b)", "parallel transport; move along", R"(\bcarried along\b)"},
         {chains, R"(\bpull(s|ed)? from the (tip|root)\b)", "forward reaching, backward reaching"},
+        {solvers, R"(\b(kick(s|ed)?|bows?|shakes?|line trap)\b)", "perturbation; collinear singularity"},
+        {solvers, R"(\b(rooms?|settles?|settled|assumes?|polish(es|ed)?|careful)\b)",
+         "workspace; active-set projection, clamp; refine; scalar fallback"},
+        {solvers, R"(\b(lay|lays|laid)\b)", "place, commit, forward kinematics"},
+        {solvers, R"(\bcarr(ies|ied)\b)", "parallel transport; move"},
+        {solvers, R"(\b(pull(s|ed)? from the (tip|root)|hold back|progress)\b)",
+         "forward reaching, backward reaching; active-set projection; convergence"},
+        {solvers, R"(\b(greatest|spread|start again)\b)", "maximum; accelerate; restart"},
         // ropes
         {ropes, R"(\b(locks?|sheets?)\b)", "hair, cloth"},
         {ropes, R"(\b(rescues?|last push|push(ed|es|ing)? out|rooms?)\b)",

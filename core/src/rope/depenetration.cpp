@@ -122,7 +122,7 @@ bool search(const Neighbours& neighbours, const dvec3& from, double thickness, d
     return found;
 }
 
-/// Brings a ball out of every collider; where there is no room for all of it, at least its middle. Near where
+/// Brings a ball out of every collider; where not all of it fits, at least its middle. Near where
 /// it is, if that is easily found; false, and unmoved, where it is not found at all.
 bool bring_out(const Neighbours& neighbours, dvec3& place, double radius) {
     for (const double thickness : {radius, 0.0}) {

@@ -13,7 +13,7 @@
 // Answers: bit for bit those of Solver with Method::Fabrik, whatever the vector unit, the number of threads
 // and the company that a chain is in; but for targets out of reach or too close, which are answered in float
 // where Solver takes double (the same to 1e-4 of the reach). Where a target is so near to the rim of what can
-// be reached that a float cannot tell, the scalar solver takes that chain: ManyReport::scalar_fallback.
+// be reached that floats cannot decide, the scalar solver takes that chain: ManyReport::scalar_fallback.
 //
 // With limits, one for each bone and the same for all chains, the vector units take damped least-squares
 // steps over the joints' rotations, every joint clamped to its limit (K. Levenberg, "A method for the
@@ -99,8 +99,8 @@ class Batch {
     // ---- Metres. OutOfRange for a bad chain or joint, InvalidArgument for a number that chain.hpp would not
     // ---- take or a list of the wrong size; nothing is changed then.
 
-    /// bones() of them, for one chain or for all. The joints stay where they are until the next solve lays
-    /// them to their lengths.
+    /// bones() of them, for one chain or for all. The joints stay where they are until the next solve
+    /// brings the bones to their lengths.
     Result set_lengths(std::size_t chain, std::span<const float> lengths);
     Result set_lengths(std::span<const float> lengths);
     /// bones() + 1 of them, root first. They need not be at their lengths: a solve begins by laying them.

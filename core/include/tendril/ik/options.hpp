@@ -58,7 +58,7 @@ struct Options {
     /// between is within its limits. The length of a stretched bone is blended too. Report and residuals are
     /// those of the solve itself, as with a weight of 1. Under 1 the rotations are always kept up.
     float weight = 1.0f;
-    /// Within limits, where descent ends short of the target: from how many other poses to start again, 0 to
+    /// Within limits, where descent ends short of the target: from how many other poses to restart, 0 to
     /// 1000, as far as max_iterations allows. Left out: 8; but none while the target is dragged, that is
     /// where the chain stands as the last solve with this state left it and the target has moved by less than
     /// 0.05 of the reach since. Another start may end elsewhere, and the chain would jump: instead no joint

@@ -20,7 +20,7 @@
 namespace tendril::ik {
 
 /// How the last solve with a pole left the chain, so that the next one turns it no faster than its joints may
-/// move. All places are metres from the root, so that a chain may be carried about as a whole.
+/// move. All places are metres from the root, so that a chain may be moved as a whole.
 struct PoleMemory {
     bool valid = false;  ///< whether the last solve had a pole; if not, the rest counts for nothing
     PoleTurn turn = PoleTurn::WholeChain;  ///< how the chain was turned to face it

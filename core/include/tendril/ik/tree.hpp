@@ -75,7 +75,7 @@ struct TreeOptions {
     std::span<float> effector_residuals{};
     /// Where given, one a joint: element k is the rotation, in the world, of the bone that leads to joint k
     /// (the root's belongs to no bone and stays). Each is turned on by the minimal rotation from where its
-    /// bone lay (brought to its length) to where the solve leaves it. Unit quaternions, to 1e-3.
+    /// bone was (brought to its length) to where the solve leaves it. Unit quaternions, to 1e-3.
     std::span<glm::quat> rotations{};
 };
 

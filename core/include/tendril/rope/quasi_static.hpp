@@ -1,6 +1,6 @@
-// Quasi-static drag: a pin or a collider is moved while the simulation is paused, and what it meets gives way
-// as if everything were without weight and speed. Nothing else moves, no time passes, and what was on its way
-// somewhere goes on when time does.
+// Quasi-static drag: a pin or a collider is moved while the simulation is paused, and what it meets is
+// displaced as if everything were without weight and speed. Nothing else moves, no time passes, and what was
+// on its way somewhere goes on when time does.
 //
 // The world is copied with no gravity, full damping and every link at rest as long as it is, except stiff
 // links (direct solver, no compliance) that are over 5 % off their length; eight substeps take what is

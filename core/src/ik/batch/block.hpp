@@ -27,7 +27,7 @@ enum class Row : std::size_t {
     Best,     ///< the smallest residual of the whole solve; the rows of the best pose have its joints
     Nearest,  ///< the smallest since the last perturbation
     Last,     ///< the one before
-    Idle,     ///< iterations without progress, and without much of it: as in convergence.hpp
+    Idle,     ///< iterations that gained nothing, and little: as in convergence.hpp
     Slow,
     Perturbations,  ///< how many so far
     Iterations,     ///< whole numbers up to 1 000 000, which a float holds
@@ -43,13 +43,13 @@ enum class Activity : std::uint8_t {
     Perturb,  ///< waits for a perturbation, then iterates
 };
 
-/// In Row::Class: what the look at a chain before its first iteration found.
+/// In Row::Class: what a chain was found to be before its first iteration.
 enum class Class : std::uint8_t {
     Reachable,  ///< iterates
-    Straight,   ///< out of reach, and already laid straight
+    Straight,   ///< out of reach, and already straightened
     Folded,     ///< too close, and already folded back along its longest bone
     Collinear,  ///< reachable, but maybe on one line with its target: the scalar code decides and perturbs
-    Scalar,     ///< too near to some bound to tell in float: the scalar solver takes it
+    Scalar,     ///< too near to some bound for floats to decide: the scalar solver takes it
     Invalid     ///< some coordinate is out of range
 };
 

@@ -1,4 +1,4 @@
-// What solve_many does before the first iteration: which chains can iterate at all, and which must be laid
+// What solve_many does before the first iteration: which chains can iterate at all, and which must be put
 // first.
 //
 // Highway compiles this file once for each vector unit: it includes it again and again, each time with
@@ -44,7 +44,7 @@ HWY_INLINE bool surely_fit(const Block& block, std::size_t i) {
     return hn::AllTrue(Floats(), fits);
 }
 
-/// By how much a bone is off its length, and how much lay_to_lengths (prepare.cpp) lets pass.
+/// By how much a bone is off its length, and how much enforce_lengths (prepare.cpp) lets pass.
 HWY_INLINE void compare(const Block& block, std::size_t bone, std::size_t i, Lanes& off, Lanes& allowed) {
     const float *const from = block.joint(bone) + i, *const to = block.joint(bone + 1) + i;
     const Lanes size = load(block.length(bone) + i);
@@ -76,7 +76,7 @@ HWY_INLINE Fit fit_of(const Block& block, std::size_t i) {
     return fit;
 }
 
-/// Writes Row::Class for one register of chains. All thresholds leave room for the rounding of floats: what
+/// Writes Row::Class for one register of chains. All thresholds allow for the rounding of floats: what
 /// is nearer than that is left to the scalar code. True where some bone of a reachable chain is loose.
 HWY_INLINE bool classify_register(const Block& block, std::size_t i, Mask used) {
     const Lanes reach = load(block.reach() + i), longest = load(block.longest() + i);
@@ -111,25 +111,25 @@ HWY_INLINE bool classify_register(const Block& block, std::size_t i, Mask used) 
     return any(hn::And(loose, equals(block.row(Row::Class) + i, Class::Reachable)));
 }
 
-/// From the first loose bone on, where the target is reachable: what lay_to_lengths does.
-HWY_INLINE void lay_loose(const Block& block, std::size_t i) {
+/// From the first loose bone on, where the target is reachable; as enforce_lengths in prepare.cpp.
+HWY_INLINE void enforce_lengths(const Block& block, std::size_t i) {
     float* const activity = block.row(Row::Activity);
     store(zero(), activity + i);
     for (std::size_t bone = 0; bone < block.bones(); ++bone) {
         Lanes off, allowed;
         compare(block, bone, i, off, allowed);
         const Mask fails = hn::Gt(off, hn::Mul(allowed, all(surely_loose)));
-        const Mask lay = hn::And(fails, equals(block.row(Row::Class) + i, Class::Reachable));
-        store(hn::IfThenElse(lay, all(static_cast<float>(Activity::Active)), load(activity + i)),
+        const Mask loose = hn::And(fails, equals(block.row(Row::Class) + i, Class::Reachable));
+        store(hn::IfThenElse(loose, all(static_cast<float>(Activity::Active)), load(activity + i)),
               activity + i);
         const float* const before = bone > 0 ? block.joint(bone - 1) : nullptr;
         step<true>({block.joint(bone), block.joint(bone + 1), block.length(bone), before}, activity, i);
     }
 }
 
-/// Every joint straight towards the target from where the one before has come to lie, so that the roundings
+/// Every joint straight towards the target from where the one before has come to be, so that the roundings
 /// of many joints do not add up to a bend.
-HWY_INLINE void lay_straight(const Block& block, std::size_t i, Mask lanes) {
+HWY_INLINE void straighten(const Block& block, std::size_t i, Mask lanes) {
     const Points target = load_points(block.target() + i);
     Points at = load_points(block.joint(0) + i);
     for (std::size_t bone = 0; bone < block.bones(); ++bone) {
@@ -142,7 +142,7 @@ HWY_INLINE void lay_straight(const Block& block, std::size_t i, Mask lanes) {
 }
 
 /// The longest bone towards the target, all others back.
-HWY_INLINE void lay_folded(const Block& block, std::size_t i, Mask lanes) {
+HWY_INLINE void fold(const Block& block, std::size_t i, Mask lanes) {
     Points at = load_points(block.joint(0) + i);
     Points along = minus(load_points(block.target() + i), at);
     along = times(along, hn::Div(all(1.0f), hn::Max(length(along), all(FLT_MIN))));
@@ -192,11 +192,11 @@ Left classify(const Block& block, std::size_t lanes, bool every) {
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
         float* const found = block.row(Row::Class) + i;
         const Mask used = hn::FirstN(d, lanes - i);  // the lanes beyond count as invalid
-        if (classify_register(block, i, used)) lay_loose(block, i);
+        if (classify_register(block, i, used)) enforce_lengths(block, i);
         if (const Mask straight = equals(found, Class::Straight); any(straight)) {
-            lay_straight(block, i, straight);
+            straighten(block, i, straight);
         }
-        if (const Mask folded = equals(found, Class::Folded); any(folded)) lay_folded(block, i, folded);
+        if (const Mask folded = equals(found, Class::Folded); any(folded)) fold(block, i, folded);
         begin(block, i);
         const Mask there = hn::Le(load(block.row(Row::Residual) + i), load(block.row(Row::Tolerance) + i));
         const Mask reachable = equals(found, Class::Reachable);
@@ -217,7 +217,7 @@ void classify_limited(const Block& block, std::size_t lanes) {
     const Floats d;
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
         float* const found = block.row(Row::Class) + i;
-        if (classify_register(block, i, hn::FirstN(d, lanes - i))) lay_loose(block, i);
+        if (classify_register(block, i, hn::FirstN(d, lanes - i))) enforce_lengths(block, i);
         const Mask keeps = hn::Or(equals(found, Class::Reachable), equals(found, Class::Invalid));
         store(hn::IfThenElse(keeps, load(found), all(static_cast<float>(Class::Scalar))), found);
         begin(block, i);

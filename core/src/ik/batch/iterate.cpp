@@ -144,7 +144,7 @@ HWY_INLINE void reshape(const Block& block, std::size_t i, Mask lanes, float* sh
         });
         second.add(block, to_second, home);
     }
-    lay_shape<false>(block, i, hn::And(lanes, hn::Lt(best.error, residual)), family, best, one, two);
+    place_shape<false>(block, i, hn::And(lanes, hn::Lt(best.error, residual)), family, best, one, two);
 }
 
 /// The second family, where it comes nearer than the first did.
@@ -159,7 +159,7 @@ HWY_INLINE void reshape_around_longest(const Gathered& second, const Block& to, 
         const BestShape best = fit_shape<true>(block, i, family, near_enough(block, i), lanes, one, two);
         const Lanes bound = hn::Min(load(block.row(Row::Best) + i), load(block.row(Row::Residual) + i));
         const Mask better = hn::And(lanes, hn::Lt(best.error, bound));
-        lay_shape<true>(block, i, better, family, best, one, two);
+        place_shape<true>(block, i, better, family, best, one, two);
         for_each_lane(better, [&](std::size_t lane) { second.put_back(i + lane, to); });
     }
 }

@@ -130,7 +130,7 @@ HWY_INLINE Rotations smallest_rotation(const Points& from, const Points& to) {
     return normalized(select(opposite, Rotations{zero(), cross(from, away)}, Rotations{w, cross(from, to)}));
 }
 
-/// Carries the rotations to where the joints are, by the smallest rotation, and clamps them. Returns the
+/// Transports the rotations to where the joints are, by the smallest rotation, and clamps them. Returns the
 /// lanes in which a limit was violated; `pose` is the clamped one.
 HWY_INLINE Mask take_pose(const Limb& limb, const float* rotations) {
     Mask violated = none();
@@ -146,8 +146,8 @@ HWY_INLINE Mask take_pose(const Limb& limb, const float* rotations) {
         const Points before = rotated(world, all(limb.limits[bone].bone)), along = times(apart, scale);
         const Points off = minus(along, before);
         const Mask turned = hn::And(shows, hn::Gt(dot(off, off), all(1e-10f)));
-        const Rotations carried = normalized(compose(smallest_rotation(before, along), world));
-        world = select(turned, carried, world);
+        const Rotations transported = normalized(compose(smallest_rotation(before, along), world));
+        world = select(turned, transported, world);
         const Rotations turn = normalized(compose(conjugate(parent), world));
         Standing standing;
         const Rotations within = clamp(limb.limits[bone], turn, standing);
@@ -203,7 +203,7 @@ HWY_INLINE void linearize(const Limb& limb) {
         limb.axes.set(bone, rotated(parent, axis));
         if (!hinge) limb.bones.set(bone, rotated(world, all(limit.bone)));
         limb.stopped.set(2 * bone, zero());
-        // No room at all: stopped both ways.
+        // No freedom at all: stopped both ways.
         limb.stopped.set(2 * bone + 1,
                          hn::Mul(limb.pose.ends.lanes(2 * bone), limb.pose.ends.lanes(2 * bone + 1)));
         parent = world;

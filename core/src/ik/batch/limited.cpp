@@ -27,13 +27,13 @@ namespace tendril::ik::detail {
 namespace HWY_NAMESPACE {
 
 // Chosen by measuring: the most iterations that any of 16 chains takes.
-constexpr float first_damping = 2e-2f, least_damping = 1e-8f, most_damping = 1.0f;
-constexpr float first_move = 1.0f;      ///< of the reach, that a step is to bring the tip nearer
-constexpr int most_passes = 3;          ///< in which what the limits stop is found
-constexpr int steps_between_looks = 2;  ///< at who is done
-constexpr int most_iterations = 30;     ///< after that the scalar solver takes over
-constexpr float little = 0.1f;          ///< progress by less than this part of what is left
-constexpr float patience = 8.0f;        ///< so many times in a row
+constexpr float first_damping = 2e-2f, min_damping = 1e-8f, max_damping = 1.0f;
+constexpr float first_move = 1.0f;       ///< of the reach, that a step is to bring the tip nearer
+constexpr int most_passes = 3;           ///< in which what the limits stop is found
+constexpr int steps_between_checks = 2;  ///< of who is done
+constexpr int most_iterations = 30;      ///< after that the scalar solver takes over
+constexpr float little = 0.1f;           ///< a gain of less than this part of what is left
+constexpr float patience = 8.0f;         ///< so many times in a row
 
 // What each chain's solve keeps between two steps, in the tile's rows of state.
 constexpr Row row_of_error = Row::Residual, row_of_damping = Row::Best, row_of_move = Row::Nearest,
@@ -76,8 +76,8 @@ HWY_INLINE void take_step(const Limb& limb, Mask left, float last) {
     const auto update = [&](Row which, Lanes yes, Lanes no) {
         store(hn::IfThenElse(left, hn::IfThenElse(nearer, yes, no), load(limb.row(which))), limb.row(which));
     };
-    update(row_of_damping, hn::Max(hn::Mul(damping, all(0.3f)), all(least_damping)),
-           hn::Min(hn::Mul(damping, all(5.0f)), all(most_damping)));
+    update(row_of_damping, hn::Max(hn::Mul(damping, all(0.3f)), all(min_damping)),
+           hn::Min(hn::Mul(damping, all(5.0f)), all(max_damping)));
     update(row_of_move, hn::Min(hn::Mul(move, all(2.0f)), all(1.0f)), hn::Mul(move, all(0.4f)));
     update(row_of_error, trial, error);
     const Lanes slow = hn::IfThenZeroElse(progresses, hn::Add(load(limb.row(row_of_slow)), all(1.0f)));
@@ -108,7 +108,7 @@ class LimitedTile {
         for (clear_done(); used_ > 0; clear_done()) {
             for (std::size_t i = 0; i < used_; i += Column::width()) {
                 const Limb limb(i, order_);
-                for (int step = 0; step < steps_between_looks; ++step) {
+                for (int step = 0; step < steps_between_checks; ++step) {
                     const Mask left = equals(limb.row(Row::Activity), Activity::Active);
                     if (!any(left)) break;
                     take_step(limb, left, static_cast<float>(most));

@@ -31,7 +31,7 @@ struct BatchLimit {
 struct BatchLimits {
     std::vector<Limit> limits;               ///< as they were given, for the scalar solver
     std::vector<glm::vec3> rest_directions;  ///< one a bone
-    std::vector<BatchLimit> ready;           ///< empty where some limit leaves no room for a register's clamp
+    std::vector<BatchLimit> ready;  ///< empty where some limit is beyond what a register's clamp can do
 };
 
 /// The limits must be without fault.

@@ -18,10 +18,10 @@ HWY_BEFORE_NAMESPACE();
 namespace tendril::ik::detail {
 namespace HWY_NAMESPACE {
 
-// As in spread.cpp.
+// As in accelerate.cpp.
 constexpr float strong_bend = 1e6f, most_bend = 1e10f;
 
-/// Shapes that differ by t, of each chain; see spread.cpp.
+/// Shapes that differ by t, of each chain; see accelerate.cpp.
 struct Family {
     Points line, first, aim;
     Lanes wanted, straight, now;
@@ -228,10 +228,10 @@ class Turn {
     Points first_, second_, twice_first_, twice_second_;
 };
 
-/// Lays the chains of `lanes` with the bones of their best shape, turned onto the aim.
+/// Places the chains of `lanes` with the bones of their best shape, turned onto the aim.
 template <bool keeps_longest>
-HWY_INLINE void lay_shape(const Block& block, std::size_t i, Mask lanes, const Family& family,
-                          const BestShape& best, const Shape& one, const Shape& two) {
+HWY_INLINE void place_shape(const Block& block, std::size_t i, Mask lanes, const Family& family,
+                            const BestShape& best, const Shape& one, const Shape& two) {
     const Turn turn(best.span, best.size, family.aim, family.wanted);
     LongestBone longest(block, i);
     Points at = load_points(block.joint(0) + i);

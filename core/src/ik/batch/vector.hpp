@@ -58,7 +58,7 @@ struct Left {
 
 // All work on the first `lanes` lanes and what is left of the last register beyond them.
 
-/// Reads joints, lengths and targets; lays what is loose to its lengths, what is out of reach straight and
+/// Reads joints, lengths and targets; brings what is loose to its lengths, what is out of reach straight and
 /// what is too close folded; writes the state from Row::Residual on.
 using Classify = Left(const Block& block, std::size_t lanes, bool every);
 /// The same for chains within limits: what is not surely reachable goes to the scalar solver as it is.

@@ -14,7 +14,7 @@ namespace {
 // Chosen by measuring (tests/bench/ik_many.cpp). To move a chain into the tile costs as much as some three
 // iterations of it.
 constexpr std::size_t few = block_lanes / 2;  ///< fewer active chains than these leave their block
-constexpr int tile_burst = 2;                 ///< iterations between two looks at who in the tile is done
+constexpr int tile_burst = 2;                 ///< iterations between two checks of who in the tile is done
 
 /// Where the accelerated step has its turn in every iteration, nearly all chains need only one.
 int first_burst(std::size_t bones) noexcept {
@@ -33,8 +33,8 @@ float residual_of(const Problem& problem) noexcept {
     return distance(problem.joints.back(), problem.target);
 }
 
-/// After a perturbation: as Progress::start_again (convergence.hpp).
-void start_again(const Block& block, std::size_t lane, const Problem& problem) noexcept {
+/// After a perturbation: as Convergence::restart (convergence.hpp).
+void restart(const Block& block, std::size_t lane, const Problem& problem) noexcept {
     const float residual = residual_of(problem);
     for (std::size_t i = 1; i < problem.joints.size(); ++i) block.set_point(i, lane, problem.joints[i]);
     block.at(Row::Nearest, lane) = block.at(Row::Last, lane) = residual;
@@ -169,7 +169,7 @@ void Work::perturb(const Block& block, std::size_t lane, Scratch& scratch) const
     float& count = block.at(Row::Perturbations, lane);
     ik::detail::perturb(problem, static_cast<int>(count), Unwatched());
     count += 1.0f;
-    start_again(block, lane, problem);
+    restart(block, lane, problem);
     block.set_activity(lane, Activity::Active);
 }
 
@@ -178,7 +178,7 @@ void Work::leave_line(const Block& block, std::size_t lane, Scratch& scratch) co
     Problem problem = take_out(block, lane, scratch.scalar);
     if (!is_collinear(problem)) return;
     bend_collinear_chain(problem, Unwatched());
-    start_again(block, lane, problem);
+    restart(block, lane, problem);
     block.at(Row::Residual, lane) = block.at(Row::Last, lane);
     const bool there = block.at(Row::Residual, lane) <= problem.tolerance;
     if (there && !in_.options.every_iteration) block.set_activity(lane, Activity::Done);

@@ -197,8 +197,8 @@ void add_swing_bounds(const LimitedJoint& joint, const Split& parts, Bounds& bou
     const auto add = [&](float up, float left, bool both) {
         bounds.add(axis_along(joint, parts, up, left), both);
     };
-    const auto add_edges = [&](float angle, float plus_room, float minus_room, float up, float left) {
-        const bool over = angle >= plus_room - at_bound, under = -angle >= minus_room - at_bound;
+    const auto add_edges = [&](float angle, float positive, float negative, float up, float left) {
+        const bool over = angle >= positive - at_bound, under = -angle >= negative - at_bound;
         if (over || under) add(over ? up : -up, over ? left : -left, over && under);
     };
     if (a >= flat && b >= flat) {

@@ -23,7 +23,7 @@ enum class Descent {
 /// From scratch.pose to scratch.trial. `damping` in reach squared.
 void limited_step(Problem& problem, Descent descent, float damping) noexcept;
 
-/// The step, solved anew until no joint is pushed out of its limit.
+/// The step, solved anew until it takes no joint out of its limit.
 Wanted projected_step(Problem& problem, Descent descent, float damping, const Wanted& wanted,
                       Normal& normal) noexcept;
 /// Turns every joint by it, but none by more than a radian (further the matrix says nothing), into

@@ -148,7 +148,8 @@ class ShortestRotation {
 
 /// Places the chain with the bones of scratch.old, turned so that `span` ends on the family's aim.
 template <class Watch>
-void lay(Problem& problem, const Family& family, const ShortestRotation& rotation, Watch watch) noexcept {
+void place_shape(Problem& problem, const Family& family, const ShortestRotation& rotation,
+                 Watch watch) noexcept {
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         const glm::vec3& bone = problem.scratch.old[i];
         const bool rotates = i != family.fixed || family.rotates_fixed;
@@ -176,7 +177,7 @@ void accelerate(Problem& problem, float residual, Watch watch) noexcept {
     }
     if (!(best.error < residual)) return;
     if (!best.is_shaped) shape(problem, family, best.t);
-    lay(problem, family, ShortestRotation(best.span, best.size, family.aim, family.wanted), watch);
+    place_shape(problem, family, ShortestRotation(best.span, best.size, family.aim, family.wanted), watch);
 }
 
 template void accelerate(Problem&, float, Unwatched) noexcept;

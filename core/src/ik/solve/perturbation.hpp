@@ -21,7 +21,7 @@ float scattered(std::size_t bone, std::uint32_t salt) noexcept;
 /// at the first that does not.
 bool is_collinear(const Problem& problem) noexcept;
 
-/// Bends the chain into a shallow bow, towards the pole where there is one that is off the line, else towards
+/// Bends the chain into a shallow arc, towards the pole where there is one that is off the line, else towards
 /// a fixed side of it.
 template <class Watch>
 void bend_collinear_chain(Problem& problem, Watch watch) noexcept;

@@ -50,12 +50,12 @@ struct TreeScratch {
     double reach = 0.0;
 
     // Of one solve, by joint.
-    std::vector<glm::vec3> start;          ///< as given, laid to the lengths
+    std::vector<glm::vec3> start;          ///< as given, at the bones' lengths
     std::vector<std::size_t> node_of;      ///< or no_node
     std::vector<std::size_t> effector_at;  ///< index into the caller's list, or no_joint
     std::vector<glm::quat> rotations;      ///< of the bones that idle branches go along with
 
-    // Of one solve, by node: room for as many as there are joints, `used` of them in use.
+    // Of one solve, by node: as many as there are joints, `used` of them in use.
     std::size_t used = 0;
     std::vector<Node> nodes;
     double lightest = 1.0;  ///< weight of an effector, as part of the heaviest
@@ -97,7 +97,7 @@ double worst_residual(const TreeScratch& scratch, std::span<const Effector> effe
 /// towards its target, or folded against the longest bone. Lies so, or false where it is not the case.
 bool solve_at_rim(TreeScratch& scratch, std::span<const Effector> effectors) noexcept;
 
-/// Turns every bone's rotation on by the minimal rotation from where the bone lay at the start.
+/// Turns every bone's rotation on by the minimal rotation from where the bone was at the start.
 void transport_rotations(const TreeScratch& scratch, std::span<const glm::vec3> joints,
                          std::span<glm::quat> rotations) noexcept;
 
