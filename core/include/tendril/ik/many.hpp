@@ -23,9 +23,9 @@
 // flat (a suture). Poses differ from the scalar solver's: both arrive, each within the limits to 0.1 degrees.
 //
 // Cost: O(bones) an iteration and chain. Over as many calls of Solver::solve to tolerance, 1 000 chains, all
-// joints copied in and out (tests/bench/ik_many.cpp): 7 to 14 times the throughput with AVX-512 and 5 to 12
-// times with AVX2, the most near full reach; within limits 2 to 19 and 2 to 17 times, the most for hinges and
-// near full reach. It pays from four chains on, and hardly where most targets fall to the scalar solver.
+// joints in and out (tests/bench/ik_many.cpp): 6 to 17 times the throughput with AVX-512 and 5 to 14 times
+// with AVX2, the most near full reach; within limits 3 to 16 and 2 to 13 times, the most for hinges and near
+// full reach. It pays from four chains on, and hardly where most targets fall to the scalar solver.
 #pragma once
 
 #include <cstddef>
