@@ -19,8 +19,8 @@ std::string count_text(std::size_t count, const char* noun);
 /// plain one ("m", "s"); what is not finite is "-".
 std::string si_text(double value, const char* unit);
 
-/// What a curve or a table says: like si_text without zeros at the end ("2 s", "1.5 mm") where the unit is one
-/// of the SI; else at most three digits behind the zeros and no prefix ("0.0012 %", "12").
+/// What a curve or a table says: like si_text without zeros at the end ("2 s", "1.5 mm") where the unit is
+/// one of the SI; else at most three digits behind the zeros and no prefix ("0.0012 %", "12").
 std::string short_text(double value, const char* unit);
 
 }  // namespace tendril::app

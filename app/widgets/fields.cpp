@@ -144,7 +144,8 @@ void reading(const char* name, const char* format, ...) {
     std::vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     const std::string shown = without_signed_zero(text);
-    const float needed = ImGui::CalcTextSize(name).x + ImGui::CalcTextSize(shown.c_str()).x + ImGui::GetFontSize();
+    const float needed =
+        ImGui::CalcTextSize(name).x + ImGui::CalcTextSize(shown.c_str()).x + ImGui::GetFontSize();
     if (needed > ImGui::GetContentRegionAvail().x) {
         text_elided(name, ImGui::GetContentRegionAvail().x, true);
     } else {

@@ -50,7 +50,8 @@ class Plot {
         from_.y = at.y + 1.2f * text;
         to_ = {at.x + size.x - 0.6f * text, at.y + size.y - 2.4f * text};
         float widest = 0.0f;
-        for (const Mark& mark : y_marks()) widest = std::max(widest, ImGui::CalcTextSize(mark.text.c_str()).x);
+        for (const Mark& mark : y_marks())
+            widest = std::max(widest, ImGui::CalcTextSize(mark.text.c_str()).x);
         from_.x = at.x + widest + 0.5f * text;
     }
 
@@ -96,9 +97,7 @@ class Plot {
         return along_y(logarithmic() ? std::log10(std::max(value, axes_.min_y)) : value);
     }
     /// Of a value, or on a logarithmic axis of its power of ten.
-    float along_y(float power) const {
-        return to_.y + (from_.y - to_.y) * (power - low_) / (high_ - low_);
-    }
+    float along_y(float power) const { return to_.y + (from_.y - to_.y) * (power - low_) / (high_ - low_); }
     static ImU32 dim() { return ImGui::GetColorU32(ImGuiCol_TextDisabled); }
 
     std::vector<Mark> y_marks() const {

@@ -35,8 +35,7 @@ ik::Options hostile_options(Random& random, const Arm& arm, const Joints& joints
     if (random.chance(6)) options.snap_back = part(random);
     if (random.chance(6)) options.damping = random.chance(2) ? 1e-6f : 10.0f;
     if (random.chance(6)) options.soft_zone = part(random);
-    if (random.chance(6))
-        options.tip_orientation = some_turn(random, 3.0f);
+    if (random.chance(6)) options.tip_orientation = some_turn(random, 3.0f);
     return options;
 }
 

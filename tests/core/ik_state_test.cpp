@@ -64,7 +64,8 @@ std::vector<float> play(ik::Solver& solver, Scene& scene, std::uint32_t seed, in
 }
 
 bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0);
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0);
 }
 
 TEST(IkState, RollbackGivesTheSameBits) {

@@ -26,8 +26,7 @@ TEST(IkTip, EveryMethodLaysTheLastBoneAsAsked) {
         Joints rest;
         for (std::size_t i = 0; i < lengths.size(); ++i) rest.push_back(some_direction(random));
         const glm::quat asked = some_rotation(random);
-        const glm::vec3 target =
-            some_offset(random, 0.0f, static_cast<float>(reach_of(lengths)));
+        const glm::vec3 target = some_offset(random, 0.0f, static_cast<float>(reach_of(lengths)));
         for (const Method method : iterating_methods) {
             SCOPED_TRACE(std::string(name(method)) + " " + std::to_string(k));
             KeptSolver solver(lengths, rest);

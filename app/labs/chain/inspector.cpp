@@ -36,8 +36,7 @@ void selection_rows(const ShownChain& shown, const Joints& joints, Emit& emit) {
     const std::size_t i = *part.selected;
     const glm::vec3 at = joints[i];
     const std::string end = end_name(part, i);
-    reading("joint", "%zu%s", i,
-            end.empty() ? "" : (" (" + end + ")").c_str());
+    reading("joint", "%zu%s", i, end.empty() ? "" : (" (" + end + ")").c_str());
     if (shown.trace) return selected_in_step(shown, joints, i);
     glm::vec3 to = at;
     if (point_field("at", to, 0.01f)) emit.continuously("chain.pull", {{"index", i}, {"to", to}});
@@ -45,8 +44,7 @@ void selection_rows(const ShownChain& shown, const Joints& joints, Emit& emit) {
     if (number_field(i == 0 ? "length" : "bone length", length, 0.01f, 0.0f, 1000.0f, "%.3f m")) {
         emit.continuously("chain.set_length", {{"index", i}, {"length", length}});
     }
-    if (i == 0)
-        note("No bone leads to this joint: its length counts once a joint is inserted before it.");
+    if (i == 0) note("No bone leads to this joint: its length counts once a joint is inserted before it.");
     reading("to the target", "%.3f m", static_cast<double>(glm::distance(at, part.target)));
 }
 
@@ -94,7 +92,7 @@ void header_row(bool fixed) {
         const char* name;
         float share;
     };
-    constexpr Column columns[] = {{"#", 0.7f}, {"x", 1.0f},       {"y", 1.0f},
+    constexpr Column columns[] = {{"#", 0.7f}, {"x", 1.0f},     {"y", 1.0f},
                                   {"z", 1.0f}, {"bone", 1.05f}, {"error", 1.4f}};
     for (const Column& column : columns) {
         const float width = fixed ? 3.6f * column.share * ImGui::GetFontSize() : column.share;

@@ -9,7 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 
-// Adds nothing for floats and doubles, and some versions do not compile with it as the baseline (-march=native).
+// Adds nothing for floats and doubles, and some versions do not compile with it as the baseline
+// (-march=native).
 #define HWY_DISABLED_TARGETS HWY_AVX3_DL
 #include <hwy/targets.h>
 

@@ -107,8 +107,8 @@ HWY_INLINE Swings clamp(const BatchLimit& limit, const Swings& swing, Standing& 
     const Lanes inverse = hn::Div(all(0.25f), hn::Max(outside, all(1e-20f)));
     const Lanes scale = hn::Mul(sinc_of(hn::Mul(squared, inverse)), hn::Sqrt(inverse));
     const Mask beyond = hn::AndNot(surely_inside, hn::Lt(scale, all(1.0f)));
-    const Lanes rim_cosine = hn::Sqrt(hn::Max(
-        hn::Sub(all(1.0f), hn::Mul(hn::Mul(scale, scale), squared)), zero()));
+    const Lanes rim_cosine =
+        hn::Sqrt(hn::Max(hn::Sub(all(1.0f), hn::Mul(hn::Mul(scale, scale), squared)), zero()));
     const Swings clamped{hn::IfThenElse(beyond, rim_cosine, swing.cosine),
                          hn::IfThenElse(beyond, hn::Mul(swing.up, scale), swing.up),
                          hn::IfThenElse(beyond, hn::Mul(swing.left, scale), swing.left)};
@@ -118,8 +118,8 @@ HWY_INLINE Swings clamp(const BatchLimit& limit, const Swings& swing, Standing& 
     const Lanes nu = hn::Mul(swing.up, a), nl = hn::Mul(swing.left, b);
     const Lanes size = hn::Add(hn::Mul(nu, nu), hn::Mul(nl, nl));
     const Lanes unit = hn::Div(all(1.0f), hn::Sqrt(hn::Max(size, all(1e-20f))));
-    standing.outward = times(plus(times(all(limit.axis), nu), times(all(limit.side), nl)),
-                             hn::IfThenElseZero(on_rim, unit));
+    standing.outward =
+        times(plus(times(all(limit.axis), nu), times(all(limit.side), nl)), hn::IfThenElseZero(on_rim, unit));
     return clamped;
 }
 

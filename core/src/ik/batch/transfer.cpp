@@ -29,7 +29,8 @@ HWY_INLINE hn::Vec<D> load_quads(D d, const float* from, std::size_t stride) {
     } else {
         const hn::Half<D> half;
         const std::size_t lists = hn::MaxLanes(half);
-        return hn::Combine(d, load_quads(half, from + lists * stride, stride), load_quads(half, from, stride));
+        return hn::Combine(d, load_quads(half, from + lists * stride, stride),
+                           load_quads(half, from, stride));
     }
 }
 template <class D>
@@ -121,7 +122,8 @@ void copy_out(const float* rows, std::size_t lanes, std::size_t count, float* li
 
 void set_targets(const Block& block, std::size_t lanes, const glm::vec3* targets, float tolerance) {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-        for (int k = 0; k < 3; ++k) block.target()[static_cast<std::size_t>(k) * block_lanes + lane] = targets[lane][k];
+        for (int k = 0; k < 3; ++k)
+            block.target()[static_cast<std::size_t>(k) * block_lanes + lane] = targets[lane][k];
     }
     const Floats d;
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
