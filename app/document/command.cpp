@@ -101,7 +101,8 @@ void check_value(const Argument& argument, const Json& value, const std::string&
             return;
         case ArgumentType::Integer:
             if (!value.is_number()) refuse(type_name(argument.type));
-            if (!sane(value) || std::trunc(value.get<double>()) != value.get<double>()) {
+            if (!std::isfinite(value.get<double>()) ||
+                std::trunc(value.get<double>()) != value.get<double>()) {
                 refuse(type_name(argument.type));
             }
             break;

@@ -80,7 +80,13 @@ bool number_field(const char* name, float& value, float speed, float low, float 
 
 bool integer_field(const char* name, int& value, int low, int high) {
     const std::string id = begin_row(name);
-    return ImGui::DragInt(id.c_str(), &value, 0.1f, low, high);
+    // As a double: a whole number that no int holds would come out of ImGui as another one.
+    const double from = low, to = high;
+    double shown = value;
+    if (!ImGui::DragScalar(id.c_str(), ImGuiDataType_Double, &shown, 0.1f, &from, &to, "%.0f")) return false;
+    using Limits = std::numeric_limits<int>;
+    value = static_cast<int>(std::clamp<double>(std::round(shown), Limits::min(), Limits::max()));
+    return true;
 }
 
 bool integer_slider(const char* name, int& value, int low, int high) {

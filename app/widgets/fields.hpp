@@ -1,7 +1,7 @@
 // The rows of a panel: a dim name on the left, a field on the right (below, where there is no room beside
 // it); numbers of fixed width, with their units. Each field returns true in a frame in which a person changed
-// its value. The names are ids too: unique in a panel; a
-// name that begins with ## is an id only, and its field takes the whole row.
+// its value. The names are ids too: unique in a panel. A name that begins with ## is only an id, and its
+// field takes the whole row.
 #pragma once
 
 #include <glm/vec3.hpp>

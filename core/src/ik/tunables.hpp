@@ -115,8 +115,7 @@ inline constexpr int blame_steps = 40;
 
 }  // namespace limits
 
-/// Solver::explain. Its bound on further solves (options.hpp's reader sees 17) is 1 + 2 max_candidates +
-/// halvings.
+/// Solver::explain. It takes at most 1 + 2 max_candidates + halvings further solves, the 17 of solver.hpp.
 namespace explain {
 
 inline constexpr int iterations = 60;

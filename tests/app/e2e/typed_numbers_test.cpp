@@ -47,6 +47,14 @@ TEST(TypedNumbers, InRangeAreTaken) {
     EXPECT_EQ(solve.at("soft_zone"), 1.0);
 }
 
+/// 2^32 + 7 is 7 where a parser keeps the last 32 bits.
+TEST(TypedNumbers, WholeOnesThatNoIntHoldsAreRefused) {
+    for (const char* text : {"4294967303", "-4294967289", "99999999999999999999"}) {
+        const Played played = played_with_refusals(typed_into_every_row(text));
+        EXPECT_TRUE(has(played.outcome.err, "chain.solver: iterations must be 1 to 10000, got")) << text;
+    }
+}
+
 TEST(TypedNumbers, EndlessOnesToo) {
     for (const char* text : {"1e30", "-1e30", "1e999"}) {
         const Played played = played_with_refusals(typed_into_every_row(text));

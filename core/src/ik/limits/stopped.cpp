@@ -20,7 +20,7 @@ bool all_free(const Problem& problem) noexcept {
                        [](const LimitedJoint& joint) { return joint.free(); });
 }
 
-/// Downwards within the limits until there is no convergence.
+/// Down the error within the limits, until it stalls.
 float descend_to_stall(Problem& problem, float there) noexcept {
     LimitedDescent descent(problem, std::numeric_limits<float>::infinity());
     descent.continue_from(first_damping);
