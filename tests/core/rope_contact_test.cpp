@@ -97,6 +97,19 @@ TEST(RopeContact, NorAnyKindThatMoves) {
 }
 
 /// It lies still on what it lies on, at its radius, and its links keep their lengths.
+/// A free end whose pinned neighbour draws it under the ground comes out a metre away from where colliders
+/// were near it, under a ball.
+TEST(RopeContact, WhatComesOutOfOneDoesNotEndInAnother) {
+    for (const Solver solver : all_solvers) {
+        World world = world_with({.solver = solver});
+        world.add_collider("ground", Plane{});
+        world.add_collider("ball", Sphere{{0.02f, 0.05f, 0.01f}, 0.1f});
+        world.add_rope({.from = {0, -1, 0}, .to = {0, -0.9f, 0}, .segments = 1, .pin_start = true});
+        world.advance(world.settings().substep);
+        EXPECT_LE(deepest(world), 1e-5) << name(solver);
+    }
+}
+
 TEST(RopeContact, LiesOnTheGround) {
     for (const Solver solver : all_solvers) {
         World world = world_with({.solver = solver, .damping = 0.5f});

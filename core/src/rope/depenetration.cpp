@@ -22,21 +22,32 @@ constexpr int rounds = 12;
 constexpr std::uint64_t searches_per_particle = 64, fewest_searches = 8192;
 constexpr int newton_steps = 16;
 
-/// The colliders that one particle can reach.
+/// The colliders that one particle can reach. The list of its chunk is complete within the chunk's box; a way
+/// out of a large collider may lead beyond the box, and there every collider of the world is asked.
 struct Neighbours {
     const Scratch& scratch;
     std::span<const Scratch::Near> near;
+    dvec3 low, high;                 ///< the chunk's box
     std::uint64_t& searches;         ///< distances that searches may still take
     std::uint64_t& distances_taken;  ///< counts all distances
 
     /// Those that a ball may touch.
     template <class Visit>
     void each(const dvec3& at, double radius, Visit visit) const {
-        distances_taken += near.size();
-        for (const Scratch::Near& each : near) {
-            const Scratch::Moving& collider = scratch.colliders[each.collider];
+        const auto visit_if_near = [&](const Scratch::Moving& collider) {
             if (!collider.far_from(at, radius)) visit(*collider.shape);
+        };
+        if (in_box(at, radius)) {
+            distances_taken += near.size();
+            for (const Scratch::Near& each : near) visit_if_near(scratch.colliders[each.collider]);
+        } else {
+            distances_taken += scratch.colliders.size();
+            for (const Scratch::Moving& each : scratch.colliders) visit_if_near(each);
         }
+    }
+    bool in_box(const dvec3& at, double radius) const {
+        return at.x - radius >= low.x && at.y - radius >= low.y && at.z - radius >= low.z &&
+               at.x + radius <= high.x && at.y + radius <= high.y && at.z + radius <= high.z;
     }
     /// The collider that a ball is deepest in, and how deep; null and 0 where it is free.
     struct Deepest {
@@ -97,7 +108,8 @@ double way_out_of(const Shape& shape, const dvec3& from, const dvec3& along, dou
 double way_out(const Neighbours& neighbours, const dvec3& from, const dvec3& along, double thickness,
                double limit) {
     double way = 0.0;
-    for (std::size_t i = 0; i <= neighbours.near.size() && way < limit && neighbours.searches > 0; ++i) {
+    for (std::size_t i = 0;
+         i <= neighbours.scratch.colliders.size() && way < limit && neighbours.searches > 0; ++i) {
         const std::uint64_t before = neighbours.distances_taken;
         const Shape* const inside = neighbours.deepest(from + way * along, thickness).shape;
         if (inside == nullptr) return way;
@@ -149,7 +161,12 @@ void Substep::depenetrate() {
     for (std::size_t first = 0, end = 0; first < near.size(); first = end) {
         while (end < near.size() && near[end].chunk == near[first].chunk) ++end;
         const Plan::Chunk& chunk = plan_.chunks[near[first].chunk];
-        const Neighbours neighbours{scratch_, near.subspan(first, end - first), searches, report_.work};
+        const Neighbours neighbours{scratch_,
+                                    near.subspan(first, end - first),
+                                    scratch_.chunk_low[near[first].chunk],
+                                    scratch_.chunk_high[near[first].chunk],
+                                    searches,
+                                    report_.work};
         const double radius = state_.bodies[chunk.body].radius;
         for (std::uint32_t i = chunk.first; i < chunk.first + chunk.count; ++i) {
             dvec3& place = scratch_.place[i];
