@@ -37,23 +37,16 @@ bool tear(State& state) {
     return std::erase_if(state.links, torn) > 0;
 }
 
-/// Whether every coordinate is at most `limit`; false where one is no number.
-bool within(const dvec3& v, double limit) {
-    return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
+/// True only where every coordinate is at most `limit`, false where one is no number: a single comparison for
+/// what runs for every particle. What is beyond it is looked at again.
+bool surely_within(const dvec3& v, double limit) {
+    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z) <= limit;
 }
 
-/// Displacements and velocities that a world's own numbers never exceed.
-dvec3 bounded(const dvec3& displacement) {
-    if (within(displacement, detail::max_displacement)) return displacement;
-    return glm::clamp(displacement, dvec3(-detail::max_displacement), dvec3(detail::max_displacement));
-}
-
-/// Where a particle ends up: the world has an edge, max_magnitude from the origin each way, where what flies
-/// further stops. Where the solver found no number, it stays where it was. Zeros lose their sign, which would
-/// depend on how many ropes were solved side by side.
-dvec3 landed(const dvec3& place, const dvec3& was) {
+/// The world has an edge, max_magnitude from the origin each way, where what flies further stops. Where the
+/// solver found no number, a particle stays where it was.
+dvec3 within_the_world(const dvec3& place, const dvec3& was) {
     constexpr double edge = max_magnitude;
-    if (within(place, edge)) return place + dvec3(0.0);
     const bool number = std::isfinite(place.x) && std::isfinite(place.y) && std::isfinite(place.z);
     return number ? glm::clamp(place, dvec3(-edge), dvec3(edge)) : was;
 }
@@ -62,7 +55,8 @@ dvec3 landed(const dvec3& place, const dvec3& was) {
 float tension_of(double multiplier, double square) {
     constexpr double limit = 1e30;
     const double tension = multiplier / square;
-    return std::isfinite(tension) ? static_cast<float>(std::clamp(tension, -limit, limit)) + 0.0f : 0.0f;
+    if (std::abs(tension) <= limit) return static_cast<float>(tension) + 0.0f;
+    return std::isfinite(tension) ? static_cast<float>(std::copysign(limit, tension)) : 0.0f;
 }
 
 }  // namespace
@@ -115,11 +109,13 @@ void Substep::move_particles() {
     // Where the step before was not as long as this one, Verlet's rule for uneven steps.
     const bool before = state_.displaced_in > 0.0;
     const double same = before ? h_ / state_.displaced_in : 0.0;
+    constexpr double limit = detail::max_displacement;  // no two places are further apart
     const dvec3 fall = (before ? 0.5 * h_ * (h_ + state_.displaced_in) : h_ * h_) * acceleration_;
     for (std::size_t i = 0; i < state_.position.size(); ++i) {
-        state_.displacement[i] =
-            same * state_.displacement[i];  // had the substep before been as long as this one
-        scratch_.base[i] = state_.position[i] + (damping * state_.displacement[i] + fall);
+        dvec3& moved = state_.displacement[i];
+        moved = same * moved;  // had the substep before been as long as this one
+        if (same > 1.0) moved = glm::clamp(moved, dvec3(-limit), dvec3(limit));
+        scratch_.base[i] = state_.position[i] + (damping * moved + fall);
         scratch_.weight[i] = 1.0 / state_.mass[i];
     }
     for (Pin& pin : state_.pins) {
@@ -157,10 +153,16 @@ void Substep::measure() {
 
 void Substep::commit() {
     for (std::size_t i = 0; i < state_.position.size(); ++i) {
-        const dvec3 place = landed(scratch_.place[i], state_.position[i]);
-        state_.earlier[i] = bounded(state_.displacement[i]);
-        state_.displacement[i] = place - state_.position[i];
-        state_.position[i] = place;
+        dvec3 &place = scratch_.place[i], &position = state_.position[i], &moved = state_.displacement[i];
+        if (!surely_within(place, max_magnitude)) place = within_the_world(place, position);
+        state_.earlier[i] = moved;
+        // Coordinate by coordinate: a whole vector just written cannot be read at once. Zeros lose their
+        // sign, which would depend on how many ropes were solved side by side.
+        for (int c = 0; c < 3; ++c) {
+            const double to = place[c] + 0.0;
+            moved[c] = to - position[c];
+            position[c] = to;
+        }
     }
     for (std::size_t r = 0; r < plan_.chains.size(); ++r) {
         if (scratch_.chain_scale[r] == 1.0) continue;
