@@ -20,10 +20,12 @@ bool is_at_length(const glm::vec3& from, const glm::vec3& to, float length) noex
     const double y = static_cast<double>(to.y) - static_cast<double>(from.y);
     const double z = static_cast<double>(to.z) - static_cast<double>(from.z);
     const double wanted = static_cast<double>(length);
-    double allowed = 1e-4 * std::max(1.0, wanted);
+    const double error = std::abs(std::sqrt(x * x + y * y + z * z) - wanted);
+    const double allowed = 1e-4 * std::max(1.0, wanted);
+    if (error <= allowed) return true;
     const double furthest = std::max(largest_coordinate(from), largest_coordinate(to));
-    if (furthest > 1e3) allowed += furthest * static_cast<double>(std::numeric_limits<float>::epsilon());
-    return std::abs(std::sqrt(x * x + y * y + z * z) - wanted) <= allowed;
+    constexpr auto spacing = static_cast<double>(std::numeric_limits<float>::epsilon());
+    return furthest > 1e3 && error <= allowed + furthest * spacing;
 }
 
 template <class Watch>

@@ -9,11 +9,6 @@
 namespace tendril::ik::detail {
 namespace {
 
-/// False for NaN too.
-bool within(float value, float minimum, float maximum) noexcept {
-    return value >= minimum && value <= maximum;
-}
-
 bool over_zero(float value, float maximum) noexcept {
     return value > 0.0f && value <= maximum;
 }
@@ -27,10 +22,6 @@ bool limits_are_valid(std::span<const Limit> limits, std::size_t bones) noexcept
 
 bool are_points(std::span<const glm::vec3> points) noexcept {
     return std::all_of(points.begin(), points.end(), tendril::detail::is_point);
-}
-
-bool is_unit(const glm::quat& q) noexcept {
-    return within(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z, 0.998f, 1.002f);
 }
 
 bool are_valid(const Options& options, std::size_t bones) noexcept {

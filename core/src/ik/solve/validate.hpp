@@ -7,6 +7,7 @@
 #include "tendril/ik/limit.hpp"
 #include "tendril/ik/method.hpp"
 #include "tendril/ik/state.hpp"
+#include "tendril/quat.hpp"
 
 namespace tendril::ik {
 struct Options;
@@ -17,8 +18,15 @@ namespace tendril::ik::detail {
 /// Every coordinate a number and at most max_magnitude.
 bool are_points(std::span<const glm::vec3> points) noexcept;
 
+/// False for NaN too.
+inline bool within(float value, float minimum, float maximum) noexcept {
+    return value >= minimum && value <= maximum;
+}
+
 /// Unit to 1e-3.
-bool is_unit(const glm::quat& rotation) noexcept;
+inline bool is_unit(const glm::quat& q) noexcept {
+    return within(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z, 0.998f, 1.002f);
+}
 
 /// Every option in the range that options.hpp gives, for a chain of so many bones.
 bool are_valid(const Options& options, std::size_t bones) noexcept;
