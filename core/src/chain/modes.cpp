@@ -30,11 +30,12 @@ Result Chain::backward(glm::vec3 target) {
 }
 
 FixedResult Chain::fixed(glm::vec3 target, const FixedOptions& options) {
-    if (const Result bad = detail::check_point("fixed", "target", target); !bad) return {.outcome = bad};
-    if (const Result bad = check_options(options); !bad) return {.outcome = bad};
-    if (empty()) return {};
+    FixedResult result;  // the only thing returned, so that no message is copied
+    result.outcome = detail::check_point("fixed", "target", target);
+    if (result.outcome) result.outcome = check_options(options);
+    if (!result.outcome || empty()) return result;
 
-    FixedResult result{0, detail::distance(segments_.front().position, target)};
+    result.residual = detail::distance(segments_.front().position, target);
     if (size() == 1) return result;  // it is the tail, and the tail stays
     const glm::vec3 tail = segments_.back().position;
     do {

@@ -69,12 +69,11 @@ Result refused(std::string_view operation, const Argument& argument, std::string
     return message.as(ErrorCode::InvalidArgument);
 }
 
-Result check_length(std::string_view operation, const Argument& argument, float value) noexcept {
-    return is_length(value) ? Result() : refused(operation, argument, length_range, value);
+Result refused_length(std::string_view operation, const Argument& argument, float value) noexcept {
+    return refused(operation, argument, length_range, value);
 }
 
-Result check_point(std::string_view operation, const Argument& argument, const glm::vec3& value) noexcept {
-    if (is_point(value)) return {};
+Result refused_point(std::string_view operation, const Argument& argument, const glm::vec3& value) noexcept {
     constexpr std::string_view axes[] = {"x", "y", "z"};
     std::size_t axis = 0;
     while (is_coordinate(value[static_cast<int>(axis)])) ++axis;
@@ -95,9 +94,8 @@ Result check_point(std::string_view operation, const Argument& argument, const g
     return message.as(ErrorCode::InvalidArgument);
 }
 
-Result check_index(std::string_view operation, std::size_t index, std::size_t size, std::string_view whole,
-                   std::string_view part) noexcept {
-    if (index < size) return {};
+Result refused_index(std::string_view operation, std::size_t index, std::size_t size, std::string_view whole,
+                     std::string_view part) noexcept {
     Message message;
     message.add(operation)
         .add(": index ")
@@ -112,9 +110,8 @@ Result check_index(std::string_view operation, std::size_t index, std::size_t si
     return message.as(ErrorCode::OutOfRange);
 }
 
-Result check_count(std::string_view operation, const Argument& argument, std::size_t count,
-                   std::size_t wanted) noexcept {
-    if (count == wanted) return {};
+Result refused_count(std::string_view operation, const Argument& argument, std::size_t count,
+                     std::size_t wanted) noexcept {
     Message message;
     message.add(operation)
         .add(": ")

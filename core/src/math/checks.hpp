@@ -67,15 +67,32 @@ class Shown {
 Result refused(std::string_view operation, const Argument& argument, std::string_view requirement,
                const Shown& value) noexcept;
 
+// What is refused is worded out of line, so that a check of what is fine costs its comparisons.
+Result refused_length(std::string_view operation, const Argument& argument, float value) noexcept;
+Result refused_point(std::string_view operation, const Argument& argument, const glm::vec3& value) noexcept;
+Result refused_index(std::string_view operation, std::size_t index, std::size_t size, std::string_view whole,
+                     std::string_view part) noexcept;
+Result refused_count(std::string_view operation, const Argument& argument, std::size_t count,
+                     std::size_t wanted) noexcept;
+
 /// Metres, finite and 0 to max_magnitude.
-Result check_length(std::string_view operation, const Argument& argument, float value) noexcept;
+inline Result check_length(std::string_view operation, const Argument& argument, float value) noexcept {
+    return is_length(value) ? Result() : refused_length(operation, argument, value);
+}
 /// Metres, each coordinate finite and at most max_magnitude in magnitude.
-Result check_point(std::string_view operation, const Argument& argument, const glm::vec3& value) noexcept;
+inline Result check_point(std::string_view operation, const Argument& argument,
+                          const glm::vec3& value) noexcept {
+    return is_point(value) ? Result() : refused_point(operation, argument, value);
+}
 /// index < size; `whole` and `part` are what is counted: `the chain has 8 segments`.
-Result check_index(std::string_view operation, std::size_t index, std::size_t size,
-                   std::string_view whole = "the chain", std::string_view part = "segment") noexcept;
+inline Result check_index(std::string_view operation, std::size_t index, std::size_t size,
+                          std::string_view whole = "the chain", std::string_view part = "segment") noexcept {
+    return index < size ? Result() : refused_index(operation, index, size, whole, part);
+}
 /// A list of `wanted` elements.
-Result check_count(std::string_view operation, const Argument& argument, std::size_t count,
-                   std::size_t wanted) noexcept;
+inline Result check_count(std::string_view operation, const Argument& argument, std::size_t count,
+                          std::size_t wanted) noexcept {
+    return count == wanted ? Result() : refused_count(operation, argument, count, wanted);
+}
 
 }  // namespace tendril::detail
