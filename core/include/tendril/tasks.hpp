@@ -6,7 +6,8 @@
 //     void run_on_jobs(void* user, tendril::TaskFunction task, void* context, std::uint32_t count) {
 //         static_cast<Jobs*>(user)->parallel_for(count, [=](std::uint32_t index) { task(context, index); });
 //     }
-//     solve_many(batch, targets, reports, {.threads = 8, .tasks = {run_on_jobs, &jobs}});
+//     solve_many(batch, targets, reports, {.tasks = {run_on_jobs, &jobs}});
+//     workspace.use_threads(8, {run_on_jobs, &jobs});  // rope::Workspace
 //
 // Results never depend on it: every order of the pieces, on any number of threads, gives the same bits.
 #pragma once

@@ -36,11 +36,12 @@ struct Bounds {
 }  // namespace
 
 void Substep::find_near() {
-    scratch_.near.clear();
-    std::fill(scratch_.body_near.begin(), scratch_.body_near.end(), std::uint8_t{0});
+    local_.near.clear();
+    for (const std::uint32_t body : Plan::part(plan_.bodies, island_.bodies)) scratch_.body_near[body] = 0;
     if (state_.colliders.empty()) return;
     Bounds whole;
-    for (std::size_t c = 0; c < plan_.chunks.size(); ++c) {
+    const std::uint32_t first_chunk = island_.chunks.first, end_chunk = first_chunk + island_.chunks.count;
+    for (std::uint32_t c = first_chunk; c < end_chunk; ++c) {
         const Plan::Chunk& chunk = plan_.chunks[c];
         Bounds bounds;
         double farthest = 0.0;
@@ -57,17 +58,17 @@ void Substep::find_near() {
         whole.add(bounds.high);
     }
     // What is far from everything costs nothing further.
-    scratch_.close.clear();
+    local_.close.clear();
     for (std::uint32_t k = 0; k < scratch_.colliders.size(); ++k) {
-        if (whole.meets(scratch_.colliders[k].low, scratch_.colliders[k].high)) scratch_.close.push_back(k);
+        if (whole.meets(scratch_.colliders[k].low, scratch_.colliders[k].high)) local_.close.push_back(k);
     }
-    for (std::uint32_t c = 0; c < plan_.chunks.size(); ++c) {
+    for (std::uint32_t c = first_chunk; c < end_chunk; ++c) {
         const Bounds chunk{scratch_.chunk_low[c], scratch_.chunk_high[c]};
-        for (const std::uint32_t k : scratch_.close) {
+        for (const std::uint32_t k : local_.close) {
             const Scratch::Moving& collider = scratch_.colliders[k];
             const bool meets = chunk.meets(collider.low, collider.high);
             if (!meets || detail::beyond(*collider.shape, chunk.low, chunk.high)) continue;
-            scratch_.near.push_back({c, k});
+            local_.near.push_back({c, k});
             scratch_.body_near[plan_.chunks[c].body] = 1;
         }
     }
@@ -79,7 +80,7 @@ Touch& Substep::touch(std::uint32_t i, std::uint32_t collider, const dvec3& norm
         touch.touching = true;
         touch.collider_displacement = scratch_.colliders[collider].by;
         touch.normal = normal;
-        scratch_.touched.push_back(i);
+        local_.touched.push_back(i);
     }
     return touch;
 }
@@ -98,7 +99,7 @@ void Substep::apply_friction(std::uint32_t i) {
 }
 
 void Substep::resolve_contacts(bool first) {
-    for (const Scratch::Near& near : scratch_.near) {
+    for (const IslandScratch::Near& near : local_.near) {
         const Plan::Chunk& chunk = plan_.chunks[near.chunk];
         const double radius = state_.bodies[chunk.body].radius;
         report_.work += chunk.count;

@@ -17,16 +17,16 @@ using glm::dvec3;
 constexpr double tolerance = 1e-6;
 constexpr int rounds = 12;
 /// Distances that searches for a way out may take in a substep: what is not found by then is left inside and
-/// counted. A particle between two surfaces takes some hundred; in 10^5 random scenes no substep
-/// took more than 1300 in all.
-constexpr std::uint64_t searches_per_particle = 64, fewest_searches = 8192;
+/// counted. Each island has so many a particle, and its part by particles of what they share. A particle
+/// between two surfaces takes some hundred; in 10^5 random scenes no substep took more than 1300 in all.
+constexpr std::uint64_t searches_per_particle = 128, shared_searches = 8192;
 constexpr int newton_steps = 16;
 
 /// The colliders that one particle can reach. The list of its chunk is complete within the chunk's box; a way
 /// out of a large collider may lead beyond the box, and there every collider of the world is asked.
 struct Neighbours {
     const Scratch& scratch;
-    std::span<const Scratch::Near> near;
+    std::span<const IslandScratch::Near> near;
     dvec3 low, high;                 ///< the chunk's box
     std::uint64_t& searches;         ///< distances that searches may still take
     std::uint64_t& distances_taken;  ///< counts all distances
@@ -39,7 +39,7 @@ struct Neighbours {
         };
         if (in_box(at, radius)) {
             distances_taken += near.size();
-            for (const Scratch::Near& each : near) visit_if_near(scratch.colliders[each.collider]);
+            for (const IslandScratch::Near& each : near) visit_if_near(scratch.colliders[each.collider]);
         } else {
             distances_taken += scratch.colliders.size();
             for (const Scratch::Moving& each : scratch.colliders) visit_if_near(each);
@@ -156,8 +156,9 @@ bool bring_out(const Neighbours& neighbours, dvec3& place, double radius) {
 void Substep::depenetrate() {
     if (state_.colliders.empty()) return;
     find_near();
-    const std::span<const Scratch::Near> near(scratch_.near);
-    std::uint64_t searches = std::max(fewest_searches, searches_per_particle * state_.position.size());
+    const std::span<const IslandScratch::Near> near(local_.near);
+    std::uint64_t searches = searches_per_particle * island_.particles +
+                             shared_searches * island_.particles / state_.position.size();
     for (std::size_t first = 0, end = 0; first < near.size(); first = end) {
         while (end < near.size() && near[end].chunk == near[first].chunk) ++end;
         const Plan::Chunk& chunk = plan_.chunks[near[first].chunk];

@@ -47,26 +47,27 @@ struct Substep::Batch {
 };
 
 int Substep::direct() {
-    for (const std::uint32_t i : plan_.soft) scratch_.multiplier[i] = 0.0;
-    for (const Plan::Chain& chain : plan_.chains) {
+    for (const std::uint32_t i : Plan::part(plan_.soft, island_.soft)) scratch_.multiplier[i] = 0.0;
+    for (const Plan::Chain& chain : Plan::part(plan_.chains, island_.chains)) {
         if (!chain.alone) std::fill_n(scratch_.multiplier.begin() + chain.first_link, chain.links, 0.0);
     }
-    const bool contact = !scratch_.near.empty();
+    const bool contact = !local_.near.empty();
     const int max_passes = passes_allowed();
     int passes = 0;
     bool converged = false;
     while (!converged && passes < max_passes) {
-        report_.work += state_.links.size();
+        report_.work += island_.links.count;
         satisfy_soft();
         double worst = 0.0;
-        for (const Plan::Group& group : plan_.groups) worst = std::max(worst, solve_group(group, passes));
+        for (const Plan::Group& group : Plan::part(plan_.groups, island_.groups))
+            worst = std::max(worst, solve_group(group, passes));
         measure();
         resolve_contacts(passes == 0);
         ++passes;
         converged =
-            plan_.all_alone || (worst <= accepted_shared_error && (!contact || passes >= min_contact_passes));
+            island_.alone || (worst <= accepted_shared_error && (!contact || passes >= min_contact_passes));
     }
-    if (!converged && max_passes < state_.settings.iterations) ++report_.shortened;
+    if (!converged && max_passes < state_.settings.iterations) report_.shortened = 1;
     relax_failed_bodies();
     limit_energy();
     return passes;
@@ -76,14 +77,16 @@ int Substep::direct() {
 /// which always ends somewhere sensible.
 void Substep::relax_failed_bodies() {
     bool any = false;
-    std::fill(scratch_.body_failed.begin(), scratch_.body_failed.end(), std::uint8_t{0});
-    for (std::uint32_t r = 0; r < plan_.chains.size(); ++r) {
+    const std::span<const std::uint32_t> bodies = Plan::part(plan_.bodies, island_.bodies);
+    for (const std::uint32_t b : bodies) scratch_.body_failed[b] = 0;
+    const std::uint32_t first_chain = island_.chains.first, end_chain = first_chain + island_.chains.count;
+    for (std::uint32_t r = first_chain; r < end_chain; ++r) {
         if (scratch_.chain_error[r] <= fallback_error) continue;  // not so where it is no number
         any = true;
         scratch_.body_failed[plan_.chains[r].body] = 1;
     }
     if (!any) return;
-    for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
+    for (const std::uint32_t b : bodies) {
         if (scratch_.body_failed[b] == 0) continue;
         const Body& body = state_.bodies[b];
         for (std::size_t i = body.first; i < body.first + body.count; ++i) {
@@ -92,8 +95,8 @@ void Substep::relax_failed_bodies() {
         }
     }
     for (int pass = 0; pass < fallback_passes; ++pass) {
-        report_.work += state_.links.size();
-        for (const Plan::Chain& chain : plan_.chains) {
+        report_.work += island_.links.count;
+        for (const Plan::Chain& chain : Plan::part(plan_.chains, island_.chains)) {
             if (scratch_.body_failed[chain.body] == 0) continue;
             for (std::uint32_t k = chain.first_link; k < chain.first_link + chain.links; ++k) {
                 scratch_.multiplier[k] = 0.0;  // whatever it was, it did not solve the chain
@@ -121,7 +124,7 @@ double Substep::solve_group(const Plan::Group& group, int iteration) {
 
 double Substep::solve_batch(const Batch& batch, int iteration) {
     const Plan::Chain& first = plan_.chains[batch.chain];
-    Block block{scratch_.block.data() + scratch_.block_offset, first.links,
+    Block block{local_.block.data() + local_.block_offset, first.links,
                 batch.single ? 1 : scratch_.unit.lanes};
     Order order;
     gather(block, batch);
@@ -157,7 +160,7 @@ void Substep::solve_again(std::uint32_t chain) {
         scratch_.body_near[plan_.chains[chain].body] != 0 ? 10.0 * accepted_error : accepted_error;
     if (scratch_.chain_error[chain] <= enough && !gains_energy(chain, 1e-4)) return;
     const Plan::Chain& it = plan_.chains[chain];
-    Block block{scratch_.block.data() + scratch_.block_offset, it.links, 1};
+    Block block{local_.block.data() + local_.block_offset, it.links, 1};
     const int restarts = std::min(max_restarts, state_.settings.iterations);
     for (std::uint32_t k = it.first_link; k < it.first_link + it.links; ++k) {
         scratch_.multiplier[k] = static_cast<double>(state_.links[k].tension) * (h_ * h_);
@@ -267,7 +270,7 @@ double Substep::energy_scale(std::uint32_t number) const {
 
 /// A chain that gained energy for all that moves on a little slower.
 void Substep::limit_energy() {
-    for (std::uint32_t r = 0; r < plan_.chains.size(); ++r) {
+    for (std::uint32_t r = island_.chains.first; r < island_.chains.first + island_.chains.count; ++r) {
         if (!gains_energy(r, 1e-9)) continue;
         double kinetic = 0.0;
         const Plan::Chain& chain = plan_.chains[r];

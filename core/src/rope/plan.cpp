@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "rope/islands.hpp"
+
 namespace tendril::rope {
 namespace {
 
@@ -21,14 +23,31 @@ bool follows(const Link& before, const Link& link) {
 }  // namespace
 
 Plan::Plan(const State& state) {
+    find_chains(state);
+    cut_into_chunks(state);
+    detail::divide_into_islands(state, *this);
+    group_chains(state.position.size());
+    particles_ = state.position.size();
+    joined_.reserve(state.links.size());
+    for (const Link& link : state.links) joined_.push_back({link.a, link.b, link.rest, link.kind});
+    for (const Body& body : state.bodies) ranges_.push_back({body.first, body.count, body.tear > 0.0f});
+    tears =
+        std::any_of(state.bodies.begin(), state.bodies.end(), [](const Body& b) { return b.tear > 0.0f; });
+}
+
+void Plan::find_chains(const State& state) {
     const std::vector<std::uint32_t> touching = count_links(state);
+    const std::vector<std::uint32_t> body_of = detail::bodies_of_particles(state);
     for (std::uint32_t i = 0; i < state.links.size();) {
         const Link& first = state.links[i];
         if (first.kind != Link::Kind::Stretch) {
             soft.push_back(i++);
             continue;
         }
-        Chain chain{.first_link = i, .links = 1, .first_node = static_cast<std::uint32_t>(nodes.size())};
+        Chain chain{.first_link = i,
+                    .links = 1,
+                    .first_node = static_cast<std::uint32_t>(nodes.size()),
+                    .body = body_of[first.a]};
         nodes.push_back(first.a);
         nodes.push_back(first.b);
         while (i + chain.links < state.links.size() &&
@@ -45,17 +64,6 @@ Plan::Plan(const State& state) {
         longest = std::max(longest, chain.links);
         chains.push_back(chain);
     }
-    group_chains(state.position.size());
-    cut_into_chunks(state);
-    name_bodies(state);
-    all_alone = soft.empty() &&
-                std::all_of(chains.begin(), chains.end(), [](const Chain& chain) { return chain.alone; });
-    particles_ = state.position.size();
-    joined_.reserve(state.links.size());
-    for (const Link& link : state.links) joined_.push_back({link.a, link.b, link.rest, link.kind});
-    for (const Body& body : state.bodies) ranges_.push_back({body.first, body.count, body.tear > 0.0f});
-    tears =
-        std::any_of(state.bodies.begin(), state.bodies.end(), [](const Body& b) { return b.tear > 0.0f; });
 }
 
 bool Plan::fits(const State& state) const noexcept {
@@ -66,7 +74,7 @@ bool Plan::fits(const State& state) const noexcept {
                                  link.kind == joined.kind;
                       }) &&
            std::equal(state.bodies.begin(), state.bodies.end(), ranges_.begin(), ranges_.end(),
-                      [](const Body& body, const Range& range) {
+                      [](const Body& body, const Particles& range) {
                           return body.first == range.first && body.count == range.count &&
                                  (body.tear > 0.0f) == range.tears;
                       });
@@ -74,24 +82,22 @@ bool Plan::fits(const State& state) const noexcept {
 
 void Plan::group_chains(std::size_t particles) {
     std::vector<std::uint32_t> taken(particles, 0);  // by the group of that number, counted from 1
-    for (std::uint32_t i = 0; i < chains.size(); ++i) {
-        const Chain& chain = chains[i];
-        const auto number = static_cast<std::uint32_t>(groups.size());
-        bool joins = i > 0 && chains[i - 1].links == chain.links && chains[i - 1].alone == chain.alone;
-        for (std::uint32_t k = 0; joins && k <= chain.links; ++k)
-            joins = taken[nodes[chain.first_node + k]] != number;
-        if (!joins) groups.push_back({.first_chain = i, .chains = 0, .alone = chain.alone});
-        ++groups.back().chains;
-        for (std::uint32_t k = 0; k <= chain.links; ++k)
-            taken[nodes[chain.first_node + k]] = static_cast<std::uint32_t>(groups.size());
-    }
-}
-
-void Plan::name_bodies(const State& state) {
-    for (Chain& chain : chains) {
-        const auto after = std::upper_bound(state.bodies.begin(), state.bodies.end(), nodes[chain.first_node],
-                                            [](std::uint32_t i, const Body& body) { return i < body.first; });
-        chain.body = static_cast<std::uint32_t>(after - state.bodies.begin()) - 1;
+    for (Island& island : islands) {
+        island.groups.first = static_cast<std::uint32_t>(groups.size());
+        const std::uint32_t begin = island.chains.first, end = begin + island.chains.count;
+        for (std::uint32_t i = begin; i < end; ++i) {
+            const Chain& chain = chains[i];
+            const auto number = static_cast<std::uint32_t>(groups.size());
+            bool joins =
+                i > begin && chains[i - 1].links == chain.links && chains[i - 1].alone == chain.alone;
+            for (std::uint32_t k = 0; joins && k <= chain.links; ++k)
+                joins = taken[nodes[chain.first_node + k]] != number;
+            if (!joins) groups.push_back({.first_chain = i, .chains = 0});
+            ++groups.back().chains;
+            for (std::uint32_t k = 0; k <= chain.links; ++k)
+                taken[nodes[chain.first_node + k]] = static_cast<std::uint32_t>(groups.size());
+        }
+        island.groups.count = static_cast<std::uint32_t>(groups.size()) - island.groups.first;
     }
 }
 

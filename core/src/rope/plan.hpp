@@ -1,8 +1,10 @@
-// How the links of a world are solved: which follow each other in constraint chains, and which chains can be
-// solved side by side. It follows from bodies and links alone. Not installed.
+// How the links of a world are solved: which bodies are solved together, which links follow each other in
+// constraint chains, and which chains can be solved side by side. It follows from bodies and links alone. Not
+// installed.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "tendril/rope/state.hpp"
@@ -10,6 +12,18 @@
 namespace tendril::rope {
 
 struct Plan {
+    /// Part of one of the lists below.
+    struct Range {
+        std::uint32_t first = 0, count = 0;
+    };
+    /// Bodies that no link joins to any other: nothing that happens in a substep reaches from one island to
+    /// another, so islands are solved in any order and side by side. Bodies whose chains are all alone are
+    /// put together, so that registers are full.
+    struct Island {
+        Range bodies{}, links{}, soft{}, chains{}, groups{}, chunks{};
+        std::uint32_t particles = 0;
+        bool alone = false;  ///< every chain is, and there is no soft link
+    };
     /// Stretch links that follow each other: each begins at the particle where the one before ended.
     struct Chain {
         std::uint32_t first_link = 0, links = 0;
@@ -17,10 +31,9 @@ struct Plan {
         std::uint32_t body = 0;
         bool alone = false;  ///< no other link touches its particles
     };
-    /// Chains of equal length that share no particle, one after the other in `chains`.
+    /// Chains of an island, of equal length, that share no particle: one after the other in `chains`.
     struct Group {
         std::uint32_t first_chain = 0, chains = 0;
-        bool alone = false;  ///< all of its chains are
     };
     /// Particles of one body that lie together: what colliders are looked for with.
     struct Chunk {
@@ -33,21 +46,28 @@ struct Plan {
     explicit Plan(const State& state);
     /// Whether another plan of this state would be the same.
     bool fits(const State& state) const noexcept;
+    template <class T>
+    static std::span<const T> part(const std::vector<T>& list, const Range& range) {
+        return std::span<const T>(list).subspan(range.first, range.count);
+    }
 
-    std::vector<std::uint32_t> nodes;
+    std::vector<Island> islands;
+    // What an island has of each lies together, in the state's order.
+    std::vector<std::uint32_t> bodies, links;
+    std::vector<std::uint32_t> soft;  ///< links that are no stretch links
     std::vector<Chain> chains;
     std::vector<Group> groups;
-    std::vector<std::uint32_t> soft;  ///< links that are no stretch links
     std::vector<Chunk> chunks;
+
+    std::vector<std::uint32_t> nodes;
     std::vector<std::uint32_t> chunk_links;
     std::uint32_t longest = 0;  ///< links in the longest chain
-    bool all_alone = false;     ///< every chain is, and there is no soft link
     bool tears = false;
 
   private:
-    void group_chains(std::size_t particles);
+    void find_chains(const State& state);
     void cut_into_chunks(const State& state);
-    void name_bodies(const State& state);
+    void group_chains(std::size_t particles);
 
     // What it follows from.
     struct Joined {
@@ -55,12 +75,12 @@ struct Plan {
         float rest;
         Link::Kind kind;
     };
-    struct Range {
+    struct Particles {
         std::size_t first, count;
         bool tears;
     };
-    std::vector<Joined> joined_;  ///< links
-    std::vector<Range> ranges_;   ///< bodies
+    std::vector<Joined> joined_;     ///< links
+    std::vector<Particles> ranges_;  ///< bodies
     std::size_t particles_ = 0;
 };
 

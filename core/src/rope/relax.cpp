@@ -21,16 +21,17 @@ void Substep::satisfy(std::uint32_t number, double compliance) {
 }
 
 void Substep::satisfy_soft() {
-    for (const std::uint32_t i : plan_.soft) satisfy(i, state_.links[i].compliance);
+    for (const std::uint32_t i : Plan::part(plan_.soft, island_.soft)) satisfy(i, state_.links[i].compliance);
 }
 
 int Substep::relax(bool compliant) {
-    std::fill(scratch_.multiplier.begin(), scratch_.multiplier.end(), 0.0);
+    const std::span<const std::uint32_t> links = Plan::part(plan_.links, island_.links);
+    for (const std::uint32_t i : links) scratch_.multiplier[i] = 0.0;
     const int passes = passes_allowed();
     for (int pass = 0; pass < passes; ++pass) {
-        report_.work += state_.links.size();
+        report_.work += links.size();
         resolve_contacts(pass == 0);
-        for (std::uint32_t i = 0; i < state_.links.size(); ++i) {
+        for (const std::uint32_t i : links) {
             const Link& link = state_.links[i];
             if (link.kind != Link::Kind::Stretch) continue;
             satisfy(i, compliant ? compliance_of(link) : 0.0);
@@ -38,7 +39,7 @@ int Substep::relax(bool compliant) {
         satisfy_soft();
     }
     measure();
-    report_.shortened += passes < state_.settings.iterations ? 1 : 0;
+    if (passes < state_.settings.iterations) report_.shortened = 1;
     return passes;
 }
 

@@ -7,7 +7,7 @@
 
 #include "rope/direct_block.hpp"
 #include "rope/plan.hpp"
-#include "tendril/rope/workspace.hpp"
+#include "tendril/rope/world.hpp"
 
 namespace tendril::rope {
 
@@ -19,18 +19,14 @@ struct Touch {
     bool touching = false;
 };
 
+/// What islands share: each writes what belongs to its own bodies, links, chains and chunks, and nothing
+/// else. Colliders have moved before islands are solved.
 struct Scratch {
     std::vector<glm::dvec3> place;   ///< where each particle is as yet
     std::vector<glm::dvec3> base;    ///< where it would be without links and colliders
     std::vector<double> weight;      ///< inverse mass; 0: pinned
     std::vector<double> multiplier;  ///< of each link: tension times h^2
     std::vector<Touch> touch;
-    std::vector<std::uint32_t> touched;  ///< particles with a touch
-    struct Near {
-        std::uint32_t chunk, collider;
-    };
-    std::vector<Near> near;                 ///< chunk by chunk
-    std::vector<std::uint32_t> close;       ///< colliders that anything is near
     std::vector<std::uint8_t> body_near;    ///< whether any collider is near a body
     std::vector<std::uint8_t> body_failed;  ///< whether a body could not be solved
     std::vector<glm::dvec3> chunk_low, chunk_high;
@@ -50,21 +46,40 @@ struct Scratch {
     std::vector<double> chain_error;  ///< of each chain: relative length error after its last pass
     std::vector<double> chain_gain;   ///< of each chain: energy it has more of than before, joules
     std::vector<double> chain_scale;  ///< of each chain: what its motion keeps, so that no energy is gained
-    std::vector<double> block;        ///< memory of a block
-    std::size_t block_offset = 0;
     std::vector<std::uint32_t> collider_at;  ///< where a slot's collider is in the list
     detail::VectorUnit unit;
+};
+
+/// What solving one island takes; each thread has its own.
+struct IslandScratch {
+    struct Near {
+        std::uint32_t chunk, collider;
+    };
+    std::vector<Near> near;              ///< chunk by chunk
+    std::vector<std::uint32_t> close;    ///< colliders that anything is near
+    std::vector<std::uint32_t> touched;  ///< particles with a touch
+    std::vector<double> block;           ///< memory of a block
+    std::size_t block_offset = 0;
+    Advance done;  ///< in this substep; `passes` of the island that took most
 };
 
 struct Workspace::Parts {
     Plan plan;
     Scratch scratch;
+    std::vector<IslandScratch> threads{1};
+    Tasks tasks;
     bool prepared = false;  ///< sizes follow from a plan
 
     /// Makes everything fit a state.
     void prepare(const State& state);
     /// Links or bodies are other ones now.
     void replan(const State& state);
+
+    // advance.cpp
+    /// The rest of a substep once colliders have moved: threads take islands until there are none left.
+    void solve_islands(State& state, bool measures);
+    /// What the threads did in the substep becomes part of the whole call's report.
+    void add_up(Advance& done);
 };
 
 }  // namespace tendril::rope

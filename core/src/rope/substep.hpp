@@ -1,4 +1,4 @@
-// One fixed step of time. Not installed.
+// One fixed step of time, of one island. Not installed.
 #pragma once
 
 #include "rope/scratch.hpp"
@@ -6,21 +6,41 @@
 
 namespace tendril::rope {
 
+namespace detail {
+
+/// The part of the way to a goal that is done in `h`, of the `seconds` that are left for it.
+inline double part_of(double h, double& seconds) {
+    const double part = seconds > h * (1.0 + 1e-6) ? h / seconds : 1.0;
+    seconds = part < 1.0 ? seconds - h : 0.0;
+    return part;
+}
+
+}  // namespace detail
+
 class Substep {
   public:
-    /// What it did is added to `report`.
-    Substep(State& state, const Plan& plan, Scratch& scratch, Advance& report);
-    /// Whether bodies get their length error in the end.
-    bool measures = false;
-    void run();
+    /// Writes what belongs to the island and nothing else, so that others can be solved at the same time.
+    /// What it did is added to `local.done`.
+    Substep(State& state, const Plan& plan, const Plan::Island& island, Scratch& scratch,
+            IslandScratch& local);
+    /// `measures`: bodies get their length error in the end.
+    void run(bool measures);
 
   private:
-    // advance.cpp
-    void move_colliders();
+    // substep.cpp
     void move_particles();
     void measure();
     void commit();
     int passes_allowed() const;
+
+    /// Of the island.
+    template <class Visit>
+    void each_particle(Visit visit) const {
+        for (const std::uint32_t body : Plan::part(plan_.bodies, island_.bodies)) {
+            const std::size_t first = state_.bodies[body].first, end = first + state_.bodies[body].count;
+            for (std::size_t i = first; i < end; ++i) visit(i);
+        }
+    }
 
     // contact.cpp: finds what is near, and keeps it out of colliders
     void find_near();
@@ -58,8 +78,11 @@ class Substep {
 
     State& state_;
     const Plan& plan_;
+    const Plan::Island& island_;
     Scratch& scratch_;
+    IslandScratch& local_;
     Advance& report_;
+    bool measures_ = false;
     double h_;
     glm::dvec3 acceleration_;
 };

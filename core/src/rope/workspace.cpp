@@ -2,6 +2,7 @@
 #include "tendril/rope/workspace.hpp"
 
 #include "math/checks.hpp"
+#include "math/tasks.hpp"
 #include "rope/scratch.hpp"
 
 namespace tendril::rope {
@@ -14,19 +15,22 @@ void size(Scratch& scratch, const State& state, const Plan& plan) {
     scratch.base.resize(particles);
     scratch.weight.resize(particles);
     scratch.touch.assign(particles, Touch{});
-    scratch.touched.clear();
-    scratch.touched.reserve(particles);
     scratch.body_near.assign(state.bodies.size(), 0);
     scratch.body_failed.assign(state.bodies.size(), 0);
     scratch.multiplier.resize(state.links.size());
     scratch.chunk_low.resize(plan.chunks.size());
     scratch.chunk_high.resize(plan.chunks.size());
-    scratch.near.reserve(4 * plan.chunks.size());
     scratch.chain_error.assign(plan.chains.size(), 0.0);
     scratch.chain_gain.assign(plan.chains.size(), 0.0);
     scratch.chain_scale.assign(plan.chains.size(), 1.0);
+}
+
+void size(IslandScratch& scratch, const State& state, const Plan& plan, std::size_t lanes) {
+    scratch.touched.clear();
+    scratch.touched.reserve(state.position.size());
+    scratch.near.reserve(4 * plan.chunks.size());
     constexpr std::size_t alignment = 8;  // doubles: 64 bytes
-    scratch.block.assign(detail::Block::doubles(plan.longest, scratch.unit.lanes) + alignment, 0.0);
+    scratch.block.assign(detail::Block::doubles(plan.longest, lanes) + alignment, 0.0);
     const auto address = reinterpret_cast<std::uintptr_t>(scratch.block.data());
     scratch.block_offset = (64 - address % 64) % 64 / sizeof(double);
 }
@@ -52,10 +56,19 @@ Result Workspace::use_vector_unit(std::string_view name) {
     return {};
 }
 
+Result Workspace::use_threads(int threads, const Tasks& tasks) {
+    if (threads < 1 || threads > static_cast<int>(tendril::detail::max_threads))
+        return tendril::detail::refused("use_threads", "threads", "1 to 256", threads);
+    parts_->threads.resize(static_cast<std::size_t>(threads));
+    parts_->tasks = tasks;
+    parts_->prepared = false;
+    return {};
+}
+
 void Workspace::Parts::prepare(const State& state) {
     if (!prepared || !plan.fits(state)) replan(state);
     scratch.colliders.resize(state.colliders.size());
-    scratch.close.reserve(state.colliders.size());
+    for (IslandScratch& thread : threads) thread.close.reserve(state.colliders.size());
     scratch.collider_at.resize(state.collider_slots.size());
     for (std::uint32_t i = 0; i < state.colliders.size(); ++i)
         scratch.collider_at[state.colliders[i].id.index] = i;
@@ -64,6 +77,7 @@ void Workspace::Parts::prepare(const State& state) {
 void Workspace::Parts::replan(const State& state) {
     plan = Plan(state);
     size(scratch, state, plan);
+    for (IslandScratch& thread : threads) size(thread, state, plan, scratch.unit.lanes);
     prepared = true;
 }
 

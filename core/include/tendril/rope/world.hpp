@@ -15,12 +15,15 @@
 //
 // Units are metres, kilograms and seconds. Particles are kept in double precision: a rope a thousand
 // kilometres from the origin moves as it does near it. The world has an edge, max_magnitude from the origin
-// each way, where what flies further stops. The same calls give the same bits with every compiler and every
-// vector unit.
+// each way, where what flies further stops. The same calls give the same bits with every compiler, every
+// vector unit and any number of threads.
 //
 // Editing calls answer with the argument and its value where they refuse, and leave the world as it was.
 // advance() allocates nothing once the workspace has seen the world in its shape, unless more colliders are
 // near than ever before.
+//
+// Bodies that no link joins do not notice each other, and threads can share them: Workspace::use_threads. A
+// rope of 16 000 segments or a cloth is solved on one thread.
 #pragma once
 
 #include "tendril/result.hpp"
@@ -33,9 +36,10 @@ namespace tendril::rope {
 struct Advance {
     int substeps = 0;
     std::uint64_t dropped = 0;  ///< substeps that there was no time for
-    int passes = 0;  ///< of the solver over all links, in all substeps; Direct may solve one chain more often
+    int passes = 0;  ///< of the solver over its links of whatever took most, in all substeps; Direct may
+                     ///< solve one chain more often
     std::uint64_t work = 0;        ///< links solved and distances to colliders taken: what the time goes into
-    int shortened = 0;             ///< substeps whose passes max_pass_work cut
+    int shortened = 0;             ///< substeps in which max_pass_work cut passes
     std::uint64_t unresolved = 0;  ///< times a particle was left inside colliders: there was no way out, or
                                    ///< the search for one took too long
     bool refused = false;          ///< `seconds` was no number from 0 to 1e9: nothing was done

@@ -1,0 +1,114 @@
+#include "rope/islands.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace tendril::rope::detail {
+namespace {
+
+/// Bodies whose chains are all alone are put together until an island has so many links: enough to fill
+/// registers, few enough for a large world to be spread over threads.
+constexpr std::uint32_t island_links = 2048;
+
+/// Bodies that links join, named by the first of each.
+class JoinedBodies {
+  public:
+    explicit JoinedBodies(std::size_t bodies) : parent_(bodies) {
+        std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
+    }
+    std::uint32_t first_of(std::uint32_t body) {
+        while (parent_[body] != body) body = parent_[body] = parent_[parent_[body]];
+        return body;
+    }
+    void join(std::uint32_t a, std::uint32_t b) {
+        a = first_of(a), b = first_of(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+  private:
+    std::vector<std::uint32_t> parent_;
+};
+
+/// Sorts a list by the island of each of its elements, and keeps their order otherwise.
+template <class T>
+void sort_by_island(std::vector<Plan::Island>& islands, Plan::Range Plan::Island::*range,
+                    std::vector<T>& list, auto island_of) {
+    for (const T& each : list) ++(islands[island_of(each)].*range).count;
+    std::uint32_t sum = 0;
+    for (Plan::Island& island : islands) {
+        Plan::Range& its = island.*range;
+        its.first = sum;
+        sum += std::exchange(its.count, 0);
+    }
+    std::vector<T> sorted(list.size());
+    for (const T& each : list) {
+        Plan::Range& its = islands[island_of(each)].*range;
+        sorted[its.first + its.count++] = each;
+    }
+    list = std::move(sorted);
+}
+
+/// Makes the islands; gives that of each body.
+std::vector<std::uint32_t> make_islands(const State& state, const std::vector<std::uint32_t>& body_of,
+                                        Plan& plan) {
+    const std::size_t bodies = state.bodies.size();
+    JoinedBodies joined(bodies);
+    std::vector<std::uint32_t> links(bodies, 0);
+    for (const Link& link : state.links) {
+        joined.join(body_of[link.a], body_of[link.b]);
+        ++links[body_of[link.a]];
+    }
+    std::vector<std::uint8_t> shares(bodies, 0);
+    for (const Plan::Chain& chain : plan.chains)
+        if (!chain.alone) shares[joined.first_of(chain.body)] = 1;
+    for (const std::uint32_t i : plan.soft) shares[joined.first_of(body_of[state.links[i].a])] = 1;
+
+    std::vector<std::uint32_t> island_of(bodies, 0);
+    std::uint32_t open = 0, open_links = island_links;  // what bodies alone are put into
+    for (std::uint32_t b = 0; b < bodies; ++b) {
+        const std::uint32_t first = joined.first_of(b);
+        if (first != b) {
+            island_of[b] = island_of[first];
+        } else if (shares[b] != 0 || open_links >= island_links) {
+            island_of[b] = static_cast<std::uint32_t>(plan.islands.size());
+            plan.islands.push_back({.alone = shares[b] == 0});
+            if (shares[b] == 0) open = island_of[b], open_links = 0;
+        } else {
+            island_of[b] = open;
+        }
+        if (shares[first] == 0) open_links += links[b];
+        plan.islands[island_of[b]].particles += static_cast<std::uint32_t>(state.bodies[b].count);
+    }
+    return island_of;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> bodies_of_particles(const State& state) {
+    std::vector<std::uint32_t> body_of;
+    body_of.reserve(state.position.size());
+    for (std::uint32_t b = 0; b < state.bodies.size(); ++b)
+        body_of.insert(body_of.end(), state.bodies[b].count, b);
+    return body_of;
+}
+
+void divide_into_islands(const State& state, Plan& plan) {
+    const std::vector<std::uint32_t> body_of = bodies_of_particles(state);
+    const std::vector<std::uint32_t> island_of = make_islands(state, body_of, plan);
+    const auto of_body = [&](std::uint32_t body) { return island_of[body]; };
+    const auto of_link = [&](std::uint32_t i) { return island_of[body_of[state.links[i].a]]; };
+    plan.bodies.resize(state.bodies.size());
+    std::iota(plan.bodies.begin(), plan.bodies.end(), std::uint32_t{0});
+    plan.links.resize(state.links.size());
+    std::iota(plan.links.begin(), plan.links.end(), std::uint32_t{0});
+    std::vector<Plan::Island>& islands = plan.islands;
+    sort_by_island(islands, &Plan::Island::bodies, plan.bodies, of_body);
+    sort_by_island(islands, &Plan::Island::links, plan.links, of_link);
+    sort_by_island(islands, &Plan::Island::soft, plan.soft, of_link);
+    const auto of_part = [&](const auto& part) { return island_of[part.body]; };
+    sort_by_island(islands, &Plan::Island::chains, plan.chains, of_part);
+    sort_by_island(islands, &Plan::Island::chunks, plan.chunks, of_part);
+}
+
+}  // namespace tendril::rope::detail

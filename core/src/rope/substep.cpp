@@ -1,0 +1,161 @@
+// What is free moves on, a solver puts it right, and what came of it becomes the state.
+#include "rope/substep.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "rope/build.hpp"
+#include "rope/check_state.hpp"
+#include "rope/geometry.hpp"
+
+namespace tendril::rope {
+namespace {
+
+using glm::dvec3;
+
+/// True only where every coordinate is at most `limit`, false where one is no number: a single comparison for
+/// what runs for every particle. What is beyond it is looked at again.
+bool surely_within(const dvec3& v, double limit) {
+    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z) <= limit;
+}
+
+/// The world has an edge, max_magnitude from the origin each way, where what flies further stops. Where the
+/// solver found no number, a particle stays where it was.
+dvec3 within_the_world(const dvec3& place, const dvec3& was) {
+    constexpr double edge = max_magnitude;
+    const bool number = std::isfinite(place.x) && std::isfinite(place.y) && std::isfinite(place.z);
+    return number ? glm::clamp(place, dvec3(-edge), dvec3(edge)) : was;
+}
+
+/// Newtons, of a Lagrange multiplier over h^2.
+float tension_of(double multiplier, double square) {
+    constexpr double limit = 1e30;
+    const double tension = multiplier / square;
+    if (std::abs(tension) <= limit) return static_cast<float>(tension) + 0.0f;
+    return std::isfinite(tension) ? static_cast<float>(std::copysign(limit, tension)) : 0.0f;
+}
+
+}  // namespace
+
+Substep::Substep(State& state, const Plan& plan, const Plan::Island& island, Scratch& scratch,
+                 IslandScratch& local)
+    : state_(state),
+      plan_(plan),
+      island_(island),
+      scratch_(scratch),
+      local_(local),
+      report_(local.done),
+      h_(state.settings.substep),
+      acceleration_(detail::acceleration(state.settings)) {}
+
+void Substep::run(bool measures) {
+    measures_ = measures;
+    move_particles();
+    find_near();
+    const Solver solver = state_.settings.solver;
+    const int passes = solver == Solver::Direct ? direct() : relax(solver == Solver::Xpbd);
+    report_.passes = std::max(report_.passes, passes);
+    depenetrate();
+    commit();
+}
+
+/// The settings' iterations, or fewer where an island would take more than its part, by particles and links,
+/// of max_pass_work links and contacts.
+int Substep::passes_allowed() const {
+    const std::size_t size = island_.particles + island_.links.count;
+    const std::size_t whole = state_.position.size() + state_.links.size();
+    std::size_t work = island_.links.count + 1;
+    for (const IslandScratch::Near& near : local_.near) work += plan_.chunks[near.chunk].count;
+    const double share = static_cast<double>(size) / static_cast<double>(whole);
+    const auto affordable =
+        static_cast<std::size_t>(share * static_cast<double>(max_pass_work) / static_cast<double>(work));
+    const auto limit = std::max(static_cast<std::size_t>(unbounded_passes), affordable);
+    return static_cast<int>(std::min(static_cast<std::size_t>(state_.settings.iterations), limit));
+}
+
+void Substep::move_particles() {
+    const double damping = std::exp(-static_cast<double>(state_.settings.damping) * h_);
+    // Where the step before was not as long as this one, Verlet's rule for uneven steps.
+    const bool before = state_.displaced_in > 0.0;
+    const double same = before ? h_ / state_.displaced_in : 0.0;
+    constexpr double limit = detail::max_displacement;  // no two places are further apart
+    const dvec3 fall = (before ? 0.5 * h_ * (h_ + state_.displaced_in) : h_ * h_) * acceleration_;
+    each_particle([&](std::size_t i) {
+        dvec3& moved = state_.displacement[i];
+        moved = same * moved;  // had the substep before been as long as this one
+        if (same > 1.0) moved = glm::clamp(moved, dvec3(-limit), dvec3(limit));
+        scratch_.base[i] = state_.position[i] + (damping * moved + fall);
+        scratch_.weight[i] = 1.0 / state_.mass[i];
+    });
+    const auto move_pin = [&](Pin& pin) {
+        const dvec3 at = state_.position[pin.particle];
+        dvec3 goal = pin.goal;
+        if (pin.collider) {
+            const std::uint32_t holder = scratch_.collider_at[pin.collider.index];
+            goal += dvec3(centre(state_.colliders[holder].shape));
+        }
+        scratch_.base[pin.particle] = at + detail::part_of(h_, pin.seconds) * (goal - at);
+        scratch_.weight[pin.particle] = 0.0;
+    };
+    for (const std::uint32_t b : Plan::part(plan_.bodies, island_.bodies)) {
+        const Body& body = state_.bodies[b];
+        auto pin = std::lower_bound(state_.pins.begin(), state_.pins.end(), body.first,
+                                    [](const Pin& each, std::size_t i) { return each.particle < i; });
+        for (; pin != state_.pins.end() && pin->particle < body.first + body.count; ++pin) move_pin(*pin);
+    }
+    each_particle([&](std::size_t i) { scratch_.place[i] = scratch_.base[i]; });
+    for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
+        scratch_.multiplier[i] = static_cast<double>(state_.links[i].tension) * (h_ * h_);
+    }
+}
+
+/// How far links are from their rest lengths now, by body.
+void Substep::measure() {
+    if (!measures_) return;
+    constexpr double limit = max_magnitude;  // where a rest is next to nothing
+    const std::span<const std::uint32_t> bodies = Plan::part(plan_.bodies, island_.bodies);
+    for (const std::uint32_t b : bodies) state_.bodies[b].stretch = 0.0f;
+    std::size_t b = bodies.front();
+    for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
+        const Link& link = state_.links[i];
+        while (link.a < state_.bodies[b].first) --b;  // links of a body lie together, nearly always
+        while (link.a - state_.bodies[b].first >= state_.bodies[b].count) ++b;
+        if (link.kind != Link::Kind::Stretch) continue;
+        const double length = detail::length(scratch_.place[link.b] - scratch_.place[link.a]);
+        const double error = link.rest > 0.0f ? std::abs(length / link.rest - 1.0) : length;
+        state_.bodies[b].stretch =
+            std::max(state_.bodies[b].stretch, static_cast<float>(std::min(error, limit)));
+    }
+}
+
+void Substep::commit() {
+    each_particle([&](std::size_t i) {
+        dvec3 &place = scratch_.place[i], &position = state_.position[i], &moved = state_.displacement[i];
+        if (!surely_within(place, max_magnitude)) place = within_the_world(place, position);
+        state_.earlier[i] = moved;
+        // Coordinate by coordinate: a whole vector just written cannot be read at once. Zeros lose their
+        // sign, which would depend on how many ropes were solved side by side.
+        for (int c = 0; c < 3; ++c) {
+            const double to = place[c] + 0.0;
+            moved[c] = to - position[c];
+            position[c] = to;
+        }
+    });
+    for (std::uint32_t r = island_.chains.first; r < island_.chains.first + island_.chains.count; ++r) {
+        if (scratch_.chain_scale[r] == 1.0) continue;
+        const Plan::Chain& chain = plan_.chains[r];
+        for (std::uint32_t k = 0; k <= chain.links; ++k) {
+            dvec3& by = state_.displacement[plan_.nodes[chain.first_node + k]];
+            by = scratch_.chain_scale[r] * by;
+        }
+        scratch_.chain_scale[r] = 1.0;
+    }
+    for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
+        state_.links[i].tension = tension_of(scratch_.multiplier[i], h_ * h_);
+    }
+    for (const std::uint32_t i : local_.touched) scratch_.touch[i] = Touch{};
+    local_.touched.clear();
+}
+
+}  // namespace tendril::rope

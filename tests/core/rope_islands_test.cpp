@@ -1,0 +1,185 @@
+// Bodies that nothing links to each other are solved apart: no body notices another, and threads that share
+// them give the same bits.
+#include <thread>
+
+#include "rope_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+using rope::Advance;
+using rope::Workspace;
+
+/// Colliders among which everything falls.
+void add_ground(rope::World& world) {
+    allow(world.add_collider(rope::Plane{{0, -0.5f, 0}, {0.1f, 1.0f, 0}}).error());
+    for (int i = 0; i < 8; ++i) {
+        const auto n = static_cast<float>(i);
+        allow(world.add_collider(rope::Sphere{{0.3f * n - 1.0f, 0.1f * n - 0.3f, 0.0f}, 0.15f}).error());
+    }
+}
+
+/// Adds the body of that number: each third a cloth, some hair, the others ropes.
+void add_body(rope::World& world, int number, int cells) {
+    Random random(static_cast<std::uint64_t>(1000 + number));
+    const glm::vec3 at = random.point(1.0f), along = random.point(0.8f);
+    if (number % 3 == 0) {
+        allow(world
+                  .add_cloth({.corner = at,
+                              .along = {0.6f, 0, 0},
+                              .down = {0, -0.1f, 0.6f},
+                              .columns = cells,
+                              .rows = cells,
+                              .tear = number % 2 == 0 ? 0.3f : 0.0f,
+                              .pins = number % 2 == 0 ? rope::ClothShape::Pins::Corners
+                                                      : rope::ClothShape::Pins::None})
+                  .error());
+    } else if (number % 7 == 0) {
+        allow(world.add_hair({.roots = {{at, {0, 1, 0}}, {at + glm::vec3(0.1f, 0, 0), {1, 1, 0}}}}).error());
+    } else {
+        allow(world
+                  .add_rope({.from = at,
+                             .to = at + along,
+                             .segments = number % 2 == 0 ? cells : 3 * cells,
+                             .radius = 0.01f,
+                             .pin_start = number % 5 != 0})
+                  .error());
+    }
+}
+
+rope::World some_world(const rope::Settings& settings, int bodies, int cells) {
+    rope::World world;
+    allow(world.set_settings(settings));
+    add_ground(world);
+    for (int i = 0; i < bodies; ++i) add_body(world, i, cells);
+    return world;
+}
+
+/// Pins and colliders move while time passes; what all calls reported together.
+Advance play(rope::World& world, Workspace& workspace, int frames) {
+    Advance sum;
+    Random random(7);
+    for (int i = 0; i < frames; ++i) {
+        const std::size_t which = random.below(world.state().colliders.size());
+        const glm::vec3 to = random.point(0.5f);
+        allow(world.move_collider(world.state().colliders[which].id, to, 0.1));
+        const Advance done = world.advance(1.0 / 60.0, workspace);
+        sum.substeps += done.substeps, sum.passes += done.passes, sum.work += done.work;
+        sum.shortened += done.shortened, sum.unresolved += done.unresolved;
+    }
+    return sum;
+}
+
+TEST(RopeIslands, NoBodyNoticesAnother) {
+    constexpr int bodies = 15;
+    for (const rope::Solver solver : all_solvers) {
+        const rope::Settings settings{.solver = solver};
+        rope::World together = some_world(settings, bodies, 6);
+        Workspace workspace;
+        play(together, workspace, 30);
+        for (int i = 0; i < bodies; ++i) {
+            rope::World alone;
+            allow(alone.set_settings(settings));
+            add_ground(alone);
+            add_body(alone, i, 6);
+            play(alone, workspace, 30);
+            const std::size_t first = together.state().bodies[static_cast<std::size_t>(i)].first;
+            for (std::size_t k = 0; k < alone.size(); ++k)
+                ASSERT_EQ(alone.position(k), together.position(first + k)) << name(solver) << ' ' << i;
+        }
+    }
+}
+
+/// Stands for an engine's job system.
+struct Jobs {
+    std::uint64_t calls = 0, pieces = 0;
+    bool backwards = false, aside = false;
+};
+
+void run_on_jobs(void* user, TaskFunction task, void* context, std::uint32_t count) {
+    Jobs& jobs = *static_cast<Jobs*>(user);
+    ++jobs.calls;
+    jobs.pieces += count;
+    if (jobs.aside) {
+        std::vector<std::thread> workers;
+        for (std::uint32_t i = 0; i < count; ++i) workers.emplace_back([=] { task(context, i); });
+        for (std::thread& worker : workers) worker.join();
+        return;
+    }
+    for (std::uint32_t i = 0; i < count; ++i) task(context, jobs.backwards ? count - 1 - i : i);
+}
+
+bool same(const Advance& a, const Advance& b) {
+    return a.substeps == b.substeps && a.passes == b.passes && a.work == b.work &&
+           a.shortened == b.shortened && a.unresolved == b.unresolved;
+}
+
+TEST(RopeIslands, ThreadsGiveTheSameBits) {
+    for (const rope::Solver solver : all_solvers) {
+        const rope::World start = some_world({.solver = solver}, 24, 16);
+        rope::World expected = start;
+        Workspace one;
+        const Advance done = play(expected, one, 6);
+        for (const int threads : {1, 2, 3}) {
+            rope::World world = start;
+            Workspace workspace;
+            allow(workspace.use_threads(threads));
+            EXPECT_TRUE(same(play(world, workspace, 6), done)) << threads;
+            EXPECT_TRUE(same_bits(world.state(), expected.state())) << name(solver) << ' ' << threads;
+        }
+        for (const bool aside : {false, true}) {
+            rope::World world = start;
+            Workspace workspace;
+            Jobs jobs{.backwards = true, .aside = aside};
+            allow(workspace.use_threads(3, {run_on_jobs, &jobs}));
+            EXPECT_TRUE(same(play(world, workspace, 6), done)) << aside;
+            EXPECT_TRUE(same_bits(world.state(), expected.state())) << name(solver) << ' ' << aside;
+            EXPECT_EQ(jobs.calls, 24u);  // one a substep
+            EXPECT_EQ(jobs.pieces, 72u);
+        }
+    }
+}
+
+/// A small world is not worth a second thread.
+TEST(RopeIslands, LittleWorkNeedsNoCallback) {
+    rope::World world = some_world({}, 6, 4);
+    Workspace workspace;
+    Jobs jobs;
+    allow(workspace.use_threads(8, {run_on_jobs, &jobs}));
+    play(world, workspace, 3);
+    EXPECT_EQ(jobs.calls, 0u);
+}
+
+TEST(RopeIslands, NumbersOfThreadsOutOfRangeAreRefused) {
+    Workspace workspace;
+    for (const int threads : {0, -1, 257}) {
+        const Result refused = workspace.use_threads(threads);
+        EXPECT_EQ(refused.code(), ErrorCode::InvalidArgument) << threads;
+        EXPECT_NE(std::string(refused.message()).find("threads"), std::string::npos);
+    }
+    EXPECT_TRUE(workspace.use_threads(256).ok());
+}
+
+/// A state put together by hand may have links from one body to another: these bodies are solved together.
+TEST(RopeIslands, LinksBetweenBodiesJoinThem) {
+    Random random(8);
+    rope::State state = some_world({}, 24, 16).state();
+    for (int i = 0; i < 12; ++i) {
+        const auto size = static_cast<std::uint32_t>(state.position.size());
+        const auto a = static_cast<std::uint32_t>(random.below(size));
+        const auto b = static_cast<std::uint32_t>(random.below(size));
+        if (a == b) continue;
+        const auto rest = static_cast<float>(glm::length(state.position[a] - state.position[b]));
+        state.links.push_back({.a = a, .b = b, .rest = rest, .kind = rope::Link::Kind::Stretch});
+    }
+    rope::World one = allowed(rope::World::from_state(state)), three = one;
+    Workspace alone, shared;
+    Jobs jobs{.aside = true};
+    allow(shared.use_threads(3, {run_on_jobs, &jobs}));
+    play(one, alone, 6), play(three, shared, 6);
+    EXPECT_GT(jobs.calls, 0u);
+    EXPECT_TRUE(same_bits(one.state(), three.state()));
+}
+
+}  // namespace
+}  // namespace tendril::test
