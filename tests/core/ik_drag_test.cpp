@@ -101,6 +101,60 @@ TEST(IkDrag, FollowsAboutAsNearAsASearchInEveryFrame) {
     EXPECT_LE(followed, 1.15 * searched);
 }
 
+/// What the last solve found is not looked for again: not its verdict, nor where FABRIK's passes lead.
+TEST(IkDrag, AFrameOfAForbiddenTargetIsOneIteration) {
+    Random random(given_seed() + 3);
+    int frames = 0, iterations = 0, limited = 0;
+    for (int k = 0; k < 100; ++k) {
+        Forbidden it = some_forbidden(random);
+        const glm::vec3 by = some_direction(random) * (1e-3f * it.arm.reach());
+        for (int i = 0; i < 60; ++i) {
+            it.target += by;
+            const ik::Report report =
+                it.solver.solve(Method::Fabrik, it.joints, it.target, {.limits = it.arm.limits});
+            if (report.status == Status::Converged) break;
+            if (i < 10) continue;  // the search ends while there is still a little to gain
+            ++frames;
+            iterations += report.iterations;
+            limited += report.status == Status::Limited;
+        }
+    }
+    std::printf("%d frames, %d iterations, %d limited\n", frames, iterations, limited);
+    EXPECT_LE(iterations, 1.1 * frames);
+    EXPECT_GE(limited, 0.95 * frames);
+}
+
+/// From where the last solve arrived a least-squares step does at once what FABRIK's passes take several for.
+TEST(IkDrag, AFrameOfATargetWithinTheLimitsIsOneIterationOrLess) {
+    Random random(given_seed() + 4);
+    int frames = 0, arrived = 0, iterations = 0;
+    for (int k = 0; k < 100; ++k) {
+        const Arm arm = some_arm(random, 3 + random.below(20));
+        KeptSolver solver = arm.solver();
+        Joints start = arm.at_rest();
+        const glm::vec3 a = some_tip(arm, random);
+        const glm::vec3 b = some_tip(arm, random);
+        if (solver.solve(Method::Fabrik, start, a, {.limits = arm.limits}).status != Status::Converged)
+            continue;
+        const ik::State state = solver.state;
+        KeptSolver between = arm.solver();
+        Joints joints = start;
+        for (int i = 1; i <= 40; ++i, ++frames) {
+            Joints part = start;
+            between.state = state;  // a pose within the limits, part of the way to another
+            between.solve(Method::Fabrik, part, b,
+                          {.limits = arm.limits, .weight = 0.005f * static_cast<float>(i)});
+            const ik::Report report =
+                solver.solve(Method::Fabrik, joints, part.back(), {.limits = arm.limits});
+            iterations += report.iterations;
+            arrived += report.status == Status::Converged;
+        }
+    }
+    std::printf("%d frames, %d iterations, %d arrived\n", frames, iterations, arrived);
+    EXPECT_LE(iterations, 1.1 * frames);
+    EXPECT_GE(arrived, 0.98 * frames);
+}
+
 TEST(IkDrag, ANumberOfRestartsThatIsGivenHoldsInEverySolve) {
     Random random(3);
     int restarted = 0;

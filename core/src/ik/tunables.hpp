@@ -90,6 +90,8 @@ inline constexpr StallRule stall{.window = 20, .relative = 1e-3f};
 /// 0.181 instead of 0.164 of the reach off; of 4: half as many iterations again for 0.163. Relative 1e-3: a
 /// tenth more iterations, 1e-2: a tenth fewer; the same arms arrive to 0.1 percent.
 inline constexpr StallRule step_stall{.window = 2, .relative = 3e-3f};
+/// Of the reach: a step that promises less is lost in the rounding of the error, and not taken.
+inline constexpr float min_gain = 2e-7f;
 /// FABRIK's passes go on as long as a pair leaves less than this part. With one pair alone the same arms
 /// arrive, a quarter of an iteration to one iteration sooner.
 inline constexpr float reaching_pays = 0.5f;

@@ -36,7 +36,7 @@ struct PoleMemory {
 /// target is dragged (Options::restarts).
 struct LimitMemory {
     bool valid = false;    ///< whether there was one; if not, the rest counts for nothing
-    bool limited = false;  ///< whether it ended Limited: least squares goes on at once, FABRIK would not help
+    bool limited = false;  ///< whether it ended Limited or Stalled: then it goes on while every step gains
     glm::vec3 target{0.0f};  ///< metres from the root
     float damping = 0.0f;    ///< of its last least-squares step, in reach squared; 0 to 100
 

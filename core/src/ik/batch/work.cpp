@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "ik/limits/pose.hpp"
 #include "ik/math.hpp"
 #include "ik/solve/loop.hpp"
 #include "ik/solve/perturbation.hpp"
@@ -205,6 +206,7 @@ void Work::solve_scalar_limited(const Block& block, std::size_t lane, std::size_
         scalar.rest_directions[i] = in_.limits->rest_directions[i];
     }
     Problem problem = take_out(block, lane, scalar);
+    load_limits(scalar, problem.options.limits);
     const Report answer = ik::detail::run(Method::Fabrik, problem, Unwatched());
     for (std::size_t i = 0; i < in_.bones; ++i) {
         block.set_point(i + 1, lane, scalar.joints[i + 1]);

@@ -80,6 +80,7 @@ Outcome outcome(Workspace& scratch, std::span<glm::vec3> joints, glm::vec3 targe
               scratch.saved.rotations.begin());
     std::copy(options.limits.begin(), options.limits.end(), limited.freed.begin());
     limited.freed[joint] = limit;
+    load_limits(scratch, limited.freed);
     Options freed;
     freed.max_iterations = iterations;
     freed.limits = limited.freed;
@@ -255,7 +256,7 @@ std::optional<ActiveLimit> Solver::explain(std::span<const glm::vec3> joints, co
     Workspace& scratch = parts_->scratch;
     if (options.limits.empty() || bones() == 0 || joints.size() != bones() + 1) return std::nullopt;
     if (!are_points(joints) || !are_points({&target, 1}) || !is_valid(state, bones())) return std::nullopt;
-    if (!are_valid(options, bones()) || !fit(options.limits, scratch.rest_directions)) return std::nullopt;
+    if (!are_valid(options, bones()) || !load_limits(scratch, options.limits)) return std::nullopt;
 
     scratch.saved = state;
     const std::span<glm::vec3> work = scratch.joints;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "ik/limits/clamp.hpp"
 #include "ik/math.hpp"
 
 namespace tendril::ik::detail {
@@ -11,21 +12,6 @@ constexpr float flat = 1e-5f;  ///< half-angles under this leave no freedom
 
 HalfAngle half_of(float angle) noexcept {
     return {std::max(std::cos(0.5f * angle), 0.0f), std::sin(0.5f * angle)};
-}
-
-/// The sine of half the angle from b to a; a need not have length 1.
-float beyond(const HalfAngle& a, const HalfAngle& b) noexcept {
-    return a.sine * b.cosine - a.cosine * b.sine;
-}
-
-bool in_range(const LimitedJoint& joint, const HalfAngle& a, float half_slack) noexcept {
-    return beyond(a, joint.high) <= half_slack && beyond(joint.low, a) <= half_slack;
-}
-
-/// The bound that is nearer the shorter way round the circle.
-HalfAngle nearer_bound(const LimitedJoint& joint, const HalfAngle& a) noexcept {
-    const auto near = [&](const HalfAngle& b) { return std::abs(a.cosine * b.cosine + a.sine * b.sine); };
-    return near(joint.high) >= near(joint.low) ? joint.high : joint.low;
 }
 
 /// A rotation split into one about a main axis (a hinge's own, or the bone for a twist), which comes first,
@@ -136,43 +122,6 @@ Swing swing_of(const Split& parts) noexcept {
     const float squared = parts.first * parts.first + parts.second * parts.second;
     const float scale = angle_per_sine(parts.cosine, squared);
     return {parts.first * scale, parts.second * scale};
-}
-
-bool clamp_hinge(const LimitedJoint& joint, glm::quat& rotation, float slack) noexcept {
-    const glm::vec3 vector{rotation.x, rotation.y, rotation.z};
-    const float part = dot(vector, joint.axis);
-    HalfAngle about{rotation.w, part};
-    if (about.cosine < 0.0f) about = {-about.cosine, -about.sine};
-    const float squared = about.cosine * about.cosine + about.sine * about.sine;
-    if (squared < 1e-12f) about = {1.0f, 0.0f};
-    const float off = dot(vector, joint.bone), tilt = dot(vector, joint.side);
-    if (in_range(joint, about, 0.5f * slack) && 4.0f * (off * off + tilt * tilt) <= slack * slack)
-        return false;
-    float scale = 1.0f;
-    if (!in_range(joint, about, 0.0f))
-        about = nearer_bound(joint, about);
-    else
-        scale = 1.0f / std::sqrt(about.cosine * about.cosine + about.sine * about.sine);
-    const float s = about.sine * scale;
-    rotation = {about.cosine * scale, joint.axis.x * s, joint.axis.y * s, joint.axis.z * s};
-    return true;
-}
-
-/// A swing or a twist that may be over.
-bool clamp_parts(const LimitedJoint& joint, glm::quat& rotation, float slack) noexcept {
-    Split parts = split(joint, rotation);
-    const bool twisted = !in_range(joint, parts.about, 0.5f * slack);
-    bool swung = parts.first * parts.first + parts.second * parts.second > joint.round;
-    if (swung) {
-        const Swing swing = swing_of(parts), inside = within_cone(joint, swing);
-        const float up = swing.up - inside.up, left = swing.left - inside.left;
-        swung = up * up + left * left > slack * slack;
-        if (swung) set_swing(parts, inside);
-    }
-    if (!swung && !twisted) return false;
-    if (twisted) parts.about = nearer_bound(joint, parts.about);
-    rotation = joined(joint, parts);
-    return true;
 }
 
 /// The axis, in the parent's frame, about which to turn takes the swing along (up, left) fastest.
@@ -294,21 +243,20 @@ bool is_at_limit(const LimitedJoint& joint, const JointAngles& angles) noexcept 
     return bounds_of(joint, rotation_of(joint, angles)).count > 0;
 }
 
-bool clamp(const LimitedJoint& joint, glm::quat& rotation, float slack) noexcept {
-    if (joint.free()) return false;
-    if (joint.hinge()) return clamp_hinge(joint, rotation, slack);
-    return !is_inside(joint, rotation) && clamp_parts(joint, rotation, slack);
-}
-
-bool is_inside(const LimitedJoint& joint, const glm::quat& rotation) noexcept {
-    if (joint.free()) return true;
-    const glm::vec3 vector{rotation.x, rotation.y, rotation.z};
-    HalfAngle about{rotation.w, dot(vector, joint.hinge() ? joint.axis : joint.bone)};
-    if (about.cosine < 0.0f) about = {-about.cosine, -about.sine};
-    if (!in_range(joint, about, -at_bound)) return false;
-    if (joint.hinge()) return true;
-    const float x = dot(vector, joint.axis), y = dot(vector, joint.side);
-    return x * x + y * y <= joint.round;
+bool clamp_cone(const LimitedJoint& joint, glm::quat& rotation, float slack) noexcept {
+    Split parts = split(joint, rotation);
+    const bool twisted = !in_range(joint, parts.about, 0.5f * slack);
+    bool swung = parts.first * parts.first + parts.second * parts.second > joint.round;
+    if (swung) {
+        const Swing swing = swing_of(parts), inside = within_cone(joint, swing);
+        const float up = swing.up - inside.up, left = swing.left - inside.left;
+        swung = up * up + left * left > slack * slack;
+        if (swung) set_swing(parts, inside);
+    }
+    if (!swung && !twisted) return false;
+    if (twisted) parts.about = nearer_bound(joint, parts.about);
+    rotation = joined(joint, parts);
+    return true;
 }
 
 Bounds bounds_of(const LimitedJoint& joint, const glm::quat& rotation) noexcept {

@@ -59,13 +59,6 @@ float excess_of(const LimitedJoint& joint, const JointAngles& angles) noexcept;
 /// Whether any of the angles that the joint has is at its bound, or has no freedom at all.
 bool is_at_limit(const LimitedJoint& joint, const JointAngles& angles) noexcept;
 
-/// Brings a rotation to the nearest within; false, and it is left bit for bit, where it is over by no more
-/// than `slack`.
-bool clamp(const LimitedJoint& joint, glm::quat& rotation, float slack = at_bound) noexcept;
-
-/// Whether a rotation is clear of every bound. Where it is not sure, which is seldom, false.
-bool is_inside(const LimitedJoint& joint, const glm::quat& rotation) noexcept;
-
 /// The bounds that a rotation stands at.
 struct Bounds {
     struct Bound {

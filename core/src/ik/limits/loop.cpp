@@ -59,6 +59,8 @@ bool straighten_within_limits(Problem& problem, const Reachable& can, float allo
     LimitedPose& pose = scratch.trial;
     pose.joints[0] = problem.root();
     const glm::vec3 ahead = math::direction(problem.root(), problem.target, scratch.pose.directions[0]);
+    const float allowed = straight_tolerance * problem.scratch.reach;
+    float lost = 0.0f;     // of the way ahead, to joints that cannot be straight
     bool pointed = false;  // whether a longest bone has been met: the one that points ahead
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         const bool longest = !pointed && problem.lengths()[i] == problem.scratch.longest;
@@ -69,16 +71,18 @@ bool straighten_within_limits(Problem& problem, const Reachable& can, float allo
         pose.local[i] = compose(conjugate(parent_of(pose.rotations, i)), turned);
         clamp(scratch.limits[i], pose.local[i]);
         place_bone(problem, pose, i);
+        lost += problem.lengths()[i] * (1.0f - dot(pose.directions[i], ahead));
+        if (can.status == Status::Stretched && lost > allowed) return false;
     }
     const float residual = distance(pose.joints[problem.bones()], problem.target);
-    if (residual > can.residual + straight_tolerance * problem.scratch.reach) return false;
+    if (residual > can.residual + allowed) return false;
     if (furthest_moved(problem, scratch.pose, pose) > allowance) return false;
     accept_trial(problem, Phase::Analytic, watch);
     return true;
 }
 
 /// What the last iteration says of a pose that has not arrived.
-enum class End { Stalled, StalledInDescent, StillOnItsWay };
+enum class End { Stalled, StalledInDescent, StalledAtOnce, StillOnItsWay };
 
 Status status_of(Problem& problem, const Reachable& can, End end) noexcept {
     if (arrived(problem, can)) return can.status;
@@ -87,10 +91,10 @@ Status status_of(Problem& problem, const Reachable& can, End end) noexcept {
     const float reach = problem.scratch.reach;
     const float there = std::max(
         problem.tolerance, can.status == Status::Converged ? 1e-5f * reach : can.residual + 1e-3f * reach);
-    const bool limited = end == End::Stalled ? limits_stop_tip(problem, there)
-                                             : error_of(problem, problem.scratch.limited.pose) > there &&
-                                                   is_stopped_by_limits(problem);
-    return limited ? Status::Limited : Status::Stalled;
+    if (end == End::Stalled) return limits_stop_tip(problem, there) ? Status::Limited : Status::Stalled;
+    if (error_of(problem, problem.scratch.limited.pose) <= there) return Status::Stalled;
+    const Seen seen = end == End::StalledAtOnce ? Seen::BeforeLastStep : Seen::Here;
+    return is_stopped_by_limits(problem, seen) ? Status::Limited : Status::Stalled;
 }
 
 /// What the loop knows besides the pose: scratch.best has the error `best`.
@@ -121,7 +125,6 @@ template <class Watch>
 Attempt prepare(Method method, Problem& problem, Watch watch) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
     set_pole_allowance(problem);
-    load_limits(problem);
     const bool as_left = load_pose(problem, watch);
     Attempt attempt{reachable(problem), error_of(problem, scratch.pose)};
     scratch.best = scratch.pose;
@@ -175,7 +178,8 @@ template <class Watch>
 End solve_with_restarts(Problem& problem, Attempt& attempt, Watch watch) noexcept {
     LimitMemory& memory = problem.state.limits;
     LimitedDescent descent(problem, attempt.allowance);
-    if (attempt.dragged && memory.limited) descent.continue_from(memory.damping);
+    const bool continued = attempt.dragged && memory.limited;  // from where it had stalled
+    if (attempt.dragged) descent.continue_from(memory.damping, continued);
     int perturbations = 0;
     bool over = false;
     while (problem.iteration < problem.options.max_iterations) {
@@ -192,7 +196,8 @@ End solve_with_restarts(Problem& problem, Attempt& attempt, Watch watch) noexcep
     save_if_nearer(problem, attempt);
     memory = {true, false, minus(problem.target, problem.root()), descent.damping()};
     over = over || descent.stalled() || problem.restarts > 0;
-    return over && !descent.exceeds_allowance() ? End::StalledInDescent : End::StillOnItsWay;
+    if (!over || descent.exceeds_allowance()) return End::StillOnItsWay;
+    return continued && problem.iteration == 1 ? End::StalledAtOnce : End::StalledInDescent;
 }
 
 /// A method that has no second try.
@@ -223,7 +228,6 @@ End continue_from(Method method, Problem& problem, Attempt& attempt, Watch watch
 template <class Watch>
 Report run_limited(Method method, Problem& problem, Watch watch) noexcept {
     if (!(problem.scratch.reach > 0.0f)) {
-        load_limits(problem);
         load_pose(problem, watch);
         report_iteration(problem, watch);
         commit(problem);
@@ -242,7 +246,7 @@ Report run_limited(Method method, Problem& problem, Watch watch) noexcept {
     commit(problem);
     face_pole_within_limits(problem, watch);
     const Status status = status_of(problem, attempt.can, end);
-    problem.state.limits.limited = status == Status::Limited;
+    problem.state.limits.limited = status == Status::Limited || status == Status::Stalled;
     return problem.report(status, residual_of(problem));
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "ik/limits/fabrik.hpp"
+#include "ik/limits/least_squares.hpp"
 #include "ik/limits/pose.hpp"
-#include "ik/limits/step.hpp"
 #include "tendril/ik/options.hpp"
 #include "tendril/ik/two_bone.hpp"
 
@@ -62,7 +62,7 @@ template <class Watch>
 void limited_iteration(Method method, Problem& problem, Watch watch) noexcept {
     if (method == Method::FabrikPlain) {
         limited_reaching(problem, watch);
-        return std::swap(problem.scratch.limited.pose, problem.scratch.limited.trial);
+        return problem.scratch.limited.swap_pose(problem.scratch.limited.trial);
     }
     if (method == Method::Ccd) return ccd_sweep(problem, watch);
     const bool closed = method == Method::TwoBone && problem.bones() == 2;

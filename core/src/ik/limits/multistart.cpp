@@ -5,7 +5,8 @@
 #include <limits>
 
 #include "ik/limits/fabrik.hpp"
-#include "ik/limits/step.hpp"
+#include "ik/limits/least_squares.hpp"
+#include "ik/limits/pose.hpp"
 #include "ik/tunables.hpp"
 
 namespace tendril::ik::detail {
@@ -54,9 +55,10 @@ void LimitedDescent::restart(const Problem& problem) noexcept {
     *this = LimitedDescent(problem, std::numeric_limits<float>::infinity());
 }
 
-void LimitedDescent::continue_from(float damping) noexcept {
+void LimitedDescent::continue_from(float damping, bool stalled) noexcept {
     damping_ = damping;
     reaches_ = false;
+    if (stalled) convergence_.resume_stalled();
 }
 
 bool LimitedDescent::may_take(const Problem& problem) noexcept {
@@ -73,7 +75,7 @@ void LimitedDescent::reach(Problem& problem, Watch watch) noexcept {
     const float reached = error_of(problem, scratch.trial);
     reaches_ = reached < reaching_pays * error_;
     if (reached < error_ && may_take(problem)) {
-        std::swap(scratch.pose, scratch.trial);
+        scratch.swap_pose(scratch.trial);
         error_ = reached;
     } else {
         reaches_ = false;
@@ -88,7 +90,9 @@ void LimitedDescent::step(Problem& problem, Watch watch) noexcept {
     const Wanted wanted = wanted_of(problem);
     Normal normal = linearize(problem, wanted);
     for (int attempt = 0; attempt < 2; ++attempt) {
-        rotate_joints(problem, projected_step(problem, Descent::Damped, damping_, wanted, normal));
+        const Wanted by = projected_step(problem, Descent::Damped, damping_, wanted, normal);
+        if (predicted_gain(normal, wanted, by) < min_gain) return convergence_.end();
+        rotate_joints(problem, by);
         const float then = error_of(problem, problem.scratch.limited.trial);
         if (then < error_ && may_take(problem)) {
             accept_trial(problem, Phase::Gradient, watch);

@@ -9,7 +9,8 @@
 //   taking only what is clearly nearer gain nothing (99.97 percent arrive with all of them, 99.99 without).
 #pragma once
 
-#include "ik/limits/step.hpp"
+#include "ik/solve/convergence.hpp"
+#include "ik/solve/problem.hpp"
 #include "ik/tunables.hpp"
 
 namespace tendril::ik::detail {
@@ -26,8 +27,9 @@ class LimitedDescent {
 
     /// From another pose, as far as it takes: what was singular cannot be left by a little.
     void restart(const Problem& problem) noexcept;
-    /// Least squares at once, with this damping, of the last solve.
-    void continue_from(float damping) noexcept;
+    /// Least squares at once, with this damping, of the last solve; and if that had stalled, only as long as
+    /// every step gains.
+    void continue_from(float damping, bool stalled) noexcept;
 
     bool stalled() const noexcept { return convergence_.stalled(); }
     float error() const noexcept { return error_; }

@@ -1,6 +1,6 @@
 #include "ik/limits/perturbation.hpp"
 
-#include "ik/limits/freedom.hpp"
+#include "ik/limits/least_squares.hpp"
 #include "ik/limits/pose.hpp"
 #include "ik/solve/perturbation.hpp"
 #include "ik/tunables.hpp"

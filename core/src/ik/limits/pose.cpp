@@ -40,21 +40,22 @@ void forward_kinematics(const Problem& problem, LimitedPose& pose) noexcept {
     for (std::size_t i = 0; i < problem.bones(); ++i) place_bone(problem, pose, i);
 }
 
-void load_limits(Problem& problem) noexcept {
-    Workspace& scratch = problem.scratch;
-    for (std::size_t i = 0; i < problem.bones(); ++i) {
-        const Limit& limit = problem.options.limits[i];
-        if (scratch.limited.made && limit == scratch.limited.source[i]) continue;
-        scratch.limited.source[i] = limit;
-        scratch.limited.limits[i] = solvable_joint(limit, scratch.rest_directions[i]);
+bool load_limits(Workspace& scratch, std::span<const Limit> limits) noexcept {
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+        if (scratch.limited.made && limits[i] == scratch.limited.source[i]) continue;
+        if (fault(limits[i], scratch.rest_directions[i])) return false;
+        scratch.limited.source[i] = limits[i];
+        scratch.limited.limits[i] = solvable_joint(limits[i], scratch.rest_directions[i]);
     }
-    scratch.limited.made = true;
+    scratch.limited.made = !limits.empty() || scratch.limited.made;
+    return true;
 }
 
 template <class Watch>
 bool load_pose(Problem& problem, Watch watch) noexcept {
     Workspace& scratch = problem.scratch;
     LimitedPose& pose = scratch.limited.pose;
+    scratch.limited.linearized = false;
     pose.joints[0] = problem.root();
     bool same = true;  // so far nothing had to move
     float furthest = 0.0f;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "ik/limits/clamp.hpp"
 #include "ik/limits/workspace.hpp"
 #include "ik/math.hpp"
 #include "ik/solve/problem.hpp"
@@ -69,8 +70,9 @@ static inline void place_bone(const Problem& problem, LimitedPose& pose, std::si
     pose.joints[bone + 1] = moved(pose.joints[bone], pose.directions[bone], problem.lengths()[bone]);
 }
 
-/// At the start: makes the limits ready, unless they are those of the last solve.
-void load_limits(Problem& problem) noexcept;
+/// Before a solve: makes the limits ready for it that are not those of the last one. One a bone, or none;
+/// false where one has a fault for its bone.
+bool load_limits(Workspace& scratch, std::span<const Limit> limits) noexcept;
 
 /// Takes the problem's joints and rotations into scratch.pose. Where joints were moved and rotations were
 /// not, the rotations are transported to where the joints are, each joint is clamped from the root on, and
@@ -99,7 +101,7 @@ template <class Watch>
 void accept_trial(Problem& problem, Phase phase, Watch watch) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
     report_moves(problem, scratch.pose, scratch.trial, phase, watch);
-    std::swap(scratch.pose, scratch.trial);
+    scratch.swap_pose(scratch.trial);
 }
 
 }  // namespace tendril::ik::detail

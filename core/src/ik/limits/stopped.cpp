@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "ik/limits/freedom.hpp"
+#include "ik/limits/least_squares.hpp"
 #include "ik/limits/multistart.hpp"
 #include "ik/limits/perturbation.hpp"
 #include "ik/limits/pose.hpp"
@@ -23,7 +23,7 @@ bool all_free(const Problem& problem) noexcept {
 /// Down the error within the limits, until it stalls.
 float descend_to_stall(Problem& problem, float there) noexcept {
     LimitedDescent descent(problem, std::numeric_limits<float>::infinity());
-    descent.continue_from(first_damping);
+    descent.continue_from(first_damping, false);
     for (int step = 0; step < blame_steps && !descent.stalled() && descent.error() > there; ++step) {
         descent.iterate(problem, Unwatched());
     }
@@ -42,7 +42,7 @@ float descend_past_singularities(Problem& problem, float there) noexcept {
         if (bent < error) {
             error = bent;
         } else {
-            std::swap(problem.scratch.limited.best, problem.scratch.limited.pose);
+            problem.scratch.limited.swap_pose(problem.scratch.limited.best);
         }
     }
     return error;
@@ -50,15 +50,15 @@ float descend_past_singularities(Problem& problem, float there) noexcept {
 
 }  // namespace
 
-bool is_stopped_by_limits(Problem& problem) noexcept {
+bool is_stopped_by_limits(Problem& problem, Seen seen) noexcept {
     const Wanted wanted = wanted_of(problem);
-    Normal normal = linearize(problem, wanted);
+    Normal normal = seen == Seen::Here ? linearize(problem, wanted) : release_limits(problem.scratch.limited);
     while (activate(problem, wanted, normal)) {
     }
     float free = 0.0f, allowed = 0.0f;
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         const JointFreedom& freedom = problem.scratch.limited.freedoms[i];
-        const glm::vec3 torque = plus(cross(freedom.arm, wanted.move), times(wanted.rotation, wanted.scale));
+        const glm::vec3 torque = free_rotation_by(freedom, wanted);
         const glm::vec3 rotation = rotation_by(freedom, wanted);
         free += dot(torque, torque);
         allowed += dot(rotation, rotation);
@@ -74,7 +74,7 @@ bool limits_stop_tip(Problem& problem, float there) noexcept {
     const int steps = problem.least_squares_steps;
     scratch.start = scratch.pose;
     const bool holds = descend_past_singularities(problem, there) > there && is_stopped_by_limits(problem);
-    std::swap(scratch.pose, scratch.start);
+    scratch.swap_pose(scratch.start);
     problem.least_squares_steps = steps;  // these are not the method's
     return holds;
 }

@@ -15,8 +15,12 @@ namespace tendril::ik::detail {
 /// descends into another is stopped there all the same.
 bool limits_stop_tip(Problem& problem, float there) noexcept;
 
+/// From which pose the joints' freedoms are taken: this one, or the one that the last step began from, which
+/// is as good where that step gained next to nothing.
+enum class Seen { Here, BeforeLastStep };
+
 /// The last part of that, for a pose from which a descent has stalled already: whether the active limits take
 /// away a good part of how fast the error falls as all joints turn, each in the way that is best for it.
-bool is_stopped_by_limits(Problem& problem) noexcept;
+bool is_stopped_by_limits(Problem& problem, Seen seen = Seen::Here) noexcept;
 
 }  // namespace tendril::ik::detail

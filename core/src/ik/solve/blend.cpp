@@ -70,7 +70,6 @@ void save_given(Problem& problem, Watch watch) noexcept {
         std::copy(problem.joints.begin(), problem.joints.end(), given.joints.begin());
         std::copy_n(problem.state.rotations.begin(), problem.bones(), given.rotations.begin());
     } else {
-        load_limits(problem);
         load_pose(problem, watch);
         commit(problem);
         given = problem.scratch.limited.pose;

@@ -28,6 +28,10 @@ class Convergence {
         mark_ = last_ = error;
         idle_ = 0;
     }
+    /// Of a loop that goes on from one that had stalled: the next iteration that gains nothing is the last.
+    void resume_stalled() noexcept { idle_ = rule_.window - 1; }
+    /// Nothing can be gained any more.
+    void end() noexcept { idle_ = rule_.window; }
     /// After an iteration. True where the error has never been smaller.
     bool record(float error) noexcept {
         // Far from a target that cannot be reached only so much may still be gained.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "ik/limits/pose.hpp"
 #include "ik/math.hpp"
 #include "ik/solve/loop.hpp"
 #include "ik/solve/parts.hpp"
@@ -101,8 +102,7 @@ Report Solver::solve(Method method, std::span<glm::vec3> joints, State& state, g
     if (joints.size() != bones() + 1 || !taken) return invalid_input;
     if (!are_points(joints) || !are_points({&target, 1}) || !are_valid(options, bones()))
         return invalid_input;
-    if (!is_valid(state, bones()) || !fit(options.limits, parts_->scratch.rest_directions))
-        return invalid_input;
+    if (!is_valid(state, bones()) || !load_limits(parts_->scratch, options.limits)) return invalid_input;
     Problem problem{joints,  target,          options.tolerance.value_or(1e-3f * reach()),
                     options, parts_->scratch, state};
     int order = 0;

@@ -13,11 +13,6 @@ bool over_zero(float value, float maximum) noexcept {
     return value > 0.0f && value <= maximum;
 }
 
-bool limits_are_valid(std::span<const Limit> limits, std::size_t bones) noexcept {
-    if (!limits.empty() && limits.size() != bones) return false;
-    return true;
-}
-
 }  // namespace
 
 bool are_points(std::span<const glm::vec3> points) noexcept {
@@ -27,7 +22,7 @@ bool are_points(std::span<const glm::vec3> points) noexcept {
 bool are_valid(const Options& options, std::size_t bones) noexcept {
     if (options.tolerance && !within(*options.tolerance, 0.0f, max_magnitude)) return false;
     if (options.max_iterations < 1 || options.max_iterations > 1'000'000) return false;
-    if (!limits_are_valid(options.limits, bones)) return false;
+    if (!options.limits.empty() && options.limits.size() != bones) return false;
     if (options.pole && !tendril::detail::is_point(*options.pole)) return false;
     if (options.pole_turn > PoleTurn::EachJoint) return false;
     if (!within(options.snap_back, 0.0f, 1.0f)) return false;
@@ -45,13 +40,6 @@ bool is_valid(const State& state, std::size_t bones) noexcept {
     if (state.rotations.size() != bones || state.pole.joints.size() != bones + 1) return false;
     if (!std::all_of(state.rotations.begin(), state.rotations.end(), is_unit)) return false;
     return !state.pole.valid || static_cast<bool>(check(state, bones));
-}
-
-bool fit(std::span<const Limit> limits, std::span<const glm::vec3> rest_directions) noexcept {
-    if (limits.empty()) return true;
-    return std::equal(
-        limits.begin(), limits.end(), rest_directions.begin(), rest_directions.end(),
-        [](const Limit& limit, const glm::vec3& rest) { return fault(limit, rest) == nullptr; });
 }
 
 bool takes(Method method, std::size_t bones) noexcept {

@@ -34,9 +34,6 @@ bool are_valid(const Options& options, std::size_t bones) noexcept;
 /// A state for so many bones, with unit quaternions and finite numbers.
 bool is_valid(const State& state, std::size_t bones) noexcept;
 
-/// Every limit without fault for its bone; as many as bones, or none.
-bool fit(std::span<const Limit> limits, std::span<const glm::vec3> rest_directions) noexcept;
-
 /// A method that there is, and that takes so many bones.
 bool takes(Method method, std::size_t bones) noexcept;
 
