@@ -23,12 +23,19 @@ constexpr float far_out = 1e3f;
 // Of what a bone may be off: between these two a float cannot tell, for rounding is a three-hundredth of it.
 constexpr float surely_fits = 0.95f, surely_loose = 1.05f;
 
+/// No for what is not a number.
+HWY_INLINE Mask are_valid(const Points& p) {
+    const auto is_valid = [](Lanes x) { return hn::Le(hn::Abs(x), all(max_magnitude)); };
+    return hn::And(is_valid(p.x), hn::And(is_valid(p.y), is_valid(p.z)));
+}
+
 HWY_INLINE Lanes largest(const Points& p, Lanes so_far) {
     return hn::Max(hn::Max(so_far, hn::Abs(p.x)), hn::Max(hn::Abs(p.y), hn::Abs(p.z)));
 }
 
-/// Whether every bone of a register of chains is surely at its length, and no joint too far out. One pass
-/// without a root: |d^2 - l^2| <= 0.9 l a means that d is within 0.9 a of l.
+/// Whether every bone of a register of chains is surely at its length, and no joint too far out, which follows
+/// from the root and the reach. One pass without a root: |d^2 - l^2| <= 0.9 l a means that d is within 0.9 a
+/// of l. False where some coordinate is not finite.
 HWY_INLINE bool surely_fit(const Block& block, std::size_t i) {
     Points from = load_points(block.joint(0) + i);
     const Lanes furthest = hn::Add(largest(from, zero()), load(block.reach() + i));
@@ -60,19 +67,17 @@ struct Fit {
 };
 /// The same bone by bone, where some bone does not surely fit.
 HWY_INLINE Fit fit_of(const Block& block, std::size_t i) {
-    Fit fit{none(), none(), none()};
-    Lanes far = largest(load_points(block.joint(0) + i), zero());
+    Fit fit{are_valid(load_points(block.joint(0) + i)), none(), none()};
     for (std::size_t bone = 0; bone < block.bones(); ++bone) {
         Lanes off, allowed;
         compare(block, bone, i, off, allowed);
-        far = largest(load_points(block.joint(bone + 1) + i), far);
+        fit.valid = hn::And(fit.valid, are_valid(load_points(block.joint(bone + 1) + i)));
         fit.loose = hn::Or(fit.loose, hn::Gt(off, hn::Mul(allowed, all(surely_loose))));
         const Mask unclear = hn::AndNot(fit.loose, hn::Ge(off, hn::Mul(allowed, all(surely_fits))));
         const Lanes squared = squared_distance(block.joint(bone) + i, block.joint(bone + 1) + i);
         const Mask blind = hn::And(fit.loose, hn::Lt(squared, all(math::coincidence)));
         fit.unclear = hn::Or(fit.unclear, hn::Or(unclear, blind));
     }
-    fit.valid = hn::Le(far, all(max_magnitude));
     return fit;
 }
 
@@ -91,10 +96,7 @@ HWY_INLINE bool classify_register(const Block& block, std::size_t i, Mask used) 
     // Nearer to the root than a thousandth of what is left, the line to fold along is the chain's own.
     const Mask folded =
         hn::And(hn::Lt(distance, hn::Sub(nearest, rim)), hn::Gt(distance, hn::Mul(nearest, all(1.1e-3f))));
-    // False for what is not a number.
-    const auto is_within = [](Lanes x) { return hn::Le(hn::Abs(x), all(max_magnitude)); };
-    Mask valid = hn::And(used, is_within(target.x));
-    valid = hn::And(valid, hn::And(is_within(target.y), is_within(target.z)));
+    Mask valid = hn::And(used, are_valid(target));
     Mask reachable = hn::And(within, unfolded), loose = none();
     if (!surely_fit(block, i)) {
         const Fit fit = fit_of(block, i);

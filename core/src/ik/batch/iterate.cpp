@@ -101,17 +101,6 @@ struct Gathered {
     }
 };
 
-/// Calls it with each lane of a mask.
-template <class Call>
-HWY_INLINE void for_each_lane(Mask lanes, Call call) {
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(Floats(), lanes, bytes);
-    std::uint32_t bits = bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8;
-    for (std::size_t lane = 0; bits != 0; ++lane, bits >>= 1) {
-        if ((bits & 1) != 0) call(lane);
-    }
-}
-
 HWY_INLINE Lanes near_enough(const Block& block, std::size_t i) {
     return hn::Max(hn::Mul(all(0.25f), load(block.row(Row::Tolerance) + i)),
                    hn::Mul(all(1e-6f), load(block.reach() + i)));

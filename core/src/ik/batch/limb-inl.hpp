@@ -8,6 +8,7 @@
 #endif
 
 #include <span>
+#include <utility>
 
 #include "ik/batch/limit-inl.hpp"
 #include "ik/batch/vector.hpp"
@@ -18,12 +19,13 @@ namespace HWY_NAMESPACE {
 
 constexpr float violation = 1.9e-7f;  ///< squared, of half an angle: 0.05 degrees
 
-/// Registers, each a stride after the one before.
+/// Registers, one after the other.
 class Column {
   public:
-    explicit Column(float* first, std::size_t stride = width()) : first_(first), stride_(stride) {}
-    Lanes lanes(std::size_t i) const { return load(first_ + i * stride_); }
-    void set(std::size_t i, Lanes to) const { store(to, first_ + i * stride_); }
+    explicit Column(float* first) : first_(first) {}
+    Lanes lanes(std::size_t i) const { return load(first_ + i * width()); }
+    void set(std::size_t i, Lanes to) const { store(to, first_ + i * width()); }
+    float lane(std::size_t i, std::size_t lane) const { return first_[i * width() + lane]; }
     Points points(std::size_t i) const { return {lanes(3 * i), lanes(3 * i + 1), lanes(3 * i + 2)}; }
     void set(std::size_t i, const Points& to) const {
         set(3 * i, to.x), set(3 * i + 1, to.y), set(3 * i + 2, to.z);
@@ -34,12 +36,11 @@ class Column {
     void set(std::size_t i, const Rotations& to) const {
         set(4 * i, to.w), set(4 * i + 1, to.v.x), set(4 * i + 2, to.v.y), set(4 * i + 3, to.v.z);
     }
-    Column after(std::size_t count) const { return Column(first_ + count * stride_, stride_); }
+    Column after(std::size_t count) const { return Column(first_ + count * width()); }
     static std::size_t width() { return hn::Lanes(Floats()); }
 
   private:
     float* first_;
-    std::size_t stride_;
 };
 
 /// Joints, how each bone is turned against its parent and in the world, and which limits it stands at.
@@ -53,7 +54,8 @@ struct Pose {
           world(local.after(4 * bones)),
           outward(world.after(4 * bones)),
           ends(outward.after(3 * bones)) {}
-    static std::size_t registers(std::size_t bones) { return pose_rows(bones); }
+    /// All of it: pose_rows registers.
+    const Column& rows() const { return joints; }
 
     void set(std::size_t bone, const Rotations& turn, const Standing& standing) const {
         local.set(bone, turn), outward.set(bone, standing.outward);
@@ -61,7 +63,7 @@ struct Pose {
     }
 };
 
-/// One register of the tile.
+/// One register of chains.
 struct Limb {
     Block block;
     std::size_t i;  ///< the register's first lane
@@ -73,13 +75,13 @@ struct Limb {
     Column changes;  ///< points: how far each joint is to turn; x alone for a hinge
     Column stopped;  ///< 2 a bone: 1 where swing, and hinge or twist, are stopped in this step
 
-    Limb(std::size_t lane, const LimitedOrder& order)
-        : block(order.tile),
+    Limb(const Block& of, std::size_t lane, const LimitedOrder& order)
+        : block(of),
           i(lane),
           limits(order.limits),
-          pose(Column(order.poses + lane, block_lanes), count()),
-          trial(Column(order.scratch), count()),
-          arms(Column(order.scratch).after(Pose::registers(count()))),
+          pose(Column(order.scratch), count()),
+          trial(pose.rows().after(pose_rows(count())), count()),
+          arms(trial.rows().after(pose_rows(count()))),
           axes(arms.after(3 * count())),
           bones(axes.after(3 * count())),
           changes(bones.after(3 * count())),
@@ -284,10 +286,12 @@ HWY_INLINE void turn_joints(const Limb& limb) {
     forward_kinematics(limb, limb.trial);
 }
 
-HWY_INLINE void accept(const Limb& limb, Mask lanes) {
-    const std::size_t count = Pose::registers(limb.count());
-    for (std::size_t i = 0; i < count; ++i) {
-        limb.pose.joints.set(i, hn::IfThenElse(lanes, limb.trial.joints.lanes(i), limb.pose.joints.lanes(i)));
+/// The trial becomes the pose.
+HWY_INLINE void accept(Limb& limb, Mask lanes) {
+    if (hn::AllTrue(Floats(), lanes)) return std::swap(limb.pose, limb.trial);
+    const Column pose = limb.pose.rows(), trial = limb.trial.rows();
+    for (std::size_t row = 0; row < pose_rows(limb.count()); ++row) {
+        pose.set(row, hn::IfThenElse(lanes, trial.lanes(row), pose.lanes(row)));
     }
 }
 

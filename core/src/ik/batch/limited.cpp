@@ -9,8 +9,6 @@
 // Highway compiles this file once for each vector unit: it includes it again and again, each time with
 // another HWY_NAMESPACE.
 #include <algorithm>
-#include <array>
-#include <utility>
 
 #include "ik/batch/vector.hpp"
 #include "math/dispatch.hpp"
@@ -57,7 +55,7 @@ HWY_INLINE void begin(const Limb& limb, const float* rotations) {
 }
 
 /// One step of the active chains of a register.
-HWY_INLINE void take_step(const Limb& limb, Mask left, float last) {
+HWY_INLINE void take_step(Limb& limb, Mask left, float last) {
     const Lanes error = load(limb.row(row_of_error)), damping = load(limb.row(row_of_damping)),
                 move = load(limb.row(row_of_move)), tolerance = load(limb.row(Row::Tolerance));
     linearize(limb);
@@ -89,97 +87,76 @@ HWY_INLINE void take_step(const Limb& limb, Mask left, float last) {
     store(hn::IfThenZeroElse(ends, load(limb.row(Row::Activity))), limb.row(Row::Activity));
 }
 
-/// Chains of a block, side by side while they are solved; those that are done go home, and others take their
-/// lanes.
-class LimitedTile {
-  public:
-    LimitedTile(const Block& home, std::size_t lanes, const LimitedOrder& order)
-        : home_(home), order_(order), used_(lanes) {
-        for (std::size_t lane = 0; lane < lanes; ++lane) lanes_[lane] = static_cast<std::uint8_t>(lane);
-        const std::size_t bones = home.bones();
-        std::copy_n(home.joint(0), Block::joint_floats(bones), order.tile.joint(0));
-        std::copy_n(home.length(0), Block::length_rows(bones) * block_lanes, order.tile.length(0));
-        std::copy_n(home.target(), state_rows * block_lanes, order.tile.target());
-        for (std::size_t i = 0; i < lanes; i += Column::width()) begin(Limb(i, order), order.rotations);
+/// Writes joints and rotations of the chains that have arrived. The others stay as they were, and those that
+/// have ended without are the scalar solver's.
+HWY_INLINE void write_back(const Limb& limb, Mask left, float* rotations) {
+    const Mask taken = hn::AndNot(left, hn::Gt(load(limb.row(Row::Iterations)), zero()));
+    const Mask there = hn::Le(load(limb.row(row_of_error)), load(limb.row(Row::Tolerance)));
+    const Mask arrived = hn::And(taken, there);
+    float* const found = limb.row(Row::Class);
+    const Lanes scalar = all(static_cast<float>(Class::Scalar));
+    store(hn::IfThenElse(hn::AndNot(there, taken), scalar, load(found)), found);
+    for (std::size_t bone = 0; bone < limb.count(); ++bone) {
+        float* const joint = limb.block.joint(bone + 1) + limb.i;
+        store_points(select(arrived, limb.pose.joints.points(bone + 1), load_points(joint)), joint);
+        float* const rows = rotations + 4 * bone * block_lanes + limb.i;
+        store_rotations(select(arrived, limb.pose.world.rotations(bone), load_rotations(rows)), rows);
     }
+}
 
-    void solve() {
-        const int most = std::min(order_.max_iterations, most_iterations);
-        for (clear_done(); used_ > 0; clear_done()) {
-            for (std::size_t i = 0; i < used_; i += Column::width()) {
-                const Limb limb(i, order_);
-                for (int step = 0; step < steps_between_checks; ++step) {
-                    const Mask left = equals(limb.row(Row::Activity), Activity::Active);
-                    if (!any(left)) break;
-                    take_step(limb, left, static_cast<float>(most));
-                }
-            }
-        }
+/// To a lane of the tile.
+HWY_INLINE void move_chain(const Limb& limb, std::size_t lane, std::size_t to, const LimitedOrder& order) {
+    const Block &block = limb.block, &tile = order.tile;
+    const std::size_t from = limb.i + lane, bones = block.bones();
+    copy_lane(block.joint(0) + from, tile.joint(0) + to, Block::joint_rows(bones));
+    copy_lane(block.length(0) + from, tile.length(0) + to, Block::length_rows(bones));
+    copy_lane(block.target() + from, tile.target() + to, state_rows);
+    for (std::size_t row = 0; row < pose_rows(bones); ++row) {
+        order.poses[row * block_lanes + to] = limb.pose.rows().lane(row, lane);
     }
+}
 
-  private:
-    /// Chains are moved only where that leaves a register empty: it costs about as much as half a step.
-    void clear_done() {
-        const Block& tile = order_.tile;
-        std::size_t active = 0;
-        for (std::size_t slot = 0; slot < used_; ++slot) {
-            if (tile.activity(slot) == Activity::Active) {
-                ++active;
-            } else if (lanes_[slot] != gone) {
-                go_home(slot);
-                lanes_[slot] = gone;
-            }
+HWY_INLINE Mask active(const Limb& limb) {
+    return equals(limb.row(Row::Activity), Activity::Active);
+}
+
+HWY_INLINE float last_iteration(const LimitedOrder& order) {
+    return static_cast<float>(std::min(order.max_iterations, most_iterations));
+}
+
+LaneList solve_limited(const Block& block, std::size_t lanes, float* rotations, std::size_t used,
+                       const LimitedOrder& order) {
+    const Floats d;
+    LaneList late;
+    for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
+        Limb limb(block, i, order);
+        begin(limb, rotations);
+        Mask left = active(limb);
+        for (; hn::CountTrue(d, left) > late_lanes(hn::Lanes(d)); left = active(limb)) {
+            take_step(limb, left, last_iteration(order));
         }
-        const std::size_t width = Column::width(), needed = (active + width - 1) / width * width;
-        for (std::size_t hole = 0; used_ > needed; --used_) {
-            const std::size_t last = used_ - 1;
-            if (lanes_[last] == gone) continue;
-            while (lanes_[hole] != gone) ++hole;
-            move(last, hole);
-        }
+        write_back(limb, left, rotations);
+        for_each_lane(left, [&](std::size_t lane) {
+            move_chain(limb, lane, used + late.count, order);
+            late.add(i + lane);
+        });
     }
-    void move(std::size_t from, std::size_t to) {
-        const Block& tile = order_.tile;
-        const std::size_t bones = home_.bones();
-        copy_lane(tile.joint(0) + from, tile.joint(0) + to, Block::chain_floats(bones) / block_lanes);
-        copy_lane(tile.target() + from, tile.target() + to, state_rows);
-        copy_lane(order_.poses + from, order_.poses + to, pose_rows(bones));
-        lanes_[to] = std::exchange(lanes_[from], gone);
-        tile.set_activity(from, Activity::Done);
-    }
-    /// A chain that has arrived writes joints and rotations; one that has not stays as it was. One that was
-    /// never active has nothing to write.
-    void go_home(std::size_t slot) const {
-        const Block& tile = order_.tile;
-        const std::size_t lane = lanes_[slot], bones = home_.bones();
-        if (tile.at(Row::Iterations, slot) == 0.0f) return;
-        if (!(tile.at(Row::Residual, slot) <= tile.at(Row::Tolerance, slot))) {
-            home_.at(Row::Class, lane) = static_cast<float>(Class::Scalar);
-            return;
+    return late;
+}
+
+void step_limited(std::size_t used, const LimitedOrder& order) {
+    for (std::size_t i = 0; i < used; i += hn::Lanes(Floats())) {
+        Limb limb(order.tile, i, order);
+        const std::size_t rows = pose_rows(limb.count());
+        const auto at = [&](std::size_t row) { return order.poses + row * block_lanes + i; };
+        for (std::size_t row = 0; row < rows; ++row) limb.pose.rows().set(row, load(at(row)));
+        for (int step = 0; step < steps_between_checks; ++step) {
+            const Mask left = active(limb);
+            if (!any(left)) break;
+            take_step(limb, left, last_iteration(order));
         }
-        const float* const joints = order_.poses + slot;
-        const float* const world = joints + (3 * (bones + 1) + 4 * bones) * block_lanes;
-        copy_lane(joints + 3 * block_lanes, home_.joint(1) + lane, 3 * bones);
-        for (std::size_t bone = 0; bone < bones; ++bone) {
-            const float* const from = world + 4 * bone * block_lanes;
-            float* const to = order_.rotations + 4 * bone * block_lanes + lane;
-            to[row_of_w] = from[0];
-            copy_lane(from + block_lanes, to + row_of_v, 3);
-        }
-        home_.at(Row::Residual, lane) = tile.at(Row::Residual, slot);
-        home_.at(Row::Iterations, lane) = tile.at(Row::Iterations, slot);
+        for (std::size_t row = 0; row < rows; ++row) store(limb.pose.rows().lanes(row), at(row));
     }
-
-    static constexpr std::uint8_t gone = 255;
-
-    Block home_;
-    const LimitedOrder& order_;
-    std::array<std::uint8_t, block_lanes> lanes_{};
-    std::size_t used_;
-};
-
-void solve_limited(const Block& block, std::size_t lanes, const LimitedOrder& order) {
-    LimitedTile(block, lanes, order).solve();
 }
 
 }  // namespace HWY_NAMESPACE
@@ -190,10 +167,14 @@ HWY_AFTER_NAMESPACE();
 namespace tendril::ik::detail {
 namespace {
 HWY_EXPORT(solve_limited);
-}
+HWY_EXPORT(step_limited);
+}  // namespace
 
 SolveLimited* solve_limited_with(std::int64_t target) noexcept {
     return TENDRIL_COMPILED_FOR(solve_limited, target);
+}
+StepLimited* step_limited_with(std::int64_t target) noexcept {
+    return TENDRIL_COMPILED_FOR(step_limited, target);
 }
 
 }  // namespace tendril::ik::detail

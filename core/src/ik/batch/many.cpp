@@ -222,6 +222,7 @@ Result Batch::set_limits(std::span<const Limit> limits, std::span<const glm::vec
         if (scratch->limited.get() != nullptr) continue;
         scratch->limited = Rows(limited_floats(bones()));
         scratch->poses = Rows(pose_rows(bones()) * block_lanes);
+        std::fill_n(scratch->poses.get(), pose_rows(bones()) * block_lanes, 0.0f);
     }
     if (parts_->rotations.get() == nullptr) {
         parts_->rotations = Rows(parts_->block_count() * 4 * bones() * block_lanes);

@@ -48,6 +48,17 @@ HWY_INLINE Mask equals(const float* row, Enum value) {
     return hn::Eq(load(row), all(static_cast<float>(value)));
 }
 
+/// Calls it with each lane of a mask.
+template <class Call>
+HWY_INLINE void for_each_lane(Mask lanes, Call call) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(Floats(), lanes, bytes);
+    std::uint32_t bits = bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8;
+    for (std::size_t lane = 0; bits != 0; ++lane, bits >>= 1) {
+        if ((bits & 1) != 0) call(lane);
+    }
+}
+
 /// A point or direction of each chain of a register.
 struct Points {
     Lanes x, y, z;

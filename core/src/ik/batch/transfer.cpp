@@ -21,7 +21,7 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-/// Four floats of every fourth list: of lists 0, 4, 8 and so on, as many as fill a register.
+/// Four floats of every fourth list (or row): of 0, 4, 8 and so on, as many as fill a register.
 template <class D>
 HWY_INLINE hn::Vec<D> load_quads(D d, const float* from, std::size_t stride) {
     if constexpr (hn::MaxLanes(D()) <= 4) {
@@ -31,17 +31,6 @@ HWY_INLINE hn::Vec<D> load_quads(D d, const float* from, std::size_t stride) {
         const std::size_t lists = hn::MaxLanes(half);
         return hn::Combine(d, load_quads(half, from + lists * stride, stride),
                            load_quads(half, from, stride));
-    }
-}
-template <class D>
-HWY_INLINE void store_quads(D d, hn::Vec<D> value, float* to, std::size_t stride) {
-    if constexpr (hn::MaxLanes(D()) <= 4) {
-        hn::StoreU(value, d, to);
-    } else {
-        const hn::Half<D> half;
-        const std::size_t lists = hn::MaxLanes(half);
-        store_quads(half, hn::LowerHalf(half, value), to, stride);
-        store_quads(half, hn::UpperHalf(half, value), to + lists * stride, stride);
     }
 }
 
@@ -66,13 +55,29 @@ HWY_INLINE void quads_in(D d, const float* from, std::size_t stride, float* to) 
     hn::Store(quads.a, d, to), hn::Store(quads.b, d, to + block_lanes);
     hn::Store(quads.c, d, to + 2 * block_lanes), hn::Store(quads.e, d, to + 3 * block_lanes);
 }
+/// Of four lists as much as fills a register.
 template <class D>
 HWY_INLINE void quads_out(D d, const float* from, std::size_t stride, float* to) {
-    Quads<D> quads{hn::Load(d, from), hn::Load(d, from + block_lanes), hn::Load(d, from + 2 * block_lanes),
-                   hn::Load(d, from + 3 * block_lanes)};
+    const auto quads_of = [&](std::size_t row) {
+        return load_quads(d, from + row * block_lanes, block_lanes);
+    };
+    Quads<D> quads{quads_of(0), quads_of(1), quads_of(2), quads_of(3)};
     quads.transpose(d);
-    store_quads(d, quads.a, to, stride), store_quads(d, quads.b, to + stride, stride);
-    store_quads(d, quads.c, to + 2 * stride, stride), store_quads(d, quads.e, to + 3 * stride, stride);
+    hn::StoreU(quads.a, d, to), hn::StoreU(quads.b, d, to + stride);
+    hn::StoreU(quads.c, d, to + 2 * stride), hn::StoreU(quads.e, d, to + 3 * stride);
+}
+
+/// Four lists, from `done` floats on; at the end some floats are written again rather than one by one.
+template <class D>
+HWY_INLINE void lists_out(D d, const float* rows, std::size_t count, float* lists, std::size_t done = 0) {
+    const auto out = [&](std::size_t i) { quads_out(d, rows + i * block_lanes, count, lists + i); };
+    constexpr std::size_t size = hn::MaxLanes(D());
+    for (; done + size <= count; done += size) out(done);
+    if (done == count) return;
+    if constexpr (size > 4) {
+        if (count < size || done + size / 2 > count) return lists_out(hn::Half<D>(), rows, count, lists, done);
+    }
+    out(count - size);
 }
 
 /// Calls `quad` with each four of `count` floats; the last four may be of those before too.
@@ -106,14 +111,9 @@ void copy_in(const float* lists, std::size_t lanes, std::size_t count, float* ro
 void copy_out(const float* rows, std::size_t lanes, std::size_t count, float* lists) {
     std::size_t lane = 0;
 #if HWY_TARGET != HWY_SCALAR
-    const auto some = [&](auto d) {
-        for (; lane + hn::MaxLanes(d) <= lanes; lane += hn::MaxLanes(d)) {
-            for_each_quad(count, [&](std::size_t i) {
-                quads_out(d, rows + i * block_lanes + lane, count, lists + lane * count + i);
-            });
-        }
-    };
-    if (count >= 4) some(Floats()), some(hn::CappedTag<float, 4>());
+    for (; count >= 4 && lane + 4 <= lanes; lane += 4) {
+        lists_out(Floats(), rows + lane, count, lists + lane * count);
+    }
 #endif
     for (; lane < lanes; ++lane) {
         for (std::size_t i = 0; i < count; ++i) lists[lane * count + i] = rows[i * block_lanes + lane];

@@ -24,6 +24,7 @@ struct Units {
             units[count].iterate = iterate_with(target);
             units[count].classify_limited = classify_limited_with(target);
             units[count].solve_limited = solve_limited_with(target);
+            units[count].step_limited = step_limited_with(target);
             transfers_with(target, units[count++]);
         });
     }

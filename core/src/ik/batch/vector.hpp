@@ -36,18 +36,23 @@ struct Order {
 inline std::size_t pose_rows(std::size_t bones) noexcept {
     return 3 * (bones + 1) + (4 + 4 + 3 + 2) * bones;
 }
-/// For a block of chains within limits.
+/// For chains within limits.
 struct LimitedOrder {
     std::span<const BatchLimit> limits;  ///< one a bone
-    float* rotations;  ///< four rows a bone, in the order of glm::quat: in the world, from rest
-    Block tile;        ///< scratch: chains while they are solved
-    float* poses;      ///< scratch: pose_rows of the tile
-    float* scratch;    ///< limited_floats of it
     int max_iterations;
+    Block tile;      ///< of the chains that take long: their joints are those that they began with
+    float* poses;    ///< pose_rows of the tile: where they are
+    float* scratch;  ///< limited_floats of it
 };
-/// A pose of one register of chains, and what a step needs of each bone.
+/// So few chains of a register of `width` are left to the tile.
+inline constexpr std::size_t late_lanes(std::size_t width) noexcept {
+    return width * 3 / 8;
+}
+inline constexpr std::size_t most_late = block_lanes * 3 / 8;
+
+/// Two poses of one register of chains, and what a step needs of each bone.
 inline std::size_t limited_floats(std::size_t bones) noexcept {
-    return (pose_rows(bones) + (3 + 3 + 3 + 3 + 2) * bones) * 16;
+    return (2 * pose_rows(bones) + (3 + 3 + 3 + 3 + 2) * bones) * 16;
 }
 
 /// How many chains still iterate, and whether any of them waits for a perturbation first.
@@ -63,8 +68,13 @@ struct Left {
 using Classify = Left(const Block& block, std::size_t lanes, bool every);
 /// The same for chains within limits: what is not surely reachable goes to the scalar solver as it is.
 using ClassifyLimited = void(const Block& block, std::size_t lanes);
-/// Solves those that are reachable; chains that do not arrive stay as they were and go to the scalar solver.
-using SolveLimited = void(const Block& block, std::size_t lanes, const LimitedOrder& order);
+/// Solves those that are reachable, from their joints and four rows of rotations a bone, in the order of
+/// glm::quat. What does not arrive stays as it was and goes to the scalar solver; but the last of a register
+/// are moved to the tile, from lane `used` on. Returns which, at most most_late of a block.
+using SolveLimited = LaneList(const Block& block, std::size_t lanes, float* rotations, std::size_t used,
+                              const LimitedOrder& order);
+/// Some steps of the tile's first `used` lanes.
+using StepLimited = void(std::size_t used, const LimitedOrder& order);
 /// Iterates the active lanes until they are done, wait for a perturbation or the order's iterations are used
 /// up.
 using Iterate = Left(const Block& block, std::size_t lanes, const Order& order);
@@ -81,6 +91,7 @@ struct VectorUnit {
     Iterate* iterate = nullptr;
     ClassifyLimited* classify_limited = nullptr;
     SolveLimited* solve_limited = nullptr;
+    StepLimited* step_limited = nullptr;
     SetTargets* set_targets = nullptr;
     CopyIn* copy_in = nullptr;
     CopyOut* copy_out = nullptr;
@@ -92,6 +103,7 @@ Classify* classify_with(std::int64_t target) noexcept;
 Iterate* iterate_with(std::int64_t target) noexcept;
 ClassifyLimited* classify_limited_with(std::int64_t target) noexcept;
 SolveLimited* solve_limited_with(std::int64_t target) noexcept;
+StepLimited* step_limited_with(std::int64_t target) noexcept;
 /// Fills in the other four.
 void transfers_with(std::int64_t target, VectorUnit& unit) noexcept;
 

@@ -1,9 +1,7 @@
 #include "ik/batch/work.hpp"
 
 #include <algorithm>
-#include <limits>
 
-#include "ik/limits/pose.hpp"
 #include "ik/math.hpp"
 #include "ik/solve/loop.hpp"
 #include "ik/solve/perturbation.hpp"
@@ -19,7 +17,7 @@ constexpr int tile_burst = 2;                 ///< iterations between two checks
 
 /// Where the accelerated step has its turn in every iteration, nearly all chains need only one.
 int first_burst(std::size_t bones) noexcept {
-    return bones >= 8 ? 1 : 4;
+    return bones >= 8 ? 1 : 2;
 }
 
 /// Whole chains, side by side from a lane on.
@@ -64,7 +62,7 @@ Scratch::Scratch(std::size_t bones)
 void Work::run(Scratch& scratch) noexcept {
     const std::size_t blocks = (in_.chains + block_lanes - 1) / block_lanes;
     for (std::size_t index; (index = next_block_.fetch_add(1)) < blocks;) solve_block(index, scratch);
-    run_tile(0, scratch);
+    in_.limits != nullptr ? run_limited_tile(0, scratch) : run_tile(0, scratch);
 }
 
 void Work::solve_block(std::size_t index, Scratch& scratch) noexcept {
@@ -92,42 +90,14 @@ void Work::solve_block(std::size_t index, Scratch& scratch) noexcept {
     if (active.count > 0) put_into_tile(block, active, first, scratch);  // may write joints of this block
 }
 
-/// The caller's joints. A chain with a coordinate out of range gets a target that makes it invalid.
 void Work::take_joints(const Block& block, std::size_t index, std::size_t lanes) const noexcept {
     const std::size_t each = in_.bones + 1;
-    const glm::vec3* const joints = in_.joints + index * block_lanes * each;
-    in_.unit.copy_in(&joints->x, lanes, 3 * each, block.joint(0));
-    if (in_.unit.are_valid(&joints->x, 3 * each * lanes)) return;
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-        if (in_.unit.are_valid(&joints[lane * each].x, 3 * each)) continue;
-        block.at(Row::TargetX, lane) = std::numeric_limits<float>::quiet_NaN();
-    }
+    in_.unit.copy_in(&in_.joints[index * block_lanes * each].x, lanes, 3 * each, block.joint(0));
 }
 
 void Work::return_joints(const Block& block, std::size_t index, std::size_t lanes) const noexcept {
     const std::size_t each = in_.bones + 1;
     in_.unit.copy_out(block.joint(0), lanes, 3 * each, &in_.joints[index * block_lanes * each].x);
-}
-
-void Work::solve_limited_block(const Block& block, std::size_t index, std::size_t lanes,
-                               Scratch& scratch) noexcept {
-    in_.unit.classify_limited(block, lanes);
-    const bool vectors = !in_.limits->ready.empty() && !in_.options.every_iteration;
-    if (vectors) {
-        in_.unit.solve_limited(block, lanes,
-                               {in_.limits->ready, rotations(index), scratch.tile.block, scratch.poses.get(),
-                                scratch.limited.get(), in_.options.max_iterations});
-    }
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const std::size_t chain = index * block_lanes + lane;
-        const Class found = block.class_of(lane);
-        if (found == Class::Scalar || (found == Class::Reachable && !vectors)) {
-            solve_scalar_limited(block, lane, chain, scratch);
-        } else {
-            report(block, lane, chain);
-        }
-    }
-    if (in_.joints != nullptr) return_joints(block, index, lanes);
 }
 
 /// Where a few keep a whole block waiting they are left active: they go on elsewhere, together with those of
@@ -189,29 +159,6 @@ void Work::solve_scalar(const Block& block, std::size_t lane, std::size_t chain,
     Problem problem = take_out(block, lane, scratch.scalar);
     const Report answer = ik::detail::run(Method::Fabrik, problem, Unwatched());
     for (std::size_t i = 1; i <= in_.bones; ++i) block.set_point(i, lane, scratch.scalar.joints[i]);
-    report_fallback(chain, answer);
-}
-
-/// As Solver::solve with these limits, from the joints and rotations that the chain has.
-void Work::solve_scalar_limited(const Block& block, std::size_t lane, std::size_t chain,
-                                Scratch& scratch) noexcept {
-    Workspace& scalar = scratch.scalar;
-    float* const rows = rotations(chain / block_lanes) + lane;
-    const auto component = [&](std::size_t i, int k) -> float& {
-        return rows[(4 * i + static_cast<std::size_t>(k)) * block_lanes];
-    };
-    scalar.saved.reset();  // of the chain before, which must not matter
-    for (std::size_t i = 0; i < in_.bones; ++i) {
-        for (int k = 0; k < 4; ++k) scalar.saved.rotations[i][k] = component(i, k);
-        scalar.rest_directions[i] = in_.limits->rest_directions[i];
-    }
-    Problem problem = take_out(block, lane, scalar);
-    load_limits(scalar, problem.options.limits);
-    const Report answer = ik::detail::run(Method::Fabrik, problem, Unwatched());
-    for (std::size_t i = 0; i < in_.bones; ++i) {
-        block.set_point(i + 1, lane, scalar.joints[i + 1]);
-        for (int k = 0; k < 4; ++k) component(i, k) = scalar.saved.rotations[i][k];
-    }
     report_fallback(chain, answer);
 }
 

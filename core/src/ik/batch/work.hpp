@@ -90,6 +90,9 @@ class Work {
     void write_home(const Tile& tile, std::size_t lane) const noexcept;
     void run_tile(std::size_t most_left, Scratch& scratch) noexcept;
     void clear_done(Tile& tile) noexcept;
+    LimitedOrder limited_order(Scratch& scratch) const noexcept;
+    void run_limited_tile(std::size_t most_left, Scratch& scratch) noexcept;
+    void end_limited(std::size_t lane, Scratch& scratch) noexcept;
     void report(const Block& block, std::size_t lane, std::size_t chain) noexcept;
 
     Input in_;

@@ -1,0 +1,106 @@
+// The part of work.cpp for chains within limits.
+#include "ik/batch/work.hpp"
+#include "ik/limits/pose.hpp"
+#include "ik/solve/loop.hpp"
+#include "tendril/ik/options.hpp"
+
+namespace tendril::ik::detail {
+
+LimitedOrder Work::limited_order(Scratch& scratch) const noexcept {
+    return {in_.limits->ready, in_.options.max_iterations, scratch.tile.block, scratch.poses.get(),
+            scratch.limited.get()};
+}
+
+void Work::solve_limited_block(const Block& block, std::size_t index, std::size_t lanes,
+                               Scratch& scratch) noexcept {
+    const std::size_t first = index * block_lanes;
+    Tile& tile = scratch.tile;
+    in_.unit.classify_limited(block, lanes);
+    const bool vectors = !in_.limits->ready.empty() && !in_.options.every_iteration;
+    LaneList late;
+    if (vectors) {
+        run_limited_tile(block_lanes - most_late, scratch);
+        late = in_.unit.solve_limited(block, lanes, rotations(index), tile.used, limited_order(scratch));
+    }
+    for (const std::size_t lane : late.span()) {
+        tile.chains[tile.used++] = static_cast<std::uint32_t>(first + lane);
+    }
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        const Class found = block.class_of(lane);
+        if (found == Class::Scalar || (found == Class::Reachable && !vectors)) {
+            solve_scalar_limited(block, lane, first + lane, scratch);
+        } else if (block.activity(lane) == Activity::Done) {
+            report(block, lane, first + lane);
+        }
+    }
+    if (in_.joints != nullptr) return_joints(block, index, lanes);
+}
+
+/// As Solver::solve with these limits, from the joints and rotations that the chain has.
+void Work::solve_scalar_limited(const Block& block, std::size_t lane, std::size_t chain,
+                                Scratch& scratch) noexcept {
+    Workspace& scalar = scratch.scalar;
+    float* const rows = rotations(chain / block_lanes) + chain % block_lanes;
+    const auto component = [&](std::size_t i, int k) -> float& {
+        return rows[(4 * i + static_cast<std::size_t>(k)) * block_lanes];
+    };
+    scalar.saved.reset();  // of the chain before, which must not matter
+    for (std::size_t i = 0; i < in_.bones; ++i) {
+        for (int k = 0; k < 4; ++k) scalar.saved.rotations[i][k] = component(i, k);
+        scalar.rest_directions[i] = in_.limits->rest_directions[i];
+    }
+    Problem problem = take_out(block, lane, scalar);
+    load_limits(scalar, problem.options.limits);
+    const Report answer = ik::detail::run(Method::Fabrik, problem, Unwatched());
+    for (std::size_t i = 0; i < in_.bones; ++i) {
+        block.set_point(i + 1, lane, scalar.joints[i + 1]);
+        for (int k = 0; k < 4; ++k) component(i, k) = scalar.saved.rotations[i][k];
+    }
+    report_fallback(chain, answer);
+}
+
+/// Until no more than so many of its chains are left.
+void Work::run_limited_tile(std::size_t most_left, Scratch& scratch) noexcept {
+    Tile& tile = scratch.tile;
+    while (tile.used > most_left) {
+        in_.unit.step_limited(tile.used, limited_order(scratch));
+        for (std::size_t lane = 0; lane < tile.used;) {
+            if (tile.block.activity(lane) != Activity::Done) {
+                ++lane;
+                continue;
+            }
+            end_limited(lane, scratch);
+            if (lane == --tile.used) break;
+            // The last one takes its place.
+            copy_lane(tile.block.joint(0) + tile.used, tile.block.joint(0) + lane,
+                      Block::chain_floats(in_.bones) / block_lanes);
+            copy_lane(tile.block.target() + tile.used, tile.block.target() + lane, state_rows);
+            copy_lane(scratch.poses.get() + tile.used, scratch.poses.get() + lane, pose_rows(in_.bones));
+            tile.chains[lane] = tile.chains[tile.used];
+            tile.block.set_activity(tile.used, Activity::Done);
+        }
+    }
+}
+
+/// A chain of the tile goes home: where it has come to, or where the scalar solver brings it.
+void Work::end_limited(std::size_t lane, Scratch& scratch) noexcept {
+    const Tile& tile = scratch.tile;
+    const std::size_t chain = tile.chains[lane], bones = in_.bones;
+    if (tile.block.at(Row::Residual, lane) <= tile.block.at(Row::Tolerance, lane)) {
+        const float* const joints = scratch.poses.get() + lane;
+        const float* const world = joints + (3 * (bones + 1) + 4 * bones) * block_lanes;
+        copy_lane(joints, tile.block.joint(0) + lane, 3 * (bones + 1));
+        float* const home = rotations(chain / block_lanes) + chain % block_lanes;
+        for (std::size_t i = 0; i < bones; ++i) {
+            const auto row = [&](std::size_t k) { return world[(4 * i + k) * block_lanes]; };
+            const glm::quat turn(row(0), row(1), row(2), row(3));
+            for (int k = 0; k < 4; ++k) home[(4 * i + static_cast<std::size_t>(k)) * block_lanes] = turn[k];
+        }
+        report(tile.block, lane, chain);
+    } else {
+        solve_scalar_limited(tile.block, lane, chain, scratch);
+    }
+    write_home(tile, lane);
+}
+
+}  // namespace tendril::ik::detail
