@@ -224,8 +224,10 @@ HWY_INLINE Matrix matrix_of(const Limb& limb, Lanes damping) {
         matrix.add_diagonal(dot(arm, arm));
         matrix.add_square(arm, all(-1.0f));
         if (limb.limits[bone].kind == BatchLimit::Kind::Free) continue;
-        matrix.add_square(cross(axis, arm), hn::Neg(swing));
-        matrix.add_square(cross(limb.bones.points(bone), arm), hn::Neg(turn));
+        if (any(hn::Gt(swing, zero()))) matrix.add_square(cross(axis, arm), hn::Neg(swing));
+        if (any(hn::Gt(turn, zero()))) {
+            matrix.add_square(cross(limb.bones.points(bone), arm), hn::Neg(turn));
+        }
     }
     return matrix;
 }
@@ -275,11 +277,20 @@ HWY_INLINE void turn_joints(const Limb& limb) {
     for (std::size_t bone = 0; bone < limb.count(); ++bone) {
         const BatchLimit& limit = limb.limits[bone];
         const Points change = times(limb.changes.points(bone), half);
-        const bool hinge = limit.kind == BatchLimit::Kind::Hinge;
-        const Points own = hinge ? times(all(limit.axis), change.x) : rotated(conjugate(parent), change);
-        const Rotations turned = compose(Rotations{all(1.0f), own}, limb.pose.local.rotations(bone));
+        const Rotations local = limb.pose.local.rotations(bone);
+        Rotations turned;
+        if (limit.kind == BatchLimit::Kind::Hinge) {
+            const Points axis = all(limit.axis);
+            turned = {hn::Sub(local.w, hn::Mul(change.x, dot(axis, local.v))),
+                      plus(local.v, times(axis, hn::Mul(change.x, local.w)))};
+        } else {
+            // Brought to length 1, as the other one is.
+            const Lanes squared = hn::Add(all(1.0f), dot(change, change));
+            const Lanes scale = hn::Div(all(1.0f), hn::Sqrt(squared));
+            turned = compose(Rotations{scale, times(rotated(conjugate(parent), change), scale)}, local);
+        }
         Standing standing;
-        const Rotations within = clamp(limit, normalized(turned), standing);
+        const Rotations within = clamp(limit, turned, standing);
         limb.trial.set(bone, within, standing);
         parent = limb.pose.world.rotations(bone);
     }

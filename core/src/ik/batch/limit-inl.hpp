@@ -73,7 +73,9 @@ HWY_INLINE HalfAngles clamp(const HalfRange& range, const HalfAngles& half, Stan
     constexpr float near = 5e-5f;  // half of at_bound
     standing.upper = hn::IfThenElseZero(hn::Ge(sine, all(range.max - near)), all(1.0f));
     standing.lower = hn::IfThenElseZero(hn::Le(sine, all(range.min + near)), all(1.0f));
-    return {hn::IfThenElse(hn::Eq(sine, half.sine), half.cosine, other_leg(sine)), sine};
+    const Mask stays = hn::Eq(sine, half.sine);
+    if (hn::AllTrue(Floats(), stays)) return half;
+    return {hn::IfThenElse(stays, half.cosine, other_leg(sine)), sine};
 }
 
 /// The part of a unit quaternion about an axis: `along` is its vector's component there.

@@ -46,9 +46,9 @@ struct LimitedOrder {
 };
 /// So few chains of a register of `width` are left to the tile.
 inline constexpr std::size_t late_lanes(std::size_t width) noexcept {
-    return width * 3 / 8;
+    return width / 4;
 }
-inline constexpr std::size_t most_late = block_lanes * 3 / 8;
+inline constexpr std::size_t most_late = block_lanes / 4;
 
 /// Two poses of one register of chains, and what a step needs of each bone.
 inline std::size_t limited_floats(std::size_t bones) noexcept {
