@@ -43,19 +43,21 @@ class Column {
     float* first_;
 };
 
-/// Joints, how each bone is turned against its parent and in the world, and which limits it stands at.
+/// How each bone is turned against its parent and which limits it stands at; and what follows from that: the
+/// joints, and how each bone is turned in the world.
 struct Pose {
-    Column joints, local, world;
+    Column local;
     Column outward;  ///< points: Standing::outward
     Column ends;     ///< 2 a bone: Standing::upper and lower
+    Column joints, world;
     Pose(Column at, std::size_t bones)
-        : joints(at),
-          local(joints.after(3 * (bones + 1))),
-          world(local.after(4 * bones)),
-          outward(world.after(4 * bones)),
-          ends(outward.after(3 * bones)) {}
-    /// All of it: pose_rows registers.
-    const Column& rows() const { return joints; }
+        : local(at),
+          outward(local.after(4 * bones)),
+          ends(outward.after(3 * bones)),
+          joints(ends.after(2 * bones)),
+          world(joints.after(3 * (bones + 1))) {}
+    /// All of it: full_pose_rows registers, of which the first pose_rows are what it consists of.
+    const Column& rows() const { return local; }
 
     void set(std::size_t bone, const Rotations& turn, const Standing& standing) const {
         local.set(bone, turn), outward.set(bone, standing.outward);
@@ -80,8 +82,8 @@ struct Limb {
           i(lane),
           limits(order.limits),
           pose(Column(order.scratch), count()),
-          trial(pose.rows().after(pose_rows(count())), count()),
-          arms(trial.rows().after(pose_rows(count()))),
+          trial(pose.rows().after(full_pose_rows(count())), count()),
+          arms(trial.rows().after(full_pose_rows(count()))),
           axes(arms.after(3 * count())),
           bones(axes.after(3 * count())),
           changes(bones.after(3 * count())),
@@ -301,7 +303,7 @@ HWY_INLINE void turn_joints(const Limb& limb) {
 HWY_INLINE void accept(Limb& limb, Mask lanes) {
     if (hn::AllTrue(Floats(), lanes)) return std::swap(limb.pose, limb.trial);
     const Column pose = limb.pose.rows(), trial = limb.trial.rows();
-    for (std::size_t row = 0; row < pose_rows(limb.count()); ++row) {
+    for (std::size_t row = 0; row < full_pose_rows(limb.count()); ++row) {
         pose.set(row, hn::IfThenElse(lanes, trial.lanes(row), pose.lanes(row)));
     }
 }

@@ -96,6 +96,7 @@ HWY_INLINE void write_back(const Limb& limb, Mask left, float* rotations) {
     float* const found = limb.row(Row::Class);
     const Lanes scalar = all(static_cast<float>(Class::Scalar));
     store(hn::IfThenElse(hn::AndNot(there, taken), scalar, load(found)), found);
+    if (!any(arrived)) return;
     for (std::size_t bone = 0; bone < limb.count(); ++bone) {
         float* const joint = limb.block.joint(bone + 1) + limb.i;
         store_points(select(arrived, limb.pose.joints.points(bone + 1), load_points(joint)), joint);
@@ -108,7 +109,7 @@ HWY_INLINE void write_back(const Limb& limb, Mask left, float* rotations) {
 HWY_INLINE void move_chain(const Limb& limb, std::size_t lane, std::size_t to, const LimitedOrder& order) {
     const Block &block = limb.block, &tile = order.tile;
     const std::size_t from = limb.i + lane, bones = block.bones();
-    copy_lane(block.joint(0) + from, tile.joint(0) + to, Block::joint_rows(bones));
+    copy_lane(block.joint(0) + from, tile.joint(0) + to, 3);
     copy_lane(block.length(0) + from, tile.length(0) + to, Block::length_rows(bones));
     copy_lane(block.target() + from, tile.target() + to, state_rows);
     for (std::size_t row = 0; row < pose_rows(bones); ++row) {
@@ -150,11 +151,12 @@ void step_limited(std::size_t used, const LimitedOrder& order) {
         const std::size_t rows = pose_rows(limb.count());
         const auto at = [&](std::size_t row) { return order.poses + row * block_lanes + i; };
         for (std::size_t row = 0; row < rows; ++row) limb.pose.rows().set(row, load(at(row)));
-        for (int step = 0; step < steps_between_checks; ++step) {
-            const Mask left = active(limb);
-            if (!any(left)) break;
+        forward_kinematics(limb, limb.pose);
+        Mask left = active(limb);
+        for (int step = 0; step < steps_between_checks && any(left); ++step, left = active(limb)) {
             take_step(limb, left, last_iteration(order));
         }
+        write_back(limb, left, order.rotations);
         for (std::size_t row = 0; row < rows; ++row) store(limb.pose.rows().lanes(row), at(row));
     }
 }

@@ -8,7 +8,7 @@ namespace tendril::ik::detail {
 
 LimitedOrder Work::limited_order(Scratch& scratch) const noexcept {
     return {in_.limits->ready, in_.options.max_iterations, scratch.tile.block, scratch.poses.get(),
-            scratch.limited.get()};
+            scratch.rotations.get(), scratch.limited.get()};
 }
 
 void Work::solve_limited_block(const Block& block, std::size_t index, std::size_t lanes,
@@ -62,43 +62,42 @@ void Work::solve_scalar_limited(const Block& block, std::size_t lane, std::size_
 /// Until no more than so many of its chains are left.
 void Work::run_limited_tile(std::size_t most_left, Scratch& scratch) noexcept {
     Tile& tile = scratch.tile;
+    const auto done = [&](std::size_t lane) { return tile.block.activity(lane) == Activity::Done; };
     while (tile.used > most_left) {
         in_.unit.step_limited(tile.used, limited_order(scratch));
-        for (std::size_t lane = 0; lane < tile.used;) {
-            if (tile.block.activity(lane) != Activity::Done) {
-                ++lane;
-                continue;
-            }
+        for (std::size_t lane = 0; lane < tile.used; ++lane) {
+            if (!done(lane)) continue;
             end_limited(lane, scratch);
-            if (lane == --tile.used) break;
-            // The last one takes its place.
-            copy_lane(tile.block.joint(0) + tile.used, tile.block.joint(0) + lane,
-                      Block::chain_floats(in_.bones) / block_lanes);
-            copy_lane(tile.block.target() + tile.used, tile.block.target() + lane, state_rows);
-            copy_lane(scratch.poses.get() + tile.used, scratch.poses.get() + lane, pose_rows(in_.bones));
-            tile.chains[lane] = tile.chains[tile.used];
-            tile.block.set_activity(tile.used, Activity::Done);
+            // The last one that goes on takes its place.
+            while (--tile.used > lane && done(tile.used)) end_limited(tile.used, scratch);
+            if (tile.used > lane) move_limited(tile.used, lane, scratch);
         }
     }
 }
 
-/// A chain of the tile goes home: where it has come to, or where the scalar solver brings it.
+/// From lane to lane of the tile.
+void Work::move_limited(std::size_t from, std::size_t to, Scratch& scratch) const noexcept {
+    Tile& tile = scratch.tile;
+    const auto move = [&](float* rows, std::size_t count) { copy_lane(rows + from, rows + to, count); };
+    move(tile.block.joint(0), 3);
+    move(tile.block.length(0), Block::length_rows(in_.bones));
+    move(tile.block.target(), state_rows);
+    move(scratch.poses.get(), pose_rows(in_.bones));
+    tile.chains[to] = tile.chains[from];
+    tile.block.set_activity(from, Activity::Done);
+}
+
+/// A chain of the tile goes home: from where it has come to, or from where it was and with the scalar solver.
 void Work::end_limited(std::size_t lane, Scratch& scratch) noexcept {
     const Tile& tile = scratch.tile;
-    const std::size_t chain = tile.chains[lane], bones = in_.bones;
-    if (tile.block.at(Row::Residual, lane) <= tile.block.at(Row::Tolerance, lane)) {
-        const float* const joints = scratch.poses.get() + lane;
-        const float* const world = joints + (3 * (bones + 1) + 4 * bones) * block_lanes;
-        copy_lane(joints, tile.block.joint(0) + lane, 3 * (bones + 1));
-        float* const home = rotations(chain / block_lanes) + chain % block_lanes;
-        for (std::size_t i = 0; i < bones; ++i) {
-            const auto row = [&](std::size_t k) { return world[(4 * i + k) * block_lanes]; };
-            const glm::quat turn(row(0), row(1), row(2), row(3));
-            for (int k = 0; k < 4; ++k) home[(4 * i + static_cast<std::size_t>(k)) * block_lanes] = turn[k];
-        }
-        report(tile.block, lane, chain);
-    } else {
+    const std::size_t chain = tile.chains[lane];
+    if (tile.block.class_of(lane) == Class::Scalar) {
+        fetch_joints(tile, lane);
         solve_scalar_limited(tile.block, lane, chain, scratch);
+    } else {
+        copy_lane(scratch.rotations.get() + lane, rotations(chain / block_lanes) + chain % block_lanes,
+                  4 * in_.bones);
+        report(tile.block, lane, chain);
     }
     write_home(tile, lane);
 }

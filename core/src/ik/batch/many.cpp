@@ -221,8 +221,13 @@ Result Batch::set_limits(std::span<const Limit> limits, std::span<const glm::vec
         scratch->scalar.limited.made = false;  // the same limits, but other rest directions
         if (scratch->limited.get() != nullptr) continue;
         scratch->limited = Rows(limited_floats(bones()));
-        scratch->poses = Rows(pose_rows(bones()) * block_lanes);
-        std::fill_n(scratch->poses.get(), pose_rows(bones()) * block_lanes, 0.0f);
+        const auto zeros = [](std::size_t rows) {
+            Rows made(rows * block_lanes);
+            std::fill_n(made.get(), rows * block_lanes, 0.0f);
+            return made;
+        };
+        scratch->poses = zeros(pose_rows(bones()));
+        scratch->rotations = zeros(4 * bones());
     }
     if (parts_->rotations.get() == nullptr) {
         parts_->rotations = Rows(parts_->block_count() * 4 * bones() * block_lanes);

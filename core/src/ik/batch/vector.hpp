@@ -31,19 +31,24 @@ struct Order {
     StepScratch step;
 };
 
-/// Rows of the joints, of how bones are turned against their parents and in the world, and of the limits that
-/// they stand at.
+/// Rows of what a pose consists of: how each bone is turned against its parent, and which limits it stands at.
 inline std::size_t pose_rows(std::size_t bones) noexcept {
-    return 3 * (bones + 1) + (4 + 4 + 3 + 2) * bones;
+    return (4 + 3 + 2) * bones;
+}
+/// And of what follows from that: the joints, and how each bone is turned in the world.
+inline std::size_t full_pose_rows(std::size_t bones) noexcept {
+    return pose_rows(bones) + 3 * (bones + 1) + 4 * bones;
 }
 /// For chains within limits.
 struct LimitedOrder {
     std::span<const BatchLimit> limits;  ///< one a bone
     int max_iterations;
-    Block tile;      ///< of the chains that take long: their joints are those that they began with
-    float* poses;    ///< pose_rows of the tile: where they are
-    float* scratch;  ///< limited_floats of it
+    Block tile;        ///< of the chains that take long; but for the root its joints are written only
+    float* poses;      ///< of the tile: pose_rows
+    float* rotations;  ///< of the tile, as SolveLimited has them; written only
+    float* scratch;    ///< limited_floats of it
 };
+
 /// So few chains of a register of `width` are left to the tile.
 inline constexpr std::size_t late_lanes(std::size_t width) noexcept {
     return width / 4;
@@ -52,7 +57,7 @@ inline constexpr std::size_t most_late = block_lanes / 4;
 
 /// Two poses of one register of chains, and what a step needs of each bone.
 inline std::size_t limited_floats(std::size_t bones) noexcept {
-    return (2 * pose_rows(bones) + (3 + 3 + 3 + 3 + 2) * bones) * 16;
+    return (2 * full_pose_rows(bones) + (3 + 3 + 3 + 3 + 2) * bones) * 16;
 }
 
 /// How many chains still iterate, and whether any of them waits for a perturbation first.
@@ -73,7 +78,7 @@ using ClassifyLimited = void(const Block& block, std::size_t lanes);
 /// are moved to the tile, from lane `used` on. Returns which, at most most_late of a block.
 using SolveLimited = LaneList(const Block& block, std::size_t lanes, float* rotations, std::size_t used,
                               const LimitedOrder& order);
-/// Some steps of the tile's first `used` lanes.
+/// Some steps of the tile's first `used` lanes. As above, but without the tile.
 using StepLimited = void(std::size_t used, const LimitedOrder& order);
 /// Iterates the active lanes until they are done, wait for a perturbation or the order's iterations are used
 /// up.

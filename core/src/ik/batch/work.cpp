@@ -218,6 +218,17 @@ void Work::write_home(const Tile& tile, std::size_t lane) const noexcept {
     }
 }
 
+/// The other way.
+void Work::fetch_joints(const Tile& tile, std::size_t lane) const noexcept {
+    const std::size_t chain = tile.chains[lane], each = in_.bones + 1;
+    if (in_.joints != nullptr) {
+        for (std::size_t i = 0; i < each; ++i) tile.block.set_point(i, lane, in_.joints[chain * each + i]);
+    } else {
+        const float* const rows = in_.blocks + chain / block_lanes * Block::chain_floats(in_.bones);
+        copy_lane(rows + chain % block_lanes, tile.block.joint(0) + lane, Block::joint_rows(in_.bones));
+    }
+}
+
 void Work::report(const Block& block, std::size_t lane, std::size_t chain) noexcept {
     const Class found = block.class_of(lane);
     if (found == Class::Invalid) invalid_.fetch_add(1, std::memory_order_relaxed);

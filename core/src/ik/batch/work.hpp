@@ -36,8 +36,8 @@ struct Scratch {
     Rows shapes;  ///< see StepScratch, with the next two
     Tile gathered, second;
     Tile tile;
-    Rows poses, limited;  ///< see LimitedOrder; only once there are limits
-    Workspace scalar;     ///< for what the scalar code does
+    Rows poses, rotations, limited;  ///< see LimitedOrder; only once there are limits
+    Workspace scalar;                ///< for what the scalar code does
 };
 
 class Work {
@@ -88,10 +88,12 @@ class Work {
     void put_into_tile(const Block& from, const LaneList& lanes, std::size_t first,
                        Scratch& scratch) noexcept;
     void write_home(const Tile& tile, std::size_t lane) const noexcept;
+    void fetch_joints(const Tile& tile, std::size_t lane) const noexcept;
     void run_tile(std::size_t most_left, Scratch& scratch) noexcept;
     void clear_done(Tile& tile) noexcept;
     LimitedOrder limited_order(Scratch& scratch) const noexcept;
     void run_limited_tile(std::size_t most_left, Scratch& scratch) noexcept;
+    void move_limited(std::size_t from, std::size_t to, Scratch& scratch) const noexcept;
     void end_limited(std::size_t lane, Scratch& scratch) noexcept;
     void report(const Block& block, std::size_t lane, std::size_t chain) noexcept;
 
