@@ -11,6 +11,7 @@
 #include <memory>
 #include <new>
 #include <span>
+#include <utility>
 
 namespace tendril::ik::detail {
 
@@ -24,7 +25,8 @@ enum class Row : std::size_t {
     TargetZ,
     Tolerance,
     Residual,
-    Best,     ///< the smallest residual of the whole solve; the rows of the best pose have its joints
+    Best,     ///< the smallest residual of the whole solve
+    Saved,    ///< 1 where the rows of the best pose have its joints; 0 where they are the chain's own
     Nearest,  ///< the smallest since the last perturbation
     Last,     ///< the one before
     Idle,     ///< iterations that gained nothing, and little: as in convergence.hpp
@@ -34,7 +36,7 @@ enum class Row : std::size_t {
     Activity,
     Class
 };
-inline constexpr std::size_t state_rows = 14;
+inline constexpr std::size_t state_rows = 15;
 
 /// In Row::Activity.
 enum class Activity : std::uint8_t {
@@ -109,6 +111,9 @@ class Block {
         at(Row::Activity, lane) = static_cast<float>(to);
     }
 
+    /// Before the joints become worse.
+    void save_best(std::size_t lane) const noexcept;
+
   private:
     float* joints_;
     float* lengths_;
@@ -132,6 +137,10 @@ inline void scatter_lanes(const float* from, std::span<const std::uint8_t> lanes
 }
 inline void copy_lane(const float* from, float* to, std::size_t rows) noexcept {
     for (std::size_t row = 0; row < rows; ++row) to[row * block_lanes] = from[row * block_lanes];
+}
+
+inline void Block::save_best(std::size_t lane) const noexcept {
+    if (std::exchange(at(Row::Saved, lane), 1.0f) == 0.0f) copy_lane(joint(1) + lane, best(1) + lane, 3 * bones_);
 }
 
 /// Lanes of a block, ascending as a rule.

@@ -180,11 +180,8 @@ HWY_INLINE void begin(const Block& block, std::size_t i) {
     for (const Row row : {Row::Residual, Row::Best, Row::Nearest, Row::Last}) {
         store(residual, block.row(row) + i);
     }
-    for (const Row row : {Row::Idle, Row::Slow, Row::Perturbations, Row::Iterations}) {
+    for (const Row row : {Row::Saved, Row::Idle, Row::Slow, Row::Perturbations, Row::Iterations}) {
         store(zero(), block.row(row) + i);
-    }
-    for (std::size_t joint = 1; joint <= block.bones(); ++joint) {
-        store_points(load_points(block.joint(joint) + i), block.best(joint) + i);
     }
 }
 

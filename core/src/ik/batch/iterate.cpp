@@ -212,11 +212,15 @@ HWY_INLINE void take_step(const Block& block, const Registers& registers, const 
     reshape_around_longest(second, block, scratch.shapes);
 }
 
-HWY_INLINE void copy_pose(const Block& block, std::size_t i, Mask lanes, bool to_best) {
+/// The best poses of active chains, before the joints move on.
+HWY_INLINE void save_best(const Block& block, std::size_t i) {
+    float* const saved = block.row(Row::Saved) + i;
+    const Mask lanes = hn::And(active_lanes(block, i), hn::Eq(load(saved), zero()));
+    if (!any(lanes)) return;
     for (std::size_t joint = 1; joint <= block.bones(); ++joint) {
-        float *const now = block.joint(joint) + i, *const best = block.best(joint) + i;
-        copy_points(lanes, to_best ? now : best, to_best ? best : now);
+        copy_points(lanes, block.joint(joint) + i, block.best(joint) + i);
     }
+    store(hn::IfThenElse(lanes, all(1.0f), load(saved)), saved);
 }
 
 /// What of the chains of a register is left to do after an iteration.
@@ -243,8 +247,7 @@ HWY_INLINE Verdict note(const Block& block, std::size_t i, Mask active, Lanes re
     update(Row::Nearest, hn::Min(nearest, residual));
     update(Row::Last, residual), update(Row::Residual, residual), update(Row::Iterations, done);
     store(hn::IfThenElse(nearer, residual, best), row(Row::Best));
-    const Mask keeps = order.every ? nearer : hn::AndNot(there, nearer);
-    if (any(keeps)) copy_pose(block, i, keeps, true);
+    store(hn::IfThenZeroElse(nearer, load(row(Row::Saved))), row(Row::Saved));
 
     const Mask left = hn::And(active, hn::Lt(done, all(static_cast<float>(order.max_iterations))));
     const Mask stalled = hn::Ge(idle, all(stall_patience));
@@ -266,7 +269,9 @@ HWY_INLINE void restore_best(const Block& block, std::size_t i, Mask done) {
     const Mask there = hn::Le(now, load(block.row(Row::Tolerance) + i));
     const Mask worse = hn::AndNot(there, hn::And(done, hn::Lt(best, now)));
     if (!any(worse)) return;
-    copy_pose(block, i, worse, false);
+    for (std::size_t joint = 1; joint <= block.bones(); ++joint) {
+        copy_points(worse, block.best(joint) + i, block.joint(joint) + i);
+    }
     store(hn::IfThenElse(worse, best, now), residual);
 }
 
@@ -290,6 +295,7 @@ Left iterate(const Block& block, std::size_t lanes, const Order& order) {
         const Registers registers = active_registers(block, lanes);
         left.active = 0;
         if (registers.count == 0) break;
+        for (std::size_t k = 0; k < registers.count; ++k) save_best(block, registers.first[k]);
         if (registers.whole) {
             reach_both_ways<false>(block, registers);
         } else {

@@ -145,7 +145,9 @@ HWY_INLINE void step(const StepRows& rows, const float* activity, std::size_t i)
 
 /// Copies the points of some lanes.
 HWY_INLINE void copy_points(Mask lanes, const float* from, float* to) {
-    store_points(select(lanes, load_points(from), load_points(to)), to);
+    for (std::size_t k = 0; k < 3; ++k) {
+        hn::BlendedStore(load(from + k * block_lanes), lanes, Floats(), to + k * block_lanes);
+    }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -25,7 +25,10 @@ void gather_chains(const Block& from, const LaneList& lanes, const Block& to, st
     const std::size_t bones = from.bones();
     gather_lanes(from.joint(0), lanes.span(), to.joint(0) + at, Block::joint_rows(bones));
     gather_lanes(from.length(0), lanes.span(), to.length(0) + at, Block::length_rows(bones));
-    gather_lanes(from.target(), lanes.span(), to.target() + at, state_rows + 3 * bones);
+    gather_lanes(from.target(), lanes.span(), to.target() + at, state_rows);
+    for (std::size_t k = 0; k < lanes.count; ++k) {
+        if (to.at(Row::Saved, at + k) != 0.0f) copy_lane(from.best(1) + lanes.lanes[k], to.best(1) + at + k, 3 * bones);
+    }
 }
 
 float residual_of(const Problem& problem) noexcept {
@@ -35,6 +38,7 @@ float residual_of(const Problem& problem) noexcept {
 /// After a perturbation: as Convergence::restart (convergence.hpp).
 void restart(const Block& block, std::size_t lane, const Problem& problem) noexcept {
     const float residual = residual_of(problem);
+    block.save_best(lane);
     for (std::size_t i = 1; i < problem.joints.size(); ++i) block.set_point(i, lane, problem.joints[i]);
     block.at(Row::Nearest, lane) = block.at(Row::Last, lane) = residual;
     block.at(Row::Idle, lane) = block.at(Row::Slow, lane) = 0.0f;
