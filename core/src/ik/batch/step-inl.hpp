@@ -13,6 +13,8 @@
 
 #include <hwy/highway.h>
 
+#include <bit>
+
 #include "ik/batch/block.hpp"
 #include "math/point.hpp"
 
@@ -54,9 +56,7 @@ HWY_INLINE void for_each_lane(Mask lanes, Call call) {
     std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(Floats(), lanes, bytes);
     std::uint32_t bits = bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8;
-    for (std::size_t lane = 0; bits != 0; ++lane, bits >>= 1) {
-        if ((bits & 1) != 0) call(lane);
-    }
+    for (; bits != 0; bits &= bits - 1) call(static_cast<std::size_t>(std::countr_zero(bits)));
 }
 
 /// A point or direction of each chain of a register.

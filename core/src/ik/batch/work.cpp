@@ -82,13 +82,15 @@ void Work::solve_block(std::size_t index, Scratch& scratch) noexcept {
     if (left.active > 0) iterate_block(block, lanes, scratch);
     LaneList active;
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-        if (block.class_of(lane) == Class::Scalar) {
+        const bool scalar = block.class_of(lane) == Class::Scalar;
+        if (scalar) {
             solve_scalar(block, lane, first + lane, scratch);
-        } else if (block.activity(lane) != Activity::Done) {
-            active.add(lane);
         } else {
-            report(block, lane, first + lane);
+            report(block, lane, first + lane);  // of those that are active again when they are done
         }
+        // Without a branch, which nothing would foretell.
+        active.lanes[active.count] = static_cast<std::uint8_t>(lane);
+        active.count += !scalar && block.activity(lane) != Activity::Done ? 1 : 0;
     }
     if (in_.joints != nullptr) return_joints(block, index, lanes);
     if (active.count > 0) put_into_tile(block, active, first, scratch);  // may write joints of this block
@@ -193,12 +195,11 @@ void Work::run_tile(std::size_t most_left, Scratch& scratch) noexcept {
 
 /// Chains that are done go home, and the others close the gaps.
 void Work::clear_done(Tile& tile) noexcept {
-    LaneList left;
+    LaneList left, done;
     for (std::size_t lane = 0; lane < tile.used; ++lane) {
-        if (tile.block.activity(lane) != Activity::Done) {
-            left.add(lane);
-            continue;
-        }
+        (tile.block.activity(lane) != Activity::Done ? left : done).add(lane);
+    }
+    for (const std::size_t lane : done.span()) {
         write_home(tile, lane);
         report(tile.block, lane, tile.chains[lane]);
     }
