@@ -23,9 +23,10 @@
 // flat (a suture). Poses differ from the scalar solver's: both arrive, each within the limits to 0.1 degrees.
 //
 // Cost: O(bones) an iteration and chain. Over as many calls of Solver::solve to tolerance, 1 000 chains, all
-// joints in and out (tests/bench/ik_many.cpp): 6 to 17 times the throughput with AVX-512 and 5 to 14 times
-// with AVX2, the most near full reach; within limits 3 to 16 and 2 to 13 times, the most for hinges and near
-// full reach. It pays from four chains on, and hardly where most targets fall to the scalar solver.
+// joints in and out (tests/bench/ik_many.cpp): 8 to 18 times the throughput with AVX-512 and 7 to 15 times
+// with AVX2, the most near full reach; within limits 4 to 22 and 3 to 18 times, the most for hinges, the
+// least for long chains of cones far from full reach. It pays from four chains on, and hardly where most
+// targets fall to the scalar solver.
 #pragma once
 
 #include <cstddef>
@@ -103,7 +104,8 @@ class Batch {
     /// brings the bones to their lengths.
     Result set_lengths(std::size_t chain, std::span<const float> lengths);
     Result set_lengths(std::span<const float> lengths);
-    /// bones() + 1 of them, root first. They need not be at their lengths: a solve begins by laying them.
+    /// bones() + 1 of them, root first. They need not be at their lengths: a solve begins by bringing them
+    /// there.
     Result set_joints(std::size_t chain, std::span<const glm::vec3> joints);
     /// Of all chains, one after the other: the fast way, some 0.3 ns a coordinate.
     Result set_joints(std::span<const glm::vec3> joints);

@@ -140,7 +140,8 @@ inline void copy_lane(const float* from, float* to, std::size_t rows) noexcept {
 }
 
 inline void Block::save_best(std::size_t lane) const noexcept {
-    if (std::exchange(at(Row::Saved, lane), 1.0f) == 0.0f) copy_lane(joint(1) + lane, best(1) + lane, 3 * bones_);
+    if (std::exchange(at(Row::Saved, lane), 1.0f) == 0.0f)
+        copy_lane(joint(1) + lane, best(1) + lane, 3 * bones_);
 }
 
 /// Lanes of a block, ascending as a rule.

@@ -33,9 +33,9 @@ HWY_INLINE Lanes largest(const Points& p, Lanes so_far) {
     return hn::Max(hn::Max(so_far, hn::Abs(p.x)), hn::Max(hn::Abs(p.y), hn::Abs(p.z)));
 }
 
-/// Whether every bone of a register of chains is surely at its length, and no joint too far out, which follows
-/// from the root and the reach. One pass without a root: |d^2 - l^2| <= 0.9 l a means that d is within 0.9 a
-/// of l. False where some coordinate is not finite.
+/// Whether every bone of a register of chains is surely at its length, and no joint too far out, which
+/// follows from the root and the reach. One pass without a root: |d^2 - l^2| <= 0.9 l a means that d is
+/// within 0.9 a of l. False where some coordinate is not finite.
 HWY_INLINE bool surely_fit(const Block& block, std::size_t i) {
     Points from = load_points(block.joint(0) + i);
     const Lanes furthest = hn::Add(largest(from, zero()), load(block.reach() + i));

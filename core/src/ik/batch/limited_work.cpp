@@ -7,8 +7,8 @@
 namespace tendril::ik::detail {
 
 LimitedOrder Work::limited_order(Scratch& scratch) const noexcept {
-    return {in_.limits->ready, in_.options.max_iterations, scratch.tile.block, scratch.poses.get(),
-            scratch.rotations.get(), scratch.limited.get()};
+    return {in_.limits->ready,   in_.options.max_iterations, scratch.tile.block,
+            scratch.poses.get(), scratch.rotations.get(),    scratch.limited.get()};
 }
 
 void Work::solve_limited_block(const Block& block, std::size_t index, std::size_t lanes,

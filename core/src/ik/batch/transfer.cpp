@@ -75,7 +75,8 @@ HWY_INLINE void lists_out(D d, const float* rows, std::size_t count, float* list
     for (; done + size <= count; done += size) out(done);
     if (done == count) return;
     if constexpr (size > 4) {
-        if (count < size || done + size / 2 > count) return lists_out(hn::Half<D>(), rows, count, lists, done);
+        if (count < size || done + size / 2 > count)
+            return lists_out(hn::Half<D>(), rows, count, lists, done);
     }
     out(count - size);
 }

@@ -31,7 +31,8 @@ struct Order {
     StepScratch step;
 };
 
-/// Rows of what a pose consists of: how each bone is turned against its parent, and which limits it stands at.
+/// Rows of what a pose consists of: how each bone is turned against its parent, and which limits it stands
+/// at.
 inline std::size_t pose_rows(std::size_t bones) noexcept {
     return (4 + 3 + 2) * bones;
 }

@@ -27,7 +27,8 @@ void gather_chains(const Block& from, const LaneList& lanes, const Block& to, st
     gather_lanes(from.length(0), lanes.span(), to.length(0) + at, Block::length_rows(bones));
     gather_lanes(from.target(), lanes.span(), to.target() + at, state_rows);
     for (std::size_t k = 0; k < lanes.count; ++k) {
-        if (to.at(Row::Saved, at + k) != 0.0f) copy_lane(from.best(1) + lanes.lanes[k], to.best(1) + at + k, 3 * bones);
+        if (to.at(Row::Saved, at + k) != 0.0f)
+            copy_lane(from.best(1) + lanes.lanes[k], to.best(1) + at + k, 3 * bones);
     }
 }
 
