@@ -20,9 +20,11 @@ HWY_BEFORE_NAMESPACE();
 namespace tendril::ik::detail {
 namespace HWY_NAMESPACE {
 
-// As in fabrik.cpp and convergence.hpp.
-constexpr std::size_t few_bones = 8;
-constexpr float stall_patience = 10.0f, slow_patience = 2.0f, most_perturbations = 4.0f;
+using namespace tune::chain;
+
+HWY_INLINE Lanes all(int value) {
+    return all(static_cast<float>(value));
+}
 
 /// Which registers of a block have chains to iterate, and whether in each of these all lanes do.
 struct Registers {
@@ -236,10 +238,11 @@ HWY_INLINE Verdict note(const Block& block, std::size_t i, Mask active, Lanes re
     };
     const Lanes one = all(1.0f), last = load(row(Row::Last)), nearest = load(row(Row::Nearest)),
                 best = load(row(Row::Best)), done = hn::Add(load(row(Row::Iterations)), one);
-    const Mask moves = hn::Gt(hn::Abs(hn::Sub(residual, last)), hn::Mul(all(1e-5f), load(block.reach() + i)));
+    const Mask moves =
+        hn::Gt(hn::Abs(hn::Sub(residual, last)), hn::Mul(all(stall_moves), load(block.reach() + i)));
     const Mask progresses = hn::Or(moves, hn::Lt(residual, nearest));
     const Lanes idle = hn::IfThenZeroElse(progresses, hn::Add(load(row(Row::Idle)), one));
-    const Mask is_slow = hn::Gt(residual, hn::Mul(all(0.8f), last));
+    const Mask is_slow = hn::Gt(residual, hn::Mul(all(slow_part), last));
     const Lanes slow = hn::IfThenElseZero(is_slow, hn::Add(load(row(Row::Slow)), one));
     const Mask there = hn::Le(residual, load(row(Row::Tolerance)));
     const Mask nearer = hn::And(active, hn::Lt(residual, best));
@@ -250,9 +253,9 @@ HWY_INLINE Verdict note(const Block& block, std::size_t i, Mask active, Lanes re
     store(hn::IfThenZeroElse(nearer, load(row(Row::Saved))), row(Row::Saved));
 
     const Mask left = hn::And(active, hn::Lt(done, all(static_cast<float>(order.max_iterations))));
-    const Mask stalled = hn::Ge(idle, all(stall_patience));
-    const Mask stuck = hn::Or(stalled, hn::Ge(slow, all(slow_patience)));
-    const Mask may = hn::Lt(load(row(Row::Perturbations)), all(most_perturbations));
+    const Mask stalled = hn::Ge(idle, all(stall_window));
+    const Mask stuck = hn::Or(stalled, hn::Ge(slow, all(slow_window)));
+    const Mask may = hn::Lt(load(row(Row::Perturbations)), all(max_perturbations));
     Verdict verdict;
     verdict.perturb = hn::And(hn::AndNot(there, left), hn::And(stuck, may));
     verdict.goes_on = left;

@@ -11,6 +11,7 @@
 #include <algorithm>
 
 #include "ik/batch/vector.hpp"
+#include "ik/tunables.hpp"
 #include "math/dispatch.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -23,15 +24,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace tendril::ik::detail {
 namespace HWY_NAMESPACE {
-
-// Chosen by measuring: the most iterations that any of 16 chains takes.
-constexpr float first_damping = 2e-2f, min_damping = 1e-8f, max_damping = 1.0f;
-constexpr float first_move = 1.0f;       ///< of the reach, that a step is to bring the tip nearer
-constexpr int most_passes = 3;           ///< in which what the limits stop is found
-constexpr int steps_between_checks = 2;  ///< of who is done
-constexpr int most_iterations = 30;      ///< after that the scalar solver takes over
-constexpr float little = 0.1f;           ///< a gain of less than this part of what is left
-constexpr float patience = 8.0f;         ///< so many times in a row
 
 // What each chain's solve keeps between two steps, in the tile's rows of state.
 constexpr Row row_of_error = Row::Residual, row_of_damping = Row::Best, row_of_move = Row::Nearest,
@@ -48,14 +40,15 @@ HWY_INLINE void begin(const Limb& limb, const float* rotations) {
     store(hn::IfThenElseZero(left, all(static_cast<float>(Activity::Active))), limb.row(Row::Activity));
     store(hn::IfThenElse(left, error_of(limb, limb.pose), load(limb.row(row_of_error))),
           limb.row(row_of_error));
-    store(all(first_damping), limb.row(row_of_damping));
-    store(all(first_move), limb.row(row_of_move));
+    store(all(tune::batch::first_damping), limb.row(row_of_damping));
+    store(all(tune::batch::first_move), limb.row(row_of_move));
     store(zero(), limb.row(row_of_slow));
     store(zero(), limb.row(Row::Iterations));
 }
 
 /// One step of the active chains of a register.
 HWY_INLINE void take_step(Limb& limb, Mask left, float last) {
+    using namespace tune::batch;
     const Lanes error = load(limb.row(row_of_error)), damping = load(limb.row(row_of_damping)),
                 move = load(limb.row(row_of_move)), tolerance = load(limb.row(Row::Tolerance));
     linearize(limb);
@@ -63,7 +56,7 @@ HWY_INLINE void take_step(Limb& limb, Mask left, float last) {
     const Lanes bounded = hn::Min(hn::Mul(error, unit), move);
     const Points wanted =
         times(minus(limb.target(), limb.tip(limb.pose)), hn::Div(bounded, hn::Max(error, all(1e-30f))));
-    for (int pass = 0; pass < most_passes; ++pass) {
+    for (int pass = 0; pass < passes; ++pass) {
         if (!change_joints(limb, matrix_of(limb, damping).solved(wanted), left)) break;
     }
     turn_joints(limb);
@@ -74,15 +67,16 @@ HWY_INLINE void take_step(Limb& limb, Mask left, float last) {
     const auto update = [&](Row which, Lanes yes, Lanes no) {
         store(hn::IfThenElse(left, hn::IfThenElse(nearer, yes, no), load(limb.row(which))), limb.row(which));
     };
-    update(row_of_damping, hn::Max(hn::Mul(damping, all(0.3f)), all(min_damping)),
-           hn::Min(hn::Mul(damping, all(5.0f)), all(max_damping)));
-    update(row_of_move, hn::Min(hn::Mul(move, all(2.0f)), all(1.0f)), hn::Mul(move, all(0.4f)));
+    const auto by = [](Lanes x, float factor) { return hn::Mul(x, all(factor)); };
+    update(row_of_damping, hn::Max(by(damping, damping_falls), all(min_damping)),
+           hn::Min(by(damping, damping_grows), all(max_damping)));
+    update(row_of_move, hn::Min(by(move, move_grows), all(max_move)), by(move, move_falls));
     update(row_of_error, trial, error);
     const Lanes slow = hn::IfThenZeroElse(progresses, hn::Add(load(limb.row(row_of_slow)), all(1.0f)));
     const Lanes done = hn::Add(load(limb.row(Row::Iterations)), all(1.0f));
     update(row_of_slow, slow, slow);
     update(Row::Iterations, done, done);
-    const Mask over = hn::Or(hn::Ge(slow, all(patience)), hn::Ge(done, all(last)));
+    const Mask over = hn::Or(hn::Ge(slow, all(static_cast<float>(patience))), hn::Ge(done, all(last)));
     const Mask ends = hn::And(left, hn::Or(over, hn::Le(load(limb.row(row_of_error)), tolerance)));
     store(hn::IfThenZeroElse(ends, load(limb.row(Row::Activity))), limb.row(Row::Activity));
 }
@@ -122,7 +116,7 @@ HWY_INLINE Mask active(const Limb& limb) {
 }
 
 HWY_INLINE float last_iteration(const LimitedOrder& order) {
-    return static_cast<float>(std::min(order.max_iterations, most_iterations));
+    return static_cast<float>(std::min(order.max_iterations, tune::batch::max_steps));
 }
 
 LaneList solve_limited(const Block& block, std::size_t lanes, float* rotations, std::size_t used,
@@ -153,7 +147,7 @@ void step_limited(std::size_t used, const LimitedOrder& order) {
         for (std::size_t row = 0; row < rows; ++row) limb.pose.rows().set(row, load(at(row)));
         forward_kinematics(limb, limb.pose);
         Mask left = active(limb);
-        for (int step = 0; step < steps_between_checks && any(left); ++step, left = active(limb)) {
+        for (int step = 0; step < tune::batch::steps && any(left); ++step, left = active(limb)) {
             take_step(limb, left, last_iteration(order));
         }
         write_back(limb, left, order.rotations);

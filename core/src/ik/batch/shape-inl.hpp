@@ -12,14 +12,12 @@
 #include <cfloat>
 
 #include "ik/batch/step-inl.hpp"
+#include "ik/tunables.hpp"
 #include "math/rotation.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace tendril::ik::detail {
 namespace HWY_NAMESPACE {
-
-// As in accelerate.cpp.
-constexpr float strong_bend = 1e6f, most_bend = 1e10f;
 
 /// Shapes that differ by t, of each chain; see accelerate.cpp.
 struct Family {
@@ -104,8 +102,8 @@ template <bool keeps_longest>
 HWY_INLINE BestShape fit_shape(const Block& block, std::size_t i, const Family& family, Lanes near,
                                Mask lanes, const Shape& one, const Shape& two) {
     const auto bounded = [](Lanes next) {
-        const Mask fine = hn::And(hn::Ge(next, zero()), hn::Le(next, all(most_bend)));
-        return hn::IfThenElse(fine, next, all(most_bend));  // and not a number: 0 / 0
+        const Mask fine = hn::And(hn::Ge(next, zero()), hn::Le(next, all(tune::chain::max_bend)));
+        return hn::IfThenElse(fine, next, all(tune::chain::max_bend));  // and not a number: 0 / 0
     };
     Lanes low = zero(), at_low = hn::Sub(family.straight, family.wanted);
     Lanes high = all(1.0f), at_high = hn::Sub(family.now, family.wanted);
@@ -129,7 +127,7 @@ HWY_INLINE BestShape fit_shape(const Block& block, std::size_t i, const Family& 
     const Lanes between =
         hn::Add(low, hn::Mul(hn::Sub(high, low), hn::Div(at_low, hn::Sub(at_low, at_high))));
     // Bent as far as seemed enough, and it was not.
-    const Lanes strong = hn::Max(next, all(strong_bend));
+    const Lanes strong = hn::Max(next, all(tune::chain::strong_bend));
     next = bounded(hn::IfThenElse(bracketed, between, strong));
     best.found = hn::Or(best.found, hn::And(again, crosses));
     const Points span = write_shape<keeps_longest>(block, i, family, hn::Sqrt(next), two);

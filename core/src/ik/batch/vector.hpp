@@ -9,6 +9,7 @@
 
 #include "ik/batch/block.hpp"
 #include "ik/batch/limits.hpp"
+#include "ik/tunables.hpp"
 #include "tendril/ik/many.hpp"
 
 namespace tendril::ik::detail {
@@ -52,9 +53,9 @@ struct LimitedOrder {
 
 /// So few chains of a register of `width` are left to the tile.
 inline constexpr std::size_t late_lanes(std::size_t width) noexcept {
-    return width / 4;
+    return static_cast<std::size_t>(static_cast<double>(width) * tune::batch::register_part);
 }
-inline constexpr std::size_t most_late = block_lanes / 4;
+inline constexpr std::size_t most_late = late_lanes(block_lanes);
 
 /// Two poses of one register of chains, and what a step needs of each bone.
 inline std::size_t limited_floats(std::size_t bones) noexcept {

@@ -10,15 +10,7 @@
 namespace tendril::ik::detail {
 namespace {
 
-// Chosen by measuring (tests/bench/ik_many.cpp). To move a chain into the tile costs as much as some three
-// iterations of it.
-constexpr std::size_t few = block_lanes / 2;  ///< fewer active chains than these leave their block
-constexpr int tile_burst = 2;                 ///< iterations between two checks of who in the tile is done
-
-/// Where the accelerated step has its turn in every iteration, nearly all chains need only one.
-int first_burst(std::size_t bones) noexcept {
-    return bones >= 8 ? 1 : 2;
-}
+constexpr auto few = static_cast<std::size_t>(static_cast<double>(block_lanes) * tune::batch::block_part);
 
 /// Whole chains, side by side from a lane on.
 void gather_chains(const Block& from, const LaneList& lanes, const Block& to, std::size_t at) noexcept {
@@ -111,10 +103,11 @@ void Work::return_joints(const Block& block, std::size_t index, std::size_t lane
 /// other blocks.
 void Work::iterate_block(const Block& block, std::size_t lanes, Scratch& scratch) const noexcept {
     const bool alone = in_.options.every_iteration || in_.chains <= block_lanes;
+    const int burst =
+        in_.bones < tune::chain::few_bones ? tune::batch::first_burst_few_bones : tune::batch::first_burst;
     std::size_t active = 0;
     do {
-        active = iterate(block, lanes, alone ? in_.options.max_iterations : first_burst(in_.bones), scratch)
-                     .active;
+        active = iterate(block, lanes, alone ? in_.options.max_iterations : burst, scratch).active;
     } while (active > (alone ? 0 : few));
 }
 
@@ -189,7 +182,7 @@ void Work::put_into_tile(const Block& from, const LaneList& lanes, std::size_t f
 void Work::run_tile(std::size_t most_left, Scratch& scratch) noexcept {
     Tile& tile = scratch.tile;
     while (tile.used > most_left) {
-        iterate(tile.block, tile.used, tile_burst, scratch);
+        iterate(tile.block, tile.used, tune::batch::next_burst, scratch);
         clear_done(tile);
     }
 }
@@ -242,7 +235,7 @@ void Work::report(const Block& block, std::size_t lane, std::size_t chain) noexc
     ManyReport& report = in_.reports[chain];
     const float residual = block.at(Row::Residual, lane);
     const bool there = residual <= block.at(Row::Tolerance, lane);
-    const bool stalled = block.at(Row::Idle, lane) >= 10.0f;  // as in convergence.hpp
+    const bool stalled = block.at(Row::Idle, lane) >= static_cast<float>(tune::chain::stall_window);
     Status status = there ? Status::Converged : stalled ? Status::Stalled : Status::IterationLimit;
     if (found == Class::Straight) status = Status::Stretched;
     if (found == Class::Folded) status = Status::TooClose;
