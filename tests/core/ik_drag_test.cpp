@@ -1,7 +1,7 @@
 // A target that is dragged where limits forbid it: the chain follows without a jump and without searching,
 // and what it remembers for that is part of the state.
 #include "ik_hostile.hpp"
-#include "ik_limit_support.hpp"
+#include "ik_limited_support.hpp"
 
 namespace tendril::test {
 namespace {

@@ -1,6 +1,6 @@
 // Which limit holds the tip back, where it stops and what the target needs.
 #include "ik_hostile.hpp"
-#include "ik_limit_support.hpp"
+#include "ik_limited_support.hpp"
 
 namespace tendril::test {
 namespace {

@@ -1,6 +1,6 @@
 // Whatever comes out is a number, with every option at the ends of its documented range.
 #include "ik_hostile.hpp"
-#include "ik_limit_support.hpp"
+#include "ik_limited_support.hpp"
 
 namespace tendril::test {
 namespace {

@@ -1,14 +1,17 @@
 // Limits measured independently of the library: in double, with matrices instead of quaternions, from the
-// joints and rotations that a solve leaves.
+// joints and rotations that a solve leaves. Who solves for an arm includes ik_limited_support.hpp.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <string>
 
-#include "ik_support.hpp"
+#include "ik_poses.hpp"
+#include "tendril/ik/limit.hpp"
 
 namespace tendril::test {
+
+class KeptSolver;
 
 inline constexpr double degree = 3.14159265358979323846 / 180.0;
 
@@ -32,7 +35,7 @@ struct Arm {
             joints.push_back(joints.back() + rest[i] * lengths[i]);
         return joints;
     }
-    KeptSolver solver() const { return KeptSolver(lengths, rest); }
+    KeptSolver solver() const;
 };
 
 struct Frame {

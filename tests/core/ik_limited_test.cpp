@@ -1,6 +1,6 @@
 // Solves with limits: held whatever comes, arriving from rest, the better kept, steps that replay.
 #include "ik_hostile.hpp"
-#include "ik_limit_support.hpp"
+#include "ik_limited_support.hpp"
 #include "memory.hpp"
 
 namespace tendril::test {

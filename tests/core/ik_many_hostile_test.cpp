@@ -1,5 +1,5 @@
 // solve_many with what is loose, on the move, hostile or out of range; and the batch that it works on.
-#include "ik_many_support.hpp"
+#include "ik_many_scalar.hpp"
 
 namespace tendril::test {
 namespace {

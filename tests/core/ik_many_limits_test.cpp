@@ -1,7 +1,7 @@
 // solve_many within limits: every joint stays within its limit, every tip that the scalar solver brings to
 // its target arrives here too, and what the vector units cannot do is the scalar solver's own answer.
-#include "ik_limit_support.hpp"
-#include "ik_many_support.hpp"
+#include "ik_limited_support.hpp"
+#include "ik_many_scalar.hpp"
 
 namespace tendril::test {
 namespace {

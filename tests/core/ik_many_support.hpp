@@ -1,8 +1,9 @@
-// What the tests of solve_many share: a crowd of chains, solved at once and one by one.
+// What the tests of solve_many share: a crowd of chains, solved at once. One by one: ik_many_scalar.hpp.
 #pragma once
 
 #include <gtest/gtest.h>
-#include "ik_support.hpp"
+
+#include "ik_poses.hpp"
 #include "memory.hpp"
 #include "tendril/ik/many.hpp"
 
@@ -74,26 +75,6 @@ inline Answer solve_many(const Crowd& crowd, const ManyOptions& options, int thr
     Answer answer{{}, std::vector<ManyReport>(crowd.size())};
     ik::solve_many(batch, crowd.targets, answer.reports, options);
     answer.joints = joints_of(batch);
-    return answer;
-}
-
-inline ManyReport many_report(const ik::Report& report) {
-    return {report.status, false, report.iterations, report.residual};
-}
-
-inline Answer solve_each(const Crowd& crowd, const ManyOptions& many,
-                         ik::Method method = ik::Method::Fabrik) {
-    ik::Options options;
-    options.tolerance = many.tolerance;
-    options.max_iterations = many.max_iterations;
-    options.every_iteration = many.every_iteration;
-    Answer answer;
-    for (std::size_t i = 0; i < crowd.size(); ++i) {
-        Joints joints = crowd.joints[i];
-        KeptSolver solver(crowd.lengths[i]);
-        answer.reports.push_back(many_report(solver.solve(method, joints, crowd.targets[i], options)));
-        answer.joints.push_back(std::move(joints));
-    }
     return answer;
 }
 

@@ -1,6 +1,6 @@
 // solve_many against the scalar solver: the same bits, whatever the vector unit, the number of threads, and
 // the company that a chain is in.
-#include "ik_many_support.hpp"
+#include "ik_many_scalar.hpp"
 
 namespace tendril::test {
 namespace {

@@ -2,7 +2,7 @@
 // that it does not honour changes nothing in any.
 #include <cstring>
 
-#include "ik_limit_support.hpp"
+#include "ik_limited_support.hpp"
 
 namespace tendril::test {
 namespace {

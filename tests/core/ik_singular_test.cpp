@@ -1,7 +1,7 @@
 // Chains that lie on a line with their target, within limits: every method that descends leaves the line
 // where the limits let it, and no limit is blamed where none holds the tip.
 #include "ik_hostile.hpp"
-#include "ik_limit_support.hpp"
+#include "ik_limited_support.hpp"
 
 namespace tendril::test {
 namespace {

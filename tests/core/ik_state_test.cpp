@@ -1,7 +1,7 @@
 // What a solver remembers is a value: copied and put back, the same solves give the same bits.
 #include <cstring>
 
-#include "ik_limit_support.hpp"
+#include "ik_limited_support.hpp"
 
 namespace tendril::test {
 namespace {

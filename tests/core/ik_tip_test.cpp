@@ -1,6 +1,6 @@
 // The last bone turned as asked, with and without limits.
 #include "ik_hostile.hpp"
-#include "ik_limit_support.hpp"
+#include "ik_limited_support.hpp"
 #include "memory.hpp"
 
 namespace tendril::test {

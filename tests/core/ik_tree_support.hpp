@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "chain_support.hpp"
-#include "kept_solver.hpp"
 #include "random.hpp"
 #include "tendril/ik/tree.hpp"
 

@@ -2,7 +2,7 @@
 #include <stdexcept>
 
 #include "ik_tree_support.hpp"
-#include "tendril/ik/solver.hpp"
+#include "kept_solver.hpp"
 
 namespace tendril::test {
 namespace {

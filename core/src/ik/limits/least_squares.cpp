@@ -4,7 +4,6 @@
 
 #include "ik/limits/pose.hpp"
 #include "ik/tunables.hpp"
-#include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 namespace {
@@ -108,8 +107,8 @@ Wanted wanted_of(const Problem& problem) noexcept {
     wanted.move = times(minus(problem.target, pose.joints[problem.bones()]), unit_length);
     // A target far out of reach says no more than its direction.
     if (const float far = length(wanted.move); far > 1.0f) wanted.move = times(wanted.move, 1.0f / far);
-    if (problem.options.tip_orientation) {
-        wanted.rotation = times(orientation_error(problem, pose), unit_length);
+    if (const std::optional<glm::vec3> error = orientation_error(problem, pose)) {
+        wanted.rotation = times(*error, unit_length);
         wanted.scale = tune::limits::orientation_arm;
     }
     return wanted;

@@ -38,9 +38,8 @@ float residual_of(const Problem& problem) noexcept {
 }
 
 bool is_turned(const Problem& problem) noexcept {
-    if (!problem.options.tip_orientation) return true;
-    const glm::vec3 rotation = orientation_error(problem, problem.scratch.limited.pose);
-    return length(rotation) <= orientation_tolerance * orientation_arm * problem.scratch.reach;
+    const std::optional<glm::vec3> rotation = orientation_error(problem, problem.scratch.limited.pose);
+    return !rotation || length(*rotation) <= orientation_tolerance * orientation_arm * problem.scratch.reach;
 }
 
 /// The tip is where it should be, or as near as any pose brings it.
@@ -130,7 +129,7 @@ Attempt prepare(Method method, Problem& problem, Watch watch) noexcept {
     scratch.best = scratch.pose;
     if (problem.options.snap_back > 0.0f) {
         commit(problem);
-        snap_back(problem, watch);
+        snap_back(problem, problem.options.snap_back, watch);
         load_pose(problem, watch);
     }
     detect_drag(method, problem, as_left, attempt);

@@ -2,6 +2,7 @@
 
 #include "ik/limits/least_squares.hpp"
 #include "ik/limits/pose.hpp"
+#include "ik/pole/pole.hpp"
 #include "ik/solve/perturbation.hpp"
 #include "ik/tunables.hpp"
 

@@ -14,7 +14,8 @@ glm::vec3 rotation_vector(const glm::quat& rotation) noexcept {
     return times(vector, angle / sine);
 }
 
-glm::vec3 orientation_error(const Problem& problem, const LimitedPose& pose) noexcept {
+std::optional<glm::vec3> orientation_error(const Problem& problem, const LimitedPose& pose) noexcept {
+    if (!problem.options.tip_orientation) return std::nullopt;
     const glm::quat& last = pose.rotations[problem.bones() - 1];
     const glm::quat left = compose(unit(*problem.options.tip_orientation), conjugate(last));
     return times(rotation_vector(left), tune::limits::orientation_arm * problem.scratch.reach);
@@ -22,9 +23,8 @@ glm::vec3 orientation_error(const Problem& problem, const LimitedPose& pose) noe
 
 float error_of(const Problem& problem, const LimitedPose& pose) noexcept {
     const float squared = squared_distance(pose.joints[problem.bones()], problem.target);
-    if (!problem.options.tip_orientation) return std::sqrt(squared);
-    const glm::vec3 rotation = orientation_error(problem, pose);
-    return std::sqrt(squared + dot(rotation, rotation));
+    const std::optional<glm::vec3> rotation = orientation_error(problem, pose);
+    return std::sqrt(rotation ? squared + dot(*rotation, *rotation) : squared);
 }
 
 float furthest_moved(const Problem& problem, const LimitedPose& from, const LimitedPose& to) noexcept {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "ik/limits/clamp.hpp"
@@ -55,8 +56,9 @@ glm::vec3 rotation_vector(const glm::quat& rotation) noexcept;
 /// How far the pose is from what is asked, metres: the distance of the tip, and with a tip orientation also
 /// the angle of the last bone, as if seen at a quarter of the reach.
 float error_of(const Problem& problem, const LimitedPose& pose) noexcept;
-/// The rotation from how the last bone is turned to how it should be, times that quarter of the reach.
-glm::vec3 orientation_error(const Problem& problem, const LimitedPose& pose) noexcept;
+/// The rotation from how the last bone is turned to how it should be, times that quarter of the reach; none
+/// where no tip orientation is asked for.
+std::optional<glm::vec3> orientation_error(const Problem& problem, const LimitedPose& pose) noexcept;
 
 /// How far the joint that moved most is from where it was in another pose, metres.
 float furthest_moved(const Problem& problem, const LimitedPose& from, const LimitedPose& to) noexcept;

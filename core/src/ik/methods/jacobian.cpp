@@ -7,7 +7,6 @@
 #include "ik/methods/rotations.hpp"
 #include "ik/tunables.hpp"
 #include "math/symmetric3.hpp"
-#include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 namespace {
@@ -23,7 +22,7 @@ struct Linear {
     double damping;    ///< l^2
 };
 
-Linear linear(const Problem& problem, double unit) noexcept {
+Linear linear(const Problem& problem, double unit, double l) noexcept {
     Symmetric3 m;
     const glm::dvec3 tip = wide(problem.joints.back());
     for (std::size_t i = 0; i < problem.bones(); ++i) {
@@ -33,7 +32,6 @@ Linear linear(const Problem& problem, double unit) noexcept {
     glm::dvec3 error = times(minus(wide(problem.target), tip), unit);
     const double size = length(error);
     if (size > max_error) error = times(error, max_error / size);
-    const double l = static_cast<double>(problem.options.damping);
     return {m, error, std::max(l * l * std::min(size, 1.0), min_damping * trace(m))};
 }
 
@@ -80,10 +78,10 @@ void find_rotations(Problem& problem, const glm::dvec3& force, double unit) noex
 }
 
 template <class Watch, class Method>
-void iteration(Problem& problem, Method method, Watch watch) noexcept {
+void iteration(Problem& problem, Method method, float damping, Watch watch) noexcept {
     if (!(problem.scratch.reach > FLT_MIN)) return;
     const double unit = 1.0 / static_cast<double>(problem.scratch.reach);
-    const glm::dvec3 force = method(linear(problem, unit));
+    const glm::dvec3 force = method(linear(problem, unit, static_cast<double>(damping)));
     if (!(dot(force, force) > 0.0)) return;
     find_rotations(problem, force, unit);
     if constexpr (Watch::watching) {
@@ -103,22 +101,22 @@ void iteration(Problem& problem, Method method, Watch watch) noexcept {
 
 template <class Watch>
 void jacobian_transpose_iteration(Problem& problem, Watch watch) noexcept {
-    iteration(problem, transpose, watch);
+    iteration(problem, transpose, 0.0f, watch);
 }
 template <class Watch>
-void dls_iteration(Problem& problem, Watch watch) noexcept {
-    iteration(problem, damped, watch);
+void dls_iteration(Problem& problem, float damping, Watch watch) noexcept {
+    iteration(problem, damped, damping, watch);
 }
 template <class Watch>
-void svd_dls_iteration(Problem& problem, Watch watch) noexcept {
-    iteration(problem, filtered, watch);
+void svd_dls_iteration(Problem& problem, float damping, Watch watch) noexcept {
+    iteration(problem, filtered, damping, watch);
 }
 
 template void jacobian_transpose_iteration(Problem&, Unwatched) noexcept;
 template void jacobian_transpose_iteration(Problem&, Watched) noexcept;
-template void dls_iteration(Problem&, Unwatched) noexcept;
-template void dls_iteration(Problem&, Watched) noexcept;
-template void svd_dls_iteration(Problem&, Unwatched) noexcept;
-template void svd_dls_iteration(Problem&, Watched) noexcept;
+template void dls_iteration(Problem&, float, Unwatched) noexcept;
+template void dls_iteration(Problem&, float, Watched) noexcept;
+template void svd_dls_iteration(Problem&, float, Unwatched) noexcept;
+template void svd_dls_iteration(Problem&, float, Watched) noexcept;
 
 }  // namespace tendril::ik::detail

@@ -42,9 +42,10 @@ namespace tendril::ik::detail {
 
 template <class Watch>
 void jacobian_transpose_iteration(Problem& problem, Watch watch) noexcept;
+/// `damping`: that of the options, as part of the reach.
 template <class Watch>
-void dls_iteration(Problem& problem, Watch watch) noexcept;
+void dls_iteration(Problem& problem, float damping, Watch watch) noexcept;
 template <class Watch>
-void svd_dls_iteration(Problem& problem, Watch watch) noexcept;
+void svd_dls_iteration(Problem& problem, float damping, Watch watch) noexcept;
 
 }  // namespace tendril::ik::detail

@@ -259,6 +259,16 @@ void face_pole(Problem& problem, Watch watch) noexcept {
     remember_pose(problem);
 }
 
+glm::vec3 side_of(const Problem& problem, const glm::vec3& line) noexcept {
+    if (problem.options.pole) {
+        const glm::vec3 arm = minus(*problem.options.pole, problem.root());
+        const glm::vec3 off = minus(arm, times(line, dot(arm, line)));
+        const float far = length(off);
+        if (far > 1e-5f * problem.scratch.reach) return times(off, 1.0f / far);
+    }
+    return perpendicular(line);
+}
+
 template void transport_to_pole(Problem&, Unwatched) noexcept;
 template void transport_to_pole(Problem&, Watched) noexcept;
 template bool bend_to_pole(Problem&, Unwatched) noexcept;

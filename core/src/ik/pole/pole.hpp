@@ -52,6 +52,10 @@ void transport_to_pole(Problem& problem, Watch watch) noexcept;
 template <class Watch>
 bool bend_to_pole(Problem& problem, Watch watch) noexcept;
 
+/// To which side of the line that it lies on a chain is bent: at right angles to it, towards the pole if it
+/// shows a side.
+glm::vec3 side_of(const Problem& problem, const glm::vec3& line) noexcept;
+
 /// After the last iteration: turns the middle joints to the pole and remembers the pose. The tip stays.
 template <class Watch>
 void face_pole(Problem& problem, Watch watch) noexcept;

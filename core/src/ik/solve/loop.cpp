@@ -37,9 +37,9 @@ void iterate(Method method, Problem& problem, Watch watch) noexcept {
         case Method::JacobianTranspose:
             return jacobian_transpose_iteration(problem, watch);
         case Method::Dls:
-            return dls_iteration(problem, watch);
+            return dls_iteration(problem, problem.options.damping, watch);
         case Method::SvdDls:
-            return svd_dls_iteration(problem, watch);
+            return svd_dls_iteration(problem, problem.options.damping, watch);
         case Method::TwoBone:
             return;  // does not iterate
     }
@@ -77,7 +77,7 @@ void report_iteration(const Problem& problem, const glm::vec3& goal, float resid
 template <class Watch>
 void prepare(Method method, Problem& problem, Watch watch) noexcept {
     save(problem);
-    snap_back(problem, watch);
+    snap_back(problem, problem.options.snap_back, watch);
     if (residual_of(problem) <= problem.tolerance) return;
     bool bent = bend_to_pole(problem, watch);
     if (!bent && method != Method::FabrikPlain && is_collinear(problem)) {

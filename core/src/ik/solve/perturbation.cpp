@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "ik/math.hpp"
+#include "ik/pole/pole.hpp"
 #include "ik/tunables.hpp"
-#include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 namespace {
@@ -45,16 +45,6 @@ glm::vec3 line_of(const Problem& problem) noexcept {
     }
     const float far = length(line);
     return far > FLT_MIN ? times(line, 1.0f / far) : problem.scratch.rest_directions.front();
-}
-
-glm::vec3 side_of(const Problem& problem, const glm::vec3& line) noexcept {
-    if (problem.options.pole) {
-        const glm::vec3 arm = minus(*problem.options.pole, problem.root());
-        const glm::vec3 off = minus(arm, times(line, dot(arm, line)));
-        const float far = length(off);
-        if (far > 1e-5f * problem.scratch.reach) return times(off, 1.0f / far);
-    }
-    return perpendicular(line);
 }
 
 float scattered(std::size_t bone, std::uint32_t salt) noexcept {

@@ -11,9 +11,6 @@ namespace tendril::ik::detail {
 /// From the root to what is furthest from it: no other choice is as little bent by rounding.
 glm::vec3 line_of(const Problem& problem) noexcept;
 
-/// At right angles to the line, towards the pole if it shows a side.
-glm::vec3 side_of(const Problem& problem, const glm::vec3& line) noexcept;
-
 /// -1 to 1, without a pattern that a shape could fit.
 float scattered(std::size_t bone, std::uint32_t salt) noexcept;
 

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "ik/math.hpp"
-#include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {
 namespace {
@@ -56,8 +55,7 @@ void enforce_lengths(Problem& problem, Watch watch) noexcept {
 }
 
 template <class Watch>
-void snap_back(Problem& problem, Watch watch) noexcept {
-    const float part = problem.options.snap_back;
+void snap_back(Problem& problem, float part, Watch watch) noexcept {
     if (part == 0.0f) return;
     for (std::size_t i = 1; i < problem.joints.size(); ++i) {
         const float length = problem.lengths()[i - 1];
@@ -69,7 +67,7 @@ void snap_back(Problem& problem, Watch watch) noexcept {
 
 template void enforce_lengths(Problem&, Unwatched) noexcept;
 template void enforce_lengths(Problem&, Watched) noexcept;
-template void snap_back(Problem&, Unwatched) noexcept;
-template void snap_back(Problem&, Watched) noexcept;
+template void snap_back(Problem&, float, Unwatched) noexcept;
+template void snap_back(Problem&, float, Watched) noexcept;
 
 }  // namespace tendril::ik::detail

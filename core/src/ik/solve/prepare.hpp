@@ -11,8 +11,8 @@ namespace tendril::ik::detail {
 template <class Watch>
 void enforce_lengths(Problem& problem, Watch watch) noexcept;
 
-/// Each joint is blended by options.snap_back towards its rest direction from the one before.
+/// Each joint is blended by `part`, 0 to 1, towards its rest direction from the one before.
 template <class Watch>
-void snap_back(Problem& problem, Watch watch) noexcept;
+void snap_back(Problem& problem, float part, Watch watch) noexcept;
 
 }  // namespace tendril::ik::detail

@@ -1,0 +1,31 @@
+// A crowd solved one by one by the scalar solver, to compare with.
+#pragma once
+
+#include <utility>
+
+#include "ik_many_support.hpp"
+#include "ik_support.hpp"
+
+namespace tendril::test {
+
+inline ManyReport many_report(const ik::Report& report) {
+    return {report.status, false, report.iterations, report.residual};
+}
+
+inline Answer solve_each(const Crowd& crowd, const ManyOptions& many,
+                         ik::Method method = ik::Method::Fabrik) {
+    ik::Options options;
+    options.tolerance = many.tolerance;
+    options.max_iterations = many.max_iterations;
+    options.every_iteration = many.every_iteration;
+    Answer answer;
+    for (std::size_t i = 0; i < crowd.size(); ++i) {
+        Joints joints = crowd.joints[i];
+        KeptSolver solver(crowd.lengths[i]);
+        answer.reports.push_back(many_report(solver.solve(method, joints, crowd.targets[i], options)));
+        answer.joints.push_back(std::move(joints));
+    }
+    return answer;
+}
+
+}  // namespace tendril::test
