@@ -4,47 +4,15 @@
 #pragma once
 
 #include <functional>
-#include <glm/gtc/quaternion.hpp>
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "app/document/argument.hpp"
 #include "app/document/refused.hpp"
 #include "app/document/workspace.hpp"
 
 namespace tendril::app {
-
-/// NumberOrPoint: one number, or three. Rotation: a unit quaternion [x, y, z, w], or degrees about X, then Y,
-/// then Z.
-enum class ArgumentType { Number, Integer, Boolean, Text, Point, NumberOrPoint, Rotation };
-
-struct Argument {
-    std::string name;
-    ArgumentType type = ArgumentType::Number;
-    bool required = true;
-    std::string help{};
-    double low = -1e9, high = 1e9;       ///< for numbers and integers
-    std::vector<std::string> choices{};  ///< for texts; empty: any
-};
-
-/// Arguments that have been checked against their command: present where required, of the right type, finite
-/// and in range.
-class Arguments {
-  public:
-    explicit Arguments(const Json& json) : json_(json) {}
-    bool has(const char* name) const;
-    float number(const char* name) const;
-    int integer(const char* name) const;
-    bool boolean(const char* name) const;
-    std::string text(const char* name) const;
-    glm::vec3 point(const char* name) const;
-    bool is_point(const char* name) const;       ///< of a NumberOrPoint
-    glm::quat rotation(const char* name) const;  ///< of unit length
-
-  private:
-    const Json& json_;
-};
 
 /// What a command does to the history.
 enum class Effect {

@@ -1,7 +1,7 @@
 #include "app/script/player.hpp"
 
-#include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
+#include "app/document/refused.hpp"
 
 namespace tendril::app {
 namespace {

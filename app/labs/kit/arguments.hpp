@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/document/command.hpp"
+#include "app/document/argument.hpp"
 #include "app/labs/kit/names.hpp"
 
 namespace tendril::app {

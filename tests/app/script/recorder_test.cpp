@@ -44,7 +44,7 @@ TEST(Recorder, says_which_file_and_which_scale_it_started_from_where_there_is_an
                              .path = "walk.json",
                              .modified = true,
                              .scale = 2.0f};
-    const Script script = parse_script(Recorder(beginning).text(), CommandTable());
+    const Script script = parse(Recorder(beginning).text());
     ASSERT_TRUE(script.start);
     EXPECT_EQ(script.start->path, "walk.json");
     EXPECT_TRUE(script.start->modified);

@@ -3,26 +3,14 @@
 
 #include <random>
 #include <string>
+#include <string_view>
 
-#include "app/document/command.hpp"
 #include "app/script/script.hpp"
 
 namespace tendril::test {
 
-inline app::CommandTable make_commands() {
-    app::CommandTable table;
-    for (const char* name : {"chain.add", "chain.mode", "undo"}) {
-        app::Command command;
-        command.name = name;
-        command.apply = [](app::Workspace&, const app::Arguments&) {};
-        table.add(std::move(command));
-    }
-    return table;
-}
-
-inline app::Script parse(std::string_view text) {
-    return app::parse_script(text, make_commands());
-}
+/// Of lines with the commands chain.add, chain.mode and undo, which do nothing.
+app::Script parse(std::string_view text);
 
 /// Any event that leaves a line, with any value that the window could give.
 inline app::Event random_event(std::mt19937& random) {
