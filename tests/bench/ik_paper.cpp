@@ -1,11 +1,19 @@
 // The table of Aristidou and Lasenby 2011, measured as `tendril paper` does, and where Orocos KDL is
-// installed a row for its Levenberg-Marquardt solver: the time is that of one solve.
-#include <benchmark/benchmark.h>
-
+// installed a row for its Levenberg-Marquardt solver.
+//
+//     tendril_bench_ik_paper            the tables and one line per claim
+//     tendril_bench_ik_paper --check    the same, and exit code 1 when a claim does not hold
+//
+// Claims, as the paper found it: FABRIK solves every target, in reach and out of it, and does so in fewer
+// iterations and less time than CCD, the Jacobian transpose and damped least squares with and without SVD.
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
+#include <vector>
 
 #include "app/batch/paper.hpp"
+#include "measure.hpp"
 
 #ifdef TENDRIL_HAS_KDL
 #include <kdl/chain.hpp>
@@ -16,34 +24,7 @@
 namespace {
 
 using namespace tendril;
-
-void show(benchmark::State& state, const std::string& name, const app::PaperTargets& targets,
-          const app::PaperSolve& solve) {
-    for ([[maybe_unused]] auto once : state) {
-        const auto row = app::measure(targets, solve, [](double) { return true; });
-        state.SetIterationTime(row->microseconds * 1e-6);
-        state.counters["solved"] = row->solved;
-        state.counters["mean_its"] = row->mean_iterations;
-        state.counters["median_its"] = row->median_iterations;
-        state.counters["ns_per_it"] = row->nanoseconds.value_or(0.0);
-    }
-    state.SetLabel(std::string(targets.name) + ", " + name);
-}
-
-app::PaperTargets targets_of(const benchmark::State& state) {
-    return state.range(0) == 0 ? app::reachable_targets() : app::unreachable_targets();
-}
-
-void paper(benchmark::State& state) {
-    const auto method = app::paper_methods()[static_cast<std::size_t>(state.range(1))];
-    show(state, ik::name(method), targets_of(state), app::paper_solver(method));
-}
-BENCHMARK(paper)
-    ->ArgsProduct({{0, 1}, benchmark::CreateDenseRange(0, 5, 1)})
-    ->ArgNames({"unreachable", "solver"})
-    ->Iterations(1)
-    ->UseManualTime()
-    ->Unit(benchmark::kMicrosecond);
+using tendril::bench::claim;
 
 #ifdef TENDRIL_HAS_KDL
 
@@ -109,17 +90,69 @@ class Kdl {
     KDL::JntArray start_{3 * app::paper_bones}, answer_{3 * app::paper_bones};
 };
 
-void paper_kdl(benchmark::State& state) {
-    Kdl kdl;
-    show(state, "KDL LMA", targets_of(state), std::ref(kdl));
-}
-BENCHMARK(paper_kdl)
-    ->DenseRange(0, 1)
-    ->ArgName("unreachable")
-    ->Iterations(1)
-    ->UseManualTime()
-    ->Unit(benchmark::kMicrosecond);
-
 #endif
 
+struct Row {
+    std::string name;
+    app::PaperRow measured;
+};
+
+Row print_row(const std::string& name, const app::PaperTargets& targets, const app::PaperSolve& solve) {
+    const app::PaperRow row = *app::measure(targets, solve, [](double) { return true; });
+    std::printf("%-20s %8.1f %% %14.2f %8.0f %12.3f", name.c_str(), 100.0 * row.solved, row.mean_iterations,
+                row.median_iterations, row.microseconds);
+    if (row.nanoseconds) std::printf(" %14.0f", *row.nanoseconds);
+    std::printf("\n");
+    return {name, row};
+}
+
+/// FABRIK's row first.
+std::vector<Row> table(const app::PaperTargets& targets) {
+    std::printf("%s targets\n%-20s %10s %14s %8s %12s %14s\n", targets.name, "", "solved", "iterations",
+                "median", "us a solve", "ns an iteration");
+    std::vector<Row> rows;
+    for (const ik::Method method : app::paper_methods())
+        rows.push_back(print_row(ik::name(method), targets, app::paper_solver(method)));
+#ifdef TENDRIL_HAS_KDL
+    Kdl kdl;
+    rows.push_back(print_row("KDL LMA", targets, std::ref(kdl)));
+#endif
+    std::printf("\n");
+    return rows;
+}
+
+bool is_fabrik(const Row& row) {
+    return row.name == ik::name(ik::Method::Fabrik) || row.name == ik::name(ik::Method::FabrikPlain);
+}
+
+/// The least of what the other families need, over what FABRIK needs.
+double least_ratio(const std::vector<Row>& rows, double app::PaperRow::*what) {
+    double least = 1e9;
+    for (const Row& row : rows) {
+        if (is_fabrik(row)) continue;
+        least = std::min(least, row.measured.*what / rows.front().measured.*what);
+    }
+    return least;
+}
+
 }  // namespace
+
+int main(int count, char** arguments) {
+    const std::vector<Row> reachable = table(app::reachable_targets());
+    const std::vector<Row> unreachable = table(app::unreachable_targets());
+    bool all = claim("reachable targets that fabrik solves, percent",
+                     100.0 * reachable.front().measured.solved, 100.0);
+    all &= claim("unreachable targets that fabrik solves, percent",
+                 100.0 * unreachable.front().measured.solved, 100.0);
+    all &= claim("iterations of the next method over those of fabrik",
+                 least_ratio(reachable, &app::PaperRow::mean_iterations), 4.0);
+    all &= claim("time of the next method over that of fabrik",
+                 least_ratio(reachable, &app::PaperRow::microseconds), 3.0);
+#ifdef TENDRIL_HAS_KDL
+    all &= claim("time of KDL's LMA over that of fabrik, reachable",
+                 reachable.back().measured.microseconds / reachable.front().measured.microseconds, 30.0);
+    all &= claim("the same, unreachable",
+                 unreachable.back().measured.microseconds / unreachable.front().measured.microseconds, 30.0);
+#endif
+    return all || !bench::has_flag(count, arguments, "--check") ? 0 : 1;
+}
