@@ -56,6 +56,8 @@ glm::vec3 rotation_vector(const glm::quat& rotation) noexcept;
 /// How far the pose is from what is asked, metres: the distance of the tip, and with a tip orientation also
 /// the angle of the last bone, as if seen at a quarter of the reach.
 float error_of(const Problem& problem, const LimitedPose& pose) noexcept;
+/// How the last bone must be turned in the end; none where no tip orientation is asked for.
+std::optional<glm::quat> asked_orientation(const Problem& problem) noexcept;
 /// The rotation from how the last bone is turned to how it should be, times that quarter of the reach; none
 /// where no tip orientation is asked for.
 std::optional<glm::vec3> orientation_error(const Problem& problem, const LimitedPose& pose) noexcept;
