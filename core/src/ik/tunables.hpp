@@ -63,7 +63,7 @@ namespace jacobian {
 inline constexpr double max_error = 0.5;
 /// Radians, for the same reason. Without: 6.0 instead of 5.4 from a straight pose, otherwise the same.
 inline constexpr double max_rotation = 1.0;
-/// Of the reach: from this singular value down the SVD is damped (jacobian.hpp).
+/// Of the reach: from this singular value down the SVD is damped (jacobian.cpp).
 inline constexpr double small_singular = 0.4;
 
 }  // namespace jacobian

@@ -74,7 +74,7 @@ Eigen3 eigen(const Symmetric3& m) noexcept;
 
 /// m^-1 v, but damped along eigenvectors whose singular value is under `small`: by (1 - (s / small)^2) times
 /// `damping`, and by `floor` at least, so that what m has not got comes out as nothing rather than vast (the
-/// law of S. Chiaverini, B. Siciliano, O. Egeland 1994, see ik/methods/jacobian.hpp).
+/// law of S. Chiaverini, B. Siciliano, O. Egeland 1994, see ik/methods/jacobian.cpp).
 glm::dvec3 filtered_solution(const Symmetric3& m, const glm::dvec3& v, double damping, double small,
                              double floor) noexcept;
 

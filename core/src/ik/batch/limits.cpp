@@ -16,7 +16,7 @@ HalfRange half_range(float min, float max) noexcept {
     return {std::sin(0.5f * std::clamp(min, -pi, pi)), std::sin(0.5f * std::clamp(max, -pi, pi)), whole};
 }
 
-/// As keep_from_half_turn (limits/pose.cpp): a bone that points straight back shows neither its twist nor to
+/// As solvable_joint (limits/joint.cpp): a bone that points straight back shows neither its twist nor to
 /// which side it swung.
 float inverse_square(float half_angle) noexcept {
     const float angle = std::min(half_angle, pi - 0.02f);

@@ -1,4 +1,4 @@
-// The step that makes FABRIK fast near full reach (methods/accelerate.hpp) for a register of chains: the same
+// The step that makes FABRIK fast near full reach (methods/accelerate.cpp) for a register of chains: the same
 // operations in the same order as there, so the same bits. Where the scalar code branches, each lane takes
 // its own side by a mask; and what only some chains need is run where a register has one of them. Not
 // installed; it is included once for each vector unit.

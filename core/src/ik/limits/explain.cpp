@@ -7,6 +7,7 @@
 
 #include "ik/limits/loop.hpp"
 #include "ik/limits/pose.hpp"
+#include "ik/limits/range.hpp"
 #include "ik/solve/parts.hpp"
 #include "ik/solve/validate.hpp"
 #include "ik/tunables.hpp"
@@ -19,234 +20,165 @@ using namespace detail::tune::explain;
 
 namespace {
 
-/// How a joint stands after the solve with some limits, and how far the tip is then.
+/// What freeing a joint leads to: how far the tip is then, how the joint stands, and by how much that leaves
+/// its own limit.
 struct Outcome {
+    std::size_t joint = no_joint;
     float error = 0.0f;
     JointAngles angles;
+    float over = 0.0f;
 };
 
-/// All the freedom that a joint can have on the side on which it stands at its limit. Both sides at once
-/// would let it turn the other way round to the same place.
-Limit opened(Limit limit, const JointAngles& angles) noexcept {
-    const bool hinge = limit.kind == JointKind::Hinge;
-    float& maximum = hinge ? limit.max : limit.twist_max;
-    float& minimum = hinge ? limit.min : limit.twist_min;
-    const float angle = hinge ? angles.up : angles.twist;
-    const bool upper = angle >= maximum - 2.0f * at_bound, lower = angle <= minimum + 2.0f * at_bound;
-    if (upper) maximum = pi;
-    if (lower && !upper) minimum = -pi;
-    limit.up = limit.down = limit.left = limit.right = pi;
-    return limit;
-}
+class Explanation {
+  public:
+    /// `joints` are scratch too; the solver's `saved` is the state.
+    Explanation(Workspace& scratch, std::span<glm::vec3> joints, const glm::vec3& target,
+                const Options& options) noexcept
+        : scratch_(scratch), limited_(scratch.limited), joints_(joints), target_(target), options_(options) {}
 
-/// For a joint without any freedom, the other side.
-Limit mirrored(Limit limit) noexcept {
-    const bool hinge = limit.kind == JointKind::Hinge;
-    (hinge ? limit.max : limit.twist_max) = hinge ? limit.min : limit.twist_min;
-    (hinge ? limit.min : limit.twist_min) = -pi;
-    limit.up = limit.down = limit.left = limit.right = pi;
-    return limit;
-}
+    std::optional<ActiveLimit> find() noexcept;
 
-/// Range for these angles: all of it for `part` = 1, none beyond the limit's own for 0.
-Limit widened(Limit limit, const JointAngles& angles, float part) noexcept {
-    const auto up_to = [part](float& bound, float angle) {
-        bound += part * std::max(std::min(angle, pi) - bound, 0.0f);
-    };
-    const auto down_to = [part](float& bound, float angle) {
-        bound += part * std::min(std::max(angle, -pi) - bound, 0.0f);
-    };
-    if (limit.kind == JointKind::Hinge) {
-        up_to(limit.max, angles.up);
-        down_to(limit.min, angles.up);
-        return limit;
+  private:
+    float solve_on(std::span<const Limit> limits) noexcept;
+    float stopped(std::size_t joint) const noexcept;
+    void find_candidates() noexcept;
+    Outcome with(std::size_t joint, const Limit& limit) noexcept;
+    Outcome freed(std::size_t joint) noexcept;
+    Outcome best_freed() noexcept;
+    JointAngles needed_angles(const Outcome& freed) noexcept;
+    LimitedJoint limit_of(std::size_t joint) const noexcept {
+        return limited_joint(options_.limits[joint], scratch_.rest_directions[joint]);
     }
-    constexpr float diagonal = 1.42f;  // an ellipse with these half-axes has the angles inside
-    up_to(limit.up, diagonal * angles.up);
-    up_to(limit.down, -diagonal * angles.up);
-    up_to(limit.left, diagonal * angles.left);
-    up_to(limit.right, -diagonal * angles.left);
-    up_to(limit.twist_max, angles.twist);
-    down_to(limit.twist_min, angles.twist);
-    return limit;
-}
+    /// Errors up to this count as there.
+    float there() const noexcept { return fine * scratch_.reach; }
 
-/// Solves on from the pose that is to be explained, with one limit replaced.
-Outcome outcome(Workspace& scratch, std::span<glm::vec3> joints, glm::vec3 target, const Options& options,
-                std::size_t joint, const Limit& limit) noexcept {
-    LimitedScratch& limited = scratch.limited;
-    std::copy(limited.saved.joints.begin(), limited.saved.joints.end(), joints.begin());
-    std::copy(limited.saved.rotations.begin(), limited.saved.rotations.end(),
-              scratch.saved.rotations.begin());
-    std::copy(options.limits.begin(), options.limits.end(), limited.freed.begin());
-    limited.freed[joint] = limit;
-    load_limits(scratch, limited.freed);
-    Options freed;
-    freed.max_iterations = iterations;
-    freed.limits = limited.freed;
-    freed.tip_orientation = options.tip_orientation;
-    scratch.saved.limits = {};
-    Problem problem{joints, target, fine * scratch.reach, freed, scratch, scratch.saved};
+    Workspace& scratch_;
+    LimitedScratch& limited_;
+    std::span<glm::vec3> joints_;
+    glm::vec3 target_;
+    const Options& options_;
+    float start_ = 0.0f;  ///< the error of the best pose within all limits
+    struct Candidate {
+        std::size_t joint = no_joint;
+        float stopped = 0.0f;
+    };
+    std::array<Candidate, max_candidates> candidates_{};  ///< those that stop most first
+};
+
+/// By the default method; the error that is left.
+float Explanation::solve_on(std::span<const Limit> limits) noexcept {
+    Options options;
+    options.max_iterations = iterations;
+    options.limits = limits;
+    options.tip_orientation = options_.tip_orientation;
+    load_limits(scratch_, limits);
+    scratch_.saved.limits = {};
+    Problem problem{joints_, target_, there(), options, scratch_, scratch_.saved};
     run_limited(Method::Fabrik, problem, Unwatched());
-    const glm::quat rotation = limited.pose.local[joint];
-    return {error_of(problem, limited.pose), angles_of(limited.limits[joint], rotation)};
+    return error_of(problem, limited_.pose);
 }
 
-ActiveLimit active_hinge(const Limit& limit, float angle) noexcept {
-    ActiveLimit hold;
-    hold.bound = angle > limit.max ? Bound::Max : Bound::Min;
-    hold.limit = angle > limit.max ? limit.max : limit.min;
-    hold.needed = angle;
-    return hold;
+/// Solves on from the best pose within all limits with one limit replaced.
+Outcome Explanation::with(std::size_t joint, const Limit& limit) noexcept {
+    std::copy(limited_.saved.joints.begin(), limited_.saved.joints.end(), joints_.begin());
+    std::copy(limited_.saved.rotations.begin(), limited_.saved.rotations.end(),
+              scratch_.saved.rotations.begin());
+    std::copy(options_.limits.begin(), options_.limits.end(), limited_.freed.begin());
+    limited_.freed[joint] = limit;
+    const float error = solve_on(limited_.freed);
+    const JointAngles angles = angles_of(limited_.limits[joint], limited_.pose.local[joint]);
+    return {joint, error, angles, excess_of(limit_of(joint), angles)};
 }
-
-/// The one of a cone's numbers that these angles exceed most.
-ActiveLimit active_cone(const LimitedJoint& joint, const JointAngles& angles) noexcept {
-    const JointAngles inside = within(joint, angles);
-    const float up = std::abs(angles.up - inside.up), left = std::abs(angles.left - inside.left);
-    const float twist = std::abs(angles.twist - inside.twist);
-    ActiveLimit hold;
-    if (twist >= up && twist >= left) {
-        hold.bound = angles.twist > inside.twist ? Bound::TwistMax : Bound::TwistMin;
-        hold.limit = inside.twist, hold.needed = angles.twist;
-    } else if (up >= left) {
-        hold.bound = angles.up > inside.up ? Bound::Up : Bound::Down;
-        hold.limit = std::abs(inside.up), hold.needed = std::abs(angles.up);
-    } else {
-        hold.bound = angles.left > inside.left ? Bound::Left : Bound::Right;
-        hold.limit = std::abs(inside.left), hold.needed = std::abs(angles.left);
-    }
-    return hold;
-}
-
-/// The smallest range with which the tip still comes as near as with all of it: halving.
-Outcome minimum(Workspace& scratch, std::span<glm::vec3> joints, glm::vec3 target, const Options& options,
-                std::size_t joint, Outcome maximum) noexcept {
-    float low = 0.0f, high = 1.0f;
-    const JointAngles all = maximum.angles;
-    const LimitedJoint own = limited_joint(options.limits[joint], scratch.rest_directions[joint]);
-    for (int i = 0; i < halvings; ++i) {
-        const float part = 0.5f * (low + high);
-        const Outcome some =
-            outcome(scratch, joints, target, options, joint, widened(options.limits[joint], all, part));
-        // Another start may arrive within the joint's own limit: that says nothing of the range it needs.
-        const bool over = excess_of(own, some.angles) > 2.0f * at_bound;
-        if (over && some.error <= std::max(maximum.error, 2.0f * fine * scratch.reach)) {
-            high = part;
-            maximum.angles = some.angles;
-        } else {
-            low = part;
-        }
-    }
-    return maximum;
-}
-
-struct Candidate {
-    std::size_t joint = no_joint;
-    Outcome outcome;
-    float over = 0.0f;  ///< by how much it leaves its limit
-};
 
 /// The outcome of freeing a joint; of its two sides, where it stands at both.
-Outcome freed(Workspace& scratch, std::span<glm::vec3> joints, glm::vec3 target, const Options& options,
-              std::size_t i, const JointAngles& angles) noexcept {
-    const Limit& limit = options.limits[i];
-    const Outcome one = outcome(scratch, joints, target, options, i, opened(limit, angles));
-    const bool hinge = limit.kind == JointKind::Hinge;
-    const float width = hinge ? limit.max - limit.min : limit.twist_max - limit.twist_min;
-    if (width > 4.0f * at_bound) return one;
-    const Outcome other = outcome(scratch, joints, target, options, i, mirrored(limit));
+Outcome Explanation::freed(std::size_t joint) noexcept {
+    const Limit& limit = options_.limits[joint];
+    const JointAngles angles = angles_of(limit_of(joint), limited_.saved.local[joint]);
+    const Outcome one = with(joint, opened(limit, angles));
+    if (!has_no_range(limit)) return one;
+    const Outcome other = with(joint, mirrored(limit));
     return other.error < one.error ? other : one;
 }
 
 /// How much of a joint's part in the descent its limit stops: the fall of half the error's square for a turn
 /// of this joint alone, as far as that turn leaves the limit. 0 within the limit.
-float stopped(const Workspace& scratch, const glm::vec3& target, const Options& options,
-              std::size_t i) noexcept {
+float Explanation::stopped(std::size_t joint) const noexcept {
     constexpr float small_turn = 1e-2f;  // radians: well over what counts as at the limit
-    const LimitedJoint joint = limited_joint(options.limits[i], scratch.rest_directions[i]);
-    const LimitedPose& pose = scratch.limited.saved;
-    const glm::quat rotation = pose.local[i];
-    if (!is_at_limit(joint, angles_of(joint, rotation))) return 0.0f;
+    const LimitedJoint limit = limit_of(joint);
+    const LimitedPose& pose = limited_.saved;
+    const glm::quat rotation = pose.local[joint];
+    if (!is_at_limit(limit, angles_of(limit, rotation))) return 0.0f;
     const glm::vec3 tip = pose.joints.back();
-    glm::vec3 torque = cross(minus(tip, pose.joints[i]), minus(target, tip));
-    if (options.tip_orientation) {  // as error_of has it
-        const float arm = tune::limits::orientation_arm * scratch.reach;
-        const glm::quat missing = compose(unit(*options.tip_orientation), conjugate(pose.rotations.back()));
+    glm::vec3 torque = cross(minus(tip, pose.joints[joint]), minus(target_, tip));
+    if (options_.tip_orientation) {  // as error_of has it
+        const float arm = tune::limits::orientation_arm * scratch_.reach;
+        const glm::quat missing = compose(unit(*options_.tip_orientation), conjugate(pose.rotations.back()));
         torque = plus(torque, times(rotation_vector(missing), arm * arm));
     }
     const float size = length(torque);
     if (!(size > 0.0f)) return 0.0f;
-    const glm::vec3 axis = rotated(conjugate(parent_of(pose.rotations, i)), times(torque, 1.0f / size));
+    const glm::vec3 axis = rotated(conjugate(parent_of(pose.rotations, joint)), times(torque, 1.0f / size));
     const glm::quat turned = compose(rotation_about(axis, small_turn), rotation);
-    return size * excess_of(joint, angles_of(joint, turned)) / small_turn;
+    return size * excess_of(limit, angles_of(limit, turned)) / small_turn;
+}
+
+/// Of equals the one nearer to the root comes first.
+void Explanation::find_candidates() noexcept {
+    for (std::size_t joint = 0; joint < options_.limits.size(); ++joint) {
+        const Candidate next{joint, stopped(joint)};
+        const auto less = [&](const Candidate& each) { return each.stopped < next.stopped; };
+        const auto at = std::find_if(candidates_.begin(), candidates_.end(), less);
+        if (at == candidates_.end()) continue;
+        std::move_backward(at, candidates_.end() - 1, candidates_.end());
+        *at = next;
+    }
 }
 
 /// The joint whose freeing brings the tip nearest; where several bring it there, the one that needs least.
-class Candidates {
-  public:
-    Candidates(Workspace& scratch, std::span<glm::vec3> joints, glm::vec3 target, const Options& options,
-               float start) noexcept
-        : scratch_(scratch), joints_(joints), target_(target), options_(options), start_(start) {}
-
-    Candidate best() noexcept {
-        for (std::size_t i = 0; i < options_.limits.size(); ++i) enter(i);
-        Candidate best;
-        for (std::size_t k = 0; k < count_; ++k) consider(best, list_[k].joint);
-        return best;
+Outcome Explanation::best_freed() noexcept {
+    Outcome best;
+    for (const Candidate& each : candidates_) {
+        if (each.joint == no_joint) break;
+        const Outcome now = freed(each.joint);
+        if (now.over <= 2.0f * at_bound || now.error >= start_ * (1.0f - noticeable)) continue;
+        const bool nearer = std::max(now.error, there()) < std::max(best.error, there());
+        const bool as_near = now.error <= there() && best.error <= there() && now.over < best.over;
+        if (best.joint == no_joint || nearer || as_near) best = now;
     }
+    return best;
+}
 
-  private:
-    struct Entry {
-        std::size_t joint = 0;
-        float stopped = 0.0f;
-    };
-
-    /// Keeps the ones that stop most, the most first; of equals the one nearer to the root.
-    void enter(std::size_t i) noexcept {
-        const Entry entry{i, stopped(scratch_, target_, options_, i)};
-        if (!(entry.stopped > 0.0f)) return;
-        std::size_t k = count_ < max_candidates ? count_++ : max_candidates;
-        for (; k > 0 && list_[k - 1].stopped < entry.stopped; --k) {
-            if (k < max_candidates) list_[k] = list_[k - 1];
-        }
-        if (k < max_candidates) list_[k] = entry;
+/// Those of the smallest range with which the tip still comes as near as with all of it.
+JointAngles Explanation::needed_angles(const Outcome& freed) noexcept {
+    float low = 0.0f, high = 1.0f;
+    JointAngles needed = freed.angles;
+    for (int i = 0; i < halvings; ++i) {
+        const float part = 0.5f * (low + high);
+        const Outcome some = with(freed.joint, widened(options_.limits[freed.joint], freed.angles, part));
+        // Another start may arrive within the joint's own limit: that says nothing of the range it needs.
+        const bool enough =
+            some.over > 2.0f * at_bound && some.error <= std::max(freed.error, 2.0f * there());
+        (enough ? high : low) = part;
+        if (enough) needed = some.angles;
     }
+    return needed;
+}
 
-    void consider(Candidate& best, std::size_t i) noexcept {
-        const float there = fine * scratch_.reach;
-        const LimitedJoint joint = limited_joint(options_.limits[i], scratch_.rest_directions[i]);
-        const JointAngles angles = angles_of(joint, scratch_.limited.saved.local[i]);
-        const Outcome result = freed(scratch_, joints_, target_, options_, i, angles);
-        const float over = excess_of(joint, result.angles);
-        if (over <= 2.0f * at_bound || result.error >= start_ * (1.0f - noticeable)) return;
-        const bool nearer = std::max(result.error, there) < std::max(best.outcome.error, there);
-        const bool as_near = result.error <= there && best.outcome.error <= there && over < best.over;
-        if (best.joint == no_joint || nearer || as_near) best = {i, result, over};
-    }
-
-    Workspace& scratch_;
-    std::span<glm::vec3> joints_;
-    glm::vec3 target_;
-    const Options& options_;
-    float start_;
-    std::size_t count_ = 0;
-    std::array<Entry, max_candidates> list_{};
-};
-
-/// A method that gave up early may stand at limits that stop nothing. So the default one goes on first, as
-/// far as the limits let it; from there on they are freed. The error that is left.
-float best_within_limits(Workspace& scratch, std::span<glm::vec3> joints, glm::vec3 target,
-                         const Options& options) noexcept {
-    Options all;
-    all.max_iterations = iterations;
-    all.limits = options.limits;
-    all.tip_orientation = options.tip_orientation;
-    scratch.saved.limits = {};
-    Problem problem{joints, target, fine * scratch.reach, all, scratch, scratch.saved};
-    run_limited(Method::Fabrik, problem, Unwatched());
-    scratch.limited.saved = scratch.limited.pose;
-    return error_of(problem, scratch.limited.pose);
+std::optional<ActiveLimit> Explanation::find() noexcept {
+    // A method that gave up early may stand at limits that stop nothing. So the default one goes on first, as
+    // far as the limits let it; from there on they are freed.
+    start_ = solve_on(options_.limits);
+    limited_.saved = limited_.pose;
+    find_candidates();
+    const Outcome found = best_freed();
+    if (found.joint == no_joint) return std::nullopt;
+    const LimitedJoint joint = limit_of(found.joint);
+    ActiveLimit active = exceeded_bound(joint, needed_angles(found));
+    active.joint = found.joint;
+    active.kind = joint.kind;
+    active.enough =
+        found.error <= std::max(options_.tolerance.value_or(1e-3f * scratch_.reach), 2.0f * there());
+    return active;
 }
 
 }  // namespace
@@ -257,24 +189,9 @@ std::optional<ActiveLimit> Solver::explain(std::span<const glm::vec3> joints, co
     if (options.limits.empty() || bones() == 0 || joints.size() != bones() + 1) return std::nullopt;
     if (!are_points(joints) || !are_points({&target, 1}) || !is_valid(state, bones())) return std::nullopt;
     if (!are_valid(options, bones()) || !load_limits(scratch, options.limits)) return std::nullopt;
-
     scratch.saved = state;
-    const std::span<glm::vec3> work = scratch.joints;
-    std::copy(joints.begin(), joints.end(), work.begin());
-    const float start = best_within_limits(scratch, work, target, options);
-    const Candidate found = Candidates(scratch, work, target, options, start).best();
-    std::optional<ActiveLimit> hold;
-    if (found.joint != no_joint) {
-        const std::size_t i = found.joint;
-        const LimitedJoint joint = limited_joint(options.limits[i], scratch.rest_directions[i]);
-        const JointAngles angles = minimum(scratch, work, target, options, i, found.outcome).angles;
-        hold = joint.hinge() ? active_hinge(options.limits[i], angles.up) : active_cone(joint, angles);
-        hold->joint = i;
-        hold->kind = joint.kind;
-        hold->enough = found.outcome.error <=
-                       std::max(options.tolerance.value_or(1e-3f * reach()), 2.0f * fine * reach());
-    }
-    return hold;
+    std::copy(joints.begin(), joints.end(), scratch.joints.begin());
+    return Explanation(scratch, scratch.joints, target, options).find();
 }
 
 }  // namespace tendril::ik

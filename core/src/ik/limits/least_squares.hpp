@@ -43,17 +43,20 @@ static inline glm::vec3 free_rotation_by(const JointFreedom& freedom, const Want
     const glm::vec3 rotation = cross(freedom.arm, by.move);
     return by.scale == 0.0f ? rotation : plus(rotation, times(by.rotation, by.scale));
 }
-/// How the joint itself does, with what its limit leaves it: J' by.
-static inline glm::vec3 rotation_by(const JointFreedom& freedom, const Wanted& by) noexcept {
-    if (freedom.ball && freedom.count == 3) return glm::vec3(0.0f);
-    const glm::vec3 whole = free_rotation_by(freedom, by);
+/// What its limit leaves a joint of a rotation.
+static inline glm::vec3 allowed_part(const JointFreedom& freedom, const glm::vec3& whole) noexcept {
     if (freedom.ball && freedom.count == 0) return whole;
+    if (freedom.ball && freedom.count == 3) return glm::vec3(0.0f);
     glm::vec3 some{0.0f};
     for (int i = 0; i < freedom.count; ++i) {
         const glm::vec3& axis = freedom.axes[static_cast<std::size_t>(i)];
         some = plus(some, times(axis, dot(axis, whole)));
     }
     return freedom.ball ? minus(whole, some) : some;
+}
+/// How the joint itself does: J' by.
+static inline glm::vec3 rotation_by(const JointFreedom& freedom, const Wanted& by) noexcept {
+    return allowed_part(freedom, free_rotation_by(freedom, by));
 }
 
 enum class Descent {

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "ik/limits/descent.hpp"
 #include "ik/limits/methods.hpp"
-#include "ik/limits/multistart.hpp"
-#include "ik/limits/perturbation.hpp"
 #include "ik/limits/pole.hpp"
 #include "ik/limits/pose.hpp"
+#include "ik/limits/starts.hpp"
 #include "ik/limits/stopped.hpp"
 #include "ik/solve/convergence.hpp"
 #include "ik/solve/prepare.hpp"

@@ -68,11 +68,13 @@ bool load_pose(Problem& problem, Watch watch) noexcept {
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         glm::quat rotation = problem.state.rotations[i];
         glm::vec3 bone = bone_direction(problem, rotation, i);
-        const glm::vec3 along = math::direction(problem.joints[i], problem.joints[i + 1], bone);
-        // A rotation that agrees to rounding stays as it is, or each solve would change it a little.
-        const float off = squared_distance(bone, along);
-        furthest = std::max(furthest, off);
-        if (off > 1e-10f) rotation = transported(rotation, bone, along), bone = along;
+        if (problem.joints[i + 1] != moved(problem.joints[i], bone, problem.lengths()[i])) {
+            const glm::vec3 along = math::direction(problem.joints[i], problem.joints[i + 1], bone);
+            // A rotation that agrees to rounding stays as it is, or each solve would change it a little.
+            const float off = squared_distance(bone, along);
+            furthest = std::max(furthest, off);
+            if (off > 1e-10f) rotation = transported(rotation, bone, along), bone = along;
+        }
         const glm::quat parent = parent_of(pose.rotations, i);
         glm::quat local = compose(conjugate(parent), rotation);
         // More than a solve leaves, or the next one would begin by moving what the last has left.

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "ik/limits/descent.hpp"
 #include "ik/limits/least_squares.hpp"
-#include "ik/limits/multistart.hpp"
-#include "ik/limits/perturbation.hpp"
 #include "ik/limits/pose.hpp"
+#include "ik/limits/starts.hpp"
 #include "ik/tunables.hpp"
 
 namespace tendril::ik::detail {
@@ -59,7 +59,7 @@ bool is_stopped_by_limits(Problem& problem, Seen seen) noexcept {
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         const JointFreedom& freedom = problem.scratch.limited.freedoms[i];
         const glm::vec3 torque = free_rotation_by(freedom, wanted);
-        const glm::vec3 rotation = rotation_by(freedom, wanted);
+        const glm::vec3 rotation = allowed_part(freedom, torque);
         free += dot(torque, torque);
         allowed += dot(rotation, rotation);
     }

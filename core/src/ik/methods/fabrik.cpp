@@ -1,7 +1,8 @@
-#include "ik/methods/fabrik.hpp"
+// FABRIK: A. Aristidou, J. Lasenby, "FABRIK: A fast, iterative solver for the inverse kinematics problem",
+// Graphical Models 73(5), 2011.
+#include "ik/methods/methods.hpp"
 
 #include "ik/math.hpp"
-#include "ik/methods/accelerate.hpp"
 #include "ik/tunables.hpp"
 
 namespace tendril::ik::detail {

@@ -1,4 +1,5 @@
-#include "ik/methods/two_bone.hpp"
+// Method::TwoBone: law of cosines, the side to bend to, stretch.
+#include "ik/methods/methods.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,6 @@
 #include "ik/limits/pose.hpp"
 #include "ik/math.hpp"
 #include "ik/solve/prepare.hpp"
-#include "ik/solve/rotations.hpp"
 #include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {

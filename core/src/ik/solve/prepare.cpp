@@ -1,6 +1,7 @@
 #include "ik/solve/prepare.hpp"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <limits>
 
@@ -34,6 +35,15 @@ void place(Problem& problem, std::size_t joint, const glm::vec3& to, Watch watch
     problem.joints[joint] = to;
 }
 
+/// `q` turned on by the minimal rotation from the unit vector `from` to the direction of `bone`, of `size`.
+glm::quat transported(const glm::quat& q, const glm::vec3& from, const glm::vec3& bone, float size) noexcept {
+    const float w = size + dot(from, bone);
+    const glm::vec3 axis = w < 1e-6f * size ? perpendicular(from) : cross(from, bone);
+    const glm::quat minimum{w < 1e-6f * size ? 0.0f : w, axis.x, axis.y, axis.z};
+    const glm::quat turned = compose(minimum, q);
+    return unit_quaternion(turned.w, turned.x, turned.y, turned.z);
+}
+
 }  // namespace
 
 template <class Watch>
@@ -62,6 +72,20 @@ void snap_back(Problem& problem, float part, Watch watch) noexcept {
         const glm::vec3 &at = problem.joints[i - 1], &rest = problem.scratch.rest_directions[i - 1];
         const glm::vec3 old = problem.joints[i], resting = moved(at, rest, length);
         place(problem, i, step(at, moved(old, minus(resting, old), part), length, rest), watch);
+    }
+}
+
+void transport_rotations(Problem& problem) noexcept {
+    constexpr float agrees = 1e-10f;  ///< square of the sine of the angle that is rounding
+    for (std::size_t i = 0; i < problem.bones(); ++i) {
+        glm::quat& rotation = problem.state.rotations[i];
+        const glm::vec3 before = rotated(rotation, problem.scratch.rest_directions[i]);
+        const glm::vec3 bone = minus(problem.joints[i + 1], problem.joints[i]);
+        const float squared = dot(bone, bone);
+        if (!(squared > FLT_MIN)) continue;  // no direction
+        const glm::vec3 off = cross(before, bone);
+        if (dot(off, off) <= agrees * squared && dot(before, bone) > 0.0f) continue;
+        rotation = transported(rotation, before, bone, std::sqrt(squared));
     }
 }
 

@@ -6,7 +6,6 @@
 #include "ik/solve/loop.hpp"
 #include "ik/solve/prepare.hpp"
 #include "ik/solve/reachability.hpp"
-#include "ik/solve/rotations.hpp"
 #include "tendril/ik/options.hpp"
 
 namespace tendril::ik::detail {

@@ -1,12 +1,9 @@
-// How the default method arrives where FABRIK's passes within limits alone get stuck, which they do in about
-// half of all cases. Not installed.
+// How the default method goes down to its target where FABRIK's passes within limits alone get stuck, which
+// they do in about half of all cases. Not installed.
 //
-// - FABRIK's passes go on as long as a pair brings the tip half way or more. Damped least-squares steps over
-//   what the limits leave free do the rest; their damping falls with success and grows with failure
-//   (Levenberg 1944, Marquardt 1963). Passes after these gain nothing and cost twice as much.
-// - Multistart: where the steps stall, the chain starts again from a random pose within its limits, the same
-//   ones for the same chain. Measured: starts near the best pose so far, the best of several samples, and
-//   taking only what is clearly nearer gain nothing (99.97 percent arrive with all of them, 99.99 without).
+// FABRIK's passes go on as long as a pair brings the tip half way or more. Damped least-squares steps over
+// what the limits leave free do the rest; their damping falls with success and grows with failure (Levenberg
+// 1944, Marquardt 1963). Passes after these gain nothing and cost twice as much.
 #pragma once
 
 #include "ik/solve/convergence.hpp"
@@ -27,8 +24,8 @@ class LimitedDescent {
 
     /// From another pose, as far as it takes: what was singular cannot be left by a little.
     void restart(const Problem& problem) noexcept;
-    /// Least squares at once, with this damping, of the last solve; and if that had stalled, only as long as
-    /// every step gains.
+    /// Least squares at once, for near the target a step does what FABRIK's passes take several for; with the
+    /// damping of a descent that ended here, and if that had stalled, only as long as every step gains.
     void continue_from(float damping, bool stalled) noexcept;
 
     bool stalled() const noexcept { return convergence_.stalled(); }
@@ -51,8 +48,5 @@ class LimitedDescent {
     bool reaches_ = true;      ///< FABRIK's passes bring the tip half way or more
     bool exceeds_allowance_ = false;
 };
-
-/// A random pose within the limits into scratch.trial; the same for the same number.
-void sample(const Problem& problem, int number) noexcept;
 
 }  // namespace tendril::ik::detail

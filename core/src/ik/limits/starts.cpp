@@ -1,4 +1,7 @@
-#include "ik/limits/perturbation.hpp"
+#include "ik/limits/starts.hpp"
+
+#include <algorithm>
+#include <cstdint>
 
 #include "ik/limits/least_squares.hpp"
 #include "ik/limits/pose.hpp"
@@ -61,6 +64,27 @@ void scatter(const Problem& problem, const glm::vec3& line, const glm::vec3& sid
     forward_kinematics(problem, problem.scratch.limited.trial);
 }
 
+/// SplitMix64 (Steele, Lea, Flood 2014), from 0 to under 1.
+float random_unit(std::uint64_t& state) noexcept {
+    std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    z ^= z >> 31;
+    return static_cast<float>(z >> 40) * (1.0f / 16777216.0f);
+}
+
+float between(float a, float b, float part) noexcept {
+    return a + (b - a) * part;
+}
+
+JointAngles sampled_angles(const LimitedJoint& joint, std::uint64_t& state) noexcept {
+    const float a = random_unit(state), b = random_unit(state), c = random_unit(state);
+    if (joint.hinge()) return {between(joint.min, joint.max, a), 0.0f, 0.0f};
+    if (joint.free()) return {between(-2.0f, 2.0f, a), between(-2.0f, 2.0f, b), between(-2.0f, 2.0f, c)};
+    return within(joint, {between(-joint.down, joint.up, a), between(-joint.right, joint.left, b),
+                          between(joint.twist_min, joint.twist_max, c)});
+}
+
 }  // namespace
 
 bool is_singular(Problem& problem) noexcept {
@@ -93,6 +117,15 @@ void perturb_within_limits(Problem& problem, int number, Watch watch) noexcept {
     }
     bend(best);
     accept_trial(problem, Phase::Prepare, watch);
+}
+
+void sample(const Problem& problem, int number) noexcept {
+    LimitedScratch& scratch = problem.scratch.limited;
+    std::uint64_t state = static_cast<std::uint64_t>(number) * 7919u;
+    for (std::size_t i = 0; i < problem.bones(); ++i) {
+        scratch.trial.local[i] = rotation_of(scratch.limits[i], sampled_angles(scratch.limits[i], state));
+    }
+    forward_kinematics(problem, scratch.trial);
 }
 
 template void perturb_within_limits(Problem&, int, Unwatched) noexcept;

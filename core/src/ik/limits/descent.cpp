@@ -1,50 +1,15 @@
-#include "ik/limits/multistart.hpp"
+#include "ik/limits/descent.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <limits>
 
-#include "ik/limits/fabrik.hpp"
 #include "ik/limits/least_squares.hpp"
+#include "ik/limits/methods.hpp"
 #include "ik/limits/pose.hpp"
-#include "ik/tunables.hpp"
 
 namespace tendril::ik::detail {
-namespace {
 
 using namespace tune::limits;
-
-/// SplitMix64 (Steele, Lea, Flood 2014), from 0 to under 1.
-float random_unit(std::uint64_t& state) noexcept {
-    std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    z ^= z >> 31;
-    return static_cast<float>(z >> 40) * (1.0f / 16777216.0f);
-}
-
-float between(float a, float b, float part) noexcept {
-    return a + (b - a) * part;
-}
-
-JointAngles sampled_angles(const LimitedJoint& joint, std::uint64_t& state) noexcept {
-    const float a = random_unit(state), b = random_unit(state), c = random_unit(state);
-    if (joint.hinge()) return {between(joint.min, joint.max, a), 0.0f, 0.0f};
-    if (joint.free()) return {between(-2.0f, 2.0f, a), between(-2.0f, 2.0f, b), between(-2.0f, 2.0f, c)};
-    return within(joint, {between(-joint.down, joint.up, a), between(-joint.right, joint.left, b),
-                          between(joint.twist_min, joint.twist_max, c)});
-}
-
-}  // namespace
-
-void sample(const Problem& problem, int number) noexcept {
-    LimitedScratch& scratch = problem.scratch.limited;
-    std::uint64_t state = static_cast<std::uint64_t>(number) * 7919u;
-    for (std::size_t i = 0; i < problem.bones(); ++i) {
-        scratch.trial.local[i] = rotation_of(scratch.limits[i], sampled_angles(scratch.limits[i], state));
-    }
-    forward_kinematics(problem, scratch.trial);
-}
 
 LimitedDescent::LimitedDescent(const Problem& problem, float allowance) noexcept
     : error_(error_of(problem, problem.scratch.limited.pose)),
