@@ -60,10 +60,7 @@ void chain_rows(const ShownChain& shown, const Joints& joints) {
     reading(reaches ? "root to target" : "head to target", "%.3f m",
             static_cast<double>(glm::distance(joints.front(), part.target)));
     if (!reaches) reading("tail to target", "%.3f m", static_cast<double>(shown_residual(part, joints)));
-    float worst = 0.0f;
-    for (std::size_t i = 1; i < joints.size(); ++i)
-        worst = std::max(worst, shown_segment(shown, joints, i).error);
-    reading("worst error", "%s", si_text(static_cast<double>(worst), "m").c_str());
+    reading("worst error", "%s", si_text(static_cast<double>(worst_error(shown, joints)), "m").c_str());
 }
 
 void joint_row(const ShownChain& shown, const Joints& joints, std::size_t i, Emit& emit) {

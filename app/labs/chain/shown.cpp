@@ -1,5 +1,6 @@
 #include "app/labs/chain/shown.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
@@ -34,6 +35,15 @@ ShownSegment shown_segment(const ShownChain& shown, const std::vector<glm::vec3>
     const float distance = glm::distance(joints[index], joints[index - 1]);
     // Outside a solve a bone has its length, but for rounding, which is the error's to show.
     return {joints[index], shows_end(shown) ? length : distance, std::abs(distance - length)};
+}
+
+float worst_error(const ShownChain& shown, const std::vector<glm::vec3>& joints) {
+    const auto segments = shown.part.chain.segments();
+    float worst = 0.0f;
+    for (std::size_t i = 1; i < joints.size(); ++i) {
+        worst = std::max(worst, std::abs(glm::distance(joints[i], joints[i - 1]) - segments[i].length));
+    }
+    return worst;
 }
 
 const char* end_name(const ChainPart& part, std::size_t index) {

@@ -37,6 +37,9 @@ struct ShownSegment {
 };
 ShownSegment shown_segment(const ShownChain& shown, const std::vector<glm::vec3>& joints, std::size_t index);
 
+/// The largest error of all, metres.
+float worst_error(const ShownChain& shown, const std::vector<glm::vec3>& joints);
+
 /// "root" and "tip" of a chain that reaches, "head" and "tail" of one that trails; empty between the two.
 const char* end_name(const ChainPart& part, std::size_t index);
 
