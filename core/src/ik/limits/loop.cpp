@@ -148,23 +148,22 @@ void report_iteration(const Problem& problem, Watch watch) noexcept {
     watch.iteration_done(problem.iteration, residual);
 }
 
-/// Bends a chain from which no way leads on, until one does. Whether it was bent.
+/// Bends a chain from which no way leads on, once in a solve. Whether it was bent.
 template <class Watch>
-bool perturb_if_singular(Problem& problem, int& perturbations, Watch watch) noexcept {
-    const int before = perturbations;
-    while (perturbations < max_perturbations && is_singular(problem))
-        perturb_within_limits(problem, perturbations++, watch);
-    problem.perturbations += perturbations - before;
-    return perturbations > before;
+bool bend_if_singular(Problem& problem, Watch watch) noexcept {
+    if (problem.perturbations > 0 || !is_singular(problem)) return false;
+    bend_within_limits(problem, watch);
+    ++problem.perturbations;
+    return true;
 }
 
 /// Another pose to go on from, where a descent has stalled; whether there is one.
 template <class Watch>
-bool next_start(Problem& problem, Attempt& attempt, int& perturbations, Watch watch) noexcept {
+bool next_start(Problem& problem, Attempt& attempt, Watch watch) noexcept {
     save_if_nearer(problem, attempt);
     // A chain that its limits keep stretched towards a dragged target was bent in vain when it came there.
     const bool fixed = attempt.dragged && problem.state.limits.limited;
-    if (!fixed && perturb_if_singular(problem, perturbations, watch)) return true;
+    if (!fixed && bend_if_singular(problem, watch)) return true;
     const int maximum = problem.options.restarts.value_or(attempt.dragged ? 0 : default_restarts);
     if (problem.restarts >= maximum) return false;
     sample(problem, ++problem.restarts);
@@ -179,12 +178,11 @@ End solve_with_restarts(Problem& problem, Attempt& attempt, Watch watch) noexcep
     LimitedDescent descent(problem, attempt.allowance);
     const bool continued = attempt.dragged && memory.limited;  // from where it had stalled
     if (attempt.dragged) descent.continue_from(memory.damping, continued);
-    int perturbations = 0;
     bool over = false;
     while (problem.iteration < problem.options.max_iterations) {
         const bool there = arrived(problem, attempt.can);
         if (!there && !over && descent.stalled()) {
-            over = !next_start(problem, attempt, perturbations, watch);
+            over = !next_start(problem, attempt, watch);
             if (!over) descent.restart(problem);
         }
         if ((there || over) && !problem.options.every_iteration) break;
@@ -205,12 +203,12 @@ End continue_from(Method method, Problem& problem, Attempt& attempt, Watch watch
     problem.state.limits.valid = false;
     Convergence convergence(stall, attempt.best, problem.scratch.reach);
     bool stalled = false;
-    int perturbations = method == Method::FabrikPlain ? max_perturbations : 0;
+    const bool bends = method != Method::FabrikPlain;
     while (problem.iteration < problem.options.max_iterations) {
         const bool there = arrived(problem, attempt.can);
         stalled = stalled || convergence.stalled();
         const bool waits = !there && (problem.iteration == 0 || convergence.stalled());
-        if (waits && perturb_if_singular(problem, perturbations, watch))
+        if (waits && bends && bend_if_singular(problem, watch))
             convergence.restart(error_of(problem, problem.scratch.limited.pose));
         if ((there || convergence.stalled()) && !problem.options.every_iteration) break;
         ++problem.iteration;

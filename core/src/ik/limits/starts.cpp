@@ -38,30 +38,16 @@ glm::vec3 line_to_bend(const Problem& problem) noexcept {
     return pose.directions[0];
 }
 
-void bend_joint(const Problem& problem, std::size_t i, const glm::vec3& by) noexcept {
-    problem.scratch.limited.trial.local[i] = bent_rotation(problem, i, by);
-}
-
-/// The first bone one way, the others back, so that the tip stays near the line.
-void bend_in_arc(const Problem& problem, const glm::vec3& about) noexcept {
+/// The first bone one way, the others back, so that the tip stays near the line. The error that it leaves.
+float bend_in_arc(const Problem& problem, const glm::vec3& about) noexcept {
+    LimitedScratch& scratch = problem.scratch.limited;
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        const float part = 2.0f * problem.lengths()[i] / problem.scratch.reach;
-        bend_joint(problem, i,
-                   times(about, i == 0 ? tune::chain::bend_angle
-                                       : -tune::chain::bend_angle * std::max(part, min_part)));
+        const float part = std::max(2.0f * problem.lengths()[i] / problem.scratch.reach, min_part);
+        const float angle = tune::chain::bend_angle * (i == 0 ? 1.0f : -part);
+        scratch.trial.local[i] = bent_rotation(problem, i, times(about, angle));
     }
-    forward_kinematics(problem, problem.scratch.limited.trial);
-}
-
-void scatter(const Problem& problem, const glm::vec3& line, const glm::vec3& side, int number) noexcept {
-    const auto salt = static_cast<std::uint32_t>(number) * 2u;
-    const glm::vec3 about = cross(line, side);
-    for (std::size_t i = 0; i < problem.bones(); ++i) {
-        bend_joint(problem, i,
-                   times(plus(times(about, scattered(i, salt)), times(side, scattered(i, salt + 1))),
-                         tune::chain::bend_angle));
-    }
-    forward_kinematics(problem, problem.scratch.limited.trial);
+    forward_kinematics(problem, scratch.trial);
+    return error_of(problem, scratch.trial);
 }
 
 /// SplitMix64 (Steele, Lea, Flood 2014), from 0 to under 1.
@@ -99,23 +85,17 @@ bool is_singular(Problem& problem) noexcept {
 }
 
 template <class Watch>
-void perturb_within_limits(Problem& problem, int number, Watch watch) noexcept {
-    LimitedScratch& scratch = problem.scratch.limited;
+void bend_within_limits(Problem& problem, Watch watch) noexcept {
     const glm::vec3 line = line_to_bend(problem), side = side_of(problem, line);
-    const glm::vec3 sides[] = {side, times(side, -1.0f), cross(line, side), cross(side, line)};
-    const auto bend = [&](int way) {
-        number == 0 ? bend_in_arc(problem, cross(line, sides[way]))
-                    : scatter(problem, line, side, 4 * number + way);
-        return error_of(problem, scratch.trial);
-    };
-    int best = 0;
-    float minimum = bend(0);
-    for (int way = 1; way < 4; ++way) {
+    const glm::vec3 abouts[] = {cross(line, side), cross(side, line), times(side, -1.0f), side};
+    std::size_t best = 0;
+    float minimum = bend_in_arc(problem, abouts[0]);
+    for (std::size_t way = 1; way < 4; ++way) {
         // Of ways that are as good the first is taken: rounding must not choose the side.
-        const float error = bend(way);
+        const float error = bend_in_arc(problem, abouts[way]);
         if (error < minimum - alike * problem.scratch.reach) best = way, minimum = error;
     }
-    bend(best);
+    bend_in_arc(problem, abouts[best]);
     accept_trial(problem, Phase::Prepare, watch);
 }
 
@@ -128,7 +108,7 @@ void sample(const Problem& problem, int number) noexcept {
     forward_kinematics(problem, scratch.trial);
 }
 
-template void perturb_within_limits(Problem&, int, Unwatched) noexcept;
-template void perturb_within_limits(Problem&, int, Watched) noexcept;
+template void bend_within_limits(Problem&, Unwatched) noexcept;
+template void bend_within_limits(Problem&, Watched) noexcept;
 
 }  // namespace tendril::ik::detail

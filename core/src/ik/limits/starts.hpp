@@ -16,12 +16,11 @@ namespace tendril::ik::detail {
 /// against it. O(n).
 bool is_singular(Problem& problem) noexcept;
 
-/// Turns every joint a little: the first time (`number` 0) into an arc as bend_collinear_chain does, then
-/// each in its own way, another one for each `number`; the best of four, where the arc's first is towards the
-/// pole if there is one. A joint that has no freedom to one side turns to another; one that has none stays.
-/// No joint leaves its limit.
+/// Bends the chain into an arc, as bend_collinear_chain does: the best of four ways, of which the first is
+/// towards the pole if there is one. A joint that has no freedom to one side turns to another; one that has
+/// none stays. No joint leaves its limit.
 template <class Watch>
-void perturb_within_limits(Problem& problem, int number, Watch watch) noexcept;
+void bend_within_limits(Problem& problem, Watch watch) noexcept;
 
 /// A random pose within the limits into scratch.trial; the same for the same number.
 void sample(const Problem& problem, int number) noexcept;

@@ -30,21 +30,18 @@ float descend_to_stall(Problem& problem, float there) noexcept {
     return descent.error();
 }
 
-/// The same, and on from singular poses where a bend leads on. The error that is left. Of 730 straight arms
+/// The same, and on from a singular pose where a bend leads on. The error that is left. Of 730 straight arms
 /// with a target ahead that they can reach, 338 more that plain FABRIK leaves on the line would blame a limit
 /// without this; for the other methods it changes nothing.
-float descend_past_singularities(Problem& problem, float there) noexcept {
-    float error = descend_to_stall(problem, there);
-    for (int number = 0; number < max_perturbations && error > there && is_singular(problem); ++number) {
-        problem.scratch.limited.best = problem.scratch.limited.pose;
-        perturb_within_limits(problem, number, Unwatched());
-        const float bent = descend_to_stall(problem, there);
-        if (bent < error) {
-            error = bent;
-        } else {
-            problem.scratch.limited.swap_pose(problem.scratch.limited.best);
-        }
-    }
+float descend_past_singularity(Problem& problem, float there) noexcept {
+    LimitedScratch& scratch = problem.scratch.limited;
+    const float error = descend_to_stall(problem, there);
+    if (error <= there || !is_singular(problem)) return error;
+    scratch.best = scratch.pose;
+    bend_within_limits(problem, Unwatched());
+    const float bent = descend_to_stall(problem, there);
+    if (bent < error) return bent;
+    scratch.swap_pose(scratch.best);
     return error;
 }
 
@@ -73,7 +70,7 @@ bool limits_stop_tip(Problem& problem, float there) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
     const int steps = problem.least_squares_steps;
     scratch.start = scratch.pose;
-    const bool holds = descend_past_singularities(problem, there) > there && is_stopped_by_limits(problem);
+    const bool holds = descend_past_singularity(problem, there) > there && is_stopped_by_limits(problem);
     scratch.swap_pose(scratch.start);
     problem.least_squares_steps = steps;  // these are not the method's
     return holds;
