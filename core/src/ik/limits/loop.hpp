@@ -2,7 +2,8 @@
 #pragma once
 
 #include "ik/solve/problem.hpp"
-#include "tendril/ik/solver.hpp"
+#include "tendril/ik/method.hpp"
+#include "tendril/ik/report.hpp"
 
 namespace tendril::ik::detail {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "ik/solve/problem.hpp"
-#include "tendril/ik/solver.hpp"
+#include "tendril/ik/method.hpp"
 
 namespace tendril::ik::detail {
 
