@@ -3,6 +3,8 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
@@ -43,14 +45,40 @@ std::string begin_row(const char* name) {
     return std::string("##") + name;
 }
 
+/// Whether a field's widget has a new value that counts, in `value`; `changed` is what the widget said. What
+/// is typed counts once the person is done, with Enter, Tab or a click elsewhere, and never after Escape:
+/// ImGui itself would pass on every keystroke, "0" on the way to "0.5".
+bool counts(const char* id, bool changed, double& value) {
+    ImGuiStorage& kept = *ImGui::GetStateStorage();
+    ImGui::PushID(id);
+    const ImGuiID pending = ImGui::GetID("pending"), halves[] = {ImGui::GetID("low"), ImGui::GetID("high")};
+    ImGui::PopID();
+    const bool was_typed = kept.GetBool(pending);
+    if (ImGui::IsItemActive() && ImGui::GetIO().WantTextInput) {
+        if (!changed) return false;
+        const auto bits = std::bit_cast<std::array<int, 2>>(value);
+        for (std::size_t i = 0; i < 2; ++i) kept.SetInt(halves[i], bits[i]);
+        kept.SetBool(pending, true);
+        return false;
+    }
+    kept.SetBool(pending, false);
+    if (was_typed && escape_pressed()) return false;
+    if (was_typed && !changed)
+        value = std::bit_cast<double>(std::array{kept.GetInt(halves[0]), kept.GetInt(halves[1])});
+    return changed || was_typed;
+}
+
 /// A drag ends at the range; what is typed beyond it is passed on, to be refused with the reason.
 bool drag_number(const char* id, float& value, float speed, float low, float high, const char* format) {
     char text[64];
     std::snprintf(text, sizeof text, format, static_cast<double>(value));
     float shown = without_signed_zero(text) == text ? value : 0.0f;
-    if (!ImGui::DragFloat(id, &shown, speed, low, high, format)) return false;
+    const bool changed = ImGui::DragFloat(id, &shown, speed, low, high, format);
+    double number = shown;
+    if (!counts(id, changed, number)) return false;
     constexpr float most = std::numeric_limits<float>::max();  // JSON has no infinity
-    value = std::isfinite(shown) ? shown : std::copysign(most, shown);
+    const auto wanted = static_cast<float>(number);
+    value = std::isfinite(wanted) ? wanted : std::copysign(most, wanted);
     return true;
 }
 
@@ -83,7 +111,9 @@ bool integer_field(const char* name, int& value, int low, int high) {
     // As a double: a whole number that no int holds would come out of ImGui as another one.
     const double from = low, to = high;
     double shown = value;
-    if (!ImGui::DragScalar(id.c_str(), ImGuiDataType_Double, &shown, 0.1f, &from, &to, "%.0f")) return false;
+    const bool changed =
+        ImGui::DragScalar(id.c_str(), ImGuiDataType_Double, &shown, 0.1f, &from, &to, "%.0f");
+    if (!counts(id.c_str(), changed, shown)) return false;
     using Limits = std::numeric_limits<int>;
     value = static_cast<int>(std::clamp<double>(std::round(shown), Limits::min(), Limits::max()));
     return true;
@@ -95,7 +125,10 @@ bool integer_slider(const char* name, int& value, int low, int high) {
     const float room =
         ImGui::CalcTextSize(std::to_string(high).c_str()).x + ImGui::GetStyle().ItemInnerSpacing.x;
     ImGui::SetNextItemWidth(-room);
-    const bool changed = ImGui::SliderInt(id.c_str(), &value, low, high, "");
+    int shown = value;
+    double number = ImGui::SliderInt(id.c_str(), &shown, low, high, "") ? shown : value;
+    const bool changed = counts(id.c_str(), shown != value, number);
+    value = static_cast<int>(number);
     ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
     ImGui::Text("%d", value);
     return changed;

@@ -1,4 +1,6 @@
 // Numbers that are typed into a panel: what is out of range is refused with its value and the range.
+#include <algorithm>
+
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {
@@ -12,6 +14,8 @@ ScriptText typed_into_every_row(const char* text) {
         script.click({173.0f, y}).click({173.0f, y}).text(text).key("enter").wait(30);
     return script;
 }
+
+constexpr glm::vec2 iterations_field{173.0f, 427.0f};
 
 /// Plays it; refusals of what is typed into a panel end no script.
 Played played_with_refusals(const ScriptText& script) {
@@ -45,6 +49,48 @@ TEST(TypedNumbers, InRangeAreTaken) {
     EXPECT_EQ(solve.at("iterations"), 1);
     EXPECT_EQ(solve.at("snap_back"), 1.0);
     EXPECT_EQ(solve.at("soft_zone"), 1.0);
+}
+
+/// Types into the Chain lab's field for iterations, a key at a time, and ends as the script goes on.
+ScriptText typed_iterations(const std::string& text) {
+    ScriptText script;
+    script.command("chain.mode", {{"mode", "reach"}});
+    script.click(iterations_field).click(iterations_field);
+    for (const char key : text) script.text(std::string(1, key).c_str());
+    return script;
+}
+
+std::size_t lines(const std::string& text) {
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+/// Not at every key on the way to the number.
+TEST(TypedNumbers, AreRefusedOnceWhenTypingEnds) {
+    for (const char* key : {"enter", "tab"}) {
+        const Played played = played_with_refusals(typed_iterations("99999999").key(key).wait(30));
+        EXPECT_TRUE(has(played.outcome.err, "iterations must be 1 to 10000, got 99999999")) << key;
+        EXPECT_EQ(lines(played.outcome.err), 1u) << key << ": " << played.outcome.err;
+    }
+    const Played elsewhere =
+        played_with_refusals(typed_iterations("99999999").click({700.0f, 400.0f}).wait(30));
+    EXPECT_EQ(lines(elsewhere.outcome.err), 1u) << elsewhere.outcome.err;
+}
+
+/// "0" is out of range, and on the way to "042".
+TEST(TypedNumbers, ThatBeginOutOfRangeAreTaken) {
+    for (const char* key : {"enter", "tab"}) {
+        const Played played = play(typed_iterations("042").key(key).wait(30));
+        EXPECT_EQ(played.outcome.err, "") << key;
+        EXPECT_EQ(played.state.at("solve").at("iterations"), 42) << key;
+    }
+    const Played elsewhere = play(typed_iterations("042").click({700.0f, 400.0f}).wait(30));
+    EXPECT_EQ(elsewhere.state.at("solve").at("iterations"), 42);
+}
+
+TEST(TypedNumbers, EscapeTakesThemBack) {
+    const Played played = play(typed_iterations("42").key("escape").wait(30));
+    EXPECT_EQ(played.outcome.err, "");
+    EXPECT_EQ(played.state.at("solve").at("iterations"), 100);
 }
 
 /// 2^32 + 7 is 7 where a parser keeps the last 32 bits.
