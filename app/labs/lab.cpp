@@ -8,6 +8,10 @@
 
 namespace tendril::app {
 
+Bounds bounds_of(glm::vec3 low, glm::vec3 high, float smallest) {
+    return {0.5f * (low + high), std::max(0.5f * glm::distance(low, high), smallest)};
+}
+
 std::optional<Handle> Lab::handle(const Workspace& workspace, PickId pick) const {
     const std::vector<Handle> all = handles(workspace);
     const auto found =
@@ -23,7 +27,7 @@ Bounds Lab::bounds(const Workspace& workspace, bool) const {
         low = glm::min(low, handle.frame.position);
         high = glm::max(high, handle.frame.position);
     }
-    return {0.5f * (low + high), std::max(0.5f * glm::distance(low, high), 0.5f)};
+    return bounds_of(low, high);
 }
 
 Json Lab::state(const Workspace& workspace) const {

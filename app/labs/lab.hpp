@@ -54,6 +54,9 @@ struct Bounds {
     float radius = 1.0f;
 };
 
+/// Around a box along the axes, of a radius of `smallest` metres or more.
+Bounds bounds_of(glm::vec3 low, glm::vec3 high, float smallest = 0.5f);
+
 /// What a colour of the picture means here.
 struct LegendRow {
     std::string name;
@@ -62,7 +65,8 @@ struct LegendRow {
 };
 
 /// A scene that the tests which run over every lab begin with: random events and commands are let loose on
-/// it, and it has to come out the same when it is played again.
+/// it, and it has to come out the same when it is played again. The fuzzer's scene files begin with it too,
+/// where it is small.
 struct TestScene {
     std::string name;
     std::vector<CommandCall> commands;  ///< that set it up, from a blank document
@@ -93,6 +97,9 @@ class Lab {
     virtual bool moving(const Workspace&) const { return false; }
     /// One tick of tick_seconds, in which clock.speed times as much passes in the lab.
     virtual void step(Workspace&) const {}
+    /// Elementary steps that a tick would take, roughly; 0: too few to count. Who runs through millions of
+    /// scenes leaves out those that take long.
+    virtual std::uint64_t tick_work(const Workspace&) const { return 0; }
     /// What the clock in the top bar shows: seconds that have passed in the lab.
     virtual double seconds(const Workspace& workspace) const {
         return static_cast<double>(workspace.clock.tick) * tick_seconds;

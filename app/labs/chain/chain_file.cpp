@@ -15,9 +15,9 @@ Json ChainPart::save() const {
     for (const Segment& segment : chain.segments()) {
         segments.push_back({{"position", point(segment.position)}, {"length", number(segment.length)}});
     }
-    Json json{{"mode", mode_name(mode)}, {"index", index}};
+    Json json{{"mode", chain_modes.name(mode)}, {"index", index}};
     for (std::size_t i = 0; i < iterations.size(); ++i)
-        json["iterations"][mode_name(all_modes[i])] = iterations[i];
+        json["iterations"][chain_modes.rows[i].name] = iterations[i];
     json["tolerance"] = number(tolerance);
     json["target"] = point(target);
     json["selected"] = selected ? Json(*selected) : Json(nullptr);
@@ -68,10 +68,10 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
     const JsonPlace place(json, where);
     auto part = std::make_shared<ChainPart>();
     try {
-        part->mode = mode_from_name(place["mode"].text());
+        part->mode = chain_modes.value(place["mode"].text());
         const JsonPlace repeats = place["iterations"];
         for (std::size_t i = 0; i < part->iterations.size(); ++i)
-            part->iterations[i] = repeats[mode_name(all_modes[i])].integer(1, max_iterations);
+            part->iterations[i] = repeats[chain_modes.rows[i].name].integer(1, max_iterations);
         part->tolerance = place["tolerance"].number(0.0f, max_magnitude);
         part->target = place["target"].point();
         part->motion = load_motion(place["motion"]);
@@ -84,7 +84,7 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
         if (place.has("reach")) part->reach = load_reach(place["reach"], part->chain);
         if (place.has("study")) {
             if (part->mode != ChainMode::Reach)
-                place["study"].fail(std::string("is for mode reach, not ") + mode_name(part->mode));
+                place["study"].fail(std::string("is for mode reach, not ") + chain_modes.name(part->mode));
             part->study = load_study(place["study"], part->chain);
         }
         ChainRuntime runtime;  // a part belongs to no workspace yet

@@ -75,6 +75,11 @@ void ChainLab::step(Workspace& workspace) const {
     workspace.toast(*stopped, ToastKind::Refusal);
 }
 
+std::uint64_t ChainLab::tick_work(const Workspace& workspace) const {
+    const ChainPart& part = chain_part(workspace);
+    return part.chain.size() * static_cast<std::uint64_t>(iterations_of(part, part.mode));
+}
+
 std::vector<Handle> ChainLab::handles(const Workspace& workspace) const {
     const ChainPart& part = chain_part(workspace);
     std::vector<Handle> handles{*handle(workspace, target_pick)};
@@ -119,7 +124,7 @@ void ChainLab::click(const Workspace& workspace, PickId pick, Emit& emit) const 
     emit("chain.select", {{"index", index}});
     const ChainPart& part = chain_part(workspace);
     if (part.mode == ChainMode::WithIndex && part.index != index) {
-        emit("chain.mode", {{"mode", mode_name(part.mode)}, {"index", index}});
+        emit("chain.mode", {{"mode", chain_modes.name(part.mode)}, {"index", index}});
     }
 }
 
@@ -127,7 +132,7 @@ std::string ChainLab::hint(const Workspace& workspace, PickId pick) const {
     const ChainPart& part = chain_part(workspace);
     if (pick == no_pick) return {};
     if (pick == target_pick) {
-        return std::string("Target: drag to reach for it (") + mode_title(part.mode) +
+        return std::string("Target: drag to reach for it (") + chain_modes.title(part.mode) +
                "). Hold X, Y or Z for one axis, "
                "Shift for the ground plane.";
     }
@@ -159,7 +164,7 @@ Bounds ChainLab::bounds(const Workspace& workspace, bool selection_only) const {
         const glm::vec3 lane = race_lane(shown);
         high += glm::max(lane * static_cast<float>(shown.race->racers.size()) - glm::abs(lane), 0.0f);
     }
-    return {0.5f * (low + high), std::max(0.5f * glm::distance(low, high), 0.5f)};
+    return bounds_of(low, high);
 }
 
 std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {

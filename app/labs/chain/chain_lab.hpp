@@ -26,6 +26,7 @@ class ChainLab final : public Lab {
 
     bool moving(const Workspace& workspace) const override;
     void step(Workspace& workspace) const override;
+    std::uint64_t tick_work(const Workspace& workspace) const override;
     void draw(const View& view, DrawList& list) const override;
 
     std::vector<LegendRow> legend(const Workspace& workspace) const override;

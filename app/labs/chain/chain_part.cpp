@@ -8,48 +8,9 @@
 
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/presets.hpp"
-#include "app/labs/kit/names.hpp"
 #include "app/labs/kit/require.hpp"
 
 namespace tendril::app {
-namespace {
-
-struct ModeText {
-    ChainMode mode;
-    const char* name;
-    const char* title;
-    const char* help;
-};
-constexpr ModeText mode_texts[] = {
-    {ChainMode::Forward, "forward", "Forward", "Pulls by the head: it goes to the target, the rest trails."},
-    {ChainMode::Backward, "backward", "Backward",
-     "Pulls by the tail: it goes to the target, the rest trails."},
-    {ChainMode::Fixed, "fixed", "Fixed", "The head reaches for the target; the tail stays where it is."},
-    {ChainMode::WithIndex, "with_index", "With index", "Pulls by one segment; both sides trail."},
-    {ChainMode::Reach, "reach", "Reach", "The root stays; the tip reaches for the target."},
-};
-
-const ModeText& text_of(ChainMode mode) {
-    return *std::find_if(std::begin(mode_texts), std::end(mode_texts),
-                         [&](const auto& t) { return t.mode == mode; });
-}
-
-}  // namespace
-
-const char* mode_name(ChainMode mode) {
-    return text_of(mode).name;
-}
-const char* mode_title(ChainMode mode) {
-    return text_of(mode).title;
-}
-const char* mode_help(ChainMode mode) {
-    return text_of(mode).help;
-}
-
-ChainMode mode_from_name(const std::string& name) {
-    return named(all_modes, mode_name, name, "mode");
-}
-
 ChainPart first_chain() {
     ChainPart part;
     part.chain = make_preset("start", 8, 1);
@@ -78,10 +39,7 @@ void check_range(const ChainPart& part) {
                                     std::to_string(part.chain.size()));
     }
     if (part.motion.path == Motion::Path::Still) return;
-    const glm::vec3 span(part.motion.radius);
-    if (outside(part.motion.centre - span) || outside(part.motion.centre + span)) {
-        throw std::invalid_argument("the target's path would reach farther than 1e9 m");
-    }
+    check_path(part.motion.centre, glm::vec3(part.motion.radius), "the target's path");
 }
 
 int iterations_of(const ChainPart& part, ChainMode mode) {

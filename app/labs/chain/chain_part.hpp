@@ -47,15 +47,14 @@ struct ChainPart final : Part {
 /// What the lab starts with: eight segments of a metre along +X, the target on the tail.
 ChainPart first_chain();
 
-/// "forward", "with_index": the mode as commands and files name it, and as people read it.
-const char* mode_name(ChainMode mode);
-const char* mode_title(ChainMode mode);
-const char* mode_help(ChainMode mode);
 /// Every mode, in the order of the panel.
-inline constexpr std::array all_modes{ChainMode::Forward, ChainMode::Backward, ChainMode::Fixed,
-                                      ChainMode::WithIndex, ChainMode::Reach};
-/// Throws std::invalid_argument for an unknown name.
-ChainMode mode_from_name(const std::string& name);
+inline constexpr EnumNames<ChainMode, 5> chain_modes{
+    "mode",
+    {{"forward", "Forward", "Pulls by the head: it goes to the target, the rest trails."},
+     {"backward", "Backward", "Pulls by the tail: it goes to the target, the rest trails."},
+     {"fixed", "Fixed", "The head reaches for the target; the tail stays where it is."},
+     {"with_index", "With index", "Pulls by one segment; both sides trail."},
+     {"reach", "Reach", "The root stays; the tip reaches for the target."}}};
 /// Each mode has its own number of iterations.
 int& iterations_of(ChainPart& part, ChainMode mode);
 int iterations_of(const ChainPart& part, ChainMode mode);

@@ -76,7 +76,7 @@ std::size_t ChainProgram::limit_count() const {
 
 void ChainProgram::head() {
     line("// A chain of " + std::to_string(part_.chain.size()) + " segments, exported from Tendril. " +
-         mode_help(part_.mode));
+         chain_modes.help(part_.mode));
     line("//");
     line("// CMake: find_package(tendril REQUIRED)");
     line("//        target_link_libraries(your_program PRIVATE tendril::core)");

@@ -7,7 +7,7 @@ namespace tendril::app {
 namespace {
 
 void set_mode(ChainPart& part, const Arguments& given) {
-    part.mode = mode_from_name(given.text("mode"));
+    part.mode = chain_modes.value(given.text("mode"));
     if (part.mode != ChainMode::Reach) part.study.close();
     if (given.has("index")) {
         const std::size_t index = index_of(given);
@@ -55,7 +55,7 @@ void set_target(ChainPart& part, const Arguments& given, ChainRuntime& runtime) 
 /// The path starts under the target, so setting it going never makes the target jump.
 void set_motion(ChainPart& part, const Arguments& given) {
     Motion motion = part.motion;
-    motion.path = motion_from_name(given.text("path"));
+    motion.path = motion_paths.value(given.text("path"));
     if (given.has("radius")) motion.radius = given.number("radius");
     if (given.has("period")) motion.period = given.number("period");
     motion.ticks = 0;
@@ -76,7 +76,7 @@ void seek(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
 void add_mode_commands(CommandTable& table) {
     table.add(chain_command(
         "chain.mode",
-        {choice_argument("mode", true, "how the chain reaches", names(all_modes, mode_name)),
+        {choice_argument("mode", true, "how the chain reaches", chain_modes.names()),
          index_argument(false, "which segment with_index pulls"),
          integer_argument("iterations", "repeats of fixed, or of reach at most", 1, max_iterations),
          number_argument("tolerance", "metres at which fixed or reach stops repeating", 0, 1e9)},
@@ -92,7 +92,7 @@ void add_mode_commands(CommandTable& table) {
                             "Selects a segment", select, Effect::Look));
     table.add(chain_command(
         "chain.motion",
-        {choice_argument("path", true, "what the target follows by itself", names(all_motions, motion_name)),
+        {choice_argument("path", true, "what the target follows by itself", motion_paths.names()),
          number_argument("radius", "metres", 0, static_cast<double>(max_motion_radius)),
          number_argument("period", "seconds a round", shortest_decimal(shortest_period),
                          shortest_decimal(longest_period))},

@@ -19,14 +19,14 @@ float& next_length() {
 
 void mode_rows(const ChainPart& part, Emit& emit) {
     section("Mode");
-    for (const ChainMode mode : all_modes) {
-        if (option_button(mode_title(mode), part.mode == mode))
-            emit("chain.mode", {{"mode", mode_name(mode)}});
+    for (const ChainMode mode : chain_modes.values()) {
+        if (option_button(chain_modes.title(mode), part.mode == mode))
+            emit("chain.mode", {{"mode", chain_modes.name(mode)}});
     }
-    note(mode_help(part.mode));
+    note(chain_modes.help(part.mode));
 
     const auto with = [&](const char* name, ArgumentValue value) {
-        emit.continuously("chain.mode", {{"mode", mode_name(part.mode)}, {name, std::move(value)}});
+        emit.continuously("chain.mode", {{"mode", chain_modes.name(part.mode)}, {name, std::move(value)}});
     };
     if (part.mode == ChainMode::WithIndex && !part.chain.empty()) {
         int index = static_cast<int>(part.index);
@@ -69,19 +69,20 @@ void target_rows(const ChainPart& part, bool playing, Emit& emit) {
     glm::vec3 target = part.target;
     if (point_field("target", target, 0.01f)) emit.continuously("chain.target", {{"to", target}});
 
-    static constexpr const char* titles[] = {"stands still", "in a circle", "in a figure eight", "along X"};
+    const auto titles = motion_paths.titles();
     int path = static_cast<int>(part.motion.path);
-    if (choice_field("moves", path, titles, static_cast<int>(std::size(titles)))) {
-        emit("chain.motion", {{"path", motion_name(all_motions[static_cast<std::size_t>(path)])}});
+    if (choice_field("moves", path, titles.data(), static_cast<int>(titles.size()))) {
+        emit("chain.motion", {{"path", motion_paths.name(static_cast<Motion::Path>(path))}});
     }
     if (part.motion.path == Motion::Path::Still) return;
     if (!playing) note("The simulation is paused. Space runs it.");
     const auto with = [&](const char* name, float value) {
-        emit.continuously("chain.motion", {{"path", motion_name(part.motion.path)}, {name, value}});
+        emit.continuously("chain.motion", {{"path", motion_paths.name(part.motion.path)}, {name, value}});
     };
     float radius = part.motion.radius, period = part.motion.period;
     if (number_field("radius", radius, 0.01f, 0.0f, 1000.0f, "%.2f m")) with("radius", radius);
-    if (number_field("period", period, 0.02f, 0.1f, 600.0f, "%.2f s")) with("period", period);
+    if (number_field("period", period, 0.02f, shortest_period, longest_period, "%.2f s"))
+        with("period", period);
 }
 
 void preset_rows(Emit& emit) {

@@ -18,6 +18,7 @@
 
 #include "app/document/json.hpp"
 #include "app/io/solver_text.hpp"
+#include "app/labs/kit/names.hpp"
 
 namespace tendril::ik {
 struct Options;
@@ -109,9 +110,8 @@ const char* solver_help(ik::Method method);
 /// What a status means, in a sentence.
 const char* status_help(ik::Status status);
 const char* kind_title(ik::JointKind kind);
-const char* pole_turn_name(ik::PoleTurn turn);
-ik::PoleTurn pole_turn_from_name(const std::string& name);
-inline constexpr std::array all_pole_turns{ik::PoleTurn::WholeChain, ik::PoleTurn::EachJoint};
+inline constexpr EnumNames<ik::PoleTurn, 2> pole_turns{
+    "pole turn", {{"whole_chain", "whole chain"}, {"each_joint", "each joint"}}};
 inline constexpr std::array all_joint_kinds{
     ik::JointKind::Free,   ik::JointKind::Suture, ik::JointKind::Hinge,        ik::JointKind::Gliding,
     ik::JointKind::Saddle, ik::JointKind::Pivot,  ik::JointKind::BallAndSocket};

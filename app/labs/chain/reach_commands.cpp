@@ -28,7 +28,7 @@ void set_solver(ChainPart& part, const Arguments& given, ChainRuntime& runtime) 
     if (given.has("twist_deg")) reach.twist_deg = given.number("twist_deg");
     if (given.has("default_restarts") && given.boolean("default_restarts")) reach.restarts.reset();
     if (given.has("restarts")) reach.restarts = given.integer("restarts");
-    if (given.has("pole_turn")) reach.pole_turn = pole_turn_from_name(given.text("pole_turn"));
+    if (given.has("pole_turn")) reach.pole_turn = pole_turns.value(given.text("pole_turn"));
     if (part.study.open()) reach_again(part, runtime);
 }
 
@@ -102,7 +102,7 @@ void add_reach_commands(CommandTable& table) {
                           max_restarts),
          switch_argument("default_restarts", "true: 8, but none while the target is dragged"),
          choice_argument("pole_turn", false, "all joints at once, or each between its neighbours",
-                         names(all_pole_turns, pole_turn_name))},
+                         pole_turns.names())},
         "Sets what solves in mode reach; the chain moves when the target next does", set_solver));
     table.add(chain_command("chain.limit", limit_arguments(),
                             "Limits how far a joint turns in mode reach; kind free takes the limit away",

@@ -28,7 +28,7 @@ glm::vec3 offset(const JsonPlace& place) {
 
 /// Its joints are left out where they are the chain's, as they are right after a solve.
 Json save_memory(const ik::PoleMemory& memory, const std::vector<glm::vec3>& joints) {
-    Json json{{"turn", pole_turn_name(memory.turn)},
+    Json json{{"turn", pole_turns.name(memory.turn)},
               {"pole", point(memory.pole)},
               {"target", point(memory.target)},
               {"twist_deg", degrees(memory.twist)}};
@@ -41,7 +41,7 @@ Json save_memory(const ik::PoleMemory& memory, const std::vector<glm::vec3>& joi
 ik::PoleMemory load_memory(const JsonPlace& place, const std::vector<glm::vec3>& joints) {
     ik::PoleMemory memory;
     memory.valid = true;
-    memory.turn = pole_turn_from_name(place["turn"].text());
+    memory.turn = pole_turns.value(place["turn"].text());
     memory.pole = offset(place["pole"]);
     memory.target = offset(place["target"]);
     memory.twist = place["twist_deg"].degrees();
@@ -101,7 +101,7 @@ Json save_reach(const ReachSettings& settings, const Chain& chain) {
     json["twist_deg"] = number(settings.twist_deg);
     json["restarts"] = settings.restarts ? Json(*settings.restarts) : Json(nullptr);
     json["pole"] = settings.pole ? point(*settings.pole) : Json(nullptr);
-    json["pole_turn"] = pole_turn_name(settings.pole_turn);
+    json["pole_turn"] = pole_turns.name(settings.pole_turn);
     for (const ik::Limit& limit : settings.limits) json["limits"].push_back(limit_json(limit));
     save_state(json, settings.state, positions(chain));
     return json;
@@ -124,7 +124,7 @@ ReachSettings load_reach(const JsonPlace& place, const Chain& chain) {
     if (const auto restarts = place.optional("restarts"))  // version 1 had no such option
         settings.restarts = restarts->integer(0, max_restarts);
     if (const auto pole = place.optional("pole")) settings.pole = pole->point();
-    settings.pole_turn = pole_turn_from_name(place["pole_turn"].text());
+    settings.pole_turn = pole_turns.value(place["pole_turn"].text());
     if (const auto limits = bone_list(place, "limits", bones)) {
         for (std::size_t i = 0; i < bones; ++i) {
             const JsonPlace each = limits->element(i);

@@ -4,7 +4,6 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/labs/chain/reach.hpp"
-#include "app/labs/kit/names.hpp"
 
 namespace tendril::app {
 namespace {
@@ -80,14 +79,6 @@ std::string active_limit_text(const ik::ActiveLimit& limit) {
     text += "; the target needs " + needed_degrees(limit);
     if (!limit.enough) text += " and more of the others";
     return text;
-}
-
-const char* pole_turn_name(ik::PoleTurn turn) {
-    return turn == ik::PoleTurn::WholeChain ? "whole_chain" : "each_joint";
-}
-
-ik::PoleTurn pole_turn_from_name(const std::string& name) {
-    return named(all_pole_turns, pole_turn_name, name, "pole turn");
 }
 
 }  // namespace tendril::app

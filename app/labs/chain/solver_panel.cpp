@@ -78,11 +78,10 @@ void pole_rows(const ChainPart& part, Emit& emit) {
     glm::vec3 pole = *part.reach.pole;
     if (point_field("pole", pole, 0.01f)) emit.continuously("chain.pole", {{"to", pole}});
     option_row(part.reach, ik::Option::PoleTurn, [&] {
-        static constexpr const char* titles[] = {"whole chain", "each joint"};
+        const auto titles = pole_turns.titles();
         int turn = static_cast<int>(part.reach.pole_turn);
-        if (choice_field("turns", turn, titles, static_cast<int>(std::size(titles)))) {
-            emit("chain.solver",
-                 {{"pole_turn", pole_turn_name(all_pole_turns[static_cast<std::size_t>(turn)])}});
+        if (choice_field("turns", turn, titles.data(), static_cast<int>(titles.size()))) {
+            emit("chain.solver", {{"pole_turn", pole_turns.name(static_cast<ik::PoleTurn>(turn))}});
         }
     });
 }

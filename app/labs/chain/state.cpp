@@ -76,7 +76,7 @@ Json ChainLab::state(const Workspace& workspace) const {
     const float tolerance =
         part.mode == ChainMode::Reach ? reach_tolerance(part.reach, part.chain.reach()) : part.tolerance;
     Json json{{"lab", chain_lab},
-              {"mode", mode_name(part.mode)},
+              {"mode", chain_modes.name(part.mode)},
               {"index", part.index},
               {"iterations", iterations_of(part, part.mode)},
               {"tolerance", number(tolerance)},
@@ -85,7 +85,7 @@ Json ChainLab::state(const Workspace& workspace) const {
               {"tail", end(true)},
               {"selected", part.selected ? Json(*part.selected) : Json(nullptr)},
               {"reach", number(part.chain.reach())},
-              {"motion", motion_name(part.motion.path)},
+              {"motion", motion_paths.name(part.motion.path)},
               {"segments", std::move(list)}};
     if (part.mode == ChainMode::Reach) json["solve"] = reach_state(part);
     const ShownChain shown = shown_chain(workspace);

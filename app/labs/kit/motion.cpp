@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <glm/vector_relational.hpp>
+#include <stdexcept>
+#include <tendril/magnitude.hpp>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/workspace.hpp"
 #include "app/labs/kit/json_place.hpp"
-#include "app/labs/kit/names.hpp"
 
 namespace tendril::app {
 
@@ -16,13 +18,10 @@ double round_angle(double seconds, float period) {
     return glm::two_pi<double>() * (rounds - std::floor(rounds));
 }
 
-const char* motion_name(Motion::Path path) {
-    static constexpr const char* names[] = {"still", "circle", "figure_eight", "sweep"};
-    return names[static_cast<std::size_t>(path)];
-}
-
-Motion::Path motion_from_name(const std::string& name) {
-    return named(all_motions, motion_name, name, "path");
+void check_path(glm::vec3 centre, glm::vec3 span, const char* what) {
+    const glm::vec3 farthest = glm::abs(centre) + glm::abs(span);
+    if (!glm::all(glm::lessThanEqual(farthest, glm::vec3(max_magnitude))))
+        throw std::invalid_argument(std::string(what) + " would reach farther than 1e9 m");
 }
 
 std::uint32_t ticks_per_round(const Motion& motion) {
@@ -47,7 +46,7 @@ glm::vec3 motion_point(const Motion& motion, std::uint32_t ticks) {
 }
 
 Json save_motion(const Motion& motion) {
-    return {{"path", motion_name(motion.path)},
+    return {{"path", motion_paths.name(motion.path)},
             {"centre", point(motion.centre)},
             {"radius", number(motion.radius)},
             {"period", number(motion.period)},
@@ -56,7 +55,7 @@ Json save_motion(const Motion& motion) {
 
 Motion load_motion(const JsonPlace& place) {
     Motion motion;
-    motion.path = motion_from_name(place["path"].text());
+    motion.path = motion_paths.value(place["path"].text());
     motion.centre = place["centre"].point();
     motion.radius = place["radius"].number(0.0f, max_motion_radius);
     motion.period = place["period"].number(shortest_period, longest_period);

@@ -3,12 +3,12 @@
 // and step it.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <string>
 
 #include "app/document/json.hpp"
+#include "app/labs/kit/names.hpp"
 
 namespace tendril::app {
 
@@ -29,11 +29,15 @@ struct Motion {
 };
 inline constexpr float max_motion_radius = 1e4f;  ///< metres
 
-inline constexpr std::array all_motions{Motion::Path::Still, Motion::Path::Circle, Motion::Path::FigureEight,
-                                        Motion::Path::Sweep};
-const char* motion_name(Motion::Path path);
-/// Throws std::invalid_argument for an unknown name.
-Motion::Path motion_from_name(const std::string& name);
+inline constexpr EnumNames<Motion::Path, 4> motion_paths{"path",
+                                                         {{"still", "stands still"},
+                                                          {"circle", "in a circle"},
+                                                          {"figure_eight", "in a figure eight"},
+                                                          {"sweep", "along X"}}};
+
+/// Throws std::invalid_argument, "the target's path would reach farther than 1e9 m", where a path within
+/// `span` of its centre would.
+void check_path(glm::vec3 centre, glm::vec3 span, const char* what);
 
 /// Where the path is after so many ticks; it starts to the right of its centre, or wherever its first point
 /// is.

@@ -1,11 +1,20 @@
 // Things that are chosen by name in commands and files: modes, presets, tools.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace tendril::app {
+
+/// The one of the list whose name it is. Throws std::invalid_argument: unknown mode "flying".
+const auto& named(const auto& list, auto name_of, const std::string& name, const char* what) {
+    for (const auto& each : list)
+        if (name == name_of(each)) return each;
+    throw std::invalid_argument(std::string("unknown ") + what + " \"" + name + "\"");
+}
 
 /// The names of all of a list, for the choices of an argument.
 std::vector<std::string> names(const auto& list, auto name_of) {
@@ -14,11 +23,42 @@ std::vector<std::string> names(const auto& list, auto name_of) {
     return result;
 }
 
-/// The one of the list whose name it is. Throws std::invalid_argument: unknown mode "flying".
-const auto& named(const auto& list, auto name_of, const std::string& name, const char* what) {
-    for (const auto& each : list)
-        if (name == name_of(each)) return each;
-    throw std::invalid_argument(std::string("unknown ") + what + " \"" + name + "\"");
-}
+/// What an enumerator is called: in commands and files, in a panel, and in a sentence that says what it does.
+struct EnumRow {
+    const char* name;
+    const char* title;
+    const char* help = "";
+};
+
+/// The names of an enumeration: one row for each enumerator, in their order, which begins at 0.
+template <class Enum, std::size_t count>
+struct EnumNames {
+    const char* what;  ///< what messages call one of them: "mode"
+    EnumRow rows[count];
+
+    constexpr const EnumRow& row(Enum value) const { return rows[static_cast<std::size_t>(value)]; }
+    constexpr const char* name(Enum value) const { return row(value).name; }
+    constexpr const char* title(Enum value) const { return row(value).title; }
+    constexpr const char* help(Enum value) const { return row(value).help; }
+    /// Throws std::invalid_argument for an unknown name.
+    Enum value(const std::string& name) const {
+        return named(
+            values(), [this](Enum each) { return this->name(each); }, name, what);
+    }
+    constexpr std::array<Enum, count> values() const {
+        std::array<Enum, count> all{};
+        for (std::size_t i = 0; i < count; ++i) all[i] = static_cast<Enum>(i);
+        return all;
+    }
+    /// For the choices of an argument, and of a field.
+    std::vector<std::string> names() const {
+        return app::names(rows, [](const EnumRow& row) { return row.name; });
+    }
+    std::array<const char*, count> titles() const {
+        std::array<const char*, count> all{};
+        for (std::size_t i = 0; i < count; ++i) all[i] = rows[i].title;
+        return all;
+    }
+};
 
 }  // namespace tendril::app

@@ -58,9 +58,9 @@ void add_look_commands(CommandTable& table) {
         "rope.let_go", {}, "Lets go of what rope.hold holds",
         [](RopeEdit& edit, const Arguments&) { let_go(edit.part); }, Effect::Look));
     table.add(rope_command(
-        "rope.tool", {choice_argument("name", true, "which", names(all_tools, tool_name))},
+        "rope.tool", {choice_argument("name", true, "which", rope_tools.names())},
         "What a click does to what it hits",
-        [](RopeEdit& edit, const Arguments& given) { edit.part.tool = tool_from_name(given.text("name")); },
+        [](RopeEdit& edit, const Arguments& given) { edit.part.tool = rope_tools.value(given.text("name")); },
         Effect::Look));
     table.add(
         rope_command("rope.view",

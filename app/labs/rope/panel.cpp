@@ -23,27 +23,12 @@ void scene_rows(Emit& emit) {
 
 void tool_rows(const RopePart& part, Emit& emit) {
     section("Click action");
-    static constexpr const char* titles[] = {"Select", "Pin or unpin", "Cut"};
-    for (const RopeTool tool : all_tools) {
-        if (option_button(titles[static_cast<std::size_t>(tool)], part.tool == tool))
-            emit("rope.tool", {{"name", tool_name(tool)}});
+    for (const RopeTool tool : rope_tools.values()) {
+        if (option_button(rope_tools.title(tool), part.tool == tool))
+            emit("rope.tool", {{"name", rope_tools.name(tool)}});
     }
     note(part.tool == RopeTool::Cut ? "Click a segment of a rope to cut it there."
                                     : "Drag any particle of a rope, and any collider.");
-}
-
-const char* solver_help(rope::Solver solver) {
-    switch (solver) {
-        case rope::Solver::Relaxation:
-            return "One segment after the other. How far a rope stretches depends on iterations and substep, "
-                   "not on its material.";
-        case rope::Solver::Xpbd:
-            return "As relaxation, but with compliance: enough iterations stretch it as a material "
-                   "stretches.";
-        case rope::Solver::Direct:
-            return "All segments of a rope at once: it does not stretch, and keeps its energy.";
-    }
-    return "";
 }
 
 /// A row of rope.settings.
@@ -56,12 +41,11 @@ void setting(const char* name, const char* key, float value, float speed, float 
 void solver_rows(const RopePart& part, Emit& emit) {
     section("Solver");
     const rope::Settings& now = part.world->settings();
-    static constexpr const char* titles[] = {"Relaxation", "XPBD", "Direct"};
     for (const rope::Solver solver : {rope::Solver::Direct, rope::Solver::Xpbd, rope::Solver::Relaxation}) {
-        if (option_button(titles[static_cast<std::size_t>(solver)], now.solver == solver))
-            emit("rope.settings", {{"solver", rope::name(solver)}});
+        if (option_button(rope_solvers.title(solver), now.solver == solver))
+            emit("rope.settings", {{"solver", rope_solvers.name(solver)}});
     }
-    note(solver_help(now.solver));
+    note(rope_solvers.help(now.solver));
     int iterations = now.iterations;
     if (integer_field("iterations", iterations, 1, 1000))
         emit.continuously("rope.settings", {{"iterations", iterations}});

@@ -112,7 +112,7 @@ Json RopePart::save() const {
     Json moving = Json::array();
     for (const Swing& swing : swings) moving.push_back(save_swing(swing));
     return Json{{"time", time},
-                {"tool", tool_name(tool)},
+                {"tool", rope_tools.name(tool)},
                 {"selected", save_selection(selection)},
                 {"view", {{"particles", view.particles}, {"strain", view.strain}, {"sides", view.sides}}},
                 {"jitter", save_jitter(jitter)},
@@ -129,7 +129,7 @@ std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where)
     const JsonPlace tool_place = place["tool"], world_place = place["world"];
     const JsonPlace* reading = &tool_place;
     try {
-        part->tool = tool_from_name(tool_place.text());
+        part->tool = rope_tools.value(tool_place.text());
         reading = &world_place;
         part->world = std::make_shared<const NamedWorld>(load_world(world_place));
         check_work(*part->world);

@@ -1,6 +1,7 @@
 #include "app/labs/rope/rope_lab.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -108,6 +109,13 @@ void RopeLab::step(Workspace& workspace) const {
     }
 }
 
+std::uint64_t RopeLab::tick_work(const Workspace& workspace) const {
+    const NamedWorld& world = *rope_part(workspace).world;
+    const double substeps =
+        tick_seconds * static_cast<double>(workspace.clock.speed) / world.settings().substep;
+    return work_of_substep(world) * static_cast<std::uint64_t>(std::ceil(substeps));
+}
+
 std::vector<Shortcut> RopeLab::shortcuts() const {
     return {delete_shortcut("rope.remove_selected")};
 }
@@ -119,7 +127,16 @@ std::vector<MouseHelp> RopeLab::mouse_help() const {
 std::vector<TestScene> RopeLab::test_scenes() const {
     const std::vector<std::string> words{"rope", "rope 2", "short 1", "cloth",
                                          "hair", "ball",   "bar",     "ground"};
-    std::vector<TestScene> scenes{{"selected", {{"rope.select", {{"collider", "ball"}}}}, words}};
+    std::vector<TestScene> scenes{
+        {"selected", {{"rope.select", {{"collider", "ball"}}}}, words},
+        {"small",
+         {{"rope.clear", {}},
+          {"rope.add",
+           {{"from", glm::vec3(0, 1, 0)}, {"to", glm::vec3(1, 1, 0)}, {"segments", 3}, {"pin_start", true}}},
+          {"rope.collider.add",
+           {{"name", "ball"}, {"kind", "sphere"}, {"centre", glm::vec3(0.5f, 0.8f, 0)}, {"radius", 0.1f}}},
+          {"rope.collider.swing", {{"name", "ball"}, {"by", glm::vec3(0.2f, 0, 0)}}}},
+         words}};
     for (const RopeSceneEntry& scene : rope_scenes())
         scenes.push_back({scene.name, {{"rope.preset", {{"name", scene.name}}}}, words});
     return scenes;
@@ -138,7 +155,7 @@ Bounds RopeLab::bounds(const Workspace& workspace, bool selection_only) const {
     }
     for (const rope::Collider& collider : part.world->state().colliders) include(collider.shape, low, high);
     if (low.x > high.x) return {{0.0f, 1.0f, 0.0f}, 1.5f};
-    return {0.5f * (low + high), std::max(0.5f * glm::distance(low, high), 0.2f)};
+    return bounds_of(low, high, 0.2f);
 }
 
 }  // namespace tendril::app

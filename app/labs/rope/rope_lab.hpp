@@ -43,6 +43,7 @@ class RopeLab final : public Lab {
 
     bool moving(const Workspace& workspace) const override;
     void step(Workspace& workspace) const override;
+    std::uint64_t tick_work(const Workspace& workspace) const override;
     double seconds(const Workspace& workspace) const override { return rope_part(workspace).time; }
     bool rewinds() const override { return true; }
 

@@ -12,16 +12,16 @@ namespace tendril::app {
 inline constexpr int fewest_sides = 3, most_sides = 64;
 inline constexpr double shortest_jitter_frame = 0.001, longest_jitter_frame = 0.25;  ///< seconds
 
-inline constexpr RopeTool all_tools[] = {RopeTool::Move, RopeTool::Pin, RopeTool::Cut};
+inline constexpr EnumNames<RopeTool, 3> rope_tools{
+    "tool", {{"move", "Select"}, {"pin", "Pin or unpin"}, {"cut", "Cut"}}};
 
-inline const char* tool_name(RopeTool tool) {
-    constexpr const char* tool_names[] = {"move", "pin", "cut"};
-    return tool_names[static_cast<std::size_t>(tool)];
-}
-
-/// Throws std::invalid_argument for an unknown name.
-inline RopeTool tool_from_name(const std::string& name) {
-    return named(all_tools, tool_name, name, "tool");
-}
+inline constexpr EnumNames<rope::Solver, 3> rope_solvers{
+    "solver",
+    {{"relaxation", "Relaxation",
+      "One segment after the other. How far a rope stretches depends on iterations and substep, not on its "
+      "material."},
+     {"xpbd", "XPBD",
+      "As relaxation, but with compliance: enough iterations stretch it as a material stretches."},
+     {"direct", "Direct", "All segments of a rope at once: it does not stretch, and keeps its energy."}}};
 
 }  // namespace tendril::app

@@ -117,9 +117,7 @@ glm::vec3 swing_point(const Swing& swing, double time) {
 }
 
 void require(const Swing& swing) {
-    const glm::vec3 farthest = glm::abs(swing.middle) + glm::abs(swing.swing);
-    if (!glm::all(glm::lessThanEqual(farthest, glm::vec3(max_magnitude))))
-        throw std::invalid_argument("it would swing farther than 1e9 m");
+    check_path(swing.middle, swing.swing, "its swing");
 }
 
 bool at_rest(const RopePart& part) {

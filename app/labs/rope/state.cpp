@@ -68,7 +68,7 @@ Json RopeLab::state(const Workspace& workspace) const {
                 {"settings", save_settings(now.settings)},
                 {"seconds", part.time},
                 {"speed", number(workspace.clock.speed)},
-                {"tool", tool_name(part.tool)},
+                {"tool", rope_tools.name(part.tool)},
                 {"selected", selection_state(part.selection)},
                 {"held", std::move(held)},
                 {"jitter", number(part.jitter.dial)},

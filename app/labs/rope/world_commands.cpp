@@ -1,5 +1,6 @@
 // The whole of the lab: what it begins with, and how it is simulated.
 #include "app/labs/rope/rope_commands.hpp"
+#include "app/labs/rope/rope_names.hpp"
 #include "app/labs/rope/scenes.hpp"
 #include "app/labs/rope/world_file.hpp"
 
@@ -37,7 +38,7 @@ void settings(RopeEdit& edit, const Arguments& given) {
     // The shortest decimals of a float are what was meant: 0.1 is no 0.10000000149.
     if (given.has("substep")) wanted.substep = shortest_decimal(given.number("substep"));
     if (given.has("iterations")) wanted.iterations = given.integer("iterations");
-    if (given.has("solver")) wanted.solver = solver_from_name(given.text("solver"));
+    if (given.has("solver")) wanted.solver = rope_solvers.value(given.text("solver"));
     if (given.has("damping")) wanted.damping = given.number("damping");
     if (given.has("gravity")) {
         wanted.gravity =
@@ -60,7 +61,7 @@ std::vector<Argument> settings_arguments() {
     return {
         number_argument("substep", "seconds", rope::min_substep, rope::max_substep),
         integer_argument("iterations", "passes in a substep", 1, rope::max_iterations),
-        choice_argument("solver", false, "how lengths are kept", names(all_solvers, rope::name)),
+        choice_argument("solver", false, "how lengths are kept", rope_solvers.names()),
         number_argument("damping", "how fast motion dies away, 1/s", 0.0, rope::max_rate),
         {.name = "gravity",
          .type = ArgumentType::NumberOrPoint,

@@ -6,7 +6,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/labs/kit/json_place.hpp"
-#include "app/labs/kit/names.hpp"
+#include "app/labs/rope/rope_names.hpp"
 #include "app/labs/rope/rope_part.hpp"
 
 namespace tendril::app {
@@ -173,7 +173,7 @@ rope::Settings load_settings(const JsonPlace& place) {
     rope::Settings settings;
     settings.substep = place["substep"].real();
     settings.iterations = place["iterations"].integer(1, rope::max_iterations);
-    settings.solver = solver_from_name(place["solver"].text());
+    settings.solver = rope_solvers.value(place["solver"].text());
     settings.damping = place["damping"].number();
     settings.gravity = place["gravity"].point();
     settings.gravity_scale = place["gravity_scale"].number();
@@ -190,13 +190,9 @@ const char* body_kind_name(rope::Body::Kind kind) {
     return body_kinds[static_cast<std::size_t>(kind)];
 }
 
-rope::Solver solver_from_name(const std::string& name) {
-    return named(all_solvers, rope::name, name, "solver");
-}
-
 Json save_settings(const rope::Settings& settings) {
     return Json{{"substep", settings.substep},           {"iterations", settings.iterations},
-                {"solver", rope::name(settings.solver)}, {"damping", number(settings.damping)},
+                {"solver", rope_solvers.name(settings.solver)}, {"damping", number(settings.damping)},
                 {"gravity", point(settings.gravity)},    {"gravity_scale", number(settings.gravity_scale)},
                 {"external", point(settings.external)},  {"compliance", number(settings.compliance)},
                 {"friction", number(settings.friction)}, {"longest_frame", number(settings.longest_frame)}};

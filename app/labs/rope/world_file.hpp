@@ -21,8 +21,5 @@ Json save_settings(const rope::Settings& settings);
 Json save_shape(const rope::Shape& shape);
 
 const char* body_kind_name(rope::Body::Kind kind);
-rope::Solver solver_from_name(const std::string& name);
-inline constexpr rope::Solver all_solvers[] = {rope::Solver::Relaxation, rope::Solver::Xpbd,
-                                               rope::Solver::Direct};
 
 }  // namespace tendril::app

@@ -137,7 +137,7 @@ TEST_F(RopeRefusals, WhatDoesNotGoTogether) {
     refused("rope.cut", {{"rope", "cloth"}, {"segment", 0}});
     run("rope.collider.add", {{"name", "far"}, {"kind", "sphere"}, {"centre", {9e8, 0, 0}}, {"radius", 1}});
     EXPECT_EQ(refused("rope.collider.swing", {{"name", "far"}, {"by", {9e8, 0, 0}}}),
-              "rope.collider.swing: it would swing farther than 1e9 m");
+              "rope.collider.swing: its swing would reach farther than 1e9 m");
     refused("rope.collider.swing", {{"name", "far"}, {"by", right}, {"period", 0}});
 }
 
