@@ -34,12 +34,12 @@ void step_through(Workspace& workspace, bool back) {
 void add_history_commands(CommandTable& table) {
     table.add({.name = "undo",
                .arguments = {},
-               .help = "Takes back the last change; a whole drag is one change",
+               .help = "Undoes the last change; a whole drag is one change",
                .effect = Effect::Replace,
                .apply = [](Workspace& w, const Arguments&) { step_through(w, true); }});
     table.add({.name = "redo",
                .arguments = {},
-               .help = "Brings back what was undone",
+               .help = "Redoes what was undone",
                .effect = Effect::Replace,
                .apply = [](Workspace& w, const Arguments&) { step_through(w, false); }});
 }
@@ -47,7 +47,7 @@ void add_history_commands(CommandTable& table) {
 void add_scene_commands(CommandTable& table) {
     table.add({.name = "scene.new",
                .arguments = {},
-               .help = "Starts afresh in every lab; undo brings the old scene back",
+               .help = "Starts a new scene; undo restores the old one",
                .effect = Effect::Edit,
                .apply = [](Workspace& w, const Arguments&) {
                    w.document = w.blank;
@@ -58,7 +58,7 @@ void add_scene_commands(CommandTable& table) {
                }});
     table.add({.name = "scene.open",
                .arguments = {{.name = "path", .type = ArgumentType::Text, .help = "the scene file"}},
-               .help = "Opens a scene file; undo brings the old scene back",
+               .help = "Opens a scene file; undo restores the scene before it",
                .effect = Effect::Edit,
                .apply = [](Workspace& w, const Arguments& a) {
                    load_scene_file(w, a.text("path"));
@@ -68,8 +68,8 @@ void add_scene_commands(CommandTable& table) {
                .arguments = {{.name = "path",
                               .type = ArgumentType::Text,
                               .required = false,
-                              .help = "where to; the scene's own file when left out"}},
-               .help = "Saves the scene; the old file stays whole until the new one is",
+                              .help = "file to save to; the scene's own when left out"}},
+               .help = "Saves the scene; a failure leaves the old file as it was",
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments& a) {
                    const std::filesystem::path path =
@@ -95,7 +95,7 @@ void add_recovery_commands(CommandTable& table) {
     const Argument path{.name = "path", .type = ArgumentType::Text, .help = "an autosave that a crash left"};
     table.add({.name = "scene.recover",
                .arguments = {path},
-               .help = "Takes up work that a crash left unsaved",
+               .help = "Recovers unsaved work after a crash",
                .effect = Effect::Edit,
                .apply = [](Workspace& w, const Arguments& a) {
                    const std::filesystem::path file = offered(w, a);
@@ -106,7 +106,7 @@ void add_recovery_commands(CommandTable& table) {
                }});
     table.add({.name = "scene.discard",
                .arguments = {path},
-               .help = "Deletes what a crash left unsaved",
+               .help = "Deletes unsaved work that a crash left",
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments& a) {
                    const std::filesystem::path file = offered(w, a);
@@ -115,7 +115,7 @@ void add_recovery_commands(CommandTable& table) {
                }});
     table.add({.name = "scene.recover_later",
                .arguments = {},
-               .help = "Leaves what a crash left for the next start",
+               .help = "Asks again about unsaved work at the next start",
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments&) { w.ui.recoverable.clear(); }});
 }
@@ -124,15 +124,15 @@ void add_dialog_commands(CommandTable& table) {
     table.add(
         {.name = "scene.open_dialog",
          .arguments = {},
-         .help = "Asks which scene to open",
+         .help = "Shows a dialog to open a scene",
          .effect = Effect::Look,
          .apply = [](Workspace& w, const Arguments&) { w.ui.file_dialog = UiState::FileDialog::Open; }});
     table.add({.name = "scene.save_dialog",
                .arguments = {{.name = "ask",
                               .type = ArgumentType::Boolean,
                               .required = false,
-                              .help = "for a new name, although the scene has one"}},
-               .help = "Saves the scene; asks where to if it has no file yet",
+                              .help = "asks for a name even if the scene has one"}},
+               .help = "Saves the scene; asks for a name if it has no file yet",
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments& a) {
                    if (w.path.empty() || (a.has("ask") && a.boolean("ask"))) {
@@ -144,7 +144,7 @@ void add_dialog_commands(CommandTable& table) {
                }});
     table.add({.name = "view.close",
                .arguments = {},
-               .help = "Closes what lies over the scene: palette, help, settings, a dialog",
+               .help = "Closes the palette, help, settings or dialog",
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments&) {
                    w.ui.help = w.ui.palette = w.ui.settings = false;
@@ -183,33 +183,34 @@ void add_time_commands(CommandTable& table) {
                    .effect = Effect::Look,
                    .apply = [change](Workspace& w, const Arguments&) { change(w); }});
     };
-    add("time.play", "Lets time run", [](Workspace& w) { w.clock.playing = true; });
-    add("time.pause", "Stops time", [](Workspace& w) { w.clock.playing = false; });
-    add("time.toggle", "Pauses, or lets time run again",
+    add("time.play", "Runs the simulation", [](Workspace& w) { w.clock.playing = true; });
+    add("time.pause", "Pauses the simulation", [](Workspace& w) { w.clock.playing = false; });
+    add("time.toggle", "Runs or pauses the simulation",
         [](Workspace& w) { w.clock.playing = !w.clock.playing; });
-    add("time.step", "Pauses, and takes one tick of 1/60 s", [](Workspace& w) {
+    add("time.step", "Pauses and advances by one tick of 1/60 s", [](Workspace& w) {
         w.clock.playing = false;
         ++w.clock.steps_due;
     });
     table.add({.name = "time.speed",
                .arguments = {{.name = "factor",
-                              .help = "seconds that pass in a second; below 1 is slow motion",
+                              .help = "1 is real time; below 1 is slow motion",
                               .low = slowest,
                               .high = fastest}},
                .help = "Sets the speed of the simulation",
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments& a) { w.clock.speed = a.number("factor"); }});
-    table.add({.name = "time.seek",
-               .arguments = {{.name = "ticks_back",
-                              .type = ArgumentType::Integer,
-                              .help = "ticks of 1/60 s before the last one",
-                              .low = 0,
-                              .high = Rewind::most_ticks}},
-               .help =
-                   "Pauses, and shows an earlier moment; time goes on from there. Going back over a change "
-                   "can be undone",
-               .effect = Effect::Look,
-               .apply = seek});
+    table.add(
+        {.name = "time.seek",
+         .arguments = {{.name = "ticks_back",
+                        .type = ArgumentType::Integer,
+                        .help = "ticks of 1/60 s before the last one",
+                        .low = 0,
+                        .high = Rewind::most_ticks}},
+         .help =
+             "Pauses and goes back to an earlier moment, from which time continues. Going back over a change "
+             "can be undone",
+         .effect = Effect::Look,
+         .apply = seek});
 }
 
 /// A setting that is one of two: the one that is named, or the other one when none is.
@@ -238,7 +239,7 @@ void add_window_commands(CommandTable& table) {
                    .arguments = {{.name = "open",
                                   .type = ArgumentType::Boolean,
                                   .required = false,
-                                  .help = "the other way round when left out"}},
+                                  .help = "toggles when left out"}},
                    .help = help,
                    .effect = Effect::Look,
                    .apply = [member](Workspace& w, const Arguments& a) {
@@ -246,7 +247,7 @@ void add_window_commands(CommandTable& table) {
                        open = a.has("open") ? a.boolean("open") : !open;
                    }});
     };
-    toggle("view.help", "Shows every key and what the mouse does",
+    toggle("view.help", "Shows the keys and what the mouse does",
            [](Workspace& w) -> bool& { return w.ui.help; });
     toggle("view.palette", "Finds a command by its name", [](Workspace& w) -> bool& { return w.ui.palette; });
     toggle("view.settings", "Shows the settings", [](Workspace& w) -> bool& { return w.ui.settings; });
@@ -256,7 +257,7 @@ void add_window_commands(CommandTable& table) {
          .arguments =
              {{.name = "left", .type = ArgumentType::Boolean, .required = false, .help = "the lab's panel"},
               {.name = "right", .type = ArgumentType::Boolean, .required = false, .help = "the inspector"}},
-         .help = "Folds the side panels away or brings them back",
+         .help = "Shows or hides the side panels",
          .effect = Effect::Look,
          .apply = [](Workspace& w, const Arguments& a) {
              Settings& s = w.settings;
@@ -289,7 +290,7 @@ void add_window_commands(CommandTable& table) {
          .apply = [](Workspace& w, const Arguments& a) { w.settings.text_scale = a.number("scale"); }});
     table.add({.name = "quit",
                .arguments = {},
-               .help = "Ends the program",
+               .help = "Quits the program",
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments&) { w.ui.quit = true; }});
 }

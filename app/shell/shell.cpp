@@ -57,7 +57,7 @@ void folded_strip(const ShellFrame& frame, const Rect& rect, bool left, Emit& em
     if (hovered) {
         list->AddRectFilled({rect.min.x, rect.min.y}, {rect.max.x, rect.max.y},
                             ImGui::GetColorU32(ImGuiCol_ButtonHovered));
-        ImGui::SetTooltip("%s", with_keys(frame, "Bring the panel back", "view.panels").c_str());
+        ImGui::SetTooltip("%s", with_keys(frame, "Show the panel", "view.panels").c_str());
     }
     const float inner = left ? rect.max.x - 1.0f : rect.min.x;
     list->AddLine({inner, rect.min.y}, {inner, rect.max.y}, ImGui::GetColorU32(ImGuiCol_Border));
@@ -124,7 +124,7 @@ void play_button(const ShellFrame& frame, Emit& emit) {
     if (icon_button("play", playing ? Icon::Pause : Icon::Play, nullptr)) emit("time.toggle");
     if (!moving) ImGui::PopStyleColor();
     if (!ImGui::IsItemHovered()) return;
-    const char* effect = !moving ? "Nothing moves by itself here" : playing ? "Pause" : "Play";
+    const char* effect = !moving ? "Nothing here moves with time" : playing ? "Pause" : "Play";
     ImGui::SetTooltip("%s", with_keys(frame, effect, "time.toggle").c_str());
 }
 

@@ -48,7 +48,7 @@ std::vector<Shortcut> common_rows() {
         row("f1", "view.help", {}, "Keys and mouse", last_section, hidden, typing),
         row("ctrl+k", "view.palette", {}, "Find a command", last_section, shown, typing),
         row("ctrl+,", "view.settings", {}, "Settings", last_section),
-        row("escape", "view.close", {}, "Close, or let go", last_section, hidden, typing),
+        row("escape", "view.close", {}, "Close or cancel", last_section, hidden, typing),
     };
 }
 

@@ -25,8 +25,14 @@ const Places program{"app", "README.md"};
 const Places chains{"app/labs/chain", "app/batch", "app/io"};
 const Places ropes{"app/labs/rope", "core/src/rope", "core/include/tendril/rope"};
 const Places solvers{"core/src/ik", "core/include/tendril/ik", "core/src/math"};
-const Places reaching{"app/labs/chain",          "app/batch",    "app/io", "core/src/ik",
-                      "core/include/tendril/ik", "core/src/math"};
+const Places reaching{"app/labs/chain",
+                      "app/batch",
+                      "app/io",
+                      "core/src/chain",
+                      "core/include/tendril/chain",
+                      "core/src/ik",
+                      "core/include/tendril/ik",
+                      "core/src/math"};
 
 /// A word as people would write it again, and what to write.
 struct Rule {
@@ -62,8 +68,8 @@ const std::vector<Rule>& rules() {
         {chains, R"(\bhold (text|json|back)\b|\bholds? the (chain|tip) back\b)", "active limit"},
         {reaching, R"(\b(rooms?|settles?|settled|assumes?|polish(es|ed)?|careful)\b)",
          "workspace; active-set projection, clamp; refine; scalar fallback"},
-        {reaching, R"(\b(lay|lays|laid)\b)", "place, commit, forward kinematics",
-         R"(\bre laid\b|\blays? out\b)"},
+        {reaching, R"(\b(lay|lays|laid|laying|relay)\b)", "place, commit, forward kinematics",
+         R"(\blays? out\b)"},
         {chains, R"(\bcarry\b)", "parallel transport; move along"},
         {reaching, R"(\bcarr(ies|ied)\b)", "parallel transport; move along", R"(\bcarried along\b)"},
         {reaching, R"(\bpull(s|ed)? from the (tip|root)\b)", "forward reaching, backward reaching"},

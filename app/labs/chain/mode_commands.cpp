@@ -76,11 +76,11 @@ void seek(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
 void add_mode_commands(CommandTable& table) {
     table.add(chain_command(
         "chain.mode",
-        {choice_argument("mode", true, "how the chain reaches", chain_modes.names()),
+        {choice_argument("mode", true, "how the chain follows the target", chain_modes.names()),
          index_argument(false, "which segment with_index pulls"),
-         integer_argument("iterations", "repeats of fixed, or of reach at most", 1, max_iterations),
-         number_argument("tolerance", "metres at which fixed or reach stops repeating", 0, 1e9)},
-        "Sets how the chain reaches; it moves when the target next does", set_mode));
+         integer_argument("iterations", "maximum, of fixed and reach", 1, max_iterations),
+         number_argument("tolerance", "metres from the target at which fixed or reach stops", 0, 1e9)},
+        "Sets how the chain follows the target, from the next move of the target on", set_mode));
     table.add(chain_command("chain.target", {point_argument("to", true, "metres")},
                             "Moves the target and applies the mode once", set_target));
     table.add(chain_command("chain.pull",
@@ -90,16 +90,16 @@ void add_mode_commands(CommandTable& table) {
                             pull));
     table.add(chain_command("chain.select", {index_argument(false, "which segment; none when left out")},
                             "Selects a segment", select, Effect::Look));
+    table.add(chain_command("chain.motion",
+                            {choice_argument("path", true, "the path", motion_paths.names()),
+                             number_argument("radius", "metres", 0, static_cast<double>(max_motion_radius)),
+                             number_argument("period", "seconds per round", shortest_decimal(shortest_period),
+                                             shortest_decimal(longest_period))},
+                            "Moves the target along a path while the simulation runs", set_motion));
     table.add(chain_command(
-        "chain.motion",
-        {choice_argument("path", true, "what the target follows by itself", motion_paths.names()),
-         number_argument("radius", "metres", 0, static_cast<double>(max_motion_radius)),
-         number_argument("period", "seconds a round", shortest_decimal(shortest_period),
-                         shortest_decimal(longest_period))},
-        "Lets the target follow a path while the simulation runs", set_motion));
-    table.add(chain_command(
-        "chain.seek", {{.name = "tick", .type = ArgumentType::Integer, .help = "of the round", .low = 0}},
-        "Takes the moving target to a tick of its round", seek));
+        "chain.seek",
+        {{.name = "tick", .type = ArgumentType::Integer, .help = "tick of the round", .low = 0}},
+        "Moves the target to a tick of its round", seek));
 }
 
 }  // namespace tendril::app

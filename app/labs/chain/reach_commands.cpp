@@ -64,13 +64,13 @@ void set_joint_limit(ChainPart& part, const Arguments& given, ChainRuntime& runt
 
 std::vector<Argument> limit_arguments() {
     std::vector<Argument> arguments{
-        index_argument(true, "the joint's; its bone leads on to the next one"),
-        choice_argument("kind", false, "what joint it is; kept when left out",
+        index_argument(true, "which joint; its limit is on the bone to the next one"),
+        choice_argument("kind", false, "kind of joint; kept when left out",
                         names(all_joint_kinds, [](ik::JointKind k) { return ik::name(k); })),
         {.name = "axis",
          .type = ArgumentType::Point,
          .required = false,
-         .help = "what it turns about upwards, in the axes of the world with the chain in line"}};
+         .help = "axis of upward rotation, in world axes with the chain straight"}};
     for (const char* name : angle_names) {
         const std::string text = name;
         const bool cone = text == "up_deg" || text == "down_deg" || text == "left_deg" || text == "right_deg";
@@ -90,22 +90,23 @@ void add_reach_commands(CommandTable& table) {
         "chain.solver",
         {choice_argument("name", false, "kept when left out, as all the others are",
                          names(ik::all_methods, [](ik::Method m) { return ik::name(m); })),
-         integer_argument("iterations", "at most", 1, max_iterations),
+         integer_argument("iterations", "maximum", 1, max_iterations),
          number_argument("tolerance", "metres from tip to target at which it stops", 0, 1e9),
          switch_argument("default_tolerance", "true: 1e-3 of the reach"),
-         number_argument("snap_back", "how far joints go back to rest before iterating", 0, 1),
+         number_argument("snap_back", "0 to 1: how far joints are blended towards rest before iterating", 0,
+                         1),
          number_argument("soft_zone", "part of the reach in which the chain eases off", 0, 1),
          number_argument("damping", "of dls and svd_dls, part of the reach", static_cast<double>(min_damping),
                          static_cast<double>(max_damping)),
          number_argument("twist_deg", "two_bone: turns the bend about the line to the target", -180, 180),
-         integer_argument("restarts", "within limits: from how many other poses to start again at most", 0,
+         integer_argument("restarts", "within limits: maximum of other poses to restart from", 0,
                           max_restarts),
          switch_argument("default_restarts", "true: 8, but none while the target is dragged"),
          choice_argument("pole_turn", false, "all joints at once, or each between its neighbours",
                          pole_turns.names())},
-        "Sets what solves in mode reach; the chain moves when the target next does", set_solver));
+        "Sets the solver of mode reach, from the next move of the target on", set_solver));
     table.add(chain_command("chain.limit", limit_arguments(),
-                            "Limits how far a joint turns in mode reach; kind free takes the limit away",
+                            "Limits how far a joint turns in mode reach; kind free removes the limit",
                             set_joint_limit));
     table.add(chain_command("chain.pole",
                             {{.name = "to",

@@ -98,7 +98,7 @@ void limit_rows(const ChainPart& part, Emit& emit) {
         unit[axis] = 1.0f;
         emit("chain.limit", {{"index", joint}, {"axis", unit}});
     }
-    note("What it turns about upwards; angles are counted from the chain in line.");
+    note("Axis of upward rotation, in world axes with the chain straight. Angles are 0 there.");
 }
 
 }  // namespace tendril::app

@@ -125,7 +125,7 @@ void add_shape_commands(CommandTable& table) {
     table.add(chain_command("chain.clear",
                             {point_argument("default_direction", false,
                                             "unit vector along which a chain without a direction extends")},
-                            "Takes every segment away", clear));
+                            "Removes every segment", clear));
     table.add(chain_command("chain.add", {length_argument(), position_argument()},
                             "Appends a segment at the tail", add));
     table.add(chain_command(
@@ -134,7 +134,7 @@ void add_shape_commands(CommandTable& table) {
     table.add(
         chain_command("chain.remove", {index_argument(true, "which segment")}, "Removes a segment", remove));
     table.add(chain_command("chain.remove_selected", {}, "Removes the selected segment", remove_selected));
-    table.add(chain_command("chain.reset", {}, "Everything in this lab as at the first start", reset));
+    table.add(chain_command("chain.reset", {}, "Resets this lab to its first state", reset));
     table.add(chain_command("chain.set_length", {index_argument(true, "which segment"), length_argument()},
                             "Sets the length of a segment's bone", set_length));
     table.add(chain_command(

@@ -18,9 +18,9 @@ std::optional<Study::From> start_of(const Arguments& given) {
 }
 
 Argument start_argument() {
-    return choice_argument("start", false,
-                           "what each solve starts from: what the last one did, here, or all in line",
-                           {std::begin(starts), std::end(starts)});
+    return choice_argument(
+        "start", false, "what each solve starts from: as the last one did, the pose now, or a straight line",
+        {std::begin(starts), std::end(starts)});
 }
 
 /// A study is of mode reach; the chain shows what a solve from the start comes to.
@@ -95,7 +95,7 @@ void lay_out_race(ChainPart& part, const Arguments& given) {
 
 void add_microscope_commands(CommandTable& table) {
     table.add(chain_command("microscope.open", {start_argument()},
-                            "Shows a solve step by step, from a start that stays", open_microscope,
+                            "Shows a solve step by step, always from the same start", open_microscope,
                             Effect::Edit));
     table.add(chain_command("microscope.seek",
                             {{.name = "step",
@@ -106,11 +106,13 @@ void add_microscope_commands(CommandTable& table) {
                             "Goes to a step of the solve", seek, Effect::Look));
     table.add(chain_command(
         "microscope.step",
-        {integer_argument("by", "steps on, or back; 1 when left out", -max_trace_steps, max_trace_steps),
-         integer_argument("iterations", "to the end of an iteration this much on or back", -max_iterations,
-                          max_iterations)},
-        "Goes some steps on or back", step, Effect::Look));
-    table.add(chain_command("microscope.close", {}, "Leaves the chain as the solve left it", close_microscope,
+        {integer_argument("by", "steps forward, or back when negative; 1 when left out", -max_trace_steps,
+                          max_trace_steps),
+         integer_argument("iterations", "iterations forward, or back when negative, to the end of one",
+                          -max_iterations, max_iterations)},
+        "Goes some steps forward or back", step, Effect::Look));
+    table.add(chain_command("microscope.close", {},
+                            "Closes the microscope; the chain stays as the solve left it", close_microscope,
                             Effect::Look));
 }
 
@@ -137,16 +139,16 @@ void add_study_commands(CommandTable& table) {
                             Effect::Edit));
     table.add(
         chain_command("race.solver",
-                      {choice_argument("name", true, "who",
+                      {choice_argument("name", true, "which solver",
                                        names(ik::all_methods, [](ik::Method m) { return ik::name(m); })),
-                       {.name = "on", .type = ArgumentType::Boolean, .help = "takes part, or not"}},
+                       {.name = "on", .type = ArgumentType::Boolean, .help = "true: it takes part"}},
                       "Lets a solver take part in the race", choose_racer, Effect::Look));
     table.add(chain_command("race.side_by_side",
-                            {{.name = "on", .type = ArgumentType::Boolean, .help = "or overlaid"}},
+                            {{.name = "on", .type = ArgumentType::Boolean, .help = "false: overlaid"}},
                             "Shows the chains of the race beside each other", lay_out_race, Effect::Look));
     table.add(race_save());
-    table.add(chain_command("race.close", {}, "Leaves the chain as the chosen solver left it", close_race,
-                            Effect::Look));
+    table.add(chain_command("race.close", {}, "Closes the race; the chain stays as its own solver left it",
+                            close_race, Effect::Look));
 }
 
 }  // namespace tendril::app

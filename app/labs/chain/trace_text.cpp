@@ -45,12 +45,12 @@ std::string describe_frame(const Trace& trace, std::size_t frame) {
         first.neighbour == ik::no_joint ? "" : " about joint " + std::to_string(first.neighbour);
     switch (first.phase) {
         case ik::Phase::Prepare:
-            return "Before the first iteration: the chain is made ready (" + joints + ").";
+            return "Before the first iteration: the chain is prepared (" + joints + ").";
         case ik::Phase::ForwardReaching:
         case ik::Phase::BackwardReaching:
             return pull(trace, frame, first);
         case ik::Phase::Accelerate:
-            return "The bend is made less or more until the chain spans the distance, then all turns onto "
+            return "The chain is straightened or bent until it spans the distance, then turned onto "
                    "the target (" +
                    joints + ").";
         case ik::Phase::Rotate:
@@ -61,13 +61,14 @@ std::string describe_frame(const Trace& trace, std::size_t frame) {
         case ik::Phase::Pole:
             return "The chain swivels until the elbow points at the pole target (" + joints + ").";
         case ik::Phase::Limit:
-            return "Limits: " + joints + (steps.size() == 1 ? " is" : " are") + " brought back within.";
+            return "Limits: " + joints + (steps.size() == 1 ? " is" : " are") +
+                   " brought back within limits.";
         case ik::Phase::Analytic:
-            return "The answer at once, without iterating (" + joints + ").";
+            return "Solved in closed form, without iterating (" + joints + ").";
         case ik::Phase::RestoreBest:
-            return "The nearest pose that was met comes back, for the last was worse (" + joints + ").";
+            return "The best pose is restored, for the last was worse (" + joints + ").";
         case ik::Phase::Blend:
-            return "Part of the way from the given pose, as the weight says (" + joints + ").";
+            return "Blended with the given pose by the weight (" + joints + ").";
     }
     return {};
 }

@@ -16,7 +16,7 @@ bool preset_rows(const std::string& lab, const std::vector<PresetButton>& preset
     }
     end_row();
     if (row_button("Empty", 2, true, clears)) emit(lab + ".clear");
-    if (row_button("Reset", 2, true, "Everything as at the first start; undo brings it back"))
+    if (row_button("Reset", 2, true, "Resets this lab to its first state; undo restores it"))
         emit(lab + ".reset");
     end_row();
     return opened;

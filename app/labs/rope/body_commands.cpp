@@ -160,20 +160,20 @@ void add_adding_commands(CommandTable& table) {
                       choice_argument("pins", false, "of its first row",
                                       names(pins_names, [](const char* name) { return name; }))},
                      "Adds a cloth", add_cloth));
-    table.add(rope_command(
-        "rope.hair.add",
-        {own_name("\"hair\", \"hair 2\", ... when left out"),
-         point_argument("centre", false, "of the patch that it grows from"),
-         text_argument("attach", false, "a collider that it grows from, instead of a centre"),
-         point_argument("direction", false, "that it grows in; downwards, or up from a collider"),
-         integer_argument("strands", "32 when left out", 1, most_particles),
-         number_argument("spread", "the patch's radius, metres; 0.1 when left out", 0.0, 1e9),
-         number_argument("length", "metres; 0.5 when left out", 0.0, 1e9),
-         integer_argument("segments", "of a strand; 16 when left out", 2, most_particles - 1),
-         number_argument("radius", "metres; 0.004 when left out", 0.0, 1e9),
-         number_argument("density", "kg/m; 0.05 when left out", 0.0, 1e9),
-         number_argument("bend", "compliance, m/N", 0.0, 1e9)},
-        "Adds strands of hair, pinned at their roots", add_hair));
+    table.add(
+        rope_command("rope.hair.add",
+                     {own_name("\"hair\", \"hair 2\", ... when left out"),
+                      point_argument("centre", false, "of the patch that it grows from"),
+                      text_argument("attach", false, "a collider that it grows from, instead of a centre"),
+                      point_argument("direction", false, "of growth; down, or outwards from a collider"),
+                      integer_argument("strands", "32 when left out", 1, most_particles),
+                      number_argument("spread", "the patch's radius, metres; 0.1 when left out", 0.0, 1e9),
+                      number_argument("length", "metres; 0.5 when left out", 0.0, 1e9),
+                      integer_argument("segments", "of a strand; 16 when left out", 2, most_particles - 1),
+                      number_argument("radius", "metres; 0.004 when left out", 0.0, 1e9),
+                      number_argument("density", "kg/m; 0.05 when left out", 0.0, 1e9),
+                      number_argument("bend", "compliance, m/N", 0.0, 1e9)},
+                     "Adds strands of hair, pinned at their roots", add_hair));
 }
 
 }  // namespace
@@ -193,7 +193,7 @@ void add_body_commands(CommandTable& table) {
                            {rope_argument(true, "which"),
                             {.name = "segment",
                              .type = ArgumentType::Integer,
-                             .help = "that goes",
+                             .help = "the one to remove",
                              .low = 0,
                              .high = most_particles - 1}},
                            "Cuts a rope in two", cut));

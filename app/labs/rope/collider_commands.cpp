@@ -158,14 +158,14 @@ void add_collider_commands(CommandTable& table) {
     };
     table.add(
         rope_command("rope.collider.add",
-                     with_shape({text_argument("name", true, "its own"),
+                     with_shape({text_argument("name", true, "a new one"),
                                  choice_argument("kind", true,
                                                  "sphere: centre, radius; capsule: a, b, radius; "
                                                  "plane: point, normal; box: centre, half_extents, rotation",
                                                  names(kinds(), [](const Kind& k) { return k.name; }))}),
                      "Adds a body that ropes cannot enter", add));
     table.add(rope_command("rope.collider.set", with_shape({name_argument()}),
-                           "Gives a collider another place, size or rotation at once", set));
+                           "Sets the place, size or rotation of a collider", set));
     table.add(rope_command("rope.collider.move",
                            {name_argument(), point_argument("to", true, "where its centre goes, metres")},
                            "Moves a collider; it pushes what it meets", move));
@@ -174,7 +174,7 @@ void add_collider_commands(CommandTable& table) {
                            {name_argument(), point_argument("by", true, "metres to each side; 0: off"),
                             number_argument("period", "seconds", shortest_decimal(shortest_period),
                                             shortest_decimal(longest_period))},
-                           "Lets a collider swing to and fro by itself", set_swing));
+                           "Makes a collider swing to and fro", set_swing));
 }
 
 }  // namespace tendril::app

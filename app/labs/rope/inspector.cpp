@@ -31,7 +31,7 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     const std::size_t particle = body.first + index;
     const bool held = held_particle(part) == particle, pinned = world.pinned(particle) && !held;
     const ArgumentList which{{"rope", world.name(body)}, {"particle", index}};
-    reading("of", "%s", world.name(body).c_str());
+    reading("body", "%s", world.name(body).c_str());
     reading("particle", "%zu of %zu%s", index, body.count, pinned ? ", pinned" : held ? ", held" : "");
     glm::vec3 at = world.position(particle);
     if (pinned) {
@@ -50,7 +50,7 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
             world.length(body));
     if (row_button(pinned ? "Unpin" : "Pin", 3)) emit(pinned ? "rope.unpin" : "rope.pin", which);
     const bool rope = body.kind == rope::Body::Kind::Rope;
-    if (row_button("Cut", 3, rope && body.count > 1, "Cuts the rope behind this particle"))
+    if (row_button("Cut", 3, rope && body.count > 1, "Cuts the segment after this particle"))
         emit("rope.cut", {{"rope", world.name(body)}, {"segment", std::min(index, body.count - 2)}});
     if (row_button("Remove", 3, true, "Removes the whole body"))
         emit("rope.remove", {{"name", world.name(body)}});

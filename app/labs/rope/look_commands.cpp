@@ -55,19 +55,18 @@ void add_look_commands(CommandTable& table) {
                             point_argument("at", true, "metres")},
                            "Holds a free particle, as a drag does, until rope.let_go", hold));
     table.add(rope_command(
-        "rope.let_go", {}, "Lets go of what rope.hold holds",
+        "rope.let_go", {}, "Releases what rope.hold holds",
         [](RopeEdit& edit, const Arguments&) { let_go(edit.part); }, Effect::Look));
     table.add(rope_command(
         "rope.tool", {choice_argument("name", true, "which", rope_tools.names())},
-        "What a click does to what it hits",
+        "Sets what a click in the scene does",
         [](RopeEdit& edit, const Arguments& given) { edit.part.tool = rope_tools.value(given.text("name")); },
         Effect::Look));
-    table.add(
-        rope_command("rope.view",
-                     {switch_argument("particles", "shown as balls"),
-                      switch_argument("strain", "colours by strain: how far each link is over its length"),
-                      integer_argument("sides", "of the tube", fewest_sides, most_sides)},
-                     "How ropes are shown; what is left out stays", set_view, Effect::Look));
+    table.add(rope_command(
+        "rope.view",
+        {switch_argument("particles", "shown as balls"), switch_argument("strain", "strain as colour"),
+         integer_argument("sides", "of the tube", fewest_sides, most_sides)},
+        "Sets how ropes are shown; what is left out stays", set_view, Effect::Look));
 }
 
 }  // namespace tendril::app

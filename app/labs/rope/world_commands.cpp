@@ -62,7 +62,7 @@ std::vector<Argument> settings_arguments() {
         number_argument("substep", "seconds", rope::min_substep, rope::max_substep),
         integer_argument("iterations", "passes in a substep", 1, rope::max_iterations),
         choice_argument("solver", false, "how lengths are kept", rope_solvers.names()),
-        number_argument("damping", "how fast motion dies away, 1/s", 0.0, rope::max_rate),
+        number_argument("damping", "1/s", 0.0, rope::max_rate),
         {.name = "gravity",
          .type = ArgumentType::NumberOrPoint,
          .required = false,
@@ -70,18 +70,18 @@ std::vector<Argument> settings_arguments() {
          .low = -rope::max_acceleration,
          .high = rope::max_acceleration},
         number_argument("gravity_scale", "factor on gravity", -rope::max_scale, rope::max_scale),
-        point_argument("external", false, "m/s^2 beside gravity: a wind"),
+        point_argument("external", false, "m/s^2 in addition to gravity: a wind"),
         number_argument("compliance", "strain per newton; relaxation ignores it", 0.0, rope::max_compliance),
         number_argument("friction", "between ropes and colliders", 0.0, rope::max_friction),
-        number_argument("longest_frame", "seconds that a frame simulates at most; the rest is dropped", 0.001,
-                        10.0)};
+        number_argument("longest_frame", "seconds, the most that a frame simulates; the rest is dropped",
+                        0.001, 10.0)};
 }
 
 }  // namespace
 
 void add_world_commands(CommandTable& table) {
     table.add(rope_command("rope.clear", {}, "Removes every rope and collider", clear));
-    table.add(rope_command("rope.reset", {}, "Everything in this lab as at the first start", reset));
+    table.add(rope_command("rope.reset", {}, "Resets this lab to its first state", reset));
     table.add(
         {.name = "rope.preset",
          .arguments = {choice_argument("name", true, "which scene",
@@ -90,10 +90,10 @@ void add_world_commands(CommandTable& table) {
          .effect = Effect::Edit,
          .apply = take_scene});
     table.add(rope_command("rope.settings", settings_arguments(),
-                           "How ropes are simulated; what is left out stays", settings));
+                           "Sets how ropes are simulated; what is left out stays", settings));
     table.add(rope_command(
         "rope.jitter", {{.name = "dial", .help = "0: even frames; 1: from 1 to 250 ms", .low = 0, .high = 1}},
-        "Cuts time into uneven frames, as a program that stutters does", set_jitter));
+        "Makes frames uneven, as in a program that stutters", set_jitter));
 }
 
 }  // namespace tendril::app

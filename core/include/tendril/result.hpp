@@ -10,8 +10,8 @@
 //     if (!solver) return log(solver.message());
 //     solver->solve(...);
 //
-// A precondition is another matter: reading `*expected` where there is no value is an error in the program,
-// not in its input. It ends the program with the message on stderr.
+// A broken precondition is no refusal: reading `*expected` where there is no value is a bug in the calling
+// program. It ends the program with the message on stderr.
 #pragma once
 
 #include <cstddef>

@@ -23,7 +23,7 @@ Result Chain::set_default_direction(glm::vec3 direction) {
         return detail::refused("set_default_direction", "direction", "a unit vector",
                                {"one of length", length});
     }
-    // A direction that is a unit vector as far as floats go is kept as it is: a saved one must come back the
+    // A direction that is a unit vector as far as floats go is kept as it is: a saved one must load as the
     // same.
     if (std::abs(length - 1.0) > 2e-7) {
         direction = {static_cast<float>(x / length), static_cast<float>(y / length),
@@ -38,7 +38,7 @@ bool Chain::has_point_at(glm::vec3 position) const noexcept {
                        [&](const Segment& segment) { return detail::coincide(segment.position, position); });
 }
 
-glm::vec3 Chain::link_direction(std::size_t from, std::size_t to) const noexcept {
+glm::vec3 Chain::bone_direction(std::size_t from, std::size_t to) const noexcept {
     return detail::direction(segments_[from].position, segments_[to].position, default_direction_);
 }
 
@@ -51,7 +51,7 @@ Result Chain::add(float length) {
     glm::vec3 position{0.0f};
     if (!empty()) {
         const std::size_t tail = size() - 1;
-        const glm::vec3 along = tail > 0 ? link_direction(tail - 1, tail) : default_direction_;
+        const glm::vec3 along = tail > 0 ? bone_direction(tail - 1, tail) : default_direction_;
         position = detail::moved(segments_[tail].position, along, length);
     }
     segments_.push_back({position, length});
@@ -79,13 +79,13 @@ Result Chain::insert(std::size_t index, float length) {
     if (const Result bad = detail::check_index("insert", index, size()); !bad) return bad;
     if (const Result bad = detail::check_length("insert", "length", length); !bad) return bad;
     if (index == 0) {
-        const glm::vec3 along = size() > 1 ? link_direction(0, 1) : default_direction_;
+        const glm::vec3 along = size() > 1 ? bone_direction(0, 1) : default_direction_;
         const Segment& head = segments_.front();
         segments_.insert(segments_.begin(),
                          Segment{detail::moved(head.position, along, -head.length), length});
         return {};  // nothing else moves
     }
-    const glm::vec3 along = link_direction(index - 1, index);
+    const glm::vec3 along = bone_direction(index - 1, index);
     const glm::vec3 position = detail::moved(segments_[index - 1].position, along, length);
     segments_.insert(segments_.begin() + static_cast<std::ptrdiff_t>(index), Segment{position, length});
     for (std::size_t i = index + 1; i < size(); ++i) {

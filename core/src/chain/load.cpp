@@ -1,5 +1,5 @@
-// Many segments at once: a saved chain comes back bit for bit, one that was written by hand or is damaged is
-// re-laid.
+// Many segments at once: a saved chain is restored bit for bit, one that was written by hand or is damaged is
+// recalculated.
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -15,7 +15,7 @@ double largest_coordinate(const glm::vec3& p) {
     return static_cast<double>(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}));
 }
 
-/// How far a link may be from its length. Within 1e3 m that is the invariant. Further out, rounding a placed
+/// How far a bone may be from its length. Within 1e3 m that is the invariant. Further out, rounding a placed
 /// point costs up to half the spacing of floats per axis, so up to 0.87 of the spacing in all.
 double allowed_error(const glm::vec3& from, const Segment& to) {
     const double allowed = 1e-4 * std::max(1.0, static_cast<double>(to.length));
@@ -24,7 +24,7 @@ double allowed_error(const glm::vec3& from, const Segment& to) {
     return allowed + furthest * static_cast<double>(std::numeric_limits<float>::epsilon());
 }
 
-bool holds(const glm::vec3& from, const Segment& to) {
+bool has_length(const glm::vec3& from, const Segment& to) {
     const double x = static_cast<double>(to.position.x) - static_cast<double>(from.x);
     const double y = static_cast<double>(to.position.y) - static_cast<double>(from.y);
     const double z = static_cast<double>(to.position.z) - static_cast<double>(from.z);
@@ -36,13 +36,13 @@ bool holds(const glm::vec3& from, const Segment& to) {
 /// The first segment that is not at its length from the one before, or the number of segments.
 std::size_t first_loose(std::span<const Segment> segments) {
     std::size_t i = 1;
-    while (i < segments.size() && holds(segments[i - 1].position, segments[i])) ++i;
+    while (i < segments.size() && has_length(segments[i - 1].position, segments[i])) ++i;
     return std::min(i, segments.size());
 }
 
 /// A pull that starts at segment `first`, where a segment given at the point of the one before it goes
 /// straight on.
-void relay_from(std::span<Segment> segments, std::size_t first, const glm::vec3& fallback) {
+void recalculate_from(std::span<Segment> segments, std::size_t first, const glm::vec3& fallback) {
     if (first >= segments.size()) return;
     glm::vec3 given_before = segments[first - 1].position;
     for (std::size_t i = first; i < segments.size(); ++i) {
@@ -69,7 +69,7 @@ Expected<Chain> Chain::from_segments(std::vector<Segment> segments, glm::vec3 de
     Chain chain;
     if (const Result bad = chain.set_default_direction(default_direction); !bad) return bad;
     chain.segments_ = std::move(segments);
-    relay_from(chain.segments_, first_loose(chain.segments_), chain.default_direction_);
+    recalculate_from(chain.segments_, first_loose(chain.segments_), chain.default_direction_);
     return chain;
 }
 
@@ -83,7 +83,7 @@ Result Chain::set_positions(std::span<const glm::vec3> positions) {
         return detail::check_point("set_positions", {"positions", i}, positions[i]);
     }
     for (std::size_t i = 0; i < positions.size(); ++i) segments_[i].position = positions[i];
-    relay_from(segments_, first_loose(segments_), default_direction_);
+    recalculate_from(segments_, first_loose(segments_), default_direction_);
     return {};
 }
 

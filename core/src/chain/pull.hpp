@@ -12,8 +12,8 @@ namespace tendril::detail {
 
 using namespace tendril::math;
 
-/// Puts segment `pinned` on `target`, then lays the ones after it, up to the tail. `pinned` must be an index
-/// of it.
+/// Puts segment `pinned` on `target`, then places the ones after it, up to the tail. `pinned` must be an
+/// index of it.
 static inline void pull_towards_tail(std::span<Segment> segments, std::size_t pinned, glm::vec3 target,
                                      const glm::vec3& fallback) noexcept {
     segments[pinned].position = target;
@@ -23,8 +23,8 @@ static inline void pull_towards_tail(std::span<Segment> segments, std::size_t pi
     }
 }
 
-/// Puts segment `pinned` on `target`, then lays the ones before it, down to the head. Each is tied to its
-/// already placed neighbour by that neighbour's length.
+/// Puts segment `pinned` on `target`, then places the ones before it, down to the head, each at the distance
+/// from its already placed neighbour that is that neighbour's length.
 static inline void pull_towards_head(std::span<Segment> segments, std::size_t pinned, glm::vec3 target,
                                      const glm::vec3& fallback) noexcept {
     segments[pinned].position = target;
@@ -33,9 +33,8 @@ static inline void pull_towards_head(std::span<Segment> segments, std::size_t pi
         Segment& segment = segments[i - 1];
         target = step(target, segment.position, length, fallback);
         segment.position = target;
-        length =
-            segment
-                .length;  // carried along: read beside a coordinate just written, it would wait for the write
+        // Kept in a variable: read beside a coordinate just written, it would wait for the write.
+        length = segment.length;
     }
 }
 

@@ -1,8 +1,7 @@
 // A chain: points in a row, each at a fixed distance from the one before, and four ways to pull it by one of
-// them. Made for tentacles, tails, ropes of few joints, cranes and arms: whatever one grabs somewhere and the
-// rest follows.
+// them. For tentacles, tails, short ropes, cranes and arms: one point is moved and the others follow.
 //
-// Index 0 is the head, the last index the tail. The promise that everything here keeps, whatever it is given:
+// Index 0 is the head, the last index the tail. The invariant that every call maintains:
 //
 //     | |position(i) - position(i-1)| - length(i) |  <=  1e-4 * max(1, length(i))     for every i >= 1
 //
@@ -14,13 +13,12 @@
 // problem", Graphical Models 73(5), 2011, pp. 243-260.
 //
 // Cost: a pull is one pass, O(n), one square root and one division per segment, and allocates nothing.
-// `add(length)` is O(1) amortised; every other edit lays the chain anew, O(n).
+// `add(length)` is O(1) amortised; every other edit recalculates the chain, O(n).
 //
 // Degenerate cases. Where two points of a step coincide (squared distance under FLT_EPSILON, so nearer than
 // 0.35 mm) the step goes along default_direction(). A segment that is given at a point where the chain
-// already has one, *any* one, carries no direction of its own; it is placed as the overload that takes only a
-// length would place it. So n segments added at one and the same point make a straight chain and not a
-// zigzag.
+// already has one, *any* one, has no direction of its own; it is placed as by the overload that takes only a
+// length. So n segments added at the same point make a straight chain, not a zigzag.
 //
 // Errors: InvalidArgument for a number that is NaN, infinite or out of its range, OutOfRange for a bad index;
 // the message names the operation, the argument and its value. Arguments are checked before anything moves: a
@@ -40,7 +38,7 @@
 
 namespace tendril {
 
-/// The four modes of a chain, for those who let a user choose.
+/// The four modes of a chain, for programs that let a person select one.
 enum class Mode {
     Forward,   ///< the head goes to the target, the rest trails
     Backward,  ///< the tail goes to the target, the rest trails
@@ -67,11 +65,12 @@ class Chain {
     Chain() = default;
 
     /// A chain of many segments at once, in O(n): what loads a saved one. Every position that lies at its
-    /// length from the one before is kept bit for bit, up to the first that does not; from there on the chain
-    /// is re-laid. (The distance may be off by what the invariant allows and, further out than 1e3 m, by the
-    /// spacing of floats out there, so every chain that this class made comes back as it was.) In the part
-    /// that is re-laid a segment at the same point as the one given before it has no direction of its own and
-    /// goes straight on, as in add(length). InvalidArgument for a bad length, coordinate or direction.
+    /// length from the one before is kept bit for bit, up to the first that does not; from there on the
+    /// positions are recalculated. (The distance may be off by what the invariant allows and, further out
+    /// than 1e3 m, by the spacing of floats there, so every chain that this class made is restored exactly.)
+    /// In the recalculated part a segment at the same point as the one given before it has no direction of
+    /// its own and goes straight on, as in add(length). InvalidArgument for a bad length, coordinate or
+    /// direction.
     static Expected<Chain> from_segments(std::vector<Segment> segments,
                                          glm::vec3 default_direction = {1.0f, 0.0f, 0.0f});
 
@@ -81,8 +80,8 @@ class Chain {
     bool empty() const noexcept { return segments_.empty(); }
     /// All segments, head first; valid until the next edit.
     std::span<const Segment> segments() const noexcept { return segments_; }
-    /// Metres from segment `index - 1`; that of index 0 is stored and ties nothing. A bad index is what it is
-    /// for std::vector::at: std::out_of_range, and the end of a program that is built without exceptions.
+    /// Metres from segment `index - 1`; that of index 0 is stored but has no effect. A bad index does what it
+    /// does in std::vector::at: std::out_of_range, or the end of a program built without exceptions.
     float length(std::size_t index) const { return segments_.at(index).length; }
     /// Metres; a bad index as above.
     glm::vec3 position(std::size_t index) const { return segments_.at(index).position; }
@@ -94,8 +93,8 @@ class Chain {
 
     // ---- Editing
 
-    /// The direction of whatever has none of its own; moves nothing. InvalidArgument unless it is
-    /// finite and its length within 1e-3 of 1; what is left of that error is divided away.
+    /// The direction of segments that have none of their own; moves nothing. InvalidArgument unless it is
+    /// finite and its length within 1e-3 of 1; it is then normalised.
     Result set_default_direction(glm::vec3 direction);
 
     /// Appends a segment straight on: along the direction of the last one, or along default_direction where
@@ -105,27 +104,27 @@ class Chain {
     /// one right there). InvalidArgument.
     Result add(const Segment& segment);
 
-    /// Puts a segment before `index`, 0 <= index < size(), and re-lays. The new point lies from its
-    /// predecessor towards `segment.position`; a new head lies right there, and the old head's length then
-    /// ties it to the new one. OutOfRange (always when empty: an empty chain takes `add` only),
+    /// Puts a segment before `index`, 0 <= index < size(), and recalculates. The new point lies from its
+    /// predecessor towards `segment.position`; a new head lies right there, and the old head's length becomes
+    /// its distance from the new one. OutOfRange (always when empty: an empty chain takes `add` only),
     /// InvalidArgument.
     Result insert(std::size_t index, const Segment& segment);
     /// Puts a segment before `index` and keeps the shape. The new point lies on the line from `index - 1` to
-    /// `index`, and all later points are carried along that line by `length`. A new head (index 0) lies
-    /// beyond the old one, in line with the first link, at the distance that the old head's length asks for;
-    /// nothing else moves. OutOfRange, InvalidArgument.
+    /// `index`, and all later points move along that line by `length`. A new head (index 0) lies beyond
+    /// the old one, in line with the first bone, at the distance given by the old head's length; nothing else
+    /// moves. OutOfRange, InvalidArgument.
     Result insert(std::size_t index, float length);
 
-    /// Takes a segment out and re-lays from the (new) head. OutOfRange.
+    /// Removes a segment and recalculates from the (new) head. OutOfRange.
     Result remove(std::size_t index);
-    /// Changes a length and re-lays. OutOfRange, InvalidArgument.
+    /// Changes a length and recalculates. OutOfRange, InvalidArgument.
     Result set_length(std::size_t index, float length);
-    /// Re-lays the chain: a forward pull with the head on its own place. Every operation leaves a chain that
-    /// holds, so this moves nothing by more than rounding, but for links shorter than 0.35 mm: they turn to
-    /// default_direction, as in any pull.
+    /// A forward pull with the head on its own place. Every operation maintains the invariant, so this moves
+    /// nothing by more than rounding, except that bones shorter than 0.35 mm turn to default_direction, as in
+    /// any pull.
     void recalculate() noexcept;
-    /// Takes a pose that was worked out elsewhere, one position a segment, as from_segments takes it: kept
-    /// bit for bit up to the first that is not at its length. InvalidArgument for a bad coordinate or another
+    /// Sets a pose that was calculated elsewhere, one position a segment, as from_segments does: kept bit for
+    /// bit up to the first that is not at its length. InvalidArgument for a bad coordinate or another
     /// number than size(); allocates nothing.
     Result set_positions(std::span<const glm::vec3> positions);
 
@@ -137,7 +136,7 @@ class Chain {
     /// The tail goes to the target, the rest follows it.
     Result backward(glm::vec3 target);
     /// The head reaches for the target while the tail stays exactly where it is: forward to the target,
-    /// backward to where the tail was, and so on until one of the options says stop. A single segment stays
+    /// backward to where the tail was, and so on until one of the options ends it. A single segment stays
     /// where it is.
     [[nodiscard]] FixedResult fixed(glm::vec3 target, const FixedOptions& options = {});
     /// Segment `index` goes to the target, both sides follow. OutOfRange too (not when empty).
@@ -145,7 +144,7 @@ class Chain {
 
   private:
     bool has_point_at(glm::vec3 position) const noexcept;
-    glm::vec3 link_direction(std::size_t from, std::size_t to) const noexcept;
+    glm::vec3 bone_direction(std::size_t from, std::size_t to) const noexcept;
 
     std::vector<Segment> segments_;
     glm::vec3 default_direction_{1.0f, 0.0f, 0.0f};

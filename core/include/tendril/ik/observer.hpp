@@ -1,5 +1,5 @@
-// What feeds the microscope: every elementary step of a solve, as it happens. Without an observer none of
-// this costs anything: the solvers are compiled once with and once without it.
+// Every elementary step of a solve, as it happens: for a program that shows or records them. Without an
+// observer this costs nothing: the solvers are compiled once with and once without it.
 #pragma once
 
 #include <cstddef>

@@ -27,7 +27,7 @@ struct Options {
     bool every_iteration = false;
     /// One for each bone, at the joint that it starts from; or none at all.
     std::span<const Limit> limits{};
-    /// The bend faces this point, metres.
+    /// Pole target: the elbow or knee points at this, metres.
     std::optional<glm::vec3> pole{};
     PoleTurn pole_turn = PoleTurn::WholeChain;
     /// 0 to 1: before iterating, each joint is blended this far towards its rest direction from the one

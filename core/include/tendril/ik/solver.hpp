@@ -1,11 +1,11 @@
 // Inverse kinematics of one chain: the root stays, the tip goes to a target.
 //
 // n bones connect n + 1 joints; joint 0 is the root, joint n the tip. A tendril::Chain of n + 1 segments has
-// n bones, for the length of its head is none.
+// n bones: the length of its head is not used.
 //
 // A Solver holds what does not change from solve to solve (lengths, rest directions) and scratch memory; so
-// make one per chain and keep it. What a solve needs to know of those before it is in the State, which the
-// caller keeps beside the joints. Solving allocates nothing, throws nothing, and gives the same bits for the
+// make one per chain and keep it. What a solve needs from earlier ones is in the State, which the caller
+// keeps beside the joints. Solving allocates nothing, throws nothing, and gives the same bits for the
 // same joints, state, target and options, whatever the solver did before.
 //
 // Before the first iteration, in O(n): what is out of reach or too close is answered at once, and a chain

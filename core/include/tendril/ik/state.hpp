@@ -20,9 +20,9 @@
 namespace tendril::ik {
 
 /// How the last solve with a pole left the chain, so that the next one turns it no faster than its joints may
-/// move. All places are metres from the root, so that a chain may be moved as a whole.
+/// move. All positions are relative to the root, in metres, so the chain may be moved as a whole.
 struct PoleMemory {
-    bool valid = false;  ///< whether the last solve had a pole; if not, the rest counts for nothing
+    bool valid = false;  ///< whether the last solve had a pole; if not, the rest is not used
     PoleTurn turn = PoleTurn::WholeChain;  ///< how the chain was turned to face it
     glm::vec3 pole{0.0f};                  ///< metres
     glm::vec3 target{0.0f};                ///< metres
@@ -35,8 +35,8 @@ struct PoleMemory {
 /// How the last solve by Method::Fabrik within limits went, so that the next one goes on from there while the
 /// target is dragged (Options::restarts).
 struct LimitMemory {
-    bool valid = false;    ///< whether there was one; if not, the rest counts for nothing
-    bool limited = false;  ///< whether it ended Limited or Stalled: then it goes on while every step gains
+    bool valid = false;      ///< whether there was one; if not, the rest is not used
+    bool limited = false;    ///< whether it ended Limited or Stalled: then it goes on while every step gains
     glm::vec3 target{0.0f};  ///< metres from the root
     float damping = 0.0f;    ///< of its last least-squares step, in reach squared; 0 to 100
 
@@ -49,8 +49,9 @@ struct State {
     explicit State(std::size_t bones);
 
     /// One a bone: the unit quaternion that takes the bone from its rest direction to where it lies, in the
-    /// world. Which of all that do is a matter of history: each solve that keeps them up (Options::rotations)
-    /// turns a bone on by the minimal rotation (parallel transport), so that twist has a meaning.
+    /// world. Many do; which one depends on the solves before: each solve that keeps them up
+    /// (Options::rotations) turns a bone on by the minimal rotation (parallel transport), so that twist has a
+    /// meaning.
     std::vector<glm::quat> rotations{};
     PoleMemory pole{};
     LimitMemory limits{};

@@ -14,7 +14,8 @@
 // brings the effectors nearer: of all moves that keep the lengths and bring the effectors to their targets,
 // each to first order, the one that moves the joints least (Levenberg 1944, Marquardt 1963). On a tree its
 // equations are solved from the leaves inward without fill-in (as D. Baraff, "Linear-time dynamics using
-// Lagrange multipliers", SIGGRAPH 1996, does for forces). Reaching alone crawls where branches must agree.
+// Lagrange multipliers", SIGGRAPH 1996, does for forces). Without it reaching converges slowly where branches
+// share joints.
 //
 // A Tree holds the joints' list and scratch memory, nothing of the solves before: what goes on from solve to
 // solve are the joints' places and, where they are wanted, the bones' rotations, both the caller's.
@@ -45,7 +46,7 @@ namespace tendril::ik {
 
 struct TreeJoint {
     std::size_t parent = no_joint;  ///< comes before this joint in the list; the root, the first, has none
-    float length = 0.0f;            ///< metres to the parent, 0 to 1e9; the root's ties nothing
+    float length = 0.0f;            ///< metres to the parent, 0 to 1e9; the root's has no effect
 };
 
 /// A joint with a target.
@@ -71,7 +72,7 @@ struct TreeOptions {
     /// Where given, element i receives the worst residual after iteration i + 1, as far as it is long.
     std::span<float> residuals{};
     /// Where given, element i receives the metres from effector i's joint to its target when all is done, as
-    /// far as it is long; also for those that weigh nothing.
+    /// far as it is long; also for those of weight 0.
     std::span<float> effector_residuals{};
     /// Where given, one a joint: element k is the rotation, in the world, of the bone that leads to joint k
     /// (the root's belongs to no bone and stays). Each is turned on by the minimal rotation from where its

@@ -27,9 +27,10 @@ struct TwoBone {
 };
 
 struct TwoBoneOptions {
-    /// The bend faces this point, metres. Without it, or where it is on the line from root to target, the
-    /// limb keeps the side that it bends to, transported by the minimal rotation of its root-tip line. A limb
-    /// that is straight has no side; then it is some fixed one at right angles to the line.
+    /// Pole target: the middle joint points at this, metres. Without it, or where it is on the line from root
+    /// to target, the limb keeps the side that it bends to, transported by the minimal rotation of its
+    /// root-tip line. A limb that is straight has no side; then it is some fixed one at right angles to the
+    /// line.
     std::optional<glm::vec3> pole = std::nullopt;
     /// The part of the reach from which on the bones lengthen, over 0 to 1, and up to how many times their
     /// length, 1 to 100. With 1 they never do.

@@ -38,7 +38,7 @@ using Shape = std::variant<Sphere, Capsule, Plane, Box>;
 /// Point on the surface that is nearest, as seen from a point.
 struct SurfaceDistance {
     double distance = 0.0;             ///< metres, below zero inside
-    glm::dvec3 normal{0.0, 1.0, 0.0};  ///< unit, outwards; a fixed one where there is no telling
+    glm::dvec3 normal{0.0, 1.0, 0.0};  ///< unit, outwards; a fixed one on a centre or an axis
 };
 /// For any point and any shape that check() takes; never NaN.
 SurfaceDistance surface_distance(const Shape& shape, const glm::dvec3& point) noexcept;

@@ -10,8 +10,8 @@
 
 namespace tendril::rope {
 
-/// A round patch of strands, in the order of a sunflower's seeds, which leave no gap at any number (H. Vogel,
-/// "A better way to construct the sunflower head", 1979).
+/// A round patch of strands, in the order of the seeds of a sunflower, which are evenly spread at any number
+/// (H. Vogel, "A better way to construct the sunflower head", 1979).
 struct HairPatch {
     glm::vec3 centre{0.0f};              ///< of a free patch
     std::optional<glm::vec3> direction;  ///< that strands grow in; downwards, or upwards from a collider

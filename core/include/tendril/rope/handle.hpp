@@ -1,6 +1,6 @@
-// How bodies and colliders of a rope world are pointed at: by the number of a slot and by how often the slot
-// has been used. A handle of something that was removed finds nothing, even where its slot has a new tenant.
-// A name for it is the program's business.
+// Handles of bodies and colliders in a rope world: the index of a slot and its generation, which counts how
+// often the slot has been used. A handle of something that was removed finds nothing, even where its slot is
+// in use again. Names are up to the program.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // How a rope world is simulated.
 //
 // Time runs in fixed substeps, so a second of it has the same result however it was cut into frames. In each
-// substep every free particle is moved on by Verlet's rule and is then put back to where distances, pins and
-// colliders let it be. Three solvers do the putting back:
+// substep every free particle moves by Verlet integration, and is then corrected so that distances, pins and
+// colliders are satisfied. There are three solvers for these corrections:
 //
 // * Relaxation satisfies one distance after the other, `iterations` times (T. Jakobsen, "Advanced Character
 //   Physics", GDC 2001; M. Mueller et al., "Position Based Dynamics", 2007). How far a rope stretches then
@@ -31,7 +31,7 @@ const char* name(Solver solver) noexcept;
 struct Settings {
     /// Seconds, min_substep to max_substep.
     double substep = 1.0 / 240.0;
-    /// Passes in a substep, 1 to max_iterations. Direct ends as soon as it has arrived.
+    /// Passes in a substep, 1 to max_iterations. Direct ends as soon as it has converged.
     int iterations = 16;
     Solver solver = Solver::Direct;
     /// How fast motion dies away, 1/s, 0 to max_rate.

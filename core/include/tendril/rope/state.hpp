@@ -1,6 +1,5 @@
-// Everything that a rope world remembers, and nothing that follows from it: what to save, to compare, and to
-// put back. Whatever decides how the world goes on is in here: two worlds with the same state go on the same,
-// bit for bit.
+// The whole state of a rope world, without anything that can be derived from it: save it, compare it, restore
+// it. Two worlds with the same state continue the same, bit for bit.
 #pragma once
 
 #include <cstddef>

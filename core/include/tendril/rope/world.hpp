@@ -11,7 +11,7 @@
 //     }
 //
 // A world is a value: a copy of it goes on as the original does, bit for bit, so rollback is a copy and an
-// assignment. What time needs besides is in the workspace, which nothing depends on.
+// assignment. Scratch memory is in the workspace, on which no result depends.
 //
 // Units are metres, kilograms and seconds. Particles are kept in double precision: a rope a thousand
 // kilometres from the origin moves as it does near it. The world has an edge, max_magnitude from the origin
