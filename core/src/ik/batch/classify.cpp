@@ -130,16 +130,20 @@ HWY_INLINE void enforce_lengths(const Block& block, std::size_t i) {
 }
 
 /// Every joint straight towards the target from where the one before has come to be, so that the roundings
-/// of many joints do not add up to a bend.
-HWY_INLINE void straighten(const Block& block, std::size_t i, Mask lanes) {
-    const Points target = load_points(block.target() + i);
-    Points at = load_points(block.joint(0) + i);
+/// of many joints do not add up to a bend. The registers take each joint side by side, so that none waits for
+/// its own square root.
+HWY_INLINE void straighten(const Block& block, std::size_t lanes) {
     for (std::size_t bone = 0; bone < block.bones(); ++bone) {
-        const Points ahead = minus(target, at);
-        const Lanes squared = hn::Max(dot(ahead, ahead), all(math::coincidence));
-        at = moved(at, ahead, hn::Div(load(block.length(bone) + i), hn::Sqrt(squared)));
-        float* const joint = block.joint(bone + 1) + i;
-        store_points(select(lanes, at, load_points(joint)), joint);
+        for (std::size_t i = 0; i < lanes; i += hn::Lanes(Floats())) {
+            const Mask straight = equals(block.row(Row::Class) + i, Class::Straight);
+            if (!any(straight)) continue;
+            const Points at = load_points(block.joint(bone) + i);
+            const Points ahead = minus(load_points(block.target() + i), at);
+            const Lanes squared = hn::Max(dot(ahead, ahead), all(math::coincidence));
+            const Lanes scale = hn::Div(load(block.length(bone) + i), hn::Sqrt(squared));
+            float* const joint = block.joint(bone + 1) + i;
+            store_points(select(straight, moved(at, ahead, scale), load_points(joint)), joint);
+        }
     }
 }
 
@@ -188,13 +192,15 @@ HWY_INLINE void begin(const Block& block, std::size_t i) {
 Left classify(const Block& block, std::size_t lanes, bool every) {
     const Floats d;
     Left left;
+    bool out_of_reach = false;
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
-        float* const found = block.row(Row::Class) + i;
         const Mask used = hn::FirstN(d, lanes - i);  // the lanes beyond count as invalid
         if (classify_register(block, i, used)) enforce_lengths(block, i);
-        if (const Mask straight = equals(found, Class::Straight); any(straight)) {
-            straighten(block, i, straight);
-        }
+        out_of_reach = out_of_reach || any(equals(block.row(Row::Class) + i, Class::Straight));
+    }
+    if (out_of_reach) straighten(block, lanes);
+    for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
+        float* const found = block.row(Row::Class) + i;
         if (const Mask folded = equals(found, Class::Folded); any(folded)) fold(block, i, folded);
         begin(block, i);
         const Mask there = hn::Le(load(block.row(Row::Residual) + i), load(block.row(Row::Tolerance) + i));

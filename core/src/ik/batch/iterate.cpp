@@ -186,9 +186,10 @@ HWY_INLINE bool pays_to_gather(const Takers& takers) {
     return 8 * saved > takers.count;
 }
 
-HWY_INLINE void take_step(const Block& block, const Registers& registers, const StepScratch& scratch) {
+/// After it Row::Residual is that of the chains that did not take it.
+HWY_INLINE Takers take_step(const Block& block, const Registers& registers, const StepScratch& scratch) {
     const Takers takers = find_takers(block, registers);
-    if (takers.count == 0) return;
+    if (takers.count == 0) return takers;
     Gathered second(scratch.second);
     const auto own = [](std::size_t lane) { return lane; };
     if (pays_to_gather(takers)) {
@@ -212,6 +213,7 @@ HWY_INLINE void take_step(const Block& block, const Registers& registers, const 
         }
     }
     reshape_around_longest(second, block, scratch.shapes);
+    return takers;
 }
 
 /// The best poses of active chains, before the joints move on.
@@ -279,9 +281,10 @@ HWY_INLINE void restore_best(const Block& block, std::size_t i, Mask done) {
 }
 
 /// What comes after passes and step, for one register.
-HWY_INLINE void finish_iteration(const Block& block, std::size_t i, const Order& order, Left& left) {
+HWY_INLINE void finish_iteration(const Block& block, std::size_t i, bool stepped, const Order& order,
+                                 Left& left) {
     const Mask active = active_lanes(block, i);
-    const Lanes residual = residual_of(block, i);
+    const Lanes residual = stepped ? residual_of(block, i) : load(block.row(Row::Residual) + i);
     const Verdict verdict = note(block, i, active, residual, order);
     restore_best(block, i, hn::AndNot(verdict.goes_on, active));
     const auto code = [](Activity value) { return all(static_cast<float>(value)); };
@@ -304,9 +307,9 @@ Left iterate(const Block& block, std::size_t lanes, const Order& order) {
         } else {
             reach_both_ways<true>(block, registers);
         }
-        take_step(block, registers, order.step);
+        const Takers takers = take_step(block, registers, order.step);
         for (std::size_t k = 0; k < registers.count; ++k) {
-            finish_iteration(block, registers.first[k], order, left);
+            finish_iteration(block, registers.first[k], any(takers.lanes[k]), order, left);
         }
     }
     return left;
