@@ -53,15 +53,15 @@ bool counts(const char* id, bool changed, double& value) {
     ImGui::PushID(id);
     const ImGuiID pending = ImGui::GetID("pending"), halves[] = {ImGui::GetID("low"), ImGui::GetID("high")};
     ImGui::PopID();
-    const bool was_typed = kept.GetBool(pending);
     if (ImGui::IsItemActive() && ImGui::GetIO().WantTextInput) {
-        if (!changed) return false;
+        // Until the next frame: a field that vanishes meanwhile takes its text with it.
+        kept.SetInt(pending, changed ? ImGui::GetFrameCount() + 1 : 0);
         const auto bits = std::bit_cast<std::array<int, 2>>(value);
         for (std::size_t i = 0; i < 2; ++i) kept.SetInt(halves[i], bits[i]);
-        kept.SetBool(pending, true);
         return false;
     }
-    kept.SetBool(pending, false);
+    const bool was_typed = kept.GetInt(pending) == ImGui::GetFrameCount();
+    kept.SetInt(pending, 0);
     if (was_typed && escape_pressed()) return false;
     if (was_typed && !changed)
         value = std::bit_cast<double>(std::array{kept.GetInt(halves[0]), kept.GetInt(halves[1])});
@@ -126,9 +126,10 @@ bool integer_slider(const char* name, int& value, int low, int high) {
         ImGui::CalcTextSize(std::to_string(high).c_str()).x + ImGui::GetStyle().ItemInnerSpacing.x;
     ImGui::SetNextItemWidth(-room);
     int shown = value;
-    double number = ImGui::SliderInt(id.c_str(), &shown, low, high, "") ? shown : value;
+    ImGui::SliderInt(id.c_str(), &shown, low, high, "");
+    double number = shown;
     const bool changed = counts(id.c_str(), shown != value, number);
-    value = static_cast<int>(number);
+    if (changed) value = static_cast<int>(number);
     ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
     ImGui::Text("%d", value);
     return changed;

@@ -202,6 +202,34 @@ TEST(SolveManyWithinLimits, AChainThatHasArrivedStaysToTheBit) {
     }
 }
 
+TEST(SolveManyWithinLimits, RotationsFollowJointsThatAreThereAlready) {
+    Random random(58);
+    Arm arm;
+    for (int i = 0; i < 4; ++i) {
+        arm.lengths.push_back(1.0f);
+        arm.rest.emplace_back(1, 0, 0);
+        Limit limit = Limit::of(ik::JointKind::BallAndSocket);
+        limit.up = limit.down = limit.left = limit.right = 1.5f;
+        arm.limits.push_back(limit);
+    }
+    LimitedCrowd all{arm, {}};
+    for (int i = 0; i < 100; ++i) all.crowd.add(arm.lengths, arm.at_rest(), some_tip(arm, random));
+    const LimitedAnswer bent = solve_limited(all);
+    for (std::size_t i = 0; i < all.crowd.size(); ++i) {
+        all.crowd.joints[i] = bent.answer.joints[i];
+        all.crowd.targets[i] = bent.answer.joints[i].back();
+    }
+    const LimitedAnswer stays = solve_limited(all);  // from rotations at rest
+    int stayed = 0;
+    for (std::size_t i = 0; i < all.crowd.size(); ++i) {
+        if (stays.answer.reports[i].scalar_fallback || stays.answer.reports[i].iterations > 0) continue;
+        ++stayed;
+        EXPECT_TRUE(same_bits(stays.answer.joints[i], bent.answer.joints[i])) << "chain " << i;
+        EXPECT_TRUE(WithinLimits(all.arm, stays.answer.joints[i], stays.of(i))) << "chain " << i;
+    }
+    EXPECT_GT(stayed, 10);
+}
+
 TEST(SolveManyWithinLimits, WhatIsPutBackGoesOnWithTheSameBits) {
     Random random(56);
     const LimitedCrowd all = limited_crowd(200, 5, ArmKind::Cones, random);

@@ -98,7 +98,8 @@ void limit_rows(const ChainPart& part, Emit& emit) {
         unit[axis] = 1.0f;
         emit("chain.limit", {{"index", joint}, {"axis", unit}});
     }
-    note("Axis of upward rotation, in world axes with the chain straight. Angles are 0 there.");
+    note(
+        "Axis of upward rotation, in world axes with the chain straight. A straight chain has all angles 0.");
 }
 
 }  // namespace tendril::app

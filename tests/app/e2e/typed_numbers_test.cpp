@@ -87,6 +87,23 @@ TEST(TypedNumbers, ThatBeginOutOfRangeAreTaken) {
     EXPECT_EQ(elsewhere.state.at("solve").at("iterations"), 42);
 }
 
+/// 100 is what the field has: 1 and 10 on the way to it are nobody's numbers. Nor is what was deleted.
+TEST(TypedNumbers, ThatSayWhatIsThereOrNothingChangeNothing) {
+    for (const bool deleted : {false, true}) {
+        for (const char* key : {"enter", "tab"}) {
+            ScriptText script = typed_iterations(deleted ? "42" : "100");
+            if (deleted) script.key("backspace").key("backspace");
+            const Played played = play(script.key(key).wait(30));
+            EXPECT_EQ(played.outcome.err, "") << key;
+            EXPECT_EQ(played.state.at("solve").at("iterations"), 100) << key << deleted;
+        }
+        ScriptText script = typed_iterations(deleted ? "42" : "100");
+        if (deleted) script.key("backspace").key("backspace");
+        const Played elsewhere = play(script.click({700.0f, 400.0f}).wait(30));
+        EXPECT_EQ(elsewhere.state.at("solve").at("iterations"), 100) << deleted;
+    }
+}
+
 TEST(TypedNumbers, EscapeTakesThemBack) {
     const Played played = play(typed_iterations("42").key("escape").wait(30));
     EXPECT_EQ(played.outcome.err, "");

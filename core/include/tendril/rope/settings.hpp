@@ -55,7 +55,7 @@ struct Settings {
 inline constexpr double min_substep = 1e-5, max_substep = 0.1;
 inline constexpr int max_iterations = 10'000;
 /// A substep's work is bounded: passes over the 16th are left out (and counted) where all passes together
-/// would take more links and contacts than this; bodies have their part of it by size.
+/// would take more links and contacts than this; bodies that no link joins share it by particles and links.
 inline constexpr std::size_t max_pass_work = std::size_t{1} << 16;
 inline constexpr int unbounded_passes = 16;
 inline constexpr float max_rate = 1e3f, max_acceleration = 1e4f, max_scale = 1e3f, max_compliance = 1e3f,

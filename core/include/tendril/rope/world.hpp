@@ -23,7 +23,9 @@
 // near than ever before.
 //
 // Bodies that no link joins do not notice each other, and threads can share them: Workspace::use_threads. A
-// rope of 16 000 segments or a cloth is solved on one thread.
+// rope of 16 000 segments or a cloth is solved on one thread. Two bounds they share: max_pass_work and that
+// on the search for a way out of colliders, of which each has its part by size; and where Direct cannot solve
+// a rope, some other bodies have their contacts resolved again with it.
 #pragma once
 
 #include "tendril/result.hpp"
@@ -36,8 +38,8 @@ namespace tendril::rope {
 struct Advance {
     int substeps = 0;
     std::uint64_t dropped = 0;  ///< substeps that there was no time for
-    int passes = 0;  ///< of the solver over its links of whatever took most, in all substeps; Direct may
-                     ///< solve one chain more often
+    int passes = 0;  ///< of the solver over the linked bodies that took most, summed over substeps; Direct
+                     ///< may solve one chain more often
     std::uint64_t work = 0;        ///< links solved and distances to colliders taken: what the time goes into
     int shortened = 0;             ///< substeps in which max_pass_work cut passes
     std::uint64_t unresolved = 0;  ///< times a particle was left inside colliders: there was no way out, or

@@ -1,4 +1,4 @@
-// How a Batch keeps its chains: in blocks of 64, each a table of floats with a row for every coordinate of
+// How a Batch keeps its chains: in blocks of 80, each a table of floats with a row for every coordinate of
 // every joint and a column ("lane") for every chain, so that one register holds the same coordinate of many
 // chains. What only a solve needs (residuals, counts, the best pose) is in a second table that a thread uses
 // for one block after the other: it stays in the nearest cache. Not installed.
@@ -15,8 +15,9 @@
 
 namespace tendril::ik::detail {
 
-/// Four registers of AVX-512, eight of AVX2: enough side by side that none waits for its own square root.
+/// Five registers of AVX-512, ten of AVX2: enough side by side that none waits for its own square root.
 inline constexpr std::size_t block_lanes = 80;
+static_assert(block_lanes % 16 == 0, "whole registers fill a block");
 
 /// What a solve knows of a chain besides its joints and lengths: one row each.
 enum class Row : std::size_t {

@@ -134,24 +134,40 @@ HWY_INLINE Rotations smallest_rotation(const Points& from, const Points& to) {
     return normalized(select(opposite, Rotations{zero(), cross(from, away)}, Rotations{w, cross(from, to)}));
 }
 
-/// Transports the rotations to where the joints are, by the smallest rotation, and clamps them. Returns the
-/// lanes in which a limit was violated; `pose` is the clamped one.
+/// How a bone is turned in the world: as its rows say, transported by the smallest rotation to where the
+/// joints are. `turned`: where that is more than rounding.
+HWY_INLINE Rotations transported(const Limb& limb, std::size_t bone, const float* rotations, Mask& turned) {
+    const Rotations world = load_rotations(rotations + 4 * bone * block_lanes + limb.i);
+    const Points apart =
+        minus(load_points(limb.block.joint(bone + 1) + limb.i), load_points(limb.block.joint(bone) + limb.i));
+    const Lanes squared = dot(apart, apart);
+    const Mask shows = hn::Ge(squared, all(math::coincidence));
+    const Lanes scale = hn::Div(all(1.0f), hn::Sqrt(hn::Max(squared, all(math::coincidence))));
+    const Points before = rotated(world, all(limb.limits[bone].bone)), along = times(apart, scale);
+    const Points off = minus(along, before);
+    turned = hn::And(shows, hn::Gt(dot(off, off), all(1e-10f)));
+    return select(turned, normalized(compose(smallest_rotation(before, along), world)), world);
+}
+
+/// Chains that stay where they are: only their rotations follow the joints.
+HWY_INLINE void transport(const Limb& limb, Mask lanes, float* rotations) {
+    for (std::size_t bone = 0; bone < limb.count(); ++bone) {
+        Mask turned = none();
+        const Rotations world = transported(limb, bone, rotations, turned);
+        turned = hn::And(turned, lanes);
+        if (!any(turned)) continue;
+        float* const rows = rotations + 4 * bone * block_lanes + limb.i;
+        store_rotations(select(turned, world, load_rotations(rows)), rows);
+    }
+}
+
+/// Transports the rotations to where the joints are and clamps them. Returns the lanes in which a limit was
+/// violated; `pose` is the clamped one.
 HWY_INLINE Mask take_pose(const Limb& limb, const float* rotations) {
-    Mask violated = none();
+    Mask violated = none(), turned = none();
     Rotations parent = no_rotation();
     for (std::size_t bone = 0; bone < limb.count(); ++bone) {
-        const float* const rows = rotations + 4 * bone * block_lanes + limb.i;
-        Rotations world = load_rotations(rows);
-        const Points apart = minus(load_points(limb.block.joint(bone + 1) + limb.i),
-                                   load_points(limb.block.joint(bone) + limb.i));
-        const Lanes squared = dot(apart, apart);
-        const Mask shows = hn::Ge(squared, all(math::coincidence));
-        const Lanes scale = hn::Div(all(1.0f), hn::Sqrt(hn::Max(squared, all(math::coincidence))));
-        const Points before = rotated(world, all(limb.limits[bone].bone)), along = times(apart, scale);
-        const Points off = minus(along, before);
-        const Mask turned = hn::And(shows, hn::Gt(dot(off, off), all(1e-10f)));
-        const Rotations transported = normalized(compose(smallest_rotation(before, along), world));
-        world = select(turned, transported, world);
+        const Rotations world = transported(limb, bone, rotations, turned);
         const Rotations turn = normalized(compose(conjugate(parent), world));
         Standing standing;
         const Rotations within = clamp(limb.limits[bone], turn, standing);

@@ -31,12 +31,13 @@ constexpr Row row_of_error = Row::Residual, row_of_damping = Row::Best, row_of_m
 
 /// The state that a register's chains begin with. Chains that have arrived and violate nothing are done as
 /// they are.
-HWY_INLINE void begin(const Limb& limb, const float* rotations) {
+HWY_INLINE void begin(const Limb& limb, float* rotations) {
     const Mask asked = equals(limb.row(Row::Class), Class::Reachable);
     const Mask violated = take_pose(limb, rotations);
     const Lanes tolerance = load(limb.row(Row::Tolerance));
     const Mask rests = hn::AndNot(violated, hn::Le(load(limb.row(Row::Residual)), tolerance));
     const Mask left = hn::AndNot(rests, asked);
+    if (const Mask stays = hn::And(asked, rests); any(stays)) transport(limb, stays, rotations);
     store(hn::IfThenElseZero(left, all(static_cast<float>(Activity::Active))), limb.row(Row::Activity));
     store(hn::IfThenElse(left, error_of(limb, limb.pose), load(limb.row(row_of_error))),
           limb.row(row_of_error));

@@ -79,9 +79,9 @@ void Work::solve_block(std::size_t index, Scratch& scratch) noexcept {
         if (scalar) {
             solve_scalar(block, lane, first + lane, scratch);
         } else {
-            report(block, lane, first + lane);  // of those that are active again when they are done
+            report(block, lane, first + lane);  // of active chains again, when they are done
         }
-        // Without a branch, which nothing would foretell.
+        // No branch: it would be mispredicted.
         active.lanes[active.count] = static_cast<std::uint8_t>(lane);
         active.count += !scalar && block.activity(lane) != Activity::Done ? 1 : 0;
     }

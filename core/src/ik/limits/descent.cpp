@@ -21,7 +21,7 @@ void LimitedDescent::restart(const Problem& problem) noexcept {
 }
 
 void LimitedDescent::continue_from(float damping, bool stalled) noexcept {
-    damping_ = damping;
+    damping_ = std::max(damping, min_damping);
     reaches_ = false;
     if (stalled) convergence_.resume_stalled();
 }
