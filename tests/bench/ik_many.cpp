@@ -334,8 +334,8 @@ int main(int count, char** arguments) {
         const bool wide = units[i] == "AVX3";
         if (!wide && units[i] != "AVX2") continue;
         const std::string what = std::string(units[i]) + " over the scalar solver";
-        all &= claim_gains(what, gains[i], wide ? 8.0 : 6.5, wide ? 15.0 : 7.0);
-        all &= claim_gains(what + ", within limits", limited[i], wide ? 3.8 : 3.0, wide ? 7.5 : 3.5);
+        all &= claim_gains(what, gains[i], wide ? 7.5 : 6.0, wide ? 15.0 : 7.0);
+        all &= claim_gains(what + ", within limits", limited[i], wide ? 2.5 : 2.2, wide ? 7.5 : 3.5);
     }
     if (std::thread::hardware_concurrency() >= 2) all &= claim("two threads over one", two_threads, 1.5);
     return all || !has_flag(count, arguments, "--check") ? 0 : 1;

@@ -23,8 +23,8 @@
 // flat (a suture). Poses differ from the scalar solver's: both arrive, each within the limits to 0.1 degrees.
 //
 // Cost: O(bones) an iteration and chain. Over as many calls of Solver::solve to tolerance, 1 000 chains, all
-// joints in and out (tests/bench/ik_many.cpp): 8 to 18 times the throughput with AVX-512 and 7 to 15 times
-// with AVX2, the most near full reach; within limits 4 to 22 and 3 to 18 times, the most for hinges, the
+// joints in and out (tests/bench/ik_many.cpp): 8 to 18 times the throughput with AVX-512 and 6 to 15 times
+// with AVX2, the most near full reach; within limits 3 to 20 and 2 to 16 times, the most for hinges, the
 // least for long chains of cones far from full reach. It pays from four chains on, and hardly where most
 // targets fall to the scalar solver.
 #pragma once
