@@ -1,7 +1,6 @@
 // Bodies that nothing links to each other are solved apart: no body notices another, and threads that share
 // them give the same bits.
-#include <thread>
-
+#include "jobs.hpp"
 #include "rope_support.hpp"
 
 namespace tendril::test {
@@ -90,23 +89,30 @@ TEST(RopeIslands, NoBodyNoticesAnother) {
     }
 }
 
-/// Stands for an engine's job system.
-struct Jobs {
-    std::uint64_t calls = 0, pieces = 0;
-    bool backwards = false, aside = false;
-};
-
-void run_on_jobs(void* user, TaskFunction task, void* context, std::uint32_t count) {
-    Jobs& jobs = *static_cast<Jobs*>(user);
-    ++jobs.calls;
-    jobs.pieces += count;
-    if (jobs.aside) {
-        std::vector<std::thread> workers;
-        for (std::uint32_t i = 0; i < count; ++i) workers.emplace_back([=] { task(context, i); });
-        for (std::thread& worker : workers) worker.join();
-        return;
-    }
-    for (std::uint32_t i = 0; i < count; ++i) task(context, jobs.backwards ? count - 1 - i : i);
+/// A rope whose pins are further apart than it is long cannot be solved; one that lies between colliders has
+/// the bits beside it that it has alone.
+TEST(RopeIslands, NoBodyNoticesOneThatCannotBeSolved) {
+    const auto add_lying = [](rope::World& world) {
+        for (const float x : {0.0f, 0.35f}) allow(world.add_collider(rope::Sphere{{x, 0, 0}, 0.2f}).error());
+        // Into the notch, where each particle is pushed out of one ball and into the other.
+        allow(world
+                  .add_rope({.from = {0.175f, 0.5f, -0.05f},
+                             .to = {0.18f, 0.5f, 0.05f},
+                             .segments = 8,
+                             .length = 0.12f,
+                             .radius = 0.02f})
+                  .error());
+    };
+    rope::World alone, together;
+    Workspace workspace;
+    add_lying(alone), add_lying(together);
+    const rope::BodyId stretched =
+        allowed(together.add_rope({.from = {0, 5, 0}, .to = {1, 5, 0}, .segments = 24, .pin_start = true}));
+    allow(together.pin(allowed(together.particle(stretched, 24)), {3, 5, 0}));
+    for (rope::World* const world : {&alone, &together})
+        for (int i = 0; i < 60; ++i) world->advance(1.0 / 60.0, workspace);
+    EXPECT_GT(together.state().bodies[1].stretch, 0.5f);
+    for (std::size_t k = 0; k < alone.size(); ++k) ASSERT_EQ(alone.position(k), together.position(k)) << k;
 }
 
 bool same(const Advance& a, const Advance& b) {
@@ -160,8 +166,28 @@ TEST(RopeIslands, NumbersOfThreadsOutOfRangeAreRefused) {
     EXPECT_TRUE(workspace.use_threads(256).ok());
 }
 
-/// A state put together by hand may have links from one body to another: these bodies are solved together.
+/// A state put together by hand may have links from one body to another: these are solved together, so the
+/// second rope follows the first at the distance of the link.
 TEST(RopeIslands, LinksBetweenBodiesJoinThem) {
+    for (const rope::Solver solver : all_solvers) {
+        rope::World apart = world_with({.iterations = 64, .solver = solver, .gravity = {0, 0, 0}});
+        allow(apart.add_rope({.from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 4, .pin_start = true}).error());
+        allow(apart.add_rope({.from = {1.5f, 0, 0}, .to = {2.5f, 0, 0}, .segments = 4}).error());
+        rope::State state = apart.state();
+        state.links.push_back({.a = 4, .b = 5, .rest = 0.5f, .kind = rope::Link::Kind::Stretch});
+        rope::World world = allowed(rope::World::from_state(state));
+        allow(world.pin(0, {-1, 0, 0}, 0.5));
+        Workspace workspace;
+        for (int i = 0; i < 30; ++i) {
+            world.advance(1.0 / 60.0, workspace);
+            EXPECT_NEAR(glm::distance(world.position(4), world.position(5)), 0.5, 0.02) << name(solver) << i;
+        }
+        EXPECT_LT(world.position(9).x, 1.6) << name(solver);
+    }
+}
+
+/// The same bits with threads, where links go to and fro.
+TEST(RopeIslands, ThreadsGiveTheSameBitsOfJoinedBodies) {
     Random random(8);
     rope::State state = some_world({}, 24, 16).state();
     for (int i = 0; i < 12; ++i) {

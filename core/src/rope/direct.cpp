@@ -94,6 +94,10 @@ void Substep::relax_failed_bodies() {
             scratch_.touch[i].displacement = dvec3(0.0);
         }
     }
+    // Bodies that no link joins to these are solved.
+    std::erase_if(local_.near, [&](const IslandScratch::Near& near) {
+        return scratch_.body_failed[plan_.chunks[near.chunk].body] == 0;
+    });
     for (int pass = 0; pass < fallback_passes; ++pass) {
         report_.work += island_.links.count;
         for (const Plan::Chain& chain : Plan::part(plan_.chains, island_.chains)) {

@@ -24,8 +24,7 @@
 //
 // Bodies that no link joins do not notice each other, and threads can share them: Workspace::use_threads. A
 // rope of 16 000 segments or a cloth is solved on one thread. Two bounds they share: max_pass_work and that
-// on the search for a way out of colliders, of which each has its part by size; and where Direct cannot solve
-// a rope, some other bodies have their contacts resolved again with it.
+// on the search for a way out of colliders, of which each has its part by size.
 #pragma once
 
 #include "tendril/result.hpp"
