@@ -1,12 +1,12 @@
-// What a substep of ropes costs: by particles, by colliders far and near, and for many ropes with and without
-// vector units.
+// What a substep of ropes costs: by particles, by colliders far and near, for many ropes with and without
+// vector units, and with two threads.
 //
 //     tendril_bench_rope_step            the tables and one line per claim
 //     tendril_bench_rope_step --check    the same, and exit code 1 when a claim does not hold
 //
 // Claims: a rope of 1024 segments among 16 colliders takes under 1 ms a frame of 1/60 s; with 256 colliders
 // that are far off it takes at most half as long again as with none; vector units pay off for 200 ropes of 32
-// segments. Times are processor time.
+// segments. Times are processor time but for the threads, whose gain needs a quiet machine to be seen.
 #include <cmath>
 #include <string>
 
@@ -121,18 +121,57 @@ void solver_table() {
     }
 }
 
-/// How many times as fast the widest unit is as none.
-double crowd_table() {
-    constexpr int ropes = 200, segments = 32;
-    rope::World start;
+/// Hung by one end, in rows of 20.
+rope::World hung_ropes(int ropes, int segments) {
+    rope::World world;
     for (int i = 0; i < ropes; ++i) {
         const auto x = static_cast<float>(i % 20), z = static_cast<float>(i / 20);
-        static_cast<void>(start.add_rope({.from = {x, 0, z},
+        static_cast<void>(world.add_rope({.from = {x, 0, z},
                                           .to = {x + 0.5f, 0, z},
                                           .segments = segments,
                                           .length = 1.0f,
                                           .pin_start = true}));
     }
+    return world;
+}
+
+rope::World hung_cloths(int cloths, int cells) {
+    rope::World world;
+    for (int i = 0; i < cloths; ++i) {
+        static_cast<void>(world.add_cloth({.corner = {2.0f * static_cast<float>(i), 0, 0},
+                                           .along = {1, 0, 0},
+                                           .down = {0, 0, 1},
+                                           .columns = cells,
+                                           .rows = cells,
+                                           .pins = rope::ClothShape::Pins::Corners}));
+    }
+    return world;
+}
+
+/// By the clock on the wall; the threads are the library's own, which begin anew in each substep.
+void thread_table() {
+    std::printf("\nus a substep by threads (and times one)\n");
+    const auto row = [](const char* what, const rope::World& start) {
+        std::vector<Stage> worlds(2);
+        std::vector<std::function<void()>> runs;
+        for (std::size_t i = 0; i < worlds.size(); ++i) {
+            worlds[i].world = start;
+            static_cast<void>(worlds[i].workspace.use_threads(static_cast<int>(i) + 1));
+            runs.push_back([&world = worlds[i]] { run_frames(world, 4); });
+        }
+        const std::vector<double> seconds = race(runs, repetitions, wall_seconds);
+        std::printf("%-32s1: %.1f   2: %.1f (%.2fx)\n", what, seconds[0] * 1e6 / 16.0,
+                    seconds[1] * 1e6 / 16.0, seconds[0] / seconds[1]);
+    };
+    row("200 ropes of 32 segments", hung_ropes(200, 32));
+    row("2000 ropes of 32 segments", hung_ropes(2000, 32));
+    row("8 cloths of 24 x 24 cells", hung_cloths(8, 24));
+}
+
+/// How many times as fast the widest unit is as none.
+double crowd_table() {
+    constexpr int ropes = 200, segments = 32;
+    const rope::World start = hung_ropes(ropes, segments);
     std::vector<std::string> names{"none"};
     for (const std::string_view unit : tendril::ik::vector_units()) names.emplace_back(unit);
     std::vector<Stage> worlds(names.size());
@@ -156,6 +195,8 @@ int main(int count, char** arguments) {
     const Gains gains = particle_table();
     solver_table();
     const double units = crowd_table();
+    thread_table();
+    std::printf("\n");
     bool all = claim("1 ms over a frame of 1024 segments among 16 colliders", gains.frame_budget, 1.0);
     all &= claim("time without colliders over that with 256 far ones", gains.far, 0.67);
     all &= claim("200 ropes without vector units over with", units, 1.5);
