@@ -1,0 +1,38 @@
+// Inertialization: takes the jumps out of an input that is otherwise let through as it is, as where one
+// animation clip is cut to another.
+//
+// Method: D. Bollo, "Inertialization: High-Performance Animation Transitions in Gears of War", GDC 2018, with
+// the critically damped spring that D. Holden decays the offset by ("Spring-It-On", 2021): where the input
+// jumps by more than the threshold in one step, the output's distance to it and its relative velocity become
+// an offset that decays, w = 2 ln 2 / halflife.
+//
+// What the input's velocity is after a jump is known one step later: until then it counts as 0.
+//
+// Cost: an exponential, some 10 ns.
+#pragma once
+
+#include "tendril/signal/input.hpp"
+
+namespace tendril::signal {
+
+struct Inertialize {
+    double halflife = 0.1;   ///< s, 0 (jumps pass) to 1e4
+    double threshold = 0.5;  ///< 0 to 1e9: a change by more than that in one step is a jump
+    bool operator==(const Inertialize&) const = default;
+};
+
+struct InertializeState {
+    double value = 0.0;     ///< the last output
+    double velocity = 0.0;  ///< of the output in the last step, 1/s
+    double input = 0.0;     ///< the last input
+    double offset = 0.0;    ///< of the output from the input
+    double offset_velocity = 0.0;
+    bool jumped = false;  ///< in the last step: the input's velocity is not known yet
+    bool started = false;
+    bool operator==(const InertializeState&) const = default;
+};
+
+/// The first step returns the input.
+double step(const Inertialize& parameters, InertializeState& state, double input, double dt) noexcept;
+
+}  // namespace tendril::signal

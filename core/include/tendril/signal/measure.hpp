@@ -1,0 +1,63 @@
+// What a filter costs and what it gains, measured on an input at hand: lag, overshoot, settling time, jitter.
+// Pure functions over rows; a measure that the input says nothing about is left empty.
+//
+// Lag, overshoot and settling compare the output with what the filters return without any memory
+// (immediate(), run.hpp), so that a filter that scales or bends is not blamed for that.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tendril/signal/run.hpp"
+
+namespace tendril::signal {
+
+/// Rows to compare, all lists of the same length; others count as empty.
+struct Response {
+    std::span<const double> time;    ///< seconds, ascending
+    std::span<const double> wanted;  ///< what would be there at once
+    std::span<const double> output;
+};
+
+/// Seconds: the shift of `wanted` that fits `output` best (least squares, straight between the rows, held
+/// beyond the ends), to a small part of a row; negative where the output runs ahead. Looked for up to
+/// `longest` seconds either way; of fits that are as good, as with a periodic input, the smallest shift.
+/// Empty where one of the two does not change, or nothing within `longest` fits best.
+/// Cost: O(rows * longest / median dt), 1e4 shifts at most.
+std::optional<double> lag(const Response& response, double longest = 1.0);
+
+/// A jump of `wanted` within one row, to a value that it then keeps.
+struct Step {
+    std::size_t first = 0, end = 0;  ///< rows: the first at the new value, and the first of another
+    double from = 0.0, to = 0.0;     ///< the output before it, and what it should come to
+};
+/// The steps of a response: changes by at least a quarter of what `wanted` spans, kept to a thousandth of
+/// that for two more rows at least.
+std::vector<Step> steps_of(const Response& response);
+
+/// How far the output goes beyond a step, as a part of the step: the most of all steps, 0 where none does.
+/// Empty without steps.
+std::optional<double> overshoot(const Response& response);
+
+/// Seconds from a step until the output stays within 2 % of it: the longest of all steps. Empty without
+/// steps, and where the output has not settled when the input moves on.
+std::optional<double> settling_time(const Response& response);
+
+/// What of the input's jitter is left: the root mean square of the second differences of `output` over that
+/// of `input`, slopes rather than differences so that it holds for uneven times. Empty where the input has
+/// none.
+std::optional<double> jitter(std::span<const double> time, std::span<const double> input,
+                             std::span<const double> output);
+
+struct Measures {
+    std::optional<double> lag;            ///< seconds
+    std::optional<double> overshoot;      ///< part of the step
+    std::optional<double> settling_time;  ///< seconds, to 2 %
+    std::optional<double> jitter;         ///< part of the input's
+    double rate_difference = 0.0;         ///< compare_rates()
+};
+/// All of them for a list of filters on one input.
+Measures measure(std::span<const Filter> filters, std::span<const Sample> samples);
+
+}  // namespace tendril::signal

@@ -1,0 +1,111 @@
+// A damped spring towards a moving target, for numbers, vectors and rotations.
+//
+//     signal::Spring<glm::vec3> hat{.strength = 3.0, .critical_damping = 0.4};
+//     signal::SpringState<glm::vec3> state;  // the first step starts on its target, at rest
+//     hat_position = signal::step(hat, state, head_position, dt);
+//
+// Method: the closed form of x'' = -w^2 (x - target) - 2 z w x', with w = 2 pi strength and z =
+// critical_damping, for each step exactly: any dt is stable, and for a target that stands still half a second
+// in one step or in 500 is the same. Worked out in double whatever the type; one form for all dampings, so it
+// is continuous across critical damping.
+//
+// A target in steady motion is followed with a lag of 2 z (1 - target_velocity_amount) / w - dt / 2: within a
+// step the target stands still, which makes up half a frame.
+//
+// Rotations: the spring works on the rotation vector (axis times angle) from target to value, the short way
+// round; velocity and force are rotation vectors too (rad/s, rad/s^2), in the space of the values.
+//
+// Cost: an exponential, a sine and a cosine, some 20 ns; for thousands of springs at once, batch.hpp.
+#pragma once
+
+#include <type_traits>
+
+#include "tendril/result.hpp"
+#include "tendril/signal/input.hpp"
+
+namespace tendril::signal {
+
+/// How fast a T changes: a T, but a rotation vector for rotations.
+template <class T>
+struct RateOf {
+    using type = T;
+};
+template <>
+struct RateOf<glm::quat> {
+    using type = glm::vec3;
+};
+template <>
+struct RateOf<glm::dquat> {
+    using type = glm::dvec3;
+};
+template <class T>
+using Rate = typename RateOf<T>::type;
+
+/// T: double, float, glm::dvec3, glm::vec3, glm::dquat or glm::quat. Out of its range, no matter how, a
+/// parameter leaves the state as a refused input does.
+template <class T = double>
+struct Spring {
+    /// Undamped frequency in Hz, 0 to 1e4. Under 1e-5 there is no spring and no damping: the value drifts,
+    /// and the force adds to its velocity.
+    double strength = 4.0;
+    /// Damping ratio, 0 to 1e3: 0 swings for ever, 1 is the fastest that never overshoots.
+    double critical_damping = 1.0;
+    /// On a mass of 1, at most max_magnitude: shifts the target by force / w^2.
+    Rate<T> force{};
+    /// 0 to 1, how much of the target's velocity is known beforehand: at 1 steady motion is followed without
+    /// lag, and jumps overshoot.
+    double target_velocity_amount = 0.0;
+    bool operator==(const Spring&) const = default;
+};
+
+template <class T = double>
+struct SpringState {
+    T value{};           ///< the last output
+    Rate<T> velocity{};  ///< 1/s
+    T previous_target{};
+    bool started = false;  ///< false: the next step is the first
+    bool operator==(const SpringState&) const = default;
+};
+
+/// Lets `dt` seconds pass; returns the new value. Refusals as in input.hpp. The first step starts on the
+/// target, shifted by the force, at rest.
+template <class T>
+T step(const Spring<T>& spring, SpringState<T>& state, const std::type_identity_t<T>& target,
+       double dt) noexcept;
+
+extern template double step(const Spring<double>&, SpringState<double>&, const double&, double) noexcept;
+extern template float step(const Spring<float>&, SpringState<float>&, const float&, double) noexcept;
+extern template glm::dvec3 step(const Spring<glm::dvec3>&, SpringState<glm::dvec3>&, const glm::dvec3&,
+                                double) noexcept;
+extern template glm::vec3 step(const Spring<glm::vec3>&, SpringState<glm::vec3>&, const glm::vec3&,
+                               double) noexcept;
+extern template glm::dquat step(const Spring<glm::dquat>&, SpringState<glm::dquat>&, const glm::dquat&,
+                                double) noexcept;
+extern template glm::quat step(const Spring<glm::quat>&, SpringState<glm::quat>&, const glm::quat&,
+                               double) noexcept;
+
+/// What else a spring is described by. All are the same spring: one may set any, and show all.
+struct SpringFeel {
+    /// Seconds: 2 ln 2 / (z w), the half-life of the filters in this room (D. Holden, "Spring-It-On", 2021).
+    /// Infinite without damping.
+    double half_life = 0.0;
+    /// Seconds: one swing without damping, 1 / strength. Infinite without strength.
+    double duration = 0.0;
+    /// Over -1, up to 1: 0 does not overshoot, 1 swings for ever, under 0 is sluggish. 1 - z for z up to 1,
+    /// 1 / z - 1 from there on (as SwiftUI's springs).
+    double bounce = 0.0;
+};
+SpringFeel feel_of(double strength, double critical_damping) noexcept;
+
+/// Strength and critical damping alone.
+struct SpringShape {
+    double strength = 4.0, critical_damping = 1.0;
+};
+/// The spring of that half-life at that damping; critical damping stays as it is. InvalidArgument where the
+/// half-life or the damping is not over 0, or the strength would be over 1e4 Hz.
+Expected<SpringShape> of_half_life(double half_life, double critical_damping) noexcept;
+/// The spring of that duration and bounce. InvalidArgument where the duration is under 1e-4 s, or the bounce
+/// not from -0.999 to 1.
+Expected<SpringShape> of_duration(double duration, double bounce) noexcept;
+
+}  // namespace tendril::signal

@@ -1,0 +1,119 @@
+#include "tendril/signal/curve.hpp"
+
+#include <algorithm>
+
+#include "math/checks.hpp"
+#include "signal/stepped.hpp"
+
+namespace tendril::signal {
+namespace {
+
+using tendril::detail::refused;
+
+constexpr const char* any_number = "finite and at most 1e9 in magnitude";
+
+Result check_key(const Curve& curve, std::size_t i) noexcept {
+    const CurveKey& key = curve.keys[i];
+    const struct {
+        const char* name;
+        double value;
+    } numbers[] = {{"time", key.time}, {"value", key.value}, {"arrive", key.arrive}, {"leave", key.leave}};
+    for (const auto& number : numbers)
+        if (!is_input(number.value))
+            return refused("curve", {"keys", i, number.name}, any_number, number.value);
+    if (i > 0 && !(key.time > curve.keys[i - 1].time))
+        return refused("curve", {"keys", i, "time"}, "over the time of the key before it", key.time);
+    if (key.piece > Piece::Cubic)
+        return refused("curve", {"keys", i, "piece"}, "constant, linear or cubic",
+                       static_cast<int>(key.piece));
+    return {};
+}
+
+/// Hermite's cubic from 0 to 1, tangents by the whole piece.
+double cubic(double from, double leave, double to, double arrive, double u) noexcept {
+    const double v = 1.0 - u;
+    return v * v * (from * (1.0 + 2.0 * u) + leave * u) + u * u * (to * (1.0 + 2.0 * v) - arrive * v);
+}
+
+double evaluate_piece(const CurveKey& from, const CurveKey& to, double time) noexcept {
+    const double width = to.time - from.time;
+    if (from.piece == Piece::Constant || !(width > 0.0)) return from.value;
+    const double u = (time - from.time) / width;
+    if (from.piece == Piece::Linear) return from.value + (to.value - from.value) * u;
+    return cubic(from.value, from.leave * width, to.value, to.arrive * width, u);
+}
+
+/// At most max_magnitude, as a tangent may be.
+double slope_between(const CurveKey& a, const CurveKey& b) noexcept {
+    const double width = b.time - a.time, limit = static_cast<double>(max_magnitude);
+    return width > 0.0 ? std::clamp((b.value - a.value) / width, -limit, limit) : 0.0;
+}
+
+}  // namespace
+
+const char* name(Piece piece) noexcept {
+    switch (piece) {
+        case Piece::Constant:
+            return "constant";
+        case Piece::Linear:
+            return "linear";
+        case Piece::Cubic:
+            return "cubic";
+    }
+    return "?";
+}
+
+Result check(const Curve& curve) noexcept {
+    const struct {
+        const char* name;
+        double value;
+    } ends[] = {{"source_min", curve.source_min},
+                {"source_max", curve.source_max},
+                {"target_min", curve.target_min},
+                {"target_max", curve.target_max}};
+    for (const auto& end : ends)
+        if (!is_input(end.value)) return refused("curve", end.name, any_number, end.value);
+    if (curve.keys.empty()) return refused("curve", "keys", "one at least", "none");
+    for (std::size_t i = 0; i < curve.keys.size(); ++i)
+        if (const Result bad = check_key(curve, i); !bad) return bad;
+    return {};
+}
+
+double evaluate_keys(const Curve& curve, double time) noexcept {
+    if (curve.keys.empty()) return 0.0;
+    const auto after = std::upper_bound(curve.keys.begin(), curve.keys.end(), time,
+                                        [](double at, const CurveKey& key) { return at < key.time; });
+    if (after == curve.keys.begin()) return curve.keys.front().value;
+    if (after == curve.keys.end()) return curve.keys.back().value;
+    return evaluate_piece(*(after - 1), *after, time);
+}
+
+double evaluate(const Curve& curve, double value) noexcept {
+    const double width = curve.source_max - curve.source_min;
+    const bool maps = width != 0.0 && is_input(value);
+    const double time = maps ? detail::bounded((value - curve.source_min) / width) : 0.0;
+    const double part = evaluate_keys(curve, time);
+    return detail::bounded(curve.target_min + part * (curve.target_max - curve.target_min));
+}
+
+double step(const Curve& parameters, OutputState& state, double input, double dt) noexcept {
+    return detail::stepped(
+        state, input, dt, [&](double) { return detail::output(evaluate(parameters, input)); },
+        [&](double) { state.value = evaluate(parameters, input); });
+}
+
+void set_smooth_tangents(Curve& curve) noexcept {
+    auto& keys = curve.keys;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        double slope = 0.0;
+        if (i > 0 && i + 1 < keys.size()) {
+            const double before = slope_between(keys[i - 1], keys[i]);
+            const double after = slope_between(keys[i], keys[i + 1]);
+            const bool goes_on = (before > 0.0 && after > 0.0) || (before < 0.0 && after < 0.0);
+            if (goes_on) slope = slope_between(keys[i - 1], keys[i + 1]);
+        }
+        keys[i].arrive = keys[i].leave = slope;
+    }
+}
+
+}  // namespace tendril::signal

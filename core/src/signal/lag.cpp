@@ -1,0 +1,94 @@
+// The shift that fits one signal to another best.
+#include <algorithm>
+#include <cmath>
+
+#include "tendril/signal/measure.hpp"
+
+namespace tendril::signal {
+namespace {
+
+constexpr double most_shifts = 1e4;
+
+class Fit {
+  public:
+    explicit Fit(const Response& response) : response_(response) {}
+
+    /// Sum of squares between the output and what is wanted, `shift` seconds late; held beyond the ends.
+    double error(double shift) const {
+        const auto& [time, wanted, output] = response_;
+        double sum = 0.0;
+        std::size_t next = 0;
+        for (std::size_t i = 0; i < time.size(); ++i) {
+            const double at = time[i] - shift;
+            while (next + 1 < time.size() && time[next] <= at) ++next;
+            double value = wanted[next];
+            if (next > 0 && at < time[next]) {
+                const double part = (at - time[next - 1]) / (time[next] - time[next - 1]);
+                value = wanted[next - 1] + part * (wanted[next] - wanted[next - 1]);
+            }
+            sum += (output[i] - value) * (output[i] - value);
+        }
+        return sum;
+    }
+
+    /// Where the error is smallest between `low` and `high`, which has one minimum: golden section.
+    double refined(double low, double high) const {
+        constexpr double golden = 0.6180339887498949;
+        double a = high - golden * (high - low), b = low + golden * (high - low);
+        double at_a = error(a), at_b = error(b);
+        for (int i = 0; i < 40; ++i) {
+            if (at_a <= at_b) {
+                high = b, b = a, at_b = at_a;
+                a = high - golden * (high - low);
+                at_a = error(a);
+            } else {
+                low = a, a = b, at_a = at_b;
+                b = low + golden * (high - low);
+                at_b = error(b);
+            }
+        }
+        return 0.5 * (low + high);
+    }
+
+  private:
+    const Response& response_;
+};
+
+double median_dt(std::span<const double> time) {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
+    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+    std::nth_element(steps.begin(), middle, steps.end());
+    return *middle;
+}
+
+bool changes(std::span<const double> values) {
+    return std::any_of(values.begin(), values.end(), [&](double x) { return x != values.front(); });
+}
+
+}  // namespace
+
+std::optional<double> lag(const Response& response, double longest) {
+    const auto& [time, wanted, output] = response;
+    if (time.size() < 3 || wanted.size() != time.size() || output.size() != time.size()) return std::nullopt;
+    if (!changes(wanted) || !changes(output) || !(longest > 0.0 && longest <= max_dt)) return std::nullopt;
+    const double spacing = std::max(median_dt(time), 2.0 * longest / most_shifts);
+    const int reach = static_cast<int>(std::ceil(longest / spacing));
+
+    const Fit fit(response);
+    std::vector<double> errors;
+    for (int k = -reach; k <= reach; ++k) errors.push_back(fit.error(spacing * k));
+    const auto [smallest, largest] = std::minmax_element(errors.begin(), errors.end());
+    const double as_good = *smallest + 0.01 * (*largest - *smallest);
+    // From no shift outwards, the first minimum that is as good as the best.
+    for (int k = 0; k < reach; ++k) {
+        for (const int shift : {k, -k}) {
+            const double* const at = &errors[static_cast<std::size_t>(shift + reach)];
+            if (at[0] > as_good || at[0] > at[-1] || at[0] > at[1]) continue;
+            return fit.refined(spacing * (shift - 1), spacing * (shift + 1));
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace tendril::signal

@@ -1,0 +1,75 @@
+// A queue whose sum is always at hand, as two stacks: entries that came since the last turn are summed as
+// they come; at a turn all of them get the sum from themselves to the newest, and then leave one by one. A
+// running sum, from which entries are taken off again, would keep the rounding of the largest that ever
+// passed.
+#include "signal/stepped.hpp"
+#include "tendril/signal/smoothing.hpp"
+
+namespace tendril::signal {
+namespace {
+
+using Entry = MovingAverageState::Entry;
+
+double time_in(const MovingAverageState& state) noexcept {
+    return state.new_time + (state.first < state.split ? state.entries[state.first].time_on : 0.0);
+}
+double area_in(const MovingAverageState& state) noexcept {
+    return state.new_area + (state.first < state.split ? state.entries[state.first].area_on : 0.0);
+}
+
+void push(MovingAverageState& state, double dt, double input) noexcept {
+    state.entries.push_back({.dt = dt, .input = input});
+    state.new_time += dt;
+    state.new_area += dt * input;
+}
+
+/// Drops what has left, and sums what is there from the newest back.
+void turn(MovingAverageState& state) noexcept {
+    state.entries.erase(state.entries.begin(),
+                        state.entries.begin() + static_cast<std::ptrdiff_t>(state.first));
+    double time = 0.0, area = 0.0;
+    for (auto entry = state.entries.rbegin(); entry != state.entries.rend(); ++entry) {
+        entry->time_on = time += entry->dt;
+        entry->area_on = area += entry->dt * entry->input;
+    }
+    state.first = 0;
+    state.split = state.entries.size();
+    state.new_time = state.new_area = 0.0;
+}
+
+/// Lets go of entries that are wholly older than the window; the newest stays.
+void drop_old(MovingAverageState& state, double window) noexcept {
+    while (state.first + 1 < state.entries.size()) {
+        if (state.first == state.split) turn(state);
+        if (time_in(state) - state.entries[state.first].dt < window) break;
+        ++state.first;
+    }
+}
+
+void take(MovingAverageState& state, double window, double dt, double input) noexcept {
+    push(state, dt, input);
+    drop_old(state, window);
+    const Entry& oldest = state.entries[state.first];
+    const double time = time_in(state), surplus = std::max(time - window, 0.0);
+    // Only a window shorter than the newest sample has nothing else in it.
+    if (surplus >= time || state.first + 1 == state.entries.size()) {
+        state.value = input;
+    } else {
+        state.value = (area_in(state) - surplus * oldest.input) / (time - surplus);
+    }
+}
+
+}  // namespace
+
+double step(const MovingAverage& parameters, MovingAverageState& state, double input, double dt) noexcept {
+    return detail::stepped(
+        state, input, dt,
+        [&](double time) {
+            MovingAverageState first;
+            take(first, parameters.window, time, input);
+            return first;
+        },
+        [&](double time) { take(state, parameters.window, time, input); });
+}
+
+}  // namespace tendril::signal

@@ -1,0 +1,40 @@
+// The rule of input.hpp, once for all filters. Not installed.
+#pragma once
+
+#include <algorithm>
+
+#include "signal/space.hpp"
+#include "tendril/signal/input.hpp"
+
+namespace tendril::signal::detail {
+
+/// As long as a step may count.
+static inline double bounded_dt(double dt) noexcept {
+    return std::clamp(dt, min_dt, max_dt);
+}
+
+/// One step of a filter. `start(dt)` gives the state after a first step; `advance(dt)` changes `state` by any
+/// later one. Both get a dt within bounds, and are not called for an input that is refused.
+template <class State, class Start, class Advance>
+double stepped(State& state, double input, double dt, const Start& start, const Advance& advance) noexcept {
+    if (!is_input(input)) return state.value;
+    const bool passes = is_step(dt);
+    if (!state.started) {
+        State first = start(bounded_dt(passes ? dt : min_dt));
+        first.value = bounded(first.value);
+        if (!passes) return first.value;
+        first.started = true;
+        state = std::move(first);
+    } else if (passes) {
+        advance(bounded_dt(dt));
+        state.value = bounded(state.value);
+    }
+    return state.value;
+}
+
+/// Of a filter whose first output is what any would be: no memory, or only that of its last output.
+static inline OutputState output(double value) noexcept {
+    return {.value = value};
+}
+
+}  // namespace tendril::signal::detail

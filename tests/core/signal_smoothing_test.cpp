@@ -1,0 +1,188 @@
+#include "tendril/signal/smoothing.hpp"
+
+#include <deque>
+
+#include "signal_support.hpp"
+#include "tendril/signal/inertialize.hpp"
+#include "tendril/signal/shaping.hpp"
+
+namespace tendril::test {
+namespace {
+
+TEST(SignalSmoothing, ExponentialDecayHalvesEveryHalflife) {
+    const signal::Filter filter = filter_of("exponential_decay", {{"halflife", 0.25}});
+    EXPECT_EQ(outputs(filter, 0.25, {0.0, 1.0, 1.0, 1.0}), (std::vector<double>{0.0, 0.5, 0.75, 0.875}));
+    EXPECT_NEAR(reached(filter, 144.0, 0.5), 0.75, 1e-12);
+    EXPECT_EQ(outputs(filter_of("exponential_decay", {{"halflife", 0.0}}), 0.01, {0.0, 1.0}).back(), 1.0);
+    Random random(1);
+    for (int i = 0; i < 10'000; ++i) {
+        signal::OutputState state{.value = 1.0, .started = true};
+        const double dt = std::exp2(around(random, 12.0)), halflife = std::exp2(around(random, 6.0));
+        signal::step(signal::ExponentialDecay{halflife}, state, 0.0, dt);
+        EXPECT_NEAR(state.value, std::exp2(-dt / halflife), 1e-15 + 1e-14 * state.value);
+    }
+}
+
+TEST(SignalSmoothing, RateLimitMovesAtMostSoFast) {
+    const signal::Filter filter = filter_of("rate_limit", {{"rise", 2.0}, {"fall", 8.0}});
+    EXPECT_EQ(outputs(filter, 0.125, {0.0, 1.0, 1.0, -5.0, -0.625}),
+              (std::vector<double>{0.0, 0.25, 0.5, -0.5, -0.625}));
+    EXPECT_EQ(outputs(filter_of("rate_limit", {{"rise", 0.0}}), 1.0, {0.0, 1.0}).back(), 0.0);
+}
+
+TEST(SignalSmoothing, SmoothDampIsNotExact) {
+    const signal::Filter filter = filter_of("smooth_damp", {{"smooth_time", 0.1}});
+    EXPECT_NEAR(outputs(filter, 0.5, {0.0, 1.0}).back(), 0.9626, 5e-5);
+    const double w = 2.0 / 0.1, exact = 1.0 - (1.0 + w * 0.5) * std::exp(-w * 0.5);
+    EXPECT_NEAR(exact, 0.9995, 5e-5);
+    const signal::Filter spring = filter_of("spring", {{"strength", w / turn}, {"critical_damping", 1.0}});
+    EXPECT_NEAR(outputs(spring, 0.5, {0.0, 1.0}).back(), exact, 1e-12);
+}
+
+TEST(SignalSmoothing, SmoothDampNeverPassesItsTarget) {
+    Random random(2);
+    for (int i = 0; i < 300; ++i) {
+        const signal::SmoothDamp parameters{between(random, 0.0, 1.0), random.chance(2) ? 3.0 : 1e6};
+        signal::MotionState state;
+        for (int k = 0; k < 60; ++k) {
+            const double before = state.value, input = around(random, 4.0), dt = between(random, 1e-4, 0.3);
+            const bool first = !state.started;
+            const double after = signal::step(parameters, state, input, dt);
+            if (!first) {
+                EXPECT_LE((after - input) * (input - before), 1e-12);
+            }
+        }
+    }
+}
+
+/// The largest output within half a minute after a step from 0 to 1.
+double largest_at(double hz) {
+    const signal::SpringSemiImplicit spring{.strength = 8.0, .critical_damping = 1.0};
+    signal::MotionState state;
+    signal::step(spring, state, 0.0, 1.0 / hz);
+    double largest = 0.0;
+    for (int i = 0; i < static_cast<int>(30 * hz); ++i)
+        largest = std::max(largest, std::abs(signal::step(spring, state, 1.0, 1.0 / hz)));
+    return largest;
+}
+
+TEST(SignalSmoothing, TheSemiImplicitSpringExplodesUnder60Point7Frames) {
+    EXPECT_LT(largest_at(60.8), 3.0);
+    EXPECT_GT(largest_at(60.5), 3.0);
+    EXPECT_GT(largest_at(15.0), 1e20);
+    EXPECT_LE(largest_at(15.0), signal::max_output) << "never more than that";
+}
+
+TEST(SignalSmoothing, OneEuroIsSteadyAtRestAndQuickInMotion) {
+    const signal::OneEuro filter{.min_cutoff = 1.0, .beta = 0.5};
+    Random random(3);
+    signal::MotionState rest, motion;
+    double worst_rest = 0.0, worst_lag = 0.0;
+    for (int i = 0; i < 600; ++i) {
+        const double noise = around(random, 0.01), place = 5.0 * i / 60.0;
+        const double steady = signal::step(filter, rest, noise, 1.0 / 60.0);
+        const double moving = signal::step(filter, motion, place, 1.0 / 60.0);
+        if (i > 300) worst_rest = std::max(worst_rest, std::abs(steady));
+        if (i > 300) worst_lag = std::max(worst_lag, (place - moving) / 5.0);
+    }
+    EXPECT_LT(worst_rest, 0.006);
+    EXPECT_LT(worst_lag, 0.08) << "1 Hz alone would lag 0.16 s";
+    // By hand: dt 0.1, cutoffs 1: alpha = 0.6283 / 1.6283; derivative 0.3859 * 20 = 7.717, cutoff 4.859.
+    signal::MotionState state;
+    signal::step(filter, state, 0.0, 0.1);
+    EXPECT_NEAR(signal::step(filter, state, 2.0, 0.1), 2.0 * 3.0528 / 4.0528, 1e-4);
+    EXPECT_NEAR(state.velocity, 7.7173, 1e-4);
+}
+
+/// As the page says it, from all samples.
+double mean_of_last(const std::deque<std::pair<double, double>>& samples, double window) {
+    double time = 0.0, area = 0.0;
+    for (auto sample = samples.rbegin(); sample != samples.rend() && time < window; ++sample) {
+        const double dt = std::min(sample->first, window - time);
+        time += dt;
+        area += dt * sample->second;
+    }
+    return time > 0.0 ? area / time : samples.back().second;
+}
+
+TEST(SignalSmoothing, MovingAverageCountsTheOldestInPart) {
+    Random random(4);
+    for (const double window : {0.0, 0.03, 0.2, 1.0, 100.0}) {
+        const signal::MovingAverage filter{window};
+        signal::MovingAverageState state;
+        std::deque<std::pair<double, double>> samples;
+        for (int i = 0; i < 2000; ++i) {
+            const double dt = random.chance(30) ? 0.5 : between(random, 1e-4, 0.05),
+                         input = around(random, 3.0);
+            samples.emplace_back(dt, input);
+            ASSERT_NEAR(signal::step(filter, state, input, dt), mean_of_last(samples, window), 1e-12)
+                << window << " s, row " << i;
+        }
+        EXPECT_LE(state.entries.size(), window > 50.0 ? 2000u : 200u + static_cast<unsigned>(window * 2000));
+    }
+}
+
+TEST(SignalSmoothing, MovingAverageForgetsWhatLeftIt) {
+    const signal::MovingAverage filter{0.1};
+    signal::MovingAverageState state;
+    signal::step(filter, state, 1e9, 0.01);
+    double output = 0.0;
+    for (int i = 0; i < 30; ++i) output = signal::step(filter, state, 1e-9, 0.01);
+    EXPECT_NEAR(output, 1e-9, 1e-22) << "no rounding of the large one is left";
+}
+
+TEST(SignalShaping, DeadZoneAndHysteresis) {
+    EXPECT_EQ(outputs(filter_of("dead_zone", {{"width", 0.5}}), 0.1, {0.25, -0.5, 0.75, -2.0, 0.0}),
+              (std::vector<double>{0.0, 0.0, 0.25, -1.5, 0.0}));
+    EXPECT_FALSE(std::signbit(outputs(filter_of("dead_zone"), 0.1, {-0.01}).back()));
+    EXPECT_EQ(outputs(filter_of("hysteresis", {{"low", 0.25}, {"high", 0.75}}), 0.1,
+                      {0.5, 0.75, 0.5, 0.3, 0.25, 0.7, 0.8}),
+              (std::vector<double>{0, 1, 1, 1, 0, 0, 1}));
+    EXPECT_EQ(outputs(filter_of("hysteresis", {{"low", 0.5}, {"high", 0.5}}), 0.1, {0.5, 0.4, 0.6, 0.5}),
+              (std::vector<double>{1, 0, 1, 1}));
+}
+
+TEST(SignalInertialize, LetsTheInputThroughWhereItDoesNotJump) {
+    const signal::Filter filter = filter_of("inertialize", {{"threshold", 0.5}});
+    std::vector<double> wave;
+    for (int i = 0; i < 200; ++i) wave.push_back(3.0 * std::sin(0.1 * i));
+    EXPECT_EQ(outputs(filter, 1.0 / 60.0, wave), wave);
+    EXPECT_EQ(outputs(filter_of("inertialize", {{"halflife", 0.0}}), 0.1, {0.0, 5.0}).back(), 5.0);
+}
+
+TEST(SignalInertialize, TakesAJumpOutSmoothly) {
+    // Two slopes with a jump of 5 between them: place and velocity of the output go on as they were.
+    const signal::Filter filter = filter_of("inertialize", {{"halflife", 0.2}, {"threshold", 1.0}});
+    const double dt = 1.0 / 240.0;
+    std::vector<double> cut;
+    for (int i = 0; i < 240; ++i) cut.push_back(2.0 * i * dt);
+    for (int i = 0; i < 720; ++i) cut.push_back(7.0 - 3.0 * i * dt);
+    const std::vector<double> smooth = outputs(filter, dt, cut);
+    double roughest = 0.0;
+    for (std::size_t i = 2; i < smooth.size(); ++i) {
+        EXPECT_LT(std::abs(smooth[i] - smooth[i - 1]), 0.25) << "row " << i;
+        roughest = std::max(roughest, std::abs(smooth[i] - 2 * smooth[i - 1] + smooth[i - 2]) / dt);
+    }
+    EXPECT_LT(roughest, 3.0) << "the velocity changes by 5, but not at once";
+    EXPECT_NEAR(smooth[240 + 480], cut[240 + 480], 0.01) << "after ten half-lives";
+    // What is left of the offset halves about every half-life: (1 + 1.386) / 4 at one.
+    const std::vector<double> step = outputs(filter, dt, std::vector<double>(600, 0.0));
+    EXPECT_EQ(step.back(), 0.0);
+    signal::FilterState state;
+    signal::step(filter, state, 0.0, dt);
+    for (int i = 0; i < 48; ++i) signal::step(filter, state, 4.0, dt);
+    EXPECT_NEAR(4.0 - signal::value(state), 4.0 * (1.0 + 2.0 * std::log(2.0)) / 4.0, 1e-9);
+}
+
+TEST(SignalInertialize, NoiseThatAlwaysJumpsStaysWithinBounds) {
+    const signal::Filter filter = filter_of("inertialize", {{"halflife", 0.3}, {"threshold", 0.01}});
+    Random random(5);
+    signal::FilterState state;
+    for (int i = 0; i < 20'000; ++i) {
+        const double input = around(random, 1.0), dt = between(random, 0.001, 0.1);
+        EXPECT_LT(std::abs(signal::step(filter, state, input, dt)), 5.0);
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test

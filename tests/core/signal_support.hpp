@@ -1,0 +1,66 @@
+// What the tests of filters share.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "random.hpp"
+#include "tendril/signal/filter.hpp"
+#include "tendril/signal/run.hpp"
+
+namespace tendril::test {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double turn = 6.28318530717958647692;
+
+/// -range to range.
+inline double around(Random& random, double range) {
+    return range * static_cast<double>(random.around(1.0f));
+}
+/// From `low` to `high`.
+inline double between(Random& random, double low, double high) {
+    return low + (high - low) * 0.5 * (1.0 + static_cast<double>(random.around(1.0f)));
+}
+
+/// A filter by its name, with some parameters set by theirs.
+inline signal::Filter filter_of(std::string_view kind,
+                                std::initializer_list<std::pair<std::string_view, double>> parameters = {}) {
+    const signal::Kind* const found = signal::find_kind(kind);
+    EXPECT_NE(found, nullptr) << kind;
+    signal::Filter filter = found->blank();
+    for (const auto& [name, value] : parameters) {
+        bool known = false;
+        for (const signal::Parameter& parameter : found->parameters) {
+            if (parameter.name != name) continue;
+            parameter.set(filter, value);
+            known = true;
+        }
+        EXPECT_TRUE(known) << kind << " has no " << name;
+    }
+    return filter;
+}
+
+/// The output after each of some steps with one dt.
+inline std::vector<double> outputs(const signal::Filter& filter, double dt, std::vector<double> inputs) {
+    signal::FilterState state;
+    for (double& each : inputs) each = signal::step(filter, state, each, dt);
+    return inputs;
+}
+
+/// From 0 to 1: what is reached after `seconds` at a frame rate.
+inline double reached(const signal::Filter& filter, double hz, double seconds) {
+    signal::FilterState state;
+    signal::step(filter, state, 0.0, 1.0 / hz);
+    for (int i = 0; i < static_cast<int>(seconds * hz + 1e-6); ++i)
+        signal::step(filter, state, 1.0, 1.0 / hz);
+    return signal::value(state);
+}
+
+}  // namespace tendril::test
