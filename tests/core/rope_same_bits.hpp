@@ -42,7 +42,7 @@ class StateBits {
     }
     void put(const glm::quat& rotation) { add(rotation.x, rotation.y, rotation.z, rotation.w); }
     template <class Kind>
-    void put(const rope::Handle<Kind>& handle) {
+    void put(const Handle<Kind>& handle) {
         const auto& [index, generation] = handle;
         add(index, generation);
     }

@@ -1,58 +1,77 @@
-// Vectors and unit quaternions in plain arithmetic, for the reason that point.hpp gives. Not installed.
+// Unit quaternions in plain arithmetic, for the reason that point.hpp gives; of floats or doubles, as
+// vector.hpp. Not installed.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
+#include <type_traits>
 
 #include "math/vector.hpp"
 
 namespace tendril::math {
 
-static inline glm::quat unit_quaternion(float w, float x, float y, float z) noexcept {
-    const float scale = 1.0f / std::sqrt(w * w + x * x + y * y + z * z);
+template <class T>
+using Quat = glm::qua<T, glm::defaultp>;
+
+template <class T>
+static inline Quat<T> unit_quaternion(T w, T x, T y, T z) noexcept {
+    const T scale = T(1) / std::sqrt(w * w + x * x + y * y + z * z);
     return {w * scale, x * scale, y * scale, z * scale};
 }
-static inline glm::quat conjugate(const glm::quat& q) noexcept {
+template <class T>
+static inline Quat<T> conjugate(const Quat<T>& q) noexcept {
     return {q.w, -q.x, -q.y, -q.z};
 }
 /// First `b`, then `a`.
-static inline glm::quat compose(const glm::quat& a, const glm::quat& b) noexcept {
+template <class T>
+static inline Quat<T> compose(const Quat<T>& a, const Quat<T>& b) noexcept {
     return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
             a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
-static inline glm::vec3 rotated(const glm::quat& q, const glm::vec3& v) noexcept {
-    const glm::vec3 axis{q.x, q.y, q.z};
-    const glm::vec3 t = times(cross(axis, v), 2.0f);
+template <class T>
+static inline Vec<T> rotated(const Quat<T>& q, const Vec<std::type_identity_t<T>>& v) noexcept {
+    const Vec<T> axis{q.x, q.y, q.z};
+    const Vec<T> t = times(cross(axis, v), T(2));
     return plus(plus(v, times(t, q.w)), cross(axis, t));
 }
 /// About a unit axis, radians.
-static inline glm::quat rotation_about(const glm::vec3& axis, float angle) noexcept {
-    const float s = std::sin(0.5f * angle);
-    return {std::cos(0.5f * angle), axis.x * s, axis.y * s, axis.z * s};
+template <class T>
+static inline Quat<T> rotation_about(const Vec<T>& axis, std::type_identity_t<T> angle) noexcept {
+    const T s = std::sin(T(0.5) * angle);
+    return {std::cos(T(0.5) * angle), axis.x * s, axis.y * s, axis.z * s};
 }
+/// The cosine of half the angle of a rotation so small that its arc and its chord are the same to T's
+/// precision.
+template <class T>
+inline constexpr T arc_is_chord = std::is_same_v<T, float> ? T(0.9995) : T(1.0 - 1e-10);
 /// Part of the shortest way from one rotation to another (K. Shoemake, "Animating rotation with quaternion
 /// curves", SIGGRAPH 1985); `from` where `part` is 0, `to` or its negative, which is the same, where it is 1.
-static inline glm::quat slerp(const glm::quat& from, const glm::quat& to, float part) noexcept {
-    const float cosine = from.w * to.w + from.x * to.x + from.y * to.y + from.z * to.z;
-    const float sign = cosine < 0.0f ? -1.0f : 1.0f, size = std::abs(cosine);
-    float a = 1.0f - part, b = part;
-    if (size < 0.9995f) {
-        const float angle = std::acos(size);
+template <class T>
+static inline Quat<T> slerp(const Quat<T>& from, const Quat<T>& to, std::type_identity_t<T> part) noexcept {
+    const T cosine = from.w * to.w + from.x * to.x + from.y * to.y + from.z * to.z;
+    const T sign = cosine < T(0) ? T(-1) : T(1), size = std::abs(cosine);
+    T a = T(1) - part, b = part;
+    if (size < arc_is_chord<T>) {
+        const T angle = std::acos(size);
         a = std::sin(a * angle), b = std::sin(b * angle);  // by the sine of the whole: unit_quaternion's part
     }
     b *= sign;
     return unit_quaternion(a * from.w + b * to.w, a * from.x + b * to.x, a * from.y + b * to.y,
                            a * from.z + b * to.z);
 }
+/// One plus the cosine of the angle between two unit vectors that are as good as opposite.
+template <class T>
+inline constexpr T nearly_opposite = std::is_same_v<T, float> ? T(1e-6) : T(1e-14);
 /// The minimal rotation that takes one unit vector to another; half a turn about `perpendicular(from)` where
 /// they are opposite.
-static inline glm::quat minimal_rotation(const glm::vec3& from, const glm::vec3& to) noexcept {
-    const float w = 1.0f + dot(from, to);
-    if (w < 1e-6f) {
-        const glm::vec3 axis = perpendicular(from);
-        return {0.0f, axis.x, axis.y, axis.z};
+template <class T>
+static inline Quat<T> minimal_rotation(const Vec<T>& from, const Vec<T>& to) noexcept {
+    const T w = T(1) + dot(from, to);
+    if (w < nearly_opposite<T>) {
+        const Vec<T> axis = perpendicular(from);
+        return {T(0), axis.x, axis.y, axis.z};
     }
-    const glm::vec3 axis = cross(from, to);
+    const Vec<T> axis = cross(from, to);
     return unit_quaternion(w, axis.x, axis.y, axis.z);
 }
 

@@ -1,22 +1,9 @@
-// Handles of bodies and colliders in a rope world: the index of a slot and its generation, which counts how
-// often the slot has been used. A handle of something that was removed finds nothing, even where its slot is
-// in use again. Names are up to the program.
+// The handles of a rope world.
 #pragma once
 
-#include <cstdint>
+#include "tendril/handle.hpp"
 
 namespace tendril::rope {
-
-template <class Kind>
-struct Handle {
-    static constexpr std::uint32_t none = 0xffffffffu;
-    std::uint32_t index = none;
-    std::uint32_t generation = 0;  ///< odd of what there is
-
-    /// Whether it was ever given out; what it points at may be gone.
-    explicit operator bool() const noexcept { return index != none; }
-    bool operator==(const Handle&) const = default;
-};
 
 using BodyId = Handle<struct BodyKind>;
 using ColliderId = Handle<struct ColliderKind>;

@@ -1,0 +1,131 @@
+#include "tendril/rig/aim.hpp"
+
+#include <cmath>
+
+#include "rig/checks.hpp"
+#include "rig/math.hpp"
+
+namespace tendril::rig {
+namespace {
+
+using namespace detail;
+using Direction = std::optional<glm::dvec3>;
+
+constexpr double shortest = 1e-9, narrowest = 1e-6;
+
+struct Target {
+    Direction direction;
+    double weight;
+};
+
+Target target_of(const AimPart& part, const Transform& item, double whole) noexcept {
+    const glm::dvec3 way =
+        part.kind == AimTarget::Location ? minus(part.target, item.translation) : part.target;
+    return {direction_of(way, shortest), weight(part.weight) * whole};
+}
+
+/// `from` blended towards `to` along the chord. Half way to the opposite the chord passes through zero: there
+/// the direction is a quarter turn, about the axis that the half turn is about.
+glm::dvec3 toward(const glm::dvec3& from, const glm::dvec3& to, double part,
+                  const glm::dvec3& side) noexcept {
+    if (part == 1.0) return to;
+    return direction_of(mix(from, to, part), shortest).value_or(cross(side, from));
+}
+
+AimWarning turn_primary(glm::dquat& rotation, const glm::dvec3& axis, const Target& target) noexcept {
+    const Direction from = direction_of(rotated(rotation, axis), shortest);
+    if (!from) return AimWarning::ZeroAxis;
+    if (!target.direction) return AimWarning::TargetAtItem;
+    const glm::dvec3 to = toward(*from, *target.direction, target.weight, perpendicular(*from));
+    rotation = normalised(math::compose(minimal_rotation(*from, to), rotation));
+    return AimWarning::None;
+}
+
+/// Rolls about `about`, the primary axis as it points by now.
+AimWarning roll_secondary(glm::dquat& rotation, const glm::dvec3& axis, const Target& target,
+                          const glm::dvec3& about) noexcept {
+    const Direction along = direction_of(rotated(rotation, axis), shortest);
+    if (!along) return AimWarning::ZeroAxis;
+    if (!target.direction) return AimWarning::TargetAtItem;
+    const Direction from = direction_of(across(*along, about), narrowest);
+    if (!from) return AimWarning::AxesParallel;
+    const Direction to = direction_of(across(*target.direction, about), narrowest);
+    if (!to) return AimWarning::TargetOnAxis;
+    const glm::dvec3 goal = toward(*from, *to, target.weight, about);
+    const double angle = std::atan2(dot(cross(*from, goal), about), dot(*from, goal));
+    rotation = normalised(math::compose(math::rotation_about(about, angle), rotation));
+    return AimWarning::None;
+}
+
+/// The angle between two rotations, radians.
+double angle_between(const glm::dquat& a, const glm::dquat& b) noexcept {
+    const glm::dquat turn = math::compose(b, conjugate(a));
+    return 2.0 * std::atan2(length(glm::dvec3{turn.x, turn.y, turn.z}), std::abs(turn.w));
+}
+
+glm::dquat limited(const glm::dquat& from, const glm::dquat& to, double radians) noexcept {
+    const double angle = angle_between(from, to);
+    return angle <= radians ? to : blend(from, to, radians / angle);
+}
+
+Result check_axis(std::string_view operation, std::string_view argument, const glm::dvec3& axis) noexcept {
+    if (const Result bad = check_vector(operation, argument, axis); !bad) return bad;
+    const double size = length(axis);
+    return size > shortest ? Result() : refused(operation, argument, "of a length over 1e-9", size);
+}
+
+}  // namespace
+
+Result check(const AimOptions& options, std::string_view operation) noexcept {
+    if (const Result bad = check_axis(operation, "primary.axis", options.primary.axis); !bad) return bad;
+    if (const Result bad = check_vector(operation, "primary.target", options.primary.target); !bad)
+        return bad;
+    if (const Result bad = check_weight(operation, "primary.weight", options.primary.weight); !bad)
+        return bad;
+    if (const Result bad = check_axis(operation, "secondary.axis", options.secondary.axis); !bad) return bad;
+    if (const Result bad = check_vector(operation, "secondary.target", options.secondary.target); !bad)
+        return bad;
+    if (const Result bad = check_weight(operation, "secondary.weight", options.secondary.weight); !bad)
+        return bad;
+    if (const Result bad = check_weight(operation, "weight", options.weight); !bad) return bad;
+    if (options.max_speed >= 0.0) return {};
+    return refused(operation, "max_speed", "at least 0", options.max_speed);
+}
+
+AimResult aim(const Transform& item, const AimOptions& options, double dt) noexcept {
+    AimResult result{item, AimWarning::None, AimWarning::None};
+    const double whole = weight(options.weight);
+    const Target first = target_of(options.primary, item, whole);
+    const Target second = target_of(options.secondary, item, whole);
+    glm::dquat rotation = item.rotation;
+    if (first.weight > 0.0) result.primary = turn_primary(rotation, options.primary.axis, first);
+    if (second.weight > 0.0) {
+        const Direction about = direction_of(rotated(rotation, options.primary.axis), shortest);
+        result.secondary =
+            about ? roll_secondary(rotation, options.secondary.axis, second, *about) : AimWarning::ZeroAxis;
+    }
+    if (options.max_speed < std::numeric_limits<double>::infinity()) {
+        const double seconds = dt > 0.0 ? dt : 0.0;
+        rotation = limited(item.rotation, rotation, std::max(options.max_speed, 0.0) * seconds);
+    }
+    result.transform.rotation = rotation;
+    return result;
+}
+
+const char* name(AimWarning warning) noexcept {
+    switch (warning) {
+        case AimWarning::None:
+            return "";
+        case AimWarning::ZeroAxis:
+            return "the axis is zero";
+        case AimWarning::TargetAtItem:
+            return "the target is at the item itself";
+        case AimWarning::TargetOnAxis:
+            return "the second target is on the primary axis";
+        case AimWarning::AxesParallel:
+            return "the secondary axis is the primary one";
+    }
+    return "";
+}
+
+}  // namespace tendril::rig
