@@ -209,14 +209,15 @@ ElementId Hierarchy::next_depth_first(ElementId element, ElementId top) const no
 
 bool operator==(const Hierarchy& a, const Hierarchy& b) {
     if (a.nodes_ != b.nodes_ || a.roots_ != b.roots_ || a.free_ != b.free_) return false;
-    const auto same = [](const Hierarchy& x, const Hierarchy& y, std::size_t pose) {
-        return x.values_[pose].local == y.values_[pose].local &&
-               x.values_[pose].global == y.values_[pose].global;
-    };
+    if (a.values_[0] == b.values_[0] && a.values_[1] == b.values_[1]) return true;
     Hierarchy x = a, y = b;
     x.resolve_all();
     y.resolve_all();
-    return same(x, y, 0) && same(x, y, 1);
+    const auto same = [&](std::size_t pose) {
+        return x.values_[pose].local == y.values_[pose].local &&
+               x.values_[pose].global == y.values_[pose].global;
+    };
+    return same(0) && same(1);
 }
 
 }  // namespace tendril::rig

@@ -9,12 +9,11 @@
 //
 // Writing sets one transform and makes the other pending where that follows:
 //
-// | write                       | the element                  | its children | | ---------------------------
-// | ---------------------------- | ------------------------------------------- | | global, propagating |
-// local pending                | local stays, global pending, and so on down | | global, not propagating |
-// local pending                | global stays, local pending; no deeper      | | local, propagating | global
-// pending               | local stays, global pending, and so on down | | local, not propagating      |
-// global worked out at once    | global stays, local pending; no deeper      |
+//     write                    the element           its children
+//     global, propagating      local pending         keep their local; global pending, and so on down
+//     global, not propagating  local pending         keep their global; local pending, no deeper
+//     local, propagating       global pending        keep their local; global pending, and so on down
+//     local, not propagating   global composed now   keep their global; local pending, no deeper
 //
 // No write walks a subtree. An element stores the version of its parent's global transform that its own was
 // composed with; reading compares versions from the nearest ancestor known to be up to date downwards, and
@@ -145,12 +144,14 @@ class Hierarchy {
         Index previous_pending = none, next_pending = none;  ///< its neighbours in the parent's list
         Index down = none;                                   ///< scratch of refresh()
         bool local_pending = false;                          ///< then parent_version is the parent's version
+        bool operator==(const Stamp&) const = default;
     };
     struct Values {
         std::vector<Transform> local, global;
         std::vector<Stamp> stamps;
         std::uint64_t change = 1;   ///< counts writes
         std::uint64_t version = 0;  ///< the last one given out
+        bool operator==(const Values&) const = default;
     };
 
     const Values& values(Pose pose) const noexcept { return values_[pose == Pose::Current]; }
