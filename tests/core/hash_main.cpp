@@ -8,12 +8,21 @@
 
 int main(int count, char** arguments) {
     using namespace tendril::test;
-    const std::uint64_t hash = session_hash(), of_solves = solve_hash(), of_ropes = rope_hash();
-    std::printf("%016" PRIx64 " %016" PRIx64 " %016" PRIx64 "\n", hash, of_solves, of_ropes);
-    if (count < 2 || std::string_view(arguments[1]) != "--check") return 0;
-    if (hash == golden_session_hash && of_solves == golden_solve_hash && of_ropes == golden_rope_hash)
-        return 0;
-    std::printf("expected %016" PRIx64 " %016" PRIx64 " %016" PRIx64 "\n", golden_session_hash,
-                golden_solve_hash, golden_rope_hash);
-    return 1;
+    struct Session {
+        const char* name;
+        std::uint64_t hash, golden;
+    };
+    const Session sessions[] = {{"chains", session_hash(), golden_session_hash},
+                                {"solves", solve_hash(), golden_solve_hash},
+                                {"ropes", rope_hash(), golden_rope_hash},
+                                {"rigs", rig_hash(), golden_rig_hash}};
+    const bool check = count > 1 && std::string_view(arguments[1]) == "--check";
+    int different = 0;
+    for (const auto& [name, hash, golden] : sessions) {
+        std::printf("%s %016" PRIx64 "\n", name, hash);
+        if (!check || hash == golden) continue;
+        std::printf("expected %016" PRIx64 "\n", golden);
+        different = 1;
+    }
+    return different;
 }

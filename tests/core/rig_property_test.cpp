@@ -13,15 +13,15 @@ class Naive {
   public:
     struct Element {
         int parent = -1;
-        Transform local[2], global[2];
+        Transform local[3], global[3];
         bool there = true;
     };
 
     int add(int parent, const Transform& local) {
-        Element made{parent, {local, local}, {}, true};
+        Element made{parent, {local, local, local}, {}, true};
         const int at = static_cast<int>(elements.size());
         elements.push_back(made);
-        for (int pose = 0; pose < 2; ++pose) take_global(at, pose);
+        for (int pose = 0; pose < 3; ++pose) take_global(at, pose);
         return at;
     }
     void remove(int at) {
@@ -48,7 +48,7 @@ class Naive {
     }
     void set_parent(int at, int parent, Space keep) {
         elements[std::size_t(at)].parent = parent;
-        for (int pose = 0; pose < 2; ++pose) {
+        for (int pose = 0; pose < 3; ++pose) {
             if (keep == Space::Global)
                 take_local(at, pose);
             else
@@ -110,7 +110,7 @@ struct Trio {
         const int at = some(random);
         const Space space = random.chance(2) ? Space::Local : Space::Global;
         const Propagate propagate = random.chance(2) ? Propagate::Yes : Propagate::No;
-        const int pose = random.chance(4) ? 0 : 1;
+        const int pose = some_pose(random);
         const Transform value = some_transform(random);
         naive.set(at, space, value, propagate, pose);
         EXPECT_TRUE(tree.set(id(at), space, value, propagate, pose_of(pose)).ok());
@@ -125,10 +125,18 @@ struct Trio {
         EXPECT_EQ(also.set_parent(id(at), id(parent), keep).ok(), !cycle);
         if (!cycle && !same) naive.set_parent(at, parent, keep);
     }
+    void copy_pose(Random& random) {
+        const int from = some_pose(random), to = some_pose(random);
+        for (Naive::Element& each : naive.elements)
+            each.local[to] = each.local[from], each.global[to] = each.global[from];
+        tree.copy_pose(pose_of(from), pose_of(to));
+        also.copy_pose(pose_of(from), pose_of(to));
+    }
     void edit(Random& random) {
         if (there.size() < 4 || (there.size() < 60 && random.chance(12))) return add(random);
         if (there.size() > 40 && random.chance(40)) return remove(random);
         if (random.chance(15)) return set_parent(random);
+        if (random.chance(50)) return copy_pose(random);
         set(random);
     }
     /// How far one answer is from what it should be.
@@ -138,11 +146,14 @@ struct Trio {
         EXPECT_LE(std::abs(norm(got.rotation) - 1.0), 1e-14);
         return distance(got, space == Space::Local ? wanted.local[pose] : wanted.global[pose]);
     }
-    static Pose pose_of(int pose) { return pose ? Pose::Current : Pose::Initial; }
+    static Pose pose_of(int pose) { return static_cast<Pose>(pose); }
+    static int some_pose(Random& random) {
+        return static_cast<int>(std::min<std::size_t>(random.below(6), 2));
+    }
     template <class Each>
     void each_transform(Each each) {
         for (const int at : there)
-            for (const int pose : {0, 1})
+            for (const int pose : {0, 1, 2})
                 for (const Space space : {Space::Local, Space::Global}) each(at, space, pose);
     }
 };
@@ -155,7 +166,7 @@ TEST(RigHierarchyProperty, AgreesWithANaiveImplementationOverManyEdits) {
         for (int i = 0; i < 25'000; ++i) {
             trio.edit(random);
             if (!random.chance(3)) continue;
-            const int at = trio.some(random), pose = random.chance(4) ? 0 : 1;
+            const int at = trio.some(random), pose = Trio::some_pose(random);
             worst = std::max(worst, trio.read(at, random.chance(3) ? Space::Local : Space::Global, pose));
         }
         trio.each_transform(
@@ -173,7 +184,7 @@ TEST(RigHierarchyProperty, ReadingChangesNoAnswer) {
         for (std::size_t j = reads.below(4); j > 0; --j) {
             const ElementId at = trio.id(trio.some(reads));
             const Space space = reads.chance(2) ? Space::Local : Space::Global;
-            trio.also.get(at, space, Trio::pose_of(reads.chance(2)));
+            trio.also.get(at, space, Trio::pose_of(Trio::some_pose(reads)));
         }
         if (reads.chance(500)) trio.also.resolve_all();
     }
@@ -193,7 +204,7 @@ TEST(RigHierarchyProperty, WhatIsPendingIsWhatIsNotKnown) {
         trio.edit(edits);
         if (reads.chance(2)) trio.tree.get(trio.id(trio.some(reads)), Space::Global);
         Hierarchy copy = trio.tree;
-        const int at = trio.some(reads), pose = reads.chance(2);
+        const int at = trio.some(reads), pose = Trio::some_pose(reads);
         const Pending pending = trio.tree.pending(trio.id(at), Trio::pose_of(pose));
         ++seen[static_cast<int>(pending)];
         for (const Space space : {Space::Local, Space::Global}) {

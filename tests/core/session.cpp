@@ -1,11 +1,8 @@
 #include "session.hpp"
 
-#include <bit>
 #include <vector>
 
-#include <cstdio>
-#include <cstdlib>
-
+#include "fnv.hpp"
 #include "random.hpp"
 #include "tendril/chain/chain.hpp"
 #include "tendril/ik/solver.hpp"
@@ -13,32 +10,6 @@
 
 namespace tendril::test {
 namespace {
-
-/// Nothing here is refused; were it, the session would not be the same.
-void require(const Result& result) {
-    if (result) return;
-    std::fprintf(stderr, "%s\n", result.message());
-    std::abort();
-}
-
-class Fnv {
-  public:
-    void add(float value) { add_bytes(std::bit_cast<std::uint32_t>(value), 32); }
-    void add(double value) { add_bytes(std::bit_cast<std::uint64_t>(value), 64); }
-    void add(const glm::vec3& point) {
-        for (int axis = 0; axis < 3; ++axis) add(point[axis]);
-    }
-    std::uint64_t value() const { return hash_; }
-
-  private:
-    void add_bytes(std::uint64_t bits, int count) {
-        for (int shift = 0; shift < count; shift += 8) {
-            hash_ = (hash_ ^ ((bits >> shift) & 0xffu)) * 0x100000001b3u;
-        }
-    }
-
-    std::uint64_t hash_ = 0xcbf29ce484222325u;
-};
 
 float some_length(Random& random) {
     constexpr float lengths[] = {0.0f, 0.25f, 0.7f, 1.0f, 1.3f, 3.0f, 17.0f};

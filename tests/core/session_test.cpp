@@ -16,4 +16,8 @@ TEST(Session, RopesEndInTheSameBitsInEveryBuild) {
     EXPECT_EQ(rope_hash(), golden_rope_hash);
 }
 
+TEST(Session, RigsEndInTheSameBitsInEveryBuild) {
+    EXPECT_EQ(rig_hash(), golden_rig_hash);
+}
+
 }  // namespace tendril::test

@@ -1,6 +1,6 @@
-// An exponential, a sine and a cosine in plain arithmetic: the standard library's differ in their last bits
-// from one system to the next, and on some from processor to processor. To 1e-15 of the result. Not
-// installed.
+// An exponential, a sine, a cosine and an arctangent in plain arithmetic: the standard library's differ in
+// their last bits from one system to the next, and on some from processor to processor. To 1e-15 of the
+// result. Not installed.
 #pragma once
 
 #include <bit>
@@ -54,6 +54,22 @@ static inline SineCosine sine_cosine(double turns) noexcept {
         default:
             return {-cosine, sine};
     }
+}
+
+/// The angle of the point (x, y) from the x axis, radians, -pi to pi; 0 of the origin.
+static inline double arctangent(double y, double x) noexcept {
+    const double across = std::abs(y), along = std::abs(x);
+    const bool steep = across > along;
+    if (across == 0.0 && along == 0.0) return 0.0;
+    // Three times half the angle, then the power series of what is under tan(pi / 32).
+    double t = steep ? along / across : across / along;
+    for (int i = 0; i < 3; ++i) t = t / (1.0 + std::sqrt(1.0 + t * t));
+    double sum = 0.0;
+    for (int n = 17; n > 0; n -= 2) sum = 1.0 / n - t * t * sum;
+    double angle = 8.0 * t * sum;
+    if (steep) angle = 0.5 * pi - angle;
+    if (x < 0.0) angle = pi - angle;
+    return y < 0.0 ? -angle : angle;
 }
 
 }  // namespace tendril::math

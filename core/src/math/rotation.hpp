@@ -35,24 +35,18 @@ static inline Vec<T> rotated(const Quat<T>& q, const Vec<std::type_identity_t<T>
     return plus(plus(v, times(t, q.w)), cross(axis, t));
 }
 /// About a unit axis, radians.
-template <class T>
-static inline Quat<T> rotation_about(const Vec<T>& axis, std::type_identity_t<T> angle) noexcept {
-    const T s = std::sin(T(0.5) * angle);
-    return {std::cos(T(0.5) * angle), axis.x * s, axis.y * s, axis.z * s};
+static inline glm::quat rotation_about(const glm::vec3& axis, float angle) noexcept {
+    const float s = std::sin(0.5f * angle);
+    return {std::cos(0.5f * angle), axis.x * s, axis.y * s, axis.z * s};
 }
-/// The cosine of half the angle of a rotation so small that its arc and its chord are the same to T's
-/// precision.
-template <class T>
-inline constexpr T arc_is_chord = std::is_same_v<T, float> ? T(0.9995) : T(1.0 - 1e-10);
 /// Part of the shortest way from one rotation to another (K. Shoemake, "Animating rotation with quaternion
 /// curves", SIGGRAPH 1985); `from` where `part` is 0, `to` or its negative, which is the same, where it is 1.
-template <class T>
-static inline Quat<T> slerp(const Quat<T>& from, const Quat<T>& to, std::type_identity_t<T> part) noexcept {
-    const T cosine = from.w * to.w + from.x * to.x + from.y * to.y + from.z * to.z;
-    const T sign = cosine < T(0) ? T(-1) : T(1), size = std::abs(cosine);
-    T a = T(1) - part, b = part;
-    if (size < arc_is_chord<T>) {
-        const T angle = std::acos(size);
+static inline glm::quat slerp(const glm::quat& from, const glm::quat& to, float part) noexcept {
+    const float cosine = from.w * to.w + from.x * to.x + from.y * to.y + from.z * to.z;
+    const float sign = cosine < 0.0f ? -1.0f : 1.0f, size = std::abs(cosine);
+    float a = 1.0f - part, b = part;
+    if (size < 0.9995f) {
+        const float angle = std::acos(size);
         a = std::sin(a * angle), b = std::sin(b * angle);  // by the sine of the whole: unit_quaternion's part
     }
     b *= sign;

@@ -52,19 +52,13 @@ AimWarning roll_secondary(glm::dquat& rotation, const glm::dvec3& axis, const Ta
     const Direction to = direction_of(across(*target.direction, about), narrowest);
     if (!to) return AimWarning::TargetOnAxis;
     const glm::dvec3 goal = toward(*from, *to, target.weight, about);
-    const double angle = std::atan2(dot(cross(*from, goal), about), dot(*from, goal));
-    rotation = normalised(math::compose(math::rotation_about(about, angle), rotation));
+    const double roll = arctangent(dot(cross(*from, goal), about), dot(*from, goal));
+    rotation = normalised(math::compose(rotation_about(about, roll), rotation));
     return AimWarning::None;
 }
 
-/// The angle between two rotations, radians.
-double angle_between(const glm::dquat& a, const glm::dquat& b) noexcept {
-    const glm::dquat turn = math::compose(b, conjugate(a));
-    return 2.0 * std::atan2(length(glm::dvec3{turn.x, turn.y, turn.z}), std::abs(turn.w));
-}
-
 glm::dquat limited(const glm::dquat& from, const glm::dquat& to, double radians) noexcept {
-    const double angle = angle_between(from, to);
+    const double angle = 2.0 * half_angle_between(from, to);
     return angle <= radians ? to : blend(from, to, radians / angle);
 }
 

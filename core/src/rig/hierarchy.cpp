@@ -1,6 +1,8 @@
 // The tree: slots, handles, parents and the order of children.
 #include "tendril/rig/hierarchy.hpp"
 
+#include <algorithm>
+
 #include "math/checks.hpp"
 
 namespace tendril::rig {
@@ -209,15 +211,13 @@ ElementId Hierarchy::next_depth_first(ElementId element, ElementId top) const no
 
 bool operator==(const Hierarchy& a, const Hierarchy& b) {
     if (a.nodes_ != b.nodes_ || a.roots_ != b.roots_ || a.free_ != b.free_) return false;
-    if (a.values_[0] == b.values_[0] && a.values_[1] == b.values_[1]) return true;
+    if (std::equal(a.values_, a.values_ + 3, b.values_)) return true;
     Hierarchy x = a, y = b;
     x.resolve_all();
     y.resolve_all();
-    const auto same = [&](std::size_t pose) {
-        return x.values_[pose].local == y.values_[pose].local &&
-               x.values_[pose].global == y.values_[pose].global;
-    };
-    return same(0) && same(1);
+    return std::equal(x.values_, x.values_ + 3, y.values_, [](const auto& one, const auto& other) {
+        return one.local == other.local && one.global == other.global;
+    });
 }
 
 }  // namespace tendril::rig

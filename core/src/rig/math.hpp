@@ -3,12 +3,14 @@
 
 #include <algorithm>
 
+#include "math/elementary.hpp"
 #include "math/rotation.hpp"
 #include "math/vector.hpp"
 
 namespace tendril::rig::detail {
 
 using math::across;
+using math::arctangent;
 using math::conjugate;
 using math::cross;
 using math::direction_of;
@@ -17,9 +19,11 @@ using math::length;
 using math::minimal_rotation;
 using math::minus;
 using math::perpendicular;
+using math::pi;
 using math::plus;
 using math::rotated;
 using math::times;
+using math::unit_quaternion;
 
 inline glm::dvec3 product(const glm::dvec3& a, const glm::dvec3& b) noexcept {
     return {a.x * b.x, a.y * b.y, a.z * b.z};
@@ -29,6 +33,28 @@ inline glm::dvec3 mix(const glm::dvec3& a, const glm::dvec3& b, double part) noe
 }
 inline double dot(const glm::dquat& a, const glm::dquat& b) noexcept {
     return a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
+}
+/// About a unit axis, radians.
+inline glm::dquat rotation_about(const glm::dvec3& axis, double angle) noexcept {
+    const auto [sine, cosine] = math::sine_cosine(angle / (4.0 * pi));
+    return {cosine, axis.x * sine, axis.y * sine, axis.z * sine};
+}
+/// Half the angle between two rotations the short way, radians: 0 to pi / 2.
+inline double half_angle_between(const glm::dquat& a, const glm::dquat& b) noexcept {
+    const glm::dquat turn = math::compose(b, conjugate(a));
+    return arctangent(length(glm::dvec3{turn.x, turn.y, turn.z}), std::abs(turn.w));
+}
+/// As math::slerp.
+inline glm::dquat slerp(const glm::dquat& from, const glm::dquat& to, double part) noexcept {
+    const double half = half_angle_between(from, to);
+    double a = 1.0 - part, b = part;
+    if (half > 1e-9) {  // below, sines are their angles
+        a = math::sine_cosine(a * half / (2.0 * pi)).sine;
+        b = math::sine_cosine(b * half / (2.0 * pi)).sine;
+    }
+    if (dot(from, to) < 0.0) b = -b;
+    return unit_quaternion(a * from.w + b * to.w, a * from.x + b * to.x, a * from.y + b * to.y,
+                           a * from.z + b * to.z);
 }
 /// A weight that came out of a curve or another unit may be anything; NaN leaves things as they are.
 inline double weight(double value) noexcept {

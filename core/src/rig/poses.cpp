@@ -115,6 +115,10 @@ const Transform& Hierarchy::get(ElementId element, Space space, Pose which) noex
     return pose.global[at];
 }
 
+void Hierarchy::copy_pose(Pose from, Pose to) noexcept {
+    values(to) = values(from);
+}
+
 void Hierarchy::resolve_all() noexcept {
     for (Values& pose : values_) {
         for (Index at = 0; at < nodes_.size(); ++at) {

@@ -64,7 +64,7 @@ glm::dquat normalised(const glm::dquat& rotation) noexcept {
     const double squared = detail::dot(rotation, rotation);
     if (std::abs(squared - 1.0) <= 4e-15) return rotation;  // as near to 1 as dividing by the length gets it
     if (!(squared > 0.0)) return {1.0, 0.0, 0.0, 0.0};
-    return math::unit_quaternion(rotation.w, rotation.x, rotation.y, rotation.z);
+    return unit_quaternion(rotation.w, rotation.x, rotation.y, rotation.z);
 }
 
 Expected<Transform> checked(const Transform& input, std::string_view operation,
@@ -92,15 +92,14 @@ Transform relative(const Transform& parent, const Transform& global) noexcept {
 glm::dquat blend(const glm::dquat& a, const glm::dquat& b, double part) noexcept {
     const double t = weight(part);
     if (t == 0.0) return a;
-    return t == 1.0 ? b : math::slerp(a, b, t);
+    return t == 1.0 ? b : slerp(a, b, t);
 }
 
 Transform blend(const Transform& a, const Transform& b, double part) noexcept {
     const double t = weight(part);
     if (t == 0.0) return a;
     if (t == 1.0) return b;
-    return {mix(a.translation, b.translation, t), math::slerp(a.rotation, b.rotation, t),
-            mix(a.scale, b.scale, t)};
+    return {mix(a.translation, b.translation, t), slerp(a.rotation, b.rotation, t), mix(a.scale, b.scale, t)};
 }
 
 }  // namespace tendril::rig

@@ -1,5 +1,5 @@
-// Bones, nulls and controls in a tree: each with an initial and a current pose, and of each pose a local and
-// a global transform, of which one may be pending, waiting to be worked out from the other.
+// Bones, nulls and controls in a tree: each with an initial, an input and a current pose, and of each pose a
+// local and a global transform, of which one may be pending, waiting to be worked out from the other.
 //
 //     rig::Hierarchy tree;
 //     const rig::ElementId arm = *tree.add(rig::ElementKind::Bone, {}, shoulder);
@@ -27,7 +27,7 @@
 // propagate. Nothing recurses: a line of 100 000 elements is as good as any tree. get() and set() allocate
 // nothing.
 //
-// A hierarchy is a value: a copy goes on as the original does, bit for bit. About 600 bytes an element.
+// A hierarchy is a value: a copy goes on as the original does, bit for bit. About 750 bytes an element.
 // Elements have no names, names are the document's business. A handle that points at nothing is refused where
 // an answer is a Result; given to anything else it is a bug in the calling program, which ends with a
 // message.
@@ -45,7 +45,8 @@
 namespace tendril::rig {
 
 enum class ElementKind : std::uint8_t { Bone, Null, Control };
-enum class Pose : std::uint8_t { Initial, Current };
+/// At rest; where a solve begins, before anything moved it; and now.
+enum class Pose : std::uint8_t { Initial, Input, Current };
 enum class Space : std::uint8_t { Local, Global };
 /// Whether the children of what is set move with it (and keep their local transform) or stay where they are.
 enum class Propagate : std::uint8_t { No, Yes };
@@ -64,12 +65,12 @@ class Hierarchy {
     // Elements. Where a parent is asked for, an empty handle means none: what has no parent is a root.
     // Children are in the order in which they were added.
 
-    /// `local` becomes the initial and the current pose. Refused: a parent that is not there, a transform
+    /// `local` becomes its pose, all three. Refused: a parent that is not there, a transform
     /// that checked() refuses. O(1).
     Expected<ElementId> add(ElementKind kind, ElementId parent, const Transform& local);
     /// With everything below it. O(what goes).
     Result remove(ElementId element) noexcept;
-    /// Puts an element below another parent, after the children that are there; in both poses it keeps its
+    /// Puts an element below another parent, after the children that are there; in every pose it keeps its
     /// transform in that space. Refused: a parent that is the element itself or below it. O(depth).
     Result set_parent(ElementId element, ElementId parent, Space keep = Space::Global) noexcept;
     void clear() noexcept;
@@ -112,13 +113,16 @@ class Hierarchy {
     /// What get() would answer, where it has not got to work out the rest of the tree for it: none where
     /// pending() names that space. Changes nothing.
     std::optional<Transform> known(ElementId element, Space space, Pose pose = Pose::Current) const noexcept;
-    /// Works out all that is pending, in both poses. O(n).
+    /// All transforms of one pose become those of another, what is pending with them. O(n), a plain copy of
+    /// memory.
+    void copy_pose(Pose from, Pose to) noexcept;
+    /// Works out all that is pending, in every pose. O(n).
     void resolve_all() noexcept;
     /// How many transforms were worked out from others since this hierarchy was made, copies counting on from
     /// where the original was.
     std::uint64_t recomputations() const noexcept { return recomputations_; }
 
-    /// The same elements under the same handles, in the same order, at the same transforms in both poses once
+    /// The same elements under the same handles, in the same order, at the same transforms in every pose once
     /// nothing is pending: whatever is called from here on, both answer the same. O(n); copies both where one
     /// of them was read and the other was not.
     friend bool operator==(const Hierarchy& a, const Hierarchy& b);
@@ -154,8 +158,8 @@ class Hierarchy {
         bool operator==(const Values&) const = default;
     };
 
-    const Values& values(Pose pose) const noexcept { return values_[pose == Pose::Current]; }
-    Values& values(Pose pose) noexcept { return values_[pose == Pose::Current]; }
+    const Values& values(Pose pose) const noexcept { return values_[static_cast<std::size_t>(pose)]; }
+    Values& values(Pose pose) noexcept { return values_[static_cast<std::size_t>(pose)]; }
     const Node& siblings_of(Index parent) const noexcept { return parent == none ? roots_ : nodes_[parent]; }
     Node& siblings_of(Index parent) noexcept { return parent == none ? roots_ : nodes_[parent]; }
     ElementId handle(Index index) const noexcept;
@@ -188,8 +192,8 @@ class Hierarchy {
     void write_local(Values& pose, Index at, const Transform& local, Propagate propagate) noexcept;
 
     std::vector<Node> nodes_;
-    Node roots_;  ///< a node that is no element: the roots are its children
-    Values values_[2];
+    Node roots_;         ///< a node that is no element: the roots are its children
+    Values values_[3];   ///< by Pose
     Index free_ = none;  ///< the first free slot
     std::size_t size_ = 0;
     std::uint64_t recomputations_ = 0;
