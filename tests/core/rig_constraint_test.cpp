@@ -68,6 +68,16 @@ TEST(RigParentConstraint, WithNothingToFollowTheChildStaysToTheBit) {
     EXPECT_FALSE(same_bits(parent_constraint(child, parents), child.global));
 }
 
+TEST(RigParentConstraint, AWeightOfHalfGoesHalfTheWay) {
+    Random random(14);
+    const ConstraintChild child = some_child(random);
+    const Parents parents{some_parent(random), some_parent(random)};
+    const Transform whole = parent_constraint(child, parents);
+    const Transform half = parent_constraint(child, parents, {.weight = 0.5});
+    EXPECT_TRUE(same_bits(half, blend(child.global, whole, 0.5)));
+    EXPECT_GT(distance(half, whole), 0.1);
+}
+
 TEST(RigParentConstraint, TheFilterIsInTheChildsLocalSpace) {
     Random random(5);
     for (int i = 0; i < 500; ++i) {
@@ -141,6 +151,11 @@ TEST(RigParentConstraint, RotationsAreAveragedOnTheFirstParentsHemisphere) {
     EXPECT_LE(distance(parent_constraint(child, parents, options).rotation, about({0, 0, 1}, 40)), 1e-15);
     parents[1].global.rotation = -parents[1].global.rotation;
     EXPECT_LE(distance(parent_constraint(child, parents, options).rotation, about({0, 0, 1}, 40)), 1e-15);
+    // What counts is where the first parent wants the child, not how that parent itself is turned.
+    ConstraintChild turned;
+    turned.initial_global.rotation = about({0, 0, 1}, 179);
+    const Parents offset{{}, {.global = {.rotation = about({0, 0, 1}, 4)}}};
+    EXPECT_LE(distance(parent_constraint(turned, offset).rotation, about({0, 0, 1}, 181)), 1e-15);
     // Half a turn either way from a first parent that counts for nothing: they cancel, and the heavier one
     // wins.
     parents = {{.weight = 0.0},

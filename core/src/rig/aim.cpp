@@ -64,6 +64,7 @@ AimWarning roll_secondary(glm::dquat& rotation, const glm::dvec3& axis, const Ta
     return AimWarning::None;
 }
 
+/// Nothing turns where `radians` is negative or NaN.
 glm::dquat limited(const glm::dquat& from, const glm::dquat& to, double radians) noexcept {
     const double angle = 2.0 * half_angle_between(from, to);
     return angle <= radians ? to : blend(from, to, radians / angle);
@@ -106,8 +107,8 @@ AimResult aim(const Transform& item, const AimOptions& options, double dt) noexc
             about ? roll_secondary(rotation, options.secondary.axis, second, *about) : AimWarning::ZeroAxis;
     }
     if (options.max_speed < std::numeric_limits<double>::infinity()) {
-        const double seconds = dt > 0.0 ? dt : 0.0;
-        rotation = limited(item.rotation, rotation, std::max(options.max_speed, 0.0) * seconds);
+        const double radians = std::max(options.max_speed, 0.0) * dt;
+        rotation = limited(item.rotation, rotation, radians);
     }
     result.transform.rotation = rotation;
     return result;

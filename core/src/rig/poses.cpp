@@ -160,7 +160,7 @@ void Hierarchy::start(Values& pose, Index at, const Transform& local) noexcept {
 }
 
 /// Before a write that the children do not follow: their globals are brought up to date.
-void Hierarchy::pin_children(Values& pose, Index at) noexcept {
+void Hierarchy::refresh_children(Values& pose, Index at) noexcept {
     if (nodes_[at].first_child == none) return;
     refresh(pose, at);
     for (Index child = nodes_[at].first_child; child != none; child = nodes_[child].next)
@@ -168,7 +168,7 @@ void Hierarchy::pin_children(Values& pose, Index at) noexcept {
 }
 
 /// After it: their globals stand, whatever the new one above is.
-void Hierarchy::release_children(Values& pose, Index at) noexcept {
+void Hierarchy::make_children_pending(Values& pose, Index at) noexcept {
     for (Index child = nodes_[at].first_child; child != none; child = nodes_[child].next) {
         make_local_pending(pose, child);
         pose.stamps[child].parent_version = pose.stamps[at].version;
@@ -180,21 +180,21 @@ void Hierarchy::write_global(Values& pose, Index at, const Transform& global, Pr
     const Index parent = nodes_[at].parent;
     if (parent != none) refresh(pose, parent);
     if (propagate == Propagate::No)
-        pin_children(pose, at);
+        refresh_children(pose, at);
     else
         resolve_children(pose, at);
     ++pose.change;
     if (parent != none) pose.stamps[parent].verified = pose.change;
     store_global(pose, at, global);
     make_local_pending(pose, at);
-    if (propagate == Propagate::No) release_children(pose, at);
+    if (propagate == Propagate::No) make_children_pending(pose, at);
 }
 
 void Hierarchy::write_local(Values& pose, Index at, const Transform& local, Propagate propagate) noexcept {
     if (propagate == Propagate::No) {
         const Index parent = nodes_[at].parent;
         if (parent != none) refresh(pose, parent);
-        pin_children(pose, at);
+        refresh_children(pose, at);
     }
     forget_pending(pose, at);
     pose.local[at] = local;
@@ -203,7 +203,7 @@ void Hierarchy::write_local(Values& pose, Index at, const Transform& local, Prop
         pose.stamps[at].parent_version = never;
     } else {
         compose_global(pose, at);
-        release_children(pose, at);
+        make_children_pending(pose, at);
     }
 }
 

@@ -186,8 +186,8 @@ class Hierarchy {
     void resolve_children(Values& pose, Index at) noexcept;
     void make_local_pending(Values& pose, Index at) noexcept;
     void forget_pending(Values& pose, Index at) noexcept;
-    void pin_children(Values& pose, Index at) noexcept;
-    void release_children(Values& pose, Index at) noexcept;
+    void refresh_children(Values& pose, Index at) noexcept;
+    void make_children_pending(Values& pose, Index at) noexcept;
     void write_global(Values& pose, Index at, const Transform& global, Propagate propagate) noexcept;
     void write_local(Values& pose, Index at, const Transform& local, Propagate propagate) noexcept;
 
