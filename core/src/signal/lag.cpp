@@ -8,6 +8,9 @@ namespace tendril::signal {
 namespace {
 
 constexpr double most_shifts = 1e4;
+/// Of the range of errors, by how much a fit may be worse than the best and still be as good: what is held
+/// beyond the ends favours large shifts by some percent where the output is weaker than the input.
+constexpr double as_good_as = 0.05;
 
 class Fit {
   public:
@@ -72,14 +75,16 @@ std::optional<double> lag(const Response& response, double longest) {
     const auto& [time, wanted, output] = response;
     if (time.size() < 3 || wanted.size() != time.size() || output.size() != time.size()) return std::nullopt;
     if (!changes(wanted) || !changes(output) || !(longest > 0.0 && longest <= max_dt)) return std::nullopt;
+    longest = std::min(longest, 0.25 * (time.back() - time.front()));
     const double spacing = std::max(median_dt(time), 2.0 * longest / most_shifts);
+    if (!(spacing > 0.0)) return std::nullopt;
     const int reach = static_cast<int>(std::ceil(longest / spacing));
 
     const Fit fit(response);
     std::vector<double> errors;
     for (int k = -reach; k <= reach; ++k) errors.push_back(fit.error(spacing * k));
     const auto [smallest, largest] = std::minmax_element(errors.begin(), errors.end());
-    const double as_good = *smallest + 0.01 * (*largest - *smallest);
+    const double as_good = *smallest + as_good_as * (*largest - *smallest);
     // From no shift outwards, the first minimum that is as good as the best.
     for (int k = 0; k < reach; ++k) {
         for (const int shift : {k, -k}) {

@@ -100,7 +100,8 @@ std::vector<double> run_at(std::span<const Filter> filters, std::span<const Samp
     Polyline input(samples);
     if (input.empty() || frames.empty()) return std::vector<double>(times.size(), 0.0);
     std::vector<FilterState> states(filters.size());
-    double now = frames.front(), output = step(filters, states, input.at(now), min_dt);
+    const double first = frames.size() > 1 ? frames[1] - frames[0] : min_dt;
+    double now = frames.front(), output = step(filters, states, input.at(now), first);
     std::vector<double> outputs;
     outputs.reserve(times.size());
     std::size_t frame = 1;

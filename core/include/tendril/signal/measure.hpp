@@ -22,8 +22,9 @@ struct Response {
 
 /// Seconds: the shift of `wanted` that fits `output` best (least squares, straight between the rows, held
 /// beyond the ends), to a small part of a row; negative where the output runs ahead. Looked for up to
-/// `longest` seconds either way; of fits that are as good, as with a periodic input, the smallest shift.
-/// Empty where one of the two does not change, or nothing within `longest` fits best.
+/// `longest` seconds either way, and up to a quarter of the time that there is; of fits that are as good, as
+/// with a periodic input, the smallest shift. Empty where one of the two does not change, or nothing within
+/// that time fits best.
 /// Cost: O(rows * longest / median dt), 1e4 shifts at most.
 std::optional<double> lag(const Response& response, double longest = 1.0);
 

@@ -1,0 +1,232 @@
+// What holds for every kind of filter.
+#include "tendril/signal/filter.hpp"
+
+#include <set>
+
+#include "signal_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+using signal::Filter;
+using signal::FilterState;
+using signal::Kind;
+using signal::Parameter;
+using signal::ParameterType;
+
+TEST(SignalFilter, TheTableHasEveryKindAndParameter) {
+    const std::vector<std::string> names{
+        "interp_to",  "interp_to_exact", "scale_bias_clamp",     "spring",   "exponential_decay",
+        "rate_limit", "smooth_damp",     "spring_semi_implicit", "one_euro", "moving_average",
+        "dead_zone",  "hysteresis",      "inertialize",          "curve"};
+    ASSERT_EQ(signal::kinds().size(), names.size());
+    ASSERT_EQ(std::variant_size_v<Filter>, names.size());
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const Kind& kind = signal::kinds()[i];
+        EXPECT_EQ(kind.name, names[i]);
+        EXPECT_EQ(kind.blank().index(), i);
+        EXPECT_EQ(signal::find_kind(names[i]), &kind);
+        EXPECT_STREQ(signal::kind(kind.blank()), kind.name);
+        EXPECT_TRUE(signal::check(kind.blank())) << signal::check(kind.blank()).message();
+        EXPECT_FALSE(kind.parameters.empty());
+    }
+    EXPECT_EQ(signal::find_kind("spline"), nullptr);
+}
+
+TEST(SignalFilter, ParametersAreReadAndSetByTheTable) {
+    for (const Kind& kind : signal::kinds()) {
+        std::set<std::pair<std::string_view, int>> names;
+        Filter changed = kind.blank();
+        for (const Parameter& parameter : kind.parameters) {
+            SCOPED_TRACE(std::string(kind.name) + "." + std::string(parameter.name));
+            EXPECT_TRUE(names.insert({parameter.name, parameter.element}).second);
+            EXPECT_LE(parameter.minimum, parameter.low);
+            EXPECT_LT(parameter.low, parameter.high);
+            EXPECT_LE(parameter.high, parameter.maximum);
+            if (parameter.logarithmic) {
+                EXPECT_GT(parameter.low, 0.0);
+            }
+            const double before = parameter.get(changed);
+            const double other = parameter.type == ParameterType::Flag ? 1.0 - before : before + 0.25;
+            parameter.set(changed, other);
+            EXPECT_EQ(parameter.get(changed), other);
+            Filter back = changed;
+            parameter.set(back, before);
+            EXPECT_NE(back, changed) << "it sets that parameter and no other";
+            EXPECT_EQ(parameter.get(back), before);
+        }
+        // Of another kind it reads nothing, and sets nothing.
+        const Filter foreign = signal::kinds()[kind.blank().index() == 0 ? 1 : 0].blank();
+        Filter still = foreign;
+        kind.parameters[0].set(still, 3.0);
+        EXPECT_EQ(still, foreign);
+        EXPECT_EQ(kind.parameters[0].get(foreign), 0.0);
+    }
+}
+
+TEST(SignalFilter, RefusalsNameTheParameterAndItsValue) {
+    const auto message = [](const Filter& filter) -> std::string { return signal::check(filter).message(); };
+    EXPECT_EQ(message(signal::RateLimit{.rise = -1.0}), "rate_limit: rise must be from 0 to 1e+09, got -1");
+    EXPECT_EQ(message(signal::Spring<>{.critical_damping = not_a_number}),
+              "spring: critical_damping must be from 0 to 1000, got nan");
+    EXPECT_EQ(message(signal::ScaleBiasClamp{.in_range = {0.0, infinity}}),
+              "scale_bias_clamp: in_range[1] must be from -1e+09 to 1e+09, got inf");
+    EXPECT_EQ(message(signal::ScaleBiasClamp{.clamp_min = 2.0, .clamp_max = 1.0}),
+              "scale_bias_clamp: clamp_min must be at most clamp_max, got 2");
+    EXPECT_EQ(message(signal::Hysteresis{.low = 1.0, .high = 0.5}),
+              "hysteresis: low must be at most high, got 1");
+    for (const Kind& kind : signal::kinds()) {
+        for (const Parameter& parameter : kind.parameters) {
+            if (parameter.type == ParameterType::Flag) continue;
+            for (const double bad :
+                 {not_a_number, infinity, -infinity, parameter.maximum * 1.001, parameter.minimum - 1.0}) {
+                Filter filter = kind.blank();
+                parameter.set(filter, bad);
+                EXPECT_EQ(signal::check(filter).code(), ErrorCode::InvalidArgument)
+                    << kind.name << "." << parameter.name << " " << bad;
+            }
+        }
+    }
+}
+
+/// Any filter that check() lets pass; parameters at the ends of their ranges as often as between.
+Filter some_filter(Random& random) {
+    for (;;) {
+        const Kind& kind = signal::kinds()[random.below(signal::kinds().size())];
+        Filter filter = kind.blank();
+        for (const Parameter& parameter : kind.parameters) {
+            const double lows[] = {parameter.minimum, parameter.maximum, parameter.low, parameter.high, 0.0};
+            double value = lows[random.below(5)];
+            if (random.chance(2)) value = between(random, parameter.low, parameter.high);
+            if (parameter.type == ParameterType::Flag) value = random.chance(2) ? 1.0 : 0.0;
+            if (!random.chance(4)) parameter.set(filter, value);
+        }
+        if (signal::check(filter)) return filter;
+    }
+}
+double some_dt(Random& random) {
+    const double odd[] = {0.0, -1.0, not_a_number, infinity, 1e-300, 5e-324, 1e-12, 3600.0, 1e9, 1e300};
+    return random.chance(4) ? odd[random.below(10)] : std::exp2(around(random, 14.0));
+}
+double some_input(Random& random) {
+    const double odd[] = {not_a_number, infinity, -infinity, 1e300, 1e9, -1e9, 5e-324, -0.0};
+    return random.chance(6) ? odd[random.below(8)] : around(random, random.chance(3) ? 1e9 : 2.0);
+}
+
+TEST(SignalFilter, NeverPutsOutWhatIsNotANumber) {
+    Random random(1);
+    for (int i = 0; i < 6000; ++i) {
+        const Filter filter = some_filter(random);
+        FilterState state;
+        for (int k = 0; k < 60; ++k) {
+            const double dt = some_dt(random), input = some_input(random),
+                         output = signal::step(filter, state, input, dt);
+            ASSERT_TRUE(std::abs(output) <= signal::max_output)
+                << signal::kind(filter) << " gives " << output << " for " << input << ", dt " << dt;
+        }
+    }
+}
+
+TEST(SignalFilter, RefusedInputsAndTimesChangeNothing) {
+    Random random(2);
+    for (int i = 0; i < 2000; ++i) {
+        const Filter filter = some_filter(random);
+        FilterState state;
+        for (int k = 0; k < 5; ++k) {
+            const FilterState before = state;
+            for (const double bad : {not_a_number, infinity, -infinity, 1.01e9}) {
+                EXPECT_EQ(signal::step(filter, state, bad, 0.1), signal::value(before));
+                EXPECT_EQ(state, before) << signal::kind(filter);
+            }
+            for (const double dt : {0.0, -1.0, not_a_number, infinity}) {
+                const double output = signal::step(filter, state, 0.7, dt);
+                EXPECT_EQ(output,
+                          signal::started(before) ? signal::value(before) : signal::immediate(filter, 0.7));
+                EXPECT_EQ(state, before) << signal::kind(filter);
+            }
+            const double input = around(random, 3.0);
+            const double output = signal::step(filter, state, input, 0.01);
+            EXPECT_TRUE(signal::started(state));
+            EXPECT_EQ(output, signal::value(state));
+            if (!signal::started(before)) {
+                EXPECT_EQ(output, signal::immediate(filter, input));
+            }
+        }
+    }
+}
+
+TEST(SignalFilter, TheFirstStepReturnsWhatTheInputAloneSays) {
+    const double input = 0.75;
+    for (const Kind& kind : signal::kinds()) {
+        const std::string name = kind.name;
+        const double expected = name == "dead_zone" ? 0.65 : name == "hysteresis" ? 1.0 : input;
+        EXPECT_EQ(signal::immediate(kind.blank(), input), expected) << name;
+    }
+    EXPECT_EQ(signal::immediate(signal::ScaleBiasClamp{.scale = 2.0, .bias = 1.0, .interp = true}, 3.0), 7.0);
+    EXPECT_EQ(signal::immediate(signal::RateLimit{}, not_a_number), 0.0);
+}
+
+TEST(SignalFilter, StatesPutBackGiveTheSameBits) {
+    Random random(3);
+    for (int i = 0; i < 1500; ++i) {
+        const Filter filter = some_filter(random);
+        FilterState state;
+        for (int k = 0; k < 20; ++k) {
+            const double input = around(random, 2.0), dt = std::exp2(around(random, 8.0));
+            signal::step(filter, state, input, dt);
+        }
+        const FilterState saved = state;
+        std::vector<double> first, second;
+        std::vector<signal::Sample> rest;
+        for (int k = 0; k < 20; ++k) {
+            const double input = around(random, 2.0), dt = std::exp2(around(random, 8.0));
+            rest.push_back({dt, input});
+        }
+        for (const signal::Sample& each : rest)
+            first.push_back(signal::step(filter, state, each.input, each.dt));
+        const FilterState end = state;
+        state = saved;
+        EXPECT_EQ(state, saved);
+        for (const signal::Sample& each : rest)
+            second.push_back(signal::step(filter, state, each.input, each.dt));
+        EXPECT_EQ(first, second) << signal::kind(filter);
+        EXPECT_EQ(state, end) << signal::kind(filter);
+    }
+}
+
+TEST(SignalFilter, TheStateOfAnotherKindIsTakenAsFresh) {
+    FilterState state;
+    signal::step(signal::Spring<>{}, state, 5.0, 0.1);
+    EXPECT_EQ(signal::step(signal::SmoothDamp{}, state, not_a_number, 0.1), 0.0);
+    EXPECT_EQ(signal::value(state), 5.0) << "refused: nothing has changed";
+    EXPECT_EQ(signal::step(signal::SmoothDamp{}, state, 2.0, 0.1), 2.0) << "the first step";
+    EXPECT_TRUE(std::holds_alternative<signal::MotionState>(state));
+}
+
+TEST(SignalScaleBiasClamp, StagesFollowInOrder) {
+    const signal::ScaleBiasClamp all{.map_range = true,
+                                     .in_range = {0.0, 10.0},
+                                     .out_range = {1.0, 0.0},
+                                     .scale = 4.0,
+                                     .bias = 0.5,
+                                     .clamp = true,
+                                     .clamp_min = -3.0,
+                                     .clamp_max = 3.0,
+                                     .interp = true,
+                                     .speed_increasing = 2.0,
+                                     .speed_decreasing = 1.0};
+    signal::OutputState state;
+    EXPECT_EQ(signal::step(all, state, 5.0, 0.25), 2.5) << "the first without interpolation";
+    EXPECT_EQ(signal::step(all, state, 0.0, 0.25), 2.75) << "4.5, clamped to 3; half of the way up";
+    EXPECT_EQ(signal::step(all, state, 20.0, 0.25), 2.75 - 0.25 * 5.75) << "1 to 0 goes on beyond 10";
+    signal::ScaleBiasClamp narrow{.map_range = true, .in_range = {2.0, 2.0}, .out_range = {7.0, 9.0}};
+    EXPECT_EQ(signal::immediate(narrow, -100.0), 7.0);
+    EXPECT_EQ(signal::immediate(narrow, 2.0), 7.0);
+    narrow.in_range = {0.0, 5e-324};
+    EXPECT_TRUE(std::isfinite(signal::immediate(narrow, 1e9)));
+    narrow.out_range = {7.0, 7.0};
+    EXPECT_EQ(signal::immediate(narrow, 1e9), 7.0);
+}
+
+}  // namespace
+}  // namespace tendril::test

@@ -1,0 +1,221 @@
+// Measures on signals with known answers, and whole inputs at several frame rates.
+#include "tendril/signal/measure.hpp"
+
+#include <functional>
+
+#include "signal_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+using signal::Filter;
+using signal::Response;
+using signal::Sample;
+
+/// A signal as a function of time.
+std::vector<Sample> sampled(const std::function<double(double)>& of, double seconds, double hz) {
+    std::vector<Sample> samples;
+    for (int i = 0; i <= static_cast<int>(seconds * hz); ++i) samples.push_back({1.0 / hz, of(i / hz)});
+    return samples;
+}
+double step_at_one(double t) {
+    return t < 1.0 ? 0.0 : 1.0;
+}
+
+struct Rows {
+    std::vector<double> time, wanted, output;
+    Response response() const { return {time, wanted, output}; }
+};
+Rows rows(const std::function<double(double)>& wanted, const std::function<double(double)>& output,
+          double seconds = 4.0, double hz = 60.0) {
+    Rows all;
+    for (int i = 0; i <= static_cast<int>(seconds * hz); ++i) {
+        all.time.push_back(i / hz);
+        all.wanted.push_back(wanted(i / hz));
+        all.output.push_back(output(i / hz));
+    }
+    return all;
+}
+
+TEST(SignalMeasure, LagIsTheShiftThatFitsBest) {
+    for (const double shift : {-0.21, -0.003, 0.0, 0.0042, 0.05, 0.3, 0.77}) {
+        const auto bump = [](double t) { return std::exp(-20.0 * (t - 2.0) * (t - 2.0)); };
+        const Rows late = rows(bump, [&](double t) { return bump(t - shift); });
+        ASSERT_TRUE(signal::lag(late.response()));
+        EXPECT_NEAR(*signal::lag(late.response()), shift, 1e-4);
+        const auto ramp = [](double t) { return 3.0 * t; };
+        const Rows slope = rows(ramp, [&](double t) { return ramp(std::clamp(t - shift, 0.0, 4.0)); });
+        EXPECT_NEAR(*signal::lag(slope.response()), shift, 1e-4);
+    }
+    const auto wave = [](double t) { return std::sin(turn * t); };
+    const Rows periodic = rows(wave, [&](double t) { return 0.4 * wave(t - 0.1); });
+    EXPECT_NEAR(*signal::lag(periodic.response()), 0.1, 0.01) << "not a period more";
+}
+
+TEST(SignalMeasure, LagOfASpringIsTheFormulas) {
+    for (const double hz : {30.0, 240.0}) {
+        const Filter spring = filter_of("spring", {{"strength", 2.0}, {"critical_damping", 1.0}});
+        const auto samples = sampled([](double t) { return 3.0 * t; }, 20.0, hz);
+        const std::vector<double> time = signal::times_of(samples),
+                                  output = signal::run({&spring, 1}, samples);
+        std::vector<double> wanted;
+        for (const Sample& sample : samples) wanted.push_back(sample.input);
+        // Without the start, where it is not yet in steady motion.
+        const std::size_t from = static_cast<std::size_t>(5 * hz);
+        const auto lag = signal::lag({std::span(time).subspan(from), std::span(wanted).subspan(from),
+                                      std::span(output).subspan(from)});
+        ASSERT_TRUE(lag);
+        EXPECT_NEAR(*lag + 0.5 / hz, 2.0 / (turn * 2.0), 2e-3) << hz;
+    }
+}
+
+TEST(SignalMeasure, NothingIsSaidOfWhatDoesNotChange) {
+    const auto flat = [](double) { return 2.0; };
+    const auto wave = [](double t) { return std::sin(turn * t); };
+    EXPECT_FALSE(signal::lag(rows(flat, wave).response()));
+    EXPECT_FALSE(signal::lag(rows(wave, flat).response()));
+    EXPECT_FALSE(signal::lag({}));
+    EXPECT_FALSE(signal::lag(rows(wave, wave).response(), not_a_number));
+    EXPECT_FALSE(signal::lag(rows(wave, wave).response(), infinity));
+    EXPECT_FALSE(signal::overshoot(rows(flat, wave).response()));
+    EXPECT_FALSE(signal::overshoot(rows(wave, wave).response())) << "no step in it";
+    EXPECT_FALSE(signal::settling_time(rows(wave, wave).response()));
+    const Rows still = rows(flat, wave);
+    EXPECT_FALSE(signal::jitter(still.time, still.wanted, still.output));
+    const Filter spring = filter_of("spring");
+    for (const std::vector<Sample>& samples :
+         {std::vector<Sample>{}, std::vector<Sample>{{0.1, 1.0}}, std::vector<Sample>(50, {0.1, 1.0}),
+          std::vector<Sample>(50, {0.1, not_a_number}), std::vector<Sample>(50, {-1.0, 3.0})}) {
+        const signal::Measures measures = signal::measure({&spring, 1}, samples);
+        EXPECT_FALSE(measures.lag || measures.overshoot || measures.settling_time || measures.jitter);
+        EXPECT_EQ(measures.rate_difference, 0.0);
+    }
+}
+
+TEST(SignalMeasure, OvershootAndSettlingOfSprings) {
+    for (const double damping : {0.2, 0.5, 0.8}) {
+        const Filter spring = filter_of("spring", {{"strength", 2.0}, {"critical_damping", damping}});
+        const signal::Measures measures = signal::measure({&spring, 1}, sampled(step_at_one, 6.0, 1000.0));
+        const double expected = std::exp(-damping * turn / 2.0 / std::sqrt(1.0 - damping * damping));
+        ASSERT_TRUE(measures.overshoot);
+        EXPECT_NEAR(*measures.overshoot, expected, 1e-3) << damping;
+    }
+    // (1 + w t) exp(-w t) = 0.02 at w t = 5.8339.
+    const Filter critical = filter_of("spring", {{"strength", 2.0}, {"critical_damping", 1.0}});
+    const signal::Measures measures = signal::measure({&critical, 1}, sampled(step_at_one, 6.0, 1000.0));
+    EXPECT_EQ(*measures.overshoot, 0.0);
+    EXPECT_NEAR(*measures.settling_time, 5.8339 / (turn * 2.0), 1.1e-3);
+    EXPECT_NEAR(*measures.lag, 1.6783 / (turn * 2.0), 0.02) << "about where half is reached";
+    EXPECT_FALSE(signal::measure({&critical, 1}, sampled(step_at_one, 1.2, 1000.0)).settling_time)
+        << "the input ends too early";
+    const Filter pass = filter_of("exponential_decay", {{"halflife", 0.0}});
+    EXPECT_EQ(*signal::measure({&pass, 1}, sampled(step_at_one, 2.0, 60.0)).settling_time, 0.0);
+}
+
+TEST(SignalMeasure, EveryStepCounts) {
+    // Up by 1 with nothing over, down by 2 with a tenth of it over.
+    const Rows both = rows([](double t) { return t < 1.0   ? 0.0
+                                                 : t < 2.0 ? 1.0
+                                                           : -1.0; },
+                           [](double t) {
+                               return t < 1.0 ? 0.0 : t < 2.0 ? 1.0 : t < 2.5 ? -1.2 : -1.0;
+                           });
+    EXPECT_EQ(signal::steps_of(both.response()).size(), 2u);
+    EXPECT_NEAR(*signal::overshoot(both.response()), 0.1, 1e-12);
+    EXPECT_NEAR(*signal::settling_time(both.response()), 0.5, 1.0 / 60.0);
+}
+
+TEST(SignalMeasure, AFilterIsNotBlamedForScaling) {
+    const Filter scale = filter_of("scale_bias_clamp", {{"scale", -20.0}, {"bias", 100.0}});
+    const signal::Measures measures = signal::measure({&scale, 1}, sampled(step_at_one, 3.0, 60.0));
+    EXPECT_NEAR(*measures.lag, 0.0, 1e-9);
+    EXPECT_EQ(*measures.overshoot, 0.0);
+    EXPECT_EQ(*measures.settling_time, 0.0);
+    EXPECT_NEAR(*measures.jitter, 20.0, 1e-9) << "but that is what is left of the input's";
+}
+
+TEST(SignalMeasure, JitterIsWhatIsLeftOfSecondDifferences) {
+    Random random(1);
+    Rows noisy;
+    double time = 0.0;
+    for (int i = 0; i < 300; ++i) {
+        noisy.time.push_back(time += between(random, 0.005, 0.03));
+        noisy.wanted.push_back(around(random, 1.0));
+        noisy.output.push_back(0.25 * noisy.wanted.back() + 7.0 * time + 3.0);
+    }
+    EXPECT_NEAR(*signal::jitter(noisy.time, noisy.wanted, noisy.output), 0.25, 1e-9) << "ramps have none";
+    const Filter pass = filter_of("rate_limit", {{"rise", 1e9}, {"fall", 1e9}});
+    std::vector<Sample> noise;
+    for (int i = 0; i < 300; ++i) noise.push_back({0.01, around(random, 1.0)});
+    EXPECT_NEAR(*signal::measure({&pass, 1}, noise).jitter, 1.0, 1e-12);
+    const Filter smooth = filter_of("exponential_decay", {{"halflife", 0.2}});
+    EXPECT_LT(*signal::measure({&smooth, 1}, noise).jitter, 0.1);
+}
+
+TEST(SignalRates, WhatIsExactIsTheSameAtEveryRate) {
+    const auto gentle = [](double t) { return std::sin(2.0 * t); };
+    const auto samples = sampled(gentle, 5.0, 240.0);
+    const auto difference = [&](const Filter& filter) {
+        return signal::compare_rates({&filter, 1}, samples).difference;
+    };
+    EXPECT_LT(difference(filter_of("curve")), 1e-12) << "no memory: the same input at the same time";
+    EXPECT_LT(difference(filter_of("dead_zone")), 1e-12);
+    const double exact = difference(filter_of("interp_to_exact", {{"speed", 10.0}}));
+    const double engine = difference(filter_of("interp_to", {{"speed", 10.0}}));
+    EXPECT_LT(exact, engine);
+    EXPECT_GT(difference(filter_of("spring_semi_implicit", {{"strength", 8.0}})), 1e3) << "it explodes";
+    const Filter spring = filter_of("spring", {{"strength", 8.0}});
+    const signal::RateComparison comparison = signal::compare_rates({&spring, 1}, samples);
+    EXPECT_LT(comparison.difference, 0.1);
+    ASSERT_EQ(comparison.runs.size(), 5u);
+    EXPECT_EQ(comparison.runs[0].time.size(), 76u);
+    EXPECT_EQ(comparison.runs[3].output.size(), comparison.runs[3].time.size());
+    EXPECT_TRUE(comparison.runs[4].rate.jittered);
+}
+
+TEST(SignalRates, AtItsOwnRateItIsThePlainRun) {
+    const auto samples =
+        sampled([](double t) { return std::sin(7.0 * t) + 0.2 * std::sin(31.0 * t); }, 3.0, 60.0);
+    const Filter chain[] = {filter_of("one_euro"), filter_of("spring"), filter_of("moving_average")};
+    const std::vector<double> plain = signal::run(chain, samples), time = signal::times_of(samples);
+    const std::vector<double> again = signal::run_at(chain, samples, time, time);
+    ASSERT_EQ(plain.size(), again.size());
+    for (std::size_t i = 0; i < plain.size(); ++i) EXPECT_NEAR(plain[i], again[i], 1e-9) << i;
+    EXPECT_EQ(signal::run_stages(chain, samples).back(), plain);
+    EXPECT_EQ(signal::run(chain, samples), plain);
+    EXPECT_EQ(signal::run({}, samples)[5], samples[5].input) << "no filters";
+    const auto same = signal::compare_rates(chain, samples),
+               once_more = signal::compare_rates(chain, samples);
+    EXPECT_EQ(same.difference, once_more.difference);
+    EXPECT_EQ(same.runs[4].time, once_more.runs[4].time);
+}
+
+TEST(SignalRates, JitteredFramesLastAsSaid) {
+    const std::vector<double> even = signal::frame_times({60.0}, 1.0, 3.0);
+    ASSERT_EQ(even.size(), 121u);
+    EXPECT_EQ(even.front(), 1.0);
+    EXPECT_NEAR(even.back(), 3.0, 1e-9);
+    const std::vector<double> jittered = signal::frame_times({60.0, true}, 0.0, 100.0);
+    EXPECT_NEAR(static_cast<double>(jittered.size()), 6000.0, 100.0);
+    for (std::size_t i = 1; i < jittered.size(); ++i) {
+        EXPECT_GE((jittered[i] - jittered[i - 1]) * 60.0, 0.399);
+        EXPECT_LE((jittered[i] - jittered[i - 1]) * 60.0, 1.601);
+    }
+    EXPECT_EQ(signal::frame_times({not_a_number}, 0.0, 1.0).size(), 61u);
+    EXPECT_EQ(signal::frame_times({60.0}, 0.0, 1e9).size(), 1'000'000u) << "no more than that";
+}
+
+TEST(SignalRates, BadRowsAreLeftOut) {
+    const Filter spring = filter_of("spring");
+    std::vector<Sample> good = sampled([](double t) { return std::cos(3.0 * t); }, 2.0, 60.0), bad = good;
+    bad.insert(bad.begin() + 30,
+               {{0.0, 5.0}, {-1.0, not_a_number}, {not_a_number, 7.0}, {0.0, good[29].input}});
+    EXPECT_EQ(signal::compare_rates({&spring, 1}, good).runs[2].output,
+              signal::compare_rates({&spring, 1}, bad).runs[2].output);
+    EXPECT_EQ(signal::run({&spring, 1}, good).back(), signal::run({&spring, 1}, bad).back());
+    const std::vector<Sample> none(20, {0.1, not_a_number});
+    EXPECT_TRUE(signal::compare_rates({&spring, 1}, none).runs.empty());
+}
+
+}  // namespace
+}  // namespace tendril::test
