@@ -15,7 +15,8 @@ int main(int count, char** arguments) {
     const Session sessions[] = {{"chains", session_hash(), golden_session_hash},
                                 {"solves", solve_hash(), golden_solve_hash},
                                 {"ropes", rope_hash(), golden_rope_hash},
-                                {"rigs", rig_hash(), golden_rig_hash}};
+                                {"rigs", rig_hash(), golden_rig_hash},
+                                {"signals", signal_hash(), golden_signal_hash}};
     const bool check = count > 1 && std::string_view(arguments[1]) == "--check";
     int different = 0;
     for (const auto& [name, hash, golden] : sessions) {

@@ -35,4 +35,11 @@ inline constexpr std::uint64_t golden_rig_hash = 0xc84f9bf9b2704519u;
 /// read in between.
 std::uint64_t rig_hash();
 
+/// The same for filters: what `signal_hash` gives.
+inline constexpr std::uint64_t golden_signal_hash = 0x67182508e5333bd4u;
+
+/// Runs every kind of filter with many parameters, springs of vectors, of rotations and by the batch, and
+/// hashes the bits of every output and measure.
+std::uint64_t signal_hash();
+
 }  // namespace tendril::test

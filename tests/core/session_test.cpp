@@ -20,4 +20,8 @@ TEST(Session, RigsEndInTheSameBitsInEveryBuild) {
     EXPECT_EQ(rig_hash(), golden_rig_hash);
 }
 
+TEST(Session, SignalsEndInTheSameBitsInEveryBuild) {
+    EXPECT_EQ(signal_hash(), golden_signal_hash);
+}
+
 }  // namespace tendril::test

@@ -26,7 +26,7 @@ static inline double decay(double x) noexcept {
     const double k = (x * (1.0 / ln2) + detail::rounder) - detail::rounder;
     const double r = (x - k * ln2_high) - k * ln2_low;
     double sum = 1.0;
-    for (int n = 13; n > 0; --n) sum = 1.0 - r * sum * (1.0 / n);
+    for (int n = 13; n > 0; --n) sum = 1.0 - (r * (1.0 / n)) * sum;
     return sum * std::bit_cast<double>(static_cast<std::uint64_t>(1023 - static_cast<std::int64_t>(k)) << 52);
 }
 
@@ -40,8 +40,8 @@ static inline SineCosine sine_cosine(double turns) noexcept {
     const double r = 2.0 * pi * (turns - 0.25 * quarters), square = r * r;  // |r| <= pi / 4
     double sine = 1.0, cosine = 1.0;
     for (int n = 16; n > 0; n -= 2) {
-        cosine = 1.0 - square * cosine * (1.0 / (n * (n - 1)));
-        sine = 1.0 - square * sine * (1.0 / (n * (n + 1)));
+        cosine = 1.0 - (square * (1.0 / (n * (n - 1)))) * cosine;
+        sine = 1.0 - (square * (1.0 / (n * (n + 1)))) * sine;
     }
     sine *= r;
     switch (static_cast<std::int64_t>(quarters) & 3) {

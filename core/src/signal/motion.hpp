@@ -33,8 +33,8 @@ static inline Motion motion_of(double strength, double damping, double t) noexce
         // Hyperbolic cosine and sine by their power series: differences of exponentials would lose digits.
         double cosine = 1.0, sine = 1.0;
         for (int n = 14; n > 0; n -= 2) {
-            cosine = 1.0 + angle * angle * cosine * (1.0 / (n * (n - 1)));
-            sine = 1.0 + angle * angle * sine * (1.0 / (n * (n + 1)));
+            cosine = 1.0 + (angle * angle * (1.0 / (n * (n - 1)))) * cosine;
+            sine = 1.0 + (angle * angle * (1.0 / (n * (n + 1)))) * sine;
         }
         const double left = math::decay(damping * w * t);
         c = left * cosine;
