@@ -92,7 +92,7 @@ static inline dvec3 displacement(const dquat& from, const dquat& to) noexcept {
     const dquat q = compose(to, {from.w, -from.x, -from.y, -from.z});
     const dvec3 axis{q.x, q.y, q.z};
     const double sine = math::length(axis), cosine = std::abs(q.w);
-    const double scale = sine > 1e-12 ? 2.0 * std::atan2(sine, cosine) / sine : 2.0;
+    const double scale = sine > 1e-12 ? 2.0 * math::arctangent(sine, cosine) / sine : 2.0;
     return times(axis, q.w < 0.0 ? -scale : scale);
 }
 
