@@ -96,7 +96,9 @@ class Hierarchy {
 
     // Poses.
 
-    /// Works out what is pending and stores it. The reference is valid until the next call that is not const.
+    /// Works out what is pending and stores it. The reference is valid until something is added or removed,
+    /// and shows what it shows until the next write: other reads leave it as it is, and it may be passed to a
+    /// write.
     const Transform& get(ElementId element, Space space, Pose pose = Pose::Current) noexcept;
     /// Refused: a handle of nothing, a transform that checked() refuses. The rotation is made unit length.
     Result set(ElementId element, Space space, const Transform& transform,
