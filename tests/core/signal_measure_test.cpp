@@ -152,57 +152,91 @@ TEST(SignalMeasure, JitterIsWhatIsLeftOfSecondDifferences) {
     EXPECT_LT(*signal::measure({&smooth, 1}, noise).jitter, 0.1);
 }
 
-TEST(SignalRates, WhatIsExactIsTheSameAtEveryRate) {
-    const auto gentle = [](double t) { return std::sin(2.0 * t); };
-    const auto samples = sampled(gentle, 5.0, 240.0);
-    const auto difference = [&](const Filter& filter) {
-        return signal::compare_rates({&filter, 1}, samples).difference;
-    };
-    EXPECT_LT(difference(filter_of("curve")), 1e-12) << "no memory: the same input at the same time";
-    EXPECT_LT(difference(filter_of("dead_zone")), 1e-12);
-    const double exact = difference(filter_of("interp_to_exact", {{"speed", 10.0}}));
-    const double engine = difference(filter_of("interp_to", {{"speed", 10.0}}));
-    EXPECT_LT(exact, engine);
-    EXPECT_GT(difference(filter_of("spring_semi_implicit", {{"strength", 8.0}})), 1e3) << "it explodes";
-    const Filter spring = filter_of("spring", {{"strength", 8.0}});
-    const signal::RateComparison comparison = signal::compare_rates({&spring, 1}, samples);
-    EXPECT_LT(comparison.difference, 0.1);
-    ASSERT_EQ(comparison.runs.size(), 5u);
-    EXPECT_EQ(comparison.runs[0].time.size(), 76u);
-    EXPECT_EQ(comparison.runs[3].output.size(), comparison.runs[3].time.size());
-    EXPECT_TRUE(comparison.runs[4].rate.jittered);
+double difference_of(const Filter& filter, std::span<const Sample> samples) {
+    return signal::compare_rates({&filter, 1}, samples).difference;
+}
+
+TEST(SignalRates, TheDifferenceIsTheFiltersOwn) {
+    Random random(2);
+    std::vector<Sample> noise;
+    for (int i = 0; i < 300; ++i) noise.push_back({1.0 / 60.0, around(random, 2.0)});
+    const auto wave = sampled([](double t) { return std::sin(9.0 * t); }, 5.0, 60.0);
+    const auto square = sampled([](double t) { return std::fmod(t, 1.1) < 0.55 ? 0.0 : 1.0; }, 5.0, 60.0);
+    for (const std::vector<Sample>* samples :
+         std::initializer_list<const std::vector<Sample>*>{&noise, &wave, &square}) {
+        for (const char* exact : {"spring", "exponential_decay", "rate_limit", "moving_average", "dead_zone",
+                                  "hysteresis", "curve", "scale_bias_clamp"})
+            EXPECT_LT(difference_of(filter_of(exact), *samples), 1e-9) << exact;
+        // But for the last 1e-4 of the way, which interp_to_exact takes at once.
+        EXPECT_LT(difference_of(filter_of("interp_to_exact"), *samples), 2e-4);
+        for (const char* inexact : {"interp_to", "smooth_damp", "one_euro"})
+            EXPECT_GT(difference_of(filter_of(inexact), *samples), 5e-3) << inexact;
+        const Filter explodes = filter_of("spring_semi_implicit", {{"strength", 8.0}});
+        EXPECT_GT(difference_of(explodes, *samples), 1e3);
+    }
+}
+
+TEST(SignalRates, StepsGoAsThePageHasThem) {
+    // Half a second after a step at the start, at speed 10; 15 Hz has had seven steps, 7/15 s.
+    std::vector<Sample> step(60, {1.0 / 60.0, 1.0});
+    for (int i = 0; i < 4; ++i) step[static_cast<std::size_t>(i)].input = 0.0;
+    const Filter filter = filter_of("interp_to", {{"speed", 10.0}});
+    const double half = 4.0 / 60.0 + 0.5;
+    const double times[] = {4.0 / 60.0 + 7.0 / 15.0, half};
+    const auto outputs = signal::outputs_at({&filter, 1}, step, times);
+    ASSERT_EQ(outputs.size(), 5u);
+    EXPECT_NEAR(1.0 - outputs[0][0], 0.0005, 5e-5);
+    EXPECT_NEAR(1.0 - outputs[1][1], 0.0023, 5e-5);
+    EXPECT_NEAR(1.0 - outputs[2][1], 0.0042, 5e-5);
+    EXPECT_NEAR(1.0 - outputs[3][1], 0.0056, 1e-4) << "its frames are cut at those of 15 Hz";
 }
 
 TEST(SignalRates, AtItsOwnRateItIsThePlainRun) {
     const auto samples =
         sampled([](double t) { return std::sin(7.0 * t) + 0.2 * std::sin(31.0 * t); }, 3.0, 60.0);
     const Filter chain[] = {filter_of("one_euro"), filter_of("spring"), filter_of("moving_average")};
-    const std::vector<double> plain = signal::run(chain, samples), time = signal::times_of(samples);
-    const std::vector<double> again = signal::run_at(chain, samples, time, time);
+    const std::vector<double> plain = signal::run(chain, samples), times = signal::times_of(samples);
+    const signal::FrameRate own[] = {{60.0}};
+    const std::vector<double> again = signal::outputs_at(chain, samples, times, own)[0];
     ASSERT_EQ(plain.size(), again.size());
     for (std::size_t i = 0; i < plain.size(); ++i) EXPECT_NEAR(plain[i], again[i], 1e-9) << i;
     EXPECT_EQ(signal::run_stages(chain, samples).back(), plain);
-    EXPECT_EQ(signal::run(chain, samples), plain);
     EXPECT_EQ(signal::run({}, samples)[5], samples[5].input) << "no filters";
-    const auto same = signal::compare_rates(chain, samples),
-               once_more = signal::compare_rates(chain, samples);
-    EXPECT_EQ(same.difference, once_more.difference);
-    EXPECT_EQ(same.runs[4].time, once_more.runs[4].time);
+    const auto once = signal::compare_rates(chain, samples),
+               again_all = signal::compare_rates(chain, samples);
+    EXPECT_EQ(once.difference, again_all.difference);
+    EXPECT_EQ(once.runs[4].time, again_all.runs[4].time);
+    const std::vector<double> at[] = {{once.at}};
+    double low = 10.0, high = -10.0;
+    for (const auto& each : signal::outputs_at(chain, samples, at[0])) {
+        low = std::min(low, each[0]), high = std::max(high, each[0]);
+    }
+    EXPECT_NEAR(high - low, once.difference, 1e-12) << "outputs_at shows the same runs";
 }
 
-TEST(SignalRates, JitteredFramesLastAsSaid) {
-    const std::vector<double> even = signal::frame_times({60.0}, 1.0, 3.0);
-    ASSERT_EQ(even.size(), 121u);
-    EXPECT_EQ(even.front(), 1.0);
-    EXPECT_NEAR(even.back(), 3.0, 1e-9);
-    const std::vector<double> jittered = signal::frame_times({60.0, true}, 0.0, 100.0);
-    EXPECT_NEAR(static_cast<double>(jittered.size()), 6000.0, 100.0);
-    for (std::size_t i = 1; i < jittered.size(); ++i) {
-        EXPECT_GE((jittered[i] - jittered[i - 1]) * 60.0, 0.399);
-        EXPECT_LE((jittered[i] - jittered[i - 1]) * 60.0, 1.601);
+TEST(SignalRates, FramesLastAsSaid) {
+    const Filter filter = filter_of("curve");
+    const std::vector<Sample> samples(600, {1.0 / 60.0, 1.0});
+    const signal::RateComparison comparison = signal::compare_rates({&filter, 1}, samples);
+    ASSERT_EQ(comparison.runs.size(), 5u);
+    const std::size_t counts[] = {150, 300, 600, 1560};  // 144 Hz: 1440, and 120 cuts
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(comparison.runs[i].time.size(), counts[i]);
+    const signal::RateRun& jittered = comparison.runs[4];
+    EXPECT_TRUE(jittered.rate.jittered);
+    EXPECT_NEAR(static_cast<double>(jittered.time.size()), 750.0, 40.0) << "600, and 150 cuts";
+    for (std::size_t i = 1; i < jittered.time.size(); ++i)
+        EXPECT_LE((jittered.time[i] - jittered.time[i - 1]) * 60.0, 1.601);
+    for (const signal::RateRun& run : comparison.runs) {
+        EXPECT_EQ(run.time.size(), run.output.size());
+        EXPECT_NEAR(run.time.back(), 10.0, 1e-9);
+        for (std::size_t i = 1; i < run.time.size(); ++i) EXPECT_GT(run.time[i], run.time[i - 1] + 1e-10);
     }
-    EXPECT_EQ(signal::frame_times({not_a_number}, 0.0, 1.0).size(), 61u);
-    EXPECT_EQ(signal::frame_times({60.0}, 0.0, 1e9).size(), 1'000'000u) << "no more than that";
+    const std::vector<Sample> endless(3, {1e9, 1.0});
+    EXPECT_EQ(signal::compare_rates({&filter, 1}, endless).runs[2].time.size(), 1'000'000u);
+    const signal::FrameRate odd[] = {{not_a_number}, {-1.0}, {1e-9}, {1e300}};
+    for (const signal::RateRun& run : signal::compare_rates({&filter, 1}, samples, odd).runs)
+        EXPECT_EQ(run.time.size(), 600u) << "they count as 60";
+    EXPECT_TRUE(signal::compare_rates({&filter, 1}, samples, {}).runs.empty());
 }
 
 TEST(SignalRates, BadRowsAreLeftOut) {
@@ -215,6 +249,8 @@ TEST(SignalRates, BadRowsAreLeftOut) {
     EXPECT_EQ(signal::run({&spring, 1}, good).back(), signal::run({&spring, 1}, bad).back());
     const std::vector<Sample> none(20, {0.1, not_a_number});
     EXPECT_TRUE(signal::compare_rates({&spring, 1}, none).runs.empty());
+    const double time = 1.0;
+    EXPECT_EQ(signal::outputs_at({&spring, 1}, none, {&time, 1})[0][0], 0.0);
 }
 
 }  // namespace

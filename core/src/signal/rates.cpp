@@ -14,37 +14,46 @@ constexpr double same_time = 1e-9;  ///< seconds: times nearer than that are the
 
 constexpr FrameRate all_usual_rates[] = {{15.0}, {30.0}, {60.0}, {144.0}, {60.0, true}};
 
-/// The input as a function of time.
-class Polyline {
+double hz_of(const FrameRate& rate) {
+    return rate.hz >= 0.1 && rate.hz <= 1e4 ? rate.hz : 60.0;
+}
+
+/// The input as every rate sees it, held over the frames of the slowest.
+class HeldInput {
   public:
-    explicit Polyline(std::span<const Sample> samples) {
+    HeldInput(std::span<const Sample> samples, std::span<const FrameRate> rates) {
         const std::vector<double> times = times_of(samples);
         for (std::size_t i = 0; i < samples.size(); ++i) {
             if (!is_input(samples[i].input)) continue;
-            if (!points_.empty() && times[i] - points_.back().time < same_time) points_.pop_back();
-            points_.push_back({times[i], samples[i].input});
+            if (!rows_.empty() && times[i] - rows_.back().time < same_time) rows_.pop_back();
+            rows_.push_back({times[i], samples[i].input});
         }
+        for (const FrameRate& rate : rates) slowest_ = std::min(slowest_, hz_of(rate));
     }
-    bool empty() const { return points_.empty(); }
-    double begin() const { return points_.front().time; }
-    double end() const { return points_.back().time; }
-
-    /// Held beyond the ends. Quick where the times ascend.
-    double at(double time) {
-        if (time < points_[next_].time && next_ > 0 && time < points_[next_ - 1].time) next_ = 0;
-        while (next_ + 1 < points_.size() && points_[next_].time <= time) ++next_;
-        const Point& to = points_[next_];
-        if (next_ == 0 || time >= to.time) return to.value;
-        const Point& from = points_[next_ - 1];
-        return from.value + (to.value - from.value) * ((time - from.time) / (to.time - from.time));
+    bool empty() const { return rows_.empty(); }
+    double end() const { return rows_.back().time; }
+    /// Frames of the slowest rate are counted from 1.
+    double frame_end(std::size_t frame) const {
+        return std::min(static_cast<double>(frame) / slowest_, end());
+    }
+    /// The frame of the slowest rate that a time is in.
+    std::size_t frame_at(double time) const {
+        return static_cast<std::size_t>(std::max(std::ceil((time - same_time) * slowest_), 1.0));
+    }
+    /// A row's input counts from the row before it up to its own time.
+    double at(double time) const {
+        const double held = frame_end(frame_at(time)) - same_time;
+        const auto row = std::lower_bound(rows_.begin(), rows_.end(), held,
+                                          [](const Row& each, double value) { return each.time < value; });
+        return row == rows_.end() ? rows_.back().value : row->value;
     }
 
   private:
-    struct Point {
+    struct Row {
         double time, value;
     };
-    std::vector<Point> points_;
-    std::size_t next_ = 0;
+    std::vector<Row> rows_;
+    double slowest_ = 1e4;
 };
 
 /// SplitMix64 (Steele, Lea, Flood 2014), 0 to 1: the same frames everywhere.
@@ -61,19 +70,59 @@ class Unit {
     std::uint64_t state_ = 1;
 };
 
-/// The largest difference between any two of several outputs, and where.
-void find_difference(const std::vector<std::vector<double>>& outputs, std::span<const double> times,
-                     RateComparison& comparison) {
-    for (std::size_t i = 0; i < times.size(); ++i) {
-        double low = outputs.front()[i], high = low;
-        for (const std::vector<double>& output : outputs) {
-            low = std::min(low, output[i]);
-            high = std::max(high, output[i]);
+/// The ends of a rate's frames, cut at those of the slowest.
+std::vector<double> frame_ends(const FrameRate& rate, const HeldInput& input) {
+    const double hz = hz_of(rate), end = input.end();
+    std::vector<double> times;
+    Unit random;
+    double own = 0.0;  // the end of the rate's own frame, uncut
+    std::size_t whole = 0, slow = 1;
+    while (times.size() < max_frames && (times.empty() || times.back() < end - same_time)) {
+        const double now = times.empty() ? 0.0 : times.back();
+        while (own <= now + same_time) {
+            // Counted, not added up, where frames are even.
+            own = rate.jittered ? own + (0.4 + 1.2 * random.next()) / hz : static_cast<double>(++whole) / hz;
         }
-        if (high - low <= comparison.difference) continue;
-        comparison.difference = high - low;
-        comparison.at = times[i];
+        while (input.frame_end(slow) <= now + same_time && input.frame_end(slow) < end) ++slow;
+        const double cut = input.frame_end(slow);
+        times.push_back(own < cut - same_time ? own : cut);
     }
+    return times;
+}
+
+/// Filters that run frame by frame.
+class Runner {
+  public:
+    Runner(std::span<const Filter> filters, const HeldInput& input)
+        : filters_(filters), states_(filters.size()), input_(input) {}
+
+    double now() const { return now_; }
+    double output() const { return output_; }
+    void advance(double to) {
+        output_ = step(filters_, states_, input_.at(to), to - now_);
+        now_ = to;
+    }
+    /// What a frame that ended then would give; nothing has changed.
+    double ahead(double to) const {
+        std::vector<FilterState> copies = states_;
+        return step(filters_, copies, input_.at(to), to - now_);
+    }
+
+  private:
+    std::span<const Filter> filters_;
+    std::vector<FilterState> states_;
+    const HeldInput& input_;
+    double now_ = 0.0, output_ = 0.0;
+};
+
+RateRun run_of(std::span<const Filter> filters, const HeldInput& input, const FrameRate& rate) {
+    RateRun run{rate, frame_ends(rate, input), {}};
+    Runner runner(filters, input);
+    for (const double time : run.time) {
+        runner.advance(time);
+        run.output.push_back(runner.output());
+    }
+    return run;
 }
 
 }  // namespace
@@ -82,67 +131,51 @@ std::span<const FrameRate> usual_rates() noexcept {
     return all_usual_rates;
 }
 
-std::vector<double> frame_times(const FrameRate& rate, double begin, double end) {
-    const double hz = rate.hz >= 0.1 && rate.hz <= 1e5 ? rate.hz : 60.0;
-    std::vector<double> times;
-    Unit random;
-    for (double time = begin; time <= end + same_time && times.size() < max_frames;) {
-        times.push_back(time);
-        const double frames = static_cast<double>(times.size());
-        // Counted, not added up, where frames are even.
-        time = rate.jittered ? time + (0.4 + 1.2 * random.next()) / hz : begin + frames / hz;
-    }
-    return times;
-}
-
-std::vector<double> run_at(std::span<const Filter> filters, std::span<const Sample> samples,
-                           std::span<const double> frames, std::span<const double> times) {
-    Polyline input(samples);
-    if (input.empty() || frames.empty()) return std::vector<double>(times.size(), 0.0);
-    std::vector<FilterState> states(filters.size());
-    const double first = frames.size() > 1 ? frames[1] - frames[0] : min_dt;
-    double now = frames.front(), output = step(filters, states, input.at(now), first);
-    std::vector<double> outputs;
-    outputs.reserve(times.size());
-    std::size_t frame = 1;
-    for (const double time : times) {
-        for (; frame < frames.size() && frames[frame] <= time + same_time; ++frame) {
-            output = step(filters, states, input.at(frames[frame]), frames[frame] - now);
-            now = frames[frame];
-        }
-        if (time - now <= same_time) {
-            outputs.push_back(output);
-        } else {
-            std::vector<FilterState> ahead = states;
-            outputs.push_back(step(filters, ahead, input.at(time), time - now));
-        }
-    }
-    return outputs;
-}
-
 RateComparison compare_rates(std::span<const Filter> filters, std::span<const Sample> samples,
                              std::span<const FrameRate> rates) {
     RateComparison comparison;
-    const Polyline input(samples);
-    if (input.empty() || rates.empty()) return comparison;
-    for (const FrameRate& rate : rates) {
-        RateRun run{rate, frame_times(rate, input.begin(), input.end()), {}};
-        run.output = run_at(filters, samples, run.time, run.time);
-        comparison.runs.push_back(std::move(run));
+    const HeldInput input(samples, rates);
+    if (input.empty()) return comparison;
+    for (const FrameRate& rate : rates) comparison.runs.push_back(run_of(filters, input, rate));
+
+    // The frames of the slowest end in frames of all others.
+    std::vector<std::size_t> at(rates.size(), 0);
+    for (std::size_t slow = 1; !rates.empty(); ++slow) {
+        const double time = input.frame_end(slow);
+        double low = max_output, high = -max_output;
+        for (std::size_t i = 0; i < rates.size(); ++i) {
+            const RateRun& run = comparison.runs[i];
+            while (at[i] < run.time.size() && run.time[at[i]] < time) ++at[i];
+            if (at[i] == run.time.size()) return comparison;
+            low = std::min(low, run.output[at[i]]);
+            high = std::max(high, run.output[at[i]]);
+        }
+        if (high - low > comparison.difference) {
+            comparison.difference = high - low;
+            comparison.at = time;
+        }
+        if (time >= input.end()) break;
     }
-    // Within the frames that all of them have.
-    const RateRun* slowest = &comparison.runs.front();
-    double last = input.end();
-    for (const RateRun& run : comparison.runs) {
-        if (run.time.size() < slowest->time.size()) slowest = &run;
-        if (run.time.size() == max_frames) last = std::min(last, run.time.back());
-    }
-    std::vector<double> times = slowest->time;
-    while (!times.empty() && times.back() > last + same_time) times.pop_back();
-    std::vector<std::vector<double>> outputs;
-    for (const RateRun& run : comparison.runs) outputs.push_back(run_at(filters, samples, run.time, times));
-    find_difference(outputs, times, comparison);
     return comparison;
+}
+
+std::vector<std::vector<double>> outputs_at(std::span<const Filter> filters, std::span<const Sample> samples,
+                                            std::span<const double> times, std::span<const FrameRate> rates) {
+    const HeldInput input(samples, rates);
+    std::vector<std::vector<double>> outputs(rates.size(), std::vector<double>(times.size(), 0.0));
+    if (input.empty()) return outputs;
+    for (std::size_t i = 0; i < rates.size(); ++i) {
+        const std::vector<double> frames = frame_ends(rates[i], input);
+        Runner runner(filters, input);
+        std::size_t frame = 0;
+        for (std::size_t k = 0; k < times.size(); ++k) {
+            while (frame < frames.size() && frames[frame] <= times[k] + same_time)
+                runner.advance(frames[frame++]);
+            const bool between = times[k] > runner.now() + same_time;
+            outputs[i][k] = between ? runner.ahead(times[k]) : runner.output();
+        }
+    }
+    return outputs;
 }
 
 }  // namespace tendril::signal

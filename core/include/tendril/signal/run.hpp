@@ -33,37 +33,37 @@ std::vector<double> times_of(std::span<const Sample> samples);
 
 /// A steady frame rate, or one that varies: the same at every run.
 struct FrameRate {
-    double hz = 60.0;       ///< 0.1 to 1e5; others count as 60
+    double hz = 60.0;       ///< 0.1 to 1e4; others count as 60
     bool jittered = false;  ///< frames last from 0.4 to 1.6 times 1 / hz, pseudo-random
     bool operator==(const FrameRate&) const = default;
 };
 /// 15, 30, 60, 144 Hz, and 60 Hz jittered.
 std::span<const FrameRate> usual_rates() noexcept;
 
-/// When frames begin: from `begin` on, up to `end`. At most 1e6 of them.
-std::vector<double> frame_times(const FrameRate& rate, double begin, double end);
-
-/// Runs the filters on frames rather than on the input's own rows: at each of `frames` they are given what
-/// the input is at that time, straight between its samples. Returns the output at each of `times`, for which
-/// the filters take the rest of the way to that time from the frame before it, on copies of their states: so
-/// outputs of different frame rates can be compared at any time. Both lists ascend; times before the first
-/// frame count as that.
-std::vector<double> run_at(std::span<const Filter> filters, std::span<const Sample> samples,
-                           std::span<const double> frames, std::span<const double> times);
+// At other frame rates all see the same input, so that what differs is the filters' own: in every frame of
+// the slowest rate the input is what it is at the end of that frame, and the frames of the others are cut
+// where those end. Frames count from time 0, where the first sample's dt begins; no rate has more than 1e6.
 
 /// How the filters look at one frame rate.
 struct RateRun {
     FrameRate rate;
-    std::vector<double> time, output;  ///< of its own frames
+    std::vector<double> time, output;  ///< of its own frames, at their ends
 };
 struct RateComparison {
     std::vector<RateRun> runs;
-    /// The largest difference between any two of them at one time, looked for at the frames of the slowest.
-    /// 0 where there are not two samples.
+    /// The largest difference between any two of them at the end of a frame of the slowest, and when that is,
+    /// in seconds. 0 for filters that do not depend on the frame rate, but for rounding.
     double difference = 0.0;
-    double at = 0.0;  ///< where that is, seconds
+    double at = 0.0;
 };
+/// No runs where there is no sample.
 RateComparison compare_rates(std::span<const Filter> filters, std::span<const Sample> samples,
                              std::span<const FrameRate> rates = usual_rates());
+
+/// The outputs of the same runs at each of `times`, which ascend: one list for each rate. Between two frames
+/// it is what a frame that ended then would give.
+std::vector<std::vector<double>> outputs_at(std::span<const Filter> filters, std::span<const Sample> samples,
+                                            std::span<const double> times,
+                                            std::span<const FrameRate> rates = usual_rates());
 
 }  // namespace tendril::signal
