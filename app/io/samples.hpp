@@ -1,0 +1,32 @@
+// Samples of a signal in a CSV file: for the subcommand and the lab alike.
+//
+// A first row of names is optional. Without one, samples have exactly two columns, dt and input; with one,
+// the columns are found by name, and a column `time` may stand in for `dt`. Empty lines at the end do not
+// count; anything else that is not a finite number of at most 1e9 is refused, with its file, row and column.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <tendril/signal/run.hpp>
+#include <vector>
+
+namespace tendril::app {
+
+inline constexpr std::size_t most_samples = 1'000'000;
+
+/// `name` is the file's, for messages: "samples.csv: row 3, column 2 (input): expected a number, found "x"".
+/// Throws std::runtime_error. A file without a sample is refused too.
+std::vector<signal::Sample> parse_samples(std::string_view text, const std::string& name);
+std::vector<signal::Sample> read_samples(const std::filesystem::path& path);
+
+/// A response to `count` samples, one number a row: the column named output, response or value, or else the
+/// last one. So what `tendril signal` printed can be fitted to.
+std::vector<double> parse_response(std::string_view text, const std::string& name, std::size_t count);
+std::vector<double> read_response(const std::filesystem::path& path, std::size_t count);
+
+/// A number by the fewest digits that read back as this very double.
+std::string decimal(double value);
+
+}  // namespace tendril::app

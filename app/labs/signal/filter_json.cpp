@@ -1,0 +1,175 @@
+#include "app/labs/signal/filter_json.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "app/document/json_complete.hpp"
+#include "app/io/samples.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr std::size_t most_keys = 1000;
+
+[[noreturn]] void fail(const std::string& where, const std::string& what) {
+    throw std::runtime_error(where.empty() ? what : where + ": " + what);
+}
+
+std::string place(const std::string& where, std::string_view key) {
+    return where.empty() ? std::string(key) : where + "." + std::string(key);
+}
+
+/// A double as JSON shows it best: whole numbers without a point.
+Json plain(double value) {
+    if (value == std::trunc(value) && std::abs(value) < 1e15) return static_cast<std::int64_t>(value);
+    return value;
+}
+
+void read_parameter(signal::Filter& filter, const signal::Parameter& parameter, const Json& json,
+                    const std::string& where) {
+    if (parameter.type == signal::ParameterType::Flag) {
+        parameter.set(filter, json_bool(json, where) ? 1.0 : 0.0);
+        return;
+    }
+    const double value = json_real(json, where);
+    if (!(value >= parameter.minimum && value <= parameter.maximum)) {
+        fail(where, "expected " + decimal(parameter.minimum) + " to " + decimal(parameter.maximum) +
+                        ", found " + json_summary(json));
+    }
+    parameter.set(filter, value);
+}
+
+signal::Piece read_piece(const Json& json, const std::string& where) {
+    const std::string found = json_text(json, where);
+    for (const auto piece : {signal::Piece::Constant, signal::Piece::Linear, signal::Piece::Cubic})
+        if (found == signal::name(piece)) return piece;
+    fail(where, "expected constant, linear or cubic, found " + json_summary(json));
+}
+
+signal::CurveKey read_key(const Json& json, const std::string& where) {
+    signal::CurveKey key;
+    key.time = json_real(json_member(json, "time", where), where + ".time");
+    key.value = json_real(json_member(json, "value", where), where + ".value");
+    if (json.contains("arrive")) key.arrive = json_real(json["arrive"], where + ".arrive");
+    if (json.contains("leave")) key.leave = json_real(json["leave"], where + ".leave");
+    if (json.contains("piece")) key.piece = read_piece(json["piece"], where + ".piece");
+    return key;
+}
+
+std::vector<signal::CurveKey> read_keys(const Json& json, const std::string& where) {
+    if (!json.is_array() || json.empty() || json.size() > most_keys) {
+        fail(where,
+             "expected a list of 1 to " + std::to_string(most_keys) + " keys, found " + json_summary(json));
+    }
+    std::vector<signal::CurveKey> keys;
+    for (const Json& each : json) keys.push_back(read_key(each, where + "." + std::to_string(keys.size())));
+    return keys;
+}
+
+Json keys_json(const signal::Curve& curve) {
+    Json keys = Json::array();
+    for (const signal::CurveKey& key : curve.keys) {
+        Json json{{"time", plain(key.time)}, {"value", plain(key.value)}};
+        if (key.arrive != 0.0) json["arrive"] = plain(key.arrive);
+        if (key.leave != 0.0) json["leave"] = plain(key.leave);
+        json["piece"] = signal::name(key.piece);
+        keys.push_back(std::move(json));
+    }
+    return keys;
+}
+
+}  // namespace
+
+Json parameters_json(const signal::Filter& filter) {
+    Json json = Json::object();
+    if (const auto* curve = std::get_if<signal::Curve>(&filter)) json["keys"] = keys_json(*curve);
+    for (const signal::Parameter& parameter : signal::kind_of(filter).parameters) {
+        const std::string name(parameter.name);
+        const double value = parameter.get(filter);
+        if (parameter.element >= 0) {
+            json[name].push_back(plain(value));
+        } else if (parameter.type == signal::ParameterType::Flag) {
+            json[name] = value != 0.0;
+        } else {
+            json[name] = plain(value);
+        }
+    }
+    return json;
+}
+
+Json filter_json(const signal::Filter& filter) {
+    Json json{{"kind", signal::kind(filter)}};
+    json.update(parameters_json(filter));
+    return json;
+}
+
+void set_parameters(signal::Filter& filter, const Json& given, const std::string& where) {
+    signal::Filter changed = filter;
+    if (auto* curve = std::get_if<signal::Curve>(&changed); curve != nullptr && given.contains("keys"))
+        curve->keys = read_keys(given["keys"], place(where, "keys"));
+    for (const signal::Parameter& parameter : signal::kind_of(filter).parameters) {
+        const std::string name(parameter.name), here = place(where, name);
+        if (!given.contains(name)) continue;
+        const Json& json = given[name];
+        if (parameter.element < 0) {
+            read_parameter(changed, parameter, json, here);
+            continue;
+        }
+        if (!json.is_array() || json.size() != 2)
+            fail(here, "expected two numbers [low, high], found " + json_summary(json));
+        const auto element = static_cast<std::size_t>(parameter.element);
+        read_parameter(changed, parameter, json[element], here + "." + std::to_string(element));
+    }
+    if (const Result result = signal::check(changed); !result) fail(where, result.message());
+    filter = std::move(changed);
+}
+
+signal::Filter filter_from_json(const Json& json, const std::string& where) {
+    if (!json.is_object())
+        fail(where, "expected a filter, an object with its kind, found " + json_summary(json));
+    const std::string at = place(where, "kind");
+    const std::string name = json_text(json_member(json, "kind", where), at);
+    const signal::Kind* kind = signal::find_kind(name);
+    if (kind == nullptr)
+        fail(at, "expected one of " + kind_names() + ", found " + json_summary(json["kind"]));
+    signal::Filter filter = kind->blank();
+    set_parameters(filter, json, where);
+    return filter;
+}
+
+std::vector<signal::Filter> filters_from_json(const Json& json, const std::string& where, std::size_t most) {
+    if (!json.is_array()) return {filter_from_json(json, where)};
+    if (json.size() > most) {
+        fail(where, "has " + std::to_string(json.size()) + " filters; the most is " + std::to_string(most));
+    }
+    std::vector<signal::Filter> filters;
+    for (const Json& each : json)
+        filters.push_back(filter_from_json(each, place(where, std::to_string(filters.size()))));
+    return filters;
+}
+
+std::vector<std::string> parameter_names(const signal::Kind& kind) {
+    std::vector<std::string> names;
+    if (std::holds_alternative<signal::Curve>(kind.blank())) names.emplace_back("keys");
+    for (const signal::Parameter& parameter : kind.parameters)
+        if (parameter.element <= 0) names.emplace_back(parameter.name);
+    return names;
+}
+
+std::string kind_names() {
+    std::string names;
+    for (const signal::Kind& kind : signal::kinds())
+        names += (names.empty() ? "" : ", ") + std::string(kind.name);
+    return names;
+}
+
+std::string with_line(const std::string& text, const std::string& where, const std::string& error) {
+    std::string path = error.substr(0, error.find(": "));
+    if (!path.starts_with(where)) return error;
+    path.erase(0, std::min(path.size(), where.size() + 1));
+    const int line = path.empty() ? 1 : json_line(text, path);
+    return "line " + std::to_string(std::max(1, line)) + ": " + error;
+}
+
+}  // namespace tendril::app

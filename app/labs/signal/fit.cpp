@@ -1,0 +1,155 @@
+#include "app/labs/signal/fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "app/labs/signal/fit_linear.hpp"
+#include "app/labs/signal/fit_space.hpp"
+#include "app/labs/signal/search.hpp"
+#include "app/labs/signal/trial.hpp"
+
+namespace tendril::app {
+namespace {
+
+class KindFit {
+  public:
+    KindFit(const signal::Kind& kind, const FitProblem& problem)
+        : kind_(kind), trial_(problem), space_(fit_space(kind, FitFacts(problem))), filter_(kind.blank()) {}
+
+    Fit run(const signal::Filter* like) {
+        Search search{.dimensions = space_.size(), .enough = exact_residual};
+        for (std::size_t d = 0; d < space_.size(); ++d)
+            if (space_[d].stepped) search.stepped.push_back(d);
+        search.starts.push_back(place_of(kind_.blank()));
+        if (like != nullptr) search.starts.push_back(place_of(*like));
+        const Minimum found = minimise([this](std::span<const double> at) { return residual(at); }, search);
+        std::vector<double> at = found.at;
+        evaluations_ = found.evaluations;
+        for (const std::size_t d : search.stepped) centre(at, d);
+        signal::Filter filter = filter_at(at);
+        leave_defaults(filter);
+        return {filter, trial_.residual_of(filter), evaluations_};
+    }
+
+  private:
+    std::vector<double> place_of(signal::Filter filter) const {
+        if (auto* damp = std::get_if<signal::SmoothDamp>(&filter)) damp->max_speed *= damp->smooth_time;
+        std::vector<double> at;
+        for (const Dimension& each : space_) at.push_back(each.at(each.parameter->get(filter)));
+        return at;
+    }
+
+    void set(signal::Filter& filter, std::span<const double> at) const {
+        for (std::size_t d = 0; d < space_.size(); ++d)
+            space_[d].parameter->set(filter, space_[d].value(at[d]));
+        if (auto* switching = std::get_if<signal::Hysteresis>(&filter))
+            if (switching->low > switching->high) std::swap(switching->low, switching->high);
+        // What a largest speed does, it does by the distance max_speed * smooth_time: that is searched.
+        if (auto* damp = std::get_if<signal::SmoothDamp>(&filter))
+            damp->max_speed = std::min(damp->max_speed / std::max(damp->smooth_time, 1e-4), 1e9);
+    }
+
+    double residual(std::span<const double> at) {
+        set(filter_, at);
+        trial_.run(filter_);
+        return trial_.residual(shifts() ? trial_.best_shift() : 0.0);
+    }
+
+    /// A constant force on a spring shifts its output by force / w^2, all of it: how far follows from the
+    /// rest.
+    bool shifts() const { return std::holds_alternative<signal::Spring<>>(filter_); }
+
+    signal::Filter filter_at(std::span<const double> at) {
+        signal::Filter filter = kind_.blank();
+        set(filter, at);
+        if (auto* spring = std::get_if<signal::Spring<>>(&filter)) {
+            trial_.run(filter);
+            const double w = 2.0 * std::numbers::pi * spring->strength, most = max_magnitude;
+            spring->force = std::clamp(trial_.best_shift() * w * w, -most, most);
+        }
+        return filter;
+    }
+
+    /// Where a threshold does as well anywhere between two of the input's values: in the middle of that.
+    void centre(std::vector<double>& at, std::size_t d) {
+        const double enough = residual(at) * (1.0 + 1e-9) + 1e-12;
+        const auto edge = [&](double outside) {
+            double inside = at[d];
+            for (int i = 0; i < 24; ++i) {
+                std::vector<double> tried = at;
+                tried[d] = i == 0 ? outside : 0.5 * (inside + outside);
+                const bool fine = residual(tried) <= enough;
+                ++evaluations_;
+                if (fine && i == 0) return outside;
+                (fine ? inside : outside) = tried[d];
+            }
+            return inside;
+        };
+        const double low = edge(0.0), high = edge(1.0);
+        const Dimension& dimension = space_[d];
+        at[d] = dimension.at(0.5 * (dimension.value(low) + dimension.value(high)));
+    }
+
+    /// What the input says nothing about stays as it was.
+    void leave_defaults(signal::Filter& filter) {
+        const signal::Filter blank = kind_.blank();
+        for (const signal::Parameter& parameter : kind_.parameters) {
+            signal::Filter plain = filter;
+            parameter.set(plain, parameter.get(blank));
+            if (!signal::check(plain)) continue;
+            const double now = trial_.residual_of(filter), then = trial_.residual_of(plain);
+            evaluations_ += 2;
+            if (then <= now * (1.0 + 1e-4) + exact_residual) filter = std::move(plain);
+        }
+    }
+
+    const signal::Kind& kind_;
+    Trial trial_;
+    std::vector<Dimension> space_;
+    signal::Filter filter_;
+    int evaluations_ = 0;
+};
+
+/// Parameters that are not at their defaults: what a person has to set. A curve's keys have two numbers each.
+std::size_t parameters_set(const signal::Filter& filter) {
+    const signal::Kind& kind = signal::kind_of(filter);
+    const signal::Filter blank = kind.blank();
+    std::size_t count = 0;
+    for (const signal::Parameter& parameter : kind.parameters)
+        count += parameter.get(filter) != parameter.get(blank);
+    if (const auto* curve = std::get_if<signal::Curve>(&filter)) count += 2 * curve->keys.size();
+    return count;
+}
+
+}  // namespace
+
+double range_of(std::span<const double> values) {
+    if (values.empty()) return 1.0;
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    return *high > *low ? *high - *low : 1.0;
+}
+
+double residual_of(const signal::Filter& filter, const FitProblem& problem) {
+    return Trial(problem).residual_of(filter);
+}
+
+Fit fit_kind(const signal::Kind& kind, const FitProblem& problem, const signal::Filter* like) {
+    if (like != nullptr && &signal::kind_of(*like) != &kind) like = nullptr;
+    const signal::Filter blank = kind.blank();
+    if (std::holds_alternative<signal::Curve>(blank)) return fit_curve(problem);
+    if (std::holds_alternative<signal::ScaleBiasClamp>(blank)) return fit_scale_bias_clamp(problem);
+    return KindFit(kind, problem).run(like);
+}
+
+void rank(std::vector<Fit>& fits) {
+    std::stable_sort(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) {
+        const double left = std::max(a.residual, indistinguishable);
+        const double right = std::max(b.residual, indistinguishable);
+        if (left != right) return left < right;
+        return parameters_set(a.filter) < parameters_set(b.filter);
+    });
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,44 @@
+// Finds the parameters with which a filter answers an input as one wants it to: drawn, recorded, or measured
+// somewhere else. So one can see which filter of the shelf to take, and with which numbers.
+//
+// Deterministic: the same rows give the same answer at every run, on the same build. Bounded by evaluations,
+// never by time: some hundred runs of a filter over the rows where it has one parameter, ten thousand where
+// it has six.
+#pragma once
+
+#include <span>
+#include <tendril/signal/filter.hpp>
+#include <tendril/signal/run.hpp>
+#include <vector>
+
+namespace tendril::app {
+
+/// Rows of an input, and what should come of it.
+struct FitProblem {
+    std::span<const signal::Sample> samples;
+    std::span<const double> response;  ///< one for each sample
+};
+
+struct Fit {
+    signal::Filter filter;
+    /// What is left: the root mean square of the differences, as a part of the response's range.
+    double residual = 0.0;
+    int evaluations = 0;
+};
+
+/// The best of a kind, beginning from `like` too where that is of the kind. A parameter that this input says
+/// nothing about is left at its default; where a range of a threshold does equally well, it is the middle.
+Fit fit_kind(const signal::Kind& kind, const FitProblem& problem, const signal::Filter* like = nullptr);
+
+/// Every kind's, the best first: by what is left, where residuals of up to `indistinguishable` count as equal
+/// and the filter with fewer parameters comes first.
+inline constexpr double indistinguishable = 1e-6;
+void rank(std::vector<Fit>& fits);
+
+/// Of a filter as it is.
+double residual_of(const signal::Filter& filter, const FitProblem& problem);
+
+/// The range of a response; 1 where it does not change.
+double range_of(std::span<const double> values);
+
+}  // namespace tendril::app

@@ -1,0 +1,177 @@
+#include "app/labs/signal/fit_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace tendril::app {
+namespace {
+
+using Scale = Dimension::Scale;
+
+/// From something to something, each a factor of one of the facts.
+struct Bound {
+    double (*of)(const FitFacts&);
+    double factor;
+    double in(const FitFacts& facts) const { return factor * of(facts); }
+};
+
+double nothing(const FitFacts&) {
+    return 1.0;
+}
+double per_duration(const FitFacts& facts) {
+    return 1.0 / facts.duration;
+}
+double per_shortest(const FitFacts& facts) {
+    return 1.0 / facts.shortest;
+}
+double shortest(const FitFacts& facts) {
+    return facts.shortest;
+}
+double duration(const FitFacts& facts) {
+    return facts.duration;
+}
+double span(const FitFacts& facts) {
+    return facts.span();
+}
+double span_per_duration(const FitFacts& facts) {
+    return facts.span() / facts.duration;
+}
+double span_per_shortest(const FitFacts& facts) {
+    return facts.span() / facts.shortest;
+}
+double farthest(const FitFacts& facts) {
+    return std::max({std::abs(facts.input_low), std::abs(facts.input_high), 1e-9});
+}
+double input_low(const FitFacts& facts) {
+    return facts.input_low;
+}
+double input_high(const FitFacts& facts) {
+    return facts.input_high;
+}
+double jump(const FitFacts& facts) {
+    return std::max(facts.largest_jump, 1e-9);
+}
+double per_speed(const FitFacts& facts) {
+    return 1.0 / std::max(facts.speed, 1e-9);
+}
+
+struct Row {
+    std::string_view kind;
+    const char* parameter;
+    Bound low, high;
+    Scale scale;
+    bool stepped = false;
+};
+
+const Row rows[] = {
+    {"interp_to", "speed", {per_duration, 0.02}, {per_shortest, 1.2}, Scale::Ratio},
+    {"interp_to_exact", "speed", {per_duration, 0.02}, {per_shortest, 20.0}, Scale::Ratio},
+    {"exponential_decay", "halflife", {shortest, 0.05}, {duration, 5.0}, Scale::Ratio},
+    {"rate_limit", "rise", {span_per_duration, 1e-3}, {span_per_shortest, 2.0}, Scale::Ratio},
+    {"rate_limit", "fall", {span_per_duration, 1e-3}, {span_per_shortest, 2.0}, Scale::Ratio},
+    {"smooth_damp", "smooth_time", {shortest, 0.25}, {duration, 2.0}, Scale::Ratio},
+    {"smooth_damp", "max_speed", {span, 0.02}, {span, 2.0}, Scale::Ratio},  // times smooth_time: see fit.cpp
+    {"spring_semi_implicit", "strength", {per_duration, 0.05}, {per_shortest, 0.5}, Scale::Ratio},
+    {"spring_semi_implicit", "critical_damping", {nothing, 0.0}, {nothing, 4.0}, Scale::Cube},
+    {"spring", "strength", {per_duration, 0.05}, {per_shortest, 2.0}, Scale::Ratio},
+    {"spring", "critical_damping", {nothing, 0.0}, {nothing, 8.0}, Scale::Cube},
+    {"spring", "target_velocity_amount", {nothing, 0.0}, {nothing, 1.0}, Scale::Even},
+    {"one_euro", "min_cutoff", {per_duration, 0.02}, {per_shortest, 10.0}, Scale::Ratio},
+    {"one_euro", "beta", {nothing, 0.0}, {per_speed, 100.0}, Scale::Cube},
+    {"one_euro", "derivative_cutoff", {per_duration, 0.02}, {per_shortest, 10.0}, Scale::Ratio},
+    {"moving_average", "window", {shortest, 1.0}, {duration, 2.0}, Scale::Ratio},
+    {"dead_zone", "width", {nothing, 0.0}, {farthest, 1.0}, Scale::Even},
+    {"hysteresis", "low", {input_low, 1.0}, {input_high, 1.0}, Scale::Even, true},
+    {"hysteresis", "high", {input_low, 1.0}, {input_high, 1.0}, Scale::Even, true},
+    {"inertialize", "halflife", {shortest, 0.25}, {duration, 1.0}, Scale::Ratio},
+    {"inertialize", "threshold", {nothing, 0.0}, {jump, 1.01}, Scale::Cube, true},
+};
+
+}  // namespace
+
+FitFacts::FitFacts(const FitProblem& problem) {
+    const auto& samples = problem.samples;
+    if (samples.empty() || problem.response.size() != samples.size()) return;
+    const auto [low, high] = std::minmax_element(problem.response.begin(), problem.response.end());
+    response_low = *low, response_high = *high;
+    input_low = input_high = samples.front().input;
+    duration = largest_jump = 0.0;
+    shortest = 1e9;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        input_low = std::min(input_low, samples[i].input);
+        input_high = std::max(input_high, samples[i].input);
+        const double dt = samples[i].dt;
+        if (!(dt > 0.0)) continue;
+        duration += dt;
+        shortest = std::min(shortest, dt);
+        if (i == 0) continue;
+        const double step = samples[i].input - samples[i - 1].input;
+        largest_jump = std::max(largest_jump, std::abs(step));
+        squares += step / dt * (step / dt);
+    }
+    if (duration <= 0.0) shortest = duration = 1.0 / 60.0;
+    speed = std::sqrt(squares / static_cast<double>(samples.size()));
+}
+
+double FitFacts::span() const {
+    return std::max({input_range(), response_range(), 1e-9});
+}
+
+double Dimension::value(double at) const {
+    const double share = std::clamp(at, 0.0, 1.0);
+    switch (scale) {
+        case Scale::Even:
+            return low + share * (high - low);
+        case Scale::Ratio:
+            return low * std::pow(high / low, share);
+        case Scale::Cube:
+            return low + share * share * share * (high - low);
+    }
+    return low;
+}
+
+double Dimension::at(double value) const {
+    if (!(high > low)) return 0.0;
+    double share = 0.0;
+    switch (scale) {
+        case Scale::Even:
+            share = (value - low) / (high - low);
+            break;
+        case Scale::Ratio:
+            share = std::log(std::max(value, low) / low) / std::log(high / low);
+            break;
+        case Scale::Cube:
+            share = std::cbrt((value - low) / (high - low));
+            break;
+    }
+    return std::clamp(share, 0.0, 1.0);
+}
+
+Dimension dimension(const signal::Kind& kind, const char* parameter, double low, double high, Scale scale,
+                    bool stepped) {
+    for (const signal::Parameter& each : kind.parameters) {
+        if (each.name != parameter) continue;
+        // Within what the filter takes; a range by ratio keeps clear of 0.
+        const double from = std::clamp(low, each.minimum, each.maximum);
+        const double to = std::clamp(high, each.minimum, each.maximum);
+        const double lowest = scale == Scale::Ratio ? std::max(from, 1e-12) : from;
+        return {&each, lowest, std::max(to, scale == Scale::Ratio ? 2.0 * lowest : lowest), scale, stepped};
+    }
+    throw std::logic_error(std::string(kind.name) + " has no parameter " + parameter);
+}
+
+std::vector<Dimension> fit_space(const signal::Kind& kind, const FitFacts& facts) {
+    std::vector<Dimension> space;
+    for (const Row& row : rows) {
+        if (row.kind != kind.name) continue;
+        space.push_back(
+            dimension(kind, row.parameter, row.low.in(facts), row.high.in(facts), row.scale, row.stepped));
+    }
+    return space;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,169 @@
+#include "app/labs/signal/search.hpp"
+
+#include <nlopt.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tendril::app {
+namespace {
+
+using Point = std::vector<double>;
+
+constexpr double very_large = 1e60;
+
+/// The digits of `number` in base `base`, mirrored at the point: with a prime base for each dimension, the
+/// points of Halton (1960).
+double radical_inverse(unsigned number, unsigned base) {
+    double digit = 1.0, result = 0.0;
+    for (; number > 0; number /= base) {
+        digit /= base;
+        result += digit * (number % base);
+    }
+    return result;
+}
+
+class Minimiser {
+  public:
+    Minimiser(const Objective& objective, const Search& search) : objective_(objective), search_(search) {
+        best_.value = very_large;
+        best_.at.assign(search.dimensions, 0.5);
+    }
+
+    Minimum run() {
+        std::vector<Candidate> candidates = spread();
+        const std::size_t tops = std::min<std::size_t>(candidates.size(), dimensions() == 1 ? 3 : 8);
+        for (std::size_t i = 0; i < tops && !enough(); ++i) {
+            Point at = candidates[i].at;
+            if (!search_.stepped.empty()) at = scan(at);
+            improve(NLOPT_LN_SBPLX, at, first_step(), 60);
+        }
+        for (int round = 0; round < rounds && !enough(); ++round) {
+            for (const std::size_t d : search_.stepped) neighbours(d);
+            improve(NLOPT_LN_SBPLX, best_.at, 0.03, 250);
+            if (!enough()) improve(NLOPT_LN_NELDERMEAD, best_.at, 0.003, 250);
+        }
+        return std::move(best_);
+    }
+
+  private:
+    struct Candidate {
+        double value;
+        Point at;
+    };
+    static constexpr int rounds = 2;
+
+    std::size_t dimensions() const { return search_.dimensions; }
+    bool enough() const { return best_.value <= search_.enough; }
+    /// Of the points, and so the size of the neighbourhood that is looked into first.
+    std::size_t point_count() const {
+        return dimensions() == 1 ? 48 : std::max<std::size_t>(48 * dimensions() + 48, 288);
+    }
+    double first_step() const { return dimensions() == 1 ? 1.0 / 48.0 : 0.08; }
+
+    double value(std::span<const double> at) {
+        const double found = objective_(at);
+        const double result = std::isfinite(found) ? std::min(found, very_large) : very_large;
+        ++best_.evaluations;
+        if (result < best_.value) {
+            best_.value = result;
+            best_.at.assign(at.begin(), at.end());
+        }
+        return result;
+    }
+
+    /// Spread evenly, the best first.
+    std::vector<Candidate> spread() {
+        static constexpr std::array<unsigned, 8> primes{2, 3, 5, 7, 11, 13, 17, 19};
+        std::vector<Candidate> candidates;
+        const auto add = [&](Point at) { candidates.push_back({value(at), std::move(at)}); };
+        for (const Point& start : search_.starts) add(start);
+        const std::size_t count = point_count();
+        for (std::size_t i = 1; i <= count; ++i) {
+            Point at(dimensions());
+            for (std::size_t d = 0; d < at.size(); ++d)
+                at[d] = at.size() == 1 ? (static_cast<double>(i) - 0.5) / static_cast<double>(count)
+                                       : radical_inverse(static_cast<unsigned>(i), primes[d % primes.size()]);
+            add(std::move(at));
+        }
+        std::stable_sort(candidates.begin(), candidates.end(),
+                         [](const Candidate& a, const Candidate& b) { return a.value < b.value; });
+        return candidates;
+    }
+
+    /// The best of evenly spaced values in each stepped dimension in turn, then of finer ones around it.
+    Point scan(Point at) {
+        constexpr int cells = 48;
+        double here = value(at);
+        for (const double reach : {1.0, 1.0, 1.0 / cells}) {
+            for (const std::size_t d : search_.stepped) {
+                const double low = reach == 1.0 ? 0.0 : at[d] - reach;
+                const double high = reach == 1.0 ? 1.0 : at[d] + reach;
+                double best = at[d];
+                for (int i = 0; i <= cells; ++i) {
+                    Point tried = at;
+                    tried[d] = std::clamp(low + (high - low) * i / cells, 0.0, 1.0);
+                    const double there = value(tried);
+                    if (there < here) here = there, best = tried[d];
+                }
+                at[d] = best;
+            }
+        }
+        return at;
+    }
+
+    /// Another threshold may do better once the rest has followed it: the best few others are improved in
+    /// turn.
+    void neighbours(std::size_t d) {
+        constexpr int cells = 192;
+        std::vector<Candidate> levels;
+        for (int i = 0; i <= cells; ++i) {
+            Point at = best_.at;
+            at[d] = static_cast<double>(i) / cells;
+            const double there = value(at);
+            if (levels.empty() || levels.back().value != there) levels.push_back({there, std::move(at)});
+        }
+        std::stable_sort(levels.begin(), levels.end(),
+                         [](const Candidate& a, const Candidate& b) { return a.value < b.value; });
+        if (levels.size() > 6) levels.resize(6);
+        for (const Candidate& level : levels)
+            if (!enough()) improve(NLOPT_LN_SBPLX, level.at, 0.03, 60);
+    }
+
+    void improve(nlopt_algorithm algorithm, Point at, double step, std::size_t evaluations_each) {
+        const auto n = static_cast<unsigned>(dimensions());
+        nlopt_opt optimiser = nlopt_create(algorithm, n);
+        if (optimiser == nullptr) return;
+        const auto call = [](unsigned count, const double* x, double*, void* self) {
+            return static_cast<Minimiser*>(self)->value({x, count});
+        };
+        nlopt_set_min_objective(optimiser, call, this);
+        nlopt_set_lower_bounds1(optimiser, 0.0);
+        nlopt_set_upper_bounds1(optimiser, 1.0);
+        nlopt_set_maxeval(optimiser, static_cast<int>(evaluations_each * dimensions()));
+        nlopt_set_initial_step1(optimiser, step);
+        nlopt_set_xtol_rel(optimiser, 1e-10);
+        nlopt_set_stopval(optimiser, search_.enough);
+        double last = 0.0;
+        // Whatever it ends with, the best of all evaluations is known.
+        static_cast<void>(nlopt_optimize(optimiser, at.data(), &last));
+        nlopt_destroy(optimiser);
+    }
+
+    const Objective& objective_;
+    const Search& search_;
+    Minimum best_;
+};
+
+}  // namespace
+
+Minimum minimise(const Objective& objective, const Search& search) {
+    if (search.dimensions == 0) {
+        const double value = objective({});
+        return {{}, std::isfinite(value) ? value : very_large, 1};
+    }
+    return Minimiser(objective, search).run();
+}
+
+}  // namespace tendril::app

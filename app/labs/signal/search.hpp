@@ -1,0 +1,33 @@
+// Looks for the minimum of a function of a few numbers, each from 0 to 1: points spread evenly over the whole
+// range, the best of them improved by NLopt's local methods (Sbplx, Nelder-Mead). The same at every run: no
+// random numbers, no clock, as many evaluations as the number of dimensions says.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace tendril::app {
+
+using Objective = std::function<double(std::span<const double>)>;
+
+struct Search {
+    std::size_t dimensions = 1;
+    /// Dimensions in which the function is made of level steps, as of a threshold: no local method sees them.
+    std::vector<std::size_t> stepped{};
+    /// Points to try beside those spread evenly.
+    std::vector<std::vector<double>> starts{};
+    double enough = 0.0;  ///< ends at a value that is no larger
+};
+
+struct Minimum {
+    std::vector<double> at;
+    double value = 0.0;
+    int evaluations = 0;
+};
+
+/// Cost: some 200 evaluations in one dimension to 10 000 in six. Values that are not finite count as very
+/// large.
+Minimum minimise(const Objective& objective, const Search& search);
+
+}  // namespace tendril::app

@@ -1,0 +1,222 @@
+// Fitting filters to responses: curves that each kind of filter made are met, by the numbers that made them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "app/labs/signal/fit.hpp"
+#include "tests/core/random.hpp"
+
+namespace tendril::app {
+namespace {
+
+using Samples = std::vector<signal::Sample>;
+
+double between(test::Random& random, double low, double high) {
+    return low + (high - low) * (0.5 + 0.5 * static_cast<double>(random.around(1.0f)));
+}
+
+/// Jumps of several heights, stretches at rest, ramps, a sweep and some noise: every kind of filter has
+/// something to do. Uneven frames where `uneven`.
+Samples rich_input(std::size_t rows, unsigned seed, bool uneven) {
+    test::Random random(seed);
+    Samples samples;
+    double level = 0.0, time = 0.0;
+    for (std::size_t i = 0; i < rows; ++i) {
+        const double dt = (uneven && i % 3 == 0   ? 1.0 / 30.0
+                           : uneven && i % 3 == 1 ? 1.0 / 144.0
+                                                  : 1.0 / 60.0);
+        time += dt;
+        if (i % 24 == 12) level = between(random, -1.0, 1.0);
+        const double share = static_cast<double>(i) / static_cast<double>(rows);
+        const double sweep = std::sin(time * (2.0 + 8.0 * share));
+        const double noise = between(random, -0.02, 0.02);
+        samples.push_back({dt, share < 0.4   ? level
+                               : share < 0.8 ? sweep
+                                             : 0.5 * level + 0.5 * sweep + noise});
+    }
+    return samples;
+}
+
+/// A filter as people set them, of a kind.
+signal::Filter some_filter(const signal::Kind& kind, test::Random& random) {
+    const auto pick = [&](double low, double high) { return between(random, low, high); };
+    signal::Filter filter = kind.blank();
+    const auto set = [&](const char* name, double low, double high) {
+        for (const signal::Parameter& parameter : kind.parameters)
+            if (parameter.name == name) parameter.set(filter, pick(low, high));
+    };
+    set("speed", 2.0, 20.0);
+    set("halflife", 0.05, 0.3);
+    set("rise", 1.0, 6.0);
+    set("fall", 1.0, 6.0);
+    set("smooth_time", 0.08, 0.5);
+    set("max_speed", 3.0, 6.0);
+    set("strength", 0.8, 2.5);
+    set("critical_damping", 0.2, 1.5);
+    set("force", -5.0, 5.0);
+    set("target_velocity_amount", 0.2, 0.9);
+    set("min_cutoff", 0.6, 3.0);
+    set("beta", 0.05, 0.5);
+    set("derivative_cutoff", 0.8, 3.0);
+    set("window", 0.08, 0.4);
+    set("width", 0.1, 0.5);
+    set("threshold", 0.3, 0.7);
+    if (auto* hysteresis = std::get_if<signal::Hysteresis>(&filter)) {
+        hysteresis->low = pick(-0.6, -0.1);
+        hysteresis->high = pick(0.1, 0.6);
+    }
+    if (auto* scale = std::get_if<signal::ScaleBiasClamp>(&filter)) {
+        scale->scale = pick(0.8, 2.5);
+        scale->bias = pick(-0.5, 0.5);
+        scale->clamp = scale->interp = true;
+        scale->clamp_min = pick(-1.0, -0.7);
+        scale->clamp_max = pick(0.7, 1.0);
+        scale->speed_increasing = pick(3.0, 15.0);
+        scale->speed_decreasing = pick(3.0, 15.0);
+    }
+    if (auto* curve = std::get_if<signal::Curve>(&filter)) {
+        const double middle = pick(0.3, 0.7);
+        const double low = pick(-1.0, 0.0), high = pick(0.5, 1.5), last = pick(-0.5, 0.5);
+        curve->keys = {
+            {.time = 0.0, .value = low, .leave = 1.0, .piece = signal::Piece::Cubic},
+            {.time = middle, .value = high, .arrive = 2.0, .leave = -1.0, .piece = signal::Piece::Cubic},
+            {.time = 1.0, .value = last, .arrive = 0.5}};
+        curve->source_min = -1.2;
+        curve->source_max = 1.2;
+    }
+    return filter;
+}
+
+/// Whether the response says what the parameter is: it is another one where that is 2 % off.
+bool excited(const signal::Filter& truth, const signal::Parameter& parameter, const FitProblem& problem) {
+    double smallest = 1e9;
+    for (const double factor : {0.98, 1.02}) {
+        signal::Filter other = truth;
+        parameter.set(other, factor * parameter.get(truth));
+        if (signal::check(other)) smallest = std::min(smallest, residual_of(other, problem));
+    }
+    return smallest > 1e-4 && smallest < 1e9;
+}
+
+struct Case {
+    std::size_t kind;
+    bool uneven;
+};
+
+class FitOfAKind : public testing::TestWithParam<Case> {};
+
+TEST_P(FitOfAKind, MeetsTheResponseByTheParametersThatMadeIt) {
+    const signal::Kind& kind = signal::kinds()[GetParam().kind];
+    test::Random random(5);
+    for (unsigned draw = 0; draw < 3; ++draw) {
+        const Samples samples = rich_input(400, draw + 1, GetParam().uneven);
+        const signal::Filter truth = some_filter(kind, random);
+        const std::vector<double> response = signal::run({&truth, 1}, samples);
+        const FitProblem problem{samples, response};
+        const Fit fit = fit_kind(kind, problem);
+        EXPECT_LT(fit.residual, 1e-3) << kind.name << ", draw " << draw;
+        EXPECT_NEAR(residual_of(fit.filter, problem), fit.residual, 1e-12);
+        EXPECT_TRUE(signal::check(fit.filter));
+        EXPECT_EQ(fit_kind(kind, problem).filter, fit.filter) << "the same at every run";
+        // Of a curve the values count: its ranges and keys can say the same in many ways.
+        if (std::holds_alternative<signal::Curve>(truth)) continue;
+        int compared = 0;
+        for (const signal::Parameter& parameter : kind.parameters) {
+            if (!excited(truth, parameter, problem)) continue;
+            const double wanted = parameter.get(truth);
+            EXPECT_NEAR(parameter.get(fit.filter), wanted, 0.02 * std::abs(wanted))
+                << kind.name << " " << parameter.name << ", draw " << draw;
+            ++compared;
+        }
+        // Between two rows a switch's thresholds may be anywhere: they have a test of their own.
+        if (!std::holds_alternative<signal::Hysteresis>(truth)) {
+            EXPECT_GT(compared, 0) << kind.name << ": this input says nothing of it";
+        }
+    }
+}
+
+std::vector<Case> cases() {
+    std::vector<Case> all;
+    for (std::size_t i = 0; i < signal::kinds().size(); ++i)
+        for (const bool uneven : {false, true}) all.push_back({i, uneven});
+    return all;
+}
+INSTANTIATE_TEST_SUITE_P(EveryKind, FitOfAKind, testing::ValuesIn(cases()), [](const auto& each) {
+    return std::string(signal::kinds()[each.param.kind].name) + (each.param.uneven ? "_uneven" : "");
+});
+
+class FitRanking : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(FitRanking, PutsTheTrueKindFirstOrWithinNoiseOfIt) {
+    const signal::Kind& kind = signal::kinds()[GetParam()];
+    test::Random random(9);
+    const Samples samples = rich_input(160, 4, true);
+    const signal::Filter truth = some_filter(kind, random);
+    const std::vector<double> response = signal::run({&truth, 1}, samples);
+    const FitProblem problem{samples, response};
+    std::vector<Fit> fits;
+    for (const signal::Kind& each : signal::kinds()) fits.push_back(fit_kind(each, problem));
+    rank(fits);
+    ASSERT_EQ(fits.size(), signal::kinds().size());
+    for (const Fit& fit : fits) {
+        EXPECT_TRUE(std::isfinite(fit.residual));
+        if (&signal::kind_of(fit.filter) == &kind) {
+            EXPECT_LE(fit.residual, std::max(fits.front().residual, indistinguishable)) << kind.name;
+        }
+    }
+    EXPECT_TRUE(std::is_sorted(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) {
+        return std::max(a.residual, indistinguishable) < std::max(b.residual, indistinguishable);
+    }));
+}
+INSTANTIATE_TEST_SUITE_P(EveryKind, FitRanking, testing::Range<std::size_t>(0, signal::kinds().size()),
+                         [](const auto& each) { return std::string(signal::kinds()[each.param].name); });
+
+TEST(Fit, FindsThresholdsWhereTheInputPassesThemSlowly) {
+    Samples samples;
+    for (int i = 0; i < 1500; ++i) samples.push_back({1.0 / 60.0, std::sin(0.01 * i)});
+    const signal::Filter truth = signal::Hysteresis{.low = -0.31, .high = 0.47};
+    const std::vector<double> response = signal::run({&truth, 1}, samples);
+    const Fit fit = fit_kind(signal::kind_of(truth), {samples, response});
+    EXPECT_EQ(fit.residual, 0.0);
+    EXPECT_NEAR(std::get<signal::Hysteresis>(fit.filter).low, -0.31, 0.02 * 0.31);
+    EXPECT_NEAR(std::get<signal::Hysteresis>(fit.filter).high, 0.47, 0.02 * 0.47);
+}
+
+TEST(Fit, OfANoisyResponseIsAsGoodAsItsNoise) {
+    test::Random random(3);
+    const Samples samples = rich_input(400, 2, false);
+    const signal::Filter truth = signal::ExponentialDecay{.halflife = 0.12};
+    std::vector<double> response = signal::run({&truth, 1}, samples);
+    for (double& value : response) value += between(random, -0.02, 0.02);
+    const Fit fit = fit_kind(signal::kind_of(truth), {samples, response});
+    EXPECT_LT(fit.residual, 0.02);
+    EXPECT_NEAR(std::get<signal::ExponentialDecay>(fit.filter).halflife, 0.12, 0.006);
+}
+
+TEST(Fit, OfWhatSaysNothingIsDefined) {
+    const Samples still(20, {1.0 / 60.0, 0.5}), one{{1.0 / 60.0, 2.0}}, timeless(5, {0.0, 1.0});
+    for (const Samples& samples : {still, one, timeless}) {
+        const std::vector<double> response(samples.size(), 0.5);
+        for (const signal::Kind& kind : signal::kinds()) {
+            const Fit fit = fit_kind(kind, {samples, response});
+            EXPECT_TRUE(signal::check(fit.filter)) << kind.name;
+            EXPECT_TRUE(std::isfinite(fit.residual)) << kind.name;
+        }
+    }
+}
+
+TEST(Fit, BeginsFromWhatItIsGivenToo) {
+    const Samples samples = rich_input(200, 6, false);
+    const signal::Filter truth = signal::Inertialize{.halflife = 0.2, .threshold = 0.4};
+    const std::vector<double> response = signal::run({&truth, 1}, samples);
+    const Fit fit = fit_kind(signal::kind_of(truth), {samples, response}, &truth);
+    EXPECT_LT(fit.residual, 1e-6);
+    const signal::Filter other = signal::DeadZone{};  // of another kind: not looked at
+    EXPECT_EQ(fit_kind(signal::kind_of(truth), {samples, response}, &other).filter,
+              fit_kind(signal::kind_of(truth), {samples, response}).filter);
+}
+
+}  // namespace
+}  // namespace tendril::app
