@@ -9,11 +9,13 @@
 
 #include "app/batch/code.hpp"
 #include "app/batch/paper_table.hpp"
+#include "app/batch/signal.hpp"
 #include "app/batch/solve.hpp"
 #include "app/document/command.hpp"
 #include "app/document/text.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/labs.hpp"
+#include "app/labs/signal/filter_json.hpp"
 #include "app/session.hpp"
 #include "app/shell/shortcuts.hpp"
 
@@ -158,6 +160,19 @@ const SolveOptions& SolveLine::checked() {
     return options;
 }
 
+CLI::App* add_signal(CLI::App& line, SignalOptions& options) {
+    CLI::App* signal = line.add_subcommand("signal", "Run filters over samples, or fit them to a response");
+    signal->add_option("FILTER", options.filters, "A filter as JSON, or a list of them; see below")
+        ->required();
+    signal->add_option("SAMPLES", options.samples, "A CSV file: dt,input")->required();
+    const auto rates = signal->add_flag("--rates", options.rates, "Print an output for each frame rate");
+    signal->add_option("--fit", options.fit, "Fit every kind of filter to this CSV file")
+        ->option_text("RESPONSE")
+        ->excludes(rates);
+    signal->footer("Kinds: " + kind_names() + ".\n" + signal_help);
+    return signal;
+}
+
 int complain(const std::string& what) {
     std::fprintf(stderr, "tendril: %s\n", single_line(what).c_str());
     return 2;
@@ -179,6 +194,7 @@ class BatchLine {
     explicit BatchLine(CLI::App& line)
         : line_(line),
           solve_(solve_options_.add_to(line)),
+          signal_(add_signal(line, signal_options_)),
           paper_(line.add_subcommand("paper", "Measure the solvers and print a table")),
           code_(line.add_subcommand("code", "Print a scene as a C++ program against the library")) {
         paper_->add_flag("--csv", paper_csv_, "Print rows of comma-separated values");
@@ -190,6 +206,7 @@ class BatchLine {
         refuse_options_before(line_, *line_.get_subcommands().front());
         const std::atomic<bool>& ending = end_session_on_signals();
         if (solve_->parsed()) solve_cases(solve_options_.checked(), ending);
+        if (signal_->parsed()) run_signal(signal_options_, ending);
         if (paper_->parsed()) print_paper(paper_csv_, ending);
         if (code_->parsed()) print_code(scene_);
     }
@@ -197,7 +214,8 @@ class BatchLine {
   private:
     CLI::App& line_;
     SolveLine solve_options_;
-    CLI::App *solve_, *paper_, *code_;
+    SignalOptions signal_options_;
+    CLI::App *solve_, *signal_, *paper_, *code_;
     bool paper_csv_ = false;
     std::string scene_;
 };

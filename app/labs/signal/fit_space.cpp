@@ -99,14 +99,17 @@ FitFacts::FitFacts(const FitProblem& problem) {
     response_low = *low, response_high = *high;
     input_low = input_high = samples.front().input;
     duration = largest_jump = 0.0;
-    shortest = 1e9;
+    std::size_t steps = 0;
+    for (const signal::Sample& sample : samples)
+        if (sample.dt > 0.0) duration += sample.dt, ++steps;
+    const double counts = 1e-3 * duration / static_cast<double>(std::max<std::size_t>(steps, 1));
+    shortest = duration;
     double squares = 0.0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         input_low = std::min(input_low, samples[i].input);
         input_high = std::max(input_high, samples[i].input);
         const double dt = samples[i].dt;
-        if (!(dt > 0.0)) continue;
-        duration += dt;
+        if (!(dt > counts)) continue;
         shortest = std::min(shortest, dt);
         if (i == 0) continue;
         const double step = samples[i].input - samples[i - 1].input;

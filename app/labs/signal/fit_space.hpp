@@ -15,7 +15,7 @@ namespace tendril::app {
 struct FitFacts {
     explicit FitFacts(const FitProblem& problem);
 
-    double shortest = 1.0 / 60.0;  ///< seconds: the smallest dt
+    double shortest = 1.0 / 60.0;  ///< seconds: the smallest dt, but for what takes next to no time
     double duration = 1.0;         ///< seconds of all rows
     double input_low = 0.0, input_high = 1.0;
     double response_low = 0.0, response_high = 1.0;

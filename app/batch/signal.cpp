@@ -1,0 +1,157 @@
+#include "app/batch/signal.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <tendril/signal/run.hpp>
+
+#include "app/batch/output.hpp"
+#include "app/batch/progress.hpp"
+#include "app/document/json_complete.hpp"
+#include "app/io/samples.hpp"
+#include "app/labs/signal/filter_json.hpp"
+#include "app/labs/signal/fit.hpp"
+
+namespace tendril::app {
+namespace {
+
+using Filters = std::vector<signal::Filter>;
+using SignalSamples = std::vector<signal::Sample>;
+
+constexpr std::size_t most_filters = 64;
+
+Filters read_filters(const std::string& path) {
+    const std::string text = read_text_file(path);
+    try {
+        const Json json = parse_json(text);
+        const char* const where = json.is_array() ? "filters" : "filter";
+        try {
+            return filters_from_json(json, where, most_filters);
+        } catch (const ParseError&) {
+            throw;
+        } catch (const std::runtime_error& error) {
+            throw std::runtime_error(with_line(text, where, error.what()));
+        }
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(path + ": " + error.what());
+    }
+}
+
+/// Rows go out until `ending` is set.
+class Rows {
+  public:
+    Rows(const SignalSamples& samples, const std::atomic<bool>& ending)
+        : samples_(samples), times_(signal::times_of(samples)), ending_(ending), out_(progress_) {}
+
+    void write(const std::string& outputs, auto output_of) {
+        out_.write("time,input," + outputs + "\n");
+        for (std::size_t i = 0; i < samples_.size() && !ending_; ++i)
+            out_.write(decimal(times_[i]) + "," + decimal(samples_[i].input) + "," + output_of(i) + "\n");
+        out_.finish();
+    }
+    const std::vector<double>& times() const { return times_; }
+
+  private:
+    const SignalSamples& samples_;
+    std::vector<double> times_;
+    const std::atomic<bool>& ending_;
+    Progress progress_;
+    Output out_;
+};
+
+void print_outputs(const Filters& filters, const SignalSamples& samples, const std::atomic<bool>& ending) {
+    std::vector<signal::FilterState> states(filters.size());
+    Rows(samples, ending).write("output", [&](std::size_t i) {
+        return decimal(signal::step(filters, states, samples[i].input, samples[i].dt));
+    });
+}
+
+/// "output_15", "output_60_jittered".
+std::string column_name(const signal::FrameRate& rate) {
+    return "output_" + decimal(rate.hz) + (rate.jittered ? "_jittered" : "");
+}
+
+void print_rates(const Filters& filters, const SignalSamples& samples, const std::atomic<bool>& ending) {
+    Rows rows(samples, ending);
+    const double begin = rows.times().front(), end = rows.times().back();
+    std::string names;
+    std::vector<std::vector<double>> outputs;
+    for (const signal::FrameRate& rate : signal::usual_rates()) {
+        const std::vector<double> frames = signal::frame_times(rate, begin, end);
+        outputs.push_back(signal::run_at(filters, samples, frames, rows.times()));
+        names.append(names.empty() ? "" : ",").append(column_name(rate));
+    }
+    rows.write(names, [&](std::size_t i) {
+        std::string text;
+        for (const auto& each : outputs) text.append(text.empty() ? "" : ",").append(decimal(each[i]));
+        return text;
+    });
+    const signal::RateComparison comparison = signal::compare_rates(filters, samples);
+    std::fprintf(stderr, "maximum difference between the rates: %s at %s s\n",
+                 decimal(comparison.difference).c_str(), decimal(comparison.at).c_str());
+}
+
+/// FILTER.json says where the search of its kinds begins, too.
+const signal::Filter* given_of(const Filters& filters, const signal::Kind& kind) {
+    const auto found = std::find_if(filters.begin(), filters.end(), [&](const signal::Filter& filter) {
+        return &signal::kind_of(filter) == &kind;
+    });
+    return found == filters.end() ? nullptr : &*found;
+}
+
+void print_fits(const Filters& filters, const SignalSamples& samples, const std::vector<double>& response,
+                const std::atomic<bool>& ending) {
+    const FitProblem problem{samples, response};
+    const auto kinds = signal::kinds();
+    std::vector<Fit> fits;
+    Progress progress;
+    for (std::size_t i = 0; i < kinds.size() && !ending; ++i) {
+        progress.show("fitting", static_cast<double>(i) / static_cast<double>(kinds.size()));
+        fits.push_back(fit_kind(kinds[i], problem, given_of(filters, kinds[i])));
+    }
+    rank(fits);
+    Output out(progress);
+    out.write("kind,residual,filter\n");
+    for (const Fit& fit : fits) {
+        out.write(std::string(signal::kind(fit.filter)) + "," + decimal(fit.residual) + "," +
+                  csv_field(filter_json(fit.filter).dump()) + "\n");
+    }
+    out.finish();
+    progress.clear();
+    if (ending) std::fprintf(stderr, "tendril: stopped after %zu kinds of filter\n", fits.size());
+}
+
+}  // namespace
+
+void run_signal(const SignalOptions& options, const std::atomic<bool>& ending) {
+    const Filters filters = read_filters(options.filters);
+    const SignalSamples samples = read_samples(options.samples);
+    if (!options.fit.empty())
+        print_fits(filters, samples, read_response(options.fit, samples.size()), ending);
+    else if (options.rates)
+        print_rates(filters, samples, ending);
+    else
+        print_outputs(filters, samples, ending);
+}
+
+const char* const signal_help =
+    "FILTER is a filter, or a list of up to 64 that are applied in order:\n"
+    "  {\"kind\": \"spring\", \"strength\": 4, \"critical_damping\": 0.5}\n"
+    "What is left out has its default, other keys are ignored.\n"
+    "SAMPLES is a CSV file, a row a sample: dt,input. dt is in seconds, the time since the row before; a "
+    "row\n"
+    "whose dt is not over 0 changes nothing. A first row may name the columns: dt or time, and input.\n"
+    "Printed are rows of time,input,output.\n"
+    "--rates prints one output for each frame rate (15, 30, 60 and 144 Hz, and 60 Hz with uneven frames), "
+    "and\n"
+    "on stderr the maximum difference between them.\n"
+    "--fit finds for every kind of filter the parameters with which it answers the samples most nearly as\n"
+    "RESPONSE has it, and prints kind,residual,filter, the best first. RESPONSE has a row for each sample; "
+    "its\n"
+    "column output, response or value counts, or else its last. The residual is the root mean square of "
+    "what\n"
+    "is left, as a part of the response's range. The search of FILTER's own kinds begins there too.\n"
+    "A hole, a text, or a number out of its range is said with its file, row and column, and nothing is\n"
+    "printed (exit code 2).\n"
+    "To open a scene file that is named signal, write ./signal.";
+
+}  // namespace tendril::app
