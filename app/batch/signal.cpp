@@ -72,14 +72,10 @@ std::string column_name(const signal::FrameRate& rate) {
 
 void print_rates(const Filters& filters, const SignalSamples& samples, const std::atomic<bool>& ending) {
     Rows rows(samples, ending);
-    const double begin = rows.times().front(), end = rows.times().back();
     std::string names;
-    std::vector<std::vector<double>> outputs;
-    for (const signal::FrameRate& rate : signal::usual_rates()) {
-        const std::vector<double> frames = signal::frame_times(rate, begin, end);
-        outputs.push_back(signal::run_at(filters, samples, frames, rows.times()));
+    for (const signal::FrameRate& rate : signal::usual_rates())
         names.append(names.empty() ? "" : ",").append(column_name(rate));
-    }
+    const std::vector<std::vector<double>> outputs = signal::outputs_at(filters, samples, rows.times());
     rows.write(names, [&](std::size_t i) {
         std::string text;
         for (const auto& each : outputs) text.append(text.empty() ? "" : ",").append(decimal(each[i]));

@@ -109,10 +109,7 @@ TEST_F(SignalProgram, a_row_without_time_changes_nothing) {
 }
 
 TEST_F(SignalProgram, rates_tell_a_filter_that_depends_on_them) {
-    // A ramp that begins at once, so that no rate sees a step before another.
-    std::string samples;
-    for (int i = 0; i < 120; ++i) samples += app::decimal(1.0 / 60.0) + ",1\n";
-    samples.replace(samples.find(",1"), 2, ",0");
+    const std::string samples = step_samples(120, 20);
     const Outcome engine = run(R"({"kind": "interp_to", "speed": 10})", samples, {"--rates"});
     ASSERT_EQ(engine.exit_code, 0) << engine.err;
     const Table table = table_of(engine.out);
@@ -124,8 +121,10 @@ TEST_F(SignalProgram, rates_tell_a_filter_that_depends_on_them) {
     ASSERT_TRUE(engine.err.starts_with(lead)) << engine.err;
     EXPECT_GT(number(engine.err.substr(lead.size())), 0.05);
     for (const auto& row : table) EXPECT_EQ(row.size(), 7u);
-    const Outcome none = run(R"({"kind": "dead_zone", "width": 0})", "0.1,1\n0.1,1\n0.1,1\n", {"--rates"});
-    EXPECT_TRUE(none.err.starts_with(lead + "0 at")) << none.err;
+    const Outcome exact = run(R"({"kind": "interp_to_exact", "speed": 10})", samples, {"--rates"});
+    ASSERT_TRUE(exact.err.starts_with(lead)) << exact.err;
+    // Within 1e-4 of its target it goes there at once.
+    EXPECT_LT(number(exact.err.substr(lead.size())), 1.1e-4);
 }
 
 TEST_F(SignalProgram, fit_ranks_the_kinds_and_its_filters_run) {
