@@ -128,7 +128,7 @@ TEST(SignalMeasure, EveryStepCounts) {
 TEST(SignalMeasure, AFilterIsNotBlamedForScaling) {
     const Filter scale = filter_of("scale_bias_clamp", {{"scale", -20.0}, {"bias", 100.0}});
     const signal::Measures measures = signal::measure({&scale, 1}, sampled(step_at_one, 3.0, 60.0));
-    EXPECT_NEAR(*measures.lag, 0.0, 1e-9);
+    EXPECT_NEAR(*measures.lag, 0.0, 1e-6);
     EXPECT_EQ(*measures.overshoot, 0.0);
     EXPECT_EQ(*measures.settling_time, 0.0);
     EXPECT_NEAR(*measures.jitter, 20.0, 1e-9) << "but that is what is left of the input's";

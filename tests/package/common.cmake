@@ -1,7 +1,7 @@
 # Shared by the scripts here. In: source, work, version, compiler, generator, pkg_config.
 set(prefix ${work}/moved)  # where the installed library ends up
 set(consumer ${CMAKE_CURRENT_LIST_DIR}/consumer)
-set(expected "tendril ${version}: 3 segments, reach 2, head at 1 2 3, tail at 1 2 1\n8 of 8 tips arrived\n")
+set(expected "tendril ${version}: 3 segments, reach 2, head at 1 2 3, tail at 1 2 1\n8 of 8 tips arrived\nsprings at 0.715 and 0.715\n")
 
 # Runs a command, stops with its output when it fails, and leaves the output in `output`.
 function(run)

@@ -1,7 +1,5 @@
 #include "tendril/signal/filter.hpp"
 
-#include <cstring>
-
 #include "math/checks.hpp"
 
 namespace tendril::signal {
@@ -40,7 +38,7 @@ struct StateOf<Inertialize> {
     using type = InertializeState;
 };
 
-/// `from 0 to 1e+09`
+/// `from 0 to 1e9`
 class RangeText {
   public:
     explicit RangeText(const Parameter& parameter) noexcept {
@@ -52,9 +50,12 @@ class RangeText {
     std::string_view text() const noexcept { return {buffer_, size_}; }
 
   private:
+    /// 1e+09 as people write it.
     void add(std::string_view text) noexcept {
-        std::memcpy(buffer_ + size_, text.data(), text.size());
-        size_ += text.size();
+        for (const char c : text) {
+            const bool after_e = size_ > 0 && buffer_[size_ - 1] == 'e';
+            if (c != '+' && !(c == '0' && after_e)) buffer_[size_++] = c;
+        }
     }
     char buffer_[128];  // two numbers of at most 64
     std::size_t size_ = 0;

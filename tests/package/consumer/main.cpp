@@ -2,6 +2,8 @@
 #include <cstdio>
 #include <tendril/chain/chain.hpp>
 #include <tendril/ik/many.hpp>
+#include <tendril/signal/batch.hpp>
+#include <tendril/signal/filter.hpp>
 #include <tendril/version.hpp>
 #include <vector>
 
@@ -28,4 +30,21 @@ int main() {
         return report.status == tendril::ik::Status::Converged;
     });
     std::printf("%d of %zu tips arrived\n", static_cast<int>(arrived), batch.size());
+
+    // Springs one by one, by name and by the batch come to the same.
+    tendril::signal::FilterState state;
+    const tendril::signal::Filter spring = tendril::signal::find_kind("spring")->blank();
+    for (const double target : {0.0, 1.0}) tendril::signal::step(spring, state, target, 0.1);
+    const std::vector<float> strength{4.0f}, damping{1.0f}, to{1.0f};
+    std::vector<float> value{0.0f}, velocity{0.0f}, previous{0.0f};
+    const tendril::Result stepped = tendril::signal::step_springs({.strength = strength,
+                                                                   .critical_damping = damping,
+                                                                   .target = to,
+                                                                   .value = value,
+                                                                   .velocity = velocity,
+                                                                   .previous_target = previous},
+                                                                  0.1);
+    const double both[] = {tendril::signal::value(state), static_cast<double>(value[0])};
+    std::printf("springs at %.3f and %.3f\n", both[0], both[1]);
+    return stepped && both[0] > 0.5 && both[0] - both[1] < 1e-5 && both[1] - both[0] < 1e-5 ? 0 : 1;
 }

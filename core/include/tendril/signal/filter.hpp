@@ -31,8 +31,8 @@ using Filter =
     std::variant<InterpTo, InterpToExact, ScaleBiasClamp, Spring<>, ExponentialDecay, RateLimit, SmoothDamp,
                  SpringSemiImplicit, OneEuro, MovingAverage, DeadZone, Hysteresis, Inertialize, Curve>;
 
-/// What a filter remembers. A fresh one suits every filter: the first step makes it the right one. One that
-/// another kind of filter left is taken as fresh.
+/// What a filter remembers. A fresh one suits every filter: the first step gives it the right form. One of
+/// another form, left by a filter that was there before, is taken as fresh; one of the same form goes on.
 using FilterState =
     std::variant<OutputState, SpringState<>, MotionState, MovingAverageState, InertializeState>;
 
@@ -48,7 +48,7 @@ double value(const FilterState& state) noexcept;
 bool started(const FilterState& state) noexcept;
 
 /// Ranges, and what must hold between parameters. InvalidArgument, naming the parameter and its value:
-/// `rate_limit: rise must be from 0 to 1e+09, got -1`.
+/// `rate_limit: rise must be from 0 to 1e9, got -1`.
 Result check(const Filter& filter) noexcept;
 
 enum class ParameterType : std::uint8_t { Number, Flag };

@@ -41,8 +41,8 @@ struct RateOf<glm::dquat> {
 template <class T>
 using Rate = typename RateOf<T>::type;
 
-/// T: double, float, glm::dvec3, glm::vec3, glm::dquat or glm::quat. Out of its range, no matter how, a
-/// parameter leaves the state as a refused input does.
+/// T: double, float, glm::dvec3, glm::vec3, glm::dquat or glm::quat. A parameter out of its
+/// range leaves the state alone, as a refused input does.
 template <class T = double>
 struct Spring {
     /// Undamped frequency in Hz, 0 to 1e4. Under 1e-5 there is no spring and no damping: the value drifts,
