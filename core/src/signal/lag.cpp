@@ -1,6 +1,7 @@
 // The shift that fits one signal to another best.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tendril/signal/measure.hpp"
 
@@ -9,9 +10,10 @@ namespace {
 
 constexpr double most_shifts = 1e4;
 constexpr int refinements = 28;  ///< to a millionth of a row
-/// Of the range of errors, by how much a fit may be worse than the best and still be as good: what is held
-/// beyond the ends favours large shifts by some percent where the output is weaker than the input.
-constexpr double as_good_as = 0.05;
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+/// Of the input's spread, by how much a fit may be worse than the best and still be as good: what is held
+/// beyond the ends favours large shifts where the output is weaker than the input.
+constexpr double as_good_as = 0.1;
 
 class Fit {
   public:
@@ -23,12 +25,13 @@ class Fit {
         }
     }
 
-    /// Sum of squares between the output and what is wanted, `shift` seconds late; held beyond the ends.
-    double error(double shift) const {
+    /// Sum of squares between the output and what is wanted, `shift` seconds late; held beyond the ends. Not
+    /// summed further than beyond `limit`.
+    double error(double shift, double limit = unlimited) const {
         const auto& [time, wanted, output] = response_;
         double sum = 0.0;
         std::size_t next = 0;  // the first row that is later
-        for (std::size_t i = 0; i < time.size(); ++i) {
+        for (std::size_t i = 0; i < time.size() && sum <= limit; ++i) {
             const double at = time[i] - shift;
             while (next < time.size() && time[next] <= at) ++next;
             double value = wanted[next > 0 ? next - 1 : 0];
@@ -70,6 +73,14 @@ double median_dt(std::span<const double> time) {
     return *middle;
 }
 
+/// Sum of squares about the mean.
+double spread_of(std::span<const double> values) {
+    double mean = 0.0, sum = 0.0;
+    for (const double x : values) mean += x / static_cast<double>(values.size());
+    for (const double x : values) sum += (x - mean) * (x - mean);
+    return sum;
+}
+
 bool changes(std::span<const double> values) {
     return std::any_of(values.begin(), values.end(), [&](double x) { return x != values.front(); });
 }
@@ -86,15 +97,24 @@ std::optional<double> lag(const Response& response, double longest) {
     const int reach = static_cast<int>(std::ceil(longest / spacing));
 
     const Fit fit(response);
-    std::vector<double> errors;
-    for (int k = -reach; k <= reach; ++k) errors.push_back(fit.error(spacing * k));
-    const auto [smallest, largest] = std::minmax_element(errors.begin(), errors.end());
-    const double as_good = *smallest + as_good_as * (*largest - *smallest);
+    const double margin = as_good_as * spread_of(wanted);
+    std::vector<double> errors(2 * static_cast<std::size_t>(reach) + 1);
+    const auto error_at = [&](int shift) -> double& {
+        return errors[static_cast<std::size_t>(shift + reach)];
+    };
+    double smallest = unlimited;
+    for (int k = 0; k <= reach; ++k) {
+        for (const int shift : {k, -k}) {
+            error_at(shift) = fit.error(spacing * shift, smallest + margin);
+            smallest = std::min(smallest, error_at(shift));
+        }
+    }
     // From no shift outwards, the first minimum that is as good as the best.
     for (int k = 0; k < reach; ++k) {
         for (const int shift : {k, -k}) {
-            const double* const at = &errors[static_cast<std::size_t>(shift + reach)];
-            if (at[0] > as_good || at[0] > at[-1] || at[0] > at[1]) continue;
+            const double error = error_at(shift);
+            if (error > smallest + margin || error > error_at(shift - 1) || error > error_at(shift + 1))
+                continue;
             return fit.refined(spacing * (shift - 1), spacing * (shift + 1));
         }
     }

@@ -99,7 +99,11 @@ class Runner {
     double now() const { return now_; }
     double output() const { return output_; }
     void advance(double to) {
-        output_ = step(filters_, states_, input_.at(to), to - now_);
+        if (to > held_until_ + same_time) {
+            held_ = input_.at(to);
+            held_until_ = input_.frame_end(input_.frame_at(to));
+        }
+        output_ = step(filters_, states_, held_, to - now_);
         now_ = to;
     }
     /// What a frame that ended then would give; nothing has changed.
@@ -113,6 +117,7 @@ class Runner {
     std::vector<FilterState> states_;
     const HeldInput& input_;
     double now_ = 0.0, output_ = 0.0;
+    double held_ = 0.0, held_until_ = 0.0;  ///< the input of the slowest rate's frame that now_ is in
 };
 
 RateRun run_of(std::span<const Filter> filters, const HeldInput& input, const FrameRate& rate) {
