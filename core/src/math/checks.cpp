@@ -59,13 +59,8 @@ Shown::Shown(const char* before, double value) noexcept {
 Result refused(std::string_view operation, const Argument& argument, std::string_view requirement,
                const Shown& value) noexcept {
     Message message;
-    message.add(operation)
-        .add(": ")
-        .add(argument)
-        .add(" must be ")
-        .add(requirement)
-        .add(", got ")
-        .add(value.text());
+    if (!operation.empty()) message.add(operation).add(": ");
+    message.add(argument).add(" must be ").add(requirement).add(", got ").add(value.text());
     return message.as(ErrorCode::InvalidArgument);
 }
 

@@ -63,7 +63,7 @@ class Shown {
     std::string_view text_;
 };
 
-/// `operation: argument must be requirement, got value`
+/// `operation: argument must be requirement, got value`; an empty operation is left out.
 Result refused(std::string_view operation, const Argument& argument, std::string_view requirement,
                const Shown& value) noexcept;
 

@@ -18,7 +18,7 @@ JointAngles between(const JointAngles& a, const JointAngles& b, float part) noex
 /// A limit's angles are convex, so what lies between two poses within it is within it.
 glm::quat blended_rotation(const LimitedJoint& joint, const glm::quat& from, const glm::quat& to,
                            float part) noexcept {
-    if (joint.free()) return slerp(from, to, part);
+    if (joint.free()) return math::slerp(from, to, part);
     return rotation_of(joint, within(joint, between(angles_of(joint, from), angles_of(joint, to), part)));
 }
 
@@ -39,7 +39,8 @@ void blend_rotations(const Problem& problem) noexcept {
     const float weight = problem.options.weight, stretch = 1.0f + weight * (problem.stretch - 1.0f);
     pose.joints[0] = problem.root();
     for (std::size_t i = 0; i < problem.bones(); ++i) {
-        pose.rotations[i] = slerp(problem.scratch.given.rotations[i], problem.state.rotations[i], weight);
+        pose.rotations[i] =
+            math::slerp(problem.scratch.given.rotations[i], problem.state.rotations[i], weight);
         const bool last = i + 1 == problem.bones();  // placed by itself where its orientation is asked for
         const float by = last && problem.options.tip_orientation ? 1.0f : stretch;
         pose.joints[i + 1] =

@@ -1,0 +1,100 @@
+// Where a unit takes a value from: a literal, another unit's output, an element of the rig, or what a
+// for-each says about the element at hand.
+//
+//     Input<glm::dvec3> target = glm::dvec3(0, 1, 2);                       // a literal
+//     Input<glm::dvec3> target = FromElement{"head"};                       // where "head" is
+//     Input<double> bend = FromElement{.element = "dial", .of = Of::ControlValue}; // what a person has set
+//     Input<double> bend = FromUnit{"curve"};                               // what the unit "curve" hands
+//     out Input<double> bend = Each::Ratio;                                     // 0 at the first, 1 at the
+//     last
+//
+// Names are resolved once, by Rig::make, which also checks that there is such a unit or element and that its
+// value has the type that the input takes; a solve compares no strings.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "tendril/rig/hierarchy.hpp"
+#include "tendril/rig/transform.hpp"
+
+namespace tendril::rig {
+
+/// What an input takes and an output hands out.
+enum class Type : std::uint8_t { Bool, Number, Vector, Rotation, Transform };
+/// "number"
+const char* name(Type type) noexcept;
+
+/// A value of any of these types, in their order.
+using Value = std::variant<bool, double, glm::dvec3, glm::dquat, Transform>;
+inline Type type_of(const Value& value) noexcept {
+    return static_cast<Type>(value.index());
+}
+
+namespace detail {
+/// What Rig::make found for a name. Not part of what an input says: all are equal.
+struct Resolved {
+    std::int32_t index = -1;
+    bool operator==(const Resolved&) const noexcept { return true; }
+};
+}  // namespace detail
+
+/// The element that the for-each around a unit has come to.
+struct ThisElement {
+    bool operator==(const ThisElement&) const = default;
+};
+
+/// The element that a unit works on: by name, or the one at hand in a for-each.
+struct Item {
+    std::variant<std::string, ThisElement> which;
+    detail::Resolved resolved{};
+
+    Item() = default;
+    Item(const char* element) : which(element) {}
+    Item(std::string element) : which(std::move(element)) {}
+    Item(ThisElement) : which(ThisElement()) {}
+    bool operator==(const Item&) const = default;
+};
+
+/// Part of an element's pose, or the value of a control. X, Y and Z are those of its translation.
+enum class Of : std::uint8_t { Transform, Translation, Rotation, Scale, X, Y, Z, ControlValue };
+struct FromElement {
+    Item element{};
+    Of of = Of::Translation;
+    Space space = Space::Global;
+    Pose pose = Pose::Current;
+    bool operator==(const FromElement&) const = default;
+};
+
+/// An output of a unit that runs earlier.
+struct FromUnit {
+    std::string unit{};
+    std::string output = "result";
+    detail::Resolved resolved_unit{}, resolved_output{};
+    bool operator==(const FromUnit&) const = default;
+};
+
+/// Of the element at hand in a for-each: its place among `count`, from 0; and index / (count - 1), which is 0
+/// where there is one.
+enum class Each : std::uint8_t { Ratio, Index, Count };
+
+/// T is bool, double, glm::dvec3, glm::dquat, Transform, or Value: of any type.
+template <class T>
+struct Input {
+    using Source = std::variant<T, FromElement, FromUnit, Each>;
+    Source source;
+
+    Input() = default;
+    Input(T literal) : source(std::in_place_index<0>, std::move(literal)) {}
+    Input(FromElement element) : source(std::move(element)) {}
+    Input(FromUnit unit) : source(std::move(unit)) {}
+    Input(Each each) : source(each) {}
+    bool operator==(const Input&) const = default;
+
+    /// Null where it is not a literal.
+    const T* literal() const noexcept { return std::get_if<0>(&source); }
+};
+
+}  // namespace tendril::rig

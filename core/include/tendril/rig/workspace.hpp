@@ -1,0 +1,26 @@
+// What a rig works in: solvers of its chains and scratch memory. Kept beside the rig from frame to frame;
+// nothing in it is remembered: throw it away at any moment, and no bit of any answer changes.
+#pragma once
+
+#include <memory>
+
+#include "tendril/rig/rig.hpp"
+
+namespace tendril::rig {
+
+class Workspace {
+  public:
+    /// For this rig and its copies.
+    explicit Workspace(const Rig& rig);
+    ~Workspace();
+    Workspace(Workspace&&) noexcept;
+    Workspace& operator=(Workspace&&) noexcept;
+
+    struct Parts;
+    Parts& parts() noexcept { return *parts_; }
+
+  private:
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace tendril::rig

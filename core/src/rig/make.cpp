@@ -1,0 +1,217 @@
+#include <algorithm>
+#include <string>
+
+#include "math/checks.hpp"
+#include "rig/plan.hpp"
+#include "rig/resolve.hpp"
+#include "rig/value.hpp"
+#include "tendril/rig/collect.hpp"
+#include "tendril/rig/rig.hpp"
+
+namespace tendril::rig {
+namespace {
+
+using detail::Plan;
+using detail::UnitPlan;
+
+std::string quoted(const std::string& text) {
+    std::string result(1, '"');
+    result += text;
+    result += '"';
+    return result;
+}
+Result invalid(const std::string& message) {
+    return {ErrorCode::InvalidArgument, message};
+}
+Result missing(const std::string& message) {
+    return {ErrorCode::NotFound, message};
+}
+
+class Builder {
+  public:
+    explicit Builder(Definition definition) { plan_.definition = std::move(definition); }
+
+    Result build() {
+        if (const Result bad = index_names(); !bad) return bad;
+        if (const Result bad = add_elements(); !bad) return bad;
+        if (const Result bad = add_controls_and_curves(); !bad) return bad;
+        Resolver resolver(plan_.definition);
+        if (const Result bad = resolver.resolve(plan_.definition.units); !bad) return bad;
+        plan_.unit_names = std::move(resolver.names);
+        plan_.units.resize(plan_.unit_names.size());
+        for (std::size_t i = 0; i < plan_.units.size(); ++i)
+            plan_.units[i].outputs = std::move(resolver.outputs[i]);
+        return add_units();
+    }
+    Plan take() { return std::move(plan_); }
+
+  private:
+    Result index_names() {
+        for (std::size_t i = 0; i < plan_.definition.elements.size(); ++i) {
+            const Element& element = plan_.definition.elements[i];
+            if (element.name.empty())
+                return invalid("elements[" + std::to_string(i) + "]: its name is empty");
+            if (!plan_.elements.emplace(element.name, i).second)
+                return {ErrorCode::AlreadyExists,
+                        "element " + quoted(element.name) + ": another has this name already"};
+        }
+        for (std::size_t i = 0; i < plan_.definition.curves.size(); ++i) {
+            const NamedCurve& curve = plan_.definition.curves[i];
+            if (curve.name.empty()) return invalid("curves[" + std::to_string(i) + "]: its name is empty");
+            if (!plan_.curves.emplace(curve.name, i).second)
+                return {ErrorCode::AlreadyExists,
+                        "curve " + quoted(curve.name) + ": another has this name already"};
+            if (const Result bad = check("value", curve.value); !bad)
+                return invalid("curve " + quoted(curve.name) + ": " + bad.message());
+        }
+        return {};
+    }
+
+    /// Parents before their children, whatever their order in the definition.
+    Result add_elements() {
+        const std::size_t count = plan_.definition.elements.size();
+        plan_.ids.resize(count);
+        element_at_.resize(count);
+        std::vector<std::size_t> line;
+        for (std::size_t i = 0; i < count; ++i) {
+            line.clear();
+            for (std::int64_t at = static_cast<std::int64_t>(i);
+                 at >= 0 && !plan_.ids[static_cast<std::size_t>(at)];) {
+                const auto element = static_cast<std::size_t>(at);
+                line.push_back(element);
+                if (line.size() > count) return refused_cycle(line);
+                const std::string& parent = plan_.definition.elements[element].parent;
+                if (!parent.empty() && !plan_.elements.contains(parent))
+                    return missing("element " + quoted(plan_.definition.elements[element].name) +
+                                   ": there is no element " + quoted(parent) + " for its parent");
+                at = parent_of(plan_, element);
+            }
+            for (; !line.empty(); line.pop_back())
+                if (const Result bad = add_element(line.back()); !bad) return bad;
+        }
+        return {};
+    }
+
+    Result refused_cycle(const std::vector<std::size_t>& line) const {
+        const auto name = [&](std::size_t at) { return quoted(plan_.definition.elements[line[at]].name); };
+        // The last element stands in the cycle; the one before it is its child.
+        const std::size_t last = line.size() - 1;
+        return invalid("element " + name(last) + ": its parent " +
+                       quoted(plan_.definition.elements[line[last]].parent) + " is itself below it");
+    }
+
+    Result add_element(std::size_t at) {
+        const Element& element = plan_.definition.elements[at];
+        const std::int64_t parent = parent_of(plan_, at);
+        const Expected<ElementId> id = plan_.initial.elements.add(
+            element.kind, parent < 0 ? ElementId{} : plan_.ids[static_cast<std::size_t>(parent)],
+            element.initial);
+        if (!id) return {id.code(), "element " + quoted(element.name) + ": " + id.message()};
+        plan_.ids[at] = *id;
+        element_at_[id->index] = static_cast<std::uint32_t>(at);
+        return {};
+    }
+
+    Result add_controls_and_curves() {
+        for (Element& element : plan_.definition.elements) {
+            Value value = false;
+            if (element.kind == ElementKind::Control) {
+                if (!element.control) element.control.emplace();
+                if (const Result bad = check("control", *element.control); !bad)
+                    return invalid("element " + quoted(element.name) + ": " + bad.message());
+                const auto id = plan_.ids[plan_.elements.find(element.name)->second];
+                const Transform& rest = plan_.initial.elements.get(id, Space::Local);
+                value = clamped(*element.control, rest_value(*element.control, rest));
+                const Transform pose = posed(*element.control, rest, value);
+                plan_.initial.elements.put(id, Space::Local, pose);
+                plan_.initial.elements.put(id, Space::Local, pose, Propagate::Yes, Pose::Input);
+            } else if (element.control) {
+                return invalid("element " + quoted(element.name) +
+                               ": only a control can have a control's settings");
+            }
+            plan_.initial.controls.push_back(std::move(value));
+        }
+        for (const NamedCurve& curve : plan_.definition.curves) plan_.initial.curves.push_back(curve.value);
+        plan_.initial.input_curves = plan_.initial.curves;
+        return {};
+    }
+
+    Result add_units() {
+        std::size_t at = 0;
+        for (const Unit& unit : plan_.definition.units)
+            if (const Result bad = add_unit(unit, at, 1); !bad) return bad;
+        return {};
+    }
+
+    /// `times`: how many elements it is run on.
+    Result add_unit(const Unit& unit, std::size_t& at, std::size_t times) {
+        const std::size_t index = at++;
+        UnitPlan& planned = plan_.units[index];
+        UnitState state;
+        state.memory.resize(times);
+        for (const Output& output : planned.outputs) state.outputs.push_back(neutral(output.type));
+        plan_.initial.units.push_back(std::move(state));
+        if (const auto* two_bone = std::get_if<TwoBone>(&unit.operation))
+            return find_bones(unit, two_bone->root, two_bone->tip, 3, planned);
+        if (const auto* fabrik = std::get_if<Fabrik>(&unit.operation))
+            return find_bones(unit, fabrik->root, fabrik->tip, 0, planned);
+        const auto* for_each = std::get_if<ForEach>(&unit.operation);
+        if (!for_each) return {};
+        for (const std::string& root : for_each->roots) collect(*for_each, root, planned);
+        const std::size_t count = planned.visits.size();
+        for (const Unit& inner : for_each->body.units())
+            if (const Result bad = add_unit(inner, at, count); !bad) return bad;
+        return {};
+    }
+
+    void collect(const ForEach& for_each, const std::string& name, UnitPlan& planned) const {
+        std::vector<ElementId> found;
+        const Result there =
+            collect_children(plan_.initial.elements, plan_.ids[plan_.elements.find(name)->second],
+                             {for_each.include_parent, for_each.recursive}, found);
+        if (!there) return;
+        const auto count = static_cast<std::uint32_t>(found.size());
+        for (std::uint32_t i = 0; i < count; ++i)
+            planned.visits.push_back({element_at_[found[i].index], i, count});
+    }
+
+    Result find_bones(const Unit& unit, const Item& root, const Item& tip, std::size_t wanted,
+                      UnitPlan& planned) const {
+        const std::string place = "unit " + quoted(unit.name) + ": ";
+        if (root.resolved.index < 0 || tip.resolved.index < 0)
+            return invalid(place + "root and tip must be elements by name");
+        const auto end = static_cast<std::int64_t>(root.resolved.index);
+        std::int64_t at = tip.resolved.index;
+        for (; at >= 0; at = parent_of(plan_, static_cast<std::size_t>(at))) {
+            planned.bones.push_back(static_cast<std::uint32_t>(at));
+            if (at == end) break;
+        }
+        const auto name = [&](const Item& item) { return quoted(std::get<std::string>(item.which)); };
+        if (at < 0 || planned.bones.size() < 2)
+            return invalid(place + "tip " + name(tip) + " must be below root " + name(root));
+        if (wanted && planned.bones.size() != wanted)
+            return invalid(place + "needs exactly two bones from " + name(root) + " to " + name(tip) +
+                           ", got " + std::to_string(planned.bones.size() - 1));
+        std::reverse(planned.bones.begin(), planned.bones.end());
+        return {};
+    }
+
+    Plan plan_;
+    std::vector<std::uint32_t> element_at_;  ///< by the index of its handle
+};
+
+}  // namespace
+
+std::int64_t detail::parent_of(const Plan& plan, std::size_t element) {
+    const std::string& parent = plan.definition.elements[element].parent;
+    if (parent.empty()) return -1;
+    return static_cast<std::int64_t>(plan.elements.find(parent)->second);
+}
+
+Expected<Rig> Rig::make(Definition definition) {
+    Builder builder(std::move(definition));
+    if (const Result bad = builder.build(); !bad) return bad;
+    return Rig(std::make_shared<const Plan>(builder.take()));
+}
+
+}  // namespace tendril::rig

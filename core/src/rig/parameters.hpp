@@ -1,0 +1,44 @@
+// The values of all controls as one list of numbers, which a descent may change. Not installed.
+//
+// A number of a rotation is an angle about an axis of its parent's space, added to the rotation that there
+// was at the start; all else is the number itself.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "tendril/rig/rig.hpp"
+
+namespace tendril::rig {
+
+class Parameters {
+  public:
+    /// Of these control values; those that are bools have no number.
+    Parameters(const Definition& definition, std::vector<Value> start);
+
+    std::size_t size() const noexcept { return parts_.size(); }
+    double value(std::size_t parameter) const noexcept { return numbers_[parameter]; }
+    void set(std::size_t parameter, double value) noexcept { numbers_[parameter] = value; }
+    /// Brings a number that is out of its range to the end of it.
+    void clamp() noexcept;
+    bool at_minimum(std::size_t parameter) const noexcept;
+    bool at_maximum(std::size_t parameter) const noexcept;
+
+    /// The control values that the numbers say.
+    void write(std::vector<Value>& controls) const;
+
+  private:
+    enum class Kind : unsigned char { Translation, Rotation, Scale, Number };
+    struct Part {
+        std::size_t element;
+        Kind kind;
+        int axis;
+        double minimum, maximum;
+    };
+
+    std::vector<Part> parts_;
+    std::vector<double> numbers_;
+    std::vector<Value> start_;
+};
+
+}  // namespace tendril::rig

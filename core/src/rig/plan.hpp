@@ -1,0 +1,38 @@
+// What Rig::make works out of a definition, once. Not installed.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tendril/rig/rig.hpp"
+
+namespace tendril::rig::detail {
+
+/// An element that a for-each comes to.
+struct Visit {
+    std::uint32_t element = 0;
+    std::uint32_t index = 0, count = 0;  ///< its place below its root
+};
+
+/// Of one unit, or one in a body.
+struct UnitPlan {
+    std::vector<Visit> visits;         ///< of a for-each, in order
+    std::vector<std::uint32_t> bones;  ///< of a unit that solves a chain: its elements from root to tip
+    std::vector<Output> outputs;
+};
+
+struct Plan {
+    Definition definition;  ///< with its names resolved
+    std::vector<ElementId> ids;
+    std::vector<std::string> unit_names;
+    std::vector<UnitPlan> units;  ///< one a name
+    std::map<std::string, std::size_t, std::less<>> elements, curves;
+    State initial;
+};
+
+/// Index of the parent, or -1 for none.
+std::int64_t parent_of(const Plan& plan, std::size_t element);
+
+}  // namespace tendril::rig::detail

@@ -1,0 +1,247 @@
+#include "rig/resolve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "math/checks.hpp"
+#include "rig/value.hpp"
+#include "tendril/magnitude.hpp"
+
+namespace tendril::rig {
+namespace {
+
+/// The type of an input of T; none for one that takes any.
+template <class T>
+constexpr int type_index = -1;
+template <>
+constexpr int type_index<bool> = 0;
+template <>
+constexpr int type_index<double> = 1;
+template <>
+constexpr int type_index<glm::dvec3> = 2;
+template <>
+constexpr int type_index<glm::dquat> = 3;
+template <>
+constexpr int type_index<Transform> = 4;
+
+Type part_type(Of of) noexcept {
+    switch (of) {
+        case Of::Transform:
+            return Type::Transform;
+        case Of::Translation:
+        case Of::Scale:
+            return Type::Vector;
+        case Of::Rotation:
+            return Type::Rotation;
+        default:
+            return Type::Number;
+    }
+}
+
+std::string quoted(std::string_view text) {
+    std::string result(1, '"');
+    result += text;
+    result += '"';
+    return result;
+}
+
+/// Inputs whose name ends so are weights: 0 to 1.
+bool is_weight(std::string_view name) {
+    return name == "weight" || name.ends_with(".weight");
+}
+
+}  // namespace
+
+bool converts(Type from, Type to) noexcept {
+    return from == to || (from == Type::Bool && to == Type::Number) ||
+           (from == Type::Transform && (to == Type::Vector || to == Type::Rotation));
+}
+
+Resolver::Resolver(const Definition& definition) : definition_(definition) {
+    for (std::size_t i = 0; i < definition.elements.size(); ++i) elements_[definition.elements[i].name] = i;
+    for (std::size_t i = 0; i < definition.curves.size(); ++i) curves_[definition.curves[i].name] = i;
+}
+
+Result Resolver::resolve(std::vector<Unit>& units) {
+    for (Unit& each : units) {
+        unit(each);
+        if (!refusal_) break;
+    }
+    return refusal_;
+}
+
+void Resolver::refuse(const std::string& what) {
+    if (refusal_) refusal_ = Result(ErrorCode::InvalidArgument, place_ + ": " + what);
+}
+
+void Resolver::unit(Unit& unit) {
+    place_ = "unit " + quoted(unit.name);
+    if (unit.name.empty()) return refuse("its name is empty");
+    if (!taken_.insert(unit.name).second) return refuse("another unit has this name already");
+    const std::size_t index = names.size();
+    any_types_.clear();
+    names.push_back(unit.name);
+    outputs.push_back(rig::outputs(unit.operation));
+
+    field("weight", unit.weight);
+    field("when", unit.when);
+    std::visit(
+        [&](auto& operation) {
+            fields(operation, [&](const char* name, auto& member) { field(name, member); });
+        },
+        unit.operation);
+    if (auto* set = std::get_if<SetCurve>(&unit.operation)) {
+        const auto found = curves_.find(set->curve);
+        if (found == curves_.end()) return refuse("curve: there is no curve " + quoted(set->curve));
+        set->resolved.index = static_cast<std::int32_t>(found->second);
+    }
+    if (std::holds_alternative<SpringInterpolate>(unit.operation) && refusal_) spring(outputs[index]);
+    // Only now: a unit that reads itself reads one that has not run.
+    units_[unit.name] = {index, for_each_};
+}
+
+void Resolver::spring(std::vector<Output>& handed_out) {
+    const Type target = any_types_[0];
+    if (target == Type::Bool || target == Type::Transform)
+        return refuse(std::string("target takes a number, a vector or a rotation, got a ") + name(target));
+    const Type rate = target == Type::Rotation ? Type::Vector : target;
+    if (any_types_.size() > 1 && any_types_[1] != rate)
+        return refuse(std::string("force takes a ") + name(rate) + " here, got a " + name(any_types_[1]));
+    handed_out[0].type = target;
+    handed_out[1].type = rate;
+}
+
+void Resolver::field(const std::string& name, Item& item) {
+    if (std::holds_alternative<ThisElement>(item.which)) {
+        if (!for_each_) refuse(name + R"(: {"item": "each"} is only known inside a for-each)");
+        return;
+    }
+    const auto& element = std::get<std::string>(item.which);
+    const auto found = elements_.find(element);
+    if (found == elements_.end()) return refuse(name + ": there is no element " + quoted(element));
+    item.resolved.index = static_cast<std::int32_t>(found->second);
+}
+
+void Resolver::field(const std::string& name, AimInputs& inputs) {
+    fields(inputs, [&](const char* member, auto& value) { field(name + "." + member, value); });
+}
+
+void Resolver::field(const std::string& name, std::vector<ParentInputs>& parents) {
+    if (parents.empty()) return refuse(name + " must have at least one");
+    for (std::size_t i = 0; i < parents.size(); ++i)
+        fields(parents[i], [&](const char* member, auto& value) {
+            field(name + "[" + std::to_string(i) + "]." + member, value);
+        });
+}
+
+void Resolver::field(const std::string& name, Body& body) {
+    if (for_each_) return refuse(name + ": a for-each cannot stand in the body of another");
+    const std::string outside = place_;
+    // What a body's units know of their for-each is only that they are in one, and in which.
+    for_each_ = &body.units();
+    for (Unit& each : body.units()) {
+        unit(each);
+        if (!refusal_) break;
+    }
+    for_each_ = nullptr;
+    place_ = outside;
+}
+
+void Resolver::field(const std::string& name, std::vector<std::string>& roots) {
+    if (roots.empty()) return refuse(name + " must have at least one");
+    for (const std::string& root : roots)
+        if (!elements_.contains(root)) return refuse(name + ": there is no element " + quoted(root));
+}
+
+void Resolver::field(const std::string& name, std::array<double, 2>& range) {
+    for (const double end : range) check_literal(name, end);
+}
+
+void Resolver::field(const std::string& name, Space& space) {
+    if (space != Space::Global && space != Space::Local) refuse(name + " must be global or local");
+}
+
+void Resolver::field(const std::string& name, signal::Curve& curve) {
+    if (const Result bad = signal::check(curve); !bad) refuse(name + ": " + bad.message());
+}
+
+template <class T>
+void Resolver::field(const std::string& name, Input<T>& input) {
+    Type type{};
+    if (T* literal = std::get_if<T>(&input.source)) {
+        const Value value(*literal);
+        type = type_of(value);
+        check_literal(name, value);
+    } else {
+        type = std::visit(
+            [&]<class Source>(Source& source) {
+                if constexpr (std::is_same_v<Source, T>)
+                    return Type::Bool;  // handled above
+                else
+                    return type_of_source(name, source);
+            },
+            input.source);
+    }
+    if (!refusal_) return;
+    if constexpr (type_index<T> < 0) {
+        any_types_.push_back(type);
+    } else if (const auto wanted = static_cast<Type>(type_index<T>); !converts(type, wanted)) {
+        refuse(name + " takes a " + rig::name(wanted) + ", got a " + rig::name(type));
+    }
+}
+
+Type Resolver::type_of_source(const std::string& name, FromElement& from) {
+    field(name, from.element);
+    if (from.of != Of::ControlValue || !refusal_) return part_type(from.of);
+    if (from.element.resolved.index < 0) {
+        refuse(name + ": only a control has a value, and a for-each comes to elements of any kind");
+        return Type::Number;
+    }
+    const Element& element = definition_.elements[static_cast<std::size_t>(from.element.resolved.index)];
+    if (element.kind != ElementKind::Control) {
+        refuse(name + ": " + quoted(element.name) + " is no control and has no value");
+        return Type::Number;
+    }
+    return type_of(element.control.value_or(Control()).kind);
+}
+
+Type Resolver::type_of_source(const std::string& name, FromUnit& from) {
+    const auto found = units_.find(from.unit);
+    if (found == units_.end()) {
+        refuse(name + ": no unit " + quoted(from.unit) + " runs before this one");
+        return Type::Number;
+    }
+    if (found->second.body && found->second.body != for_each_) {
+        refuse(name + ": unit " + quoted(from.unit) + " runs inside a for-each, once an element");
+        return Type::Number;
+    }
+    from.resolved_unit.index = static_cast<std::int32_t>(found->second.index);
+    const std::vector<Output>& handed_out = outputs[found->second.index];
+    const auto output = std::find_if(handed_out.begin(), handed_out.end(),
+                                     [&](const Output& each) { return each.name == from.output; });
+    if (output == handed_out.end()) {
+        refuse(name + ": unit " + quoted(from.unit) + " has no output " + quoted(from.output));
+        return Type::Number;
+    }
+    from.resolved_output.index = static_cast<std::int32_t>(output - handed_out.begin());
+    return output->type;
+}
+
+Type Resolver::type_of_source(const std::string& name, Each&) {
+    if (!for_each_) refuse(name + R"(: {"each": ...} is only known inside a for-each)");
+    return Type::Number;
+}
+
+void Resolver::check_literal(const std::string& name, const Value& value) {
+    if (const auto* number = std::get_if<double>(&value)) {
+        const std::string got = ", got " + std::string(tendril::detail::Shown(*number).text());
+        if (name.starts_with("parents[") && !(*number >= 0.0)) refuse(name + " must not be negative" + got);
+        if (is_weight(name) && !name.starts_with("parents[") && !(*number >= 0.0 && *number <= 1.0))
+            refuse(name + " must be 0 to 1" + got);
+        if (name == "max_speed" && !(*number >= 0.0)) refuse(name + " must not be negative" + got);
+    }
+    if (const Result bad = check(name.c_str(), value); !bad) refuse(bad.message());
+}
+
+}  // namespace tendril::rig

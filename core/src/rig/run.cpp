@@ -1,0 +1,138 @@
+#include <algorithm>
+
+#include "rig/math.hpp"
+#include "rig/runner.hpp"
+
+namespace tendril::rig {
+
+const char* message(Warning warning) noexcept {
+    switch (warning) {
+        case Warning::None:
+            break;
+        case Warning::TargetAtItem:
+            return "the target is where the item is, there is no direction to it";
+        case Warning::ZeroAxis:
+            return "an axis has no length";
+        case Warning::SecondaryOnPrimary:
+            return "the second target is on the primary axis, every roll is as good";
+        case Warning::AxesParallel:
+            return "the two axes are parallel";
+        case Warning::ZeroWeights:
+            return "all weights are 0";
+        case Warning::WeightOutOfRange:
+            return "a weight is not from 0 to 1, and was clamped";
+        case Warning::OutOfRange:
+            return "the result is out of range, and was not taken";
+        case Warning::CannotSolve:
+            return "the chain cannot be solved: a bone has no length or is out of range";
+    }
+    return "";
+}
+
+bool Rig::solve(State& state, double dt, Workspace& workspace, Observer* observer) const noexcept {
+    return Runner(*plan_, state, dt, workspace).run(observer);
+}
+
+bool Runner::run(Observer* observer) noexcept {
+    put_back();
+    if (observer) observer->begin(state_);
+    const std::vector<Unit>& units = plan_.definition.units;
+    for (std::size_t i = 0; i < units.size(); ++i) {
+        run_unit(units[i]);
+        if (observer) observer->unit_done(i, state_);
+    }
+    return moving_;
+}
+
+/// Bones, nulls and curves to what goes in, controls to where their values have them.
+void Runner::put_back() noexcept {
+    std::copy(state_.input_curves.begin(), state_.input_curves.end(), state_.curves.begin());
+    Hierarchy& tree = state_.elements;
+    tree.copy_pose(Pose::Input, Pose::Current);
+    for (std::size_t i = 0; i < plan_.ids.size(); ++i) {
+        const std::optional<Control>& control = plan_.definition.elements[i].control;
+        if (!control) continue;
+        const Transform& base = tree.get(plan_.ids[i], Space::Local, Pose::Input);
+        tree.put(plan_.ids[i], Space::Local, posed(*control, base, state_.controls[i]));
+    }
+}
+
+void Runner::run_unit(const Unit& unit) noexcept {
+    unit_ = next_++;
+    if (!visit_ || place_in_for_each_ == 0) unit_state().warning = Warning::None;
+    skipped_ = !unit.enabled || !read(unit.when);
+    weight_ = skipped_ ? 0.0 : weight(unit.weight);
+    std::visit(*this, unit.operation);
+}
+
+void Runner::operator()(const ForEach& op) noexcept {
+    const std::size_t own = unit_, first = next_;
+    const std::vector<detail::Visit>& visits = plan_.units[own].visits;
+    const bool skipped = skipped_;
+    hand_out(0, static_cast<double>(visits.size()));
+    if (!skipped && weight_ > 0.0)
+        for (place_in_for_each_ = 0; place_in_for_each_ < visits.size(); ++place_in_for_each_) {
+            visit_ = &visits[place_in_for_each_];
+            next_ = first;
+            for (const Unit& unit : op.body.units()) run_unit(unit);
+        }
+    visit_ = nullptr;
+    place_in_for_each_ = 0;
+    next_ = first + op.body.units().size();
+}
+
+Value Runner::value_of(const FromElement& from) noexcept {
+    if (from.of == Of::ControlValue)
+        return state_.controls[static_cast<std::size_t>(from.element.resolved.index)];
+    const Transform& pose = state_.elements.get(item(from.element), from.space, from.pose);
+    switch (from.of) {
+        case Of::Translation:
+            return pose.translation;
+        case Of::Rotation:
+            return pose.rotation;
+        case Of::Scale:
+            return pose.scale;
+        case Of::X:
+            return pose.translation.x;
+        case Of::Y:
+            return pose.translation.y;
+        case Of::Z:
+            return pose.translation.z;
+        default:
+            return pose;
+    }
+}
+
+ElementId Runner::item(const Item& item) const noexcept {
+    const auto index =
+        item.resolved.index < 0 ? visit_->element : static_cast<std::uint32_t>(item.resolved.index);
+    return plan_.ids[index];
+}
+
+double Runner::weight(const Input<double>& input) noexcept {
+    const double given = read(input);
+    if (!(given >= 0.0 && given <= 1.0)) warn(Warning::WeightOutOfRange);
+    return std::clamp(given, 0.0, 1.0);
+}
+
+void Runner::warn(Warning warning) noexcept {
+    if (unit_state().warning == Warning::None && !skipped_) unit_state().warning = warning;
+}
+
+void Runner::hand_out(std::size_t output, const Value& value) noexcept {
+    if (is_fine(value)) {
+        unit_state().outputs[output] = value;
+    } else {
+        warn(Warning::OutOfRange);
+        unit_state().outputs[output] = neutral(type_of(value));
+    }
+}
+
+/// Where the weight is 0 the item has to stay as it is, to the bit.
+void Runner::place(ElementId id, Space space, const Transform& to, bool propagate) noexcept {
+    if (weight_ == 0.0) return;
+    if (!is_fine(to)) return warn(Warning::OutOfRange);
+    state_.elements.put(id, space, to, propagate ? Propagate::Yes : Propagate::No);
+}
+
+}  // namespace tendril::rig

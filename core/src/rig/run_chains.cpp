@@ -1,0 +1,123 @@
+// The units that solve a chain of bones.
+#include <algorithm>
+#include <cmath>
+
+#include "rig/math.hpp"
+#include "rig/runner.hpp"
+#include "rig/workspace.hpp"
+#include "tendril/rig/transform_units.hpp"
+
+namespace tendril::rig {
+namespace {
+
+/// Parts of a length by which bones may have changed since the solver was made.
+constexpr float same_length = 1e-6f;
+
+bool made_for(const ChainScratch& chain, std::size_t bone, float length) noexcept {
+    return std::abs(chain.lengths[bone] - length) <= same_length * length;
+}
+
+}  // namespace
+
+Workspace::Workspace(const Rig& rig) : parts_(std::make_unique<Parts>()) {
+    parts_->chains.resize(rig.unit_names().size());
+    std::size_t parents = 0;
+    const auto count = [&](const auto& self, const std::vector<Unit>& units) -> void {
+        for (const Unit& unit : units) {
+            if (const auto* constraint = std::get_if<ParentConstraint>(&unit.operation))
+                parents = std::max(parents, constraint->parents.size());
+            if (const auto* for_each = std::get_if<ForEach>(&unit.operation))
+                self(self, for_each->body.units());
+        }
+    };
+    count(count, rig.definition().units);
+    parts_->parents.reserve(parents);
+}
+Workspace::~Workspace() = default;
+Workspace::Workspace(Workspace&&) noexcept = default;
+Workspace& Workspace::operator=(Workspace&&) noexcept = default;
+
+void Runner::operator()(const TwoBone& op) noexcept {
+    solve_chain(ik::Method::TwoBone, op.target, op.pole_target);
+}
+void Runner::operator()(const Fabrik& op) noexcept {
+    solve_chain(ik::Method::Fabrik, op.target, op.pole_target);
+}
+
+glm::dvec3 Runner::bone_place(std::size_t bone) noexcept {
+    const std::uint32_t element = plan_.units[unit_].bones[bone];
+    return state_.elements.get(plan_.ids[element], Space::Global).translation;
+}
+
+/// A solver for the bones as long as they now are: made at the first solve, and again where a length changed.
+bool Runner::prepare_chain(ChainScratch& chain) {
+    const std::size_t bones = plan_.units[unit_].bones.size() - 1;
+    const glm::dvec3 origin = bone_place(0);
+    chain.joints.resize(bones + 1);
+    chain.before.resize(bones);
+    chain.lengths.resize(bones, -1.0f);
+    bool same = chain.solver.has_value();
+    for (std::size_t i = 0; i < bones; ++i) {
+        const auto length =
+            static_cast<float>(detail::length(detail::minus(bone_place(i + 1), bone_place(i))));
+        same = same && made_for(chain, i, length);
+        chain.joints[i + 1] = math::narrow(detail::minus(bone_place(i + 1), origin));
+        chain.before[i] = state_.elements.get(plan_.ids[plan_.units[unit_].bones[i]], Space::Local).rotation;
+    }
+    chain.joints[0] = glm::vec3(0.0f);
+    if (same) return true;
+    for (std::size_t i = 0; i < bones; ++i)
+        chain.lengths[i] =
+            static_cast<float>(detail::length(detail::minus(bone_place(i + 1), bone_place(i))));
+    chain.solver.reset();
+    auto solver = ik::Solver::make(chain.lengths);
+    if (solver) chain.solver.emplace(std::move(*solver));
+    return chain.solver.has_value();
+}
+
+/// Turns each bone on from where the ones before it have brought it, by the shortest arc to where it should
+/// point.
+void Runner::turn_bones(const ChainScratch& chain) noexcept {
+    Hierarchy& tree = state_.elements;
+    const std::vector<std::uint32_t>& elements = plan_.units[unit_].bones;
+    for (std::size_t i = 0; i + 1 < elements.size(); ++i) {
+        const glm::dvec3 is = detail::minus(bone_place(i + 1), bone_place(i));
+        const glm::dvec3 should = math::between(chain.joints[i], chain.joints[i + 1]);
+        Transform pose = tree.get(plan_.ids[elements[i]], Space::Global);
+        pose.rotation = normalised(math::compose(from_two_vectors(is, should), pose.rotation));
+        tree.put(plan_.ids[elements[i]], Space::Global, pose);
+    }
+    if (weight_ >= 1.0) return;
+    for (std::size_t i = 0; i + 1 < elements.size(); ++i) {
+        Transform pose = tree.get(plan_.ids[elements[i]], Space::Local);
+        pose.rotation = blend(chain.before[i], pose.rotation, weight_);
+        tree.put(plan_.ids[elements[i]], Space::Local, pose);
+    }
+}
+
+void Runner::solve_chain(ik::Method method, const Input<glm::dvec3>& target,
+                         const std::optional<Input<glm::dvec3>>& pole_target) noexcept {
+    const std::size_t bones = plan_.units[unit_].bones.size() - 1;
+    const glm::dvec3 to = read(target), origin = bone_place(0);
+    if (weight_ > 0.0) {
+        ChainScratch& chain = workspace_.parts().chains[unit_];
+        if (!prepare_chain(chain)) {
+            warn(Warning::CannotSolve);
+        } else {
+            if (!std::holds_alternative<ik::State>(memory().held))
+                memory().held = chain.solver->initial_state();
+            ik::Options options;
+            if (pole_target) options.pole = math::narrow(detail::minus(read(*pole_target), origin));
+            const ik::Report report =
+                chain.solver->solve(method, chain.joints, std::get<ik::State>(memory().held),
+                                    math::narrow(detail::minus(to, origin)), options);
+            if (report.status == ik::Status::InvalidInput)
+                warn(Warning::CannotSolve);
+            else
+                turn_bones(chain);
+        }
+    }
+    hand_out(0, detail::length(detail::minus(to, bone_place(bones))));
+}
+
+}  // namespace tendril::rig

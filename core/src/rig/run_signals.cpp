@@ -1,0 +1,96 @@
+// The units that are filters of core/signal.
+#include <cmath>
+
+#include "rig/math.hpp"
+#include "rig/runner.hpp"
+#include "tendril/signal/curve.hpp"
+#include "tendril/signal/scale_bias_clamp.hpp"
+#include "tendril/signal/spring.hpp"
+
+namespace tendril::rig {
+namespace {
+
+/// A change smaller than this, of metres, radians or plain numbers, is rest.
+constexpr double still = 1e-9;
+
+double blended(double from, double to, double weight) noexcept {
+    return from + (to - from) * weight;
+}
+glm::dvec3 blended(const glm::dvec3& from, const glm::dvec3& to, double weight) noexcept {
+    return detail::mix(from, to, weight);
+}
+glm::dquat blended(const glm::dquat& from, const glm::dquat& to, double weight) noexcept {
+    return blend(from, to, weight);
+}
+double size(double rate) noexcept {
+    return std::abs(rate);
+}
+double size(const glm::dvec3& rate) noexcept {
+    return detail::length(rate);
+}
+
+}  // namespace
+
+void Runner::operator()(const AlphaInterpolate& op) noexcept {
+    const double value = read(op.value);
+    const signal::ScaleBiasClamp parameters{.map_range = read(op.map_range),
+                                            .in_range = op.in_range,
+                                            .out_range = op.out_range,
+                                            .scale = read(op.scale),
+                                            .bias = read(op.bias),
+                                            .clamp = read(op.clamp),
+                                            .clamp_min = read(op.clamp_min),
+                                            .clamp_max = read(op.clamp_max),
+                                            .interp = read(op.interp),
+                                            .speed_increasing = read(op.speed_increasing),
+                                            .speed_decreasing = read(op.speed_decreasing)};
+    if (skipped_) return hand_out(0, value);
+    if (!std::holds_alternative<signal::OutputState>(memory().held)) memory().held = signal::OutputState();
+    auto& remembered = std::get<signal::OutputState>(memory().held);
+    const signal::OutputState before = remembered;
+    const double result = signal::step(parameters, remembered, value, dt_);
+    moving_ |= parameters.interp && std::abs(remembered.value - before.value) > still;
+    hand_out(0, blended(value, result, weight_));
+}
+
+template <class T>
+void Runner::spring(const SpringInterpolate& op, const T& target) noexcept {
+    using Rate = signal::Rate<T>;
+    if (skipped_) {
+        hand_out(0, target);
+        return hand_out(1, Rate{});
+    }
+    signal::Spring<T> parameters{.strength = read(op.strength),
+                                 .critical_damping = read(op.critical_damping),
+                                 .target_velocity_amount = read(op.target_velocity_amount)};
+    if (op.force) parameters.force = std::get<Rate>(read(*op.force));
+    using Memory = signal::SpringState<T>;
+    if (!std::holds_alternative<Memory>(memory().held)) memory().held = Memory();
+    auto& remembered = std::get<Memory>(memory().held);
+    // Without time its first step would not count as one: the place to start from has to stick.
+    const T result = signal::step(parameters, remembered, target, dt_);
+    moving_ |= size(remembered.velocity) > still;
+    hand_out(0, blended(target, result, weight_));
+    hand_out(1, remembered.velocity);
+}
+
+void Runner::operator()(const SpringInterpolate& op) noexcept {
+    const Value target = read(op.target);
+    if (const auto* number = std::get_if<double>(&target)) return spring(op, *number);
+    if (const auto* vector = std::get_if<glm::dvec3>(&target)) return spring(op, *vector);
+    spring(op, std::get<glm::dquat>(target));
+}
+
+void Runner::operator()(const EvaluateCurve& op) noexcept {
+    const double value = read(op.value);
+    hand_out(0, blended(value, signal::evaluate(op.curve, value), weight_));
+}
+
+void Runner::operator()(const SetCurve& op) noexcept {
+    double& curve = state_.curves[static_cast<std::size_t>(op.resolved.index)];
+    const double to = blended(curve, read(op.value), weight_);
+    if (weight_ > 0.0 && is_fine(to)) curve = to;
+    hand_out(0, curve);
+}
+
+}  // namespace tendril::rig

@@ -1,0 +1,124 @@
+// One forward solve. Not installed.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "rig/plan.hpp"
+#include "rig/value.hpp"
+#include "tendril/ik/method.hpp"
+#include "tendril/rig/collect.hpp"
+#include "tendril/rig/workspace.hpp"
+
+namespace tendril::rig {
+
+struct ChainScratch;
+
+/// Runs the units of a rig on a state, one after the other; operator() of an operation computes it for
+/// `unit_`, and for `visit_` in the body of a for-each.
+class Runner {
+  public:
+    Runner(const detail::Plan& plan, State& state, double dt, Workspace& workspace) noexcept
+        : plan_(plan), state_(state), dt_(dt), workspace_(workspace) {}
+
+    /// Whether anything that remembers still moves.
+    bool run(Observer* observer) noexcept;
+
+    void operator()(const Aim& op) noexcept;
+    void operator()(const AimMath& op) noexcept;
+    void operator()(const ParentConstraint& op) noexcept;
+    void operator()(const OffsetTransform& op) noexcept;
+    void operator()(const SetTransform& op) noexcept;
+    void operator()(const SetRotation& op) noexcept;
+    void operator()(const ProjectToParent& op) noexcept;
+    void operator()(const FromTwoVectors& op) noexcept;
+    void operator()(const TransformLocation& op) noexcept;
+    void operator()(const TransformDirection& op) noexcept;
+    void operator()(const ForEach& op) noexcept;
+    void operator()(const AlphaInterpolate& op) noexcept;
+    void operator()(const SpringInterpolate& op) noexcept;
+    void operator()(const EvaluateCurve& op) noexcept;
+    void operator()(const SetCurve& op) noexcept;
+    void operator()(const TwoBone& op) noexcept;
+    void operator()(const Fabrik& op) noexcept;
+
+  private:
+    void put_back() noexcept;
+    void run_unit(const Unit& unit) noexcept;
+
+    // what goes in
+    template <class T>
+    T read(const Input<T>& input) noexcept;
+    Value value_of(const FromElement& from) noexcept;
+    ElementId item(const Item& item) const noexcept;
+    double weight(const Input<double>& input) noexcept;
+    const Transform& global(const Item& item) noexcept {
+        return state_.elements.get(this->item(item), Space::Global);
+    }
+
+    // what comes out
+    void warn(Warning warning) noexcept;
+    void hand_out(std::size_t output, const Value& value) noexcept;
+    void place(ElementId id, Space space, const Transform& to, bool propagate) noexcept;
+    UnitState& unit_state() noexcept { return state_.units[unit_]; }
+    UnitMemory& memory() noexcept { return unit_state().memory[visit_ ? place_in_for_each_ : 0]; }
+
+    Transform aimed(const Transform& from, const AimInputs& primary,
+                    const std::optional<AimInputs>& secondary, const Input<double>& max_speed) noexcept;
+    AimPart part(const AimInputs& inputs) noexcept;
+    template <class T>
+    void spring(const SpringInterpolate& op, const T& target) noexcept;
+    void solve_chain(ik::Method method, const Input<glm::dvec3>& target,
+                     const std::optional<Input<glm::dvec3>>& pole_target) noexcept;
+    bool prepare_chain(ChainScratch& chain);
+    void turn_bones(const ChainScratch& chain) noexcept;
+    glm::dvec3 bone_place(std::size_t bone) noexcept;
+
+    const detail::Plan& plan_;
+    State& state_;
+    double dt_;
+    Workspace& workspace_;
+
+    std::size_t unit_ = 0;  ///< its place in Plan::units
+    std::size_t next_ = 0;  ///< that of the unit after it
+    const detail::Visit* visit_ = nullptr;
+    std::size_t place_in_for_each_ = 0;
+    double weight_ = 1.0;
+    bool skipped_ = false;  ///< then its weight is 0, and what it remembers stands still
+    bool moving_ = false;
+};
+
+template <class T>
+T Runner::read(const Input<T>& input) noexcept {
+    if (const T* literal = input.literal()) return *literal;
+    Value value;
+    if (const auto* from = std::get_if<FromElement>(&input.source)) {
+        value = value_of(*from);
+    } else if (const auto* unit = std::get_if<FromUnit>(&input.source)) {
+        value = state_.units[static_cast<std::size_t>(unit->resolved_unit.index)]
+                    .outputs[static_cast<std::size_t>(unit->resolved_output.index)];
+    } else {
+        const double index = visit_->index, count = visit_->count;
+        switch (std::get<Each>(input.source)) {
+            case Each::Index:
+                value = index;
+                break;
+            case Each::Count:
+                value = count;
+                break;
+            case Each::Ratio:
+                value = loop_ratio(visit_->index, visit_->count);
+        }
+    }
+    if constexpr (std::is_same_v<T, Value>) {
+        return value;
+    } else {
+        if (const T* same = std::get_if<T>(&value)) return *same;
+        if constexpr (std::is_same_v<T, double>) return std::get<bool>(value) ? 1.0 : 0.0;
+        if constexpr (std::is_same_v<T, glm::dvec3>) return std::get<Transform>(value).translation;
+        if constexpr (std::is_same_v<T, glm::dquat>) return std::get<Transform>(value).rotation;
+        return T();
+    }
+}
+
+}  // namespace tendril::rig

@@ -1,0 +1,163 @@
+// The state of a rig: made, taken over after an edit, and changed by what a person sets.
+#include <algorithm>
+#include <string>
+
+#include "rig/math.hpp"
+#include "rig/plan.hpp"
+#include "rig/value.hpp"
+
+namespace tendril::rig {
+namespace {
+
+using detail::Plan;
+
+Result refused_index(const char* operation, const char* what, std::size_t index, std::size_t count) {
+    return {ErrorCode::OutOfRange, std::string(operation) + ": " + what + " " + std::to_string(index) +
+                                       " is not there, the rig has " + std::to_string(count)};
+}
+
+/// By name; a rig has few units with memory, and this is only asked after an edit.
+std::optional<std::size_t> unit_named(const Plan& plan, const std::string& name) {
+    const auto found = std::find(plan.unit_names.begin(), plan.unit_names.end(), name);
+    if (found == plan.unit_names.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - plan.unit_names.begin());
+}
+
+bool same_shape(const UnitState& a, const UnitState& b) {
+    if (a.memory.size() != b.memory.size() || a.outputs.size() != b.outputs.size()) return false;
+    for (std::size_t i = 0; i < a.outputs.size(); ++i)
+        if (a.outputs[i].index() != b.outputs[i].index()) return false;
+    return true;
+}
+
+}  // namespace
+
+const Definition& Rig::definition() const noexcept {
+    return plan_->definition;
+}
+ElementId Rig::id(std::size_t element) const noexcept {
+    return plan_->ids[element];
+}
+std::span<const std::string> Rig::unit_names() const noexcept {
+    return plan_->unit_names;
+}
+std::optional<std::size_t> Rig::element(std::string_view name) const noexcept {
+    const auto found = plan_->elements.find(name);
+    if (found == plan_->elements.end()) return std::nullopt;
+    return found->second;
+}
+std::optional<std::size_t> Rig::curve(std::string_view name) const noexcept {
+    const auto found = plan_->curves.find(name);
+    if (found == plan_->curves.end()) return std::nullopt;
+    return found->second;
+}
+
+State Rig::initial_state() const {
+    return plan_->initial;
+}
+
+State Rig::adopted(const Rig& before, const State& state) const {
+    State result = plan_->initial;
+    Hierarchy old = state.elements;  // reading works out what is pending
+    for (std::size_t i = 0; i < plan_->ids.size(); ++i) {
+        const Element& element = plan_->definition.elements[i];
+        const auto was = before.element(element.name);
+        if (!was) continue;
+        const Element& then = before.definition().elements[*was];
+        if (then.kind != element.kind || then.control != element.control ||
+            !(then.initial == element.initial))
+            continue;
+        result.controls[i] = state.controls[*was];
+        for (const Pose pose : {Pose::Input, Pose::Current})
+            result.elements.put(plan_->ids[i], Space::Local, old.get(before.id(*was), Space::Local, pose),
+                                Propagate::Yes, pose);
+    }
+    for (std::size_t i = 0; i < plan_->definition.curves.size(); ++i)
+        if (const auto was = before.curve(plan_->definition.curves[i].name)) {
+            result.curves[i] = state.curves[*was];
+            result.input_curves[i] = state.input_curves[*was];
+        }
+    for (std::size_t i = 0; i < plan_->unit_names.size(); ++i)
+        if (const auto was = unit_named(*before.plan_, plan_->unit_names[i]);
+            was && same_shape(state.units[*was], result.units[i]))
+            result.units[i] = state.units[*was];
+    return result;
+}
+
+bool Rig::fits(const State& state) const noexcept {
+    const State& own = plan_->initial;
+    if (state.elements.size() != own.elements.size() || state.controls.size() != own.controls.size() ||
+        state.curves.size() != own.curves.size() || state.units.size() != own.units.size())
+        return false;
+    for (const ElementId id : plan_->ids)
+        if (!state.elements.contains(id) || state.elements.parent(id) != own.elements.parent(id))
+            return false;
+    for (std::size_t i = 0; i < own.controls.size(); ++i)
+        if (state.controls[i].index() != own.controls[i].index()) return false;
+    return std::equal(state.units.begin(), state.units.end(), own.units.begin(), same_shape);
+}
+
+Result Rig::set_control(State& state, std::size_t element, const Value& value) const {
+    if (element >= plan_->ids.size())
+        return refused_index("set_control", "element", element, plan_->ids.size());
+    const Element& control = plan_->definition.elements[element];
+    if (!control.control)
+        return {ErrorCode::InvalidArgument, "set_control: \"" + control.name + "\" is no control"};
+    if (const Result bad = check_value("set_control: value", *control.control, value); !bad) return bad;
+    Value& held = state.controls[element];
+    held = clamped(*control.control, normalised(value));
+    const Transform& base = state.elements.get(plan_->ids[element], Space::Local, Pose::Input);
+    state.elements.put(plan_->ids[element], Space::Local, posed(*control.control, base, held));
+    return {};
+}
+
+Result Rig::set_element(State& state, std::size_t element, Space space, const Transform& transform,
+                        Propagate propagate) const {
+    if (element >= plan_->ids.size())
+        return refused_index("set_element", "element", element, plan_->ids.size());
+    const ElementId id = plan_->ids[element];
+    const auto fine = checked(transform, "set_element");
+    if (!fine) return fine.error();
+    Hierarchy& tree = state.elements;
+    tree.put(id, space, *fine, propagate, Pose::Input);
+    tree.put(id, space, *fine, propagate);
+    const std::optional<Control>& control = plan_->definition.elements[element].control;
+    if (!control) return {};
+
+    // What its value says of the pose becomes the value; for the rest its pose at rest has changed.
+    const Transform there = tree.get(id, Space::Local, Pose::Input);
+    Value& value = state.controls[element];
+    const Transform offset = posed(*control, Transform(), value);
+    switch (control->kind) {
+        case ControlKind::Transform:
+            value = clamped(*control, there);
+            break;
+        case ControlKind::Position:
+            value = clamped(*control, there.translation);
+            break;
+        case ControlKind::Rotation:
+            value = there.rotation;
+            break;
+        case ControlKind::Vector2d: {
+            Transform base = there;
+            base.translation = base.translation - detail::rotated(there.rotation, offset.translation);
+            tree.put(id, Space::Local, base, Propagate::Yes, Pose::Input);
+            break;
+        }
+        case ControlKind::Float:
+        case ControlKind::Bool:
+            break;
+    }
+    if (control->minimum || control->maximum)
+        tree.put(id, Space::Local, posed(*control, tree.get(id, Space::Local, Pose::Input), value));
+    return {};
+}
+
+Result Rig::set_curve(State& state, std::size_t curve, double value) const {
+    if (curve >= state.curves.size()) return refused_index("set_curve", "curve", curve, state.curves.size());
+    if (const Result bad = check("set_curve: value", value); !bad) return bad;
+    state.curves[curve] = state.input_curves[curve] = value;
+    return {};
+}
+
+}  // namespace tendril::rig

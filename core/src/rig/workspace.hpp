@@ -1,0 +1,25 @@
+// What is in a workspace. Not installed.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "tendril/ik/solver.hpp"
+#include "tendril/rig/workspace.hpp"
+
+namespace tendril::rig {
+
+/// Of a unit that solves a chain.
+struct ChainScratch {
+    std::optional<ik::Solver> solver;
+    std::vector<float> lengths;  ///< that the solver was made for
+    std::vector<glm::vec3> joints;
+    std::vector<glm::dquat> before;  ///< local rotations
+};
+
+struct Workspace::Parts {
+    std::vector<ChainScratch> chains;  ///< one a unit; empty of those that solve none
+    std::vector<ConstraintParent> parents;
+};
+
+}  // namespace tendril::rig

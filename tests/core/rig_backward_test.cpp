@@ -1,0 +1,161 @@
+// Backward solves, and why an element is where it is.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "random.hpp"
+#include "rig_rigs.hpp"
+#include "tendril/rig/backward.hpp"
+#include "tendril/rig/explain.hpp"
+
+namespace tendril::rig {
+namespace {
+
+double around(test::Random& random, double range) {
+    return static_cast<double>(random.around(1.0f)) * range;
+}
+glm::dquat any_rotation(test::Random& random, double most_degrees) {
+    const double x = around(random, 1), y = around(random, 1), z = around(random, 1);
+    const double angle = around(random, most_degrees);
+    return turned(angle, glm::dvec3(x, y, z) + glm::dvec3(1e-3)).rotation;
+}
+
+/// Sets every control to something random, solves, keeps the pose of the bones, puts the controls back to
+/// rest, and solves backward: how much is left.
+BackwardReport there_and_back(const Definition& definition, std::uint64_t seed, double most_degrees) {
+    test::Random random(seed);
+    Held rig(definition);
+    const std::vector<Value> rest = rig.state.controls;
+    for (std::size_t i = 0; i < definition.elements.size(); ++i) {
+        if (!definition.elements[i].control) continue;
+        Value value = rig.state.controls[i];
+        if (std::holds_alternative<double>(value)) value = 0.5 + around(random, 0.5);
+        if (std::holds_alternative<bool>(value)) value = random.chance(2);
+        if (auto* vector = std::get_if<glm::dvec3>(&value))
+            for (int axis = 0; axis < 3; ++axis) (*vector)[axis] += around(random, 0.8);
+        if (std::holds_alternative<glm::dquat>(value)) value = any_rotation(random, most_degrees);
+        EXPECT_TRUE(rig.rig.set_control(rig.state, i, value));
+    }
+    rig.solve();
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+        if (!definition.elements[i].control) continue;
+        EXPECT_TRUE(rig.rig.set_control(rig.state, i, rest[i]));
+    }
+    // Only the bones stand as they did.
+    return solve_backward(rig.rig, rig.state, rig.workspace);
+}
+
+void expect_nothing_left(const BackwardReport& report, std::uint64_t seed) {
+    for (const Residual& left : report.elements) {
+        EXPECT_LT(left.metres, 1e-4) << seed;
+        EXPECT_LT(left.radians, 1e-4) << seed;
+        EXPECT_LT(left.scale, 1e-4) << seed;
+    }
+}
+
+TEST(RigBackward, GivesThePoseBackWhereverTheRigCanExpressIt) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        expect_nothing_left(there_and_back(fk_rig(4), seed, 100), seed);
+        expect_nothing_left(there_and_back(fk_rig(4, false), seed, 100), seed);
+        expect_nothing_left(there_and_back(aim_rig(), seed, 100), seed);
+        expect_nothing_left(there_and_back(loop_rig(5, true), seed, 100), seed);
+        expect_nothing_left(there_and_back(loop_rig(5, false), seed, 100), seed);
+    }
+}
+
+TEST(RigBackward, SaysWhatARigCannotExpressAndAtWhichBone) {
+    Held rig(fk_rig(4));
+    // A bone that is longer than any control can make it.
+    ASSERT_TRUE(rig.rig.set_element(rig.state, rig.element("b3"), Space::Local, at(0, 1.5, 0)));
+    ASSERT_TRUE(rig.rig.set_element(rig.state, rig.element("b3"), Space::Local, at(0, 1.0, 0)));
+    rig.solve();
+    rig.state.elements.put(rig.rig.id(rig.element("b3")), Space::Local, at(0, 1.5, 0));
+    const BackwardReport report = solve_backward(rig.rig, rig.state, rig.workspace);
+    ASSERT_TRUE(report.worst);
+    EXPECT_EQ(rig.rig.definition().elements[*report.worst].name, "b3");
+    EXPECT_NEAR(report.elements[*report.worst].metres, 0.5, 1e-3);
+    EXPECT_LT(report.elements[rig.element("b1")].metres, 0.05);
+}
+
+TEST(RigBackward, KeepsToTheLimitsOfControls) {
+    Held rig(aim_rig());
+    ASSERT_TRUE(rig.control("look", glm::dvec3(1, 1, 0)));
+    rig.solve();
+    // Beyond what the control can reach.
+    Transform head = rig.local("head");
+    head.rotation = turned(80, {0, 1, 0}).rotation;
+    rig.state.elements.put(rig.rig.id(rig.element("head")), Space::Local, head);
+    const BackwardReport report = solve_backward(rig.rig, rig.state, rig.workspace);
+    const auto look = std::get<glm::dvec3>(rig.state.controls[rig.element("look")]);
+    EXPECT_LE(std::abs(look.x), 1.0);
+    EXPECT_LE(std::abs(look.y), 1.0);
+    EXPECT_GT(report.elements[rig.element("head")].radians, 0.5);
+    EXPECT_EQ(*report.worst, rig.element("head"));
+}
+
+TEST(RigBackward, TriesSwitchesBothWays) {
+    Definition definition = fk_rig(2);
+    definition.elements.push_back(
+        {.name = "on", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Bool}});
+    definition.units.push_back({.name = "bend",
+                                .operation = OffsetTransform{.item = "b0", .offset = at(0, 0, 2)},
+                                .when = FromElement{.element = "on", .of = Of::ControlValue}});
+    Held rig(definition);
+    ASSERT_TRUE(rig.control("on", true));
+    rig.solve();
+    ASSERT_TRUE(rig.control("on", false));
+    const BackwardReport report = solve_backward(rig.rig, rig.state, rig.workspace);
+    EXPECT_TRUE(std::get<bool>(rig.state.controls[rig.element("on")]));
+    expect_nothing_left(report, 0);
+}
+
+TEST(RigBackward, IsTheSameAtEveryRun) {
+    for (int i = 0; i < 2; ++i) {
+        Held a(fk_rig(3)), b(fk_rig(3));
+        for (Held* rig : {&a, &b}) {
+            ASSERT_TRUE(rig->control("c1", turned(70, {1, 0, 1}).rotation));
+            rig->solve();
+            solve_backward(rig->rig, rig->state, rig->workspace);
+        }
+        EXPECT_EQ(a.state, b.state);
+    }
+}
+
+TEST(RigBackward, ARigWithoutControlsOrBonesIsSolvedAtOnce) {
+    Held nothing({});
+    EXPECT_FALSE(solve_backward(nothing.rig, nothing.state, nothing.workspace).worst);
+    Held bones({.elements = {{.name = "a"}}});
+    ASSERT_TRUE(bones.rig.set_element(bones.state, 0, Space::Local, at(1, 0, 0)));
+    EXPECT_EQ(solve_backward(bones.rig, bones.state, bones.workspace).elements[0].metres, 0.0);
+}
+
+TEST(RigExplain, ContributionsComposeToThePose) {
+    test::Random random(7);
+    for (int round = 0; round < 20; ++round) {
+        Held rig(fk_rig(4));
+        for (const char* name : {"c0", "c1", "c2", "c3"})
+            ASSERT_TRUE(rig.control(name, any_rotation(random, 90)));
+        rig.solve();
+        const Explanation why = explain(rig.rig, rig.state, rig.element("b3"), rig.workspace);
+        ASSERT_EQ(why.units.size(), 4u);
+        Transform pose = why.input;
+        for (const Contribution& each : why.units) pose = compose(pose, each.change);
+        EXPECT_LT(glm::length(pose.translation - rig.global("b3").translation), 1e-5);
+        EXPECT_GT(std::abs(glm::dot(pose.rotation, rig.global("b3").rotation)), 1.0 - 1e-10);
+        EXPECT_EQ(why.result, rig.global("b3"));
+    }
+}
+
+TEST(RigExplain, SaysWhoMovedItAndHowFar) {
+    Held rig(fk_rig(2));
+    ASSERT_TRUE(rig.control("c0", turned(90, {0, 0, 1}).rotation));
+    rig.solve();
+    const Explanation why = explain(rig.rig, rig.state, rig.element("b1"), rig.workspace);
+    EXPECT_NEAR(why.units[0].metres, std::sqrt(2.0), 1e-9);
+    EXPECT_NEAR(why.units[0].radians, glm::radians(90.0), 1e-6);
+    EXPECT_NEAR(why.units[1].metres, 0.0, 1e-9);
+    EXPECT_NEAR(why.units[1].radians, 0.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace tendril::rig

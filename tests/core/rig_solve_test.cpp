@@ -1,0 +1,292 @@
+// Forward solves: each unit on a small rig, and what holds for all of them.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "memory.hpp"
+#include "rig_rigs.hpp"
+
+namespace tendril::rig {
+namespace {
+
+void expect_near(const glm::dvec3& a, const glm::dvec3& b, double within = 1e-9) {
+    EXPECT_NEAR(glm::length(a - b), 0.0, within)
+        << a.x << ' ' << a.y << ' ' << a.z << " and " << b.x << ' ' << b.y << ' ' << b.z;
+}
+
+TEST(RigSolve, AimsTheHeadAtItsControl) {
+    Held rig(aim_rig());
+    ASSERT_TRUE(rig.control("look", glm::dvec3(0.8, -0.5, 0)));
+    rig.solve();
+    const Transform head = rig.global("head"), look = rig.global("look"), tilt = rig.global("tilt");
+    expect_near(look.translation, {0.8, 0.8, 2});
+    expect_near(head.rotation * glm::dvec3(0, 0, 1), glm::normalize(look.translation - head.translation));
+    // The control above tells what is up, as nearly as looking at the other allows.
+    const glm::dvec3 side =
+        glm::cross(head.rotation * glm::dvec3(0, 0, 1), tilt.translation - head.translation);
+    EXPECT_NEAR(glm::dot(head.rotation * glm::dvec3(0, 1, 0), glm::normalize(side)), 0.0, 1e-12);
+}
+
+TEST(RigSolve, MathFormAndBoneFormOfAimAgreeToTheBit) {
+    Definition both = aim_rig();
+    const auto aim = std::get<Aim>(both.units[0].operation);
+    both.elements.push_back({.name = "twin", .parent = "neck", .initial = at(0, 0.3, 0)});
+    both.units.push_back(
+        {.name = "math",
+         .operation = AimMath{.transform = FromElement{.element = "twin", .of = Of::Transform},
+                              .primary = aim.primary,
+                              .secondary = aim.secondary}});
+    both.units.push_back(
+        {.name = "set", .operation = SetTransform{.item = "twin", .transform = FromUnit{"math"}}});
+    Held rig(both);
+    ASSERT_TRUE(rig.control("look", glm::dvec3(-0.3, 0.9, 0)));
+    rig.solve();
+    EXPECT_EQ(rig.global("head").rotation, rig.global("twin").rotation);
+    EXPECT_EQ(rig.unit("aim").outputs[0], rig.unit("math").outputs[0]);
+}
+
+TEST(RigSolve, SolvingTwiceGivesWhatSolvingOnceGives) {
+    for (const Definition& definition : {aim_rig(), fk_rig(), loop_rig(), loop_rig(5, false)}) {
+        Held rig(definition);
+        for (std::size_t i = 0; i < definition.elements.size(); ++i) {
+            if (!definition.elements[i].control) continue;
+            Value value = rig.state.controls[i];
+            if (std::holds_alternative<double>(value)) value = 0.7;
+            if (std::holds_alternative<glm::dquat>(value)) value = turned(20, {0, 0, 1}).rotation;
+            ASSERT_TRUE(rig.rig.set_control(rig.state, i, value));
+        }
+        rig.solve();
+        rig.state.elements.resolve_all();
+        const State once = rig.state;
+        rig.solve();
+        EXPECT_EQ(once, rig.state);
+    }
+}
+
+TEST(RigSolve, ParentConstraintsFollowTheirControls) {
+    Held rig(fk_rig());
+    ASSERT_TRUE(rig.control("c1", turned(90, {0, 0, 1}).rotation));
+    rig.solve();
+    expect_near(rig.global("b2").translation, {-1, 1, 0});
+    expect_near(rig.global("b3").translation, {-2, 1, 0});
+}
+
+TEST(RigSolve, ForEachCurlsAnArmAndPropagationMattersToItsShape) {
+    Held curled(loop_rig(5, true)), turned_in_place(loop_rig(5, false));
+    for (Held* rig : {&curled, &turned_in_place}) {
+        ASSERT_TRUE(rig->control("dial", 1.0));
+        rig->solve();
+    }
+    // Propagating, every bone is turned by 30 degrees more than the one before it.
+    glm::dvec3 end(0.0);
+    for (int i = 0; i < 4; ++i) end += turned(30.0 * (i + 1), {0, 0, 1}).rotation * glm::dvec3(1, 0, 0);
+    expect_near(curled.global("b4").translation, end);
+    // Not propagating, joints turn where they are.
+    expect_near(turned_in_place.global("b4").translation, {4, 0, 0});
+    expect_near(turned_in_place.global("b4").rotation * glm::dvec3(1, 0, 0),
+                turned(30, {0, 0, 1}).rotation * glm::dvec3(1, 0, 0));
+    EXPECT_EQ(std::get<double>(curled.unit("curl").outputs[0]), 5.0);
+}
+
+TEST(RigSolve, EachElementKnowsItsPlaceAmongThoseOfItsRoot) {
+    Definition definition;
+    definition.elements = {{.name = "a"},
+                           {.name = "a1", .parent = "a"},
+                           {.name = "a2", .parent = "a1"},
+                           {.name = "b"},
+                           {.name = "b1", .parent = "b"}};
+    definition.curves = {{.name = "sum"}};
+    // Each moves by (ratio, index, count) of its own.
+    const auto along = [](const char* name, Each each, glm::dvec3 axis) {
+        return Unit{.name = name,
+                    .operation = SetTransform{.item = ThisElement(),
+                                              .transform = Transform{.translation = axis},
+                                              .space = Space::Local},
+                    .weight = each};
+    };
+    definition.units = {{.name = "each",
+                         .operation = ForEach{.roots = {"a", "b"},
+                                              .include_parent = false,
+                                              .body = {along("ratio", Each::Ratio, {1, 0, 0})}}}};
+    Held rig(definition);
+    rig.solve();
+    expect_near(rig.local("a1").translation, {0, 0, 0});  // the first of two
+    expect_near(rig.local("a2").translation, {1, 0, 0});  // the last of two
+    expect_near(rig.local("b1").translation, {0, 0, 0});  // one alone
+}
+
+TEST(RigSolve, AWeightOfZeroLeavesEverythingToTheBit) {
+    Definition definition = aim_rig();
+    definition.elements[1].initial.rotation = glm::normalize(glm::dquat(0.3, 0.1, -0.7, 0.2));
+    definition.elements.push_back({.name = "tip", .parent = "head", .initial = at(0, 0.2, 0.1)});
+    const std::vector<Operation> operations = {
+        std::get<Aim>(definition.units[0].operation),
+        ParentConstraint{.item = "head", .parents = {{.item = "look"}}, .maintain_offset = false},
+        OffsetTransform{.item = "head", .offset = turned(50, {1, 1, 0})},
+        SetTransform{.item = "head", .transform = at(3, 3, 3)},
+        SetRotation{.item = "head", .rotation = turned(50, {1, 1, 0}).rotation},
+        Fabrik{.root = "neck", .tip = "tip", .target = FromElement{"look"}},
+        TwoBone{.root = "neck", .tip = "tip", .target = FromElement{"look"}}};
+    for (const Operation& operation : operations) {
+        definition.units = {{.name = "unit", .operation = operation, .weight = 0.0}};
+        Held rig(definition);
+        const State before = rig.state;
+        rig.solve(0.1);
+        for (const ElementId id : {rig.rig.id(0), rig.rig.id(1), rig.rig.id(4)})
+            for (const Space space : {Space::Local, Space::Global}) {
+                State original = before;
+                EXPECT_EQ(rig.state.elements.get(id, space), original.elements.get(id, space))
+                    << operation_name(operation.index());
+            }
+        // Switched off, or where `when` is false, neither.
+        definition.units[0].weight = 1.0;
+        definition.units[0].enabled = false;
+        Held off(definition);
+        off.solve(0.1);
+        EXPECT_EQ(off.global("head"), rig.global("head"));
+        definition.units[0].enabled = true;
+        definition.units[0].when = false;
+        Held when(definition);
+        when.solve(0.1);
+        EXPECT_EQ(when.global("head"), rig.global("head"));
+        definition.units[0].when = true;
+        Held on(definition);
+        on.solve(0.1);
+        EXPECT_NE(on.state.elements.get(on.rig.id(1), Space::Global),
+                  rig.state.elements.get(rig.rig.id(1), Space::Global))
+            << operation_name(operation.index());
+    }
+}
+
+TEST(RigSolve, ChainsReachTheirTargets) {
+    Definition definition;
+    definition.elements = {{.name = "a", .initial = at(0, 0, 0)},
+                           {.name = "b", .parent = "a", .initial = at(0, 1, 0)},
+                           {.name = "c", .parent = "b", .initial = at(0.1, 1, 0)},
+                           {.name = "target",
+                            .kind = ElementKind::Control,
+                            .initial = at(1, 0.8, 0.3),
+                            .control = Control{.kind = ControlKind::Position}},
+                           {.name = "pole", .kind = ElementKind::Null, .initial = at(0, 0, -5)}};
+    for (const Operation& operation :
+         {Operation(TwoBone{
+              .root = "a", .tip = "c", .target = FromElement{"target"}, .pole_target = FromElement{"pole"}}),
+          Operation(Fabrik{.root = "a",
+          .tip = "c",
+          .target = FromElement{"target"},
+          .pole_target = FromElement{"pole"}})}) {
+        definition.units = {{.name = "reach", .operation = operation}};
+        Held rig(definition);
+        for (const glm::dvec3& to :
+             {glm::dvec3(1, 0.8, 0.3), glm::dvec3(-1, 0.5, 0.2), glm::dvec3(0.2, -1, 1)}) {
+            ASSERT_TRUE(rig.control("target", to));
+            rig.solve();
+            expect_near(rig.global("c").translation, to, 2e-3);
+            EXPECT_LT(std::get<double>(rig.unit("reach").outputs[0]), 2e-3);
+            EXPECT_NEAR(glm::length(rig.global("b").translation), 1.0, 1e-6);
+            EXPECT_LT(rig.global("b").translation.z, 0.0) << "the elbow points at its pole";
+        }
+        // Ten kilometres out as well.
+        ASSERT_TRUE(rig.rig.set_element(rig.state, 0, Space::Global, at(1e4, 0, 1e4)));
+        ASSERT_TRUE(rig.control("target", glm::dvec3(1e4 + 1, 0.8, 1e4 + 0.3)));
+        rig.solve();
+        expect_near(rig.global("c").translation, {1e4 + 1, 0.8, 1e4 + 0.3}, 2e-3);
+    }
+}
+
+TEST(RigSolve, CurvesAreWrittenAndBeginAnewEachSolve) {
+    Definition definition = loop_rig(1);
+    definition.curves = {{.name = "smile", .value = 0.25}};
+    definition.units = {
+        {.name = "ease",
+         .operation = EvaluateCurve{.value = FromElement{.element = "dial", .of = Of::ControlValue},
+                                    .curve = {.target_max = 2.0}}},
+        {.name = "smile", .operation = SetCurve{.curve = "smile", .value = FromUnit{"ease"}}, .weight = 0.5}};
+    Held rig(definition);
+    ASSERT_TRUE(rig.control("dial", 0.5));
+    for (int i = 0; i < 3; ++i) {
+        rig.solve();
+        EXPECT_DOUBLE_EQ(rig.state.curves[0], 0.625);
+    }
+    ASSERT_TRUE(rig.rig.set_curve(rig.state, 0, 0.75));
+    rig.solve();
+    EXPECT_DOUBLE_EQ(rig.state.curves[0], 0.875);
+    EXPECT_FALSE(rig.rig.set_curve(rig.state, 0, std::nan("")));
+    EXPECT_FALSE(rig.rig.set_curve(rig.state, 1, 0.0));
+}
+
+TEST(RigSolve, ProjectToParentCarriesTheInitialPlaceOver) {
+    Definition definition;
+    definition.elements = {{.name = "old", .initial = at(1, 0, 0)},
+                           {.name = "child", .parent = "old", .initial = at(0, 2, 0)},
+                           {.name = "new", .kind = ElementKind::Control, .initial = at(5, 0, 0)}};
+    definition.units = {
+        {.name = "project",
+         .operation = ProjectToParent{.child = "child", .old_parent = "old", .new_parent = "new"}}};
+    Held rig(definition);
+    ASSERT_TRUE(
+        rig.control("new", Transform{.translation = {5, 0, 0}, .rotation = turned(90, {0, 0, 1}).rotation}));
+    rig.solve();
+    expect_near(std::get<Transform>(rig.unit("project").outputs[0]).translation, {3, 0, 0});
+}
+
+TEST(RigSolve, WarnsOfWhatItLeavesOutAndKeepsThePose) {
+    Definition definition = aim_rig();
+    auto& aim = std::get<Aim>(definition.units[0].operation);
+    aim.primary.target = FromElement{"head"};
+    aim.secondary.reset();
+    Held at_item(definition);
+    const Transform before = at_item.global("head");
+    at_item.solve();
+    EXPECT_EQ(at_item.unit("aim").warning, Warning::TargetAtItem);
+    EXPECT_EQ(at_item.global("head"), before);
+    EXPECT_STRNE(message(Warning::TargetAtItem), "");
+
+    aim.primary.axis = glm::dvec3(0.0);
+    Held no_axis(definition);
+    no_axis.solve();
+    EXPECT_EQ(no_axis.unit("aim").warning, Warning::ZeroAxis);
+
+    Definition none = fk_rig(1);
+    std::get<ParentConstraint>(none.units[0].operation).parents[0].weight = 0.0;
+    Held no_weight(none);
+    no_weight.solve();
+    EXPECT_EQ(no_weight.unit("follow0").warning, Warning::ZeroWeights);
+
+    Definition heavy = loop_rig(2);
+    heavy.elements.back().control->maximum = glm::dvec3(9.0);
+    Held out_of_range(heavy);
+    ASSERT_TRUE(out_of_range.control("dial", 3.0));
+    out_of_range.solve();
+    EXPECT_EQ(out_of_range.unit("turn").warning, Warning::WeightOutOfRange);
+    ASSERT_TRUE(out_of_range.control("dial", 1.0));
+    out_of_range.solve();
+    EXPECT_EQ(out_of_range.unit("turn").warning, Warning::None) << "a warning lasts as long as its reason";
+}
+
+TEST(RigSolve, GrowthBeyondRangeIsLeftOut) {
+    Definition definition;
+    for (int i = 0; i < 40; ++i)
+        definition.elements.push_back(
+            {.name = numbered("b", static_cast<int>(i)),
+             .parent = i > 0 ? numbered("b", static_cast<int>(i - 1)) : std::string(),
+             .initial = at(1, 0, 0)});
+    definition.units = {
+        {.name = "all",
+         .operation =
+             ForEach{.roots = {"b0"},
+                     .body = {{.name = "grow",
+                               .operation = OffsetTransform{
+                                   .item = ThisElement(),
+                                   .offset = Transform{.translation = {1, 0, 0}, .scale = {10, 10, 10}}}}}}}};
+    Held rig(definition);
+    rig.solve();
+    EXPECT_EQ(rig.unit("grow").warning, Warning::OutOfRange);
+    for (int i = 0; i < 40; ++i) {
+        const Transform pose = rig.global(numbered("b", static_cast<int>(i)));
+        EXPECT_TRUE(std::isfinite(pose.translation.x) && std::isfinite(pose.scale.x));
+    }
+}
+
+}  // namespace
+}  // namespace tendril::rig

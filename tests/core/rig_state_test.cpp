@@ -1,0 +1,140 @@
+// What a person sets, what a rig remembers, and how both outlive edits and rollbacks.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "memory.hpp"
+#include "rig_rigs.hpp"
+
+namespace tendril::rig {
+namespace {
+
+void expect_near(const glm::dvec3& a, const glm::dvec3& b, double within = 1e-9) {
+    EXPECT_NEAR(glm::length(a - b), 0.0, within)
+        << a.x << ' ' << a.y << ' ' << a.z << " and " << b.x << ' ' << b.y << ' ' << b.z;
+}
+
+TEST(RigState, SpringsTrailAndComeToRest) {
+    Definition definition;
+    definition.elements = {
+        {.name = "head", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Position}},
+        {.name = "tip", .initial = at(0, 1, 0)}};
+    definition.units = {
+        {.name = "trail", .operation = SpringInterpolate{.target = FromElement{"head"}, .strength = 2.0}},
+        {.name = "follow", .operation = SetTransform{.item = "tip", .transform = Transform()}}};
+    definition.units[1].operation = TransformLocation{.location = FromUnit{"trail"}};
+    Held rig(definition);
+    EXPECT_FALSE(rig.solve(1.0 / 60)) << "at rest on its target";
+    ASSERT_TRUE(rig.control("head", glm::dvec3(1, 0, 0)));
+    EXPECT_TRUE(rig.solve(1.0 / 60));
+    const double soon = std::get<glm::dvec3>(rig.unit("trail").outputs[0]).x;
+    EXPECT_GT(soon, 0.0);
+    EXPECT_LT(soon, 0.2);
+    // Without time nothing that remembers moves.
+    const State before = rig.state;
+    rig.solve(0.0);
+    EXPECT_EQ(before, rig.state);
+    int ticks = 0;
+    while (rig.solve(1.0 / 60) && ++ticks < 10'000) {
+    }
+    EXPECT_LT(ticks, 1000);
+    EXPECT_NEAR(std::get<glm::dvec3>(rig.unit("trail").outputs[0]).x, 1.0, 1e-6);
+}
+
+TEST(RigState, AnAimOfLimitedSpeedTurnsNoFaster) {
+    Definition definition = aim_rig();
+    std::get<Aim>(definition.units[0].operation).max_speed = 90.0;
+    Held rig(definition);
+    rig.solve(0.1);
+    glm::dquat last = rig.global("head").rotation;
+    ASSERT_TRUE(rig.control("look", glm::dvec3(1, 1, 0)));
+    bool moving = true;
+    int steps = 0;
+    for (; moving && steps < 100; ++steps) {
+        moving = rig.solve(0.02);
+        const glm::dquat now = rig.global("head").rotation;
+        EXPECT_LE(2.0 * std::acos(std::min(1.0, std::abs(glm::dot(now, last)))), glm::radians(1.8) + 1e-6);
+        last = now;
+    }
+    EXPECT_GT(steps, 10);
+    EXPECT_LT(steps, 100);
+    const Transform head = rig.global("head");
+    expect_near(head.rotation * glm::dvec3(0, 0, 1),
+                glm::normalize(rig.global("look").translation - head.translation), 1e-9);
+}
+
+TEST(RigState, ControlsKeepWithinTheirLimits) {
+    Held rig(aim_rig());
+    ASSERT_TRUE(rig.control("look", glm::dvec3(5, -7, 3)));
+    rig.solve();
+    EXPECT_EQ(std::get<glm::dvec3>(rig.state.controls[2]), glm::dvec3(1, -1, 0));
+    expect_near(rig.global("look").translation, {1, 0.3, 2});
+    EXPECT_FALSE(rig.control("look", glm::dvec3(std::nan(""), 0, 0)));
+    EXPECT_FALSE(rig.control("look", 1.0));
+    EXPECT_FALSE(rig.control("head", Transform()));
+    EXPECT_EQ(std::get<glm::dvec3>(rig.state.controls[2]), glm::dvec3(1, -1, 0))
+        << "refused is refused as a whole";
+    ASSERT_TRUE(rig.rig.set_element(rig.state, rig.element("look"), Space::Local, at(0, 2, 2)));
+    rig.solve();
+    expect_near(rig.global("look").translation, {0, 2, 2});
+}
+
+TEST(RigState, TheInputPoseIsWhereASolveBegins) {
+    Held rig(loop_rig(3));
+    ASSERT_TRUE(rig.control("dial", 1.0));
+    rig.solve();
+    ASSERT_TRUE(rig.rig.set_element(rig.state, 0, Space::Global, at(0, 5, 0)));
+    rig.solve();
+    rig.solve();
+    expect_near(rig.global("b0").translation, {0, 5, 0});
+    expect_near(rig.global("b1").translation,
+                glm::dvec3(0, 5, 0) + turned(30, {0, 0, 1}).rotation * glm::dvec3(1, 0, 0));
+    EXPECT_FALSE(rig.rig.set_element(rig.state, 0, Space::Global, {.scale = {1, 0, 1}}));
+    EXPECT_FALSE(rig.rig.set_element(rig.state, 99, Space::Global, {}));
+}
+
+TEST(RigState, AnEditKeepsWhatIsStillThere) {
+    Held rig(loop_rig(3));
+    ASSERT_TRUE(rig.control("dial", 1.0));
+    rig.solve();
+    Definition more = rig.rig.definition();
+    more.elements.insert(more.elements.begin(), {.name = "other"});
+    more.elements.push_back({.name = "b3", .parent = "b2", .initial = at(1, 0, 0)});
+    const Rig edited = Rig::make(more).value();
+    EXPECT_FALSE(edited.fits(rig.state));
+    State state = edited.adopted(rig.rig, rig.state);
+    ASSERT_TRUE(edited.fits(state));
+    EXPECT_EQ(std::get<double>(state.controls[*edited.element("dial")]), 1.0);
+    expect_near(state.elements.get(edited.id(*edited.element("b2")), Space::Global).translation,
+                rig.global("b2").translation);
+}
+
+TEST(RigState, AllocatesNothingAfterTheFirstTime) {
+    for (const Definition& definition : {aim_rig(), fk_rig(), loop_rig()}) {
+        Held rig(definition);
+        rig.solve(0.01);
+        test::without_memory([&] { rig.solve(0.01); });
+    }
+}
+
+TEST(RigState, StatesCanBePutBack) {
+    Definition definition = aim_rig();
+    std::get<Aim>(definition.units[0].operation).max_speed = 60.0;
+    definition.units.push_back(
+        {.name = "spring",
+         .operation = SpringInterpolate{.target = FromElement{"look"}, .critical_damping = 0.3}});
+    Held rig(definition);
+    rig.solve(0.01);
+    ASSERT_TRUE(rig.control("look", glm::dvec3(1, 1, 0)));
+    for (int i = 0; i < 10; ++i) rig.solve(0.01);
+    const State kept = rig.state;
+    std::vector<State> first, second;
+    for (int i = 0; i < 100; ++i) rig.solve(0.01), first.push_back(rig.state);
+    rig.state = kept;
+    rig.workspace = Workspace(rig.rig);
+    for (int i = 0; i < 100; ++i) rig.solve(0.01), second.push_back(rig.state);
+    EXPECT_TRUE(first == second);
+}
+
+}  // namespace
+}  // namespace tendril::rig
