@@ -35,6 +35,12 @@ inline constexpr std::uint64_t golden_rig_hash = 0x9b8e8aad9b573b29u;
 /// read in between.
 std::uint64_t rig_hash();
 
+/// The same for rigs that solve: what `rig_solve_hash` gives.
+inline constexpr std::uint64_t golden_rig_solve_hash = 0x686d9c3e09a67779u;
+
+/// Solves a rig of every unit forward 200 times and backward once, and hashes the bits of every pose.
+std::uint64_t rig_solve_hash();
+
 /// The same for filters: what `signal_hash` gives.
 inline constexpr std::uint64_t golden_signal_hash = 0x6acaf32ce6006576u;
 

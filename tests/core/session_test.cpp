@@ -20,6 +20,10 @@ TEST(Session, RigsEndInTheSameBitsInEveryBuild) {
     EXPECT_EQ(rig_hash(), golden_rig_hash);
 }
 
+TEST(Session, RigSolvesEndInTheSameBitsInEveryBuild) {
+    EXPECT_EQ(rig_solve_hash(), golden_rig_solve_hash);
+}
+
 TEST(Session, SignalsEndInTheSameBitsInEveryBuild) {
     EXPECT_EQ(signal_hash(), golden_signal_hash);
 }

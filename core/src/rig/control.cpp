@@ -83,7 +83,9 @@ Transform posed(const Control& control, const Transform& base, const Value& valu
             break;
         case ControlKind::Vector2d: {
             const auto& by = std::get<glm::dvec3>(value);
-            pose.translation += axis_of(base, control.axes[0]) * by.x + axis_of(base, control.axes[1]) * by.y;
+            pose.translation = detail::plus(
+                pose.translation, detail::plus(detail::times(axis_of(base, control.axes[0]), by.x),
+                                               detail::times(axis_of(base, control.axes[1]), by.y)));
         }
     }
     return pose;

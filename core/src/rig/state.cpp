@@ -140,7 +140,8 @@ Result Rig::set_element(State& state, std::size_t element, Space space, const Tr
             break;
         case ControlKind::Vector2d: {
             Transform base = there;
-            base.translation = base.translation - detail::rotated(there.rotation, offset.translation);
+            base.translation =
+                detail::minus(base.translation, detail::rotated(there.rotation, offset.translation));
             tree.put(id, Space::Local, base, Propagate::Yes, Pose::Input);
             break;
         }
