@@ -18,7 +18,7 @@ double span_of(std::span<const double> values) {
     return *high - *low;
 }
 
-/// The largest distance of the output from what a step should come to is this of it.
+/// Below 0 for a step down.
 double size_of(const Step& step) {
     return step.to - step.from;
 }

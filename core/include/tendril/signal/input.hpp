@@ -4,13 +4,11 @@
 // seconds pass with that input and returns the output, which the state keeps as `value`.
 //
 // - A refused input (not finite, or over max_magnitude in magnitude) changes nothing: the step returns the
-//   output that there was. Who must know asks is_input first; the arguments alone decide.
-// - A dt that is not finite, 0 or negative changes nothing either. Other times count as at least min_dt and
-// at
+//   output that there was. A caller that must know asks is_input first: nothing else decides.
+// - A dt that is not finite, 0 or negative changes nothing either. Others count as at least min_dt and at
 //   most max_dt.
 // - The first step after a reset (a fresh state) returns what the input alone says; each filter says what
-//   that is. It does not depend on dt, and one with a refused dt returns the same but does not start the
-//   filter.
+//   that is. With a refused dt it returns the same, but the filter has not started.
 // - Outputs are finite, and at most max_output in magnitude, whatever parameters within their ranges
 //   (filter.hpp has them and checks them), inputs and times come in whatever order.
 //

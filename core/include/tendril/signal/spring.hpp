@@ -10,12 +10,12 @@
 // is continuous across critical damping.
 //
 // A target in steady motion is followed with a lag of 2 z (1 - target_velocity_amount) / w - dt / 2: within a
-// step the target stands still, which makes up half a frame.
+// step the target counts as still, which gains half a frame.
 //
 // Rotations: the spring works on the rotation vector (axis times angle) from target to value, the short way
 // round; velocity and force are rotation vectors too (rad/s, rad/s^2), in the space of the values.
 //
-// Cost: an exponential, a sine and a cosine, some 20 ns; for thousands of springs at once, batch.hpp.
+// Cost: an exponential, a sine and a cosine, some 40 ns; for thousands of springs at once, batch.hpp.
 #pragma once
 
 #include <type_traits>
