@@ -47,6 +47,10 @@ TEST(SignalMeasure, LagIsTheShiftThatFitsBest) {
         const Rows slope = rows(ramp, [&](double t) { return ramp(std::clamp(t - shift, 0.0, 4.0)); });
         EXPECT_NEAR(*signal::lag(slope.response()), shift, 1e-4);
     }
+    const auto bump = [](double t) { return std::exp(-20.0 * (t - 0.8) * (t - 0.8)); };
+    const Rows brief = rows(
+        bump, [&](double t) { return bump(t - 0.77); }, 2.0);
+    EXPECT_FALSE(signal::lag(brief.response())) << "more than a quarter of the time";
     const auto wave = [](double t) { return std::sin(turn * t); };
     const Rows periodic = rows(wave, [&](double t) { return 0.4 * wave(t - 0.1); });
     EXPECT_NEAR(*signal::lag(periodic.response()), 0.1, 0.01) << "not a period more";
@@ -123,6 +127,13 @@ TEST(SignalMeasure, EveryStepCounts) {
     EXPECT_EQ(signal::steps_of(both.response()).size(), 2u);
     EXPECT_NEAR(*signal::overshoot(both.response()), 0.1, 1e-12);
     EXPECT_NEAR(*signal::settling_time(both.response()), 0.5, 1.0 / 60.0);
+}
+
+TEST(SignalMeasure, ASpikeIsNoStep) {
+    const auto spike = [](double t) { return t > 0.99 && t < 1.01 ? 5.0 : 0.0; };
+    EXPECT_TRUE(signal::steps_of(rows(spike, spike).response()).size() == 1u) << "but that back from it is";
+    const auto triangle = [](double t) { return std::abs(std::fmod(40.0 * t, 2.0) - 1.0); };
+    EXPECT_TRUE(signal::steps_of(rows(triangle, triangle).response()).empty());
 }
 
 TEST(SignalMeasure, AFilterIsNotBlamedForScaling) {
