@@ -247,6 +247,22 @@ TEST(SignalBatch, IsFiniteHoweverHard) {
     }
 }
 
+TEST(SignalBatch, WithoutDampingNoEnergyIsGainedInHours) {
+    Springs springs;
+    for (int i = 0; i < 64; ++i) springs.add(std::exp2(0.2 * i - 3.0), 0.0, 0.0, 0.0, 0.0);
+    for (float& value : springs.value) value = 1.0f;
+    for (const double dt : {10.0, 3600.0, 86400.0, 1e9}) {
+        ASSERT_TRUE(signal::step_springs(springs.arrays(), dt));
+        for (std::size_t i = 0; i < springs.size(); ++i) {
+            const double value = static_cast<double>(springs.value[i]);
+            const double velocity =
+                static_cast<double>(springs.velocity[i]) / (turn * springs.spring(i).strength);
+            EXPECT_NEAR(value * value + velocity * velocity, 1.0, 1e-5)
+                << springs.strength[i] << " Hz, " << dt;
+        }
+    }
+}
+
 TEST(SignalBatch, RefusesListsOfDifferentLengths) {
     Random random(8);
     Springs springs = some_springs(4, random);
@@ -255,6 +271,13 @@ TEST(SignalBatch, RefusesListsOfDifferentLengths) {
                  "step_springs: critical_damping must be 4 in number, got 3");
     EXPECT_FALSE(signal::start_springs(springs.arrays()));
     springs.damping.push_back(1.0f);
+    for (Floats* const list :
+         std::initializer_list<Floats*>{&springs.strength, &springs.force, &springs.amount, &springs.target,
+                                        &springs.value, &springs.velocity, &springs.previous}) {
+        list->push_back(0.0f);
+        EXPECT_EQ(signal::step_springs(springs.arrays(), 0.1).code(), ErrorCode::InvalidArgument);
+        list->pop_back();
+    }
     springs.force.clear(), springs.amount.clear();
     EXPECT_TRUE(signal::step_springs(springs.arrays(), 0.1)) << "these may be left out";
     EXPECT_EQ(signal::step_springs(springs.arrays(), 0.1, {"abacus"}).code(), ErrorCode::InvalidArgument);
