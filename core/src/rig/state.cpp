@@ -32,6 +32,15 @@ bool same_shape(const UnitState& a, const UnitState& b) {
 
 }  // namespace
 
+// Not in the header: what counts the owners of the plan was made here, without RTTI, and sanitizers of a
+// program that has it take its virtual functions for no such thing.
+Rig::Rig(std::shared_ptr<const detail::Plan> plan) noexcept : plan_(std::move(plan)) {}
+Rig::Rig(const Rig&) noexcept = default;
+Rig::Rig(Rig&&) noexcept = default;
+Rig& Rig::operator=(const Rig&) noexcept = default;
+Rig& Rig::operator=(Rig&&) noexcept = default;
+Rig::~Rig() = default;
+
 const Definition& Rig::definition() const noexcept {
     return plan_->definition;
 }

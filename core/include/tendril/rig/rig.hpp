@@ -100,6 +100,11 @@ class Rig {
     /// names what is not there, runs later or has another type, a literal out of its range; the message names
     /// the unit, the input and the value.
     static Expected<Rig> make(Definition definition);
+    Rig(const Rig&) noexcept;
+    Rig(Rig&&) noexcept;
+    Rig& operator=(const Rig&) noexcept;
+    Rig& operator=(Rig&&) noexcept;
+    ~Rig();
 
     const Definition& definition() const noexcept;
 
@@ -129,7 +134,7 @@ class Rig {
     bool solve(State& state, double dt, Workspace& workspace, Observer* observer = nullptr) const noexcept;
 
   private:
-    explicit Rig(std::shared_ptr<const detail::Plan> plan) noexcept : plan_(std::move(plan)) {}
+    explicit Rig(std::shared_ptr<const detail::Plan> plan) noexcept;
     std::shared_ptr<const detail::Plan> plan_;
 };
 
