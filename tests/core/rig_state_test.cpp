@@ -136,5 +136,98 @@ TEST(RigState, StatesCanBePutBack) {
     EXPECT_TRUE(first == second);
 }
 
+/// A switch that a unit turns round works while time stands still; what eases waits for time.
+TEST(RigState, WhatDoesNotEaseFollowsWithoutTime) {
+    Definition definition;
+    definition.elements = {
+        {.name = "dial", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Float}}};
+    const FromElement dial{.element = "dial", .of = Of::ControlValue};
+    definition.units = {
+        {.name = "not", .operation = AlphaInterpolate{.value = dial, .scale = -1.0, .bias = 1.0}},
+        {.name = "eased", .operation = AlphaInterpolate{.value = dial, .interp = true}}};
+    Held rig(definition);
+    rig.solve(1.0 / 60);
+    ASSERT_TRUE(rig.control("dial", 1.0));
+    rig.solve(0.0);
+    EXPECT_EQ(std::get<double>(rig.unit("not").outputs[0]), 0.0);
+    EXPECT_EQ(std::get<double>(rig.unit("eased").outputs[0]), 0.0);
+    rig.solve(1.0 / 60);
+    EXPECT_GT(std::get<double>(rig.unit("eased").outputs[0]), 0.0);
+    EXPECT_LT(std::get<double>(rig.unit("eased").outputs[0]), 0.5);
+}
+
+/// Nothing in a workspace is remembered: not which lengths a solver was made for either, while a scale
+/// creeps.
+TEST(RigState, WorkspacesCanBeThrownAwayWhileBonesGrow) {
+    Definition definition;
+    definition.elements = {{.name = "size", .kind = ElementKind::Control, .control = Control{}},
+                           {.name = "goal",
+                            .kind = ElementKind::Control,
+                            .initial = at(1, 1, 0),
+                            .control = Control{.kind = ControlKind::Position}},
+                           {.name = "a", .parent = "size"},
+                           {.name = "b", .parent = "a", .initial = at(0.7, 0.1, 0)},
+                           {.name = "c", .parent = "b", .initial = at(0.5, 0, 0.2)},
+                           {.name = "d", .parent = "c", .initial = at(0.6, 0, 0)}};
+    definition.units = {
+        {.name = "reach", .operation = Fabrik{.root = "a", .tip = "d", .target = FromElement{"goal"}}}};
+    Held kept(definition), fresh(definition);
+    for (int i = 0; i < 200; ++i) {
+        const double size = 1.0 + 3e-8 * i;
+        for (Held* each : {&kept, &fresh}) {
+            ASSERT_TRUE(each->control("size", Transform{.scale = {size, size, size}}));
+            ASSERT_TRUE(each->control("goal", glm::dvec3(1.0 - 0.002 * i, 0.9, 0.003 * i)));
+            each->solve(1.0 / 60);
+        }
+        fresh.workspace = Workspace(fresh.rig);
+        ASSERT_EQ(kept.state, fresh.state) << i;
+    }
+}
+
+/// Children that stay where they are while their parent is set stay there when it is solved, controls too,
+/// whose values are then others.
+TEST(RigState, WithoutPropagationChildrenStayAfterTheSolve) {
+    Definition definition;
+    const auto control = [](const char* name, ControlKind kind) {
+        return Element{.name = name,
+                       .kind = ElementKind::Control,
+                       .parent = "parent",
+                       .initial = at(0, 1, 0),
+                       .control = Control{.kind = kind}};
+    };
+    definition.elements = {control("parent", ControlKind::Transform),
+                           control("transform", ControlKind::Transform),
+                           control("position", ControlKind::Position),
+                           control("rotation", ControlKind::Rotation),
+                           control("square", ControlKind::Vector2d),
+                           control("dial", ControlKind::Float),
+                           {.name = "bone", .parent = "parent", .initial = at(1, 0, 0)},
+                           {.name = "below", .parent = "transform", .initial = at(0, 0, 1)}};
+    definition.elements[0].parent.clear();
+    Held rig(definition);
+    ASSERT_TRUE(rig.control("parent", at(5, 5, 5)));
+    ASSERT_TRUE(rig.control("transform", at(3, 1, 0)));
+    ASSERT_TRUE(rig.control("position", glm::dvec3(0, 4, 1)));
+    ASSERT_TRUE(rig.control("rotation", turned(50, {1, 2, 3}).rotation));
+    ASSERT_TRUE(rig.control("square", glm::dvec3(0.5, 2, 0)));
+    rig.solve();
+    std::vector<Transform> before;
+    for (const Element& each : definition.elements) before.push_back(rig.global(each.name));
+    Transform to = turned(80, {3, 2, 1});
+    to.translation = {7, -1, 2};
+    for (const char* parent : {"parent", "transform"}) {
+        ASSERT_TRUE(rig.rig.set_element(rig.state, rig.element(parent), Space::Global, to, Propagate::No));
+        before[rig.element(parent)] = to;
+        for (int solves = 0; solves < 2; ++solves, rig.solve()) {
+            for (std::size_t i = 0; i < before.size(); ++i) {
+                SCOPED_TRACE(definition.elements[i].name);
+                const Transform now = rig.global(definition.elements[i].name);
+                expect_near(now.translation, before[i].translation);
+                EXPECT_NEAR(std::abs(glm::dot(now.rotation, before[i].rotation)), 1.0, 1e-12);
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace tendril::rig

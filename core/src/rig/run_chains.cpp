@@ -1,6 +1,5 @@
 // The units that solve a chain of bones.
 #include <algorithm>
-#include <cmath>
 
 #include "rig/math.hpp"
 #include "rig/runner.hpp"
@@ -8,16 +7,6 @@
 #include "tendril/rig/transform_units.hpp"
 
 namespace tendril::rig {
-namespace {
-
-/// Parts of a length by which bones may have changed since the solver was made.
-constexpr float same_length = 1e-6f;
-
-bool made_for(const ChainScratch& chain, std::size_t bone, float length) noexcept {
-    return std::abs(chain.lengths[bone] - length) <= same_length * length;
-}
-
-}  // namespace
 
 Workspace::Workspace(const Rig& rig) : parts_(std::make_unique<Parts>()) {
     parts_->chains.resize(rig.unit_names().size());
@@ -49,26 +38,34 @@ glm::dvec3 Runner::bone_place(std::size_t bone) noexcept {
     return state_.elements.get(plan_.ids[element], Space::Global).translation;
 }
 
-/// A solver for the bones as long as they now are: made at the first solve, and again where a length changed.
+/// In metres. From what does not change with the pose: where no scale changes it keeps its bits, and the
+/// solver that was made for it stays.
+float Runner::bone_length(std::size_t bone) noexcept {
+    const std::vector<std::uint32_t>& elements = plan_.units[unit_].bones;
+    const glm::dvec3 scale = state_.elements.get(plan_.ids[elements[bone]], Space::Global).scale;
+    const glm::dvec3 along = state_.elements.get(plan_.ids[elements[bone + 1]], Space::Local).translation;
+    const glm::dvec3 scaled(scale.x * along.x, scale.y * along.y, scale.z * along.z);
+    return static_cast<float>(detail::length(scaled));
+}
+
+/// A solver for the bones as long as they now are: made at the first solve, and again where a length is not
+/// the very same, for otherwise the answer would depend on which solves there were before.
 bool Runner::prepare_chain(ChainScratch& chain) {
     const std::size_t bones = plan_.units[unit_].bones.size() - 1;
     const glm::dvec3 origin = bone_place(0);
     chain.joints.resize(bones + 1);
     chain.before.resize(bones);
-    chain.lengths.resize(bones, -1.0f);
+    chain.lengths.resize(bones);
     bool same = chain.solver.has_value();
+    chain.joints[0] = glm::vec3(0.0f);
     for (std::size_t i = 0; i < bones; ++i) {
-        const auto length =
-            static_cast<float>(detail::length(detail::minus(bone_place(i + 1), bone_place(i))));
-        same = same && made_for(chain, i, length);
+        const float length = bone_length(i);
+        same = same && chain.lengths[i] == length;
+        chain.lengths[i] = length;
         chain.joints[i + 1] = math::narrow(detail::minus(bone_place(i + 1), origin));
         chain.before[i] = state_.elements.get(plan_.ids[plan_.units[unit_].bones[i]], Space::Local).rotation;
     }
-    chain.joints[0] = glm::vec3(0.0f);
     if (same) return true;
-    for (std::size_t i = 0; i < bones; ++i)
-        chain.lengths[i] =
-            static_cast<float>(detail::length(detail::minus(bone_place(i + 1), bone_place(i))));
     chain.solver.reset();
     auto solver = ik::Solver::make(chain.lengths);
     if (solver) chain.solver.emplace(std::move(*solver));

@@ -48,8 +48,15 @@ void Runner::operator()(const AlphaInterpolate& op) noexcept {
     if (!std::holds_alternative<signal::OutputState>(memory().held)) memory().held = signal::OutputState();
     auto& remembered = std::get<signal::OutputState>(memory().held);
     const signal::OutputState before = remembered;
+    if (!parameters.interp) {
+        // Nothing eases: what goes in now counts, though no time passes.
+        signal::OutputState at_once{.value = before.value};
+        hand_out(0, blended(value, signal::step(parameters, at_once, value, dt_), weight_));
+        if (at_once.started) remembered = at_once;
+        return;
+    }
     const double result = signal::step(parameters, remembered, value, dt_);
-    moving_ |= parameters.interp && std::abs(remembered.value - before.value) > still;
+    moving_ |= std::abs(remembered.value - before.value) > still;
     hand_out(0, blended(value, result, weight_));
 }
 

@@ -71,6 +71,7 @@ class Runner {
     void solve_chain(ik::Method method, const Input<glm::dvec3>& target,
                      const std::optional<Input<glm::dvec3>>& pole_target) noexcept;
     bool prepare_chain(ChainScratch& chain);
+    float bone_length(std::size_t bone) noexcept;
     void turn_bones(const ChainScratch& chain) noexcept;
     glm::dvec3 bone_place(std::size_t bone) noexcept;
 

@@ -1,6 +1,8 @@
 // The state of a rig: made, taken over after an edit, and changed by what a person sets.
 #include <algorithm>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "rig/math.hpp"
 #include "rig/plan.hpp"
@@ -21,6 +23,53 @@ std::optional<std::size_t> unit_named(const Plan& plan, const std::string& name)
     const auto found = std::find(plan.unit_names.begin(), plan.unit_names.end(), name);
     if (found == plan.unit_names.end()) return std::nullopt;
     return static_cast<std::size_t>(found - plan.unit_names.begin());
+}
+
+/// Within its parent, before any unit has run: its input pose, or where its value has a control.
+Transform begun_local(const Plan& plan, State& state, std::size_t element) {
+    const Transform& base = state.elements.get(plan.ids[element], Space::Local, Pose::Input);
+    const std::optional<Control>& control = plan.definition.elements[element].control;
+    return control ? posed(*control, base, state.controls[element]) : base;
+}
+
+Transform begun_global(const Plan& plan, State& state, std::size_t element) {
+    std::vector<std::size_t> line;
+    for (auto at = static_cast<std::int64_t>(element); at >= 0; at = detail::parent_of(plan, line.back()))
+        line.push_back(static_cast<std::size_t>(at));
+    Transform global = begun_local(plan, state, line.back());
+    for (line.pop_back(); !line.empty(); line.pop_back())
+        global = compose(global, begun_local(plan, state, line.back()));
+    return global;
+}
+
+/// The input pose of a control has been set: what its value says of the pose becomes the value, for the rest
+/// its pose at rest has changed.
+void take_value(const Control& control, State& state, std::size_t element, ElementId id) {
+    Hierarchy& tree = state.elements;
+    const Transform there = tree.get(id, Space::Local, Pose::Input);
+    Value& value = state.controls[element];
+    switch (control.kind) {
+        case ControlKind::Transform:
+            value = clamped(control, there);
+            break;
+        case ControlKind::Position:
+            value = clamped(control, there.translation);
+            break;
+        case ControlKind::Rotation:
+            value = there.rotation;
+            break;
+        case ControlKind::Vector2d: {
+            const Transform offset = posed(control, Transform(), value);
+            Transform base = there;
+            base.translation =
+                detail::minus(base.translation, detail::rotated(there.rotation, offset.translation));
+            tree.put(id, Space::Local, base, Propagate::Yes, Pose::Input);
+            break;
+        }
+        case ControlKind::Float:
+        case ControlKind::Bool:
+            break;
+    }
 }
 
 bool same_shape(const UnitState& a, const UnitState& b) {
@@ -128,38 +177,34 @@ Result Rig::set_element(State& state, std::size_t element, Space space, const Tr
     const auto fine = checked(transform, "set_element");
     if (!fine) return fine.error();
     Hierarchy& tree = state.elements;
+
+    // A child that stays where it is, stays where a solve begins with it: where its value has it, if it is a
+    // control.
+    std::vector<std::pair<std::size_t, Transform>> stay;
+    if (propagate == Propagate::No) {
+        const Transform before = begun_global(*plan_, state, element);
+        for (std::size_t i = 0; i < plan_->ids.size(); ++i)
+            if (tree.parent(plan_->ids[i]) == id)
+                stay.emplace_back(i, compose(before, begun_local(*plan_, state, i)));
+    }
+
     tree.put(id, space, *fine, propagate, Pose::Input);
     tree.put(id, space, *fine, propagate);
     const std::optional<Control>& control = plan_->definition.elements[element].control;
-    if (!control) return {};
-
-    // What its value says of the pose becomes the value; for the rest its pose at rest has changed.
-    const Transform there = tree.get(id, Space::Local, Pose::Input);
-    Value& value = state.controls[element];
-    const Transform offset = posed(*control, Transform(), value);
-    switch (control->kind) {
-        case ControlKind::Transform:
-            value = clamped(*control, there);
-            break;
-        case ControlKind::Position:
-            value = clamped(*control, there.translation);
-            break;
-        case ControlKind::Rotation:
-            value = there.rotation;
-            break;
-        case ControlKind::Vector2d: {
-            Transform base = there;
-            base.translation =
-                detail::minus(base.translation, detail::rotated(there.rotation, offset.translation));
-            tree.put(id, Space::Local, base, Propagate::Yes, Pose::Input);
-            break;
-        }
-        case ControlKind::Float:
-        case ControlKind::Bool:
-            break;
+    if (control) {
+        take_value(*control, state, element, id);
+        if (control->minimum || control->maximum)
+            tree.put(id, Space::Local, begun_local(*plan_, state, element), propagate);
     }
-    if (control->minimum || control->maximum)
-        tree.put(id, Space::Local, posed(*control, tree.get(id, Space::Local, Pose::Input), value));
+
+    if (stay.empty()) return {};
+    const Transform after = begun_global(*plan_, state, element);
+    for (const auto& [child, global] : stay) {
+        const ElementId at = plan_->ids[child];
+        tree.put(at, Space::Local, relative(after, global), Propagate::Yes, Pose::Input);
+        if (const auto& settings = plan_->definition.elements[child].control)
+            take_value(*settings, state, child, at);
+    }
     return {};
 }
 
