@@ -211,7 +211,7 @@ std::int64_t detail::parent_of(const Plan& plan, std::size_t element) {
 Expected<Rig> Rig::make(Definition definition) {
     Builder builder(std::move(definition));
     if (const Result bad = builder.build(); !bad) return bad;
-    return Rig(std::make_shared<const Plan>(builder.take()));
+    return Rig(new Plan(builder.take()));
 }
 
 }  // namespace tendril::rig

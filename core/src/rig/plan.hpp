@@ -1,6 +1,7 @@
 // What Rig::make works out of a definition, once. Not installed.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -23,7 +24,16 @@ struct UnitPlan {
     std::vector<Output> outputs;
 };
 
+/// How many rigs share a plan: std::shared_ptr would need RTTI where sanitizers look at its virtual
+/// functions, and the library has none.
+struct Owners {
+    mutable std::atomic<std::uint32_t> count{1};
+    Owners() = default;
+    Owners(Owners&&) noexcept {}
+};
+
 struct Plan {
+    Owners owners;
     Definition definition;  ///< with its names resolved
     std::vector<ElementId> ids;
     std::vector<std::string> unit_names;

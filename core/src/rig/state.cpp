@@ -81,14 +81,20 @@ bool same_shape(const UnitState& a, const UnitState& b) {
 
 }  // namespace
 
-// Not in the header: what counts the owners of the plan was made here, without RTTI, and sanitizers of a
-// program that has it take its virtual functions for no such thing.
-Rig::Rig(std::shared_ptr<const detail::Plan> plan) noexcept : plan_(std::move(plan)) {}
-Rig::Rig(const Rig&) noexcept = default;
-Rig::Rig(Rig&&) noexcept = default;
-Rig& Rig::operator=(const Rig&) noexcept = default;
-Rig& Rig::operator=(Rig&&) noexcept = default;
-Rig::~Rig() = default;
+Rig::Rig(const Rig& other) noexcept : plan_(other.plan_) {
+    if (plan_) plan_->owners.count.fetch_add(1, std::memory_order_relaxed);
+}
+Rig::Rig(Rig&& other) noexcept : plan_(std::exchange(other.plan_, nullptr)) {}
+Rig& Rig::operator=(const Rig& other) noexcept {
+    return *this = Rig(other);
+}
+Rig& Rig::operator=(Rig&& other) noexcept {
+    std::swap(plan_, other.plan_);
+    return *this;
+}
+Rig::~Rig() {
+    if (plan_ && plan_->owners.count.fetch_sub(1, std::memory_order_acq_rel) == 1) delete plan_;
+}
 
 const Definition& Rig::definition() const noexcept {
     return plan_->definition;

@@ -18,7 +18,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -134,8 +133,8 @@ class Rig {
     bool solve(State& state, double dt, Workspace& workspace, Observer* observer = nullptr) const noexcept;
 
   private:
-    explicit Rig(std::shared_ptr<const detail::Plan> plan) noexcept;
-    std::shared_ptr<const detail::Plan> plan_;
+    explicit Rig(const detail::Plan* plan) noexcept : plan_(plan) {}
+    const detail::Plan* plan_;  ///< shared with copies
 };
 
 }  // namespace tendril::rig
