@@ -5,11 +5,9 @@
 //
 // Claims, each of the worst row of its table:
 //  - reading an element of a tree in which nothing was written since takes the same time among 100 elements
-//  and
-//    among a million;
+//    and among a million;
 //  - setting the root and reading a leaf is linear in the leaf's depth from 10 to 100 000 levels, up to what
-//  the
-//    caches of the machine make of it, and does not depend on how many other elements there are;
+//    the machine's caches make of it, and does not depend on how many other elements there are;
 //  - setting and reading a leaf among 100 000 elements costs what it does among 1 000;
 //  - a set that does not propagate, with the children's locals read after it, is linear in the number of
 //    children, and does not depend on what is below them.

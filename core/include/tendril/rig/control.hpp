@@ -1,14 +1,12 @@
 // Controls: elements that a person drags, and what dragging may do.
 //
-// | kind | value | what it moves |
-// | --- | --- | --- |
-// | Transform | Transform | its pose, within its parent |
-// | Position | vector | its translation, within its parent, metres |
-// | Rotation | rotation | its rotation, within its parent |
-// | Float | number | nothing; units read it |
-// | Bool | bool | nothing; units read it |
-// | Vector2d | vector: its parts along the two axes, the third part 0 | from its initial pose along two axes
-// of it |
+//     kind         value       what it moves
+//     Transform    transform   its pose, within its parent
+//     Position     vector      its translation, within its parent, metres
+//     Rotation     rotation    its rotation, within its parent
+//     Float        number      nothing; units read it
+//     Bool         bool        nothing; units read it
+//     Vector2d     vector      from its pose at rest along two of its axes; the third part is 0
 //
 // A value starts where the control is at rest: its initial pose, 0, or false. Minimum and maximum bound every
 // part of it that is bounded: see Control.

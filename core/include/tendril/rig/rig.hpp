@@ -3,9 +3,9 @@
 //     Expected<Rig> rig = Rig::make(definition);       // names resolved, types checked, once
 //     State state = rig->initial_state();              // a value: copy it, save it, put it back
 //     Workspace workspace(*rig);                       // scratch, kept from frame to frame
-//     rig->set_control(state, *rig->element("dial"), 0.5);
+//     if (Result bad = rig->set_control(state, *rig->element("dial"), 0.5); !bad) return log(bad.message());
 //     rig->solve(state, dt, workspace);                // every frame
-//     Transform hand = state.elements.global(rig->id(*rig->element("hand")));
+//     Transform hand = state.elements.get(rig->id(*rig->element("hand")), Space::Global);
 //
 // A solve first puts bones and nulls back to their input pose (the initial one, until set_element changes it)
 // and then runs the units, so solving twice gives what solving once gives; what has to be remembered from

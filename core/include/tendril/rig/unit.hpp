@@ -1,22 +1,23 @@
 // Units: the small operations of which a rig is made, as data. rig.hpp runs them, in order.
 //
-// Each operation is one struct of inputs with defaults. What they compute:
+// Each operation is one struct of inputs with defaults. Every one hands out a `result`; what it computes:
 //
-// | operation | what it does | hands out |
-// | --- | --- | --- |
-// | Aim, AimMath | aim.hpp; AimMath on a transform that it is given, and sets nothing | result: transform |
-// | ParentConstraint | parent_constraint.hpp | result: transform |
-// | OffsetTransform | composes an offset onto the item's global transform, in the item's own space | result:
-// transform | | SetTransform, SetRotation | sets the item's transform, or its rotation alone | result | |
-// ProjectToParent | where a child would be that keeps its initial place within another parent | result:
-// transform | | FromTwoVectors | the shortest rotation from one direction to another; none for a vector of no
-// length | result: rotation | | TransformLocation, TransformDirection | a point or a direction out of a
-// transform's space; a direction is not translated | result: vector | | ForEach | runs a body of units on
-// each of a chain of children | result: number of children | | AlphaInterpolate | signal/scale_bias_clamp.hpp
-// | result: number | | SpringInterpolate | signal/spring.hpp, towards a number, a vector or a rotation |
-// result; velocity | | EvaluateCurve | signal/curve.hpp | result: number | | SetCurve | writes a named curve:
-// a morph weight, a value of a material | result: number | | TwoBone, Fabrik | ik/two_bone.hpp, ik/solver.hpp
-// on the bones from `root` to `tip` | result: metres from tip to target |
+//     Aim                  aim.hpp. The item's transform
+//     AimMath              the same on a transform that it is given; sets nothing
+//     ParentConstraint     parent_constraint.hpp. The item's transform
+//     OffsetTransform      composes an offset onto the item, in its own space. Its transform
+//     SetTransform         the item's transform
+//     SetRotation          the item's rotation
+//     ProjectToParent      the child's place at rest in one parent, in another: a transform; sets nothing
+//     FromTwoVectors       the shortest rotation from one direction to another; none where one has no length
+//     TransformLocation    a point out of a transform's space: a vector
+//     TransformDirection   a direction out of it, turned but not moved: a vector
+//     ForEach              runs a body of units on each of a chain of children. Their number
+//     AlphaInterpolate     signal/scale_bias_clamp.hpp: a number
+//     SpringInterpolate    signal/spring.hpp, of numbers, vectors and rotations; also its `velocity`
+//     EvaluateCurve        signal/curve.hpp: a number
+//     SetCurve             writes a named curve, a morph weight or a value of a material: a number
+//     TwoBone, Fabrik      turn the bones from `root` to `tip`. Metres left from the tip to the target
 //
 // Every unit has a weight in [0, 1]: at 0 the item stays as it is, to the bit; an operation without an item
 // hands out its input unchanged (identity, for FromTwoVectors).
