@@ -54,7 +54,8 @@ class Descent {
         std::vector<double> left = left_of(now), trial_left;
         double cost = squared(left);
         double damping = 1e-3;
-        for (report.iterations = 0; report.iterations < options_.max_iterations && cost > 1e-24;
+        for (report.iterations = 0;
+             report.iterations < std::clamp(options_.max_iterations, 1, 10'000) && cost > 1e-24;
              ++report.iterations) {
             const double before = cost;
             linearize(now, left);

@@ -1,6 +1,10 @@
 // What may come into a rig from outside, and the words with which it is refused. Not installed.
 #pragma once
 
+#include <cmath>
+#include <string>
+#include <string_view>
+
 #include "math/checks.hpp"
 #include "tendril/vec3.hpp"
 
@@ -9,6 +13,12 @@ namespace tendril::rig::detail {
 using tendril::detail::Argument;
 using tendril::detail::refused;
 
+inline std::string quoted(std::string_view name) {
+    std::string result(1, '"');
+    result += name;
+    result += '"';
+    return result;
+}
 /// Finite and at most max_magnitude in magnitude.
 inline Result check_number(std::string_view operation, const Argument& argument, double value) noexcept {
     if (std::abs(value) <= static_cast<double>(max_magnitude)) return {};

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <string>
 
-#include "math/checks.hpp"
+#include "rig/checks.hpp"
 #include "rig/plan.hpp"
 #include "rig/resolve.hpp"
 #include "rig/value.hpp"
@@ -12,14 +12,9 @@ namespace tendril::rig {
 namespace {
 
 using detail::Plan;
+using detail::quoted;
 using detail::UnitPlan;
 
-std::string quoted(const std::string& text) {
-    std::string result(1, '"');
-    result += text;
-    result += '"';
-    return result;
-}
 Result invalid(const std::string& message) {
     return {ErrorCode::InvalidArgument, message};
 }
@@ -35,12 +30,13 @@ class Builder {
         if (const Result bad = index_names(); !bad) return bad;
         if (const Result bad = add_elements(); !bad) return bad;
         if (const Result bad = add_controls_and_curves(); !bad) return bad;
-        Resolver resolver(plan_.definition);
+        Resolver resolver(plan_.definition, plan_.elements, plan_.curves);
         if (const Result bad = resolver.resolve(plan_.definition.units); !bad) return bad;
         plan_.unit_names = std::move(resolver.names);
         plan_.units.resize(plan_.unit_names.size());
         for (std::size_t i = 0; i < plan_.units.size(); ++i)
             plan_.units[i].outputs = std::move(resolver.outputs[i]);
+        for (std::size_t i = 0; i < plan_.units.size(); ++i) plan_.units_by_name[plan_.unit_names[i]] = i;
         return add_units();
     }
     Plan take() { return std::move(plan_); }
@@ -54,6 +50,13 @@ class Builder {
             if (!plan_.elements.emplace(element.name, i).second)
                 return {ErrorCode::AlreadyExists,
                         "element " + quoted(element.name) + ": another has this name already"};
+        }
+        for (const Element& element : plan_.definition.elements) {
+            const auto parent = plan_.elements.find(element.parent);
+            if (!element.parent.empty() && parent == plan_.elements.end())
+                return missing("element " + quoted(element.name) + ": there is no element " +
+                               quoted(element.parent) + " for its parent");
+            plan_.parents.push_back(element.parent.empty() ? -1 : static_cast<std::int64_t>(parent->second));
         }
         for (std::size_t i = 0; i < plan_.definition.curves.size(); ++i) {
             const NamedCurve& curve = plan_.definition.curves[i];
@@ -80,11 +83,7 @@ class Builder {
                 const auto element = static_cast<std::size_t>(at);
                 line.push_back(element);
                 if (line.size() > count) return refused_cycle(line);
-                const std::string& parent = plan_.definition.elements[element].parent;
-                if (!parent.empty() && !plan_.elements.contains(parent))
-                    return missing("element " + quoted(plan_.definition.elements[element].name) +
-                                   ": there is no element " + quoted(parent) + " for its parent");
-                at = parent_of(plan_, element);
+                at = plan_.parents[element];
             }
             for (; !line.empty(); line.pop_back())
                 if (const Result bad = add_element(line.back()); !bad) return bad;
@@ -102,7 +101,7 @@ class Builder {
 
     Result add_element(std::size_t at) {
         const Element& element = plan_.definition.elements[at];
-        const std::int64_t parent = parent_of(plan_, at);
+        const std::int64_t parent = plan_.parents[at];
         const Expected<ElementId> id = plan_.initial.elements.add(
             element.kind, parent < 0 ? ElementId{} : plan_.ids[static_cast<std::size_t>(parent)],
             element.initial);
@@ -182,7 +181,7 @@ class Builder {
             return invalid(place + "root and tip must be elements by name");
         const auto end = static_cast<std::int64_t>(root.resolved.index);
         std::int64_t at = tip.resolved.index;
-        for (; at >= 0; at = parent_of(plan_, static_cast<std::size_t>(at))) {
+        for (; at >= 0; at = plan_.parents[static_cast<std::size_t>(at)]) {
             planned.bones.push_back(static_cast<std::uint32_t>(at));
             if (at == end) break;
         }
@@ -201,12 +200,6 @@ class Builder {
 };
 
 }  // namespace
-
-std::int64_t detail::parent_of(const Plan& plan, std::size_t element) {
-    const std::string& parent = plan.definition.elements[element].parent;
-    if (parent.empty()) return -1;
-    return static_cast<std::int64_t>(plan.elements.find(parent)->second);
-}
 
 Expected<Rig> Rig::make(Definition definition) {
     Builder builder(std::move(definition));

@@ -3,10 +3,10 @@
 
 #include <atomic>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
+#include "rig/resolve.hpp"
 #include "tendril/rig/rig.hpp"
 
 namespace tendril::rig::detail {
@@ -35,14 +35,12 @@ struct Owners {
 struct Plan {
     Owners owners;
     Definition definition;  ///< with its names resolved
+    Names elements, curves, units_by_name;
+    std::vector<std::int64_t> parents;  ///< of each element, by index; -1 for none
     std::vector<ElementId> ids;
     std::vector<std::string> unit_names;
     std::vector<UnitPlan> units;  ///< one a name
-    std::map<std::string, std::size_t, std::less<>> elements, curves;
     State initial;
 };
-
-/// Index of the parent, or -1 for none.
-std::int64_t parent_of(const Plan& plan, std::size_t element);
 
 }  // namespace tendril::rig::detail

@@ -4,11 +4,14 @@
 #include <cmath>
 #include <utility>
 
-#include "math/checks.hpp"
+#include "rig/checks.hpp"
 #include "rig/value.hpp"
 #include "tendril/magnitude.hpp"
 
 namespace tendril::rig {
+
+using detail::quoted;
+
 namespace {
 
 /// The type of an input of T; none for one that takes any.
@@ -39,13 +42,6 @@ Type part_type(Of of) noexcept {
     }
 }
 
-std::string quoted(std::string_view text) {
-    std::string result(1, '"');
-    result += text;
-    result += '"';
-    return result;
-}
-
 /// Inputs whose name ends so are weights: 0 to 1.
 bool is_weight(std::string_view name) {
     return name == "weight" || name.ends_with(".weight");
@@ -56,11 +52,6 @@ bool is_weight(std::string_view name) {
 bool converts(Type from, Type to) noexcept {
     return from == to || (from == Type::Bool && to == Type::Number) ||
            (from == Type::Transform && (to == Type::Vector || to == Type::Rotation));
-}
-
-Resolver::Resolver(const Definition& definition) : definition_(definition) {
-    for (std::size_t i = 0; i < definition.elements.size(); ++i) elements_[definition.elements[i].name] = i;
-    for (std::size_t i = 0; i < definition.curves.size(); ++i) curves_[definition.curves[i].name] = i;
 }
 
 Result Resolver::resolve(std::vector<Unit>& units) {

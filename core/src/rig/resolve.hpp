@@ -12,12 +12,16 @@
 
 namespace tendril::rig {
 
+/// Where in its list what has that name is.
+using Names = std::map<std::string, std::size_t, std::less<>>;
+
 /// Goes through the units of a rig in the order in which they run, filling in what their inputs name.
 class Resolver {
   public:
-    explicit Resolver(const Definition& definition);
+    Resolver(const Definition& definition, const Names& elements, const Names& curves)
+        : definition_(definition), elements_(elements), curves_(curves) {}
 
-    /// The first refusal, or fine. The names of elements and curves have been checked before.
+    /// The first refusal, or fine.
     Result resolve(std::vector<Unit>& units);
     /// Every unit, those in bodies after the for-each that has them, and what each hands out.
     std::vector<std::string> names;
@@ -57,7 +61,7 @@ class Resolver {
     void check_literal(const std::string& name, const Value& value);
 
     const Definition& definition_;
-    std::map<std::string, std::size_t, std::less<>> elements_, curves_;
+    const Names &elements_, &curves_;
     std::map<std::string, Found, std::less<>> units_;  ///< that run before this one
     std::set<std::string> taken_;                      ///< names
     const std::vector<Unit>* for_each_ = nullptr;      ///< the body that is being resolved

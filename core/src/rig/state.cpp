@@ -18,11 +18,9 @@ Result refused_index(const char* operation, const char* what, std::size_t index,
                                        " is not there, the rig has " + std::to_string(count)};
 }
 
-/// By name; a rig has few units with memory, and this is only asked after an edit.
-std::optional<std::size_t> unit_named(const Plan& plan, const std::string& name) {
-    const auto found = std::find(plan.unit_names.begin(), plan.unit_names.end(), name);
-    if (found == plan.unit_names.end()) return std::nullopt;
-    return static_cast<std::size_t>(found - plan.unit_names.begin());
+std::optional<std::size_t> found(const Names& names, std::string_view name) {
+    const auto at = names.find(name);
+    return at == names.end() ? std::nullopt : std::optional(at->second);
 }
 
 /// Within its parent, before any unit has run: its input pose, or where its value has a control.
@@ -34,7 +32,7 @@ Transform begun_local(const Plan& plan, State& state, std::size_t element) {
 
 Transform begun_global(const Plan& plan, State& state, std::size_t element) {
     std::vector<std::size_t> line;
-    for (auto at = static_cast<std::int64_t>(element); at >= 0; at = detail::parent_of(plan, line.back()))
+    for (auto at = static_cast<std::int64_t>(element); at >= 0; at = plan.parents[line.back()])
         line.push_back(static_cast<std::size_t>(at));
     Transform global = begun_local(plan, state, line.back());
     for (line.pop_back(); !line.empty(); line.pop_back())
@@ -106,14 +104,10 @@ std::span<const std::string> Rig::unit_names() const noexcept {
     return plan_->unit_names;
 }
 std::optional<std::size_t> Rig::element(std::string_view name) const noexcept {
-    const auto found = plan_->elements.find(name);
-    if (found == plan_->elements.end()) return std::nullopt;
-    return found->second;
+    return found(plan_->elements, name);
 }
 std::optional<std::size_t> Rig::curve(std::string_view name) const noexcept {
-    const auto found = plan_->curves.find(name);
-    if (found == plan_->curves.end()) return std::nullopt;
-    return found->second;
+    return found(plan_->curves, name);
 }
 
 State Rig::initial_state() const {
@@ -142,7 +136,7 @@ State Rig::adopted(const Rig& before, const State& state) const {
             result.input_curves[i] = state.input_curves[*was];
         }
     for (std::size_t i = 0; i < plan_->unit_names.size(); ++i)
-        if (const auto was = unit_named(*before.plan_, plan_->unit_names[i]);
+        if (const auto was = found(before.plan_->units_by_name, plan_->unit_names[i]);
             was && same_shape(state.units[*was], result.units[i]))
             result.units[i] = state.units[*was];
     return result;

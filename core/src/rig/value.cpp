@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "math/checks.hpp"
+#include "rig/checks.hpp"
 #include "tendril/magnitude.hpp"
 
 namespace tendril::rig {
@@ -14,10 +14,6 @@ bool in_range(double value) noexcept {
 bool in_range(const glm::dvec3& value) noexcept {
     return in_range(value.x) && in_range(value.y) && in_range(value.z);
 }
-Result refused(const char* what, const char* requirement, double value) noexcept {
-    return tendril::detail::refused({}, what, requirement, value);
-}
-constexpr const char* range = "finite and at most 1e9 in magnitude";
 
 }  // namespace
 
@@ -44,10 +40,9 @@ Value neutral(Type type) noexcept {
 
 Result check(const char* what, const Value& value) noexcept {
     if (const auto* number = std::get_if<double>(&value)) {
-        if (!in_range(*number)) return refused(what, range, *number);
+        return detail::check_number({}, what, *number);
     } else if (const auto* vector = std::get_if<glm::dvec3>(&value)) {
-        for (const double part : {vector->x, vector->y, vector->z})
-            if (!in_range(part)) return refused(what, range, part);
+        return detail::check_vector({}, what, *vector);
     } else if (const auto* rotation = std::get_if<glm::dquat>(&value)) {
         if (const auto fine = checked({.rotation = *rotation}, {}, what); !fine) return fine.error();
     } else if (const auto* transform = std::get_if<Transform>(&value)) {

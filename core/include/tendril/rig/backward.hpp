@@ -20,8 +20,9 @@
 namespace tendril::rig {
 
 struct BackwardOptions {
-    int max_iterations = 100;  ///< for each way that the bool controls stand, 1 to 10 000
-    /// Metres that count as much as a radian, and as a scale of 1; 0: the mean length of the rig's bones.
+    int max_iterations = 100;  ///< for each way that the bool controls stand; taken as 1 to 10 000
+    /// Metres that count as much as a radian, and as a scale of 1; 0 or less: the mean length of the rig's
+    /// bones.
     double metres_per_radian = 0.0;
 };
 
