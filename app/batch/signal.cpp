@@ -132,7 +132,7 @@ void run_signal(const SignalOptions& options, const std::atomic<bool>& ending) {
 const char* const signal_help =
     "FILTER is a filter, or a list of up to 64 that are applied in order:\n"
     "  {\"kind\": \"spring\", \"strength\": 4, \"critical_damping\": 0.5}\n"
-    "What is left out has its default, other keys are ignored.\n"
+    "What is left out has its default.\n"
     "SAMPLES is a CSV file, a row a sample: dt,input. dt is in seconds, the time since the row before; a "
     "row\n"
     "whose dt is not over 0 changes nothing. A first row may name the columns: dt or time, and input.\n"

@@ -164,6 +164,8 @@ TEST_F(SignalProgram, says_what_is_wrong_with_a_filter_and_where) {
          {"line 2", "filters.1.halflife", "expected 0 to 10000, found -1"}},
         {R"({"kind": "exponential_decay", "halflife": "long"})", {"filter.halflife", "number", "long"}},
         {R"({"kind": "exponential_decay", "halflife": 1e300})", {"filter.halflife"}},
+        {"[{\"kind\": \"interp_to\"},\n {\"kind\": \"spring\", \"strenght\": 4}]",
+         {"line 2", "filters.1.strenght", "spring has no such parameter", "strength"}},
         {R"({"kind": "scale_bias_clamp", "clamp": 1})", {"filter.clamp"}},
         {R"({"kind": "scale_bias_clamp", "in_range": [1]})", {"filter.in_range", "two numbers"}},
         {R"({"kind": "hysteresis", "low": 2, "high": 1})", {"filter", "low"}},
