@@ -51,8 +51,8 @@ std::string step_samples(int rows, int before = 1) {
 }
 
 TEST_F(SignalProgram, prints_time_input_and_output) {
-    const Outcome outcome = run(R"({"kind": "rate_limit", "rise": 6, "fall": 3, "note": [1]})",
-                                "0.5,0\n0.1,1\n0.1,1\n0.1,-1\r\n\n");
+    const Outcome outcome =
+        run(R"({"kind": "rate_limit", "rise": 6, "fall": 3})", "0.5,0\n0.1,1\n0.1,1\n0.1,-1\r\n\n");
     ASSERT_TRUE(succeeded(outcome));
     const Table table = table_of(outcome.out);
     ASSERT_EQ(table.size(), 5u);
