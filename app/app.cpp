@@ -100,7 +100,8 @@ void App::tick(const Event* event) {
 
 void App::compose(const Event* event, Pass pass) {
     const bool in_tick = pass == Pass::Tick;
-    layout_ = lay_out(size_, ui_scale(), workspace_.settings, lab().has_timeline(workspace_));
+    layout_ = lay_out(size_, ui_scale(), workspace_.settings, lab().has_timeline(workspace_),
+                      lab().canvas_share(workspace_));
     workspace_.ui.view_size = layout_.view.size();
     Emit emit;
     if (in_tick && event != nullptr) take_event(*event, emit);
@@ -145,7 +146,8 @@ void App::take_event(const Event& event, Emit& emit) {
     } else if (const auto* resize = std::get_if<Resize>(&event)) {
         size_ = resize->size;
         if (window_.size() != size_) window_.resize(size_);
-        layout_ = lay_out(size_, ui_scale(), workspace_.settings, lab().has_timeline(workspace_));
+        layout_ = lay_out(size_, ui_scale(), workspace_.settings, lab().has_timeline(workspace_),
+                          lab().canvas_share(workspace_));
     } else if (const auto* drop = std::get_if<Drop>(&event)) {
         if (!drop->paths.empty()) emit("scene.open", {{"path", drop->paths.front()}});
     } else if (std::holds_alternative<CloseRequest>(event)) {

@@ -15,7 +15,6 @@
 #include "app/document/text.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/labs.hpp"
-#include "app/labs/signal/filter_json.hpp"
 #include "app/session.hpp"
 #include "app/shell/shortcuts.hpp"
 
@@ -52,6 +51,10 @@ void list_commands() {
                 return "number or [x, y, z]";
             case ArgumentType::Rotation:
                 return "[x, y, z, w] or [x, y, z] in degrees";
+            case ArgumentType::List:
+                return "list";
+            case ArgumentType::ListOrText:
+                return "list or text";
         }
         return "";
     };
@@ -161,7 +164,8 @@ const SolveOptions& SolveLine::checked() {
 }
 
 CLI::App* add_signal(CLI::App& line, SignalOptions& options) {
-    CLI::App* signal = line.add_subcommand("signal", "Run filters over samples, or fit them to a response");
+    CLI::App* signal =
+        line.add_subcommand(signal_subcommand, "Run filters over samples, or fit them to a response");
     signal->add_option("FILTER", options.filters, "A filter as JSON, or a list of them; see below")
         ->required();
     signal->add_option("SAMPLES", options.samples, "A CSV file: dt,input")->required();
@@ -169,7 +173,7 @@ CLI::App* add_signal(CLI::App& line, SignalOptions& options) {
     signal->add_option("--fit", options.fit, "Fit every kind of filter to this CSV file")
         ->option_text("RESPONSE")
         ->excludes(rates);
-    signal->footer("Kinds: " + kind_names() + ".\n" + signal_help);
+    signal->footer(signal_help());
     return signal;
 }
 

@@ -129,25 +129,27 @@ void run_signal(const SignalOptions& options, const std::atomic<bool>& ending) {
         print_outputs(filters, samples, ending);
 }
 
-const char* const signal_help =
-    "FILTER is a filter, or a list of up to 64 that are applied in order:\n"
-    "  {\"kind\": \"spring\", \"strength\": 4, \"critical_damping\": 0.5}\n"
-    "What is left out has its default.\n"
-    "SAMPLES is a CSV file, a row a sample: dt,input. dt is in seconds, the time since the row before; a "
-    "row\n"
-    "whose dt is not over 0 changes nothing. A first row may name the columns: dt or time, and input.\n"
-    "Printed are rows of time,input,output.\n"
-    "--rates prints one output for each frame rate (15, 30, 60 and 144 Hz, and 60 Hz with uneven frames), "
-    "and\n"
-    "on stderr the maximum difference between them.\n"
-    "--fit finds for every kind of filter the parameters with which it answers the samples most nearly as\n"
-    "RESPONSE has it, and prints kind,residual,filter, the best first. RESPONSE has a row for each sample; "
-    "its\n"
-    "column output, response or value counts, or else its last. The residual is the root mean square of "
-    "what\n"
-    "is left, as a part of the response's range. The search of FILTER's own kinds begins there too.\n"
-    "A hole, a text, or a number out of its range is said with its file, row and column, and nothing is\n"
-    "printed (exit code 2).\n"
-    "To open a scene file that is named signal, write ./signal.";
+const char* const signal_subcommand = "signal";
+
+std::string signal_help() {
+    return "Kinds: " + kind_names() +
+           ".\n"
+           R"(FILTER is a filter, or a list of up to 64 that are applied in order:
+  {"kind": "spring", "strength": 4, "critical_damping": 0.5}
+What is left out has its default; a key that the kind does not have is refused.
+SAMPLES is a CSV file, a row a sample: dt,input. dt is in seconds, the time since
+the row before; a row whose dt is not over 0 changes nothing. A first row may name
+the columns: dt or time, and input. Printed are rows of time,input,output.
+--rates prints one output for each frame rate (15, 30, 60 and 144 Hz, and 60 Hz
+with uneven frames), and on stderr the maximum difference between them.
+--fit finds for every kind of filter the parameters with which it answers the
+samples most nearly as RESPONSE has it, and prints kind,residual,filter, the best
+first. RESPONSE has a row for each sample; its column output, response or value
+counts, or else its last. The residual is the root mean square of what is left, as
+a part of the response's range. The search of FILTER's own kinds begins there too.
+A hole, a text, or a number out of its range is said with its file, row and column,
+and nothing is printed (exit code 2).
+To open a scene file that is named signal, write ./signal.)";
+}
 
 }  // namespace tendril::app

@@ -18,7 +18,9 @@ struct SignalOptions {
 /// signal_help has it, or the output cannot be written.
 void run_signal(const SignalOptions& options, const std::atomic<bool>& ending);
 
-/// How the files are written, for --help.
-extern const char* const signal_help;
+/// What it is called on the command line.
+extern const char* const signal_subcommand;
+/// How the files are written, and which kinds of filter there are, for --help.
+std::string signal_help();
 
 }  // namespace tendril::app

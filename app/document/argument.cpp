@@ -14,6 +14,14 @@ float Arguments::number(const char* name) const {
     return json_.at(name).get<float>();
 }
 
+double Arguments::real(const char* name) const {
+    return json_.at(name).get<double>();
+}
+
+const Json& Arguments::json(const char* name) const {
+    return json_.at(name);
+}
+
 int Arguments::integer(const char* name) const {
     return json_.at(name).get<int>();
 }

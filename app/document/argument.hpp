@@ -11,8 +11,8 @@
 namespace tendril::app {
 
 /// NumberOrPoint: one number, or three. Rotation: a unit quaternion [x, y, z, w], or degrees about X, then Y,
-/// then Z.
-enum class ArgumentType { Number, Integer, Boolean, Text, Point, NumberOrPoint, Rotation };
+/// then Z. List: what is in it the command checks.
+enum class ArgumentType { Number, Integer, Boolean, Text, Point, NumberOrPoint, Rotation, List, ListOrText };
 
 struct Argument {
     std::string name;
@@ -30,12 +30,15 @@ class Arguments {
     explicit Arguments(const Json& json) : json_(json) {}
     bool has(const char* name) const;
     float number(const char* name) const;
+    double real(const char* name) const;  ///< a number, exactly as it was given
     int integer(const char* name) const;
     bool boolean(const char* name) const;
     std::string text(const char* name) const;
     glm::vec3 point(const char* name) const;
     bool is_point(const char* name) const;       ///< of a NumberOrPoint
     glm::quat rotation(const char* name) const;  ///< of unit length
+    const Json& json(const char* name) const;    ///< of any type, as it was given
+    const Json& json() const { return json_; }   ///< all of them: an object, or null where there are none
 
   private:
     const Json& json_;

@@ -9,6 +9,8 @@ struct ToJson {
     Json operator()(bool value) const { return value; }
     Json operator()(std::int64_t value) const { return value; }
     Json operator()(float value) const { return number(value); }
+    Json operator()(double value) const { return value; }
+    Json operator()(const SharedJson& json) const { return *json; }
     Json operator()(const std::string& value) const { return value; }
     Json operator()(glm::vec3 value) const { return point(value); }
     Json operator()(const glm::quat& q) const {

@@ -19,17 +19,19 @@ namespace tendril::app {
 /// [x, y, z, w].
 class ArgumentValue {
   public:
-    using Value = std::variant<bool, std::int64_t, float, std::string, glm::vec3, glm::quat>;
+    using Value = std::variant<bool, std::int64_t, float, double, std::string, glm::vec3, glm::quat, SharedJson>;
 
     ArgumentValue(bool value) : value_(value) {}
     template <std::integral Integer>
     requires(!std::same_as<Integer, bool>) ArgumentValue(Integer value)
         : value_(static_cast<std::int64_t>(value)) {}
     ArgumentValue(float value) : value_(value) {}
+    ArgumentValue(double value) : value_(value) {}
     ArgumentValue(const char* text) : value_(std::string(text)) {}
     ArgumentValue(std::string text) : value_(std::move(text)) {}
     ArgumentValue(glm::vec3 point) : value_(point) {}
     ArgumentValue(glm::quat rotation) : value_(rotation) {}
+    ArgumentValue(SharedJson json) : value_(std::move(json)) {}
 
     const Value& value() const { return value_; }
 

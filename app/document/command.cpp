@@ -24,6 +24,10 @@ const char* type_name(ArgumentType type) {
             return "a number or a point [x, y, z]";
         case ArgumentType::Rotation:
             return "a unit quaternion [x, y, z, w] or angles in degrees [x, y, z]";
+        case ArgumentType::List:
+            return "a list";
+        case ArgumentType::ListOrText:
+            return "a list or a text";
     }
     return "";
 }
@@ -97,6 +101,11 @@ void check_value(const Argument& argument, const Json& value, const std::string&
             } else {
                 check_point(value, argument.type, refuse);
             }
+            return;
+        case ArgumentType::List:
+        case ArgumentType::ListOrText:
+            if (!value.is_array() && !(argument.type == ArgumentType::ListOrText && value.is_string()))
+                refuse(type_name(argument.type));
             return;
         case ArgumentType::Integer:
             if (!value.is_number()) refuse(type_name(argument.type));

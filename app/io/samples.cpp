@@ -54,12 +54,12 @@ class Table {
             if (comma == line.npos) break;
             line.remove_prefix(comma + 1);
         }
-        if (fields.size() == 1 && fields[0].empty()) fail("is empty");
+        if (fields.size() == 1 && fields[0].empty()) fail(" is empty");
         return true;
     }
 
     [[noreturn]] void fail(const std::string& what) const {
-        throw std::runtime_error(name_ + ": row " + std::to_string(row_) + " " + what);
+        throw std::runtime_error(name_ + ": row " + std::to_string(row_) + what);
     }
     [[noreturn]] void fail_whole(const std::string& what) const {
         throw std::runtime_error(name_ + ": " + what);
@@ -71,7 +71,7 @@ class Table {
         const auto refuse = [&](const std::string& expected) {
             const std::string found =
                 field.empty() ? "nothing" : '"' + single_line(std::string(field.substr(0, 40))) + '"';
-            fail("column " + std::to_string(column + 1) + " (" + title + "): expected " + expected +
+            fail(", column " + std::to_string(column + 1) + " (" + title + "): expected " + expected +
                  ", found " + found);
         };
         if (!value) refuse("a number");
@@ -81,7 +81,7 @@ class Table {
 
     void check_width(const Fields& fields, std::size_t width, const char* what) const {
         if (fields.size() == width) return;
-        fail("has " + std::to_string(fields.size()) + (fields.size() == 1 ? " column" : " columns") +
+        fail(" has " + std::to_string(fields.size()) + (fields.size() == 1 ? " column" : " columns") +
              ", expected " + std::to_string(width) + what);
     }
 
@@ -116,7 +116,7 @@ std::vector<signal::Sample> parse_samples(std::string_view text, const std::stri
     if (names_columns(fields)) {
         const auto dt = column_named(fields, {"dt"}), time = column_named(fields, {"time"});
         const auto input = column_named(fields, {"input"});
-        if (!input || !(dt || time)) table.fail("names no columns dt and input");
+        if (!input || !(dt || time)) table.fail(" names no columns dt and input");
         time_column = dt ? *dt : *time;
         absolute = !dt;
         input_column = *input;
@@ -131,7 +131,7 @@ std::vector<signal::Sample> parse_samples(std::string_view text, const std::stri
         const double input = table.number(fields, input_column, "input");
         samples.push_back({absolute ? time - before : time, input});
         before = time;
-        if (samples.size() > most_samples) table.fail("is one too many: the most is 1000000 samples");
+        if (samples.size() > most_samples) table.fail(" is one too many: the most is 1000000 samples");
     }
     if (samples.empty()) table.fail_whole("has no samples");
     return samples;

@@ -110,6 +110,11 @@ class Lab {
     virtual bool has_timeline(const Workspace&) const { return false; }
     virtual void timeline(const Workspace&, Emit&) const {}
 
+    // a flat picture beside the scene: plots, for a lab that is mostly numbers over time
+    /// How much of the middle of the window it takes from the 3D view, from the left: 0 to 1.
+    virtual float canvas_share(const Workspace&) const { return 0.0f; }
+    virtual void canvas(const Workspace&, Emit&) const {}
+
     // the mouse
     virtual std::vector<Handle> handles(const Workspace&) const { return {}; }
     /// What is picked, if it is there. Of handles() unless there is more to pick than has a name.

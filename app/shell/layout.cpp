@@ -5,9 +5,9 @@
 
 namespace tendril::app {
 
-Layout lay_out(glm::vec2 window, float scale, const Settings& settings, bool has_timeline) {
+Layout lay_out(glm::vec2 window, float scale, const Settings& settings, bool has_timeline, float canvas) {
     constexpr float bar = 44.0f, status = 28.0f, timeline = 46.0f, folded = 12.0f;
-    constexpr float min_view = 0.34f;  // of the width: what the 3D view keeps, whatever the panels ask for
+    constexpr float min_view = 0.34f;  // of the width: what the middle keeps, whatever the panels ask for
 
     const float most = std::max(0.0f, 0.5f * (1.0f - min_view) * window.x);
     const auto side = [&](bool open, float width) {
@@ -26,7 +26,9 @@ Layout lay_out(glm::vec2 window, float scale, const Settings& settings, bool has
     layout.left = {{0.0f, top}, {left, low}};
     layout.right = {{window.x - right, top}, {window.x, low}};
     layout.timeline = {{left, middle}, {window.x - right, low}};
-    layout.view = {{left, top}, {window.x - right, middle}};
+    const float split = std::round(left + canvas * (window.x - right - left));
+    layout.canvas = {{left, top}, {split, middle}};
+    layout.view = {{split, top}, {window.x - right, middle}};
     return layout;
 }
 

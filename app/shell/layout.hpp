@@ -9,12 +9,14 @@
 namespace tendril::app {
 
 struct Layout {
-    Rect top, left, right, timeline, status, view;
+    Rect top, left, right, timeline, status, canvas, view;
     float scale = 1.0f;
 };
 
-/// Everything in window coordinates. In a narrow window the panels give way before the view does; of a folded
-/// panel a slim strip stays, to bring it back with.
-Layout lay_out(glm::vec2 window, float scale, const Settings& settings, bool has_timeline);
+/// Everything in window coordinates. In a narrow window the panels give way before the middle does; of a
+/// folded panel a slim strip stays, to bring it back with. `canvas` is the part of the middle, from the left,
+/// that the lab's own picture takes from the 3D view: 0 to 1.
+Layout lay_out(glm::vec2 window, float scale, const Settings& settings, bool has_timeline,
+               float canvas = 0.0f);
 
 }  // namespace tendril::app

@@ -254,6 +254,12 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
     side_panel(frame, true, emit);
     side_panel(frame, false, emit);
     const Workspace& workspace = frame.workspace;
+    if (frame.layout.canvas.size().x > 1.0f) {
+        const float padding = 12.0f * frame.layout.scale;
+        begin_region("canvas", frame.layout.canvas, frame.colours().bar, {padding, padding});
+        frame.lab.canvas(workspace, emit);
+        ImGui::End();
+    }
     if (frame.layout.timeline.size().y > 1.0f) {
         const float scale = frame.layout.scale;
         begin_region("timeline", frame.layout.timeline, frame.colours().panel, {12.0f * scale, 6.0f * scale});

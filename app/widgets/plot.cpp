@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/document/units.hpp"
 #include "app/widgets/fonts.hpp"
@@ -28,7 +29,7 @@ class Plot {
   public:
     Plot(std::span<const Curve> curves, const PlotAxes& axes, ImVec2 at, ImVec2 size)
         : curves_(curves), axes_(axes), list_(ImGui::GetWindowDrawList()) {
-        most_x_ = axes.min_x;
+        most_x_ = std::max(axes.min_x, axes.from_x);
         float max_y = axes.level > 0.0f ? axes.level : -1e30f, min_y = 1e30f;
         for (const Curve& curve : curves) {
             for (const glm::vec2 p : curve.points) {
@@ -40,6 +41,9 @@ class Plot {
         if (logarithmic()) {
             low_ = std::floor(std::log10(axes.min_y));
             high_ = std::max(low_ + 1.0f, std::ceil(std::log10(std::max(max_y, axes.min_y)) - 1e-4f));
+        } else if (axes.low_y < axes.high_y) {
+            low_ = std::min(axes.low_y, min_y);
+            high_ = std::max(axes.high_y, max_y);
         } else if (min_y <= max_y) {
             // A curve that is all but level is shown so.
             const float room = std::max(0.05f * (max_y - min_y), 1e-3f * std::max(std::abs(max_y), 1e-3f));
@@ -65,10 +69,51 @@ class Plot {
         }
         for (const Curve& curve : curves_) line(curve);
         list_->PopClipRect();
+        if (axes_.named) names();
     }
 
-    /// What the nearest point to the mouse says.
+    /// What the mouse says: all curves at its place, or the nearest point.
     void tell(ImVec2 mouse) const {
+        if (axes_.reads_all)
+            tell_all(mouse);
+        else
+            tell_nearest(mouse);
+    }
+
+    /// Within the plot; of a logarithmic axis the value, not its power.
+    glm::vec2 values_at(ImVec2 at) const {
+        const float share_x = std::clamp((at.x - from_.x) / std::max(to_.x - from_.x, 1.0f), 0.0f, 1.0f);
+        const float share_y = std::clamp((to_.y - at.y) / std::max(to_.y - from_.y, 1.0f), 0.0f, 1.0f);
+        const float power = low_ + share_y * (high_ - low_);
+        return {axes_.from_x + share_x * (most_x_ - axes_.from_x),
+                logarithmic() ? std::pow(10.0f, power) : power};
+    }
+
+  private:
+    struct Mark {
+        float at;  ///< on the screen
+        std::string text;
+    };
+
+    void tell_all(ImVec2 mouse) const {
+        if (mouse.x < from_.x || mouse.x > to_.x || mouse.y < from_.y || mouse.y > to_.y) return;
+        const float at = axes_.from_x + (most_x_ - axes_.from_x) * (mouse.x - from_.x) / (to_.x - from_.x);
+        list_->AddLine({mouse.x, from_.y}, {mouse.x, to_.y}, dim());
+        ImGui::BeginTooltip();
+        ImGui::TextDisabled("%s %s", axes_.x, short_text(static_cast<double>(at), axes_.x_unit).c_str());
+        for (const Curve& curve : curves_) {
+            const float value = value_at(curve, at);
+            if (std::isnan(value)) continue;
+            list_->AddCircleFilled({mouse.x, y(value)}, 0.25f * ImGui::GetFontSize(),
+                                   colour_of(curve.colour));
+            colour_mark(curve.colour);
+            ImGui::AlignTextToFramePadding();
+            ImGui::Text("%s  %s", fixed_text(static_cast<double>(value), 3).c_str(), curve.name.c_str());
+        }
+        ImGui::EndTooltip();
+    }
+
+    void tell_nearest(ImVec2 mouse) const {
         const Curve* nearest = nullptr;
         glm::vec2 point{0.0f};
         float nearest_away = 1e9f;
@@ -85,13 +130,10 @@ class Plot {
                           short_text(static_cast<double>(point.y), axes_.y_unit).c_str());
     }
 
-  private:
-    struct Mark {
-        float at;  ///< on the screen
-        std::string text;
-    };
-
-    float x(float value) const { return from_.x + (to_.x - from_.x) * value / std::max(most_x_, 1e-12f); }
+    float x(float value) const {
+        const float span = std::max(most_x_ - axes_.from_x, 1e-12f);
+        return from_.x + (to_.x - from_.x) * (value - axes_.from_x) / span;
+    }
     bool logarithmic() const { return axes_.min_y > 0.0f; }
     float y(float value) const {
         return along_y(logarithmic() ? std::log10(std::max(value, axes_.min_y)) : value);
@@ -128,8 +170,11 @@ class Plot {
         }
         const int room = std::max(1, static_cast<int>((to_.x - from_.x) / (3.5f * ImGui::GetFontSize())));
         const float min_step = axes_.whole_x ? 1.0f : 0.0f;
-        const float step = std::max(min_step, tick_step(most_x_, room));
-        for (float value = 0.0f; value <= most_x_ * 1.0001f; value += step) {
+        const float step = std::max(min_step, tick_step(most_x_ - axes_.from_x, room));
+        const float first = std::ceil(axes_.from_x / step - 1e-4f) * step;
+        const float last = most_x_ + 1e-4f * (most_x_ - axes_.from_x);
+        for (int i = 0; first + static_cast<float>(i) * step <= last; ++i) {
+            const float value = first + static_cast<float>(i) * step;
             list_->AddLine({x(value), from_.y}, {x(value), to_.y}, line);
             const std::string text = short_text(static_cast<double>(value), axes_.x_unit);
             const float half = 0.5f * ImGui::CalcTextSize(text.c_str()).x;
@@ -156,15 +201,71 @@ class Plot {
     }
 
     void line(const Curve& curve) {
-        const ImU32 colour = colour_of(curve.colour);
+        const ImU32 colour = colour_of(curve.colour, curve.strength);
         std::vector<ImVec2> points;
         for (const glm::vec2 p : curve.points) points.push_back({x(p.x), y(p.y)});
-        if (points.size() > 1) {
-            list_->AddPolyline(points.data(), static_cast<int>(points.size()), colour, ImDrawFlags_None,
-                               0.13f * ImGui::GetFontSize());
+        polyline(points, colour, 0.13f * curve.width * ImGui::GetFontSize());
+        // So many marks would make one thick line.
+        if (points.size() > 60 || (!curve.marks && !points.empty())) points = {points.back()};
+        for (const ImVec2 p : points)
+            list_->AddCircleFilled(p, 0.17f * curve.width * ImGui::GetFontSize(), colour);
+    }
+
+    /// In pieces, cut where it turns back on itself: there Dear ImGui's joints would be of no width, and a
+    /// fast swing a cloud of dots.
+    void polyline(const std::vector<ImVec2>& points, ImU32 colour, float width) {
+        std::size_t begin = 0;
+        for (std::size_t i = 1; i < points.size(); ++i) {
+            const bool last = i + 1 == points.size();
+            const ImVec2 p = points[i - 1], q = points[i], r = points[last ? i : i + 1];
+            const bool back = (q.x - p.x) * (r.x - q.x) + (q.y - p.y) * (r.y - q.y) < 0.0f;
+            if (!last && !back) continue;
+            list_->AddPolyline(points.data() + begin, static_cast<int>(i - begin) + 1, colour,
+                               ImDrawFlags_None, width);
+            begin = i;
         }
-        if (points.size() > 60) points = {points.back()};  // so many marks would make one thick line
-        for (const ImVec2 p : points) list_->AddCircleFilled(p, 0.17f * ImGui::GetFontSize(), colour);
+    }
+
+    struct Box {
+        ImVec2 low, high;
+        bool meets(const Box& other) const {
+            return low.x < other.high.x && other.low.x < high.x && low.y < other.high.y &&
+                   other.low.y < high.y;
+        }
+    };
+
+    /// Beside their points, wherever there is room, the first ones first; none over another or over a point.
+    void names() {
+        std::vector<Box> taken;
+        const float unit = ImGui::GetFontSize();
+        for (const Curve& curve : curves_) {
+            if (curve.points.size() != 1) continue;
+            const ImVec2 at{x(curve.points[0].x), y(curve.points[0].y)};
+            const float radius = 0.17f * curve.width * unit;
+            taken.push_back({{at.x - radius, at.y - radius}, {at.x + radius, at.y + radius}});
+        }
+        for (const Curve& curve : curves_) {
+            if (curve.points.size() != 1) continue;
+            const ImVec2 at{x(curve.points[0].x), y(curve.points[0].y)};
+            const ImVec2 size = ImGui::CalcTextSize(curve.name.c_str());
+            const float gap = 0.17f * curve.width * unit + 0.3f * unit;
+            const ImVec2 places[] = {{at.x + gap, at.y - 0.5f * size.y},
+                                     {at.x - gap - size.x, at.y - 0.5f * size.y},
+                                     {at.x - 0.5f * size.x, at.y - gap - 0.8f * size.y},
+                                     {at.x - 0.5f * size.x, at.y + gap - 0.2f * size.y}};
+            for (const ImVec2& low : places) {
+                const Box box{low, {low.x + size.x, low.y + size.y}};
+                const bool inside = box.low.x >= from_.x && box.high.x <= to_.x && box.low.y >= from_.y &&
+                                    box.high.y <= to_.y;
+                const bool free = std::none_of(taken.begin(), taken.end(),
+                                               [&](const Box& other) { return box.meets(other); });
+                if (!inside || !free) continue;
+                list_->AddText(box.low, ImGui::GetColorU32(ImGuiCol_Text, curve.strength),
+                               curve.name.c_str());
+                taken.push_back(box);
+                break;
+            }
+        }
     }
 
     std::span<const Curve> curves_;
@@ -176,7 +277,18 @@ class Plot {
 
 }  // namespace
 
-void plot(const char* id, std::span<const Curve> curves, const PlotAxes& axes, float height) {
+float value_at(const Curve& curve, float x) {
+    const auto& points = curve.points;
+    const auto after = std::lower_bound(points.begin(), points.end(), x,
+                                        [](const glm::vec2& p, float at) { return p.x < at; });
+    if (after == points.end()) return std::numeric_limits<float>::quiet_NaN();
+    if (after->x == x) return after->y;
+    if (after == points.begin()) return std::numeric_limits<float>::quiet_NaN();
+    const glm::vec2 a = *(after - 1), b = *after;
+    return a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x);
+}
+
+PlotStroke plot(const char* id, std::span<const Curve> curves, const PlotAxes& axes, float height) {
     ImGui::PushFont(small_font());
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const ImVec2 size{std::max(80.0f, ImGui::GetContentRegionAvail().x), height * ImGui::GetFontSize()};
@@ -184,8 +296,11 @@ void plot(const char* id, std::span<const Curve> curves, const PlotAxes& axes, f
     const bool hovered = ImGui::IsItemHovered();
     Plot drawing(curves, axes, at, size);
     drawing.draw();
-    if (hovered) drawing.tell(ImGui::GetIO().MousePos);
+    const ImVec2 mouse = ImGui::GetIO().MousePos, moved = ImGui::GetIO().MouseDelta;
+    if (hovered) drawing.tell(mouse);
     ImGui::PopFont();
+    if (!ImGui::IsItemActive()) return {};
+    return {true, drawing.values_at({mouse.x - moved.x, mouse.y - moved.y}), drawing.values_at(mouse)};
 }
 
 void colour_mark(glm::vec3 colour) {

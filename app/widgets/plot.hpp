@@ -13,6 +13,9 @@ struct Curve {
     std::string name;
     glm::vec3 colour{1.0f};
     std::vector<glm::vec2> points;  ///< x ascending
+    float width = 1.0f;             ///< of the line, and of a single point, as a factor
+    float strength = 1.0f;          ///< 0 to 1: how much it stands out
+    bool marks = true;              ///< its points, where they are not too many
 };
 
 struct PlotAxes {
@@ -23,14 +26,28 @@ struct PlotAxes {
     /// The y axis is logarithmic and begins here; values below lie on its edge. 0: it is even, and goes from
     /// the lowest value to the highest.
     float min_y = 1e-6f;
-    float min_x = 1.0f;    ///< the x axis goes from 0 to this at least
-    float level = 0.0f;    ///< a dashed line at this y, where it is over 0
-    float at_x = -1.0f;    ///< a line at this x, where it is not negative
-    bool whole_x = false;  ///< x counts something: marks at whole numbers only
+    float from_x = 0.0f;                ///< where the x axis begins
+    float min_x = 1.0f;                 ///< and where it ends at least
+    float low_y = 0.0f, high_y = 0.0f;  ///< of an even y axis: what it shows at least, where low < high
+    float level = 0.0f;                 ///< a dashed line at this y, where it is over 0
+    float at_x = -1.0f;                 ///< a line at this x, where it is not negative
+    bool whole_x = false;               ///< x counts something: marks at whole numbers only
+    bool reads_all = false;  ///< the mouse reads every curve at its x, rather than the nearest point
+    bool named = false;      ///< curves of one point have their name beside it, as far as there is room
 };
 
-/// As wide as there is room, `height` in lines of text. Resting the mouse on it tells the nearest point.
-void plot(const char* id, std::span<const Curve> curves, const PlotAxes& axes, float height);
+/// The value of a curve at x, between its points in a straight line; NaN outside them.
+float value_at(const Curve& curve, float x);
+
+/// Where the mouse went in a frame with its left button down, as values of both axes.
+struct PlotStroke {
+    bool drawn = false;
+    glm::vec2 from{0.0f}, to{0.0f};
+};
+
+/// As wide as there is room, `height` in lines of text. Resting the mouse on it tells the nearest point, or
+/// all curves at that place.
+PlotStroke plot(const char* id, std::span<const Curve> curves, const PlotAxes& axes, float height);
 
 /// A small square of colour before what is written next.
 void colour_mark(glm::vec3 colour);

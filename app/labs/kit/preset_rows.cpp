@@ -5,12 +5,12 @@
 namespace tendril::app {
 
 bool preset_rows(const std::string& lab, const std::vector<PresetButton>& presets, const char* clears,
-                 Emit& emit) {
+                 Emit& emit, int of) {
     section("Presets");
     bool opened = false;
     for (const PresetButton& preset : presets) {
         const char* const tooltip = preset.tooltip.empty() ? nullptr : preset.tooltip.c_str();
-        if (!row_button(preset.title.c_str(), 3, true, tooltip)) continue;
+        if (!row_button(preset.title.c_str(), of, true, tooltip)) continue;
         emit(lab + ".preset", {{"name", preset.name}});
         opened = true;
     }

@@ -16,7 +16,8 @@ struct PresetButton {
 
 /// Emits the lab's preset, clear and reset commands: "chain.preset" and so on. `clears` says what Empty
 /// removes. True where a preset was opened.
+/// `of`: buttons to a row.
 bool preset_rows(const std::string& lab, const std::vector<PresetButton>& presets, const char* clears,
-                 Emit& emit);
+                 Emit& emit, int of = 3);
 
 }  // namespace tendril::app

@@ -36,6 +36,10 @@ void Monkey::command() {
             case ArgumentType::Point:
                 arguments[argument.name] = any_point();
                 break;
+            case ArgumentType::List:
+            case ArgumentType::ListOrText:
+                arguments[argument.name] = any_list();
+                break;
             case ArgumentType::Text:
                 arguments[argument.name] =
                     one_of(argument.choices.empty() || below(8) == 0 ? words_ : argument.choices);

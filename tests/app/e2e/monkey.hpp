@@ -72,6 +72,13 @@ class Monkey {
         return point;
     }
 
+    Json any_list() {
+        if (below(8) == 0) return any_number();
+        Json list = Json::array();
+        for (int i = below(12); i > 0; --i) list.push_back(any_number());
+        return list;
+    }
+
     glm::vec2 any_place() {
         if (below(4) == 0) return {between(-3000.0f, 5000.0f), between(-3000.0f, 5000.0f)};
         const Json state = app_.state();

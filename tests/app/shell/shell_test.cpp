@@ -85,11 +85,12 @@ TEST(LayoutOfTheWindow, PartsTileItWithoutOverlapAtEverySize) {
         settings.right_open = pick(0, 1) == 1;
         settings.left_width = static_cast<float>(pick(180, 520));
         settings.right_width = static_cast<float>(pick(180, 520));
-        const Layout layout =
-            lay_out(window, static_cast<float>(pick(5, 30)) / 10.0f, settings, pick(0, 1) == 1);
+        const float scale = static_cast<float>(pick(5, 30)) / 10.0f;
+        const float canvas = static_cast<float>(pick(0, 9)) / 10.0f;
+        const Layout layout = lay_out(window, scale, settings, pick(0, 1) == 1, canvas);
         const float area = window.x * (window.y - layout.top.size().y - layout.status.size().y);
         float covered = 0.0f;
-        for (const Rect& rect : {layout.left, layout.right, layout.view, layout.timeline}) {
+        for (const Rect& rect : {layout.left, layout.right, layout.canvas, layout.view, layout.timeline}) {
             EXPECT_GE(rect.size().x, 0.0f);
             EXPECT_GE(rect.size().y, 0.0f);
             covered += rect.size().x * rect.size().y;
@@ -98,7 +99,7 @@ TEST(LayoutOfTheWindow, PartsTileItWithoutOverlapAtEverySize) {
             EXPECT_NEAR(covered / area, 1.0f, 1e-3f);
         }
         if (window.x >= 200.0f) {
-            EXPECT_GE(layout.view.size().x, 0.3f * window.x);
+            EXPECT_GE(layout.canvas.size().x + layout.view.size().x, 0.3f * window.x);
         }
         EXPECT_EQ(layout.status.max, window);
     }
