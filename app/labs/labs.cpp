@@ -8,12 +8,14 @@
 #include "app/labs/camera_commands.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/rope/rope_lab.hpp"
+#include "app/labs/signal/signal_lab.hpp"
 
 namespace tendril::app {
 
 Labs::Labs() {
     add(std::make_unique<ChainLab>());
     add(std::make_unique<RopeLab>());
+    add(std::make_unique<SignalLab>());
 }
 
 void Labs::add(std::unique_ptr<Lab> lab) {

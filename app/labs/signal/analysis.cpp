@@ -1,0 +1,135 @@
+#include "app/labs/signal/analysis.hpp"
+
+#include <algorithm>
+
+namespace tendril::app {
+namespace {
+
+constexpr double measuring_rate = 60.0;
+InputRows measured_rows(const SignalPart& part) {
+    return part.input.kind == InputKind::Hand ? part.past : measuring_rows(part.input, measuring_rate);
+}
+
+std::vector<double> inputs_of(const InputRows& rows) {
+    std::vector<double> inputs;
+    inputs.reserve(rows.size());
+    for (const signal::Sample& row : rows) inputs.push_back(row.input);
+    return inputs;
+}
+
+StageMeasures measure(const std::vector<double>& time, const std::vector<double>& input,
+                      const std::vector<double>& output, std::span<const signal::Filter> filters) {
+    std::vector<double> wanted;
+    wanted.reserve(input.size());
+    for (const double each : input) wanted.push_back(signal::immediate(filters, each));
+    const signal::Response response{time, wanted, output};
+    StageMeasures measures;
+    measures.lag = signal::lag(response);
+    measures.overshoot = signal::overshoot(response);
+    measures.settling_time = signal::settling_time(response);
+    measures.jitter = signal::jitter(time, input, output);
+    return measures;
+}
+
+/// The output of every stage; what is off puts out what came in.
+std::vector<std::vector<double>> run_chain(const SignalPart& part, const InputRows& rows) {
+    std::vector<std::vector<double>> outputs;
+    std::vector<double> value = inputs_of(rows);
+    for (const SignalStage& stage : part.stages) {
+        if (stage.enabled) {
+            signal::FilterState state;
+            for (std::size_t i = 0; i < rows.size(); ++i)
+                value[i] = signal::step(stage.filter, state, value[i], rows[i].dt);
+        }
+        outputs.push_back(value);
+    }
+    return outputs;
+}
+
+ChainAnalysis analyse(const SignalPart& part) {
+    ChainAnalysis analysis;
+    const InputRows rows = measured_rows(part);
+    analysis.time = signal::times_of(rows);
+    analysis.input = inputs_of(rows);
+    analysis.outputs = run_chain(part, rows);
+    std::vector<signal::Filter> so_far;
+    const std::vector<double>* before = &analysis.input;
+    analysis.rates = signal::compare_rates({}, rows);
+    for (std::size_t i = 0; i < part.stages.size(); ++i) {
+        const SignalStage& stage = part.stages[i];
+        const std::span<const signal::Filter> own(&stage.filter, stage.enabled ? 1 : 0);
+        StageMeasures measures = measure(analysis.time, *before, analysis.outputs[i], own);
+        if (stage.enabled) {
+            so_far.push_back(stage.filter);
+            analysis.rates = signal::compare_rates(so_far, rows);
+        }
+        measures.rate_difference = analysis.rates.difference;
+        analysis.stages.push_back(measures);
+        before = &analysis.outputs[i];
+    }
+    analysis.whole = measure(analysis.time, analysis.input, *before, so_far);
+    analysis.whole.rate_difference = analysis.rates.difference;
+    return analysis;
+}
+
+std::vector<ShelfPoint> measure_shelf(const SignalPart& part) {
+    const InputRows rows = measured_rows(part);
+    const std::vector<double> time = signal::times_of(rows), input = inputs_of(rows);
+    std::vector<ShelfPoint> points;
+    for (const signal::Kind& kind : signal::kinds()) {
+        ShelfPoint point{kind.blank(), std::nullopt};
+        for (std::size_t i = 0; i < part.stages.size() && !point.stage; ++i) {
+            if (&signal::kind_of(part.stages[i].filter) != &kind) continue;
+            point.filter = part.stages[i].filter;
+            point.stage = i;
+        }
+        const std::span<const signal::Filter> filters(&point.filter, 1);
+        const StageMeasures measures = measure(time, input, signal::run(filters, rows), filters);
+        if (!measures.lag || !measures.jitter) continue;
+        point.lag = *measures.lag;
+        point.jitter = *measures.jitter;
+        points.push_back(std::move(point));
+    }
+    // Names of those in the chain are written first: they keep their places.
+    std::stable_sort(points.begin(), points.end(), [](const ShelfPoint& a, const ShelfPoint& b) {
+        return a.stage.has_value() && !b.stage.has_value();
+    });
+    return points;
+}
+
+}  // namespace
+
+SignalRuntime::Source SignalRuntime::source_of(const SignalPart& part, bool with_past) {
+    Source source;
+    for (const SignalStage& stage : part.stages) source.filters.emplace_back(stage.filter, stage.enabled);
+    source.input = part.input;
+    if (part.input.kind == InputKind::Hand) source.input.hand = 0.0;  // what it is now is in the past next
+    if (with_past || part.input.kind == InputKind::Hand) source.past = part.past;
+    return source;
+}
+
+const ChainAnalysis& SignalRuntime::chain(const SignalPart& part) {
+    if (Source source = source_of(part, false); chain_source_ != source) {
+        chain_ = analyse(part);
+        chain_source_ = std::move(source);
+    }
+    return chain_;
+}
+
+const std::vector<ShelfPoint>& SignalRuntime::shelf(const SignalPart& part) {
+    if (Source source = source_of(part, false); shelf_source_ != source) {
+        shelf_ = measure_shelf(part);
+        shelf_source_ = std::move(source);
+    }
+    return shelf_;
+}
+
+const std::vector<std::vector<double>>& SignalRuntime::recent(const SignalPart& part) {
+    if (Source source = source_of(part, true); recent_source_ != source) {
+        recent_ = run_chain(part, part.past);
+        recent_source_ = std::move(source);
+    }
+    return recent_;
+}
+
+}  // namespace tendril::app

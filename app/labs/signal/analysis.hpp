@@ -1,0 +1,65 @@
+// What the Signal lab measures: of each filter, of the whole chain at several frame rates, of the whole
+// shelf. All of it follows from the part, and is worked out again only when what it follows from has changed.
+#pragma once
+
+#include <tendril/signal/measure.hpp>
+#include <vector>
+
+#include "app/document/runtime.hpp"
+#include "app/labs/signal/signal_part.hpp"
+
+namespace tendril::app {
+
+/// A filter on the input that reaches it.
+struct StageMeasures {
+    std::optional<double> lag, settling_time;  ///< seconds
+    std::optional<double> overshoot, jitter;   ///< parts: of the step, of the input's
+    double rate_difference = 0.0;              ///< of what the chain up to here puts out
+};
+
+/// The chain over its measuring rows: those that went in last for the hand, else the input from 0 on.
+struct ChainAnalysis {
+    std::vector<double> time, input;
+    std::vector<std::vector<double>> outputs;  ///< of each stage
+    std::vector<StageMeasures> stages;         ///< of those that are off: what passing through measures
+    StageMeasures whole;
+    signal::RateComparison rates;  ///< of the whole chain
+};
+
+/// A kind of filter on the lab's input.
+struct ShelfPoint {
+    signal::Filter filter;
+    std::optional<std::size_t> stage;  ///< that it is set as; the kind's defaults where the chain has none
+    double lag = 0.0;                  ///< seconds
+    double jitter = 0.0;               ///< part of the input's
+};
+
+class SignalRuntime final : public Runtime {
+  public:
+    const ChainAnalysis& chain(const SignalPart& part);
+    /// Those that both can be measured of.
+    const std::vector<ShelfPoint>& shelf(const SignalPart& part);
+    /// What the chain would have made of what went in during the last ticks: one list for each stage.
+    const std::vector<std::vector<double>>& recent(const SignalPart& part);
+
+  private:
+    /// All that the numbers follow from.
+    struct Source {
+        std::vector<std::pair<signal::Filter, bool>> filters;
+        SignalInput input;
+        InputRows past;  ///< where the input is the hand
+        bool operator==(const Source&) const = default;
+    };
+    static Source source_of(const SignalPart& part, bool with_past);
+
+    std::optional<Source> chain_source_, shelf_source_, recent_source_;
+    ChainAnalysis chain_;
+    std::vector<ShelfPoint> shelf_;
+    std::vector<std::vector<double>> recent_;
+};
+
+inline SignalRuntime& signal_runtime(const Workspace& workspace) {
+    return workspace.runtimes.of<SignalRuntime>(signal_lab);
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,213 @@
+// The flat picture of the Signal lab: the signal as it goes by, and below it one of three plots.
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/document/units.hpp"
+#include "app/labs/signal/panels.hpp"
+#include "app/labs/signal/scene.hpp"
+#include "app/labs/signal/signal_lab.hpp"
+#include "app/widgets/fields.hpp"
+#include "app/widgets/fonts.hpp"
+#include "app/widgets/plot.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr double shown_seconds = 5.0;
+
+/// What a plot shows at least: the input's range, and a margin. What grows without bound is cut off at some
+/// times that.
+struct Span {
+    double low, high;
+    float cut(double value) const {
+        const double range = high - low;
+        return static_cast<float>(std::clamp(value, low - 1.5 * range, high + 1.5 * range));
+    }
+};
+
+Span span_of(const std::vector<double>& values) {
+    double low = -1e-3, high = 1e-3;
+    if (!values.empty()) {
+        const auto [smallest, largest] = std::minmax_element(values.begin(), values.end());
+        low = *smallest, high = *largest;
+    }
+    const double margin = std::max(0.15 * (high - low), 0.05);
+    return {low - margin, high + margin};
+}
+
+Curve curve_of(std::string name, glm::vec3 colour, const std::vector<double>& time,
+               const std::vector<double>& values, const Span& span, double from = -1e9) {
+    Curve curve{std::move(name), colour, {}};
+    curve.points.reserve(time.size());
+    for (std::size_t i = 0; i < time.size() && i < values.size(); ++i)
+        if (time[i] >= from) curve.points.push_back({static_cast<float>(time[i]), span.cut(values[i])});
+    return curve;
+}
+
+PlotAxes time_axes(const Span& span, double from, double to) {
+    return {.x = "time, s",
+            .x_unit = "",
+            .y = "",
+            .y_unit = "",
+            .min_y = 0.0f,
+            .from_x = static_cast<float>(from),
+            .min_x = static_cast<float>(to),
+            .low_y = static_cast<float>(span.low),
+            .high_y = static_cast<float>(span.high),
+            .reads_all = true};
+}
+
+void scrolling_plot(const Workspace& workspace, const Palette& palette, float height) {
+    const SignalPart& part = signal_part(workspace);
+    std::vector<double> time = signal::times_of(part.past), input;
+    const double shift = part.time - (time.empty() ? 0.0 : time.back());
+    for (double& each : time) each += shift;
+    for (const signal::Sample& row : part.past) input.push_back(row.input);
+    const Span span = span_of(input);
+    const double to = std::max(part.time, shown_seconds), from = to - shown_seconds;
+    std::vector<Curve> curves{curve_of("input", input_colour(palette), time, input, span, from)};
+    const auto& stages = signal_runtime(workspace).recent(part);
+    for (std::size_t i = 0; i < part.stages.size(); ++i) {
+        if (!part.stages[i].enabled) continue;
+        curves.push_back(curve_of(kind_title(part.stages[i].filter), stage_colour(palette, part, i), time,
+                                  stages[i], span, from));
+    }
+    if (!curves.empty()) curves.back().width = 1.35f;
+    plot("signal", curves, time_axes(span, from, to), height);
+}
+
+/// From the slowest, reddish, to the fastest; uneven frames stand apart.
+glm::vec3 rate_colour(const Palette& palette, const signal::FrameRate& rate) {
+    if (rate.jittered) return palette.selection;
+    if (rate.hz < 20.0) return palette.limit;
+    if (rate.hz < 40.0) return rgb(0xCC79A7);
+    if (rate.hz < 100.0) return palette.tail;
+    return palette.head;
+}
+
+std::string rate_name(const signal::FrameRate& rate) {
+    return fixed_text(rate.hz, 0) + " Hz" + (rate.jittered ? ", uneven" : "");
+}
+
+void rates_plot(const Workspace& workspace, const Palette& palette, float height) {
+    const SignalPart& part = signal_part(workspace);
+    const ChainAnalysis& analysis = signal_runtime(workspace).chain(part);
+    const Span span = span_of(analysis.input);
+    const double end = analysis.time.empty() ? 1.0 : analysis.time.back();
+    const bool wave = part.input.kind == InputKind::Square || part.input.kind == InputKind::Sine;
+    const double to = std::min(end, wave ? part.input.period : 4.0);
+    // A square wave jumps in the middle of its period.
+    const double from = part.input.kind == InputKind::Square ? 0.45 * part.input.period : 0.0;
+    std::vector<Curve> curves{
+        curve_of("input", input_colour(palette), analysis.time, analysis.input, span, from)};
+    curves.back().strength = 0.5f;
+    for (const signal::RateRun& run : analysis.rates.runs)
+        curves.push_back(
+            curve_of(rate_name(run.rate), rate_colour(palette, run.rate), run.time, run.output, span, from));
+    for (Curve& curve : curves) {
+        curve.marks = curve.points.size() > 1 && curve.points[1].x - curve.points[0].x > 0.05f;
+        std::erase_if(curve.points, [&](glm::vec2 p) { return static_cast<double>(p.x) > to + 1e-6; });
+    }
+    plot("rates", curves, time_axes(span, from, to), height);
+}
+
+void shelf_plot(const Workspace& workspace, const Palette& palette, float height) {
+    const SignalPart& part = signal_part(workspace);
+    std::vector<Curve> points;
+    float most_lag = 20.0f;
+    for (const ShelfPoint& point : signal_runtime(workspace).shelf(part)) {
+        const float lag = static_cast<float>(1e3 * point.lag);
+        const float jitter = static_cast<float>(std::clamp(100.0 * point.jitter, 1.0, 900.0));
+        Curve curve{kind_title(point.filter), palette.neutral, {{std::max(lag, 0.0f), jitter}}};
+        curve.width = 1.6f;
+        curve.strength = 0.75f;
+        if (point.stage) {
+            curve.colour = stage_colour(palette, part, *point.stage);
+            curve.width = 2.6f;
+            curve.strength = 1.0f;
+        }
+        most_lag = std::max(most_lag, 1.15f * lag);
+        points.push_back(std::move(curve));
+    }
+    plot("shelf", points,
+         {.x = "lag, ms",
+          .y = "jitter left",
+          .y_unit = "%",
+          .min_y = 1.0f,
+          .from_x = -0.05f * most_lag,
+          .min_x = most_lag,
+          .named = true},
+         height);
+}
+
+/// Which of the lower plots: a row of choices, with what each is for on the right.
+void plot_choice(const SignalPart& part, Emit& emit) {
+    for (const SignalPlot each : signal_plots.values()) {
+        if (each != SignalPlot::Rates) ImGui::SameLine();
+        const bool chosen = part.plot == each;
+        ImGui::PushStyleColor(ImGuiCol_Button,
+                              ImGui::GetStyleColorVec4(chosen ? ImGuiCol_Header : ImGuiCol_ChildBg));
+        if (ImGui::Button(signal_plots.title(each))) emit("signal.plot", {{"name", signal_plots.name(each)}});
+        ImGui::PopStyleColor();
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", signal_plots.help(each));
+    }
+}
+
+/// What colours mean, in one line.
+void key_line(const std::vector<std::pair<std::string, glm::vec3>>& rows) {
+    ImGui::PushFont(small_font());
+    bool first = true;
+    for (const auto& [name, colour] : rows) {
+        if (!first) {
+            ImGui::SameLine(0.0f, ImGui::GetFontSize());
+            const float needed = ImGui::CalcTextSize(name.c_str()).x + 1.4f * ImGui::GetFontSize();
+            if (ImGui::GetContentRegionAvail().x < needed) {
+                ImGui::NewLine();
+                break;
+            }
+        }
+        first = false;
+        colour_mark(colour);
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextDisabled("%s", name.c_str());
+    }
+    ImGui::PopFont();
+}
+
+}  // namespace
+
+void SignalLab::canvas(const Workspace& workspace, Emit& emit) const {
+    const SignalPart& part = signal_part(workspace);
+    const Palette& colours = palette(workspace.settings.theme);
+    std::vector<std::pair<std::string, glm::vec3>> key{{"input", input_colour(colours)}};
+    for (std::size_t i = 0; i < part.stages.size(); ++i)
+        if (part.stages[i].enabled)
+            key.emplace_back(kind_title(part.stages[i].filter), stage_colour(colours, part, i));
+    key_line(key);
+    ImGui::PushFont(small_font());
+    const float line = ImGui::GetFontSize();
+    ImGui::PopFont();
+    const float frame = ImGui::GetFrameHeightWithSpacing();
+    const float room = std::max(0.0f, ImGui::GetContentRegionAvail().y - 2.0f * frame) / line;
+    scrolling_plot(workspace, colours, std::max(8.0f, 0.5f * room - 1.0f));
+    plot_choice(part, emit);
+    std::vector<std::pair<std::string, glm::vec3>> lower;
+    if (part.plot == SignalPlot::Rates) {
+        for (const signal::FrameRate& rate : signal::usual_rates())
+            lower.emplace_back(rate_name(rate), rate_colour(colours, rate));
+    }
+    if (part.plot == SignalPlot::Fit && !part.wanted.empty()) {
+        lower.emplace_back("wanted", colours.text);
+        for (std::size_t i = 0; i < std::min(shown_fits, part.fits.size()); ++i)
+            lower.emplace_back(kind_title(part.fits[i].filter), fit_colour(colours, i));
+    }
+    if (!lower.empty()) key_line(lower);
+    const float rest = std::max(8.0f, ImGui::GetContentRegionAvail().y / line - 0.5f);
+    if (part.plot == SignalPlot::Rates) rates_plot(workspace, colours, rest);
+    if (part.plot == SignalPlot::Shelf) shelf_plot(workspace, colours, rest);
+    if (part.plot == SignalPlot::Fit) fit_plot(part, colours, rest, emit);
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,98 @@
+#include "app/labs/signal/code.hpp"
+
+#include <cctype>
+#include <string_view>
+
+#include "app/io/samples.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// "one_euro" as "OneEuro".
+std::string type_name(std::string_view kind) {
+    std::string name;
+    bool capital = true;
+    for (const char c : kind) {
+        if (c == '_') {
+            capital = true;
+            continue;
+        }
+        name += capital ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
+        capital = false;
+    }
+    return name == "Spring" ? "Spring<>" : name;
+}
+
+/// A double that C++ reads as one.
+std::string literal(double value) {
+    std::string text = decimal(value);
+    if (text.find_first_of(".e") == text.npos) text += ".0";
+    return text;
+}
+
+std::string key_text(const signal::CurveKey& key) {
+    std::string piece = signal::name(key.piece);
+    piece[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(piece[0])));
+    return "{.time = " + literal(key.time) + ", .value = " + literal(key.value) +
+           ", .arrive = " + literal(key.arrive) + ", .leave = " + literal(key.leave) +
+           ", .piece = signal::Piece::" + piece + "}";
+}
+
+std::string initialiser(const signal::Filter& filter) {
+    std::string text;
+    const auto add = [&](const std::string& member) { text += (text.empty() ? "" : ", ") + member; };
+    if (const auto* curve = std::get_if<signal::Curve>(&filter)) {
+        std::string keys;
+        for (const signal::CurveKey& key : curve->keys)
+            keys += (keys.empty() ? "" : ",\n                        ") + key_text(key);
+        add(".keys = {" + keys + "}");
+    }
+    std::string pair;
+    for (const signal::Parameter& parameter : signal::kind_of(filter).parameters) {
+        const std::string name(parameter.name);
+        const double value = parameter.get(filter);
+        if (parameter.element == 0) {
+            pair = "." + name + " = {" + literal(value);
+        } else if (parameter.element == 1) {
+            add(pair + ", " + literal(value) + "}");
+        } else if (parameter.type == signal::ParameterType::Flag) {
+            add("." + name + " = " + (value != 0.0 ? "true" : "false"));
+        } else {
+            add("." + name + " = " + literal(value));
+        }
+    }
+    return "signal::" + type_name(signal::kind(filter)) + "{" + text + "}";
+}
+
+}  // namespace
+
+std::string signal_code(const SignalPart& part) {
+    std::string text =
+        "// Filters, exported from Tendril.\n"
+        "//\n"
+        "// CMake: find_package(tendril REQUIRED)\n"
+        "//        target_link_libraries(your_program PRIVATE tendril::core)\n"
+        "#include <cstdio>\n"
+        "#include <tendril/signal/run.hpp>\n"
+        "#include <vector>\n\n"
+        "namespace signal = tendril::signal;\n\n"
+        "int main() {\n"
+        "    // Applied in this order.\n"
+        "    const std::vector<signal::Filter> filters{";
+    const std::vector<signal::Filter> filters = enabled_filters(part);
+    for (const signal::Filter& filter : filters) text += "\n        " + initialiser(filter) + ",";
+    text += filters.empty() ? "};\n" : "\n    };\n";
+    text +=
+        "    // What they remember: copy it to save it, start from a fresh one to reset them.\n"
+        "    std::vector<signal::FilterState> states(filters.size());\n\n"
+        "    const double dt = 1.0 / 60.0;\n"
+        "    for (int frame = 0; frame <= 60; ++frame) {\n"
+        "        const double input = frame == 0 ? 0.0 : 1.0;  // a jump\n"
+        "        const double output = signal::step(filters, states, input, dt);\n"
+        "        std::printf(\"%.4f %.6f\\n\", frame * dt, output);\n"
+        "    }\n"
+        "}\n";
+    return text;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,66 @@
+// The response that is wanted, drawn with the mouse over the input that it is to answer, and the best fits.
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "app/labs/signal/panels.hpp"
+#include "app/labs/signal/scene.hpp"
+#include "app/widgets/plot.hpp"
+
+namespace tendril::app {
+namespace {
+
+Curve curve_of(std::string name, glm::vec3 colour, const std::vector<double>& time,
+               std::span<const double> values) {
+    Curve curve{std::move(name), colour, {}};
+    for (std::size_t i = 0; i < time.size() && i < values.size(); ++i)
+        curve.points.push_back(
+            {static_cast<float>(time[i]), static_cast<float>(std::clamp(values[i], -1e6, 1e6))});
+    return curve;
+}
+
+}  // namespace
+
+glm::vec3 fit_colour(const Palette& palette, std::size_t rank) {
+    return rank == 0 ? palette.head : rank == 1 ? rgb(0xCC79A7) : palette.tail;
+}
+
+void fit_plot(const SignalPart& part, const Palette& palette, float height, Emit& emit) {
+    const bool drawn = !part.wanted.empty();
+    const InputRows rows = drawn                                ? part.fit_input
+                           : part.input.kind == InputKind::Hand ? part.past
+                                                                : measuring_rows(part.input, 60.0);
+    const std::vector<double> time = signal::times_of(rows);
+    std::vector<double> input;
+    for (const signal::Sample& row : rows) input.push_back(row.input);
+    std::vector<Curve> curves{curve_of("input", input_colour(palette), time, input)};
+    curves.back().strength = 0.5f;
+    for (std::size_t i = 0; i < std::min(shown_fits, part.fits.size()); ++i) {
+        const std::vector<double> output = signal::run({&part.fits[i].filter, 1}, rows);
+        curves.push_back(curve_of(kind_title(part.fits[i].filter), fit_colour(palette, i), time, output));
+    }
+    if (drawn) {
+        curves.push_back(curve_of("wanted", palette.text, time, part.wanted));
+        curves.back().width = 1.4f;
+    }
+    float low = -0.1f, high = 0.1f;
+    for (const Curve& curve : {curves.front(), curves.back()})
+        for (const glm::vec2 p : curve.points) low = std::min(low, p.y), high = std::max(high, p.y);
+    const float margin = 0.25f * (high - low), end = time.empty() ? 1.0f : static_cast<float>(time.back());
+    for (Curve& curve : curves)
+        for (glm::vec2& p : curve.points) p.y = std::clamp(p.y, low - margin, high + margin);
+    const PlotAxes axes{.x = "time, s",
+                        .min_y = 0.0f,
+                        .min_x = end,
+                        .low_y = low - margin,
+                        .high_y = high + margin,
+                        .reads_all = true};
+    const PlotStroke stroke = plot("fit", curves, axes, height);
+    if (!stroke.drawn) return;
+    emit.continuously("signal.fit.draw", {{"from", stroke.from.x},
+                                          {"from_value", stroke.from.y},
+                                          {"to", stroke.to.x},
+                                          {"to_value", stroke.to.y}});
+}
+
+}  // namespace tendril::app

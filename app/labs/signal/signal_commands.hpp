@@ -1,0 +1,15 @@
+// The commands of the Signal lab, a file each for what they change.
+#pragma once
+
+#include "app/document/command.hpp"
+#include "app/labs/kit/arguments.hpp"
+#include "app/labs/kit/part_command.hpp"
+#include "app/labs/signal/signal_part.hpp"
+
+namespace tendril::app {
+
+void add_filter_commands(CommandTable& table);
+void add_input_commands(CommandTable& table);
+void add_fit_commands(CommandTable& table);
+
+}  // namespace tendril::app

@@ -1,0 +1,133 @@
+// The Signal lab in a scene file.
+#include <algorithm>
+
+#include "app/document/json_complete.hpp"
+#include "app/labs/kit/json_place.hpp"
+#include "app/labs/signal/filter_json.hpp"
+#include "app/labs/signal/signal_part.hpp"
+
+namespace tendril::app {
+namespace {
+
+Json save_rows(const InputRows& rows) {
+    Json json = Json::array();
+    for (const signal::Sample& row : rows) json.push_back(Json::array({row.dt, row.input}));
+    return json;
+}
+
+InputRows load_rows(const JsonPlace& place, const char* key, std::size_t most) {
+    InputRows rows;
+    place.for_each(key, most, [&](const JsonPlace& each) {
+        each.check_size(2, "numbers, dt and input");
+        rows.push_back({each.element(0).real(), each.element(1).real()});
+    });
+    return rows;
+}
+
+Json save_input(const SignalInput& input) {
+    Json json{{"kind", input_kinds.name(input.kind)},
+              {"amplitude", input.amplitude},
+              {"period", input.period},
+              {"hand", input.hand}};
+    if (input.recording) json["recording"] = save_rows(*input.recording);
+    if (input.file) {
+        json["path"] = input.path;
+        json["rows"] = save_rows(*input.file);
+    }
+    return json;
+}
+
+SignalInput load_input(const JsonPlace& place) {
+    SignalInput input;
+    const JsonPlace kind = place["kind"];
+    try {
+        input.kind = input_kinds.value(kind.text());
+    } catch (const std::invalid_argument& error) {
+        kind.fail(error.what());
+    }
+    input.amplitude = place["amplitude"].real(-most_amplitude, most_amplitude);
+    input.period = place["period"].real(shortest_input_period, longest_input_period);
+    input.hand = place["hand"].real(-most_amplitude, most_amplitude);
+    if (const auto rows = place.optional("recording"))
+        input.recording = std::make_shared<const InputRows>(load_rows(*rows, "rows", most_input_rows));
+    if (const auto rows = place.optional("rows")) {
+        input.file = std::make_shared<const InputRows>(load_rows(*rows, "rows", most_input_rows));
+        input.path = place["path"].text();
+    }
+    const bool missing = (input.kind == InputKind::Recorded && length_of(input.recording.get()) <= 0.0) ||
+                         (input.kind == InputKind::Csv && length_of(input.file.get()) <= 0.0);
+    if (missing) kind.fail("there is nothing to play");
+    return input;
+}
+
+SignalStage load_stage(const JsonPlace& place) {
+    SignalStage stage{filter_from_json(place.json(), place.where())};
+    stage.enabled = place["enabled"].flag();
+    const JsonPlace state = place["state"];
+    stage.state = filter_state_from_json(state.json(), state.where());
+    return stage;
+}
+
+Json save_stage(const SignalStage& stage) {
+    Json json = filter_json(stage.filter);
+    json["enabled"] = stage.enabled;
+    json["state"] = filter_state_json(stage.state);
+    return json;
+}
+
+Json save_fits(const SignalPart& part) {
+    Json fits = Json::array();
+    for (const Fit& fit : part.fits)
+        fits.push_back({{"filter", filter_json(fit.filter)}, {"residual", std::min(fit.residual, 1e9)}});
+    return Json{{"input", save_rows(part.fit_input)}, {"wanted", part.wanted}, {"ranking", std::move(fits)}};
+}
+
+void load_fits(SignalPart& part, const JsonPlace& place) {
+    part.fit_input = load_rows(place["input"], "rows", most_wanted);
+    place["wanted"].for_each("values", most_wanted,
+                             [&](const JsonPlace& each) { part.wanted.push_back(each.real()); });
+    if (part.wanted.size() != part.fit_input.size()) place.fail("input and wanted are of different lengths");
+    place["ranking"].for_each("fits", 100, [&](const JsonPlace& each) {
+        const JsonPlace filter = each["filter"];
+        part.fits.push_back(
+            {filter_from_json(filter.json(), filter.where()), each["residual"].real(0.0, 1e9), 0});
+    });
+}
+
+}  // namespace
+
+Json SignalPart::save() const {
+    Json list = Json::array();
+    for (const SignalStage& stage : stages) list.push_back(save_stage(stage));
+    return Json{{"filters", std::move(list)},
+                {"input", save_input(input)},
+                {"time", time},
+                {"past", save_rows(past)},
+                {"selected", selected ? Json(*selected) : Json(nullptr)},
+                {"plot", signal_plots.name(plot)},
+                {"fit", save_fits(*this)}};
+}
+
+std::shared_ptr<Part> SignalPart::load(const Json& json, const std::string& where) const {
+    const JsonPlace place(json, where);
+    auto part = std::make_shared<SignalPart>();
+    place["filters"].for_each("filters", most_stages,
+                              [&](const JsonPlace& each) { part->stages.push_back(load_stage(each)); });
+    part->input = load_input(place["input"]);
+    part->time = place["time"].real(0.0, 1e9);
+    part->past = load_rows(place["past"], "rows", most_past);
+    if (const auto chosen = place.optional("selected")) {
+        if (part->stages.empty()) chosen->fail("there is no filter");
+        part->selected = chosen->index(part->stages.size() - 1);
+    }
+    const JsonPlace plot_place = place["plot"];
+    try {
+        part->plot = signal_plots.value(plot_place.text());
+    } catch (const std::invalid_argument& error) {
+        plot_place.fail(error.what());
+    }
+    load_fits(*part, place["fit"]);
+    return part;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,136 @@
+#include "app/labs/signal/signal_lab.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/document/json_complete.hpp"
+#include "app/labs/signal/analysis.hpp"
+#include "app/labs/signal/code.hpp"
+#include "app/labs/signal/filter_json.hpp"
+#include "app/labs/signal/presets.hpp"
+#include "app/labs/signal/scene.hpp"
+#include "app/labs/signal/signal_commands.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr PickId hand_pick = 0, output_pick = 1;
+
+Json number_or_null(const std::optional<double>& value, double factor) {
+    return value ? Json(factor * *value) : Json(nullptr);
+}
+
+}  // namespace
+
+std::shared_ptr<Part> SignalLab::blank() const {
+    return std::make_shared<SignalPart>(first_signal());
+}
+
+CameraPose SignalLab::first_view() const {
+    return {.target = {0.0f, ball_level, 0.0f}, .pitch = 0.06f, .distance = 3.6f};
+}
+
+void SignalLab::add_commands(CommandTable& table) const {
+    add_filter_commands(table);
+    add_input_commands(table);
+    add_fit_commands(table);
+}
+
+/// A hand at rest, for as long as the plot shows, moves nothing.
+bool SignalLab::moving(const Workspace& workspace) const {
+    const SignalPart& part = signal_part(workspace);
+    if (part.input.kind != InputKind::Hand || part.past.size() < most_past) return true;
+    const double first = part.past.front().input;
+    const bool still = std::all_of(part.past.begin(), part.past.end(),
+                                   [&](const signal::Sample& row) { return row.input == first; });
+    return !still || part.input.hand != first;
+}
+
+void SignalLab::step(Workspace& workspace) const {
+    const bool modified = workspace.modified();
+    pass_signal_time(workspace.document.edit<SignalPart>(signal_lab),
+                     tick_seconds * static_cast<double>(workspace.clock.speed));
+    if (!modified) workspace.saved = workspace.document;  // that time passes is nothing that wants saving
+}
+
+std::vector<Handle> SignalLab::handles(const Workspace& workspace) const {
+    const BallPlaces places = ball_places(signal_part(workspace));
+    return {{"hand", hand_pick, {places.input}},
+            {.name = "output", .pick = output_pick, .frame = {places.output}, .drag = Drag::Nothing}};
+}
+
+void SignalLab::drag(const Workspace&, PickId pick, const Handle::Frame& frame, Emit& emit) const {
+    if (pick != hand_pick) return;
+    const double value = static_cast<double>(frame.position.y - ball_level);
+    emit.continuously("signal.hand", {{"value", std::clamp(value, -most_amplitude, most_amplitude)}});
+}
+
+std::string SignalLab::hint(const Workspace& workspace, PickId pick) const {
+    const bool hand = signal_part(workspace).input.kind == InputKind::Hand;
+    if (pick == hand_pick)
+        return hand ? "The input: drag it up and down." : "The input: drag it to take it over by hand.";
+    if (pick == output_pick) return "The output of the whole chain.";
+    return {};
+}
+
+std::vector<Shortcut> SignalLab::shortcuts() const {
+    return {delete_shortcut("signal.filter.remove_selected")};
+}
+
+std::vector<MouseHelp> SignalLab::mouse_help() const {
+    return {{"Left drag on the orange ball", "makes the hand's height the input"},
+            {"Mouse over a plot", "reads every curve at that time"},
+            {"Left drag in the plot Fit", "draws the response that is wanted"},
+            {"Curve: drag, double-click, right-click", "moves, adds, removes a key"}};
+}
+
+std::string SignalLab::code(const Workspace& workspace) const {
+    return signal_code(signal_part(workspace));
+}
+
+Json SignalLab::state(const Workspace& workspace) const {
+    const SignalPart& part = signal_part(workspace);
+    const ChainAnalysis& analysis = signal_runtime(workspace).chain(part);
+    Json filters = Json::array(), fits = Json::array();
+    for (std::size_t i = 0; i < part.stages.size(); ++i) {
+        const SignalStage& stage = part.stages[i];
+        const StageMeasures& measures = analysis.stages[i];
+        Json json{{"kind", signal::kind(stage.filter)}, {"enabled", stage.enabled}};
+        json.update(parameters_json(stage.filter));
+        json["output"] = output_of(part, i);
+        json["lag_ms"] = number_or_null(measures.lag, 1e3);
+        json["overshoot_percent"] = number_or_null(measures.overshoot, 1e2);
+        json["settling_ms"] = number_or_null(measures.settling_time, 1e3);
+        json["jitter_percent"] = number_or_null(measures.jitter, 1e2);
+        json["rate_difference"] = measures.rate_difference;
+        filters.push_back(std::move(json));
+    }
+    for (const Fit& fit : part.fits)
+        fits.push_back({{"filter", filter_json(fit.filter)}, {"residual", fit.residual}});
+    return Json{{"lab", signal_lab},
+                {"input", part.past.empty() ? input_at(part.input, part.time) : part.past.back().input},
+                {"input_kind", input_kinds.name(part.input.kind)},
+                {"amplitude", part.input.amplitude},
+                {"period", part.input.period},
+                {"output", output_of(part)},
+                {"filters", std::move(filters)},
+                {"seconds", part.time},
+                {"selected", part.selected ? Json(*part.selected) : Json(nullptr)},
+                {"plot", signal_plots.name(part.plot)},
+                {"fits", std::move(fits)}};
+}
+
+std::vector<TestScene> SignalLab::test_scenes() const {
+    const std::vector<std::string> words{"hand", "square", "sine", "noise", "/no/such/samples.csv"};
+    std::vector<TestScene> scenes{{"hand",
+                                   {{"signal.filter.add", {{"kind", "moving_average"}, {"window", 0.2f}}},
+                                    {"signal.hand", {{"value", 0.5f}}}},
+                                   words},
+                                  {"selected", {{"signal.select", {{"at", 0}}}}, words},
+                                  {"empty", {{"signal.clear", {}}}, words}};
+    for (const SignalPreset& preset : signal_presets())
+        scenes.push_back({preset.name, {{"signal.preset", {{"name", preset.name}}}}, words});
+    return scenes;
+}
+
+}  // namespace tendril::app

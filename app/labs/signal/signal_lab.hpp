@@ -1,0 +1,43 @@
+// The Signal lab: a chain of filters that one builds, what goes into it, and what comes out: as curves, as a
+// ball that moves, and as numbers.
+#pragma once
+
+#include "app/labs/lab.hpp"
+#include "app/labs/signal/signal_part.hpp"
+
+namespace tendril::app {
+
+class SignalLab final : public Lab {
+  public:
+    std::string name() const override { return signal_lab; }
+    std::string title() const override { return "Signal"; }
+    std::shared_ptr<Part> blank() const override;
+    CameraPose first_view() const override;
+    const char* invitation() const override { return "Drag the orange ball."; }
+    void add_commands(CommandTable& table) const override;
+
+    bool moving(const Workspace& workspace) const override;
+    void step(Workspace& workspace) const override;
+    double seconds(const Workspace& workspace) const override { return signal_part(workspace).time; }
+
+    void draw(const View& view, DrawList& list) const override;
+    std::vector<LegendRow> legend(const Workspace& workspace) const override;
+    float canvas_share(const Workspace&) const override { return 0.74f; }
+    void canvas(const Workspace& workspace, Emit& emit) const override;
+
+    std::vector<Handle> handles(const Workspace& workspace) const override;
+    void drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const override;
+    std::string hint(const Workspace& workspace, PickId pick) const override;
+    Bounds bounds(const Workspace& workspace, bool selection_only) const override;
+
+    void panel(const Workspace& workspace, Emit& emit) const override;
+    void inspector(const Workspace& workspace, Emit& emit) const override;
+    std::vector<Shortcut> shortcuts() const override;
+    std::vector<MouseHelp> mouse_help() const override;
+
+    std::string code(const Workspace& workspace) const override;
+    Json state(const Workspace& workspace) const override;
+    std::vector<TestScene> test_scenes() const override;
+};
+
+}  // namespace tendril::app

@@ -1,0 +1,66 @@
+#include "app/labs/signal/signal_part.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace tendril::app {
+
+SignalPart first_signal() {
+    SignalPart part;
+    part.stages.push_back({signal::Spring<>{.strength = 2.0, .critical_damping = 0.35}});
+    part.selected = 0;
+    return part;
+}
+
+std::vector<signal::Filter> enabled_filters(const SignalPart& part) {
+    std::vector<signal::Filter> filters;
+    for (const SignalStage& stage : part.stages)
+        if (stage.enabled) filters.push_back(stage.filter);
+    return filters;
+}
+
+double output_of(const SignalPart& part, std::size_t stage) {
+    for (std::size_t i = std::min(stage + 1, part.stages.size()); i-- > 0;) {
+        const SignalStage& each = part.stages[i];
+        if (each.enabled && signal::started(each.state)) return signal::value(each.state);
+    }
+    return part.past.empty() ? 0.0 : part.past.back().input;
+}
+
+double output_of(const SignalPart& part) {
+    return output_of(part, part.stages.size());
+}
+
+void pass_signal_time(SignalPart& part, double dt) {
+    part.time += dt;
+    const double input = input_at(part.input, part.time);
+    double value = input;
+    for (SignalStage& stage : part.stages)
+        if (stage.enabled) value = signal::step(stage.filter, stage.state, value, dt);
+    if (part.past.size() >= most_past) part.past.erase(part.past.begin());
+    part.past.push_back({dt, input});
+}
+
+std::size_t SignalPart::bytes() const {
+    std::size_t bytes = sizeof(*this) + stages.size() * sizeof(SignalStage) +
+                        (past.size() + fit_input.size()) * sizeof(signal::Sample) +
+                        wanted.size() * sizeof(double) + fits.size() * sizeof(Fit);
+    for (const SignalStage& stage : stages)
+        if (const auto* average = std::get_if<signal::MovingAverageState>(&stage.state))
+            bytes += average->entries.size() * sizeof(signal::MovingAverageState::Entry);
+    return bytes;
+}
+
+bool SignalPart::operator==(const SignalPart& other) const {
+    const auto values = [](const SignalPart& part) {
+        return std::tie(part.stages, part.input, part.time, part.past, part.selected, part.plot,
+                        part.fit_input, part.wanted);
+    };
+    const auto same_fit = [](const Fit& a, const Fit& b) {
+        return a.filter == b.filter && a.residual == b.residual;
+    };
+    return values(*this) == values(other) &&
+           std::equal(fits.begin(), fits.end(), other.fits.begin(), other.fits.end(), same_fit);
+}
+
+}  // namespace tendril::app

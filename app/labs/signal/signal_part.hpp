@@ -1,0 +1,74 @@
+// The Signal lab's share of the document: a chain of filters, what goes into it, and what is wanted of it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <tendril/signal/filter.hpp>
+#include <vector>
+
+#include "app/document/document.hpp"
+#include "app/document/workspace.hpp"
+#include "app/labs/signal/fit.hpp"
+#include "app/labs/signal/signal_input.hpp"
+
+namespace tendril::app {
+
+inline constexpr const char* signal_lab = "signal";
+inline constexpr std::size_t most_stages = 16;
+inline constexpr std::size_t most_past = 600;    ///< ticks of input that are remembered
+inline constexpr std::size_t most_wanted = 300;  ///< rows of a response to fit to: more would take too long
+
+/// One filter of the chain.
+struct SignalStage {
+    signal::Filter filter;
+    bool enabled = true;  ///< off: the input passes as it is
+    signal::FilterState state{};
+    bool operator==(const SignalStage&) const = default;
+};
+
+/// What the lower plot shows.
+enum class SignalPlot : std::uint8_t { Rates, Shelf, Fit };
+inline constexpr EnumNames<SignalPlot, 3> signal_plots{
+    "plot",
+    {{"rates", "Frame rates", "The whole chain at several frame rates, on the same input."},
+     {"shelf", "Lag against jitter",
+      "Every kind of filter on this input: those of the chain as they are set."},
+     {"fit", "Fit", "The response that is wanted, and the filters that come nearest to it."}}};
+
+struct SignalPart final : Part {
+    std::vector<SignalStage> stages;
+    SignalInput input;
+    double time = 0.0;  ///< seconds, of the input
+    InputRows past;     ///< what went in during the last ticks, oldest first
+    std::optional<std::size_t> selected;
+    SignalPlot plot = SignalPlot::Rates;
+    /// The response that filters are fitted to, and the input that it is to come from.
+    InputRows fit_input;
+    std::vector<double> wanted;
+    std::vector<Fit> fits;  ///< the best first
+
+    std::shared_ptr<Part> clone() const override { return std::make_shared<SignalPart>(*this); }
+    Json save() const override;
+    std::shared_ptr<Part> load(const Json& json, const std::string& where) const override;
+    std::size_t bytes() const override;
+    bool operator==(const SignalPart& other) const;
+};
+
+/// What the lab starts with.
+SignalPart first_signal();
+
+/// The filters that are on, in their order.
+std::vector<signal::Filter> enabled_filters(const SignalPart& part);
+/// The last output; the last input where no filter has anything to say yet.
+double output_of(const SignalPart& part);
+/// The same of one stage.
+double output_of(const SignalPart& part, std::size_t stage);
+
+/// Lets `dt` seconds pass.
+void pass_signal_time(SignalPart& part, double dt);
+
+inline const SignalPart& signal_part(const Workspace& workspace) {
+    return workspace.document.get<SignalPart>(signal_lab);
+}
+
+}  // namespace tendril::app

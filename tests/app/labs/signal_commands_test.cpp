@@ -1,0 +1,247 @@
+// The Signal lab's commands: what each does, what --state says of it, and what is refused.
+#include <cmath>
+
+#include "app/document/json_complete.hpp"
+#include "app/labs/signal/presets.hpp"
+#include "app/labs/signal/signal_part.hpp"
+#include "tests/app/labs/lab_support.hpp"
+#include "tests/app/support/temp_folder.hpp"
+
+namespace tendril::app {
+namespace {
+
+class SignalCommands : public LabTest {
+  protected:
+    SignalCommands() : LabTest(signal_lab) {}
+    const SignalPart& part() const { return signal_part(workspace); }
+    void wait(int ticks) {
+        for (int i = 0; i < ticks; ++i) lab().step(workspace);
+    }
+    std::string kinds() const {
+        std::string text;
+        for (const SignalStage& stage : part().stages) text += std::string(signal::kind(stage.filter)) + " ";
+        return text;
+    }
+};
+
+TEST_F(SignalCommands, StateIsTheSpecsAndMore) {
+    wait(30);
+    const Json now = state();
+    EXPECT_EQ(now.at("lab"), "signal");
+    EXPECT_TRUE(now.at("input").is_number());
+    ASSERT_EQ(now.at("filters").size(), 1u);
+    const Json& filter = now["filters"][0];
+    for (const char* key : {"kind", "enabled", "strength", "critical_damping", "output", "lag_ms",
+                            "overshoot_percent", "settling_ms", "jitter_percent", "rate_difference"})
+        EXPECT_TRUE(filter.contains(key)) << key;
+    EXPECT_EQ(filter["kind"], "spring");
+    EXPECT_EQ(filter["enabled"], true);
+    // exp(-pi z / sqrt(1 - z^2)) at z = 0.35
+    EXPECT_NEAR(filter["overshoot_percent"].get<double>(), 30.9, 1.0);
+}
+
+TEST_F(SignalCommands, FiltersAreAddedSetMovedSwitchedAndRemoved) {
+    run("signal.clear");
+    EXPECT_EQ(state().at("filters"), Json::array());
+    run("signal.filter.add", {{"kind", "exponential_decay"}, {"halflife", 0.25}});
+    run("signal.filter.add", {{"kind", "dead_zone"}});
+    run("signal.filter.add", {{"kind", "spring"}, {"at", 0}, {"strength", 3}});
+    EXPECT_EQ(kinds(), "spring exponential_decay dead_zone ");
+    EXPECT_EQ(state().at("filters")[1].at("halflife"), 0.25);
+    run("signal.filter.set", {{"at", 1}, {"halflife", 0.1}});
+    EXPECT_EQ(state().at("filters")[1].at("halflife"), 0.1) << "a double, as it was given";
+    run("signal.filter.move", {{"at", 0}, {"to", 2}});
+    EXPECT_EQ(kinds(), "exponential_decay dead_zone spring ");
+    run("signal.filter.move", {{"at", 2}, {"to", 1}});
+    EXPECT_EQ(kinds(), "exponential_decay spring dead_zone ");
+    run("signal.filter.enable", {{"at", 1}, {"on", false}});
+    EXPECT_EQ(state().at("filters")[1].at("enabled"), false);
+    run("signal.filter.remove", {{"at", 0}});
+    EXPECT_EQ(kinds(), "spring dead_zone ");
+    for (int i = 0; i < 8; ++i) run("undo");
+    EXPECT_EQ(kinds(), "");
+    run("redo");
+    EXPECT_EQ(kinds(), "exponential_decay ");
+}
+
+TEST_F(SignalCommands, PairsFlagsAndKeysAreParametersToo) {
+    run("signal.clear");
+    run("signal.filter.add",
+        {{"kind", "scale_bias_clamp"}, {"map_range", true}, {"in_range", {0, 2}}, {"out_range", {10, -10}}});
+    const Json scale = state().at("filters")[0];
+    EXPECT_EQ(scale.at("map_range"), true);
+    EXPECT_EQ(scale.at("out_range"), Json::array({10, -10}));
+    run("signal.filter.add",
+        {{"kind", "curve"},
+         {"keys",
+          {{{"time", 0}, {"value", 1}, {"piece", "cubic"}, {"leave", 2}}, {{"time", 1}, {"value", 0}}}},
+         {"target_min", 45},
+         {"target_max", -45}});
+    const Json curve = state().at("filters")[1];
+    EXPECT_EQ(curve.at("keys")[0].at("piece"), "cubic");
+    EXPECT_EQ(curve.at("keys")[0].at("leave"), 2);
+    EXPECT_EQ(curve.at("target_min"), 45);
+}
+
+TEST_F(SignalCommands, TheOutputIsWhatTheLibrarySays) {
+    run("signal.clear");
+    run("signal.filter.add", {{"kind", "rate_limit"}, {"rise", 6}, {"fall", 3}});
+    run("signal.filter.add", {{"kind", "exponential_decay"}, {"halflife", 0.1}});
+    run("signal.input", {{"kind", "sine"}, {"amplitude", 2}, {"period", 0.5}});
+    const signal::Filter filters[] = {signal::RateLimit{6.0, 3.0}, signal::ExponentialDecay{0.1}};
+    signal::FilterState states[2];
+    for (int i = 1; i <= 90; ++i) {
+        wait(1);
+        const double input = input_at(part().input, part().time);
+        const double first = signal::step(filters[0], states[0], input, tick_seconds);
+        const double second = signal::step(filters[1], states[1], first, tick_seconds);
+        ASSERT_EQ(state().at("filters")[0].at("output").get<double>(), first);
+        ASSERT_EQ(state().at("filters")[1].at("output").get<double>(), second);
+    }
+}
+
+TEST_F(SignalCommands, WhatIsOffLetsTheInputPass) {
+    run("signal.clear");
+    run("signal.filter.add", {{"kind", "dead_zone"}, {"width", 5}});
+    wait(3);
+    EXPECT_EQ(state().at("output"), 0.0);
+    run("signal.filter.enable", {{"at", 0}});
+    wait(1);
+    EXPECT_EQ(state().at("output"), state().at("input"));
+}
+
+TEST_F(SignalCommands, TheHandTakesTheInputOverAndIsRecorded) {
+    run("signal.hand", {{"value", 0.25}});
+    EXPECT_EQ(state().at("input_kind"), "hand");
+    wait(1);
+    EXPECT_EQ(state().at("input"), 0.25);
+    for (int i = 0; i < 40; ++i) {
+        run("signal.hand", {{"value", std::sin(0.2 * i)}});
+        wait(1);
+    }
+    run("signal.input", {{"kind", "recorded"}});
+    double most = 0.0;
+    for (int i = 0; i < 60; ++i) {
+        wait(1);
+        most = std::max(most, state().at("input").get<double>());
+    }
+    EXPECT_NEAR(most, 1.0, 0.02);
+}
+
+TEST_F(SignalCommands, ACsvFileIsPlayedOverAndOver) {
+    const test::TempFolder folder;
+    test::write(folder / "rows.csv", "dt,input\n0.1,1\n0.1,-2\n0.1,3\n");
+    run("signal.input", {{"kind", "csv"}, {"path", (folder / "rows.csv").string()}});
+    std::vector<double> seen;
+    while (part().time < 0.65) {
+        wait(1);
+        const double input = state().at("input").get<double>();
+        if (seen.empty() || seen.back() != input) seen.push_back(input);
+    }
+    EXPECT_GE(seen.size(), 6u);
+    EXPECT_NE(std::find(seen.begin(), seen.end(), 3.0), seen.end());
+    const std::string text = refused("signal.input", {{"kind", "csv"}, {"path", "/no/such.csv"}});
+    EXPECT_NE(text.find("/no/such.csv"), text.npos);
+    test::write(folder / "rows.csv", "dt,input\n0.1,1\n0.1,x\n");
+    const std::string hole =
+        refused("signal.input", {{"kind", "csv"}, {"path", (folder / "rows.csv").string()}});
+    EXPECT_NE(hole.find("row 3, column 2"), hole.npos) << hole;
+}
+
+TEST_F(SignalCommands, AFitRanksAndItsBestIsPutInPlace) {
+    run("signal.clear");
+    const std::vector<signal::Sample> rows = measuring_rows(part().input, 60.0);
+    const signal::Filter truth = signal::RateLimit{.rise = 5.0, .fall = 2.5};
+    std::vector<double> wanted = signal::run({&truth, 1}, rows);
+    wanted.resize(180);
+    run("signal.fit", {{"to", wanted}});
+    ASSERT_EQ(part().fits.size(), signal::kinds().size());
+    EXPECT_EQ(state().at("fits")[0].at("filter").at("kind"), "rate_limit");
+    EXPECT_LT(part().fits.front().residual, 1e-3);
+    EXPECT_NEAR(state().at("fits")[0].at("filter").at("rise").get<double>(), 5.0, 0.1);
+    run("signal.fit.use", {{"rank", 0}});
+    EXPECT_EQ(kinds(), "rate_limit ");
+    run("undo");
+    EXPECT_EQ(kinds(), "");
+}
+
+TEST_F(SignalCommands, AResponseIsDrawnOverWhatTheFiltersMake) {
+    run("signal.fit.draw", {{"from", 0.5}, {"from_value", 2.0}, {"to", 0.7}, {"to_value", 3.0}});
+    ASSERT_FALSE(part().wanted.empty());
+    EXPECT_EQ(part().wanted.size(), part().fit_input.size());
+    const std::vector<double> times = signal::times_of(part().fit_input);
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        if (times[i] > 0.5 && times[i] < 0.7) {
+            EXPECT_NEAR(part().wanted[i], 2.0 + 5.0 * (times[i] - 0.5), 1e-9);
+        }
+    }
+    run("signal.fit.clear");
+    EXPECT_TRUE(part().wanted.empty());
+    EXPECT_NE(refused("signal.fit").find("no response"), std::string::npos);
+}
+
+TEST_F(SignalCommands, EveryPresetMakesItsPoint) {
+    for (const SignalPreset& preset : signal_presets()) {
+        run("signal.preset", {{"name", preset.name}});
+        EXPECT_FALSE(part().stages.empty()) << preset.name;
+        wait(120);
+    }
+    run("signal.preset", {{"name", "engine_against_exact"}});
+    const double engine = state().at("filters")[0].at("rate_difference").get<double>();
+    run("signal.filter.enable", {{"at", 0}, {"on", false}});
+    run("signal.filter.enable", {{"at", 1}, {"on", true}});
+    const double exact = state().at("filters")[1].at("rate_difference").get<double>();
+    EXPECT_GT(engine, 0.1);
+    EXPECT_LT(exact, 0.2 * engine);
+    run("signal.preset", {{"name", "spring_that_explodes"}});
+    EXPECT_GT(state().at("filters")[0].at("rate_difference").get<double>(), 1e6);
+    run("signal.preset", {{"name", "faster_but_no_bouncier"}});
+    const double bouncy = state().at("filters")[0].at("overshoot_percent").get<double>();
+    run("signal.filter.set", {{"at", 0}, {"strength", 3.0}});
+    EXPECT_NEAR(state().at("filters")[0].at("overshoot_percent").get<double>(), bouncy, 1.0);
+}
+
+TEST_F(SignalCommands, BadInputIsRefusedAndChangesNothing) {
+    struct Bad {
+        const char* command;
+        Json arguments;
+        const char* says;
+    };
+    const Bad all[] = {
+        {"signal.filter.add", {{"kind", "sponge"}}, "one of"},
+        {"signal.filter.add", {{"kind", "spring"}, {"halflife", 1}}, "spring has no halflife"},
+        {"signal.filter.add", {{"kind", "spring"}, {"strength", -1}}, "strength"},
+        {"signal.filter.add", {{"kind", "spring"}, {"at", 5}}, "at must be 0 to 1"},
+        {"signal.filter.add", {{"kind", "curve"}, {"keys", Json::array()}}, "keys"},
+        {"signal.filter.add",
+         {{"kind", "curve"}, {"keys", {{{"time", 1}, {"value", 0}}, {{"time", 0}, {"value", 0}}}}},
+         "time"},
+        {"signal.filter.add", {{"kind", "scale_bias_clamp"}, {"in_range", {1, 2, 3}}}, "two numbers"},
+        {"signal.filter.add", {{"kind", "hysteresis"}, {"low", 1}, {"high", 0}}, "low"},
+        {"signal.filter.set", {{"at", 1}, {"strength", 1}}, "at must be 0 to 0"},
+        {"signal.filter.set", {{"at", 0}, {"strength", 1e300}}, "strength"},
+        {"signal.filter.set", {{"at", 0}, {"window", 1}}, "spring has no window"},
+        {"signal.filter.remove", {{"at", 9}}, "at"},
+        {"signal.filter.move", {{"at", 0}, {"to", 3}}, "to must be"},
+        {"signal.filter.enable", {{"at", 2}}, "at must be"},
+        {"signal.input", {{"kind", "square"}, {"period", 0}}, "period"},
+        {"signal.input", {{"kind", "csv"}}, "path is missing"},
+        {"signal.input", {{"kind", "sine"}, {"path", "x.csv"}}, "only csv"},
+        {"signal.input", {{"kind", "recorded"}}, "nothing is recorded"},
+        {"signal.preset", {{"name", "sponge"}}, "one of"},
+        {"signal.fit", {{"to", {1, "two"}}}, "to.1"},
+        {"signal.fit", {{"to", {1}}}, "2 to"},
+        {"signal.fit", {{"to", "/no/such.csv"}}, "/no/such.csv"},
+        {"signal.fit.use", {{"rank", 0}}, "no fit"},
+    };
+    for (const Bad& bad : all) {
+        const std::string said = refused(bad.command, bad.arguments);
+        EXPECT_NE(said.find(bad.says), said.npos) << bad.command << " " << bad.arguments << ": " << said;
+    }
+    for (std::size_t i = part().stages.size(); i < most_stages; ++i)
+        run("signal.filter.add", {{"kind", "interp_to"}});
+    refused("signal.filter.add", {{"kind", "interp_to"}});
+}
+
+}  // namespace
+}  // namespace tendril::app

@@ -1,0 +1,155 @@
+// The Signal lab in scene files, and the numbers it works out: the same however they are come by.
+#include <cmath>
+
+#include "app/labs/signal/analysis.hpp"
+#include "app/labs/signal/filter_json.hpp"
+#include "app/labs/signal/signal_part.hpp"
+#include "tests/app/labs/lab_support.hpp"
+#include "tests/core/random.hpp"
+
+namespace tendril::app {
+namespace {
+
+class SignalFile : public LabTest {
+  protected:
+    SignalFile() : LabTest(signal_lab) {}
+    const SignalPart& part() const { return signal_part(workspace); }
+    void wait(int ticks) {
+        for (int i = 0; i < ticks; ++i) lab().step(workspace);
+    }
+    void every_kind() {
+        run("signal.clear");
+        for (const signal::Kind& kind : signal::kinds()) run("signal.filter.add", {{"kind", kind.name}});
+        run("signal.filter.enable", {{"at", 3}, {"on", false}});
+        run("signal.input", {{"kind", "noise"}});
+    }
+};
+
+TEST_F(SignalFile, AChainOfEveryKindGoesThroughAFileAndOnFromThere) {
+    every_kind();
+    wait(100);
+    const Json saved = part().save();
+    const auto loaded = part().load(saved, "labs.signal");
+    EXPECT_TRUE(dynamic_cast<const SignalPart&>(*loaded) == part());
+    EXPECT_EQ(loaded->save(), saved);
+    SignalPart again = dynamic_cast<const SignalPart&>(*loaded), here = part();
+    for (int i = 0; i < 200; ++i) {
+        pass_signal_time(again, tick_seconds);
+        pass_signal_time(here, tick_seconds);
+    }
+    EXPECT_TRUE(again == here) << "a replay starts exactly where it stopped";
+}
+
+TEST_F(SignalFile, ABrokenFileIsRefusedWithItsPlace) {
+    every_kind();
+    wait(5);
+    const Json saved = part().save();
+    struct Bad {
+        const char* pointer;
+        Json value;
+        const char* says;
+    };
+    const Bad all[] = {
+        {"/filters/4/halflife", -1, "labs.signal.filters.4.halflife"},
+        {"/filters/4/kind", "sponge", "labs.signal.filters.4.kind"},
+        {"/filters/4/state", 7, "labs.signal.filters.4.state"},
+        {"/filters/4/state/output/value", "x", "labs.signal.filters.4.state.output.value"},
+        {"/filters/9/state/moving_average/first", 99, "labs.signal.filters.9.state.moving_average.first"},
+        {"/filters/4/enabled", 1, "labs.signal.filters.4.enabled"},
+        {"/input/kind", "sponge", "labs.signal.input.kind"},
+        {"/input/kind", "csv", "labs.signal.input.kind"},
+        {"/input/period", 0, "labs.signal.input.period"},
+        {"/time", -1, "labs.signal.time"},
+        {"/past/2", Json::array({1}), "labs.signal.past.2"},
+        {"/selected", 99, "labs.signal.selected"},
+        {"/plot", "sponge", "labs.signal.plot"},
+        {"/fit/wanted", Json::array({1, 2}), "labs.signal.fit"},
+        {"/filters", 3, "labs.signal.filters"},
+    };
+    for (const Bad& bad : all) {
+        Json broken = saved;
+        broken[Json::json_pointer(bad.pointer)] = bad.value;
+        try {
+            part().load(broken, "labs.signal");
+            ADD_FAILURE() << bad.pointer << " was read";
+        } catch (const std::runtime_error& error) {
+            EXPECT_TRUE(std::string(error.what()).starts_with(bad.says)) << error.what();
+        }
+    }
+}
+
+TEST_F(SignalFile, WhatIsWorkedOutDoesNotDependOnWhatWasBefore) {
+    every_kind();
+    wait(50);
+    const Json first = state();
+    EXPECT_EQ(state(), first) << "from the runtime's memory";
+    workspace.runtimes.clear();
+    EXPECT_EQ(state(), first) << "and without it";
+    run("signal.filter.set", {{"at", 4}, {"halflife", 0.3}});
+    const Json changed = state();
+    EXPECT_NE(changed.at("filters")[4].at("lag_ms"), first.at("filters")[4].at("lag_ms"));
+    workspace.runtimes.clear();
+    EXPECT_EQ(state(), changed);
+}
+
+TEST_F(SignalFile, NumbersAreWorkedOutAgainOnlyWhenSomethingChanged) {
+    SignalRuntime& runtime = signal_runtime(workspace);
+    const double* const before = runtime.chain(part()).time.data();
+    wait(10);
+    EXPECT_EQ(runtime.chain(part()).time.data(), before) << "time alone changes nothing for a wave";
+    run("signal.select");
+    EXPECT_EQ(runtime.chain(part()).time.data(), before);
+    const double lag = *runtime.chain(part()).stages[0].lag;
+    run("signal.filter.set", {{"at", 0}, {"strength", 5}});
+    EXPECT_NE(*runtime.chain(part()).stages[0].lag, lag);
+}
+
+TEST(SignalFilters, EveryKindAndStateSurvivesJson) {
+    test::Random random(1);
+    for (const signal::Kind& kind : signal::kinds()) {
+        signal::Filter filter = kind.blank();
+        for (const signal::Parameter& parameter : kind.parameters) {
+            const double low = std::max(parameter.low, -5.0), high = std::min(parameter.high, 5.0);
+            const double share = 0.5 + 0.5 * static_cast<double>(random.around(1.0f));
+            signal::Filter changed = filter;
+            parameter.set(changed, low + share * (high - low));
+            if (signal::check(changed)) filter = changed;
+        }
+        const Json json = parse_json(filter_json(filter).dump());
+        EXPECT_EQ(filter_from_json(json, "filter"), filter) << kind.name;
+        signal::FilterState state;
+        for (int i = 0; i < 30; ++i) {
+            const double input = static_cast<double>(random.around(1.0f));
+            signal::step(filter, state, input, 1.0 / 60.0);
+        }
+        const Json remembered = parse_json(filter_state_json(state).dump());
+        EXPECT_EQ(filter_state_from_json(remembered, "state"), state) << kind.name;
+    }
+}
+
+TEST(SignalInputs, ASquareWaveIsUpRightAfterItsJump) {
+    SignalInput input{.kind = InputKind::Square, .amplitude = 2.0, .period = 2.0};
+    EXPECT_EQ(input_at(input, 0.0), -2.0);
+    EXPECT_EQ(input_at(input, 1.0 / 144.0), 2.0);
+    EXPECT_EQ(input_at(input, 1.0), 2.0);
+    EXPECT_EQ(input_at(input, 1.0 + 1.0 / 144.0), -2.0);
+    EXPECT_EQ(input_at(input, 2.0), -2.0);
+}
+
+TEST(SignalInputs, AreFiniteAndWithinTheirAmplitude) {
+    for (const InputKind kind : {InputKind::Square, InputKind::Sine, InputKind::Noise}) {
+        const SignalInput input{.kind = kind, .amplitude = 3.0, .period = 0.7};
+        double low = 0.0, high = 0.0;
+        for (int i = 0; i < 5000; ++i) {
+            const double value = input_at(input, 0.013 * i);
+            ASSERT_TRUE(std::isfinite(value));
+            low = std::min(low, value), high = std::max(high, value);
+        }
+        EXPECT_LE(high, 3.0 + 1e-9);
+        EXPECT_GE(low, -3.0 - 1e-9);
+        EXPECT_GT(high - low, 3.0);
+    }
+}
+
+}  // namespace
+}  // namespace tendril::app
