@@ -19,7 +19,8 @@ namespace tendril::app {
 /// [x, y, z, w].
 class ArgumentValue {
   public:
-    using Value = std::variant<bool, std::int64_t, float, double, std::string, glm::vec3, glm::quat, SharedJson>;
+    using Value =
+        std::variant<bool, std::int64_t, float, double, std::string, glm::vec3, glm::quat, SharedJson>;
 
     ArgumentValue(bool value) : value_(value) {}
     template <std::integral Integer>

@@ -25,6 +25,8 @@ float tick_step(float range, int most) {
     return step * 10.0f;
 }
 
+constexpr float far_away = 4000.0f;  ///< pixels beyond the plot: farther off, what leaves it looks the same
+
 class Plot {
   public:
     Plot(std::span<const Curve> curves, const PlotAxes& axes, ImVec2 at, ImVec2 size)
@@ -42,8 +44,8 @@ class Plot {
             low_ = std::floor(std::log10(axes.min_y));
             high_ = std::max(low_ + 1.0f, std::ceil(std::log10(std::max(max_y, axes.min_y)) - 1e-4f));
         } else if (axes.low_y < axes.high_y) {
-            low_ = std::min(axes.low_y, min_y);
-            high_ = std::max(axes.high_y, max_y);
+            low_ = axes.fixed_y ? axes.low_y : std::min(axes.low_y, min_y);
+            high_ = axes.fixed_y ? axes.high_y : std::max(axes.high_y, max_y);
         } else if (min_y <= max_y) {
             // A curve that is all but level is shown so.
             const float room = std::max(0.05f * (max_y - min_y), 1e-3f * std::max(std::abs(max_y), 1e-3f));
@@ -67,8 +69,15 @@ class Plot {
         if (axes_.at_x >= 0.0f) {
             list_->AddLine({x(axes_.at_x), from_.y}, {x(axes_.at_x), to_.y}, dim(), 1.5f);
         }
-        for (const Curve& curve : curves_) line(curve);
+        // What stays within is drawn over what leaves, which may cover everything.
+        for (const Curve& curve : curves_)
+            if (leaves(curve)) line(curve);
+        for (const Curve& curve : curves_)
+            if (!leaves(curve)) line(curve);
+        for (const Curve& curve : curves_) exits(curve);
         list_->PopClipRect();
+        for (const Curve& curve : curves_)
+            if (curve.points.size() == 1) line(curve);  // a single point is whole at the edge too
         if (axes_.named) names();
     }
 
@@ -104,11 +113,15 @@ class Plot {
         for (const Curve& curve : curves_) {
             const float value = value_at(curve, at);
             if (std::isnan(value)) continue;
-            list_->AddCircleFilled({mouse.x, y(value)}, 0.25f * ImGui::GetFontSize(),
-                                   colour_of(curve.colour));
+            const float on_screen = y(value);
+            if (on_screen >= from_.y && on_screen <= to_.y)
+                list_->AddCircleFilled({mouse.x, on_screen}, 0.25f * ImGui::GetFontSize(),
+                                       colour_of(curve.colour));
             colour_mark(curve.colour);
             ImGui::AlignTextToFramePadding();
-            ImGui::Text("%s  %s", fixed_text(static_cast<double>(value), 3).c_str(), curve.name.c_str());
+            const double number = static_cast<double>(value);
+            const std::string text = std::abs(number) < 1e6 ? fixed_text(number, 3) : "beyond a million";
+            ImGui::Text("%s  %s", text.c_str(), curve.name.c_str());
         }
         ImGui::EndTooltip();
     }
@@ -136,7 +149,8 @@ class Plot {
     }
     bool logarithmic() const { return axes_.min_y > 0.0f; }
     float y(float value) const {
-        return along_y(logarithmic() ? std::log10(std::max(value, axes_.min_y)) : value);
+        const float at = along_y(logarithmic() ? std::log10(std::max(value, axes_.min_y)) : value);
+        return std::clamp(at, from_.y - far_away, to_.y + far_away);
     }
     /// Of a value, or on a logarithmic axis of its power of ten.
     float along_y(float power) const { return to_.y + (from_.y - to_.y) * (power - low_) / (high_ - low_); }
@@ -197,6 +211,30 @@ class Plot {
         const float dash = 0.3f * ImGui::GetFontSize();
         for (float from = from_.x; from < to_.x; from += 2.0f * dash) {
             list_->AddLine({from, at}, {std::min(from + dash, to_.x), at}, dim());
+        }
+    }
+
+    bool outside(float value) const { return axes_.fixed_y && (value < low_ || value > high_); }
+    bool leaves(const Curve& curve) const {
+        return std::any_of(curve.points.begin(), curve.points.end(),
+                           [&](glm::vec2 p) { return outside(p.y); });
+    }
+
+    /// A mark wherever the curve leaves the axis, but none on top of another.
+    void exits(const Curve& curve) {
+        const float size = 0.45f * ImGui::GetFontSize();
+        float last[2] = {-1e9f, -1e9f};  // below and above
+        for (const glm::vec2 p : curve.points) {
+            const bool above = p.y > high_;
+            const float at = x(p.x);
+            if (!outside(p.y) || at - last[above] < 9.0f * size) continue;
+            last[above] = at;
+            const float edge = above ? from_.y : to_.y, inwards = above ? 1.0f : -1.0f;
+            const ImVec2 tip{at, edge + inwards * 0.2f * size};
+            const ImVec2 left{at - size, edge + inwards * 1.6f * size},
+                right{at + size, edge + inwards * 1.6f * size};
+            list_->AddTriangleFilled(tip, left, right, colour_of(curve.colour));
+            list_->AddTriangle(tip, left, right, ImGui::GetColorU32(ImGuiCol_WindowBg), 0.25f * size);
         }
     }
 

@@ -29,9 +29,10 @@ struct PlotAxes {
     float from_x = 0.0f;                ///< where the x axis begins
     float min_x = 1.0f;                 ///< and where it ends at least
     float low_y = 0.0f, high_y = 0.0f;  ///< of an even y axis: what it shows at least, where low < high
-    float level = 0.0f;                 ///< a dashed line at this y, where it is over 0
-    float at_x = -1.0f;                 ///< a line at this x, where it is not negative
-    bool whole_x = false;               ///< x counts something: marks at whole numbers only
+    bool fixed_y = false;    ///< it shows that and no more: a mark says where a curve leaves it, and which
+    float level = 0.0f;      ///< a dashed line at this y, where it is over 0
+    float at_x = -1.0f;      ///< a line at this x, where it is not negative
+    bool whole_x = false;    ///< x counts something: marks at whole numbers only
     bool reads_all = false;  ///< the mouse reads every curve at its x, rather than the nearest point
     bool named = false;      ///< curves of one point have their name beside it, as far as there is room
 };

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <string>
 
+#include "app/labs/kit/past_strip.hpp"
 #include "app/labs/kit/preset_rows.hpp"
 #include "app/labs/rope/panels.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/rope/rope_names.hpp"
 #include "app/labs/rope/scenes.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/timeline.hpp"
 
 namespace tendril::app {
 namespace {
@@ -116,17 +116,7 @@ void RopeLab::inspector(const Workspace& workspace, Emit& emit) const {
 }
 
 void RopeLab::timeline(const Workspace& workspace, Emit& emit) const {
-    const Rewind& past = workspace.rewind;
-    if (past.empty()) return;
-    // The strip is ten seconds long from the beginning: what is not there yet is to its right.
-    const auto first = past.oldest();
-    const int ticks = static_cast<int>(Rewind::most_ticks) + 1;
-    const auto last = std::max(past.newest(), workspace.clock.tick);
-    const int newest = static_cast<int>(last - first);
-    const auto tick_now = std::clamp(workspace.clock.tick, first, last);
-    int now = static_cast<int>(tick_now - first);
-    if (app::timeline("past", now, ticks, tick_seconds, newest))
-        emit.continuously("time.seek", {{"ticks_back", std::max(0, newest - now)}});
+    past_strip(workspace, emit);
 }
 
 }  // namespace tendril::app

@@ -1,13 +1,33 @@
 #include "app/labs/signal/analysis.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tendril::app {
 namespace {
 
 constexpr double measuring_rate = 60.0;
+
+/// What the hand did up to the last quarter of a second, as far back as is always remembered then: so the
+/// numbers are worked out four times a second and not at every tick, and can be read.
+InputRows hand_rows(const SignalPart& part) {
+    constexpr double every = 0.25, same = 1e-6;
+    InputRows rows;
+    if (part.past.empty()) return rows;
+    const double until = std::floor((part.time + same) / every) * every;
+    const double from = until - (part.past.back().dt * static_cast<double>(most_past) - every);
+    double time = part.time;
+    for (std::size_t i = part.past.size(); i-- > 0; time -= std::max(part.past[i].dt, 0.0)) {
+        if (time > until + same) continue;
+        if (time <= from + same) break;
+        rows.push_back(part.past[i]);
+    }
+    std::reverse(rows.begin(), rows.end());
+    return rows;
+}
+
 InputRows measured_rows(const SignalPart& part) {
-    return part.input.kind == InputKind::Hand ? part.past : measuring_rows(part.input, measuring_rate);
+    return part.input.kind == InputKind::Hand ? hand_rows(part) : measuring_rows(part.input, measuring_rate);
 }
 
 std::vector<double> inputs_of(const InputRows& rows) {
@@ -52,22 +72,21 @@ ChainAnalysis analyse(const SignalPart& part) {
     analysis.time = signal::times_of(rows);
     analysis.input = inputs_of(rows);
     analysis.outputs = run_chain(part, rows);
-    std::vector<signal::Filter> so_far;
+    const std::vector<signal::Filter> filters = enabled_filters(part);
+    std::vector<signal::RateComparison> rates = signal::compare_rates_of_stages(filters, rows);
     const std::vector<double>* before = &analysis.input;
-    analysis.rates = signal::compare_rates({}, rows);
+    std::size_t on = 0;  // filters up to here
     for (std::size_t i = 0; i < part.stages.size(); ++i) {
         const SignalStage& stage = part.stages[i];
         const std::span<const signal::Filter> own(&stage.filter, stage.enabled ? 1 : 0);
         StageMeasures measures = measure(analysis.time, *before, analysis.outputs[i], own);
-        if (stage.enabled) {
-            so_far.push_back(stage.filter);
-            analysis.rates = signal::compare_rates(so_far, rows);
-        }
-        measures.rate_difference = analysis.rates.difference;
+        if (stage.enabled) ++on;
+        if (on > 0) measures.rate_difference = rates[on - 1].difference;
         analysis.stages.push_back(measures);
         before = &analysis.outputs[i];
     }
-    analysis.whole = measure(analysis.time, analysis.input, *before, so_far);
+    analysis.whole = measure(analysis.time, analysis.input, *before, filters);
+    analysis.rates = filters.empty() ? signal::compare_rates({}, rows) : std::move(rates.back());
     analysis.whole.rate_difference = analysis.rates.difference;
     return analysis;
 }
@@ -99,17 +118,22 @@ std::vector<ShelfPoint> measure_shelf(const SignalPart& part) {
 
 }  // namespace
 
-SignalRuntime::Source SignalRuntime::source_of(const SignalPart& part, bool with_past) {
+SignalRuntime::Source SignalRuntime::source_of(const SignalPart& part, InputRows rows) {
     Source source;
     for (const SignalStage& stage : part.stages) source.filters.emplace_back(stage.filter, stage.enabled);
     source.input = part.input;
     if (part.input.kind == InputKind::Hand) source.input.hand = 0.0;  // what it is now is in the past next
-    if (with_past || part.input.kind == InputKind::Hand) source.past = part.past;
+    source.rows = std::move(rows);
     return source;
 }
 
+/// Those that are measured; where they follow from the input they need not be made to tell.
+SignalRuntime::Source SignalRuntime::measured(const SignalPart& part) {
+    return source_of(part, part.input.kind == InputKind::Hand ? hand_rows(part) : InputRows());
+}
+
 const ChainAnalysis& SignalRuntime::chain(const SignalPart& part) {
-    if (Source source = source_of(part, false); chain_source_ != source) {
+    if (Source source = measured(part); chain_source_ != source) {
         chain_ = analyse(part);
         chain_source_ = std::move(source);
     }
@@ -117,7 +141,7 @@ const ChainAnalysis& SignalRuntime::chain(const SignalPart& part) {
 }
 
 const std::vector<ShelfPoint>& SignalRuntime::shelf(const SignalPart& part) {
-    if (Source source = source_of(part, false); shelf_source_ != source) {
+    if (Source source = measured(part); shelf_source_ != source) {
         shelf_ = measure_shelf(part);
         shelf_source_ = std::move(source);
     }
@@ -125,7 +149,7 @@ const std::vector<ShelfPoint>& SignalRuntime::shelf(const SignalPart& part) {
 }
 
 const std::vector<std::vector<double>>& SignalRuntime::recent(const SignalPart& part) {
-    if (Source source = source_of(part, true); recent_source_ != source) {
+    if (Source source = source_of(part, part.past); recent_source_ != source) {
         recent_ = run_chain(part, part.past);
         recent_source_ = std::move(source);
     }

@@ -17,7 +17,8 @@ struct StageMeasures {
     double rate_difference = 0.0;              ///< of what the chain up to here puts out
 };
 
-/// The chain over its measuring rows: those that went in last for the hand, else the input from 0 on.
+/// The chain over its measuring rows: for the hand those that went in up to the last quarter of a second,
+/// else the input from 0 on. Cost: 1.5 ms for eight filters, and for the hand no more often than that.
 struct ChainAnalysis {
     std::vector<double> time, input;
     std::vector<std::vector<double>> outputs;  ///< of each stage
@@ -47,10 +48,11 @@ class SignalRuntime final : public Runtime {
     struct Source {
         std::vector<std::pair<signal::Filter, bool>> filters;
         SignalInput input;
-        InputRows past;  ///< where the input is the hand
+        InputRows rows;  ///< as far as they do not follow from the input
         bool operator==(const Source&) const = default;
     };
-    static Source source_of(const SignalPart& part, bool with_past);
+    static Source source_of(const SignalPart& part, InputRows rows);
+    static Source measured(const SignalPart& part);
 
     std::optional<Source> chain_source_, shelf_source_, recent_source_;
     ChainAnalysis chain_;

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "app/document/units.hpp"
 #include "app/labs/signal/panels.hpp"
 #include "app/labs/signal/scene.hpp"
 #include "app/labs/signal/signal_lab.hpp"
+#include "app/labs/signal/span.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/plot.hpp"
@@ -17,46 +19,13 @@ namespace {
 
 constexpr double shown_seconds = 5.0;
 
-/// What a plot shows at least: the input's range, and a margin. What grows without bound is cut off at some
-/// times that.
-struct Span {
-    double low, high;
-    float cut(double value) const {
-        const double range = high - low;
-        return static_cast<float>(std::clamp(value, low - 1.5 * range, high + 1.5 * range));
-    }
-};
-
-Span span_of(const std::vector<double>& values) {
-    double low = -1e-3, high = 1e-3;
-    if (!values.empty()) {
-        const auto [smallest, largest] = std::minmax_element(values.begin(), values.end());
-        low = *smallest, high = *largest;
-    }
-    const double margin = std::max(0.15 * (high - low), 0.05);
-    return {low - margin, high + margin};
-}
-
-Curve curve_of(std::string name, glm::vec3 colour, const std::vector<double>& time,
-               const std::vector<double>& values, const Span& span, double from = -1e9) {
-    Curve curve{std::move(name), colour, {}};
-    curve.points.reserve(time.size());
-    for (std::size_t i = 0; i < time.size() && i < values.size(); ++i)
-        if (time[i] >= from) curve.points.push_back({static_cast<float>(time[i]), span.cut(values[i])});
-    return curve;
-}
-
-PlotAxes time_axes(const Span& span, double from, double to) {
-    return {.x = "time, s",
-            .x_unit = "",
-            .y = "",
-            .y_unit = "",
-            .min_y = 0.0f,
-            .from_x = static_cast<float>(from),
-            .min_x = static_cast<float>(to),
-            .low_y = static_cast<float>(span.low),
-            .high_y = static_cast<float>(span.high),
-            .reads_all = true};
+/// Those of `values` at times between both.
+std::span<const double> shown(const std::vector<double>& time, const std::vector<double>& values, double from,
+                              double to = 1e9) {
+    const auto first = std::lower_bound(time.begin(), time.end(), from) - time.begin();
+    const auto end = std::upper_bound(time.begin(), time.end(), to) - time.begin();
+    const auto count = static_cast<std::size_t>(std::max<std::ptrdiff_t>(end - first, 0));
+    return std::span(values).subspan(std::min(static_cast<std::size_t>(first), values.size())).first(count);
 }
 
 void scrolling_plot(const Workspace& workspace, const Palette& palette, float height) {
@@ -65,16 +34,18 @@ void scrolling_plot(const Workspace& workspace, const Palette& palette, float he
     const double shift = part.time - (time.empty() ? 0.0 : time.back());
     for (double& each : time) each += shift;
     for (const signal::Sample& row : part.past) input.push_back(row.input);
-    const Span span = span_of(input);
     const double to = std::max(part.time, shown_seconds), from = to - shown_seconds;
-    std::vector<Curve> curves{curve_of("input", input_colour(palette), time, input, span, from)};
+    std::vector<Curve> curves{curve_of("input", input_colour(palette), time, input, from)};
+    std::vector<std::span<const double>> outputs;
     const auto& stages = signal_runtime(workspace).recent(part);
     for (std::size_t i = 0; i < part.stages.size(); ++i) {
         if (!part.stages[i].enabled) continue;
         curves.push_back(curve_of(kind_title(part.stages[i].filter), stage_colour(palette, part, i), time,
-                                  stages[i], span, from));
+                                  stages[i], from));
+        outputs.push_back(shown(time, stages[i], from));
     }
-    if (!curves.empty()) curves.back().width = 1.35f;
+    curves.back().width = 1.35f;
+    const Span span = widened(span_of(part.input, shown(time, input, from)), outputs);
     plot("signal", curves, time_axes(span, from, to), height);
 }
 
@@ -92,24 +63,29 @@ std::string rate_name(const signal::FrameRate& rate) {
 }
 
 void rates_plot(const Workspace& workspace, const Palette& palette, float height) {
+    constexpr double longest = 4.0;
     const SignalPart& part = signal_part(workspace);
     const ChainAnalysis& analysis = signal_runtime(workspace).chain(part);
-    const Span span = span_of(analysis.input);
     const double end = analysis.time.empty() ? 1.0 : analysis.time.back();
+    const bool hand = part.input.kind == InputKind::Hand;
     const bool wave = part.input.kind == InputKind::Square || part.input.kind == InputKind::Sine;
-    const double to = std::min(end, wave ? part.input.period : 4.0);
-    // A square wave jumps in the middle of its period.
-    const double from = part.input.kind == InputKind::Square ? 0.45 * part.input.period : 0.0;
+    const double to = hand ? end : std::min(end, wave ? part.input.period : longest);
+    // A square wave jumps in the middle of its period; of the hand the last seconds count.
+    const double from = hand                                   ? std::max(0.0, end - longest)
+                        : part.input.kind == InputKind::Square ? 0.45 * part.input.period
+                                                               : 0.0;
     std::vector<Curve> curves{
-        curve_of("input", input_colour(palette), analysis.time, analysis.input, span, from)};
+        curve_of("input", input_colour(palette), analysis.time, analysis.input, from, to)};
     curves.back().strength = 0.5f;
-    for (const signal::RateRun& run : analysis.rates.runs)
+    std::vector<std::span<const double>> outputs;
+    for (const signal::RateRun& run : analysis.rates.runs) {
         curves.push_back(
-            curve_of(rate_name(run.rate), rate_colour(palette, run.rate), run.time, run.output, span, from));
-    for (Curve& curve : curves) {
-        curve.marks = curve.points.size() > 1 && curve.points[1].x - curve.points[0].x > 0.05f;
-        std::erase_if(curve.points, [&](glm::vec2 p) { return static_cast<double>(p.x) > to + 1e-6; });
+            curve_of(rate_name(run.rate), rate_colour(palette, run.rate), run.time, run.output, from, to));
+        outputs.push_back(shown(run.time, run.output, from, to));
     }
+    for (Curve& curve : curves)
+        curve.marks = curve.points.size() > 1 && curve.points[1].x - curve.points[0].x > 0.05f;
+    const Span span = widened(span_of(part.input, analysis.input), outputs);
     plot("rates", curves, time_axes(span, from, to), height);
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
+#include <string_view>
 
 #include "app/document/json_complete.hpp"
 #include "app/io/samples.hpp"
@@ -54,6 +56,11 @@ signal::CurveKey read_key(const Json& json, const std::string& where) {
     if (json.contains("arrive")) key.arrive = json_real(json["arrive"], where + ".arrive");
     if (json.contains("leave")) key.leave = json_real(json["leave"], where + ".leave");
     if (json.contains("piece")) key.piece = read_piece(json["piece"], where + ".piece");
+    for (const auto& [name, value] : json.items()) {
+        constexpr std::string_view known[] = {"time", "value", "arrive", "leave", "piece"};
+        if (std::find(std::begin(known), std::end(known), name) == std::end(known))
+            fail(place(where, name), "a key has only time, value, arrive, leave and piece");
+    }
     return key;
 }
 

@@ -2,8 +2,8 @@
 // somewhere else. So one can see which filter of the shelf to take, and with which numbers.
 //
 // Deterministic: the same rows give the same answer at every run, on the same build. Bounded by evaluations,
-// never by time: some hundred runs of a filter over the rows where it has one parameter, ten thousand where
-// it has six.
+// never by time: some hundred runs of a filter over the rows where it has one parameter, twenty thousand
+// where it has six. All kinds together take about 0.3 s for 300 rows.
 #pragma once
 
 #include <span>

@@ -5,21 +5,10 @@
 
 #include "app/labs/signal/panels.hpp"
 #include "app/labs/signal/scene.hpp"
+#include "app/labs/signal/span.hpp"
 #include "app/widgets/plot.hpp"
 
 namespace tendril::app {
-namespace {
-
-Curve curve_of(std::string name, glm::vec3 colour, const std::vector<double>& time,
-               std::span<const double> values) {
-    Curve curve{std::move(name), colour, {}};
-    for (std::size_t i = 0; i < time.size() && i < values.size(); ++i)
-        curve.points.push_back(
-            {static_cast<float>(time[i]), static_cast<float>(std::clamp(values[i], -1e6, 1e6))});
-    return curve;
-}
-
-}  // namespace
 
 glm::vec3 fit_colour(const Palette& palette, std::size_t rank) {
     return rank == 0 ? palette.head : rank == 1 ? rgb(0xCC79A7) : palette.tail;
@@ -43,18 +32,12 @@ void fit_plot(const SignalPart& part, const Palette& palette, float height, Emit
         curves.push_back(curve_of("wanted", palette.text, time, part.wanted));
         curves.back().width = 1.4f;
     }
-    float low = -0.1f, high = 0.1f;
-    for (const Curve& curve : {curves.front(), curves.back()})
-        for (const glm::vec2 p : curve.points) low = std::min(low, p.y), high = std::max(high, p.y);
-    const float margin = 0.25f * (high - low), end = time.empty() ? 1.0f : static_cast<float>(time.back());
-    for (Curve& curve : curves)
-        for (glm::vec2& p : curve.points) p.y = std::clamp(p.y, low - margin, high + margin);
-    const PlotAxes axes{.x = "time, s",
-                        .min_y = 0.0f,
-                        .min_x = end,
-                        .low_y = low - margin,
-                        .high_y = high + margin,
-                        .reads_all = true};
+    // There is always room to draw beyond what there is.
+    Span span = span_of(part.input, input);
+    for (const double value : part.wanted)
+        span.low = std::min(span.low, value), span.high = std::max(span.high, value);
+    const double margin = 0.25 * (span.high - span.low), end = time.empty() ? 1.0 : time.back();
+    const PlotAxes axes = time_axes({span.low - margin, span.high + margin}, 0.0, end);
     const PlotStroke stroke = plot("fit", curves, axes, height);
     if (!stroke.drawn) return;
     emit.continuously("signal.fit.draw", {{"from", stroke.from.x},

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/document/json_complete.hpp"
+#include "app/labs/kit/past_strip.hpp"
 #include "app/labs/signal/analysis.hpp"
 #include "app/labs/signal/code.hpp"
 #include "app/labs/signal/filter_json.hpp"
@@ -51,6 +52,10 @@ void SignalLab::step(Workspace& workspace) const {
     pass_signal_time(workspace.document.edit<SignalPart>(signal_lab),
                      tick_seconds * static_cast<double>(workspace.clock.speed));
     if (!modified) workspace.saved = workspace.document;  // that time passes is nothing that wants saving
+}
+
+void SignalLab::timeline(const Workspace& workspace, Emit& emit) const {
+    past_strip(workspace, emit);
 }
 
 std::vector<Handle> SignalLab::handles(const Workspace& workspace) const {

@@ -20,6 +20,10 @@ class SignalLab final : public Lab {
     void step(Workspace& workspace) const override;
     double seconds(const Workspace& workspace) const override { return signal_part(workspace).time; }
 
+    bool rewinds() const override { return true; }
+    bool has_timeline(const Workspace& workspace) const override { return !workspace.rewind.empty(); }
+    void timeline(const Workspace& workspace, Emit& emit) const override;
+
     void draw(const View& view, DrawList& list) const override;
     std::vector<LegendRow> legend(const Workspace& workspace) const override;
     float canvas_share(const Workspace&) const override { return 0.74f; }

@@ -41,6 +41,25 @@ void pass_signal_time(SignalPart& part, double dt) {
     part.past.push_back({dt, input});
 }
 
+/// A chain of other filters than then comes back whole.
+std::shared_ptr<const Part> SignalPart::at_moment(std::shared_ptr<const Part> then) const {
+    auto part = std::make_shared<SignalPart>(dynamic_cast<const SignalPart&>(*then));
+    const bool same_chain =
+        std::equal(stages.begin(), stages.end(), part->stages.begin(), part->stages.end(),
+                   [](const SignalStage& now, const SignalStage& before) {
+                       return now.filter.index() == before.filter.index() && now.enabled == before.enabled;
+                   });
+    if (same_chain) {
+        for (std::size_t i = 0; i < stages.size(); ++i) part->stages[i].filter = stages[i].filter;
+        part->selected = selected;
+    }
+    part->plot = plot;
+    part->fit_input = fit_input;
+    part->wanted = wanted;
+    part->fits = fits;
+    return part;
+}
+
 std::size_t SignalPart::bytes() const {
     std::size_t bytes = sizeof(*this) + stages.size() * sizeof(SignalStage) +
                         (past.size() + fit_input.size()) * sizeof(signal::Sample) +

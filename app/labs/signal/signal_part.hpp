@@ -50,6 +50,8 @@ struct SignalPart final : Part {
     std::shared_ptr<Part> clone() const override { return std::make_shared<SignalPart>(*this); }
     Json save() const override;
     std::shared_ptr<Part> load(const Json& json, const std::string& where) const override;
+    /// What filters remember goes back in time, how they are set does not.
+    std::shared_ptr<const Part> at_moment(std::shared_ptr<const Part> then) const override;
     std::size_t bytes() const override;
     bool operator==(const SignalPart& other) const;
 };

@@ -90,20 +90,33 @@ std::vector<double> frame_ends(const FrameRate& rate, const HeldInput& input) {
     return times;
 }
 
+/// The input at ascending times.
+class Reader {
+  public:
+    explicit Reader(const HeldInput& input) : input_(input) {}
+    double at(double time) {
+        if (time > held_until_ + same_time) {
+            held_ = input_.at(time);
+            held_until_ = input_.frame_end(input_.frame_at(time));
+        }
+        return held_;
+    }
+
+  private:
+    const HeldInput& input_;
+    double held_ = 0.0, held_until_ = 0.0;  ///< of the slowest rate's frame that was read last
+};
+
 /// Filters that run frame by frame.
 class Runner {
   public:
     Runner(std::span<const Filter> filters, const HeldInput& input)
-        : filters_(filters), states_(filters.size()), input_(input) {}
+        : filters_(filters), states_(filters.size()), input_(input), reader_(input) {}
 
     double now() const { return now_; }
     double output() const { return output_; }
     void advance(double to) {
-        if (to > held_until_ + same_time) {
-            held_ = input_.at(to);
-            held_until_ = input_.frame_end(input_.frame_at(to));
-        }
-        output_ = step(filters_, states_, held_, to - now_);
+        output_ = step(filters_, states_, reader_.at(to), to - now_);
         now_ = to;
     }
     /// What a frame that ended then would give; nothing has changed.
@@ -116,8 +129,8 @@ class Runner {
     std::span<const Filter> filters_;
     std::vector<FilterState> states_;
     const HeldInput& input_;
+    Reader reader_;
     double now_ = 0.0, output_ = 0.0;
-    double held_ = 0.0, held_until_ = 0.0;  ///< the input of the slowest rate's frame that now_ is in
 };
 
 RateRun run_of(std::span<const Filter> filters, const HeldInput& input, const FrameRate& rate) {
@@ -128,6 +141,46 @@ RateRun run_of(std::span<const Filter> filters, const HeldInput& input, const Fr
         run.output.push_back(runner.output());
     }
     return run;
+}
+
+/// The run of each stage at a rate, in one pass over its frames.
+void add_runs(std::vector<RateComparison>& stages, std::span<const Filter> filters, const HeldInput& input,
+              const FrameRate& rate) {
+    const std::vector<double> ends = frame_ends(rate, input);
+    for (RateComparison& stage : stages) {
+        stage.runs.push_back({rate, ends, {}});
+        stage.runs.back().output.reserve(ends.size());
+    }
+    std::vector<FilterState> states(filters.size());
+    Reader reader(input);
+    double before = 0.0;
+    for (const double time : ends) {
+        double value = reader.at(time);
+        for (std::size_t i = 0; i < filters.size(); ++i)
+            stages[i].runs.back().output.push_back(value = step(filters[i], states[i], value, time - before));
+        before = time;
+    }
+}
+
+void find_difference(RateComparison& comparison, const HeldInput& input) {
+    // The frames of the slowest end in frames of all others.
+    auto& runs = comparison.runs;
+    std::vector<std::size_t> at(runs.size(), 0);
+    for (std::size_t slow = 1; !runs.empty(); ++slow) {
+        const double time = input.frame_end(slow);
+        double low = max_output, high = -max_output;
+        for (std::size_t i = 0; i < runs.size(); ++i) {
+            while (at[i] < runs[i].time.size() && runs[i].time[at[i]] < time) ++at[i];
+            if (at[i] == runs[i].time.size()) return;
+            low = std::min(low, runs[i].output[at[i]]);
+            high = std::max(high, runs[i].output[at[i]]);
+        }
+        if (high - low > comparison.difference) {
+            comparison.difference = high - low;
+            comparison.at = time;
+        }
+        if (time >= input.end()) break;
+    }
 }
 
 }  // namespace
@@ -142,26 +195,19 @@ RateComparison compare_rates(std::span<const Filter> filters, std::span<const Sa
     const HeldInput input(samples, rates);
     if (input.empty()) return comparison;
     for (const FrameRate& rate : rates) comparison.runs.push_back(run_of(filters, input, rate));
-
-    // The frames of the slowest end in frames of all others.
-    std::vector<std::size_t> at(rates.size(), 0);
-    for (std::size_t slow = 1; !rates.empty(); ++slow) {
-        const double time = input.frame_end(slow);
-        double low = max_output, high = -max_output;
-        for (std::size_t i = 0; i < rates.size(); ++i) {
-            const RateRun& run = comparison.runs[i];
-            while (at[i] < run.time.size() && run.time[at[i]] < time) ++at[i];
-            if (at[i] == run.time.size()) return comparison;
-            low = std::min(low, run.output[at[i]]);
-            high = std::max(high, run.output[at[i]]);
-        }
-        if (high - low > comparison.difference) {
-            comparison.difference = high - low;
-            comparison.at = time;
-        }
-        if (time >= input.end()) break;
-    }
+    find_difference(comparison, input);
     return comparison;
+}
+
+std::vector<RateComparison> compare_rates_of_stages(std::span<const Filter> filters,
+                                                    std::span<const Sample> samples,
+                                                    std::span<const FrameRate> rates) {
+    std::vector<RateComparison> stages(filters.size());
+    const HeldInput input(samples, rates);
+    if (input.empty() || stages.empty()) return stages;
+    for (const FrameRate& rate : rates) add_runs(stages, filters, input, rate);
+    for (RateComparison& stage : stages) find_difference(stage, input);
+    return stages;
 }
 
 std::vector<std::vector<double>> outputs_at(std::span<const Filter> filters, std::span<const Sample> samples,
