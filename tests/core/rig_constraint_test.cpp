@@ -105,6 +105,32 @@ TEST(RigParentConstraint, TheFilterIsInTheChildsLocalSpace) {
     }
 }
 
+TEST(RigParentConstraint, TheFilterMixesEulerAngles) {
+    Random random(15);
+    const auto some = [&](int kind) {
+        const bool at_x = random.chance(4), at_z = random.chance(4);
+        const double x = at_x ? pi : random.around(3.14f), z = at_z ? -pi : random.around(3.14f);
+        const double from_pole = std::pow(10.0, random.around(3.0f) - 4.0);
+        const double y = kind == 0   ? random.around(1.57f)
+                         : kind == 1 ? pi / 2 - from_pole
+                                     : from_pole - pi / 2;
+        return from_euler({x, y, z});
+    };
+    for (int i = 0; i < 10'000; ++i) {
+        const glm::dquat from = some(i % 3), to = some(i / 3 % 3);
+        const int mask = i % 8;
+        TransformFilter filter;
+        glm::dvec3 wanted = to_euler(from);
+        for (int axis = 0; axis < 3; ++axis) {
+            filter.rotation[static_cast<std::size_t>(axis)] = (mask >> axis & 1) != 0;
+            if ((mask >> axis & 1) != 0) wanted[axis] = to_euler(to)[axis];
+        }
+        const glm::dquat got = filtered({.rotation = from}, {.rotation = to}, filter).rotation;
+        EXPECT_LE(distance(got, from_euler(wanted)), 1e-13) << i;
+        EXPECT_NEAR(glm::length(got), 1.0, 1e-15);
+    }
+}
+
 TEST(RigParentConstraint, AWeightMovesTheChildContinuously) {
     Random random(6);
     for (int round = 0; round < 20; ++round) {

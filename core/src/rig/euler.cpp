@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "rig/euler_choice.hpp"
 #include "rig/math.hpp"
 #include "tendril/rig/transform.hpp"
 
@@ -15,7 +16,56 @@ double wrapped(double angle) noexcept {
     return angle > pi ? angle - 2.0 * pi : angle <= -pi ? angle + 2.0 * pi : angle;
 }
 
+/// Cosine and sine of an angle.
+struct Turn {
+    double cosine, sine;
+};
+constexpr double pole = 1e-9;  ///< below, one of the two angles that to_euler finds means nothing
+
+/// Of half the angle, which is in (-pi, pi].
+Turn half(double cosine, double sine) noexcept {
+    const double larger = std::sqrt(0.5 * (1.0 + std::abs(cosine)));
+    const double smaller = 0.5 * std::abs(sine) / larger;
+    const Turn turn = cosine < 0.0 ? Turn{smaller, larger} : Turn{larger, smaller};
+    return {turn.cosine, sine < 0.0 ? -turn.sine : turn.sine};
+}
+
+/// Of half of each Euler angle: to_euler without its arctangents.
+std::array<Turn, 3> half_angles(const glm::dquat& q) noexcept {
+    Turn difference{q.w + q.y, q.z - q.x}, sum{q.w - q.y, q.z + q.x};
+    const auto make_unit = [](Turn& turn) {
+        const double size = std::sqrt(turn.cosine * turn.cosine + turn.sine * turn.sine);
+        if (size >= pole) turn = {turn.cosine / size, turn.sine / size};
+        return size;
+    };
+    const double plus_size = make_unit(difference), minus_size = make_unit(sum);
+    if (minus_size < pole) sum = {difference.cosine, -difference.sine};
+    if (plus_size < pole) difference = {sum.cosine, -sum.sine};
+    const double cc = sum.cosine * difference.cosine, ss = sum.sine * difference.sine;
+    const double sc = sum.sine * difference.cosine, cs = sum.cosine * difference.sine;
+    return {half(cc + ss, sc - cs), Turn{0.5 * (plus_size + minus_size), 0.5 * (plus_size - minus_size)},
+            half(cc - ss, sc + cs)};
+}
+
+/// Rz * Ry * Rx.
+glm::dquat rotation_of(const std::array<Turn, 3>& halves) noexcept {
+    const auto& [x, y, z] = halves;
+    const double cc = y.cosine * z.cosine, ss = y.sine * z.sine;
+    const double cs = y.cosine * z.sine, sc = y.sine * z.cosine;
+    return unit_quaternion(x.cosine * cc + x.sine * ss, x.sine * cc - x.cosine * ss,
+                           x.cosine * sc + x.sine * cs, x.cosine * cs - x.sine * sc);
+}
+
 }  // namespace
+
+glm::dquat detail::choose_angles(const glm::dquat& from, const glm::dquat& to,
+                                 const std::array<bool, 3>& chosen) noexcept {
+    std::array<Turn, 3> halves = half_angles(from);
+    const std::array<Turn, 3> others = half_angles(to);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (chosen[axis]) halves[axis] = others[axis];
+    return rotation_of(halves);
+}
 
 glm::dvec3 to_euler(const glm::dquat& q) noexcept {
     // With the half angles: (w + y, z - x) is cos(y/2) + sin(y/2) times the unit vector at angle (z - x)/2,
@@ -25,17 +75,17 @@ glm::dvec3 to_euler(const glm::dquat& q) noexcept {
     const double y = 2.0 * arctangent(plus_size, minus_size) - 0.5 * pi;
     double difference = arctangent(q.z - q.x, q.w + q.y);
     double sum = arctangent(q.z + q.x, q.w - q.y);
-    constexpr double pole = 1e-9;
     if (minus_size < pole) sum = -difference;
     if (plus_size < pole) difference = -sum;
     return {wrapped(sum - difference), y, wrapped(sum + difference)};
 }
 
 glm::dquat from_euler(const glm::dvec3& angles) noexcept {
-    const glm::dquat x = rotation_about(glm::dvec3{1.0, 0.0, 0.0}, angles.x);
-    const glm::dquat y = rotation_about(glm::dvec3{0.0, 1.0, 0.0}, angles.y);
-    const glm::dquat z = rotation_about(glm::dvec3{0.0, 0.0, 1.0}, angles.z);
-    return normalised(math::compose(z, math::compose(y, x)));
+    const auto half = [](double angle) {
+        const auto [sine, cosine] = math::sine_cosine(angle / (4.0 * pi));
+        return Turn{cosine, sine};
+    };
+    return rotation_of({half(angles.x), half(angles.y), half(angles.z)});
 }
 
 }  // namespace tendril::rig

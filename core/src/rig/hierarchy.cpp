@@ -38,11 +38,6 @@ const char* name(Pending pending) noexcept {
 
 // Handles.
 
-bool Hierarchy::contains(ElementId element) const noexcept {
-    return element.index < nodes_.size() && nodes_[element.index].generation == element.generation &&
-           element.generation % 2 == 1;
-}
-
 ElementId Hierarchy::handle(Index index) const noexcept {
     return index == none ? ElementId{} : ElementId{index, nodes_[index].generation};
 }
@@ -55,9 +50,8 @@ Result Hierarchy::check(ElementId element, const char* operation, const char* ar
     return {ErrorCode::OutOfRange, words.message()};
 }
 
-Hierarchy::Index Hierarchy::required(const char* operation, ElementId element) const noexcept {
-    if (!contains(element)) no_value(check(element, operation, "element").message());
-    return element.index;
+void Hierarchy::stop(const char* operation, ElementId element) const noexcept {
+    no_value(check(element, operation, "element").message());
 }
 
 Hierarchy::Index Hierarchy::required_or_none(const char* operation, ElementId element) const noexcept {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "rig/euler_choice.hpp"
 #include "rig/math.hpp"
 #include "tendril/magnitude.hpp"
-#include "tendril/rig/euler.hpp"
 
 namespace tendril::rig {
 namespace {
@@ -31,7 +31,7 @@ glm::dvec3 chosen(const glm::dvec3& from, const glm::dvec3& to, const Axes& axes
 glm::dquat chosen(const glm::dquat& from, const glm::dquat& to, const Axes& axes) noexcept {
     if (all(axes)) return to;
     if (!any(axes)) return from;
-    return from_euler(chosen(to_euler(from), to_euler(to), axes));
+    return choose_angles(from, to, axes);
 }
 
 /// Bounded, so that the sum of all stays finite.
@@ -51,14 +51,15 @@ glm::dquat sum(const glm::dquat& a, const glm::dquat& b, double by) noexcept {
 /// The weights' sum is `total`, which is not 0.
 Transform mean_goal(const ConstraintChild& child, std::span<const ConstraintParent> parents, double total,
                     bool offset) noexcept {
-    const glm::dquat hemisphere = goal(child, parents.front(), offset).rotation;
+    const Transform first = goal(child, parents.front(), offset);
+    const glm::dquat& hemisphere = first.rotation;
     Transform mean{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
     glm::dquat heaviest_rotation = hemisphere;
     double heaviest = 0.0;
     for (const ConstraintParent& parent : parents) {
         const double share = relative_weight(parent) / total;
         if (share == 0.0) continue;
-        const Transform each = goal(child, parent, offset);
+        const Transform each = &parent == parents.data() ? first : goal(child, parent, offset);
         const double side = detail::dot(hemisphere, each.rotation) < 0.0 ? -1.0 : 1.0;
         mean.translation = plus(mean.translation, times(each.translation, share));
         mean.rotation = sum(mean.rotation, each.rotation, side * share);

@@ -76,7 +76,10 @@ class Hierarchy {
     void clear() noexcept;
 
     std::size_t size() const noexcept { return size_; }
-    bool contains(ElementId element) const noexcept;
+    bool contains(ElementId element) const noexcept {
+        return element.index < nodes_.size() && nodes_[element.index].generation == element.generation &&
+               element.generation % 2 == 1;
+    }
     /// Fine where it is there; else "OPERATION: ARGUMENT must be the handle of an element that is there, got
     /// slot 7". For what is built upon a hierarchy.
     Result check(ElementId element, const char* operation, const char* argument) const noexcept;
@@ -165,7 +168,11 @@ class Hierarchy {
     const Node& siblings_of(Index parent) const noexcept { return parent == none ? roots_ : nodes_[parent]; }
     Node& siblings_of(Index parent) noexcept { return parent == none ? roots_ : nodes_[parent]; }
     ElementId handle(Index index) const noexcept;
-    Index required(const char* operation, ElementId element) const noexcept;
+    Index required(const char* operation, ElementId element) const noexcept {
+        if (!contains(element)) stop(operation, element);
+        return element.index;
+    }
+    [[noreturn]] void stop(const char* operation, ElementId element) const noexcept;  ///< says why, and ends
     Index required_or_none(const char* operation, ElementId element) const noexcept;
 
     Index take_slot();

@@ -13,7 +13,7 @@
 // of the field.
 //
 // Everything is in double precision, relative to nothing: ten kilometres out it is exact to 1e-11 m.
-// O(parents), some 150 ns each; a filter on the rotation adds 600 ns.
+// O(parents), some 60 ns each; a filter on the rotation adds 130 ns.
 #pragma once
 
 #include <array>

@@ -1,0 +1,15 @@
+// Euler angles of two rotations, mixed axis by axis. Not installed.
+#pragma once
+
+#include <array>
+
+#include "tendril/quat.hpp"
+
+namespace tendril::rig::detail {
+
+/// The rotation whose Euler angles (euler.hpp) are those of `to` on the chosen axes and those of `from` on
+/// the others: from_euler of such a mixture of both to_euler, to rounding, at a third of the cost.
+glm::dquat choose_angles(const glm::dquat& from, const glm::dquat& to,
+                         const std::array<bool, 3>& chosen) noexcept;
+
+}  // namespace tendril::rig::detail
