@@ -264,6 +264,34 @@ TEST(RigSolve, WarnsOfWhatItLeavesOutAndKeepsThePose) {
     EXPECT_EQ(out_of_range.unit("turn").warning, Warning::None) << "a warning lasts as long as its reason";
 }
 
+/// Of one element: the first round is the last.
+TEST(RigSolve, AWarningInABodyLastsAsLongAsItsReason) {
+    Definition definition;
+    definition.elements = {
+        {.name = "bone"},
+        {.name = "dial", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Float}},
+        {.name = "on", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Bool}}};
+    definition.units = {
+        {.name = "all",
+         .operation = ForEach{.roots = {"bone"},
+                              .body = {{.name = "turn",
+                                        .operation = OffsetTransform{.item = ThisElement(),
+                                                                     .offset = turned(30, {0, 0, 1})},
+                                        .weight = FromElement{.element = "dial", .of = Of::ControlValue}}}},
+         .when = FromElement{.element = "on", .of = Of::ControlValue}}};
+    Held rig(definition);
+    const auto warning = [&](bool on, double dial) {
+        EXPECT_TRUE(rig.control("on", on));
+        EXPECT_TRUE(rig.control("dial", dial));
+        rig.solve();
+        return rig.unit("turn").warning;
+    };
+    EXPECT_EQ(warning(true, 3.0), Warning::WeightOutOfRange);
+    EXPECT_EQ(warning(true, 1.0), Warning::None);
+    EXPECT_EQ(warning(true, 3.0), Warning::WeightOutOfRange);
+    EXPECT_EQ(warning(false, 3.0), Warning::None) << "a unit that does not run warns of nothing";
+}
+
 TEST(RigSolve, GrowthBeyondRangeIsLeftOut) {
     Definition definition;
     for (int i = 0; i < 40; ++i)

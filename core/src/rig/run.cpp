@@ -35,6 +35,7 @@ bool Rig::solve(State& state, double dt, Workspace& workspace, Observer* observe
 
 bool Runner::run(Observer* observer) noexcept {
     put_back();
+    for (UnitState& unit : state_.units) unit.warning = Warning::None;
     if (observer) observer->begin(state_);
     const std::vector<Unit>& units = plan_.definition.units;
     for (std::size_t i = 0; i < units.size(); ++i) {
@@ -59,7 +60,6 @@ void Runner::put_back() noexcept {
 
 void Runner::run_unit(const Unit& unit) noexcept {
     unit_ = next_++;
-    if (!visit_ || place_in_for_each_ == 0) unit_state().warning = Warning::None;
     skipped_ = !unit.enabled || !read(unit.when);
     weight_ = skipped_ ? 0.0 : weight(unit.weight);
     std::visit(*this, unit.operation);
@@ -68,9 +68,8 @@ void Runner::run_unit(const Unit& unit) noexcept {
 void Runner::operator()(const ForEach& op) noexcept {
     const std::size_t own = unit_, first = next_;
     const std::vector<detail::Visit>& visits = plan_.units[own].visits;
-    const bool skipped = skipped_;
     hand_out(0, static_cast<double>(visits.size()));
-    if (!skipped && weight_ > 0.0)
+    if (weight_ > 0.0)
         for (place_in_for_each_ = 0; place_in_for_each_ < visits.size(); ++place_in_for_each_) {
             visit_ = &visits[place_in_for_each_];
             next_ = first;
