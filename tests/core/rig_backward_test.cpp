@@ -93,6 +93,72 @@ TEST(RigBackward, KeepsToTheLimitsOfControls) {
     EXPECT_EQ(*report.worst, rig.element("head"));
 }
 
+/// Two bones that one control moves, wanted on either side of where it can have both.
+TEST(RigBackward, SharesWhatIsLeftByLeastSquares) {
+    Definition definition;
+    definition.elements = {
+        {.name = "a"},
+        {.name = "b"},
+        {.name = "place", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Position}}};
+    for (const char* bone : {"a", "b"})
+        definition.units.push_back(
+            {.name = std::string("move ") += bone,
+             .operation =
+                 ParentConstraint{.item = bone, .parents = {{.item = "place"}}, .maintain_offset = false}});
+    for (const double most : {9.0, 0.5, -2.0}) {
+        definition.elements[2].control->maximum = glm::dvec3(most, 9, 9);
+        Held rig(definition);
+        rig.state.elements.put(rig.rig.id(0), Space::Global, at(0, 1, 3));
+        rig.state.elements.put(rig.rig.id(1), Space::Global, at(2, 1, 0));
+        const BackwardReport report = solve_backward(rig.rig, rig.state, rig.workspace);
+        const double x = std::min(most, 1.0);
+        const auto place = std::get<glm::dvec3>(rig.state.controls[2]);
+        EXPECT_NEAR(place.x, x, 1e-6) << most;
+        EXPECT_NEAR(place.y, 1.0, 1e-6) << most;
+        EXPECT_NEAR(place.z, 1.5, 1e-6) << most;
+        EXPECT_NEAR(report.elements[0].metres, std::hypot(x, 1.5), 1e-6);
+        EXPECT_NEAR(report.elements[1].metres, std::hypot(2 - x, 1.5), 1e-6);
+        EXPECT_EQ(*report.worst, x < 1.0 ? 1u : *report.worst);
+    }
+}
+
+/// A bone a metre from the control that turns it, whose place is wanted unturned and whose rotation is wanted
+/// at a right angle: at the least of d^2 + r^2 a^2 its derivative is zero.
+TEST(RigBackward, MetresPerRadianSaysWhatARotationCounts) {
+    Definition definition;
+    definition.elements = {
+        {.name = "root"},
+        {.name = "bone", .parent = "root", .initial = at(1, 0, 0)},
+        {.name = "dial", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Rotation}}};
+    definition.units = {
+        {.name = "turn",
+         .operation =
+             SetRotation{.item = "root", .rotation = FromElement{.element = "dial", .of = Of::Rotation}}}};
+    const double right = std::acos(0.0);
+    for (const double radius : {0.0, 0.1, 0.7, 5.0}) {
+        Held rig(definition);
+        Transform wanted = turned(90, {0, 0, 1});
+        wanted.translation = {1, 0, 0};
+        rig.state.elements.put(rig.rig.id(1), Space::Global, wanted);
+        solve_backward(rig.rig, rig.state, rig.workspace, {.metres_per_radian = radius});
+        const glm::dvec3 tip = rig.global("bone").translation;
+        const double angle = std::atan2(tip.y, tip.x), r = radius > 0.0 ? radius : 1.0;
+        // The root's rotation is wanted at rest.
+        EXPECT_NEAR(std::sin(angle) - r * r * (right - angle) + r * r * angle, 0.0, 1e-4) << radius;
+        EXPECT_NEAR(tip.z, 0.0, 1e-6);
+    }
+}
+
+TEST(RigBackward, CountsScaleAsLeftToo) {
+    Held rig({.elements = {{.name = "a"}, {.name = "b", .parent = "a", .initial = at(1, 0, 0)}}});
+    rig.state.elements.put(rig.rig.id(1), Space::Local, at(1, 0.1, 0));
+    rig.state.elements.put(rig.rig.id(0), Space::Global, {.scale = {1, 1, 1.5}}, Propagate::No);
+    const BackwardReport report = solve_backward(rig.rig, rig.state, rig.workspace);
+    EXPECT_EQ(*report.worst, 0u);
+    EXPECT_NEAR(report.elements[0].scale, 0.5, 1e-12);
+    EXPECT_NEAR(report.elements[1].metres, 0.1, 1e-9);
+}
+
 TEST(RigBackward, TriesSwitchesBothWays) {
     Definition definition = fk_rig(2);
     definition.elements.push_back(

@@ -36,6 +36,12 @@ double mean_length(const Rig& rig, State& state) {
     return count > 0 && sum > 1e-9 ? sum / count : 1.0;
 }
 
+/// Springs that have come to rest are springs that have just begun.
+void forget(State& state) {
+    for (UnitState& unit : state.units)
+        for (UnitMemory& memory : unit.memory) memory.held = std::monostate();
+}
+
 class Descent {
   public:
     Descent(const Rig& rig, State& state, Workspace& workspace, const BackwardOptions& options)
@@ -103,12 +109,6 @@ class Descent {
                 left.insert(left.end(), {part->x, part->y, part->z});
         }
         return left;
-    }
-
-    /// Springs that have come to rest are springs that have just begun.
-    static void forget(State& state) {
-        for (UnitState& unit : state.units)
-            for (UnitMemory& memory : unit.memory) memory.held = std::monostate();
     }
 
     /// Fills the matrix J'J and the gradient J'r from differences.
@@ -206,8 +206,7 @@ BackwardReport solve_backward(const Rig& rig, State& state, Workspace& workspace
         else
             state.controls = best;
     }
-    for (UnitState& unit : state.units)
-        for (UnitMemory& memory : unit.memory) memory.held = std::monostate();
+    forget(state);
     rig.solve(state, 0.0, workspace);
 
     report.elements = residuals(rig, state, wanted);

@@ -123,7 +123,6 @@ class Builder {
                 value = clamped(*element.control, rest_value(*element.control, rest));
                 const Transform pose = posed(*element.control, rest, value);
                 plan_.initial.elements.put(id, Space::Local, pose);
-                plan_.initial.elements.put(id, Space::Local, pose, Propagate::Yes, Pose::Input);
             } else if (element.control) {
                 return invalid("element " + quoted(element.name) +
                                ": only a control can have a control's settings");
