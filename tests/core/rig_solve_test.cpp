@@ -199,7 +199,7 @@ TEST(RigSolve, AChainOfHalfWeightTurnsHalfTheWay) {
     definition.elements = {{.name = "a"},
                            {.name = "b", .parent = "a", .initial = at(0, 1, 0)},
                            {.name = "c", .parent = "b", .initial = at(0.1, 1, 0)}};
-    const glm::dvec3 target(1, 0.8, 0.3);
+    const glm::dvec3 target(1, -0.5, 0.3);
     for (const Operation& operation : {Operation(TwoBone{.root = "a", .tip = "c", .target = target}),
                                        Operation(Fabrik{.root = "a", .tip = "c", .target = target})}) {
         definition.units = {{.name = "reach", .operation = operation}};
@@ -211,7 +211,7 @@ TEST(RigSolve, AChainOfHalfWeightTurnsHalfTheWay) {
         for (const char* bone : {"a", "b"}) {
             const glm::dquat wanted = blend(none.local(bone).rotation, whole.local(bone).rotation, 0.5);
             EXPECT_NEAR(std::abs(glm::dot(half.local(bone).rotation, wanted)), 1.0, 1e-12) << bone;
-            EXPECT_LT(std::abs(glm::dot(whole.local(bone).rotation, wanted)), 0.999) << bone;
+            EXPECT_LT(std::abs(glm::dot(whole.local(bone).rotation, wanted)), 0.99) << bone;
         }
         EXPECT_EQ(half.local("c").translation, none.local("c").translation);
     }
