@@ -135,6 +135,17 @@ bool integer_slider(const char* name, int& value, int low, int high) {
     return changed;
 }
 
+bool text_field(const char* name, std::string& value, const char* hint) {
+    const std::string id = begin_row(name);
+    std::array<char, 1024> text{};
+    value.copy(text.data(), text.size() - 1);
+    const bool entered =
+        ImGui::InputTextWithHint(id.c_str(), hint, text.data(), text.size(),
+                                 ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    if (entered) value = text.data();
+    return entered && !value.empty();
+}
+
 bool point_field(const char* name, glm::vec3& value, float speed, float most, const char* format) {
     bool changed = false;
     for (int i = 0; i < 3; ++i) {

@@ -20,6 +20,8 @@ void note(const std::string& text);
 bool number_field(const char* name, float& value, float speed, float low, float high, const char* format);
 bool integer_field(const char* name, int& value, int low, int high);
 bool integer_slider(const char* name, int& value, int low, int high);
+/// A line of text. What is typed counts with Enter only; `hint` stands there while it is empty.
+bool text_field(const char* name, std::string& value, const char* hint);
 bool point_field(const char* name, glm::vec3& value, float speed, float most = 1e9f,
                  const char* format = "%.3f m");
 /// `why_not`, where given: one for each choice, null for one that can be chosen; else it is grey and the

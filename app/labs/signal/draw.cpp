@@ -35,7 +35,8 @@ void axis(const View& view, DrawList& list, double highest) {
 BallPlaces ball_places(const SignalPart& part) {
     const double input = part.past.empty() ? input_at(part.input, part.time) : part.past.back().input;
     const bool hand = part.input.kind == InputKind::Hand;
-    return {place(-beside, hand ? part.input.hand : input), place(beside, output_of(part))};
+    return {place(-beside, hand ? part.input.hand : input),
+            place(beside, part.recording ? part.recording->value : output_of(part))};
 }
 
 glm::vec3 input_colour(const Palette& palette) {
@@ -74,7 +75,7 @@ void SignalLab::draw(const View& view, DrawList& list) const {
     };
     // Where the output was at equal times before: the eye sees its speed.
     const auto& recent = signal_runtime(view.workspace).recent(part);
-    if (!recent.empty()) {
+    if (!recent.empty() && !part.recording) {
         const std::vector<double>& output = recent.back();
         for (std::size_t back = 3; back <= 12 && back < output.size(); back += 3) {
             const double value = output[output.size() - 1 - back];

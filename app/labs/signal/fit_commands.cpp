@@ -6,26 +6,15 @@
 #include "app/io/samples.hpp"
 #include "app/labs/signal/analysis.hpp"
 #include "app/labs/signal/code.hpp"
+#include "app/labs/signal/recording.hpp"
 #include "app/labs/signal/signal_commands.hpp"
 
 namespace tendril::app {
 namespace {
 
-/// The input that a drawn response answers: the lab's, from its beginning on, or what the hand did last.
-InputRows rows_to_answer(const SignalPart& part) {
-    InputRows rows = part.input.kind == InputKind::Hand ? part.past : measuring_rows(part.input, 60.0);
-    if (rows.size() > most_wanted) {
-        const auto extra = static_cast<std::ptrdiff_t>(rows.size() - most_wanted);
-        if (part.input.kind == InputKind::Hand)
-            rows.erase(rows.begin(), rows.begin() + extra);
-        else
-            rows.resize(most_wanted);
-    }
-    return rows;
-}
-
 /// A stroke over the response that is wanted, which begins as what the chain makes of the input.
 void draw(SignalPart& part, const Arguments& given) {
+    end_recording(part);
     if (part.wanted.empty()) {
         part.fit_input = rows_to_answer(part);
         if (part.fit_input.size() < 2) throw Refused("there is no input yet to answer");
@@ -77,6 +66,7 @@ void take_file(SignalPart& part, const std::string& path) {
 }
 
 void fit(SignalPart& part, const Arguments& given) {
+    end_recording(part);
     if (given.has("to")) {
         const Json& to = given.json("to");
         to.is_string() ? take_file(part, to.get<std::string>()) : take_numbers(part, to);
@@ -103,9 +93,28 @@ void use_fit(SignalPart& part, const Arguments& given) {
 }
 
 void forget(SignalPart& part, const Arguments&) {
+    part.recording.reset();
     part.wanted.clear();
     part.fit_input.clear();
     part.fits.clear();
+}
+
+/// Time has to pass for it.
+void begin(Workspace& workspace, const Arguments&) {
+    change_part<SignalPart>(workspace, signal_lab,
+                            [](SignalPart& part, const SignalPart&) { begin_recording(part); });
+    workspace.clock.playing = true;
+}
+
+void show(SignalPart& part, const Arguments& given) {
+    if (!part.recording) throw Refused("no response is being recorded: signal.fit.record begins");
+    part.recording->value = given.real("value");
+    part.recording->begun = true;
+}
+
+void stop(SignalPart& part, const Arguments&) {
+    if (!part.recording) throw Refused("no response is being recorded");
+    end_recording(part);
 }
 
 std::string csv_of(const SignalPart& part) {
@@ -155,6 +164,16 @@ void add_fit_commands(CommandTable& table) {
         {number("from", "seconds", 1e3), number("from_value", "the response there", most_amplitude),
          number("to", "seconds", 1e3), number("to_value", "the response there", most_amplitude)},
         "Draws a stroke of the response that is wanted", draw));
+    table.add({.name = "signal.fit.record",
+               .arguments = {},
+               .help = "Plays the input from its start, once the output ball is dragged, and records that as "
+                       "the response that is wanted",
+               .apply = begin});
+    table.add(part_command<SignalPart>(signal_lab, "signal.fit.hand",
+                                       {number("value", "where the output should be now", most_amplitude)},
+                                       "Shows the response that is being recorded", show));
+    table.add(part_command<SignalPart>(signal_lab, "signal.fit.stop", {},
+                                       "Ends the recording of a response; what is there is kept", stop));
     table.add(part_command<SignalPart>(
         signal_lab, "signal.fit.use",
         {{.name = "rank", .type = ArgumentType::Integer, .help = "0: the best", .low = 0, .high = 1000}},

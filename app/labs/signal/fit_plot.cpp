@@ -37,7 +37,8 @@ void fit_plot(const SignalPart& part, const Palette& palette, float height, Emit
     for (const double value : part.wanted)
         span.low = std::min(span.low, value), span.high = std::max(span.high, value);
     const double margin = 0.25 * (span.high - span.low), end = time.empty() ? 1.0 : time.back();
-    const PlotAxes axes = time_axes({span.low - margin, span.high + margin}, 0.0, end);
+    PlotAxes axes = time_axes({span.low - margin, span.high + margin}, 0.0, end);
+    if (part.recording) axes.at_x = static_cast<float>(part.time);
     const PlotStroke stroke = plot("fit", curves, axes, height);
     if (!stroke.drawn) return;
     emit.continuously("signal.fit.draw", {{"from", stroke.from.x},

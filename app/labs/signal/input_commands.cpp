@@ -1,6 +1,7 @@
 // What goes in, and whole scenes.
 #include "app/io/samples.hpp"
 #include "app/labs/signal/presets.hpp"
+#include "app/labs/signal/recording.hpp"
 #include "app/labs/signal/signal_commands.hpp"
 
 namespace tendril::app {
@@ -36,16 +37,6 @@ std::shared_ptr<const InputRows> read_rows(const std::string& path) {
     return std::make_shared<const InputRows>(std::move(rows));
 }
 
-/// What the hand did last, from where it first moved on.
-std::shared_ptr<const InputRows> gesture_of(const SignalPart& part) {
-    InputRows rows = part.past;
-    std::size_t still = 0;
-    while (still + 1 < rows.size() && rows[still + 1].input == rows[still].input) ++still;
-    rows.erase(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(still));
-    if (rows.size() < 2) return nullptr;
-    return std::make_shared<const InputRows>(std::move(rows));
-}
-
 void set_input(SignalPart& part, const Arguments& given) {
     SignalInput wanted = part.input;
     if (given.has("kind")) wanted.kind = input_kinds.value(given.text("kind"));
@@ -66,9 +57,11 @@ void set_input(SignalPart& part, const Arguments& given) {
     if (wanted.kind == InputKind::Hand && part.input.kind != InputKind::Hand && !part.past.empty())
         wanted.hand = part.past.back().input;  // the ball stays where it is
     part.input = std::move(wanted);
+    end_recording(part);
 }
 
 void move_hand(SignalPart& part, const Arguments& given) {
+    end_recording(part);
     part.input.kind = InputKind::Hand;
     part.input.hand = given.real("value");
 }

@@ -46,15 +46,28 @@ void measure_rows(const StageMeasures& measures) {
 void fit_rows(const SignalPart& part, Emit& emit) {
     if (part.plot != SignalPlot::Fit) return;
     section("Fit");
-    if (part.wanted.empty()) {
-        note("Draw the response that you want into the plot below, or give a CSV file: Ctrl+K, signal.fit.");
-        if (row_button("Draw from the output", 1, true, "Begins with what the filters make of the input now"))
-            emit("signal.fit.draw", {{"from", -1.0}, {"from_value", 0.0}, {"to", -1.0}, {"to_value", 0.0}});
+    if (part.recording) {
+        note(
+            "Drag the blue ball as the output should move. The input begins when you take hold of it; the "
+            "recording ends when you let go.");
+        if (row_button("Stop", 1)) emit("signal.fit.stop");
         return;
     }
-    if (row_button("Fit", 2, true, "Finds the parameters of every kind of filter")) emit("signal.fit");
-    if (row_button("Forget", 2, true, "Forgets the response that is wanted")) emit("signal.fit.clear");
-    end_row();
+    const char* const recording = "Plays the input from its start while you drag the output ball";
+    if (part.wanted.empty()) {
+        note("Draw the response that you want into the plot, record it by hand, or open a file of it.");
+        if (row_button("Draw from the output", 1, true, "Begins with what the filters make of the input now"))
+            emit("signal.fit.draw", {{"from", -1.0}, {"from_value", 0.0}, {"to", -1.0}, {"to_value", 0.0}});
+        if (row_button("Record by hand", 1, true, recording)) emit("signal.fit.record");
+    } else {
+        if (row_button("Fit", 3, true, "Finds the parameters of every kind of filter")) emit("signal.fit");
+        if (row_button("Record", 3, true, recording)) emit("signal.fit.record");
+        if (row_button("Forget", 3, true, "Forgets the response that is wanted")) emit("signal.fit.clear");
+        end_row();
+    }
+    std::string path;
+    if (text_field("response", path, "CSV file, Enter")) emit("signal.fit", {{"to", path}});
+    if (part.wanted.empty()) return;
     for (std::size_t i = 0; i < part.fits.size(); ++i) {
         const Fit& fit = part.fits[i];
         ImGui::PushID(static_cast<int>(i));

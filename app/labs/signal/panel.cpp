@@ -30,7 +30,7 @@ void input_section(const SignalPart& part, Emit& emit) {
     const char* why_not[6] = {};
     const bool recorded = input.recording || input.kind == InputKind::Hand;
     if (!recorded) why_not[static_cast<int>(InputKind::Recorded)] = "drag the ball first";
-    if (!input.file) why_not[static_cast<int>(InputKind::Csv)] = "signal.input path=... (Ctrl+K)";
+    if (!input.file) why_not[static_cast<int>(InputKind::Csv)] = "give a file below";
     if (choice_field("kind", chosen, titles.data(), 6, why_not))
         emit("signal.input", {{"kind", input_kinds.name(static_cast<InputKind>(chosen))}});
     const bool wave =
@@ -47,6 +47,9 @@ void input_section(const SignalPart& part, Emit& emit) {
         if (number_field("value", hand, 0.01f, -1e6f, 1e6f, "%.3f"))
             emit.continuously("signal.hand", {{"value", hand}});
     }
+    std::string path = input.path;
+    if (text_field("CSV file", path, "path, Enter opens it"))
+        emit("signal.input", {{"kind", "csv"}, {"path", path}});
     note(input_kinds.help(input.kind));
 }
 

@@ -79,7 +79,11 @@ Json save_fits(const SignalPart& part) {
     Json fits = Json::array();
     for (const Fit& fit : part.fits)
         fits.push_back({{"filter", filter_json(fit.filter)}, {"residual", std::min(fit.residual, 1e9)}});
-    return Json{{"input", save_rows(part.fit_input)}, {"wanted", part.wanted}, {"ranking", std::move(fits)}};
+    Json json{{"input", save_rows(part.fit_input)}, {"wanted", part.wanted}, {"ranking", std::move(fits)}};
+    if (const auto& recording = part.recording)
+        json["recording"] = {
+            {"value", recording->value}, {"rows", recording->rows}, {"begun", recording->begun}};
+    return json;
 }
 
 void load_fits(SignalPart& part, const JsonPlace& place) {
@@ -87,6 +91,11 @@ void load_fits(SignalPart& part, const JsonPlace& place) {
     place["wanted"].for_each("values", most_wanted,
                              [&](const JsonPlace& each) { part.wanted.push_back(each.real()); });
     if (part.wanted.size() != part.fit_input.size()) place.fail("input and wanted are of different lengths");
+    if (const auto recording = place.optional("recording")) {
+        if (part.wanted.size() < 2) recording->fail("there is no input to answer");
+        part.recording = {(*recording)["value"].real(-most_amplitude, most_amplitude),
+                          (*recording)["rows"].index(part.wanted.size() - 1), (*recording)["begun"].flag()};
+    }
     place["ranking"].for_each("fits", 100, [&](const JsonPlace& each) {
         const JsonPlace filter = each["filter"];
         part.fits.push_back(

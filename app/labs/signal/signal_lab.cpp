@@ -40,6 +40,7 @@ void SignalLab::add_commands(CommandTable& table) const {
 /// A hand at rest, for as long as the plot shows, moves nothing.
 bool SignalLab::moving(const Workspace& workspace) const {
     const SignalPart& part = signal_part(workspace);
+    if (part.recording && !part.recording->begun) return false;
     if (part.input.kind != InputKind::Hand || part.past.size() < most_past) return true;
     const double first = part.past.front().input;
     const bool still = std::all_of(part.past.begin(), part.past.end(),
@@ -59,19 +60,34 @@ void SignalLab::timeline(const Workspace& workspace, Emit& emit) const {
 }
 
 std::vector<Handle> SignalLab::handles(const Workspace& workspace) const {
-    const BallPlaces places = ball_places(signal_part(workspace));
+    const SignalPart& part = signal_part(workspace);
+    const BallPlaces places = ball_places(part);
     return {{"hand", hand_pick, {places.input}},
-            {.name = "output", .pick = output_pick, .frame = {places.output}, .drag = Drag::Nothing}};
+            {.name = "output",
+             .pick = output_pick,
+             .frame = {places.output},
+             .drag = part.recording ? Drag::Position : Drag::Nothing}};
 }
 
-void SignalLab::drag(const Workspace&, PickId pick, const Handle::Frame& frame, Emit& emit) const {
-    if (pick != hand_pick) return;
-    const double value = static_cast<double>(frame.position.y - ball_level);
-    emit.continuously("signal.hand", {{"value", std::clamp(value, -most_amplitude, most_amplitude)}});
+void SignalLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const {
+    const double height = static_cast<double>(frame.position.y - ball_level);
+    const double value = std::clamp(height, -most_amplitude, most_amplitude);
+    if (pick == hand_pick) emit.continuously("signal.hand", {{"value", value}});
+    if (pick == output_pick && signal_part(workspace).recording)
+        emit.continuously("signal.fit.hand", {{"value", value}});
+}
+
+/// One step to undo, with the drag.
+void SignalLab::drop(const Workspace& workspace, PickId pick, Emit& emit) const {
+    const auto& recording = signal_part(workspace).recording;
+    if (pick == output_pick && recording && recording->begun) emit.continuously("signal.fit.stop");
 }
 
 std::string SignalLab::hint(const Workspace& workspace, PickId pick) const {
-    const bool hand = signal_part(workspace).input.kind == InputKind::Hand;
+    const SignalPart& part = signal_part(workspace);
+    const bool hand = part.input.kind == InputKind::Hand;
+    if (pick == output_pick && part.recording)
+        return "The output: drag it as it should move; letting go ends the recording.";
     if (pick == hand_pick)
         return hand ? "The input: drag it up and down." : "The input: drag it to take it over by hand.";
     if (pick == output_pick) return "The output of the whole chain.";
@@ -84,6 +100,7 @@ std::vector<Shortcut> SignalLab::shortcuts() const {
 
 std::vector<MouseHelp> SignalLab::mouse_help() const {
     return {{"Left drag on the orange ball", "makes the hand's height the input"},
+            {"Left drag on the blue ball, after Record", "shows the response that is wanted"},
             {"Mouse over a plot", "reads every curve at that time"},
             {"Left drag in the plot Fit", "draws the response that is wanted"},
             {"Curve: drag, double-click, right-click", "moves, adds, removes a key"}};
@@ -122,6 +139,8 @@ Json SignalLab::state(const Workspace& workspace) const {
                 {"seconds", part.time},
                 {"selected", part.selected ? Json(*part.selected) : Json(nullptr)},
                 {"plot", signal_plots.name(part.plot)},
+                {"wanted", part.recording ? part.recording->rows : part.wanted.size()},
+                {"recording", part.recording.has_value()},
                 {"fits", std::move(fits)}};
 }
 

@@ -31,6 +31,7 @@ class SignalLab final : public Lab {
 
     std::vector<Handle> handles(const Workspace& workspace) const override;
     void drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const override;
+    void drop(const Workspace& workspace, PickId pick, Emit& emit) const override;
     std::string hint(const Workspace& workspace, PickId pick) const override;
     Bounds bounds(const Workspace& workspace, bool selection_only) const override;
 

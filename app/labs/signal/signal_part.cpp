@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "app/labs/signal/recording.hpp"
+
 namespace tendril::app {
 
 SignalPart first_signal() {
@@ -32,6 +34,7 @@ double output_of(const SignalPart& part) {
 }
 
 void pass_signal_time(SignalPart& part, double dt) {
+    if (part.recording && !part.recording->begun) return;
     part.time += dt;
     const double input = input_at(part.input, part.time);
     double value = input;
@@ -39,6 +42,7 @@ void pass_signal_time(SignalPart& part, double dt) {
         if (stage.enabled) value = signal::step(stage.filter, stage.state, value, dt);
     if (part.past.size() >= most_past) part.past.erase(part.past.begin());
     part.past.push_back({dt, input});
+    record(part);
 }
 
 /// A chain of other filters than then comes back whole.
@@ -57,6 +61,8 @@ std::shared_ptr<const Part> SignalPart::at_moment(std::shared_ptr<const Part> th
     part->fit_input = fit_input;
     part->wanted = wanted;
     part->fits = fits;
+    part->recording = recording;
+    end_recording(*part);  // nobody goes on with it at another time
     return part;
 }
 
@@ -73,7 +79,7 @@ std::size_t SignalPart::bytes() const {
 bool SignalPart::operator==(const SignalPart& other) const {
     const auto values = [](const SignalPart& part) {
         return std::tie(part.stages, part.input, part.time, part.past, part.selected, part.plot,
-                        part.fit_input, part.wanted);
+                        part.fit_input, part.wanted, part.recording);
     };
     const auto same_fit = [](const Fit& a, const Fit& b) {
         return a.filter == b.filter && a.residual == b.residual;

@@ -35,6 +35,14 @@ inline constexpr EnumNames<SignalPlot, 3> signal_plots{
       "Every kind of filter on this input: those of the chain as they are set."},
      {"fit", "Fit", "The response that is wanted, and the filters that come nearest to it."}}};
 
+/// A response that a hand shows: the input plays from its start, and the output ball goes with the hand.
+struct Recording {
+    double value = 0.0;    ///< where the hand is
+    std::size_t rows = 0;  ///< of the response that are there
+    bool begun = false;    ///< not before the hand has the ball: until then time stands
+    bool operator==(const Recording&) const = default;
+};
+
 struct SignalPart final : Part {
     std::vector<SignalStage> stages;
     SignalInput input;
@@ -45,7 +53,8 @@ struct SignalPart final : Part {
     /// The response that filters are fitted to, and the input that it is to come from.
     InputRows fit_input;
     std::vector<double> wanted;
-    std::vector<Fit> fits;  ///< the best first
+    std::optional<Recording> recording;  ///< of `wanted`, which has a row for each of the input's
+    std::vector<Fit> fits;               ///< the best first
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<SignalPart>(*this); }
     Json save() const override;

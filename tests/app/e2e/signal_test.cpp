@@ -61,6 +61,108 @@ TEST(SignalInTheWindow, AResponseIsDrawnWithTheMouse) {
     EXPECT_TRUE(state_after(script).at("fits").empty()) << "what was drawn is undone in one step";
 }
 
+TEST(SignalInTheWindow, AResponseIsShownWithTheOutputBall) {
+    const ScriptText before = ScriptText()
+                                  .command("lab.open", {{"name", "signal"}})
+                                  .command("signal.input", {{"kind", "square"}, {"period", 4}})
+                                  .wait(40)
+                                  .command("signal.fit.record")
+                                  .wait(30);
+    const Json armed = state_after(before);
+    EXPECT_EQ(armed.at("seconds"), 0.0) << "it waits for the hand";
+    const glm::vec2 at = handle(armed, "output");
+    ScriptText script = before;
+    script.move(at).down();
+    for (int i = 1; i <= 10; ++i) script.move(at - glm::vec2(0.0f, 5.0f * static_cast<float>(i)));
+    script.wait(20).up().wait(20);
+    const Json state = state_after(script);
+    EXPECT_EQ(state.at("recording"), false) << "letting go ends it";
+    EXPECT_GT(state.at("wanted").get<int>(), 25);
+    EXPECT_LT(state.at("wanted").get<int>(), 40);
+    EXPECT_EQ(state.at("input_kind"), "square") << "the input is not the hand";
+    const Json undone = state_after(script.command("undo"));
+    EXPECT_EQ(undone.at("recording"), true) << "the drag is one step";
+    EXPECT_EQ(undone.at("seconds"), 0.0);
+}
+
+/// The editor of a curve with three keys, at the end of the panel; nothing moves.
+class CurveInTheWindow : public testing::Test {
+  protected:
+    CurveInTheWindow() {
+        const Json keys = {{{"time", 0}, {"value", 0}, {"piece", "cubic"}},
+                           {{"time", 0.5}, {"value", 0.8}, {"piece", "cubic"}},
+                           {{"time", 1}, {"value", 1}}};
+        script.command("lab.open", {{"name", "signal"}})
+            .command("time.pause")
+            .command("signal.clear")
+            .command("signal.filter.add", {{"kind", "curve"}, {"keys", keys}})
+            .wait(3);
+    }
+    Json state() { return play(script, {.more = {"--size", "1280x1200"}}).state; }
+    Json keys() { return state().at("filters").at(0).at("keys"); }
+    static constexpr glm::vec2 middle{128.0f, 856.0f};  ///< the key at 0.5
+    ScriptText script;
+};
+
+TEST_F(CurveInTheWindow, AKeyIsDraggedAndThatIsOneStep) {
+    script.drag({middle, middle + glm::vec2(10.0f, 10.0f), middle + glm::vec2(22.0f, 30.0f)}).wait(2);
+    const Json moved = keys();
+    ASSERT_EQ(moved.size(), 3u);
+    EXPECT_NEAR(moved[1].at("time").get<double>(), 0.6, 0.02);
+    EXPECT_NEAR(moved[1].at("value").get<double>(), 0.6, 0.05);
+    EXPECT_EQ(moved[1].at("piece"), "cubic");
+    EXPECT_EQ(moved[0], keys()[0]);
+    script.command("undo").wait(2);
+    EXPECT_NEAR(keys()[1].at("time").get<double>(), 0.5, 1e-9);
+    EXPECT_NEAR(keys()[1].at("value").get<double>(), 0.8, 1e-9);
+}
+
+TEST_F(CurveInTheWindow, AKeyStaysBetweenItsNeighbours) {
+    script.drag({middle, middle + glm::vec2(20.0f, 0.0f), middle + glm::vec2(300.0f, 0.0f)}).wait(2);
+    const double time = keys()[1].at("time").get<double>();
+    EXPECT_LT(time, 1.0);
+    EXPECT_GT(time, 0.99);
+}
+
+TEST_F(CurveInTheWindow, ADoubleClickAddsAKeyAndARightClickRemovesIt) {
+    const glm::vec2 free = middle + glm::vec2(-60.0f, -10.0f);
+    script.click(free).click(free).wait(2);
+    const Json added = keys();
+    ASSERT_EQ(added.size(), 4u);
+    EXPECT_NEAR(added[1].at("time").get<double>(), 0.22, 0.02);
+    EXPECT_EQ(added[1].at("piece"), "cubic") << "it goes on as the key before it";
+    script.move(free).down("right").up("right").wait(2);
+    const Json removed = keys();
+    ASSERT_EQ(removed.size(), 3u);
+    EXPECT_EQ(removed[1].at("time"), 0.5);
+    script.move(middle).down("right").up("right").wait(2);
+    EXPECT_EQ(keys().size(), 2u) << "any key";
+    script.command("undo").command("undo").command("undo");
+    EXPECT_EQ(keys().size(), 3u);
+}
+
+TEST_F(CurveInTheWindow, ATangentIsDraggedByItsEnd) {
+    // Its handle lies a fixed length to the right of a key that is level there.
+    script.click(middle).wait(2);
+    const glm::vec2 end = middle + glm::vec2(39.0f, 0.0f);
+    script.drag({end, end + glm::vec2(0.0f, -10.0f), end + glm::vec2(-10.0f, -30.0f)}).wait(2);
+    const Json key = keys()[1];
+    EXPECT_GT(key.value("leave", 0.0), 0.5);
+    EXPECT_EQ(key.value("arrive", 0.0), 0.0);
+    EXPECT_EQ(key.at("time"), 0.5);
+}
+
+TEST(SignalInTheWindow, AFileIsTypedIntoThePanel) {
+    const TempFolder folder;
+    write(folder / "rows.csv", "dt,input\n0.5,7\n0.5,-7\n");
+    ScriptText script = ScriptText().command("lab.open", {{"name", "signal"}}).wait(2);
+    script.click({170.0f, 466.0f}).text((folder / "rows.csv").c_str());
+    EXPECT_EQ(state_after(script).at("input_kind"), "square") << "not before Enter";
+    const Json state = state_after(script.key("enter").wait(10));
+    EXPECT_EQ(state.at("input_kind"), "csv");
+    EXPECT_EQ(state.at("input"), 7.0);
+}
+
 TEST(SignalInTheWindow, AHandAtRestLetsTheWindowIdle) {
     ScriptText script = signal_lab().wait(650);
     const Json rested = state_after(script), later = state_after(script.wait(100));

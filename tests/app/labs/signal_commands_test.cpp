@@ -180,6 +180,89 @@ TEST_F(SignalCommands, AResponseIsDrawnOverWhatTheFiltersMake) {
     EXPECT_NE(refused("signal.fit").find("no response"), std::string::npos);
 }
 
+TEST_F(SignalCommands, AResponseIsRecordedByHand) {
+    run("signal.input", {{"kind", "square"}, {"period", 4}});
+    wait(77);
+    run("signal.fit.record");
+    EXPECT_TRUE(state().at("recording").get<bool>());
+    EXPECT_TRUE(workspace.clock.playing);
+    EXPECT_FALSE(lab().moving(workspace)) << "it begins with the hand";
+    wait(10);
+    EXPECT_EQ(state().at("seconds"), 0.0);
+    run("signal.fit.hand", {{"value", -0.5}});
+    EXPECT_TRUE(lab().moving(workspace));
+    wait(30);
+    EXPECT_EQ(state().at("input"), 1.0) << "the input plays from its start";
+    run("signal.fit.hand", {{"value", 0.75}});
+    wait(15);
+    EXPECT_EQ(state().at("wanted"), 46);
+    run("signal.fit.stop");
+    EXPECT_FALSE(state().at("recording").get<bool>());
+    ASSERT_EQ(part().wanted.size(), 46u);
+    ASSERT_EQ(part().fit_input.size(), 46u);
+    for (std::size_t i = 0; i < 46; ++i) EXPECT_EQ(part().wanted[i], i <= 30 ? -0.5 : 0.75) << i;
+    run("signal.fit");
+    EXPECT_EQ(part().fits.size(), signal::kinds().size());
+}
+
+TEST_F(SignalCommands, ARecordedResponseEndsWithItsInput) {
+    run("signal.input", {{"kind", "square"}, {"period", 2}});
+    run("signal.fit.record");
+    run("signal.fit.hand", {{"value", 0.25}});
+    wait(239);
+    EXPECT_TRUE(state().at("recording").get<bool>());
+    wait(1);
+    EXPECT_FALSE(state().at("recording").get<bool>());
+    EXPECT_EQ(part().wanted, std::vector<double>(241, 0.25));
+    EXPECT_EQ(part().fit_input.size(), 241u);
+    EXPECT_NE(refused("signal.fit.hand", {{"value", 0}}).find("no response is being recorded"),
+              std::string::npos);
+    EXPECT_NE(refused("signal.fit.stop").find("no response"), std::string::npos);
+}
+
+TEST_F(SignalCommands, AGestureIsTheInputThatARecordedResponseAnswers) {
+    run("signal.hand", {{"value", 0}});
+    EXPECT_NE(refused("signal.fit.record").find("drag the orange ball"), std::string::npos);
+    for (int i = 0; i < 50; ++i) {
+        run("signal.hand", {{"value", 0.1 * i}});
+        wait(1);
+    }
+    run("signal.fit.record");
+    EXPECT_EQ(state().at("input_kind"), "recorded");
+    run("signal.fit.hand", {{"value", 1}});
+    wait(20);
+    EXPECT_GT(state().at("input").get<double>(), 1.0) << "it is played";
+    run("signal.fit.stop");
+    EXPECT_EQ(part().wanted.size(), 21u);
+}
+
+TEST_F(SignalCommands, WhatChangesTheInputEndsARecording) {
+    const auto recording = [&] {
+        run("signal.fit.record");
+        run("signal.fit.hand", {{"value", 0.25}});
+        wait(10);
+    };
+    const std::pair<const char*, Json> changes[] = {
+        {"signal.input", {{"kind", "sine"}}},
+        {"signal.hand", {{"value", 1}}},
+        {"signal.preset", {{"name", "spring"}}},
+        {"signal.fit.clear", Json::object()},
+        {"signal.fit", Json::object()},
+        {"signal.fit.draw", {{"from", 0}, {"from_value", 0}, {"to", 0.1}, {"to_value", 1}}}};
+    for (const auto& [command, arguments] : changes) {
+        run("signal.reset");
+        recording();
+        run(command, arguments);
+        EXPECT_FALSE(state().at("recording").get<bool>()) << command;
+        EXPECT_EQ(part().wanted.size(), part().fit_input.size()) << command;
+        wait(5);
+    }
+    run("signal.reset");
+    run("signal.fit.record");
+    run("signal.fit.stop");
+    EXPECT_TRUE(part().wanted.empty()) << "less than two rows are nothing";
+}
+
 TEST_F(SignalCommands, EveryPresetMakesItsPoint) {
     for (const SignalPreset& preset : signal_presets()) {
         run("signal.preset", {{"name", preset.name}});

@@ -40,8 +40,27 @@ TEST_F(SignalFile, AChainOfEveryKindGoesThroughAFileAndOnFromThere) {
     EXPECT_TRUE(again == here) << "a replay starts exactly where it stopped";
 }
 
+TEST_F(SignalFile, ARecordingGoesOnWhereItWasSaved) {
+    run("signal.fit.record");
+    const auto armed = part().load(part().save(), "labs.signal");
+    EXPECT_TRUE(dynamic_cast<const SignalPart&>(*armed) == part());
+    run("signal.fit.hand", {{"value", 0.5}});
+    wait(20);
+    const auto loaded = part().load(part().save(), "labs.signal");
+    EXPECT_TRUE(dynamic_cast<const SignalPart&>(*loaded) == part());
+    SignalPart again = dynamic_cast<const SignalPart&>(*loaded), here = part();
+    for (int i = 0; i < 300; ++i) {
+        pass_signal_time(again, tick_seconds);
+        pass_signal_time(here, tick_seconds);
+    }
+    EXPECT_FALSE(here.recording);
+    EXPECT_TRUE(again == here);
+}
+
 TEST_F(SignalFile, ABrokenFileIsRefusedWithItsPlace) {
     every_kind();
+    run("signal.fit.record");
+    run("signal.fit.hand", {{"value", 0.5}});
     wait(5);
     const Json saved = part().save();
     struct Bad {
@@ -64,6 +83,9 @@ TEST_F(SignalFile, ABrokenFileIsRefusedWithItsPlace) {
         {"/selected", 99, "labs.signal.selected"},
         {"/plot", "sponge", "labs.signal.plot"},
         {"/fit/wanted", Json::array({1, 2}), "labs.signal.fit"},
+        {"/fit/recording/rows", 9999, "labs.signal.fit.recording.rows"},
+        {"/fit/recording/value", 1e8, "labs.signal.fit.recording.value"},
+        {"/fit/recording/begun", 1, "labs.signal.fit.recording.begun"},
         {"/filters", 3, "labs.signal.filters"},
     };
     for (const Bad& bad : all) {
