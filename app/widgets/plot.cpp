@@ -109,7 +109,12 @@ class Plot {
         const float at = axes_.from_x + (most_x_ - axes_.from_x) * (mouse.x - from_.x) / (to_.x - from_.x);
         list_->AddLine({mouse.x, from_.y}, {mouse.x, to_.y}, dim());
         ImGui::BeginTooltip();
-        ImGui::TextDisabled("%s %s", axes_.x, short_text(static_cast<double>(at), axes_.x_unit).c_str());
+        // "time, s" over the marks is "time 1.5 s" here.
+        const std::string title = axes_.x;
+        const std::size_t comma = std::min(title.find(", "), title.size());
+        const std::string unit = comma < title.size() ? title.substr(comma + 1) : "";
+        ImGui::TextDisabled("%s %s%s", title.substr(0, comma).c_str(),
+                            short_text(static_cast<double>(at), axes_.x_unit).c_str(), unit.c_str());
         for (const Curve& curve : curves_) {
             const float value = value_at(curve, at);
             if (std::isnan(value)) continue;

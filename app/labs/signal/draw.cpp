@@ -33,9 +33,8 @@ void axis(const View& view, DrawList& list, double highest) {
 }  // namespace
 
 BallPlaces ball_places(const SignalPart& part) {
-    const double input = part.past.empty() ? input_at(part.input, part.time) : part.past.back().input;
     const bool hand = part.input.kind == InputKind::Hand;
-    return {place(-beside, hand ? part.input.hand : input),
+    return {place(-beside, hand ? part.input.hand : input_of(part)),
             place(beside, part.recording ? part.recording->value : output_of(part))};
 }
 

@@ -92,7 +92,7 @@ void SignalLab::inspector(const Workspace& workspace, Emit& emit) const {
     const Palette& colours = palette(workspace.settings.theme);
     const ChainAnalysis& analysis = signal_runtime(workspace).chain(part);
     section("Now");
-    reading("input", "%.3f", part.past.empty() ? 0.0 : part.past.back().input);
+    reading("input", "%.3f", input_of(part));
     const double output = output_of(part);
     if (std::abs(output) < 1e6)
         reading("output", "%.3f", output);

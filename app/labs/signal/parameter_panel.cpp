@@ -91,9 +91,7 @@ void parameter_rows(const SignalPart& part, const Palette& palette, Emit& emit) 
     if (const auto* spring = std::get_if<signal::Spring<>>(&filter)) spring_rows(*spring, at, emit);
     if (const auto* curve = std::get_if<signal::Curve>(&filter)) {
         signal::Curve edited = *curve;
-        const double before = at > 0              ? output_of(part, at - 1)
-                              : part.past.empty() ? 0.0
-                                                  : part.past.back().input;
+        const double before = at > 0 ? output_of(part, at - 1) : input_of(part);
         const double range = curve->source_max - curve->source_min;
         const double input = range != 0.0 ? (before - curve->source_min) / range : 0.0;
         if (curve_editor("curve", edited, stage_colour(palette, part, at), 11.0f, input))

@@ -130,7 +130,7 @@ Json SignalLab::state(const Workspace& workspace) const {
     for (const Fit& fit : part.fits)
         fits.push_back({{"filter", filter_json(fit.filter)}, {"residual", fit.residual}});
     return Json{{"lab", signal_lab},
-                {"input", part.past.empty() ? input_at(part.input, part.time) : part.past.back().input},
+                {"input", input_of(part)},
                 {"input_kind", input_kinds.name(part.input.kind)},
                 {"amplitude", part.input.amplitude},
                 {"period", part.input.period},

@@ -21,12 +21,16 @@ std::vector<signal::Filter> enabled_filters(const SignalPart& part) {
     return filters;
 }
 
+double input_of(const SignalPart& part) {
+    return part.past.empty() ? input_at(part.input, part.time) : part.past.back().input;
+}
+
 double output_of(const SignalPart& part, std::size_t stage) {
     for (std::size_t i = std::min(stage + 1, part.stages.size()); i-- > 0;) {
         const SignalStage& each = part.stages[i];
         if (each.enabled && signal::started(each.state)) return signal::value(each.state);
     }
-    return part.past.empty() ? 0.0 : part.past.back().input;
+    return input_of(part);
 }
 
 double output_of(const SignalPart& part) {

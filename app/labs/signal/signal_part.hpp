@@ -39,7 +39,7 @@ inline constexpr EnumNames<SignalPlot, 3> signal_plots{
 struct Recording {
     double value = 0.0;    ///< where the hand is
     std::size_t rows = 0;  ///< of the response that are there
-    bool begun = false;    ///< not before the hand has the ball: until then time stands
+    bool begun = false;    ///< not before the hand has the ball: no tick passes before
     bool operator==(const Recording&) const = default;
 };
 
@@ -70,6 +70,8 @@ SignalPart first_signal();
 
 /// The filters that are on, in their order.
 std::vector<signal::Filter> enabled_filters(const SignalPart& part);
+/// The input that went in last; before the first, the one that will.
+double input_of(const SignalPart& part);
 /// The last output; the last input where no filter has anything to say yet.
 double output_of(const SignalPart& part);
 /// The same of one stage.
