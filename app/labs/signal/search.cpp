@@ -40,7 +40,6 @@ class Minimiser {
             improve(NLOPT_LN_SBPLX, at, first_step(), 60);
         }
         for (int round = 0; round < rounds && !enough(); ++round) {
-            for (const std::size_t d : search_.stepped) neighbours(d);
             improve(NLOPT_LN_SBPLX, best_.at, 0.03, 250);
             if (!enough()) improve(NLOPT_LN_NELDERMEAD, best_.at, 0.003, 250);
         }
@@ -111,24 +110,6 @@ class Minimiser {
             }
         }
         return at;
-    }
-
-    /// Another threshold may do better once the rest has followed it: the best few others are improved in
-    /// turn.
-    void neighbours(std::size_t d) {
-        constexpr int cells = 192;
-        std::vector<Candidate> levels;
-        for (int i = 0; i <= cells; ++i) {
-            Point at = best_.at;
-            at[d] = static_cast<double>(i) / cells;
-            const double there = value(at);
-            if (levels.empty() || levels.back().value != there) levels.push_back({there, std::move(at)});
-        }
-        std::stable_sort(levels.begin(), levels.end(),
-                         [](const Candidate& a, const Candidate& b) { return a.value < b.value; });
-        if (levels.size() > 6) levels.resize(6);
-        for (const Candidate& level : levels)
-            if (!enough()) improve(NLOPT_LN_SBPLX, level.at, 0.03, 60);
     }
 
     void improve(nlopt_algorithm algorithm, Point at, double step, std::size_t evaluations_each) {

@@ -31,11 +31,12 @@ double noise(double time, double period) {
     return 0.9 * drift + 0.1 * shuffled(2 * static_cast<std::int64_t>(std::floor(60.0 * time + 1e-6)) + 1);
 }
 
-/// The row of a recording that a time falls into: each holds for the dt that ends with it.
+/// The row of a recording that a time falls into: each holds for the dt that ends with it. It begins with the
+/// first; later its end is the last one's.
 double played(const InputRows* rows, double time) {
     const double length = length_of(rows);
     if (length <= 0.0) return 0.0;
-    double left = time - std::floor(time / length) * length;
+    double left = time > 0.0 ? phase(time, length) * length : 0.0;
     for (const signal::Sample& row : *rows) {
         left -= std::max(row.dt, 0.0);
         if (left <= 1e-9) return row.input;

@@ -151,7 +151,12 @@ std::vector<TestScene> SignalLab::test_scenes() const {
                                     {"signal.hand", {{"value", 0.5f}}}},
                                    words},
                                   {"selected", {{"signal.select", {{"at", 0}}}}, words},
-                                  {"empty", {{"signal.clear", {}}}, words}};
+                                  {"empty", {{"signal.clear", {}}}, words},
+                                  {"recording",
+                                   {{"signal.input", {{"kind", "square"}, {"period", 0.5f}}},
+                                    {"signal.fit.record", {}},
+                                    {"signal.fit.hand", {{"value", 0.25f}}}},
+                                   words}};
     for (const SignalPreset& preset : signal_presets())
         scenes.push_back({preset.name, {{"signal.preset", {{"name", preset.name}}}}, words});
     return scenes;

@@ -39,7 +39,7 @@ inline constexpr EnumNames<SignalPlot, 3> signal_plots{
 struct Recording {
     double value = 0.0;    ///< where the hand is
     std::size_t rows = 0;  ///< of the response that are there
-    bool begun = false;    ///< not before the hand has the ball: no tick passes before
+    bool begun = false;    ///< the hand has the ball; no tick passes before
     bool operator==(const Recording&) const = default;
 };
 

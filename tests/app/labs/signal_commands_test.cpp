@@ -236,6 +236,22 @@ TEST_F(SignalCommands, AGestureIsTheInputThatARecordedResponseAnswers) {
     EXPECT_EQ(part().wanted.size(), 21u);
 }
 
+TEST_F(SignalCommands, ARecordingStartsAfreshAndIsNoLongerThanAFitTakes) {
+    run("signal.input", {{"kind", "sine"}, {"period", 9}});
+    wait(50);
+    run("signal.fit.record");
+    EXPECT_TRUE(part().past.empty());
+    EXPECT_EQ(part().wanted.size(), most_wanted);
+    EXPECT_FALSE(signal::started(part().stages[0].state)) << "filters remember nothing";
+    for (int i = 0; i < 400; ++i) {
+        run("signal.hand", {{"value", 0.01 * i}});
+        wait(1);
+    }
+    run("signal.fit.draw", {{"from", 0}, {"from_value", 0}, {"to", 0.1}, {"to_value", 1}});
+    ASSERT_EQ(part().wanted.size(), most_wanted);
+    EXPECT_EQ(part().fit_input.back().input, part().past.back().input) << "of a hand the last rows";
+}
+
 TEST_F(SignalCommands, WhatChangesTheInputEndsARecording) {
     const auto recording = [&] {
         run("signal.fit.record");

@@ -158,6 +158,41 @@ TEST(SignalInputs, ASquareWaveIsUpRightAfterItsJump) {
     EXPECT_EQ(input_at(input, 2.0), -2.0);
 }
 
+TEST(SignalInputs, ARecordingPlaysEachOfItsRowsOverAndOver) {
+    InputRows rows;
+    for (int i = 0; i < 7; ++i) rows.push_back({1.0 / 60.0, 10.0 + i});
+    const SignalInput input{.kind = InputKind::Recorded,
+                            .recording = std::make_shared<const InputRows>(rows)};
+    EXPECT_EQ(input_at(input, 0.0), 10.0);
+    double time = 0.0;
+    for (int tick = 0; tick < 700; ++tick) {
+        time += 1.0 / 60.0;
+        ASSERT_EQ(input_at(input, time), 10.0 + tick % 7) << tick;
+    }
+}
+
+TEST(SignalInputs, AFilesRowsHoldForTheirDt) {
+    const InputRows rows{{0.1, 1.0}, {0.0, 5.0}, {0.3, -2.0}};
+    const SignalInput input{.kind = InputKind::Csv, .file = std::make_shared<const InputRows>(rows)};
+    for (const double start : {0.0, 0.4, 40.0}) {
+        EXPECT_EQ(input_at(input, start + 0.05), 1.0);
+        EXPECT_EQ(input_at(input, start + 0.1), 1.0) << "up to its end";
+        EXPECT_EQ(input_at(input, start + 0.11), -2.0) << "a row without time is never seen";
+        EXPECT_EQ(input_at(input, start + 0.4), -2.0);
+    }
+}
+
+TEST(SignalInputs, MeasuringTakesTenSecondsAtMost) {
+    const auto seconds = [](const SignalInput& input) {
+        return signal::times_of(measuring_rows(input, 60.0)).back();
+    };
+    EXPECT_NEAR(seconds({.kind = InputKind::Sine, .period = 60.0}), 10.0, 1e-6);
+    EXPECT_NEAR(seconds({.kind = InputKind::Sine, .period = 0.3}), 14 * 0.3, 1e-6) << "whole periods";
+    const auto rows = std::make_shared<const InputRows>(InputRows{{15.0, 1.0}, {15.0, 2.0}});
+    EXPECT_NEAR(seconds({.kind = InputKind::Csv, .file = rows}), 10.0, 1e-6);
+    EXPECT_TRUE(measuring_rows({.kind = InputKind::Hand}, 60.0).empty());
+}
+
 TEST(SignalInputs, AreFiniteAndWithinTheirAmplitude) {
     for (const InputKind kind : {InputKind::Square, InputKind::Sine, InputKind::Noise}) {
         const SignalInput input{.kind = kind, .amplitude = 3.0, .period = 0.7};

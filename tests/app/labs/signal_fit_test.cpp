@@ -6,6 +6,8 @@
 #include <string>
 
 #include "app/labs/signal/fit.hpp"
+#include "app/labs/signal/fit_space.hpp"
+#include "app/labs/signal/signal_input.hpp"
 #include "tests/core/random.hpp"
 
 namespace tendril::app {
@@ -184,6 +186,55 @@ TEST(Fit, FindsThresholdsWhereTheInputPassesThemSlowly) {
     EXPECT_NEAR(std::get<signal::Hysteresis>(fit.filter).high, 0.47, 0.02 * 0.47);
 }
 
+TEST(Fit, OfEqualResidualsTheSimplerFilterRanksFirst) {
+    const signal::Filter spring = signal::Spring<>{.strength = 3.0, .critical_damping = 0.8},
+                         simple = signal::InterpToExact{.speed = 5.0}, worse = signal::DeadZone{};
+    signal::Curve curve;
+    std::vector<Fit> fits{{worse, 1e-3}, {curve, 0.0}, {spring, 1e-9}, {simple, 5e-7}};
+    rank(fits);
+    EXPECT_EQ(fits[0].filter, simple) << "both are exact";
+    EXPECT_EQ(fits[1].filter, spring);
+    EXPECT_EQ(fits[2].filter, signal::Filter(curve)) << "its keys have two numbers each";
+    EXPECT_EQ(fits[3].filter, worse);
+}
+
+TEST(Fit, OfANoisyLineHasNoMoreStagesThanItNeeds) {
+    test::Random random(8);
+    const Samples samples = rich_input(200, 3, false);
+    std::vector<double> response;
+    for (const signal::Sample& sample : samples) {
+        const double noise = between(random, -0.05, 0.05);
+        response.push_back(2.0 * sample.input + 0.3 + noise);
+    }
+    const Fit fit = fit_kind(*signal::find_kind("scale_bias_clamp"), {samples, response});
+    const auto& line = std::get<signal::ScaleBiasClamp>(fit.filter);
+    EXPECT_FALSE(line.clamp);
+    EXPECT_FALSE(line.interp);
+    EXPECT_NEAR(line.scale, 2.0, 0.04);
+    EXPECT_NEAR(line.bias, 0.3, 0.02);
+}
+
+TEST(Fit, TheFirstRowOfMeasuringTakesNoTimeThatCounts) {
+    const InputRows rows = measuring_rows({.kind = InputKind::Square, .amplitude = 2.0, .period = 1.0}, 60.0);
+    const std::vector<double> response(rows.size(), 0.0);
+    const FitFacts facts({rows, response});
+    EXPECT_NEAR(facts.shortest, 1.0 / 60.0, 1e-12);
+    EXPECT_NEAR(facts.duration, 4.0, 1e-6);
+    EXPECT_EQ(facts.largest_jump, 4.0);
+    EXPECT_EQ(facts.input_range(), 4.0);
+}
+
+TEST(Fit, LeavesWhatTheInputSaysNothingOfAtItsDefault) {
+    Samples samples;
+    for (int i = 0; i < 90; ++i) samples.push_back({1.0 / 60.0, i < 10 ? 0.0 : 1.0});
+    const signal::Filter truth = signal::RateLimit{.rise = 3.0, .fall = 77.0};
+    const std::vector<double> response = signal::run({&truth, 1}, samples);
+    const Fit fit = fit_kind(signal::kind_of(truth), {samples, response});
+    EXPECT_LT(fit.residual, 1e-6);
+    EXPECT_NEAR(std::get<signal::RateLimit>(fit.filter).rise, 3.0, 0.01);
+    EXPECT_EQ(std::get<signal::RateLimit>(fit.filter).fall, signal::RateLimit{}.fall) << "it never falls";
+}
+
 TEST(Fit, OfANoisyResponseIsAsGoodAsItsNoise) {
     test::Random random(3);
     const Samples samples = rich_input(400, 2, false);
@@ -213,6 +264,8 @@ TEST(Fit, BeginsFromWhatItIsGivenToo) {
     const std::vector<double> response = signal::run({&truth, 1}, samples);
     const Fit fit = fit_kind(signal::kind_of(truth), {samples, response}, &truth);
     EXPECT_LT(fit.residual, 1e-6);
+    EXPECT_LT(fit.evaluations, fit_kind(signal::kind_of(truth), {samples, response}).evaluations)
+        << "there is nothing left to improve";
     const signal::Filter other = signal::DeadZone{};  // of another kind: not looked at
     EXPECT_EQ(fit_kind(signal::kind_of(truth), {samples, response}, &other).filter,
               fit_kind(signal::kind_of(truth), {samples, response}).filter);

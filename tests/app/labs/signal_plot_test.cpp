@@ -132,6 +132,38 @@ TEST_F(SignalNumbers, RateDifferencesAreThoseOfTheChainUpToEachFilter) {
     EXPECT_EQ(off.rates.runs.size(), signal::usual_rates().size()) << "the input alone";
 }
 
+TEST_F(SignalNumbers, OfAFilterAreOnWhatReachesItAndOfTheChainOnTheInput) {
+    run("signal.clear");
+    run("signal.filter.add", {{"kind", "exponential_decay"}, {"halflife", 0.1}});
+    run("signal.filter.add", {{"kind", "dead_zone"}, {"width", 0}});
+    const ChainAnalysis& analysis = signal_runtime(workspace).chain(part());
+    EXPECT_GT(*analysis.stages[0].lag, 0.05);
+    EXPECT_NEAR(*analysis.stages[1].lag, 0.0, 1e-6) << "it passes what comes in";
+    EXPECT_NEAR(*analysis.stages[1].jitter, 1.0, 1e-9);
+    EXPECT_EQ(analysis.whole.lag, analysis.stages[0].lag);
+    EXPECT_EQ(analysis.whole.overshoot, analysis.stages[0].overshoot);
+    EXPECT_EQ(analysis.whole.settling_time, analysis.stages[0].settling_time);
+    EXPECT_EQ(analysis.whole.jitter, analysis.stages[0].jitter);
+}
+
+TEST_F(SignalNumbers, OfTheShelfAreThoseOfTheChainWhereItHasTheKind) {
+    run("signal.clear");
+    run("signal.input", {{"kind", "noise"}});
+    run("signal.filter.add", {{"kind", "moving_average"}, {"window", 0.3}});
+    run("signal.filter.add", {{"kind", "moving_average"}, {"window", 0.1}});
+    const ChainAnalysis& analysis = signal_runtime(workspace).chain(part());
+    const std::vector<ShelfPoint>& shelf = signal_runtime(workspace).shelf(part());
+    ASSERT_GT(shelf.size(), 5u);
+    EXPECT_EQ(shelf[0].stage, std::optional<std::size_t>(0)) << "those of the chain come first";
+    EXPECT_EQ(shelf[0].filter, part().stages[0].filter);
+    EXPECT_EQ(shelf[0].lag, *analysis.stages[0].lag);
+    EXPECT_EQ(shelf[0].jitter, *analysis.stages[0].jitter);
+    for (std::size_t i = 1; i < shelf.size(); ++i) {
+        EXPECT_FALSE(shelf[i].stage);
+        EXPECT_EQ(shelf[i].filter, signal::kind_of(shelf[i].filter).blank()) << "as the kind has it";
+    }
+}
+
 TEST_F(SignalNumbers, GoBackInTimeWithTheFiltersAsTheyAreSetNow) {
     ASSERT_TRUE(lab().rewinds());
     for (int i = 0; i < 90; ++i) {
