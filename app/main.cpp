@@ -55,6 +55,8 @@ void list_commands() {
                 return "list";
             case ArgumentType::ListOrText:
                 return "list or text";
+            case ArgumentType::Any:
+                return "JSON";
         }
         return "";
     };

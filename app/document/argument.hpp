@@ -11,8 +11,20 @@
 namespace tendril::app {
 
 /// NumberOrPoint: one number, or three. Rotation: a unit quaternion [x, y, z, w], or degrees about X, then Y,
-/// then Z. List: what is in it the command checks.
-enum class ArgumentType { Number, Integer, Boolean, Text, Point, NumberOrPoint, Rotation, List, ListOrText };
+/// then Z. What is in a List, and Any value
+/// whatever, the command checks.
+enum class ArgumentType {
+    Number,
+    Integer,
+    Boolean,
+    Text,
+    Point,
+    NumberOrPoint,
+    Rotation,
+    List,
+    ListOrText,
+    Any
+};
 
 struct Argument {
     std::string name;

@@ -28,6 +28,8 @@ const char* type_name(ArgumentType type) {
             return "a list";
         case ArgumentType::ListOrText:
             return "a list or a text";
+        case ArgumentType::Any:
+            return "a value";
     }
     return "";
 }
@@ -106,6 +108,8 @@ void check_value(const Argument& argument, const Json& value, const std::string&
         case ArgumentType::ListOrText:
             if (!value.is_array() && !(argument.type == ArgumentType::ListOrText && value.is_string()))
                 refuse(type_name(argument.type));
+            return;
+        case ArgumentType::Any:
             return;
         case ArgumentType::Integer:
             if (!value.is_number()) refuse(type_name(argument.type));

@@ -8,7 +8,7 @@
 namespace tendril::app {
 
 void JsonPlace::fail(const std::string& what) const {
-    throw std::runtime_error(where_ + ": " + what);
+    throw std::runtime_error(where_.empty() ? what : where_ + ": " + what);
 }
 
 bool JsonPlace::has(const char* key) const {
@@ -16,7 +16,7 @@ bool JsonPlace::has(const char* key) const {
 }
 
 JsonPlace JsonPlace::operator[](const char* key) const {
-    return {json_member(*json_, key, where_), where_ + "." + key};
+    return {json_member(*json_, key, where_), where_.empty() ? key : where_ + "." + key};
 }
 
 std::optional<JsonPlace> JsonPlace::optional(const char* key) const {

@@ -13,8 +13,8 @@
 
 namespace tendril::app {
 
-/// Refers to the JSON. Everything it reads is checked as json.hpp says; what does not fit throws
-/// std::runtime_error that begins with the place.
+/// Refers to the JSON. `where` is empty where all there is stands: the arguments of a command. Everything it
+/// reads is checked as json.hpp says; what does not fit throws std::runtime_error that begins with the place.
 class JsonPlace {
   public:
     JsonPlace(const Json& json, std::string where) : json_(&json), where_(std::move(where)) {}

@@ -40,6 +40,9 @@ void Monkey::command() {
             case ArgumentType::ListOrText:
                 arguments[argument.name] = any_list();
                 break;
+            case ArgumentType::Any:
+                arguments[argument.name] = any_json();
+                break;
             case ArgumentType::Text:
                 arguments[argument.name] =
                     one_of(argument.choices.empty() || below(8) == 0 ? words_ : argument.choices);

@@ -79,6 +79,26 @@ class Monkey {
         return list;
     }
 
+    /// Often a name of something, for most of what takes any value takes one.
+    Json any_json() {
+        switch (words_.empty() ? below(4) : below(6)) {
+            case 0:
+                return any_number();
+            case 1:
+                return any_point();
+            case 2:
+                return below(2) == 0;
+            case 3:
+                return any_list();
+            case 4: {
+                const std::string key = one_of(words_);
+                return Json{{key, any_number()}};
+            }
+            default:
+                return one_of(words_);
+        }
+    }
+
     glm::vec2 any_place() {
         if (below(4) == 0) return {between(-3000.0f, 5000.0f), between(-3000.0f, 5000.0f)};
         const Json state = app_.state();
