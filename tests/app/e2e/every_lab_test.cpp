@@ -2,6 +2,7 @@
 // loose on each of its scenes break nothing, and all of it comes out the same when it is played again.
 #include "app/document/command.hpp"
 #include "app/document/scene_file.hpp"
+#include "app/labs/rig/rig_lab.hpp"
 #include "tests/app/e2e/monkey.hpp"
 #include "tests/app/labs/spring/spring_lab.hpp"
 
@@ -13,6 +14,7 @@ using namespace app;
 Labs all_labs() {
     Labs labs;
     labs.add(std::make_unique<SpringLab>());
+    if (labs.find(rig_lab) == nullptr) labs.add(std::make_unique<RigLab>());
     return labs;
 }
 

@@ -4,8 +4,9 @@
 
 namespace tendril::app {
 
-LabTest::LabTest(const char* lab)
-    : table_(std::make_unique<CommandTable>(make_command_table(labs))),
+LabTest::LabTest(const char* lab, Labs all)
+    : labs(std::move(all)),
+      table_(std::make_unique<CommandTable>(make_command_table(labs))),
       table(*table_),
       workspace(make_blank_workspace(labs)),
       lab_(lab) {

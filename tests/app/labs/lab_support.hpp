@@ -16,7 +16,7 @@ namespace tendril::app {
 
 class LabTest : public testing::Test {
   protected:
-    explicit LabTest(const char* lab);
+    explicit LabTest(const char* lab, Labs all = Labs());
     ~LabTest() override;
 
     Labs labs;

@@ -1,0 +1,116 @@
+// Elements and named curves: added, set and removed.
+#include "app/document/json_complete.hpp"
+#include "app/labs/kit/part_command.hpp"
+#include "app/labs/kit/require.hpp"
+#include "app/labs/rig/definition_json.hpp"
+#include "app/labs/rig/rig_commands.hpp"
+#include "app/labs/rig/rig_edit.hpp"
+#include "app/labs/rig/value_json.hpp"
+
+namespace tendril::app {
+namespace {
+
+Argument name_argument() {
+    return text_argument("name", true, "of the element");
+}
+Argument curve_argument() {
+    return text_argument("name", true, "of the curve");
+}
+
+JsonPlace place_of(const Arguments& given, const char* name) {
+    return {given.json(name), name};
+}
+
+void add_element(RigPart& part, const Arguments& given) {
+    rig::Definition definition = part.rig.definition();
+    definition.elements.push_back(read_element(JsonPlace(given.json(), "")));
+    redefine(part, std::move(definition));
+}
+
+/// What is left out of the transform stays. The pose that a unit gave a bone is no part of its input pose.
+void set_element(RigPart& part, const Arguments& given) {
+    const std::size_t at = element_named(part, given.text("name"));
+    const rig::Space space =
+        given.has("space") && given.text("space") == "global" ? rig::Space::Global : rig::Space::Local;
+    const bool control = part.rig.definition().elements[at].control.has_value();
+    const rig::Transform now =
+        part.state.elements.get(part.rig.id(at), space, control ? rig::Pose::Current : rig::Pose::Input);
+    const rig::Transform to = read_transform(place_of(given, "transform"), now);
+    const bool propagate = !given.has("propagate") || given.boolean("propagate");
+    const rig::State before = part.state;
+    require_ok(part.rig.set_element(part.state, at, space, to,
+                                    propagate ? rig::Propagate::Yes : rig::Propagate::No));
+    if (part.state != before) changed(part);
+}
+
+void remove(RigPart& part, const Arguments& given) {
+    remove_element(part, given.text("name"));
+}
+
+void set_control(RigPart& part, const Arguments& given) {
+    const std::size_t at = element_named(part, given.text("name"));
+    const rig::Element& element = part.rig.definition().elements[at];
+    if (!element.control) throw std::invalid_argument("\"" + element.name + "\" is no control");
+    const rig::Value value =
+        read_control_value(place_of(given, "value"), element.control->kind, part.state.controls[at]);
+    rig::State after = part.state;
+    require_ok(part.rig.set_control(after, at, value));
+    if (after.controls[at] == part.state.controls[at]) return;  // units may have moved it since
+    part.state = std::move(after);
+    changed(part);
+}
+
+void add_curve(RigPart& part, const Arguments& given) {
+    rig::Definition definition = part.rig.definition();
+    definition.curves.push_back({given.text("name"), given.has("value") ? given.real("value") : 0.0});
+    redefine(part, std::move(definition));
+}
+
+void set_curve(RigPart& part, const Arguments& given) {
+    const std::size_t at = curve_named(part, given.text("name"));
+    const double value = given.real("value");
+    if (value == part.state.input_curves[at]) return;  // units may have written it since
+    require_ok(part.rig.set_curve(part.state, at, value));
+    changed(part);
+}
+
+}  // namespace
+
+void add_element_commands(CommandTable& table) {
+    table.add(rig_command(
+        "rig.element.add",
+        {name_argument(),
+         choice_argument("kind", false, "a bone where left out", {"bone", "null", "control"}),
+         text_argument("parent", false, "an element; none where left out"),
+         json_argument("local", false,
+                       "{translation, rotation [x, y, z, w], scale} within the parent; the initial pose"),
+         choice_argument("control", false, "what kind of control; transform where left out",
+                         {"transform", "position", "rotation", "float", "bool", "vector2d"}),
+         json_argument("axes", false, "of a vector2d: two of \"x\", \"y\", \"z\""),
+         json_argument("minimum", false, "of a control: a number, [a, b] or [x, y, z] as its kind has it"),
+         json_argument("maximum", false, "likewise"),
+         text_argument("space", false, "of a control: the element that it goes with, its parent")},
+        "Adds a bone, a null or a control", add_element));
+    table.add(rig_command(
+        "rig.element.set",
+        {name_argument(),
+         choice_argument("space", false, "of the transform; local where left out", {"local", "global"}),
+         json_argument("transform", true, "{translation, rotation, scale}; what is left out stays"),
+         switch_argument("propagate", "the children move with it; on where left out")},
+        "Sets an element's input pose, from which every solve begins", set_element));
+    table.add(rig_command("rig.element.remove", {name_argument()},
+                          "Removes an element that is no parent and that no unit names", remove));
+    table.add(rig_command(
+        "rig.control.set",
+        {name_argument(), json_argument("value", true,
+                                        "{translation, rotation, scale}, [x, y, z], [x, y, z, w], a number, "
+                                        "a bool or [a, b], as its kind has it")},
+        "Sets a control, within its limits", set_control));
+    table.add(rig_command("rig.curve.add",
+                          {curve_argument(), number_argument("value", "0 where left out", -1e9, 1e9)},
+                          "Adds a named curve, which units write", add_curve));
+    table.add(rig_command("rig.curve.set", {curve_argument(), {.name = "value", .help = "before the units"}},
+                          "Sets the value that a curve has before the units write it", set_curve));
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,22 @@
+// What the files of this lab's commands share.
+#pragma once
+
+#include <vector>
+
+#include "app/document/command.hpp"
+#include "app/labs/kit/arguments.hpp"
+#include "app/labs/rig/rig_part.hpp"
+
+namespace tendril::app {
+
+/// A command on a copy of the lab's part.
+Command rig_command(const char* name, std::vector<Argument> arguments, const char* help,
+                    void (*change)(RigPart&, const Arguments&));
+/// A value that is no number, text or point; the command reads it itself.
+Argument json_argument(const char* name, bool required, const char* help);
+
+void add_element_commands(CommandTable& table);
+void add_unit_commands(CommandTable& table);
+void add_solve_commands(CommandTable& table);
+
+}  // namespace tendril::app

@@ -1,0 +1,184 @@
+#include "app/labs/rig/rig_edit.hpp"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "app/document/json_complete.hpp"
+#include "app/labs/kit/require.hpp"
+#include "app/labs/rig/definition_json.hpp"
+#include "app/labs/rig/unit_json.hpp"
+#include "app/labs/rig/uses.hpp"
+
+namespace tendril::app {
+namespace {
+
+std::string quoted(const std::string& name) {
+    return '"' + name + '"';
+}
+
+void check_count(std::size_t count, std::size_t most, const char* what) {
+    if (count > most)
+        throw std::invalid_argument("the rig would have " + std::to_string(count) + " " + what +
+                                    "; the most is " + std::to_string(most));
+}
+
+/// What shows on a line, and is found in a file.
+void check_name(const std::string& name) {
+    constexpr std::size_t longest = 100;
+    if (name.size() > longest)
+        throw std::invalid_argument("a name has " + std::to_string(name.size()) +
+                                    " characters; the most is " + std::to_string(longest));
+    if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
+        throw std::invalid_argument("a name has a character that cannot be shown");
+    try {
+        static_cast<void>(Json(name).dump());  // looks at every character
+    } catch (const Json::exception&) {
+        throw std::invalid_argument("a name is no text in UTF-8");
+    }
+}
+
+/// How many elements a for-each comes to, or any number over `most`.
+std::size_t visits(const rig::Rig& rig, const rig::State& rest, const rig::ForEach& loop, std::size_t most) {
+    std::size_t count = 0;
+    for (const std::string& root : loop.roots) {
+        const auto element = rig.element(root);
+        if (!element) continue;  // refused when all is put together
+        const rig::ElementId top = rig.id(*element);
+        for (rig::ElementId at = top; at && count <= most; at = rest.elements.next_depth_first(at, top))
+            ++count;
+    }
+    return count;
+}
+
+/// Refuses what would take too long, before it is made: one line of a file can ask for millions of rounds.
+void check_runs(const rig::Definition& definition) {
+    const auto is_loop = [](const rig::Unit& unit) {
+        return std::holds_alternative<rig::ForEach>(unit.operation);
+    };
+    if (std::none_of(definition.units.begin(), definition.units.end(), is_loop)) return;
+    const rig::Rig rig =
+        require_value(rig::Rig::make({.elements = definition.elements, .curves = {}, .units = {}}));
+    const rig::State rest = rig.initial_state();
+    std::size_t runs = 0;
+    for (const rig::Unit& unit : definition.units) {
+        if (const auto* loop = std::get_if<rig::ForEach>(&unit.operation))
+            runs +=
+                visits(rig, rest, *loop, max_lab_runs) * std::max<std::size_t>(1, loop->body.units().size());
+        if (runs > max_lab_runs)
+            throw std::invalid_argument("unit " + quoted(unit.name) +
+                                        ": a solve would run more units than the most, " +
+                                        std::to_string(max_lab_runs));
+    }
+}
+
+/// Calls with the list that a unit of that name is in, and its place there.
+bool find_unit(std::vector<rig::Unit>& units, const std::string& name, const auto& found) {
+    for (std::size_t i = 0; i < units.size(); ++i) {
+        if (units[i].name == name) {
+            found(units, i);
+            return true;
+        }
+        if (auto* loop = std::get_if<rig::ForEach>(&units[i].operation))
+            if (find_unit(loop->body.units(), name, found)) return true;
+    }
+    return false;
+}
+
+void require_unit(rig::Definition& definition, const std::string& name, const auto& found) {
+    if (!find_unit(definition.units, name, found))
+        throw std::invalid_argument("there is no unit " + quoted(name));
+}
+
+}  // namespace
+
+rig::Rig make_rig(rig::Definition definition) {
+    check_count(definition.elements.size(), max_lab_elements, "elements");
+    check_count(definition.curves.size(), max_lab_curves, "curves");
+    std::size_t units = definition.units.size();
+    for (const rig::Unit& unit : definition.units)
+        if (const auto* loop = std::get_if<rig::ForEach>(&unit.operation)) units += loop->body.units().size();
+    check_count(units, max_lab_units, "units");
+    for (const rig::Element& each : definition.elements) check_name(each.name);
+    for (const rig::NamedCurve& each : definition.curves) check_name(each.name);
+    std::set<std::string> names;
+    collect_names(definition.units, names);
+    for (const std::string& each : names) check_name(each);
+    check_runs(definition);
+    return require_value(rig::Rig::make(std::move(definition)));
+}
+
+void redefine(RigPart& part, rig::Definition definition) {
+    rig::Rig rig = make_rig(std::move(definition));
+    part.state = rig.adopted(part.rig, part.state);
+    part.rig = std::move(rig);
+    changed(part);
+}
+
+void changed(RigPart& part) {
+    part.moving = true;
+    part.backward.reset();
+}
+
+void remove_element(RigPart& part, const std::string& name) {
+    const std::size_t at = element_named(part, name);
+    rig::Definition definition = part.rig.definition();
+    for (const rig::Element& each : definition.elements)
+        if (each.parent == name)
+            throw std::invalid_argument(quoted(name) + " is the parent of " + quoted(each.name));
+    if (const auto use = first_use(definition.units, Named::Element, name))
+        throw std::invalid_argument("unit " + quoted(use->unit) + " needs " + quoted(name) + " as its " +
+                                    use->member);
+    definition.elements.erase(definition.elements.begin() + static_cast<std::ptrdiff_t>(at));
+    redefine(part, std::move(definition));
+}
+
+void remove_unit(RigPart& part, const std::string& name) {
+    rig::Definition definition = part.rig.definition();
+    require_unit(definition, name, [&](std::vector<rig::Unit>& units, std::size_t at) {
+        units.erase(units.begin() + static_cast<std::ptrdiff_t>(at));
+    });
+    if (const auto use = first_use(definition.units, Named::Unit, name))
+        throw std::invalid_argument("unit " + quoted(use->unit) + " takes its " + use->member + " from " +
+                                    quoted(name));
+    redefine(part, std::move(definition));
+}
+
+void enable_unit(RigPart& part, const std::string& name, bool on) {
+    rig::Definition definition = part.rig.definition();
+    bool was = on;
+    require_unit(definition, name, [&](std::vector<rig::Unit>& units, std::size_t at) {
+        was = std::exchange(units[at].enabled, on);
+    });
+    if (was != on) redefine(part, std::move(definition));
+}
+
+void add_unit(RigPart& part, rig::Unit unit, int at) {
+    rig::Definition definition = part.rig.definition();
+    const int count = static_cast<int>(definition.units.size());
+    if (at > count)
+        throw std::invalid_argument("at must be 0 to " + std::to_string(count) + ", got " +
+                                    std::to_string(at));
+    std::set<std::string> taken;
+    collect_names(definition.units, taken);
+    std::vector<rig::Unit> added{std::move(unit)};
+    collect_names(added, taken);  // one that is taken twice the library refuses
+    name_units(added, taken);
+    definition.units.insert(definition.units.begin() + (at < 0 ? count : at), std::move(added.front()));
+    redefine(part, std::move(definition));
+}
+
+std::size_t element_named(const RigPart& part, const std::string& name) {
+    const auto found = part.rig.element(name);
+    if (!found) throw std::invalid_argument("there is no element " + quoted(name));
+    return *found;
+}
+
+std::size_t curve_named(const RigPart& part, const std::string& name) {
+    const auto found = part.rig.curve(name);
+    if (!found) throw std::invalid_argument("there is no curve " + quoted(name));
+    return *found;
+}
+
+}  // namespace tendril::app

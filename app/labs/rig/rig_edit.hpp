@@ -1,0 +1,32 @@
+// What commands do to the lab's part. A definition is changed as a whole: made anew, and what of the state is
+// still of something taken over; refused as a whole too, by std::invalid_argument.
+#pragma once
+
+#include <string>
+#include <tendril/rig/rig.hpp>
+
+#include "app/labs/rig/rig_part.hpp"
+
+namespace tendril::app {
+
+/// Throws std::invalid_argument where the library refuses it, or where it has more of something than the
+/// lab's limits let it.
+rig::Rig make_rig(rig::Definition definition);
+void redefine(RigPart& part, rig::Definition definition);
+
+/// Refused: one that is a parent, or that a unit names; the message says which.
+void remove_element(RigPart& part, const std::string& name);
+/// In bodies too. Refused: one whose output another unit takes.
+void remove_unit(RigPart& part, const std::string& name);
+void enable_unit(RigPart& part, const std::string& name, bool on);
+/// `at`: its place among the units of the rig; -1 for the end. Without a name it is given one.
+void add_unit(RigPart& part, rig::Unit unit, int at);
+
+/// The place in the definition. Throws std::invalid_argument: there is no element "arm".
+std::size_t element_named(const RigPart& part, const std::string& name);
+std::size_t curve_named(const RigPart& part, const std::string& name);
+
+/// Something that a solve begins with was changed.
+void changed(RigPart& part);
+
+}  // namespace tendril::app

@@ -1,0 +1,31 @@
+// The Rig lab: elements, controls and units, solved forward and backward.
+#pragma once
+
+#include "app/labs/lab.hpp"
+#include "app/labs/rig/rig_part.hpp"
+
+namespace tendril::app {
+
+class RigLab final : public Lab {
+  public:
+    std::string name() const override { return rig_lab; }
+    std::string title() const override { return "Rig"; }
+    std::shared_ptr<Part> blank() const override;
+    CameraPose first_view() const override;
+    const char* invitation() const override { return "Drag the square in front of the head."; }
+    void add_commands(CommandTable& table) const override;
+
+    bool moving(const Workspace& workspace) const override { return rig_part(workspace).moving; }
+    void step(Workspace& workspace) const override;
+    std::uint64_t tick_work(const Workspace& workspace) const override;
+    bool rewinds() const override { return true; }
+
+    void draw(const View& view, DrawList& list) const override;
+    std::vector<Handle> handles(const Workspace& workspace) const override;
+    void drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const override;
+
+    Json state(const Workspace& workspace) const override;
+    std::vector<TestScene> test_scenes() const override;
+};
+
+}  // namespace tendril::app

@@ -1,0 +1,62 @@
+// The Rig lab's share of the document: a rig, and the state that it is in.
+//
+// The state as a whole is the document's: input and current poses, control values, curves, and what units
+// remember and last handed out. So undo, going back in time and a copy of the document bring back the very
+// bits, and what plays is what bakes. The rig is the definition together with what the library made of it,
+// which copies share.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <tendril/rig/backward.hpp>
+#include <tendril/rig/rig.hpp>
+#include <vector>
+
+#include "app/document/document.hpp"
+#include "app/document/workspace.hpp"
+
+namespace tendril::app {
+
+inline constexpr const char* rig_lab = "rig";
+/// Units that a solve may run, those in bodies once an element.
+inline constexpr std::size_t max_lab_runs = 100'000;
+
+/// What the last backward solve left, until something is changed.
+struct BackwardLeft {
+    std::string bone;                     ///< the worst; empty in a rig without bones
+    std::vector<rig::Residual> elements;  ///< in the order of the definition
+    bool operator==(const BackwardLeft& other) const;
+
+    double worst_mm() const;       ///< of all bones
+    double worst_degrees() const;  ///< likewise
+};
+
+struct RigPart final : Part {
+    RigPart();  ///< of an empty rig
+    /// Of a rig at rest, after a tick: what remembers has started there, and trails whatever is set next.
+    /// Throws std::invalid_argument as redefine does.
+    explicit RigPart(rig::Definition definition);
+
+    rig::Rig rig;
+    rig::State state;
+    /// Whether the next tick has anything to do: something was changed, or something that remembers moves.
+    bool moving = false;
+    std::optional<BackwardLeft> backward;
+
+    std::shared_ptr<Part> clone() const override { return std::make_shared<RigPart>(*this); }
+    Json save() const override;
+    std::shared_ptr<Part> load(const Json& json, const std::string& where) const override;
+    std::size_t bytes() const override;
+    bool operator==(const RigPart& other) const;
+};
+
+/// What the lab starts with.
+RigPart first_rig();
+
+/// The lab's part of a workspace.
+inline const RigPart& rig_part(const Workspace& workspace) {
+    return workspace.document.get<RigPart>(rig_lab);
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,78 @@
+// The rig as a whole: emptied, solved, put in the place of another.
+#include <tendril/rig/backward.hpp>
+
+#include "app/labs/kit/names.hpp"
+#include "app/labs/kit/part_command.hpp"
+#include "app/labs/rig/presets.hpp"
+#include "app/labs/rig/rig_commands.hpp"
+#include "app/labs/rig/rig_edit.hpp"
+#include "app/labs/rig/rig_runtime.hpp"
+
+namespace tendril::app {
+namespace {
+
+void clear(RigPart& part, const Arguments&) {
+    part = RigPart();
+}
+
+void reset(RigPart& part, const Arguments&) {
+    part = first_rig();
+}
+
+void take_preset(Workspace& workspace, const Arguments& given) {
+    const RigPreset& preset = rig_preset(given.text("name"));
+    workspace.document.edit<RigPart>(rig_lab) = RigPart(preset.make());
+    (workspace.lab == rig_lab ? workspace.camera : workspace.cameras[rig_lab]) = preset.view;
+}
+
+BackwardLeft solve_backward(RigPart& part, rig::Workspace& scratch) {
+    const rig::BackwardReport report = rig::solve_backward(part.rig, part.state, scratch);
+    BackwardLeft left{{}, report.elements};
+    if (report.worst) left.bone = part.rig.definition().elements[*report.worst].name;
+    return left;
+}
+
+/// No time passes. What was changed before is still to be seen by what remembers: the next tick solves too.
+void solve(Workspace& workspace, const Arguments& given) {
+    auto& runtime = workspace.runtimes.of<RigRuntime>(rig_lab);
+    const bool backward = given.has("direction") && given.text("direction") == "backward";
+    change_part<RigPart>(workspace, rig_lab, [&](RigPart& part, const RigPart&) {
+        if (backward) {
+            part.backward = solve_backward(part, runtime.workspace(part.rig));
+            part.moving = true;
+        } else {
+            part.moving |= runtime.solve(part, 0.0, workspace.clock.measured);
+        }
+    });
+}
+
+}  // namespace
+
+Command rig_command(const char* name, std::vector<Argument> arguments, const char* help,
+                    void (*change)(RigPart&, const Arguments&)) {
+    return part_command<RigPart>(rig_lab, name, std::move(arguments), help, change);
+}
+
+Argument json_argument(const char* name, bool required, const char* help) {
+    return {.name = name, .type = ArgumentType::Any, .required = required, .help = help};
+}
+
+void add_solve_commands(CommandTable& table) {
+    table.add(rig_command("rig.clear", {}, "Removes every element, curve and unit", clear));
+    table.add(rig_command("rig.reset", {}, "Resets this lab to its first state", reset));
+    table.add(
+        {.name = "rig.preset",
+         .arguments = {choice_argument("name", true, "which scene",
+                                       names(rig_presets(), [](const auto& each) { return each.name; }))},
+         .help = "Opens a preset",
+         .effect = Effect::Edit,
+         .apply = take_preset});
+    table.add({.name = "rig.solve",
+               .arguments = {choice_argument("direction", false, "forward where left out",
+                                             {"forward", "backward"})},
+               .help = "Runs the units, or sets the controls from the bones as they are; no time passes",
+               .effect = Effect::Edit,
+               .apply = solve});
+}
+
+}  // namespace tendril::app

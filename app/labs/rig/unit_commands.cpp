@@ -1,0 +1,53 @@
+// Units: added, removed, switched off and on.
+#include "app/document/json_complete.hpp"
+#include "app/labs/rig/rig_commands.hpp"
+#include "app/labs/rig/rig_edit.hpp"
+#include "app/labs/rig/unit_json.hpp"
+
+namespace tendril::app {
+namespace {
+
+Argument unit_name_argument(bool required) {
+    return text_argument("name", required, "of the unit");
+}
+
+/// All but its place is the unit as a scene file has it.
+void add(RigPart& part, const Arguments& given) {
+    Json unit = given.json();
+    unit.erase("at");
+    add_unit(part, read_unit(JsonPlace(unit, "")), given.has("at") ? given.integer("at") : -1);
+}
+
+void remove(RigPart& part, const Arguments& given) {
+    remove_unit(part, given.text("name"));
+}
+
+void enable(RigPart& part, const Arguments& given) {
+    enable_unit(part, given.text("name"), given.boolean("on"));
+}
+
+std::vector<Argument> unit_arguments() {
+    std::vector<Argument> arguments{
+        choice_argument("unit", true, "its operation", operation_names()),
+        text_argument("name", false, "one of its own; after its operation where left out"),
+        integer_argument("at", "its place among the units; at the end where left out", 0,
+                         static_cast<double>(max_lab_units))};
+    for (const std::string& each : unit_members())
+        arguments.push_back(json_argument(each.c_str(), false, "as the unit has it"));
+    return arguments;
+}
+
+}  // namespace
+
+void add_unit_commands(CommandTable& table) {
+    table.add(rig_command("rig.unit.add", unit_arguments(),
+                          "Adds a unit with its inputs: literals, outputs of units before it, elements",
+                          add));
+    table.add(rig_command("rig.unit.remove", {unit_name_argument(true)},
+                          "Removes a unit from which no other takes an output", remove));
+    table.add(rig_command("rig.unit.enable",
+                          {unit_name_argument(true), {.name = "on", .type = ArgumentType::Boolean}},
+                          "Switches a unit off or on", enable));
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,93 @@
+// The Rig lab in the running program: controls are dragged, and time goes back.
+#include <glm/geometric.hpp>
+
+#include "app/labs/rig/rig_lab.hpp"
+#include "rig_support.hpp"
+#include "tests/app/e2e/monkey.hpp"
+
+namespace tendril::test {
+namespace {
+
+using namespace app;
+
+class RigApp : public testing::Test {
+  protected:
+    explicit RigApp() {
+        app_.run({"lab.open", Json{{"name", rig_lab}}});
+        app_.run({"time.pause"});
+    }
+    void send(const Event& event) { app_.tick(&event); }
+    void drag(const std::string& name, glm::vec2 by) {
+        const glm::vec2 from = handle(app_.state(), name);
+        send(MouseMove{from});
+        send(MousePress{MouseButton::Left, true});
+        for (const float share : {0.25f, 0.5f, 1.0f}) send(MouseMove{from + share * by});
+        send(MousePress{MouseButton::Left, false});
+    }
+    Json element(const std::string& name) {
+        const Json elements = app_.state().at("elements");
+        for (const Json& each : elements)
+            if (each.at("name") == name) return each;
+        return nullptr;
+    }
+    /// What time changes: all but the clock.
+    Json now() {
+        Json state = app_.state();
+        state.erase("time");
+        return state;
+    }
+
+    std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
+    App app_{*window_, false, labs_with_the_rig()};
+};
+
+TEST_F(RigApp, AControlThatIsDraggedPastItsRectangleStopsThere) {
+    const Json head = element("head");
+    drag("look", {900.0f, -700.0f});
+    const Json value = element("look").at("value");
+    const double beyond = std::max(std::abs(value[0].get<double>()), std::abs(value[1].get<double>()));
+    EXPECT_EQ(beyond, 1.0) << value;
+    EXPECT_NE(element("head").at("global"), head.at("global")) << "bones follow though time stands still";
+    EXPECT_EQ(app_.workspace().history.size(), 1u) << "one drag, one step";
+    app_.run({"undo"});
+    EXPECT_EQ(element("head"), head);
+    EXPECT_EQ(element("look").at("value"), (Json{0.0, 0.0}));
+}
+
+TEST_F(RigApp, ADragInItsRectangleGoesWhereThePointerGoes) {
+    const glm::vec2 by(40.0f, 25.0f), from = handle(app_.state(), "look");
+    drag("look", by);
+    const glm::vec2 to = handle(app_.state(), "look");
+    // It moves in its own plane, the pointer in that of the view; that they go the same way is what counts.
+    EXPECT_GT(glm::dot(to - from, by), 0.0f);
+}
+
+/// In any order, to the bit: the springs' states are part of what is remembered.
+TEST_F(RigApp, GoingBackInTimeShowsWhatPlayingShowed) {
+    app_.run({"rig.preset", Json{{"name", "secondary"}}});
+    for (int i = 0; i < 5; ++i) app_.run({"time.step"}), app_.tick(nullptr);
+    app_.run({"rig.control.set", Json{{"name", "head"}, {"value", {{"translation", {0.4, 1.0, 0.2}}}}}});
+    std::vector<Json> states;
+    for (int i = 0; i < 60; ++i) {
+        states.push_back(now());
+        app_.run({"time.step"});
+        app_.tick(nullptr);
+    }
+    const Json last = now();
+    const auto total = states.size();
+    for (const std::size_t back : {1u, 40u, 7u, 59u, 23u, 60u, 2u}) {
+        app_.run({"time.seek", Json{{"ticks_back", back}}});
+        EXPECT_EQ(now(), states[total - back]) << back;
+    }
+    app_.run({"time.seek", Json{{"ticks_back", 0}}});
+    EXPECT_EQ(now(), last);
+    app_.run({"time.seek", Json{{"ticks_back", 40}}});
+    for (std::size_t i = total - 40; i < total; ++i) {
+        EXPECT_EQ(now(), states[i]) << "played again from there: " << i;
+        app_.run({"time.step"});
+        app_.tick(nullptr);
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test

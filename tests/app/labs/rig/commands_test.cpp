@@ -1,0 +1,280 @@
+// What the commands of the Rig lab do, when the lab solves, and what --state says of it.
+#include <glm/gtc/quaternion.hpp>
+
+#include "rig_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+void expect_near(const glm::dvec3& a, const glm::dvec3& b, double within = 1e-9) {
+    EXPECT_LE(glm::length(a - b), within)
+        << a.x << ' ' << a.y << ' ' << a.z << " and " << b.x << ' ' << b.y << ' ' << b.z;
+}
+
+class RigCommands : public RigTest {
+  protected:
+    /// A bone that a dial turns, and one below it.
+    void build_arm() {
+        element("arm");
+        element("hand", "arm", transform(1, 0, 0));
+        control("dial", "float", {{"minimum", 0}, {"maximum", 1}});
+        unit({{"unit", "offset_transform"},
+              {"name", "turn"},
+              {"item", "arm"},
+              {"offset", {{"rotation", {0, 0, std::sqrt(0.5), std::sqrt(0.5)}}}},
+              {"weight", "dial"}});
+    }
+};
+
+TEST_F(RigCommands, ClearLeavesNothing) {
+    build_arm();
+    run("rig.curve.add", {{"name", "smile"}});
+    run("rig.clear");
+    const Json now = state();
+    for (const char* each : {"elements", "units", "curves"}) EXPECT_TRUE(now.at(each).empty()) << each;
+    EXPECT_TRUE(now.at("backward").is_null());
+    run("undo");
+    EXPECT_EQ(state().at("elements").size(), 3u);
+}
+
+TEST_F(RigCommands, StateHasTheKeysThatThePageNames) {
+    build_arm();
+    control("square", "vector2d", {{"space", "hand"}});
+    run("rig.curve.add", {{"name", "smile"}, {"value", 0.5}});
+    const Json now = state();
+    EXPECT_EQ(now.at("lab"), "rig");
+    const Json hand = named("elements", "hand");
+    EXPECT_EQ(hand.at("kind"), "bone");
+    EXPECT_EQ(hand.at("parent"), "arm");
+    for (const char* space : {"local", "global"})
+        for (const char* each : {"translation", "rotation", "scale"})
+            EXPECT_TRUE(hand.at(space).contains(each)) << space << ' ' << each;
+    EXPECT_TRUE(named("elements", "arm").at("parent").is_null());
+    EXPECT_EQ(named("elements", "square").at("parent"), "hand");
+    EXPECT_EQ(named("elements", "square").at("value"), (Json{0.0, 0.0}));
+    EXPECT_EQ(now.at("curves"), (Json{{"smile", 0.5}}));
+    const Json turn = named("units", "turn");
+    EXPECT_EQ(turn.at("unit"), "offset_transform");
+    EXPECT_EQ(turn.at("enabled"), true);
+    EXPECT_EQ(turn.at("microseconds"), 0.0) << "not measured where it could not be repeated";
+    EXPECT_EQ(turn.at("warning"), "");
+    EXPECT_TRUE(turn.at("outputs").contains("result"));
+}
+
+TEST_F(RigCommands, AControlIsSetWithinItsLimits) {
+    build_arm();
+    set("dial", 7);
+    EXPECT_EQ(named("elements", "dial").at("value"), 1.0);
+    control(
+        "square", "vector2d",
+        {{"axes", {"z", "y"}}, {"local", transform(0, 1, 0)}, {"minimum", {-1, -2}}, {"maximum", {1, 2}}});
+    set("square", {5, -0.5});
+    EXPECT_EQ(named("elements", "square").at("value"), (Json{1.0, -0.5}));
+    expect_near(translation("square"), {0, 0.5, 1});
+    control("free", "transform", {{"local", transform(1, 2, 3)}});
+    set("free", {{"rotation", {0, 0, 3, 4}}});
+    EXPECT_EQ(named("elements", "free").at("value").at("translation"), (Json{1.0, 2.0, 3.0}))
+        << "left out: stays";
+    EXPECT_NEAR(rotation("free").z, 0.6, 1e-15) << "of unit length";
+}
+
+TEST_F(RigCommands, ATickSolvesWhenSomethingHasChangedAndThenRests) {
+    build_arm();
+    tick(3);
+    EXPECT_FALSE(lab().moving(workspace));
+    set("dial", 1);
+    EXPECT_TRUE(lab().moving(workspace));
+    expect_near(translation("hand"), {1, 0, 0});
+    tick();
+    expect_near(translation("hand"), {0, 1, 0});
+    EXPECT_FALSE(lab().moving(workspace)) << "nothing here remembers";
+    run("rig.element.set", {{"name", "hand"}, {"transform", transform(2, 0, 0)}});
+    EXPECT_TRUE(lab().moving(workspace));
+    tick();
+    expect_near(translation("hand"), {0, 2, 0});
+    run("rig.unit.enable", {{"name", "turn"}, {"on", false}});
+    EXPECT_TRUE(lab().moving(workspace));
+    tick();
+    expect_near(translation("hand"), {2, 0, 0});
+    EXPECT_EQ(named("units", "turn").at("enabled"), false);
+}
+
+TEST_F(RigCommands, WhatChangesNothingLeavesNoStep) {
+    build_arm();
+    control("place", "position");
+    set("dial", 0.5);
+    set("place", {1, 2, 3});
+    tick(5);
+    const std::size_t steps = workspace.history.size();
+    const Json before = saved();
+    set("dial", 0.5);
+    set("place", {1, 2, 3});
+    run("rig.element.set", {{"name", "hand"}, {"transform", transform(1, 0, 0)}});
+    run("rig.unit.enable", {{"name", "turn"}, {"on", true}});
+    solve();
+    EXPECT_EQ(workspace.history.size(), steps);
+    EXPECT_EQ(saved(), before);
+    EXPECT_FALSE(lab().moving(workspace));
+}
+
+TEST_F(RigCommands, SolvingPassesNoTimeAndTwiceIsAsOnce) {
+    control("place", "position");
+    unit({{"unit", "spring_interpolate"}, {"name", "trail"}, {"target", "place"}});
+    tick();
+    set("place", {1, 0, 0});
+    solve();
+    const Json once = saved();
+    solve();
+    EXPECT_EQ(saved(), once);
+    EXPECT_EQ(output("trail"), (Json{0.0, 0.0, 0.0}));
+    tick();
+    EXPECT_GT(output("trail")[0], 0.0) << "a spring sees what was changed before the solve";
+    EXPECT_TRUE(lab().moving(workspace));
+}
+
+TEST_F(RigCommands, WhatIsLeftOutOfATransformStays) {
+    element("bone", "", {{"translation", {1, 2, 3}}, {"rotation", {0, 0, 0.6, 0.8}}, {"scale", {1, 2, 1}}});
+    run("rig.element.set", {{"name", "bone"}, {"space", "global"}, {"transform", {{"scale", {3, 3, 3}}}}});
+    expect_near(translation("bone"), {1, 2, 3});
+    EXPECT_EQ(rotation("bone"), glm::dquat(0.8, 0, 0, 0.6));
+}
+
+/// The children stay where they are, controls too: their values are then others.
+TEST_F(RigCommands, WithoutPropagationChildrenStayAfterASolveToo) {
+    element("parent");
+    element("bone", "parent", transform(1, 0, 0));
+    for (const char* kind : {"transform", "position", "rotation", "vector2d", "float"})
+        control(kind, kind, {{"parent", "parent"}, {"local", transform(0, 1, 0)}});
+    set("transform", transform(3, 1, 0));
+    set("position", {0, 4, 1});
+    set("rotation", {0, 0, 0.6, 0.8});
+    set("vector2d", {0.5, 2});
+    element("on a control", "transform", transform(0, 0, 1));
+    tick();
+    std::map<std::string, glm::dvec3> places;
+    for (const Json& each : list("elements")) places[each.at("name")] = translation(each.at("name"));
+    const glm::dquat turned = rotation("rotation");
+    run("rig.element.set",
+        {{"name", "parent"},
+         {"propagate", false},
+         {"transform", {{"translation", {7, -1, 2}}, {"rotation", {0.5, 0.5, 0.5, 0.5}}}}});
+    places["parent"] = {7, -1, 2};
+    for (const char* when : {"at once", "after a tick"}) {
+        SCOPED_TRACE(when);
+        for (const auto& [name, at] : places) {
+            SCOPED_TRACE(name);
+            expect_near(translation(name), at);
+        }
+        EXPECT_NEAR(std::abs(glm::dot(rotation("rotation"), turned)), 1.0, 1e-12);
+        tick();
+    }
+    run("rig.element.set", {{"name", "transform"}, {"propagate", false}, {"transform", transform(9, 9, 9)}});
+    tick();
+    expect_near(translation("on a control"), places["on a control"]);
+}
+
+TEST_F(RigCommands, UnitsRunInTheirOrder) {
+    element("bone");
+    unit(
+        {{"unit", "set_transform"}, {"name", "second"}, {"item", "bone"}, {"transform", transform(2, 0, 0)}});
+    unit({{"unit", "set_transform"},
+          {"name", "first"},
+          {"at", 0},
+          {"item", "bone"},
+          {"transform", transform(1, 0, 0)}});
+    solve();
+    expect_near(translation("bone"), {2, 0, 0});
+    EXPECT_EQ(state().at("units")[0].at("name"), "first");
+    run("rig.unit.remove", {{"name", "second"}});
+    solve();
+    expect_near(translation("bone"), {1, 0, 0});
+}
+
+TEST_F(RigCommands, CurvesAreWrittenByUnitsAndStandAgainBeforeThem) {
+    run("rig.curve.add", {{"name", "smile"}, {"value", 0.25}});
+    run("rig.curve.add", {{"name", "frown"}});
+    unit({{"unit", "set_curve"}, {"name", "set"}, {"curve", "smile"}, {"value", 1}, {"weight", 0.5}});
+    solve();
+    EXPECT_EQ(state().at("curves"), (Json{{"smile", 0.625}, {"frown", 0.0}}));
+    solve();
+    EXPECT_EQ(state().at("curves").at("smile"), 0.625);
+    run("rig.curve.set", {{"name", "smile"}, {"value", 0}});
+    run("rig.curve.set", {{"name", "frown"}, {"value", 0.1}});
+    tick();
+    EXPECT_EQ(state().at("curves"), (Json{{"smile", 0.5}, {"frown", 0.1}}));
+}
+
+TEST_F(RigCommands, WarningsAreSaidInTheState) {
+    element("bone");
+    control("weight", "float");
+    unit({{"unit", "aim"}, {"name", "look"}, {"item", "bone"}, {"primary", {{"target", "bone"}}}});
+    unit({{"unit", "from_two_vectors"}, {"name", "arc"}, {"weight", "weight"}});
+    set("weight", 2);
+    solve();
+    EXPECT_EQ(named("units", "look").at("warning"),
+              "the target is where the item is, there is no direction to it");
+    EXPECT_EQ(named("units", "arc").at("warning"), "a weight is not from 0 to 1, and was clamped");
+    run("rig.unit.enable", {{"name", "look"}, {"on", false}});
+    set("weight", 1);
+    solve();
+    for (const Json& each : list("units")) EXPECT_EQ(each.at("warning"), "");
+}
+
+TEST_F(RigCommands, BackwardFindsTheControlsAndSaysWhatIsLeft) {
+    build_arm();
+    const double angle = 0.7;
+    run("rig.element.set", {{"name", "arm"},
+                            {"space", "global"},
+                            {"transform", {{"rotation", {0, 0, std::sin(angle / 2), std::cos(angle / 2)}}}}});
+    solve("backward");
+    // The input pose has the turn already, and the unit adds to it.
+    EXPECT_NEAR(named("elements", "dial").at("value").get<double>(), 0.0, 1e-6);
+    Json backward = state().at("backward");
+    EXPECT_LT(backward.at("worst_mm"), 0.1);
+    EXPECT_LT(backward.at("worst_degrees"), 0.01);
+    EXPECT_TRUE(backward.at("bone").is_string());
+    solve();
+    EXPECT_EQ(state().at("backward"), backward) << "until something is changed";
+    set("dial", 0.5);
+    EXPECT_TRUE(state().at("backward").is_null());
+}
+
+/// Every command once, and all of it undone again, step by step; and made again.
+TEST_F(RigCommands, EverythingIsUndoneStepByStep) {
+    workspace.history.clear();
+    std::vector<Json> states{saved()};
+    const auto step = [&](const char* name, const Json& arguments) {
+        SCOPED_TRACE(name);
+        run(name, arguments);
+        EXPECT_NE(saved(), states.back());
+        states.push_back(saved());
+    };
+    step("rig.element.add", {{"name", "arm"}, {"kind", "bone"}});
+    step("rig.element.add", {{"name", "dial"}, {"kind", "control"}, {"control", "float"}});
+    step("rig.curve.add", {{"name", "smile"}});
+    step("rig.unit.add", {{"unit", "evaluate_curve"}, {"value", "dial"}});
+    step("rig.control.set", {{"name", "dial"}, {"value", 0.5}});
+    step("rig.solve", {{"direction", "forward"}});
+    step("rig.curve.set", {{"name", "smile"}, {"value", 1}});
+    step("rig.element.set", {{"name", "arm"}, {"transform", transform(1, 2, 3)}});
+    step("rig.unit.enable", {{"name", "evaluate_curve"}, {"on", false}});
+    step("rig.solve", {{"direction", "backward"}});
+    step("rig.unit.remove", {{"name", "evaluate_curve"}});
+    step("rig.element.remove", {{"name", "arm"}});
+    step("rig.preset", {{"name", "loop"}});
+    step("rig.clear", Json::object());
+    step("rig.reset", Json::object());
+    EXPECT_EQ(workspace.history.size(), states.size() - 1);
+    for (std::size_t i = states.size() - 1; i-- > 0;) {
+        run("undo");
+        EXPECT_EQ(saved(), states[i]) << i;
+    }
+    EXPECT_FALSE(workspace.history.can_undo());
+    for (std::size_t i = 1; i < states.size(); ++i) {
+        run("redo");
+        EXPECT_EQ(saved(), states[i]) << i;
+    }
+}
+
+}  // namespace
+}  // namespace tendril::app

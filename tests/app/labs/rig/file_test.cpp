@@ -1,0 +1,249 @@
+// Rigs in scene files: every unit is added by command and read back, and what is in a file comes back to the
+// bit.
+#include <set>
+
+#include "app/labs/rig/unit_json.hpp"
+#include "rig_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+class RigFile : public RigTest {
+  protected:
+    /// Three bones in a line, a control of each kind, a curve.
+    RigFile() {
+        element("root");
+        element("middle", "root", transform(1, 0, 0));
+        element("tip", "middle", transform(1, 0, 0));
+        for (const char* kind : {"transform", "position", "rotation", "float", "bool"})
+            control(kind, kind, {{"local", transform(0, 1, 0)}});
+        control("vector2d", "vector2d",
+                {{"axes", {"z", "x"}}, {"minimum", {-1, -2}}, {"maximum", {1, 2}}, {"space", "position"}});
+        run("rig.curve.add", {{"name", "smile"}, {"value", 0.25}});
+    }
+};
+
+/// One of each, with inputs of every form where they can be.
+std::vector<Json> one_of_each() {
+    const Json ratio{{"each", "ratio"}}, dial{{"element", "float"}, {"of", "value"}};
+    return {
+        {{"unit", "aim"},
+         {"item", "tip"},
+         {"primary", {{"axis", {0, 0, 1}}, {"target", "position"}, {"kind", "location"}, {"weight", dial}}},
+         {"secondary", {{"axis", {0, 1, 0}}, {"target", {0, 1, 0}}, {"kind", "direction"}}},
+         {"max_speed", 90}},
+        {{"unit", "aim_math"},
+         {"transform", {{"element", "tip"}, {"of", "transform"}, {"space", "initial_global"}}},
+         {"primary", {{"target", {1, 2, 3}}}}},
+        {{"unit", "parent_constraint"},
+         {"item", "middle"},
+         {"parents", {{{"item", "transform"}, {"weight", 0.5}}, {{"item", "position"}, {"weight", dial}}}},
+         {"maintain_offset", {{"element", "bool"}, {"of", "value"}}},
+         {"filter", {{"translation", {true, false, true}}, {"scale", {false, false, false}}}}},
+        {{"unit", "offset_transform"},
+         {"item", "root"},
+         {"offset", {{"translation", {0.1, 0, 0}}, {"rotation", {0, 0, 0.6, 0.8}}}},
+         {"propagate", false}},
+        {{"unit", "set_transform"}, {"item", "tip"}, {"transform", "transform"}, {"space", "local"}},
+        {{"unit", "set_rotation"}, {"item", "tip"}, {"rotation", "rotation"}, {"weight", 0.5}},
+        {{"unit", "project_to_parent"}, {"child", "tip"}, {"old_parent", "middle"}, {"new_parent", "root"}},
+        {{"unit", "from_two_vectors"}, {"name", "arc"}, {"from", {1, 0, 0}}, {"to", "position"}},
+        {{"unit", "transform_location"},
+         {"transform", {{"unit", "aim_math"}}},
+         {"location", {{"element", "tip"}, {"of", "scale"}, {"space", "initial_local"}}}},
+        {{"unit", "transform_direction"}, {"transform", "tip"}, {"direction", {0, 0, 1}}, {"when", "bool"}},
+        {{"unit", "for_each"},
+         {"roots", {"root"}},
+         {"include_parent", false},
+         {"recursive", false},
+         {"body",
+          {{{"unit", "set_rotation"}, {"item", {{"item", "each"}}}, {"weight", ratio}},
+           {{"unit", "evaluate_curve"},
+            {"name", "inner"},
+            {"value", {{"item", "each"}, {"of", "x"}, {"space", "local"}}}},
+           {{"unit", "transform_location"}, {"transform", {{"item", "each"}}}},
+           {{"unit", "spring_interpolate"}, {"target", {{"item", "each"}}}}}}},
+        {{"unit", "alpha_interpolate"},
+         {"value", "float"},
+         {"map_range", true},
+         {"in_range", {2, 2}},
+         {"out_range", {1, -1}},
+         {"clamp", true},
+         {"interp", "bool"}},
+        {{"unit", "spring_interpolate"},
+         {"name", "trail"},
+         {"target", {{"element", "position"}}},
+         {"force", {0, -9.81, 0}},
+         {"critical_damping", 0.3}},
+        {{"unit", "spring_interpolate"}, {"name", "trail by number"}, {"target", dial}},
+        {{"unit", "spring_interpolate"},
+         {"name", "trail by rotation"},
+         {"target", {{"element", "rotation"}, {"of", "rotation"}}}},
+        {{"unit", "evaluate_curve"},
+         {"value", dial},
+         {"curve",
+          {{"keys",
+            {{{"time", 0}, {"value", 0}, {"leave", 2}, {"piece", "cubic"}}, {{"time", 1}, {"value", 1}}}},
+           {"source_max", 2}}}},
+        {{"unit", "set_curve"}, {"curve", "smile"}, {"value", {{"unit", "evaluate_curve"}}}},
+        {{"unit", "two_bone"},
+         {"root", "root"},
+         {"tip", "tip"},
+         {"target", "position"},
+         {"pole_target", {0, 5, 0}}},
+        {{"unit", "fabrik"}, {"root", "root"}, {"tip", "tip"}, {"target", {1, 1, 0}}, {"enabled", false}}};
+}
+
+TEST_F(RigFile, EveryUnitIsAddedByCommandAndReadBack) {
+    std::set<std::string> kinds;
+    for (const Json& each : one_of_each()) {
+        unit(each);
+        kinds.insert(each.at("unit"));
+    }
+    const std::vector<std::string> all = operation_names();
+    EXPECT_EQ(kinds, std::set<std::string>(all.begin(), all.end())) << "one of each operation";
+    const Workspace other = reopened();
+    EXPECT_EQ(rig_part(other).rig.definition(), part().rig.definition());
+    EXPECT_TRUE(rig_part(other) == part());
+}
+
+/// What a file has of a unit can be given to the command as it is.
+TEST_F(RigFile, AUnitOfAFileIsOneOfACommand) {
+    for (const Json& each : one_of_each()) unit(each);
+    const rig::Definition once = part().rig.definition();
+    const Json units = saved().at("units");
+    while (!part().rig.definition().units.empty())
+        run("rig.unit.remove", {{"name", part().rig.definition().units.back().name}});
+    for (const Json& each : units) unit(each);
+    EXPECT_EQ(part().rig.definition(), once);
+}
+
+TEST_F(RigFile, AnElementOfAFileIsOneOfACommand) {
+    const rig::Definition once = part().rig.definition();
+    const Json elements = saved().at("elements");
+    run("rig.clear");
+    for (const Json& each : elements) run("rig.element.add", each);
+    EXPECT_EQ(part().rig.definition().elements, once.elements);
+}
+
+TEST_F(RigFile, InputsAreReadAsTheyAreMeant) {
+    for (const Json& each : one_of_each()) unit(each);
+    using namespace rig;
+    const auto& units = part().rig.definition().units;
+    const auto operation = [&]<class T>(std::size_t at) { return std::get<T>(units[at].operation); };
+    const auto aim = operation.operator()<Aim>(0);
+    EXPECT_EQ(aim.primary.target, Input<glm::dvec3>(FromElement{"position"}));
+    EXPECT_EQ(aim.primary.weight, Input<double>(FromElement{.element = "float", .of = Of::ControlValue}));
+    EXPECT_EQ(aim.secondary->kind, AimTarget::Direction);
+    const auto constraint = operation.operator()<ParentConstraint>(2);
+    EXPECT_EQ(constraint.filter.translation, (std::array<bool, 3>{true, false, true}));
+    EXPECT_EQ(constraint.filter.rotation, (std::array<bool, 3>{true, true, true}));
+    const Transform* offset = std::get<OffsetTransform>(units[3].operation).offset.literal();
+    ASSERT_NE(offset, nullptr);
+    EXPECT_EQ(offset->rotation, glm::dquat(0.8, 0, 0, 0.6)) << "[x, y, z, w]";
+    EXPECT_EQ(offset->scale, glm::dvec3(1)) << "left out";
+    EXPECT_EQ(operation.operator()<SetTransform>(4).transform,
+              Input<Transform>(FromElement{.element = "transform", .of = Of::Transform}));
+    EXPECT_EQ(operation.operator()<SetRotation>(5).rotation,
+              Input<glm::dquat>(FromElement{.element = "rotation", .of = Of::Rotation}));
+    EXPECT_EQ(units[7].name, "arc");
+    const auto location = operation.operator()<TransformLocation>(8);
+    EXPECT_EQ(location.transform, Input<Transform>(FromUnit{"aim_math"}));
+    EXPECT_EQ(location.location,
+              Input<glm::dvec3>(FromElement{
+                  .element = "tip", .of = Of::Scale, .space = Space::Local, .pose = Pose::Initial}));
+    EXPECT_EQ(units[9].when, Input<bool>(FromElement{.element = "bool", .of = Of::ControlValue}));
+    const auto& body = std::get<ForEach>(units[10].operation).body.units();
+    EXPECT_EQ(body[0].weight, Input<double>(Each::Ratio));
+    EXPECT_EQ(std::get<SetRotation>(body[0].operation).item, Item(ThisElement()));
+    EXPECT_EQ(std::get<EvaluateCurve>(body[1].operation).value,
+              Input<double>(FromElement{.element = ThisElement(), .of = Of::X, .space = Space::Local}));
+    EXPECT_EQ(operation.operator()<EvaluateCurve>(15).curve.keys[0].piece, signal::Piece::Cubic);
+    EXPECT_FALSE(units[18].enabled);
+}
+
+/// The members of a curve may stand among those of the unit, as signal.md has them.
+TEST_F(RigFile, ACurveMayStandAmongTheMembersOfItsUnit) {
+    const Json keys{{{"time", 0}, {"value", 1}}, {{"time", 1}, {"value", 0}}};
+    unit({{"unit", "evaluate_curve"}, {"value", 0.5}, {"keys", keys}, {"target_max", 4}});
+    unit({{"unit", "evaluate_curve"}, {"value", 0.5}, {"curve", {{"keys", keys}, {"target_max", 4}}}});
+    const auto& units = part().rig.definition().units;
+    EXPECT_EQ(units[0].operation, units[1].operation);
+    solve();
+    EXPECT_EQ(output("evaluate_curve"), 2.0);
+}
+
+TEST_F(RigFile, UnitsWithoutANameGetOneOfTheirOwn) {
+    unit({{"unit", "from_two_vectors"}});
+    unit({{"unit", "from_two_vectors"}, {"name", "from_two_vectors 3"}});
+    unit({{"unit", "from_two_vectors"}});
+    unit({{"unit", "from_two_vectors"}, {"at", 0}});
+    unit({{"unit", "for_each"},
+          {"roots", {"root"}},
+          {"body", {{{"unit", "from_two_vectors"}}, {{"unit", "from_two_vectors"}, {"name", "for_each"}}}}});
+    std::vector<std::string> names;
+    for (const rig::Unit& each : part().rig.definition().units) names.push_back(each.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"from_two_vectors 4", "from_two_vectors", "from_two_vectors 3",
+                                               "from_two_vectors 2", "for_each 2"}));
+    const auto& loop = std::get<rig::ForEach>(part().rig.definition().units.back().operation);
+    EXPECT_EQ(loop.body.units()[0].name, "from_two_vectors 5");
+}
+
+/// In mid-motion, with poses set globally and without propagation, everything that remembers under way.
+TEST_F(RigFile, TheStateComesBackToTheBitAndGoesOnAlike) {
+    for (const Json& each : one_of_each()) unit(each);
+    set("float", 0.7);
+    set("vector2d", {0.5, -1.5});
+    set("position", {0.3, 1.7, -0.4});
+    tick(5);
+    set("rotation", {0.1, 0.2, 0.3, 0.9});
+    tick(3);
+    run("rig.element.set",
+        {{"name", "middle"},
+         {"space", "global"},
+         {"propagate", false},
+         {"transform", {{"translation", {0.1, 0.7, 0.3}}, {"rotation", {0.3, 0.1, 0.2, 0.7}}}}});
+    for (int round = 0; round < 3; ++round) {
+        Workspace other = reopened();
+        EXPECT_TRUE(rig_part(other) == part()) << round;
+        EXPECT_EQ(save_scene(other), save_scene(workspace)) << round;
+        for (int i = 0; i < 20; ++i) {
+            tick();
+            if (lab().moving(other)) lab().step(other);
+        }
+        EXPECT_EQ(lab().state(other), state()) << round;
+        EXPECT_TRUE(rig_part(other) == part()) << round;
+        EXPECT_TRUE(part().moving) << "springs with little damping take their time";
+    }
+}
+
+TEST_F(RigFile, ARigThatWasWrittenByHandBeginsAtRest) {
+    Json scene = save_scene(workspace);
+    Json& rig = scene.at("labs").at(rig_lab);
+    rig.erase("state");
+    rig["elements"][1]["local"] = transform(0, 2, 0);
+    rig["units"] = {{{"unit", "from_two_vectors"}, {"to", {0, 1, 0}}}};
+    load_scene(workspace, scene);
+    EXPECT_EQ(translation("tip"), glm::dvec3(1, 2, 0));
+    EXPECT_EQ(part().rig.definition().units[0].name, "from_two_vectors");
+    EXPECT_NE(output("from_two_vectors")[2], 0.0) << "it has been solved";
+}
+
+/// The runtime follows from the document: without it nothing comes out otherwise.
+TEST_F(RigFile, TheRuntimeCanBeThrownAwayAtAnyTime) {
+    for (const Json& each : one_of_each()) unit(each);
+    run("rig.unit.enable", {{"name", "fabrik"}, {"on", true}});
+    Workspace other = workspace;
+    for (int i = 0; i < 60; ++i) {
+        const Json arguments{{"name", "position"}, {"value", {std::sin(0.1 * i), 1.0, std::cos(0.13 * i)}}};
+        run("rig.control.set", arguments);
+        run_in(other, "rig.control.set", arguments);
+        tick();
+        lab().step(other);
+        other.runtimes.clear();
+        ASSERT_TRUE(rig_part(other) == part()) << "tick " << i;
+    }
+}
+
+}  // namespace
+}  // namespace tendril::app

@@ -1,0 +1,293 @@
+// What the lab refuses, and how it says so. Nothing has changed then: LabTest::refused checks it.
+#include <limits>
+
+#include "rig_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+class RigHostile : public RigTest {
+  protected:
+    RigHostile() {
+        element("root");
+        element("hand", "root", transform(1, 0, 0));
+        control("dial", "float");
+        run("rig.curve.add", {{"name", "smile"}});
+    }
+    void expect_unit_refused(const Json& unit, std::vector<std::string> says) {
+        expect_refused("rig.unit.add", unit, std::move(says));
+    }
+};
+
+TEST_F(RigHostile, ElementsThatMakeNoTree) {
+    expect_refused("rig.element.add", {{"name", "root"}}, {"\"root\"", "this name already"});
+    expect_refused("rig.element.add", {{"name", "new"}, {"parent", "nobody"}}, {"\"new\"", "\"nobody\""});
+    expect_refused("rig.element.add", {{"name", "new"}, {"parent", "new"}}, {"\"new\"", "itself below it"});
+    expect_refused("rig.element.add", {{"name", ""}}, {"name is empty"});
+    expect_refused("rig.element.add", {{"name", std::string(101, 'x')}}, {"101 characters"});
+    expect_refused("rig.element.add", {{"name", std::string("a\0b", 3)}}, {"cannot be shown"});
+    expect_refused("rig.element.add", {{"name", "\xFF"}}, {"UTF-8"});
+    expect_refused("rig.element.add", {{"name", "new"}, {"kind", "ghost"}}, {"kind", "\"ghost\""});
+    expect_refused("rig.element.add", {{"kind", "bone"}}, {"name is missing"});
+    expect_refused("rig.element.add", {{"name", "new"}, {"weight", 1}}, {"unknown argument \"weight\""});
+
+    Json scene = save_scene(workspace);
+    scene["labs"]["rig"]["elements"][0]["parent"] = "hand";
+    try {
+        load_scene(workspace, scene);
+        ADD_FAILURE() << "a cycle was opened";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("itself below it"), std::string::npos) << error.what();
+    }
+}
+
+TEST_F(RigHostile, TransformsThatAreNone) {
+    // What the place in front says, "local" or "transform", is the argument's name.
+    const auto add = [&](const Json& local, const std::string& place, const std::string& says) {
+        expect_refused("rig.element.add", {{"name", "new"}, {"local", local}}, {"local" + place, says});
+        expect_refused("rig.element.set", {{"name", "hand"}, {"transform", local}},
+                       {"transform" + place, says});
+    };
+    add({{"translation", {nan, 0, 0}}}, ".translation.0", "a number");
+    add({{"translation", {0, infinity, 0}}}, ".translation.1", "a number");
+    add({{"translation", {1e10, 0, 0}}}, ".translation.0", "1e9");
+    add({{"translation", {1, 2}}}, ".translation", "[x, y, z]");
+    add({{"rotation", {1, 2, 3}}}, ".rotation", "[x, y, z, w]");
+    add({{"size", {1, 1, 1}}}, "", "unknown member \"size\"");
+    add("here", "", "\"here\"");
+    add(nullptr, "", "null");
+    for (const Json& local : {Json{{"rotation", {0, 0, 0, 0}}}, Json{{"scale", {1, 0, 1}}}}) {
+        expect_refused("rig.element.add", {{"name", "new"}, {"local", local}},
+                       {"\"new\"", local.begin().key()});
+        expect_refused("rig.element.set", {{"name", "hand"}, {"transform", local}}, {local.begin().key()});
+    }
+}
+
+TEST_F(RigHostile, ControlsOutOfOrder) {
+    const auto add = [&](const Json& more, std::vector<std::string> says) {
+        Json arguments{{"name", "new"}, {"kind", "control"}};
+        arguments.update(more);
+        expect_refused("rig.element.add", arguments, std::move(says));
+    };
+    add({{"control", "vector2d"}, {"axes", {"x", "x"}}}, {"axes", "different"});
+    add({{"control", "vector2d"}, {"axes", {"x", "w"}}}, {"axes.1", "\"w\""});
+    add({{"control", "vector2d"}, {"axes", {"x"}}}, {"axes"});
+    add({{"control", "float"}, {"axes", {"x", "y"}}}, {"axes", "vector2d"});
+    add({{"control", "float"}, {"minimum", 1}, {"maximum", 0}}, {"minimum", "at most the maximum", "1"});
+    add({{"control", "float"}, {"minimum", {0, 0}}}, {"minimum", "a number"});
+    add({{"control", "vector2d"}, {"minimum", 0}}, {"minimum", "[a, b]"});
+    add({{"control", "position"}, {"maximum", {1, 2}}}, {"maximum", "[x, y, z]"});
+    add({{"control", "bool"}, {"maximum", 1}}, {"maximum", "bool"});
+    add({{"control", "dial"}}, {"control", "\"dial\""});
+    add({{"parent", "hand"}, {"space", "root"}}, {"space", "\"hand\""});
+    add({{"space", "nobody"}}, {"\"nobody\""});
+    expect_refused("rig.element.add", {{"name", "new"}, {"minimum", 1}}, {"minimum", "only a control"});
+    expect_refused("rig.element.add", {{"name", "new"}, {"space", "hand"}}, {"space", "only a control"});
+}
+
+/// One value is a range too.
+TEST_F(RigHostile, ARangeOfNoWidthHoldsItsControl) {
+    control("fixed", "float", {{"minimum", 0.5}, {"maximum", 0.5}});
+    set("fixed", 3.0);
+    EXPECT_EQ(named("elements", "fixed").at("value"), 0.5);
+}
+
+TEST_F(RigHostile, ValuesThatAControlDoesNotHave) {
+    control("place", "position");
+    control("square", "vector2d");
+    expect_refused("rig.control.set", {{"name", "hand"}, {"value", 1}}, {"\"hand\" is no control"});
+    expect_refused("rig.control.set", {{"name", "nobody"}, {"value", 1}}, {"no element \"nobody\""});
+    expect_refused("rig.control.set", {{"name", "dial"}, {"value", nan}}, {"value", "a number"});
+    expect_refused("rig.control.set", {{"name", "dial"}, {"value", true}}, {"value", "true"});
+    expect_refused("rig.control.set", {{"name", "dial"}, {"value", {1, 2, 3}}}, {"value", "a number"});
+    expect_refused("rig.control.set", {{"name", "place"}, {"value", 1}}, {"value", "[x, y, z]"});
+    expect_refused("rig.control.set", {{"name", "place"}, {"value", {1, nan, 3}}}, {"value"});
+    expect_refused("rig.control.set", {{"name", "square"}, {"value", {1, 2, 3}}}, {"value", "[a, b]"});
+    expect_refused("rig.control.set", {{"name", "dial"}}, {"value is missing"});
+}
+
+TEST_F(RigHostile, UnitsThatAreNone) {
+    expect_unit_refused({{"unit", "dance"}}, {"unit", "\"dance\""});
+    expect_unit_refused({{"item", "hand"}}, {"unit is missing"});
+    expect_unit_refused({{"unit", "aim"}}, {"\"item\" is missing"});
+    expect_unit_refused({{"unit", "aim"}, {"item", "hand"}, {"roots", {"root"}}},
+                        {"unknown member \"roots\"", "primary"});
+    expect_unit_refused({{"unit", "aim"}, {"item", "hand"}, {"primary", {{"taget", "root"}}}},
+                        {"primary: unknown member \"taget\""});
+    expect_unit_refused({{"unit", "aim"}, {"item", "hand"}, {"primary", {{"kind", "point"}}}},
+                        {"primary.kind", "location, direction", "\"point\""});
+    expect_unit_refused({{"unit", "aim"}, {"item", {{"item", "all"}}}}, {"item.item", "\"all\""});
+    expect_unit_refused({{"unit", "aim"}, {"item", 7}}, {"item", "7"});
+    expect_unit_refused({{"unit", "parent_constraint"}, {"item", "hand"}}, {"\"parents\" is missing"});
+    expect_unit_refused({{"unit", "parent_constraint"}, {"item", "hand"}, {"parents", Json::array()}},
+                        {"parents", "at least one"});
+    expect_unit_refused({{"unit", "parent_constraint"},
+                         {"item", "hand"},
+                         {"parents", {{{"item", "root"}}}},
+                         {"filter", {{"rotation", {true, 1, true}}}}},
+                        {"filter.rotation.1", "true or false"});
+    expect_unit_refused({{"unit", "for_each"}, {"roots", {"root"}}, {"body", {{{"unit", "sing"}}}}},
+                        {"body.0.unit", "\"sing\""});
+    expect_unit_refused({{"unit", "from_two_vectors"}, {"at", 5}}, {"at", "0 to 0", "5"});
+    expect_unit_refused({{"unit", "from_two_vectors"}, {"at", -1}}, {"at"});
+    unit({{"unit", "from_two_vectors"}, {"name", "arc"}});
+    expect_unit_refused({{"unit", "from_two_vectors"}, {"name", "arc"}}, {"\"arc\"", "this name already"});
+    expect_refused("rig.unit.enable", {{"name", "nobody"}, {"on", false}}, {"no unit \"nobody\""});
+    expect_refused("rig.unit.remove", {{"name", "nobody"}}, {"no unit \"nobody\""});
+}
+
+TEST_F(RigHostile, InputsOfTheWrongTypeOrOfNothing) {
+    const auto rotation = [&](const Json& input, std::vector<std::string> says) {
+        expect_unit_refused({{"unit", "set_rotation"}, {"item", "hand"}, {"rotation", input}},
+                            std::move(says));
+    };
+    rotation(1.0, {"rotation", "[x, y, z, w]", "1"});
+    rotation({0, 0, 0, 0}, {"rotation"});
+    rotation({0, nan, 0, 1}, {"rotation.1"});
+    rotation("nobody", {"rotation", "no element \"nobody\""});
+    rotation({{"element", "hand"}, {"of", "scale"}}, {"rotation takes a rotation, got a vector"});
+    rotation({{"element", "hand"}, {"of", "mood"}}, {"rotation.of", "\"mood\""});
+    rotation({{"element", "hand"}, {"space", "outer"}}, {"rotation.space", "\"outer\""});
+    rotation({{"element", "hand"}, {"offset", 1}}, {"rotation: unknown member \"offset\""});
+    rotation({{"unit", "nobody"}}, {"no unit \"nobody\" runs before"});
+    rotation({{"each", "ratio"}}, {"only known inside a for-each"});
+    rotation({{"each", "weight"}}, {"rotation.each", "\"weight\""});
+    rotation({{"item", "each"}}, {"only known inside a for-each"});
+    unit({{"unit", "from_two_vectors"}, {"name", "arc"}});
+    rotation({{"unit", "arc"}, {"output", "speed"}}, {"has no output \"speed\""});
+    const Json itself{
+        {"unit", "set_rotation"}, {"name", "self"}, {"item", "hand"}, {"rotation", {{"unit", "self"}}}};
+    expect_unit_refused(itself, {"rotation: no unit \"self\" runs before"});
+    expect_unit_refused({{"unit", "set_curve"}, {"curve", "frown"}}, {"no curve \"frown\""});
+    expect_unit_refused({{"unit", "set_rotation"}, {"item", "hand"}, {"when", 1}}, {"when", "true or false"});
+    expect_unit_refused({{"unit", "set_rotation"}, {"item", "hand"}, {"when", "dial"}},
+                        {"when takes a bool, got a number"});
+}
+
+TEST_F(RigHostile, NumbersOutOfTheirRange) {
+    for (const double weight : {-0.5, 1.5}) {
+        expect_unit_refused({{"unit", "from_two_vectors"}, {"weight", weight}}, {"weight must be 0 to 1"});
+        expect_unit_refused({{"unit", "aim"}, {"item", "hand"}, {"secondary", {{"weight", weight}}}},
+                            {"secondary.weight must be 0 to 1"});
+    }
+    expect_unit_refused({{"unit", "from_two_vectors"}, {"weight", nan}}, {"weight", "a number"});
+    expect_unit_refused(
+        {{"unit", "parent_constraint"}, {"item", "hand"}, {"parents", {{{"item", "root"}, {"weight", -1}}}}},
+        {"parents[0].weight must not be negative"});
+    const auto keys = [&](double first, double second) {
+        return Json{
+            {"unit", "evaluate_curve"},
+            {"curve", {{"keys", {{{"time", first}, {"value", 0}}, {{"time", second}, {"value", 1}}}}}}};
+    };
+    expect_unit_refused(keys(1, 1), {"curve", "keys[1].time"});
+    expect_unit_refused(keys(1, 0), {"curve", "keys[1].time"});
+    expect_unit_refused({{"unit", "evaluate_curve"}, {"curve", {{"keys", Json::array()}}}}, {"curve"});
+    expect_unit_refused({{"unit", "alpha_interpolate"}, {"in_range", {0, 1, 2}}},
+                        {"in_range", "[low, high]"});
+}
+
+/// Defined, with a warning and the item as it is.
+TEST_F(RigHostile, AnAxisOfNoLengthIsAWarning) {
+    unit({{"unit", "aim"}, {"item", "hand"}, {"primary", {{"axis", {0, 0, 0}}, {"target", {0, 1, 0}}}}});
+    solve();
+    EXPECT_EQ(named("units", "aim").at("warning"), "an axis has no length");
+    EXPECT_EQ(rotation("hand"), glm::dquat(1, 0, 0, 0));
+    run("rig.clear");
+    element("hand");
+    unit({{"unit", "aim"}, {"item", "hand"}, {"primary", {{"target", "hand"}}}});
+    solve();
+    EXPECT_EQ(named("units", "aim").at("warning"),
+              "the target is where the item is, there is no direction to it");
+}
+
+TEST_F(RigHostile, RangesOfNoWidthAreDefined) {
+    unit({{"unit", "alpha_interpolate"},
+          {"value", 5},
+          {"map_range", true},
+          {"in_range", {2, 2}},
+          {"out_range", {3, 4}}});
+    unit({{"unit", "evaluate_curve"}, {"value", 5}, {"curve", {{"source_min", 2}, {"source_max", 2}}}});
+    solve();
+    EXPECT_EQ(output("alpha_interpolate"), 3.0);
+    EXPECT_EQ(output("evaluate_curve"), 0.0);
+}
+
+TEST_F(RigHostile, WhatOthersNameCannotBeRemoved) {
+    unit({{"unit", "from_two_vectors"}, {"name", "arc"}});
+    unit({{"unit", "set_rotation"}, {"name", "turn"}, {"item", "hand"}, {"rotation", {{"unit", "arc"}}}});
+    unit({{"unit", "for_each"},
+          {"name", "loop"},
+          {"roots", {"root"}},
+          {"body", {{{"unit", "evaluate_curve"}, {"name", "inner"}, {"value", "dial"}}}}});
+    expect_refused("rig.element.remove", {{"name", "root"}}, {"\"root\" is the parent of \"hand\""});
+    expect_refused("rig.element.remove", {{"name", "hand"}}, {"unit \"turn\"", "\"hand\"", "item"});
+    expect_refused("rig.element.remove", {{"name", "dial"}}, {"unit \"inner\"", "\"dial\"", "value"});
+    expect_refused("rig.element.remove", {{"name", "nobody"}}, {"no element \"nobody\""});
+    expect_refused("rig.unit.remove", {{"name", "arc"}}, {"unit \"turn\"", "rotation", "\"arc\""});
+    run("rig.unit.remove", {{"name", "turn"}});
+    run("rig.unit.remove", {{"name", "arc"}});
+    run("rig.unit.remove", {{"name", "inner"}});
+    run("rig.element.remove", {{"name", "dial"}});
+    run("rig.element.remove", {{"name", "hand"}});
+    expect_refused("rig.element.remove", {{"name", "root"}}, {"unit \"loop\"", "roots"});
+}
+
+/// A line of a file can ask for millions of rounds.
+TEST_F(RigHostile, ARigThatWouldRunTooLongIsRefused) {
+    Json scene = save_scene(workspace);
+    Json& rig = scene["labs"]["rig"];
+    rig.erase("state");
+    Json body = Json::array(), roots = Json::array();
+    for (int i = 0; i < 200; ++i) body.push_back({{"unit", "from_two_vectors"}});
+    for (int i = 0; i < 1000; ++i) roots.push_back("root");
+    rig["units"] = {{{"unit", "for_each"}, {"roots", roots}, {"body", body}}};
+    try {
+        load_scene(workspace, scene);
+        ADD_FAILURE();
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("more units than the most"), std::string::npos)
+            << error.what();
+    }
+}
+
+/// Whatever a state in a file has instead of what it should have, it is refused with its place.
+TEST_F(RigHostile, StatesThatAreNone) {
+    unit({{"unit", "spring_interpolate"}, {"target", "root"}});
+    tick();
+    const Json scene = save_scene(workspace);
+    const auto expect_place = [&](const Json::json_pointer& at, const Json& value, const std::string& place) {
+        Json broken = scene;
+        broken["labs"]["rig"]["state"][at] = value;
+        const Document before = workspace.document;
+        try {
+            load_scene(workspace, broken);
+            ADD_FAILURE() << place << " was taken";
+        } catch (const std::runtime_error& error) {
+            EXPECT_EQ(std::string(error.what()).find("labs.rig.state." + place), 0u) << error.what();
+        }
+        EXPECT_TRUE(workspace.document == before);
+    };
+    using Pointer = Json::json_pointer;
+    expect_place(Pointer("/moving"), 1, "moving");
+    expect_place(Pointer("/controls/dial"), "x", "controls.dial");
+    expect_place(Pointer("/curves/smile/now"), nan, "curves.smile.now");
+    expect_place(Pointer("/poses/nobody"), Json::object(), "poses");
+    expect_place(Pointer("/poses/hand"), {{"now", {{"global", {{"rotation", {0, 0, 0, 2}}}}}}},
+                 "poses.hand.now.global");
+    expect_place(Pointer("/poses/hand"), {{"then", nullptr}}, "poses.hand");
+    expect_place(Pointer("/units/spring_interpolate/warning"), "bad", "units.spring_interpolate.warning");
+    expect_place(Pointer("/units/spring_interpolate/outputs"), Json::array(),
+                 "units.spring_interpolate.outputs");
+    expect_place(Pointer("/units/spring_interpolate/memory/0"), {{"spring", {{"value", 1e300}}}},
+                 "units.spring_interpolate.memory.0.spring");
+    expect_place(Pointer("/units/spring_interpolate/memory/0"), {{"turned", {0, 0, 0, 0}}},
+                 "units.spring_interpolate.memory.0.turned");
+    expect_place(Pointer("/units/spring_interpolate/memory/0"), {{"ik", {{"rotations", {{1, 0, 0, 1}}}}}},
+                 "units.spring_interpolate.memory.0.ik.rotations.0");
+}
+
+}  // namespace
+}  // namespace tendril::app

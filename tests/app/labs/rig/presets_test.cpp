@@ -1,0 +1,244 @@
+// The five scenes: each solves without a warning and does what its line of the page says.
+#include <array>
+#include <glm/gtc/quaternion.hpp>
+
+#include "app/labs/rig/presets.hpp"
+#include "rig_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+std::string numbered(const char* name, int number) {
+    std::string result(name);
+    result += ' ';
+    result += std::to_string(number);
+    return result;
+}
+
+class RigPresets : public RigTest {
+  protected:
+    void open(const char* name) { run("rig.preset", {{"name", name}}); }
+    /// Of a unit, or of the first in its body; as somebody does it who edits the file.
+    void switch_input(std::size_t unit, const char* input, bool on) {
+        Json scene = save_scene(workspace);
+        Json* at = &scene.at("labs").at(rig_lab).at("units").at(unit);
+        if (!at->contains(input)) at = &at->at("body").at(0);
+        (*at)[input] = on;
+        load_scene(workspace, scene);
+    }
+    void expect_no_warning() const {
+        for (const Json& each : list("units")) {
+            EXPECT_EQ(each.at("warning"), "") << each.at("name");
+            if (!each.contains("body")) continue;
+            for (const Json& inner : each.at("body")) EXPECT_EQ(inner.at("warning"), "") << inner.at("name");
+        }
+    }
+};
+
+TEST_F(RigPresets, AllSolveWithoutWarningsAndComeToRest) {
+    ASSERT_EQ(rig_presets().size(), 5u);
+    for (const RigPreset& each : rig_presets()) {
+        SCOPED_TRACE(each.name);
+        open(each.name.c_str());
+        expect_no_warning();
+        tick(2);
+        expect_no_warning();
+        EXPECT_FALSE(lab().moving(workspace)) << "nothing has been touched";
+        const Json scene = saved();
+        solve();
+        EXPECT_EQ(saved(), scene);
+    }
+}
+
+TEST_F(RigPresets, AreDataThatAFileCouldHold) {
+    for (const RigPreset& each : rig_presets()) {
+        open(each.name.c_str());
+        EXPECT_EQ(rig_part(reopened()).rig.definition(), each.make()) << each.name;
+    }
+}
+
+TEST_F(RigPresets, TheHeadLooksAtItsControlInBothForms) {
+    open("aim");
+    for (const Json& look : {Json{0.8, -0.6}, Json{-1, 1}, Json{5, 0}}) {
+        set("look", look);
+        set("tilt", {0.4, 0.6, 0.1});
+        set("math form", false);
+        solve();
+        expect_no_warning();
+        const glm::dvec3 head = translation("head"), to = glm::normalize(translation("look") - head);
+        EXPECT_NEAR(glm::dot(rotation("head") * glm::dvec3(0, 0, 1), to), 1.0, 1e-12);
+        // Up is towards the tilt, as nearly as looking allows.
+        const glm::dvec3 side = glm::cross(to, translation("tilt") - head);
+        EXPECT_NEAR(glm::dot(rotation("head") * glm::dvec3(0, 1, 0), glm::normalize(side)), 0.0, 1e-12);
+        const Json bone_form = named("elements", "head");
+        set("math form", true);
+        solve();
+        expect_no_warning();
+        EXPECT_EQ(named("elements", "head"), bone_form) << "the two forms agree to the bit";
+        EXPECT_NE(output("aim math"), output("bone form"));
+    }
+    EXPECT_EQ(named("elements", "look").at("value"), (Json{1.0, 0.0})) << "it stops at its rectangle";
+}
+
+TEST_F(RigPresets, TheTiltGoesWithTheControlThatItIsInTheSpaceOf) {
+    open("aim");
+    const glm::dvec3 before = translation("tilt");
+    set("look", {0.5, 0.25});
+    solve();
+    EXPECT_LE(glm::length(translation("tilt") - before - glm::dvec3(0.5, 0.25, 0)), 1e-12);
+}
+
+TEST_F(RigPresets, TheTentacleFollowsItsControls) {
+    open("fk");
+    const glm::dvec3 off(0, 0, -0.25);  // of a bone from its control, at rest
+    set("dial", 0.6);
+    set("control 3", {0, 0.3, 0, 0.95});
+    solve();
+    expect_no_warning();
+    for (int i = 1; i <= 6; ++i) {
+        const glm::dvec3 wanted =
+            translation(numbered("control", i)) + rotation(numbered("control", i)) * off;
+        EXPECT_LE(glm::length(translation(numbered("bone", i)) - wanted), 1e-9) << i;
+    }
+    EXPECT_GT(glm::length(translation("bone 6") - glm::dvec3(0, 2.2, 0)), 0.5) << "it has curled";
+}
+
+TEST_F(RigPresets, WithoutItsOffsetABoneGoesToItsControl) {
+    open("fk");
+    const auto bone_3_from_control = [&] {
+        return glm::length(translation("bone 3") - translation("control 3"));
+    };
+    set("dial", 0.5);
+    solve();
+    EXPECT_NEAR(bone_3_from_control(), 0.25, 1e-9);
+    switch_input(3, "maintain_offset", false);
+    solve();
+    EXPECT_NEAR(bone_3_from_control(), 0.0, 1e-9);
+}
+
+TEST_F(RigPresets, TheArmsCurlOrTheirJointsTurnInPlace) {
+    open("loop");
+    const glm::dvec3 straight = translation("arm 2 joint 6");
+    set("dial", 1);
+    solve();
+    expect_no_warning();
+    EXPECT_EQ(output("curl"), 30.0) << "five arms of six joints";
+    EXPECT_GT(glm::length(translation("arm 2 joint 6") - straight), 1.0);
+    // All arms alike, each turned about the middle.
+    const glm::dquat by = glm::angleAxis(glm::radians(72.0), glm::dvec3(0, 1, 0));
+    for (const char* joint : {"", " joint 3", " joint 6"}) {
+        const glm::dvec3 one = translation(std::string("arm 1") + joint);
+        EXPECT_LE(glm::length(translation(std::string("arm 2") + joint) - by * one), 1e-9) << joint;
+    }
+    switch_input(0, "propagate", false);
+    solve();
+    EXPECT_LE(glm::length(translation("arm 2 joint 6") - straight), 1e-9) << "where it was";
+    const double turned = glm::degrees(2.0 * std::acos(std::min(1.0, std::abs(rotation("arm 5 joint 4").w))));
+    EXPECT_NEAR(turned, 30.0, 1e-6);
+}
+
+TEST_F(RigPresets, WeightsAndColourFollowTheirControlsThroughCurves) {
+    open("morph");
+    set("shape", {1, 0});
+    solve();
+    Json curves = state().at("curves");
+    EXPECT_NEAR(curves.at("stretch").get<double>(), 1.0, 1e-12);
+    EXPECT_NEAR(curves.at("bulge").get<double>(), 0.0, 1e-12);
+    set("shape", {0.25, 0.5});
+    set("colour", 0.4);
+    solve();
+    curves = state().at("curves");
+    EXPECT_NEAR(curves.at("stretch").get<double>(), 0.15625, 1e-12) << "smooth: 3 t^2 - 2 t^3";
+    EXPECT_NEAR(curves.at("bulge").get<double>(), 0.1, 1e-12);
+    EXPECT_NEAR(curves.at("hue").get<double>(), 0.35, 1e-12);
+    expect_no_warning();
+}
+
+TEST_F(RigPresets, TheAntennaeTrailTheHeadTheirTipsMost) {
+    open("secondary");
+    tick(2);
+    std::vector<glm::dvec3> rest;
+    for (int i = 1; i <= 6; ++i) rest.push_back(translation(numbered("left", i)));
+    const glm::dvec3 step(0.4, 0, 0);
+    set("head", {{"translation", {0.4, 1, 0}}});
+    std::array<double, 6> most{};  // behind where they would be, were the antenna stiff
+    for (int ticks = 0; ticks < 40; ++ticks) {
+        tick();
+        expect_no_warning();
+        EXPECT_EQ(translation("skull"), translation("head")) << "the head itself goes along at once";
+        for (int i = 1; i <= 6; ++i) {
+            const auto at = static_cast<std::size_t>(i - 1);
+            const glm::dvec3 now = translation(numbered("left", i));
+            most[at] = std::max(most[at], glm::length(now - rest[at] - step));
+            if (i == 1) continue;
+            EXPECT_NEAR(glm::length(now - translation(numbered("left", i - 1))), 0.16, 1e-9);
+        }
+    }
+    EXPECT_LE(most[0], 1e-12);
+    for (std::size_t i = 1; i < most.size(); ++i) EXPECT_GT(most[i], most[i - 1]) << i;
+    EXPECT_GT(most[5], 0.2);
+    int ticks = 0;
+    for (; lab().moving(workspace) && ticks < 2000; ++ticks) tick();
+    EXPECT_LT(ticks, 2000);
+    for (int i = 1; i <= 6; ++i)
+        EXPECT_LE(
+            glm::length(translation(numbered("left", i)) - rest[static_cast<std::size_t>(i - 1)] - step),
+            1e-6)
+            << i;
+}
+
+/// Backward then forward gives the pose back wherever the rig can express it.
+TEST_F(RigPresets, BackwardFindsThePosesOfTheScenes) {
+    const std::vector<std::pair<const char*, Json>> poses{
+        {"aim", {{"look", {0.7, -0.4}}, {"tilt", {0.3, 0.9, 0.2}}}},
+        {"fk", {{"dial", 0.35}, {"control 2", {0, 0.2, 0.1, 0.97}}, {"control 5", {0.3, 0, 0, 0.95}}}},
+        {"loop", {{"dial", 0.8}}}};
+    for (const auto& [name, values] : poses) {
+        SCOPED_TRACE(name);
+        open(name);
+        const Json rest = saved().at("state").at("controls");
+        for (const auto& [control, value] : values.items()) set(control.c_str(), value);
+        solve();
+        const Json posed = state().at("elements");
+        // The bones stay as they are while the controls go back.
+        for (const auto& [control, value] : values.items()) set(control.c_str(), rest.at(control));
+        for (const Json& each : posed) {
+            if (each.at("kind") != "bone") continue;
+
+            EXPECT_EQ(named("elements", each.at("name")).at("global"), each.at("global"));
+        }
+        solve("backward");
+        EXPECT_LT(state().at("backward").at("worst_mm"), 0.1);
+        EXPECT_LT(state().at("backward").at("worst_degrees"), 0.006);
+        for (const Json& each : posed) {
+            if (each.at("kind") != "bone") continue;
+            const Json& at = each.at("global").at("translation");
+            const glm::dvec3 wanted(at[0].get<double>(), at[1].get<double>(), at[2].get<double>());
+            EXPECT_LE(glm::length(translation(each.at("name")) - wanted), 1e-4) << each.at("name");
+        }
+    }
+}
+
+/// Constraints put every bone where its control has it, so no control brings one of them aside.
+TEST_F(RigPresets, APoseThatARigCannotExpressIsReportedWithItsBone) {
+    open("fk");
+    set("dial", 0.5);
+    solve();
+    glm::dvec3 at = translation("bone 4");
+    at.z += 0.05;
+    run("rig.element.set", {{"name", "bone 4"},
+                            {"space", "global"},
+                            {"propagate", false},
+                            {"transform",
+                             {{"translation", dpoint(at)},
+                              {"rotation", named("elements", "bone 4").at("global").at("rotation")}}}});
+    solve("backward");
+    const Json backward = state().at("backward");
+    EXPECT_EQ(backward.at("bone"), "bone 4");
+    EXPECT_GT(backward.at("worst_mm"), 30.0);
+    EXPECT_LT(backward.at("worst_mm"), 50.0 + 1e-6);
+    EXPECT_EQ(rig_part(reopened()).backward, part().backward);
+}
+
+}  // namespace
+}  // namespace tendril::app
