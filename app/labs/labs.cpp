@@ -7,6 +7,7 @@
 #include "app/document/command.hpp"
 #include "app/labs/camera_commands.hpp"
 #include "app/labs/chain/chain_lab.hpp"
+#include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/signal/signal_lab.hpp"
 
@@ -16,6 +17,7 @@ Labs::Labs() {
     add(std::make_unique<ChainLab>());
     add(std::make_unique<RopeLab>());
     add(std::make_unique<SignalLab>());
+    add(std::make_unique<RigLab>());
 }
 
 void Labs::add(std::unique_ptr<Lab> lab) {

@@ -74,7 +74,7 @@ void check_runs(const rig::Definition& definition) {
 }
 
 /// Calls with the list that a unit of that name is in, and its place there.
-bool find_unit(std::vector<rig::Unit>& units, const std::string& name, const auto& found) {
+bool find_unit(auto& units, const std::string& name, const auto& found) {
     for (std::size_t i = 0; i < units.size(); ++i) {
         if (units[i].name == name) {
             found(units, i);
@@ -86,7 +86,7 @@ bool find_unit(std::vector<rig::Unit>& units, const std::string& name, const aut
     return false;
 }
 
-void require_unit(rig::Definition& definition, const std::string& name, const auto& found) {
+void require_unit(auto& definition, const std::string& name, const auto& found) {
     if (!find_unit(definition.units, name, found))
         throw std::invalid_argument("there is no unit " + quoted(name));
 }
@@ -113,7 +113,14 @@ void redefine(RigPart& part, rig::Definition definition) {
     rig::Rig rig = make_rig(std::move(definition));
     part.state = rig.adopted(part.rig, part.state);
     part.rig = std::move(rig);
+    forget_missing_selection(part);
     changed(part);
+}
+
+void forget_missing_selection(RigPart& part) {
+    const auto names = part.rig.unit_names();
+    if (!part.rig.element(part.selected.element)) part.selected.element.clear();
+    if (std::ranges::find(names, part.selected.unit) == names.end()) part.selected.unit.clear();
 }
 
 void changed(RigPart& part) {
@@ -167,6 +174,26 @@ void add_unit(RigPart& part, rig::Unit unit, int at) {
     name_units(added, taken);
     definition.units.insert(definition.units.begin() + (at < 0 ? count : at), std::move(added.front()));
     redefine(part, std::move(definition));
+}
+
+void set_unit(RigPart& part, const std::string& name, rig::Unit unit) {
+    rig::Definition definition = part.rig.definition();
+    require_unit(definition, name, [&](std::vector<rig::Unit>& units, std::size_t at) {
+        std::set<std::string> taken;
+        collect_names(definition.units, taken);
+        std::vector<rig::Unit> bodies{std::move(unit)};
+        collect_names(bodies, taken);
+        name_units(bodies, taken);
+        units[at] = std::move(bodies.front());
+    });
+    if (!(definition == part.rig.definition())) redefine(part, std::move(definition));
+}
+
+const rig::Unit& unit_named(const RigPart& part, const std::string& name) {
+    const rig::Unit* result = nullptr;
+    require_unit(part.rig.definition(), name,
+                 [&](const std::vector<rig::Unit>& units, std::size_t at) { result = &units[at]; });
+    return *result;
 }
 
 std::size_t element_named(const RigPart& part, const std::string& name) {

@@ -14,6 +14,9 @@ namespace tendril::app {
 rig::Rig make_rig(rig::Definition definition);
 void redefine(RigPart& part, rig::Definition definition);
 
+/// Of what the rig does not have.
+void forget_missing_selection(RigPart& part);
+
 /// Refused: one that is a parent, or that a unit names; the message says which.
 void remove_element(RigPart& part, const std::string& name);
 /// In bodies too. Refused: one whose output another unit takes.
@@ -21,6 +24,11 @@ void remove_unit(RigPart& part, const std::string& name);
 void enable_unit(RigPart& part, const std::string& name, bool on);
 /// `at`: its place among the units of the rig; -1 for the end. Without a name it is given one.
 void add_unit(RigPart& part, rig::Unit unit, int at);
+
+/// Makes a unit, in a body too, as `unit` has it.
+void set_unit(RigPart& part, const std::string& name, rig::Unit unit);
+/// Throws std::invalid_argument: there is no unit "arm".
+const rig::Unit& unit_named(const RigPart& part, const std::string& name);
 
 /// The place in the definition. Throws std::invalid_argument: there is no element "arm".
 std::size_t element_named(const RigPart& part, const std::string& name);

@@ -176,9 +176,13 @@ Json RigPart::save() const {
     Json units = Json::object();
     for (std::size_t i = 0; i < state.units.size(); ++i)
         units[rig.unit_names()[i]] = save_unit(state.units[i]);
-    json["state"] = {
-        {"moving", moving},           {"controls", save_controls(*this)}, {"curves", save_curves(*this)},
-        {"poses", save_poses(*this)}, {"units", std::move(units)},        {"backward", save_backward(*this)}};
+    json["state"] = {{"moving", moving},
+                     {"controls", save_controls(*this)},
+                     {"curves", save_curves(*this)},
+                     {"poses", save_poses(*this)},
+                     {"units", std::move(units)},
+                     {"backward", save_backward(*this)},
+                     {"selected", {{"element", selected.element}, {"unit", selected.unit}}}};
     return json;
 }
 
@@ -194,7 +198,7 @@ std::shared_ptr<Part> RigPart::load(const Json& json, const std::string& where) 
     const auto state_place = place.optional("state");
     if (!state_place) return part;  // a rig that was written by hand begins at rest
     part->state = part->rig.initial_state();
-    check_members(*state_place, {"moving", "controls", "curves", "poses", "units", "backward"});
+    check_members(*state_place, {"moving", "controls", "curves", "poses", "units", "backward", "selected"});
     part->moving = (*state_place)["moving"].flag();
     load_controls((*state_place)["controls"], *part);
     load_curves((*state_place)["curves"], *part);
@@ -204,6 +208,11 @@ std::shared_ptr<Part> RigPart::load(const Json& json, const std::string& where) 
         load_unit(units[part->rig.unit_names()[i].c_str()], part->state.units[i]);
     if (const auto backward_place = state_place->optional("backward"))
         part->backward = load_backward(*backward_place, part->rig.definition());
+    if (const auto selection = state_place->optional("selected")) {
+        check_members(*selection, {"element", "unit"});
+        part->selected = {(*selection)["element"].text(), (*selection)["unit"].text()};
+        forget_missing_selection(*part);
+    }
     return part;
 }
 

@@ -46,7 +46,7 @@ RigPart first_rig() {
 }
 
 bool RigPart::operator==(const RigPart& other) const {
-    return moving == other.moving && backward == other.backward &&
+    return moving == other.moving && backward == other.backward && selected == other.selected &&
            rig.definition() == other.rig.definition() && state == other.state;
 }
 

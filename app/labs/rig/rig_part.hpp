@@ -32,6 +32,12 @@ struct BackwardLeft {
     double worst_degrees() const;  ///< likewise
 };
 
+/// What the panel shows more of, by name; empty: nothing.
+struct RigSelection {
+    std::string element, unit;
+    bool operator==(const RigSelection&) const = default;
+};
+
 struct RigPart final : Part {
     RigPart();  ///< of an empty rig
     /// Of a rig at rest, after a tick: what remembers has started there, and trails whatever is set next.
@@ -43,6 +49,7 @@ struct RigPart final : Part {
     /// Whether the next tick has anything to do: something was changed, or something that remembers moves.
     bool moving = false;
     std::optional<BackwardLeft> backward;
+    RigSelection selected;
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<RigPart>(*this); }
     Json save() const override;

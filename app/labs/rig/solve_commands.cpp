@@ -19,6 +19,15 @@ void reset(RigPart& part, const Arguments&) {
     part = first_rig();
 }
 
+void select(RigPart& part, const Arguments& given) {
+    RigSelection selected;
+    if (given.has("element")) selected.element = given.text("element");
+    if (given.has("unit")) selected.unit = given.text("unit");
+    if (!selected.element.empty()) element_named(part, selected.element);
+    if (!selected.unit.empty()) unit_named(part, selected.unit);
+    part.selected = std::move(selected);
+}
+
 void take_preset(Workspace& workspace, const Arguments& given) {
     const RigPreset& preset = rig_preset(given.text("name"));
     workspace.document.edit<RigPart>(rig_lab) = RigPart(preset.make());
@@ -60,6 +69,10 @@ Argument json_argument(const char* name, bool required, const char* help) {
 void add_solve_commands(CommandTable& table) {
     table.add(rig_command("rig.clear", {}, "Removes every element, curve and unit", clear));
     table.add(rig_command("rig.reset", {}, "Resets this lab to its first state", reset));
+    table.add(rig_command("rig.select",
+                          {text_argument("element", false, "none where left out"),
+                           text_argument("unit", false, "none where left out")},
+                          "Selects an element, a unit, or one of each", select));
     table.add(
         {.name = "rig.preset",
          .arguments = {choice_argument("name", true, "which scene",

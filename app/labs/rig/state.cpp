@@ -82,6 +82,7 @@ Json RigLab::state(const Workspace& workspace) const {
                 {"curves", curves_state(part)},
                 {"units", units_state(part, runtime.microseconds(part.rig))},
                 {"backward", backward_state(part)},
+                {"selected", {{"element", part.selected.element}, {"unit", part.selected.unit}}},
                 {"moving", part.moving}};
 }
 

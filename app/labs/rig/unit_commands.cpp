@@ -1,4 +1,4 @@
-// Units: added, removed, switched off and on.
+// Units: added, changed, removed, switched off and on.
 #include "app/document/json_complete.hpp"
 #include "app/labs/rig/rig_commands.hpp"
 #include "app/labs/rig/rig_edit.hpp"
@@ -18,6 +18,14 @@ void add(RigPart& part, const Arguments& given) {
     add_unit(part, read_unit(JsonPlace(unit, "")), given.has("at") ? given.integer("at") : -1);
 }
 
+/// What is not given stays.
+void set(RigPart& part, const Arguments& given) {
+    const rig::Unit& now = unit_named(part, given.text("name"));
+    Json unit = unit_json(now);
+    unit.update(given.json());
+    set_unit(part, now.name, read_unit(JsonPlace(unit, "")));
+}
+
 void remove(RigPart& part, const Arguments& given) {
     remove_unit(part, given.text("name"));
 }
@@ -26,12 +34,8 @@ void enable(RigPart& part, const Arguments& given) {
     enable_unit(part, given.text("name"), given.boolean("on"));
 }
 
-std::vector<Argument> unit_arguments() {
-    std::vector<Argument> arguments{
-        choice_argument("unit", true, "its operation", operation_names()),
-        text_argument("name", false, "one of its own; after its operation where left out"),
-        integer_argument("at", "its place among the units; at the end where left out", 0,
-                         static_cast<double>(max_lab_units))};
+/// And then all that a unit may have.
+std::vector<Argument> unit_arguments(std::vector<Argument> arguments) {
     for (const std::string& each : unit_members())
         arguments.push_back(json_argument(each.c_str(), false, "as the unit has it"));
     return arguments;
@@ -40,9 +44,15 @@ std::vector<Argument> unit_arguments() {
 }  // namespace
 
 void add_unit_commands(CommandTable& table) {
-    table.add(rig_command("rig.unit.add", unit_arguments(),
-                          "Adds a unit with its inputs: literals, outputs of units before it, elements",
-                          add));
+    table.add(rig_command(
+        "rig.unit.add",
+        unit_arguments({choice_argument("unit", true, "its operation", operation_names()),
+                        text_argument("name", false, "one of its own; after its operation where left out"),
+                        integer_argument("at", "its place among the units; at the end where left out", 0,
+                                         static_cast<double>(max_lab_units))}),
+        "Adds a unit with its inputs: literals, outputs of units before it, elements", add));
+    table.add(rig_command("rig.unit.set", unit_arguments({unit_name_argument(true)}),
+                          "Changes inputs of a unit; those that are not given stay", set));
     table.add(rig_command("rig.unit.remove", {unit_name_argument(true)},
                           "Removes a unit from which no other takes an output", remove));
     table.add(rig_command("rig.unit.enable",

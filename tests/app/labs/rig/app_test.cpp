@@ -38,7 +38,7 @@ class RigApp : public testing::Test {
     }
 
     std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
-    App app_{*window_, false, labs_with_the_rig()};
+    App app_{*window_, false};
 };
 
 TEST_F(RigApp, AControlThatIsDraggedPastItsRectangleStopsThere) {

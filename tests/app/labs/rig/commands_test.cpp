@@ -37,6 +37,36 @@ TEST_F(RigCommands, ClearLeavesNothing) {
     EXPECT_EQ(state().at("elements").size(), 3u);
 }
 
+TEST_F(RigCommands, SetsInputsOfAUnitAndLeavesTheOthers) {
+    build_arm();
+    const Json before = saved().at("units").at(0);
+    run("rig.unit.set", {{"name", "turn"}, {"weight", 0.25}});
+    Json wanted = before;
+    wanted["weight"] = 0.25;
+    EXPECT_EQ(saved().at("units").at(0), wanted);
+    expect_refused("rig.unit.set", {{"name", "turn"}, {"weight", 2.0}}, {"turn", "weight", "2"});
+    expect_refused("rig.unit.set", {{"name", "turn"}, {"roots", {"arm"}}}, {"roots"});
+    expect_refused("rig.unit.set", {{"name", "bend"}}, {"there is no unit \"bend\""});
+    EXPECT_EQ(saved().at("units").at(0), wanted);
+    run("undo");
+    EXPECT_EQ(saved().at("units").at(0), before);
+}
+
+TEST_F(RigCommands, ASelectionIsSavedAndGoesWithWhatWasSelected) {
+    build_arm();
+    run("rig.select", {{"element", "hand"}, {"unit", "turn"}});
+    EXPECT_EQ(state().at("selected"), (Json{{"element", "hand"}, {"unit", "turn"}}));
+    EXPECT_EQ(rig_part(reopened()).selected, part().selected);
+    run("rig.element.remove", {{"name", "hand"}});
+    EXPECT_EQ(state().at("selected"), (Json{{"element", ""}, {"unit", "turn"}}));
+    run("rig.unit.remove", {{"name", "turn"}});
+    EXPECT_EQ(state().at("selected").at("unit"), "");
+    expect_refused("rig.select", {{"element", "hand"}}, {"there is no element \"hand\""});
+    run("rig.select", {{"element", "arm"}});
+    run("rig.select");
+    EXPECT_EQ(state().at("selected").at("element"), "");
+}
+
 TEST_F(RigCommands, StateHasTheKeysThatThePageNames) {
     build_arm();
     control("square", "vector2d", {{"space", "hand"}});

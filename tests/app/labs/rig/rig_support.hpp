@@ -1,4 +1,4 @@
-// What the tests of the Rig lab share. The lab is not in the program's table yet; here it is.
+// What the tests of the Rig lab share.
 #pragma once
 
 #include <string>
@@ -8,19 +8,13 @@
 
 namespace tendril::app {
 
-inline Labs labs_with_the_rig() {
-    Labs labs;
-    if (labs.find(rig_lab) == nullptr) labs.add(std::make_unique<RigLab>());
-    return labs;
-}
-
 inline Json transform(double x, double y, double z) {
     return {{"translation", {x, y, z}}};
 }
 
 class RigTest : public LabTest {
   protected:
-    RigTest() : LabTest(rig_lab, labs_with_the_rig()) { run("rig.clear"); }
+    RigTest() : LabTest(rig_lab) { run("rig.clear"); }
 
     const RigPart& part() const { return rig_part(workspace); }
     void element(const char* name, const char* parent = "", const Json& local = Json::object()) {
