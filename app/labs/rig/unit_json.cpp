@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "app/document/json_complete.hpp"
-#include "app/labs/rig/curve_json.hpp"
+#include "app/labs/kit/curve_json.hpp"
 #include "app/labs/rig/input_json.hpp"
 #include "app/labs/rig/value_json.hpp"
 
@@ -87,7 +87,12 @@ class Reader {
         place.check_size(2, "numbers, [low, high]");
         for (std::size_t i = 0; i < 2; ++i) range[i] = place.element(i).real();
     }
-    static void read(const JsonPlace& place, signal::Curve& curve) { curve = read_curve(place); }
+    static void read(const JsonPlace& place, signal::Curve& curve) {
+        std::vector<std::string> known;
+        add_curve_members(known);
+        check_members(place, known);
+        read_curve_members(place, curve);
+    }
 };
 
 struct Writer {

@@ -8,11 +8,10 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/io/samples.hpp"
+#include "app/labs/kit/curve_json.hpp"
 
 namespace tendril::app {
 namespace {
-
-constexpr std::size_t most_keys = 1000;
 
 [[noreturn]] void fail(const std::string& where, const std::string& what) {
     throw std::runtime_error(where.empty() ? what : where + ": " + what);
@@ -42,55 +41,11 @@ void read_parameter(signal::Filter& filter, const signal::Parameter& parameter, 
     parameter.set(filter, value);
 }
 
-signal::Piece read_piece(const Json& json, const std::string& where) {
-    const std::string found = json_text(json, where);
-    for (const auto piece : {signal::Piece::Constant, signal::Piece::Linear, signal::Piece::Cubic})
-        if (found == signal::name(piece)) return piece;
-    fail(where, "expected constant, linear or cubic, found " + json_summary(json));
-}
-
-signal::CurveKey read_key(const Json& json, const std::string& where) {
-    signal::CurveKey key;
-    key.time = json_real(json_member(json, "time", where), where + ".time");
-    key.value = json_real(json_member(json, "value", where), where + ".value");
-    if (json.contains("arrive")) key.arrive = json_real(json["arrive"], where + ".arrive");
-    if (json.contains("leave")) key.leave = json_real(json["leave"], where + ".leave");
-    if (json.contains("piece")) key.piece = read_piece(json["piece"], where + ".piece");
-    for (const auto& [name, value] : json.items()) {
-        constexpr std::string_view known[] = {"time", "value", "arrive", "leave", "piece"};
-        if (std::find(std::begin(known), std::end(known), name) == std::end(known))
-            fail(place(where, name), "a key has only time, value, arrive, leave and piece");
-    }
-    return key;
-}
-
-std::vector<signal::CurveKey> read_keys(const Json& json, const std::string& where) {
-    if (!json.is_array() || json.empty() || json.size() > most_keys) {
-        fail(where,
-             "expected a list of 1 to " + std::to_string(most_keys) + " keys, found " + json_summary(json));
-    }
-    std::vector<signal::CurveKey> keys;
-    for (const Json& each : json) keys.push_back(read_key(each, where + "." + std::to_string(keys.size())));
-    return keys;
-}
-
-Json keys_json(const signal::Curve& curve) {
-    Json keys = Json::array();
-    for (const signal::CurveKey& key : curve.keys) {
-        Json json{{"time", plain(key.time)}, {"value", plain(key.value)}};
-        if (key.arrive != 0.0) json["arrive"] = plain(key.arrive);
-        if (key.leave != 0.0) json["leave"] = plain(key.leave);
-        json["piece"] = signal::name(key.piece);
-        keys.push_back(std::move(json));
-    }
-    return keys;
-}
-
 }  // namespace
 
 Json parameters_json(const signal::Filter& filter) {
     Json json = Json::object();
-    if (const auto* curve = std::get_if<signal::Curve>(&filter)) json["keys"] = keys_json(*curve);
+    if (const auto* curve = std::get_if<signal::Curve>(&filter)) json["keys"] = curve_keys_json(*curve);
     for (const signal::Parameter& parameter : signal::kind_of(filter).parameters) {
         const std::string name(parameter.name);
         const double value = parameter.get(filter);
@@ -114,7 +69,7 @@ Json filter_json(const signal::Filter& filter) {
 void set_parameters(signal::Filter& filter, const Json& given, const std::string& where) {
     signal::Filter changed = filter;
     if (auto* curve = std::get_if<signal::Curve>(&changed); curve != nullptr && given.contains("keys"))
-        curve->keys = read_keys(given["keys"], place(where, "keys"));
+        curve->keys = read_curve_keys({given["keys"], place(where, "keys")});
     for (const signal::Parameter& parameter : signal::kind_of(filter).parameters) {
         const std::string name(parameter.name), here = place(where, name);
         if (!given.contains(name)) continue;

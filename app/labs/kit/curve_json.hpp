@@ -1,0 +1,29 @@
+// Curves of keys as JSON, in filters and in units of a rig:
+//
+//     {"keys": [{"time": 0, "value": 0, "arrive": 0, "leave": 0, "piece": "linear"}, ...],
+//      "source_min": 0, "source_max": 1, "target_min": 0, "target_max": 1}
+#pragma once
+
+#include <string>
+#include <tendril/signal/curve.hpp>
+#include <vector>
+
+#include "app/document/json.hpp"
+#include "app/labs/kit/json_place.hpp"
+
+namespace tendril::app {
+
+/// The keys alone; tangents that are flat are left out.
+Json curve_keys_json(const signal::Curve& curve);
+/// Of a key only time and value have to be there; members that it does not have are not looked at. Throws
+/// std::runtime_error that begins with the place of what is wrong. Whether the times are in order
+/// signal::check() says.
+std::vector<signal::CurveKey> read_curve_keys(const JsonPlace& place);
+
+Json curve_json(const signal::Curve& curve);
+
+/// Those of a curve's members that are there; the others stay.
+void read_curve_members(const JsonPlace& place, signal::Curve& curve);
+void add_curve_members(std::vector<std::string>& names);
+
+}  // namespace tendril::app
