@@ -156,6 +156,21 @@ bool point_field(const char* name, glm::vec3& value, float speed, float most, co
     return changed;
 }
 
+bool vector_field(const char* name, glm::vec3& value, float speed, glm::vec3 low, glm::vec3 high,
+                  const char* format) {
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+    const float width = (ImGui::GetContentRegionAvail().x - 2.0f * gap) / 3.0f;
+    text_elided(name, ImGui::GetContentRegionAvail().x, true);
+    bool changed = false;
+    for (int i = 0; i < 3; ++i) {
+        const std::string id = std::string("##") + name + ' ' + "xyz"[i];
+        if (i > 0) ImGui::SameLine(0.0f, gap);
+        ImGui::SetNextItemWidth(width);
+        changed |= drag_number(id.c_str(), value[i], speed, low[i], high[i], format);
+    }
+    return changed;
+}
+
 bool choice_field(const char* name, int& chosen, const char* const* titles, int count,
                   const char* const* why_not) {
     const std::string id = begin_row(name);

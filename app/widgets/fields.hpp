@@ -24,6 +24,9 @@ bool integer_slider(const char* name, int& value, int low, int high);
 bool text_field(const char* name, std::string& value, const char* hint);
 bool point_field(const char* name, glm::vec3& value, float speed, float most = 1e9f,
                  const char* format = "%.3f m");
+/// Its name on a line of its own, and below it three fields side by side.
+bool vector_field(const char* name, glm::vec3& value, float speed, glm::vec3 low, glm::vec3 high,
+                  const char* format);
 /// `why_not`, where given: one for each choice, null for one that can be chosen; else it is grey and the
 /// reason stands beside it.
 bool choice_field(const char* name, int& chosen, const char* const* titles, int count,

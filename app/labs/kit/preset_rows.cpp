@@ -10,7 +10,7 @@ bool preset_rows(const std::string& lab, const std::vector<PresetButton>& preset
     bool opened = false;
     for (const PresetButton& preset : presets) {
         const char* const tooltip = preset.tooltip.empty() ? nullptr : preset.tooltip.c_str();
-        if (!row_button(preset.title.c_str(), of, true, tooltip)) continue;
+        if (!row_button(preset.title.c_str(), preset.of > 0 ? preset.of : of, true, tooltip)) continue;
         emit(lab + ".preset", {{"name", preset.name}});
         opened = true;
     }

@@ -12,6 +12,7 @@ struct PresetButton {
     std::string name;  ///< as the command has it
     std::string title;
     std::string tooltip{};
+    int of = 0;  ///< buttons to its row; 0: as the others
 };
 
 /// Emits the lab's preset, clear and reset commands: "chain.preset" and so on. `clears` says what Empty

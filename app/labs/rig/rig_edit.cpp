@@ -161,6 +161,22 @@ void enable_unit(RigPart& part, const std::string& name, bool on) {
     if (was != on) redefine(part, std::move(definition));
 }
 
+void move_unit(RigPart& part, const std::string& name, int at) {
+    rig::Definition definition = part.rig.definition();
+    require_unit(definition, name, [&](std::vector<rig::Unit>& units, std::size_t from) {
+        const int last = static_cast<int>(units.size()) - 1;
+        if (at > last)
+            throw std::invalid_argument("at must be 0 to " + std::to_string(last) + ", got " +
+                                        std::to_string(at));
+        const auto moved = units.begin() + static_cast<std::ptrdiff_t>(from), to = units.begin() + at;
+        if (moved < to)
+            std::rotate(moved, moved + 1, to + 1);
+        else
+            std::rotate(to, moved, moved + 1);
+    });
+    if (!(definition == part.rig.definition())) redefine(part, std::move(definition));
+}
+
 void add_unit(RigPart& part, rig::Unit unit, int at) {
     rig::Definition definition = part.rig.definition();
     const int count = static_cast<int>(definition.units.size());

@@ -22,6 +22,9 @@ void remove_element(RigPart& part, const std::string& name);
 /// In bodies too. Refused: one whose output another unit takes.
 void remove_unit(RigPart& part, const std::string& name);
 void enable_unit(RigPart& part, const std::string& name, bool on);
+/// Among the units of the rig, or those of the body that it is in. Refused: a place before a unit whose
+/// output it takes, or after one that takes its own.
+void move_unit(RigPart& part, const std::string& name, int at);
 /// `at`: its place among the units of the rig; -1 for the end. Without a name it is given one.
 void add_unit(RigPart& part, rig::Unit unit, int at);
 

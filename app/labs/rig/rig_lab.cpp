@@ -4,6 +4,8 @@
 #include <tendril/rig/control.hpp>
 
 #include "app/document/json_complete.hpp"
+#include "app/labs/rig/code.hpp"
+#include "app/labs/rig/panels.hpp"
 #include "app/labs/rig/presets.hpp"
 #include "app/labs/rig/rig_commands.hpp"
 #include "app/labs/rig/rig_runtime.hpp"
@@ -120,6 +122,14 @@ void RigLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame& 
           SharedJson(value_at(*element.control, *elements.known(id, rig::Space::Local, rig::Pose::Input),
                               *elements.known(id, rig::Space::Local), to.translation))}});
     if (!workspace.clock.playing) emit.continuously("rig.solve", {});
+}
+
+std::string RigLab::code(const Workspace& workspace) const {
+    return rig_code(rig_part(workspace));
+}
+
+std::vector<LabSetting> RigLab::settings() const {
+    return {pending_marks()};
 }
 
 std::vector<TestScene> RigLab::test_scenes() const {

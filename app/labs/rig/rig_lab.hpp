@@ -24,6 +24,11 @@ class RigLab final : public Lab {
     std::vector<Handle> handles(const Workspace& workspace) const override;
     void drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const override;
 
+    void panel(const Workspace& workspace, Emit& emit) const override;
+    void inspector(const Workspace& workspace, Emit& emit) const override;
+    std::vector<LabSetting> settings() const override;
+
+    std::string code(const Workspace& workspace) const override;
     Json state(const Workspace& workspace) const override;
     std::vector<TestScene> test_scenes() const override;
 };

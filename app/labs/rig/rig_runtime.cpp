@@ -52,6 +52,15 @@ const rig::Hierarchy& RigRuntime::resolved(const Workspace& workspace) {
     return read_.elements;
 }
 
+const rig::Explanation& RigRuntime::explanation(const Workspace& workspace, std::size_t element) {
+    const std::shared_ptr<const Part>& part = workspace.document.parts().at(rig_lab);
+    if (why_.part != part || why_.element != element) {
+        const RigPart& rig = rig_part(workspace);
+        why_ = {part, element, rig::explain(rig.rig, rig.state, element, this->workspace(rig.rig))};
+    }
+    return why_.explanation;
+}
+
 std::vector<double> RigRuntime::microseconds(const rig::Rig& rig) const {
     return keeps(rig) ? kept_->microseconds : std::vector<double>();
 }

@@ -1,7 +1,10 @@
-// What the Rig lab works in from tick to tick: the workspace of its rig, and how long each unit took.
+// What the Rig lab works in from tick to tick: the workspace of its rig, how long each unit took, and what
+// panels and picture need of the part, worked out once.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <tendril/rig/explain.hpp>
 #include <tendril/rig/workspace.hpp>
 #include <vector>
 
@@ -25,6 +28,19 @@ class RigRuntime final : public Runtime {
     /// The elements of the lab's part with all poses worked out. The reference holds until the next call.
     const rig::Hierarchy& resolved(const Workspace& workspace);
 
+    /// Why an element of the lab's part is where it is; worked out anew where the part has changed. The
+    /// reference holds until the next call.
+    const rig::Explanation& explanation(const Workspace& workspace, std::size_t element);
+
+    /// The interface's own: it follows from nothing, and nothing follows from it.
+    struct Panel {
+        std::array<char, 64> filter{};  ///< what names in the tree have to contain
+        bool all_units = false;         ///< whether those that did not touch the element are listed too
+        /// Euler angles as a person last set them, of the rotation that they give: one has many.
+        glm::dvec3 degrees{0.0};
+        glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
+    } panel;
+
   private:
     struct Read {
         std::shared_ptr<const Part> part;  ///< parts never change in place
@@ -35,10 +51,16 @@ class RigRuntime final : public Runtime {
         rig::Workspace workspace;
         std::vector<double> microseconds;
     };
+    struct Why {
+        std::shared_ptr<const Part> part;
+        std::size_t element = 0;
+        rig::Explanation explanation;
+    };
     bool keeps(const rig::Rig& rig) const;
 
     std::optional<Kept> kept_;
     Read read_;
+    Why why_;
 };
 
 }  // namespace tendril::app

@@ -1,8 +1,10 @@
 // The rig as a whole: emptied, solved, put in the place of another.
 #include <tendril/rig/backward.hpp>
 
+#include "app/document/units.hpp"
 #include "app/labs/kit/names.hpp"
 #include "app/labs/kit/part_command.hpp"
+#include "app/labs/rig/code.hpp"
 #include "app/labs/rig/presets.hpp"
 #include "app/labs/rig/rig_commands.hpp"
 #include "app/labs/rig/rig_edit.hpp"
@@ -26,6 +28,25 @@ void select(RigPart& part, const Arguments& given) {
     if (!selected.element.empty()) element_named(part, selected.element);
     if (!selected.unit.empty()) unit_named(part, selected.unit);
     part.selected = std::move(selected);
+}
+
+/// Reading changes no answer, but works out and stores what is pending, which shows: so it is done to the
+/// part itself.
+void read(Workspace& workspace, const Arguments& given) {
+    RigPart& part = workspace.document.edit<RigPart>(rig_lab);
+    const std::string name = given.text("name");
+    const rig::ElementId id = part.rig.id(element_named(part, name));
+    const std::uint64_t before = part.state.elements.recomputations();
+    part.state.elements.get(id, rig::Space::Global);
+    part.state.elements.get(id, rig::Space::Local);
+    const auto count = static_cast<std::size_t>(part.state.elements.recomputations() - before);
+    workspace.toast("Reading " + name + ": " +
+                    (count == 0 ? "nothing was pending" : count_text(count, "transform") + " worked out"));
+}
+
+void copy(Workspace& workspace, const Arguments&) {
+    workspace.ui.copied = rig_code(rig_part(workspace));
+    workspace.toast("The rig is on the clipboard as C++");
 }
 
 void take_preset(Workspace& workspace, const Arguments& given) {
@@ -69,10 +90,20 @@ Argument json_argument(const char* name, bool required, const char* help) {
 void add_solve_commands(CommandTable& table) {
     table.add(rig_command("rig.clear", {}, "Removes every element, curve and unit", clear));
     table.add(rig_command("rig.reset", {}, "Resets this lab to its first state", reset));
-    table.add(rig_command("rig.select",
-                          {text_argument("element", false, "none where left out"),
-                           text_argument("unit", false, "none where left out")},
-                          "Selects an element, a unit, or one of each", select));
+    table.add(part_command<RigPart>(rig_lab, "rig.select",
+                                    {text_argument("element", false, "none where left out"),
+                                     text_argument("unit", false, "none where left out")},
+                                    "Selects an element, a unit, or one of each", select, Effect::Look));
+    table.add({.name = "rig.read",
+               .arguments = {text_argument("name", true, "of the element")},
+               .help = "Reads an element's pose, and says how many transforms had to be worked out for it",
+               .effect = Effect::Look,
+               .apply = read});
+    table.add({.name = "rig.copy",
+               .arguments = {},
+               .help = "Puts the rig on the clipboard, as a C++ program against the library",
+               .effect = Effect::Look,
+               .apply = copy});
     table.add(
         {.name = "rig.preset",
          .arguments = {choice_argument("name", true, "which scene",

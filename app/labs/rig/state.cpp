@@ -1,4 +1,6 @@
 // What --state writes of the Rig lab.
+#include <glm/trigonometric.hpp>
+
 #include "app/document/json_complete.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rig/rig_runtime.hpp"
@@ -72,6 +74,26 @@ Json backward_state(const RigPart& part) {
                 {"bone", std::move(bone)}};
 }
 
+/// Why the selected element is where it is; null where none is selected.
+Json why_state(const Workspace& workspace, RigRuntime& runtime) {
+    const RigPart& part = rig_part(workspace);
+    const auto element = part.rig.element(part.selected.element);
+    if (!element) return nullptr;
+    const rig::Explanation& why = runtime.explanation(workspace, *element);
+    Json units = Json::array();
+    for (std::size_t i = 0; i < why.units.size(); ++i) {
+        const rig::Contribution& step = why.units[i];
+        units.push_back({{"name", part.rig.definition().units[i].name},
+                         {"mm", 1000.0 * step.metres},
+                         {"degrees", glm::degrees(step.radians)},
+                         {"change", transform_json(step.change)}});
+    }
+    return Json{{"element", part.selected.element},
+                {"input", transform_json(why.input)},
+                {"units", std::move(units)},
+                {"result", transform_json(why.result)}};
+}
+
 }  // namespace
 
 Json RigLab::state(const Workspace& workspace) const {
@@ -82,6 +104,7 @@ Json RigLab::state(const Workspace& workspace) const {
                 {"curves", curves_state(part)},
                 {"units", units_state(part, runtime.microseconds(part.rig))},
                 {"backward", backward_state(part)},
+                {"why", why_state(workspace, runtime)},
                 {"selected", {{"element", part.selected.element}, {"unit", part.selected.unit}}},
                 {"moving", part.moving}};
 }

@@ -1,64 +1,34 @@
 #include "app/labs/signal/code.hpp"
 
-#include <cctype>
 #include <string_view>
 
-#include "app/io/samples.hpp"
+#include "app/labs/kit/code_text.hpp"
 
 namespace tendril::app {
 namespace {
 
-/// "one_euro" as "OneEuro".
 std::string type_name(std::string_view kind) {
-    std::string name;
-    bool capital = true;
-    for (const char c : kind) {
-        if (c == '_') {
-            capital = true;
-            continue;
-        }
-        name += capital ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
-        capital = false;
-    }
+    const std::string name = pascal_text(kind);
     return name == "Spring" ? "Spring<>" : name;
-}
-
-/// A double that C++ reads as one.
-std::string literal(double value) {
-    std::string text = decimal(value);
-    if (text.find_first_of(".e") == text.npos) text += ".0";
-    return text;
-}
-
-std::string key_text(const signal::CurveKey& key) {
-    std::string piece = signal::name(key.piece);
-    piece[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(piece[0])));
-    return "{.time = " + literal(key.time) + ", .value = " + literal(key.value) +
-           ", .arrive = " + literal(key.arrive) + ", .leave = " + literal(key.leave) +
-           ", .piece = signal::Piece::" + piece + "}";
 }
 
 std::string initialiser(const signal::Filter& filter) {
     std::string text;
     const auto add = [&](const std::string& member) { text += (text.empty() ? "" : ", ") + member; };
-    if (const auto* curve = std::get_if<signal::Curve>(&filter)) {
-        std::string keys;
-        for (const signal::CurveKey& key : curve->keys)
-            keys += (keys.empty() ? "" : ",\n                        ") + key_text(key);
-        add(".keys = {" + keys + "}");
-    }
+    if (const auto* curve = std::get_if<signal::Curve>(&filter))
+        add(".keys = " + keys_text(*curve, "                        "));
     std::string pair;
     for (const signal::Parameter& parameter : signal::kind_of(filter).parameters) {
         const std::string name(parameter.name);
         const double value = parameter.get(filter);
         if (parameter.element == 0) {
-            pair = "." + name + " = {" + literal(value);
+            pair = "." + name + " = {" + double_text(value);
         } else if (parameter.element == 1) {
-            add(pair + ", " + literal(value) + "}");
+            add(pair + ", " + double_text(value) + "}");
         } else if (parameter.type == signal::ParameterType::Flag) {
             add("." + name + " = " + (value != 0.0 ? "true" : "false"));
         } else {
-            add("." + name + " = " + literal(value));
+            add("." + name + " = " + double_text(value));
         }
     }
     return "signal::" + type_name(signal::kind(filter)) + "{" + text + "}";

@@ -1,0 +1,20 @@
+// Values as C++ has them; what the programs of *copy as C++* are built of.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <tendril/signal/curve.hpp>
+
+namespace tendril::app {
+
+/// The fewest decimals that a compiler reads as this very double: "0.1", "2.0". Must be finite.
+std::string double_text(double value);
+/// In quotes, with what has to be escaped.
+std::string string_text(std::string_view text);
+/// "one_euro" as "OneEuro"
+std::string pascal_text(std::string_view name);
+
+/// "{{.time = 0.0, .value = 0.0, ...}, ...}", each key on a line of its own that begins with `margin`.
+std::string keys_text(const signal::Curve& curve, const std::string& margin);
+
+}  // namespace tendril::app

@@ -1,0 +1,219 @@
+// The tree of elements: a row each, of which only those in view are drawn.
+#include <imgui.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+#include "app/document/json_complete.hpp"
+#include "app/labs/rig/adding.hpp"
+#include "app/labs/rig/panels.hpp"
+#include "app/labs/rig/value_text.hpp"
+#include "app/widgets/fields.hpp"
+#include "app/widgets/text.hpp"
+
+namespace tendril::app {
+namespace {
+
+struct Row {
+    std::size_t element;
+    int depth;
+};
+
+/// Lower case, so that case does not count.
+bool contains(std::string_view text, std::string_view part) {
+    const auto same = [](char a, char b) {
+        return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+    };
+    return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
+}
+
+/// Depth first; with a filter those that pass it, all at the left.
+std::vector<Row> rows_of(const RigPart& part, const rig::Hierarchy& tree, std::string_view filter) {
+    const std::vector<rig::Element>& elements = part.rig.definition().elements;
+    std::vector<Row> rows;
+    if (!filter.empty()) {
+        for (std::size_t i = 0; i < elements.size(); ++i)
+            if (contains(elements[i].name, filter)) rows.push_back({i, 0});
+        return rows;
+    }
+    std::vector<std::size_t> at(elements.size());
+    std::vector<int> depth(elements.size());
+    for (std::size_t i = 0; i < elements.size(); ++i) at[part.rig.id(i).index] = i;
+    for (rig::ElementId top = tree.first_child({}); top; top = tree.next_sibling(top))
+        for (rig::ElementId each = top; each; each = tree.next_depth_first(each, top)) {
+            const rig::ElementId parent = tree.parent(each);
+            const std::size_t i = at[each.index];
+            depth[i] = parent ? depth[at[parent.index]] + 1 : 0;
+            rows.push_back({i, depth[i]});
+        }
+    return rows;
+}
+
+/// A bone is a rhomb, a null a cross, a control a ring.
+void draw_kind(rig::ElementKind kind, ImVec2 centre, float size, const Palette& colours) {
+    const glm::vec3 c = kind == rig::ElementKind::Control ? colours.target : colours.text_dim;
+    const ImU32 colour = ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1.0f});
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    const float r = 0.5f * size, thin = 0.3f * size;
+    if (kind == rig::ElementKind::Bone)
+        list->AddQuadFilled({centre.x - r, centre.y}, {centre.x - thin * 0.4f, centre.y - thin},
+                            {centre.x + r, centre.y}, {centre.x - thin * 0.4f, centre.y + thin}, colour);
+    if (kind == rig::ElementKind::Control) list->AddCircle(centre, 0.8f * r, colour, 16, 1.6f);
+    if (kind == rig::ElementKind::Null) {
+        list->AddLine({centre.x - r, centre.y}, {centre.x + r, centre.y}, colour, 1.4f);
+        list->AddLine({centre.x, centre.y - r}, {centre.x, centre.y + r}, colour, 1.4f);
+    }
+}
+
+/// What a control is set to; where anything else is within its parent.
+std::string short_text(const RigPart& part, const rig::Hierarchy& now, std::size_t i) {
+    const std::optional<rig::Control>& control = part.rig.definition().elements[i].control;
+    if (!control) return vector_text(now.known(part.rig.id(i), rig::Space::Local)->translation, 1);
+    const rig::Value& value = part.state.controls[i];
+    if (control->kind == rig::ControlKind::Vector2d) {
+        const auto& pair = std::get<glm::dvec3>(value);
+        const std::string text = vector_text(pair, 1);
+        return text.substr(0, text.rfind("  "));
+    }
+    if (const auto* pose = std::get_if<rig::Transform>(&value)) return vector_text(pose->translation, 1);
+    if (const auto* rotation = std::get_if<glm::dquat>(&value)) return vector_text(euler_degrees(*rotation), 0) + "\xC2\xB0";
+    if (const auto* vector = std::get_if<glm::dvec3>(&value)) return vector_text(*vector, 1);
+    return value_text(value);
+}
+
+void row_tooltip(const RigPart& part, std::size_t i, rig::Pending pending, bool marks) {
+    const rig::Element& element = part.rig.definition().elements[i];
+    std::string text = element.name + ": " + rig::name(element.kind);
+    if (element.control) text += std::string(", ") + rig::name(element.control->kind);
+    if (!element.parent.empty()) text += ", child of " + element.parent;
+    if (marks)
+        text += std::string("\nThe two bars are its local and its global transform: ") +
+                pending_text(pending) + '.';
+    ImGui::SetTooltip("%s", text.c_str());
+}
+
+/// Of one row to the next, pixels.
+float row_height() {
+    return 1.25f * ImGui::GetTextLineHeight();
+}
+
+void draw_row(const RigPanel& panel, const Row& row, bool marks) {
+    const rig::Element& element = panel.part.rig.definition().elements[row.element];
+    const rig::Pending pending = panel.part.state.elements.pending(panel.part.rig.id(row.element));
+    const float line = ImGui::GetTextLineHeight(), em = ImGui::GetFontSize();
+    const bool selected = panel.part.selected.element == element.name;
+    const ImVec2 corner = ImGui::GetCursorScreenPos(), at = ImGui::GetCursorPos();
+    const float width = ImGui::GetContentRegionAvail().x;
+    ImGui::PushID(static_cast<int>(row.element));
+    if (ImGui::Selectable("##row", selected, 0, {width, line}))
+        select_element(panel, selected ? "" : element.name);
+    if (ImGui::IsItemHovered()) row_tooltip(panel.part, row.element, pending, marks);
+    ImGui::PopID();
+    const float indent = 0.7f * em * static_cast<float>(std::min(row.depth, 6));
+    draw_kind(element.kind, {corner.x + indent + 0.5f * em, corner.y + 0.5f * line}, 0.75f * em,
+              panel.colours);
+    const float mark = marks ? 1.1f * em : 0.0f;
+    if (marks) draw_pending(pending, {corner.x + width - 0.4f * em, corner.y + 0.5f * line}, panel.colours);
+    const std::string value = short_text(panel.part, panel.now, row.element);
+    const float from = at.x + indent + 1.2f * em, end = at.x + width - mark;
+    const float value_width = std::min(ImGui::CalcTextSize(value.c_str()).x, 0.5f * width);
+    const float name_width = std::max(end - from - value_width - 0.6f * em, 3.0f * em);
+    ImGui::SetCursorPos({from, at.y});
+    const std::string name = elided(element.name, name_width);
+    ImGui::TextUnformatted(name.c_str());
+    const float used = from + ImGui::CalcTextSize(name.c_str()).x + 0.6f * em;
+    ImGui::SameLine(std::max(end - value_width, used) - 0.0f);
+    ImGui::TextDisabled("%s", elided(value, end - std::max(end - value_width, used) + 1.0f).c_str());
+}
+
+void add_menu(const RigPanel& panel) {
+    if (row_button("Add", 2)) ImGui::OpenPopup("add element");
+    if (ImGui::BeginPopup("add element")) {
+        close_popup_on_escape();
+        const auto add = [&](const char* title, const char* kind, const char* control) {
+            if (!ImGui::MenuItem(title)) return;
+            const std::string& parent = panel.part.selected.element;
+            const std::string name = free_element_name(panel.part, *control != '\0' ? "control" : kind);
+            ArgumentList arguments{{"name", name}, {"kind", kind}};
+            if (!parent.empty()) arguments.push_back({"parent", parent});
+            if (*control != '\0') arguments.push_back({"control", control});
+            arguments.push_back({"local", SharedJson(Json{{"translation", {0.0, 0.3, 0.0}}})});
+            panel.edit("rig.element.add", arguments);
+            select_element(panel, name);
+        };
+        add("Bone", "bone", "");
+        add("Null", "null", "");
+        for (const auto kind : {rig::ControlKind::Transform, rig::ControlKind::Position,
+                                rig::ControlKind::Rotation, rig::ControlKind::Float, rig::ControlKind::Bool,
+                                rig::ControlKind::Vector2d})
+            add((std::string("Control, ") + rig::name(kind)).c_str(), "control", rig::name(kind));
+        note(panel.part.selected.element.empty() ? "In the scene" : "Below " + panel.part.selected.element);
+        ImGui::EndPopup();
+    }
+}
+
+}  // namespace
+
+void element_tree(const RigPanel& panel) {
+    section("Elements");
+    auto& filter = panel.runtime.panel.filter;
+    const std::size_t count = panel.part.state.controls.size();
+    constexpr std::size_t many = 12;  // fewer one overlooks at once
+    if (count > many) {
+        ImGui::SetNextItemWidth(-1.0f);
+        ImGui::InputTextWithHint("##filter", "Filter by name", filter.data(), filter.size());
+    } else {
+        filter[0] = '\0';
+    }
+    const std::vector<Row> rows = rows_of(panel.part, panel.now, filter.data());
+    const bool marks = pending_marks().chosen(panel.workspace.settings) == 0;
+    const float shown = std::clamp(static_cast<float>(rows.size()), 1.0f, 10.5f);
+    ImGui::BeginChild("elements", {0.0f, shown * row_height() + 2.0f}, false);
+    const ImVec2 spacing(ImGui::GetStyle().ItemSpacing.x, row_height() - ImGui::GetTextLineHeight());
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, spacing);
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(rows.size()), row_height());
+    while (clipper.Step())
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
+            draw_row(panel, rows[static_cast<std::size_t>(i)], marks);
+    ImGui::PopStyleVar();
+    ImGui::EndChild();
+    if (count == 0) note("No elements.");
+    if (count > 0 && rows.empty()) note("No element has this in its name.");
+    add_menu(panel);
+    const std::string& selected = panel.part.selected.element;
+    if (row_button("Remove", 2, !selected.empty(), "Removes the selected element"))
+        panel.edit("rig.element.remove", {{"name", selected}});
+    end_row();
+}
+
+void draw_pending(rig::Pending pending, glm::vec2 at, const Palette& colours) {
+    const float em = ImGui::GetFontSize(), w = 0.22f * em, h = 0.30f * em, gap = 0.07f * em;
+    const auto bar = [&](float x, bool waits) {
+        const glm::vec3 c = waits ? colours.accent : colours.border;
+        const ImU32 colour = ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1.0f});
+        ImDrawList* list = ImGui::GetWindowDrawList();
+        const ImVec2 low(x, at.y - h), high(x + w, at.y + h);
+        if (waits)
+            list->AddRectFilled(low, high, colour, 1.0f);
+        else
+            list->AddRect(low, high, colour, 1.0f);
+    };
+    bar(at.x - w - gap, pending == rig::Pending::Local);
+    bar(at.x + gap, pending == rig::Pending::Global);
+}
+
+const char* pending_text(rig::Pending pending) {
+    switch (pending) {
+        case rig::Pending::Local:
+            return "local pending";
+        case rig::Pending::Global:
+            return "global pending";
+        case rig::Pending::None:
+            break;
+    }
+    return "none pending";
+}
+
+}  // namespace tendril::app

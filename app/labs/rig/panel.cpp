@@ -1,0 +1,115 @@
+// What one chooses in the Rig lab: a preset, elements, units, curves, which way to solve.
+#include <imgui.h>
+
+#include <algorithm>
+#include <glm/trigonometric.hpp>
+
+#include "app/document/units.hpp"
+#include "app/labs/kit/preset_rows.hpp"
+#include "app/labs/rig/panels.hpp"
+#include "app/labs/rig/presets.hpp"
+#include "app/labs/rig/rig_lab.hpp"
+#include "app/widgets/fields.hpp"
+#include "app/widgets/text.hpp"
+
+namespace tendril::app {
+namespace {
+
+void preset_section(Emit& emit) {
+    std::vector<PresetButton> buttons;
+    for (const RigPreset& preset : rig_presets()) {
+        const bool short_title = preset.title.size() < 6;  // three of these fit side by side
+        buttons.push_back({preset.name, preset.title, {}, short_title ? 3 : 1});
+    }
+    preset_rows(rig_lab, buttons, "Removes every element, curve and unit", emit);
+}
+
+/// What is left of each bone, the most first.
+void residual_rows(const RigPanel& panel, const BackwardLeft& left) {
+    std::vector<std::size_t> bones;
+    for (std::size_t i = 0; i < left.elements.size(); ++i)
+        if (panel.part.rig.definition().elements[i].kind == rig::ElementKind::Bone) bones.push_back(i);
+    std::stable_sort(bones.begin(), bones.end(), [&](std::size_t a, std::size_t b) {
+        return left.elements[a].metres + left.elements[a].radians >
+               left.elements[b].metres + left.elements[b].radians;
+    });
+    constexpr std::size_t shown = 8;
+    for (std::size_t i = 0; i < std::min(shown, bones.size()); ++i) {
+        const std::string& name = panel.part.rig.definition().elements[bones[i]].name;
+        const rig::Residual& each = left.elements[bones[i]];
+        reading(elided(name, 0.4f * ImGui::GetContentRegionAvail().x).c_str(), "%s mm  %s\xC2\xB0",
+                fixed_text(1000.0 * each.metres, 1).c_str(),
+                fixed_text(glm::degrees(each.radians), 1).c_str());
+    }
+    if (bones.size() > shown)
+        note("and " + count_text(bones.size() - shown, "bone") + " with less");
+}
+
+}  // namespace
+
+RigPanel rig_panel(const Workspace& workspace, Emit& emit) {
+    auto& runtime = workspace.runtimes.of<RigRuntime>(rig_lab);
+    return {workspace, rig_part(workspace),           runtime, runtime.resolved(workspace),
+            palette(workspace.settings.theme), emit};
+}
+
+void RigPanel::edit(const char* command, const ArgumentList& arguments) const {
+    emit.continuously(command, arguments);
+    if (!workspace.clock.playing) emit.continuously("rig.solve");
+}
+
+LabSetting pending_marks() {
+    return {.key = "pending_poses",
+            .command = "view.pending_poses",
+            .argument = "marks",
+            .help = "Marks in the tree of the Rig lab which local and global transforms wait to be worked out",
+            .choices = {{"shown", "Pending poses marked"}, {"hidden", "Not marked"}}};
+}
+
+void select_element(const RigPanel& panel, const std::string& name) {
+    panel.emit("rig.select", {{"element", name}, {"unit", panel.part.selected.unit}});
+}
+void select_unit(const RigPanel& panel, const std::string& name) {
+    panel.emit("rig.select", {{"element", panel.part.selected.element}, {"unit", name}});
+}
+
+void curve_rows(const RigPanel& panel) {
+    const std::vector<rig::NamedCurve>& curves = panel.part.rig.definition().curves;
+    if (curves.empty()) return;
+    section("Curves");
+    for (std::size_t i = 0; i < std::min<std::size_t>(curves.size(), 100); ++i) {
+        reading(curves[i].name.c_str(), "%s", fixed_text(panel.part.state.curves[i], 3).c_str());
+        explain("A number that units write: a morph weight, a value of a material.");
+    }
+    if (curves.size() > 100) note("and " + count_text(curves.size() - 100, "curve") + " more");
+}
+
+void solve_rows(const RigPanel& panel) {
+    section("Solve");
+    if (row_button("Forward", 2, true, "Runs the units: from controls to bones. A tick does this too"))
+        panel.emit("rig.solve", {{"direction", "forward"}});
+    if (row_button("Backward", 2, true, "Sets the controls so that the bones stay as they are, if that can be"))
+        panel.emit("rig.solve", {{"direction", "backward"}});
+    end_row();
+    if (!panel.part.backward) return;
+    const BackwardLeft& left = *panel.part.backward;
+    if (left.bone.empty()) return note("Without a bone there is nothing to match.");
+    // Under what shows: a tenth of a millimetre, a hundredth of a degree.
+    if (left.worst_mm() < 0.1 && left.worst_degrees() < 0.01) return note("The controls give every bone's pose.");
+    note("The controls cannot give the pose. What is left, worst first:");
+    residual_rows(panel, left);
+}
+
+void RigLab::panel(const Workspace& workspace, Emit& emit) const {
+    const RigPanel panel = rig_panel(workspace, emit);
+    preset_section(emit);
+    element_tree(panel);
+    unit_list(panel);
+    curve_rows(panel);
+    solve_rows(panel);
+    section("Export");
+    if (row_button("Copy as C++", 1, true, "The rig as it is set, as a program against the library"))
+        emit("rig.copy");
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,23 @@
+// Units of a rig, and what they remember, as C++ has them.
+#pragma once
+
+#include <string>
+#include <tendril/rig/rig.hpp>
+
+namespace tendril::app {
+
+/// "{1.0, 2.0, 3.0}"; "glm::dquat(w, x, y, z)"; "rig::Transform{...}", without what is as it is by itself.
+std::string vector_code(const glm::dvec3& vector);
+std::string rotation_code(const glm::dquat& rotation);
+std::string transform_code(const rig::Transform& transform);
+/// "rig::Value(0.5)"
+std::string value_code(const rig::Value& value);
+
+/// "rig::Unit{.name = "aim", .operation = rig::Aim{...}, ...}": inputs that differ from the default, each on
+/// a line of its own below `margin`.
+std::string unit_code(const rig::Unit& unit, const std::string& margin);
+
+/// Statements that make `place` the memory; empty where there is none.
+std::string memory_code(const std::string& place, const rig::UnitMemory& memory);
+
+}  // namespace tendril::app

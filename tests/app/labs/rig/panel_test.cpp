@@ -1,0 +1,228 @@
+// What the Rig lab's panels list, offer and change.
+#include <set>
+#include <tendril/rig/fields.hpp>
+
+#include "app/labs/rig/adding.hpp"
+#include "app/labs/rig/panels.hpp"
+#include "app/labs/rig/presets.hpp"
+#include "app/labs/rig/rig_runtime.hpp"
+#include "app/labs/rig/unit_inputs.hpp"
+#include "app/labs/rig/unit_json.hpp"
+#include "app/labs/rig/value_json.hpp"
+#include "rig_support.hpp"
+#include "tests/app/support/panel_text.hpp"
+
+namespace tendril::app {
+namespace {
+
+class RigPanels : public RigTest {
+  protected:
+    std::vector<UnitInput> inputs(const std::string& unit) {
+        auto& runtime = workspace.runtimes.of<RigRuntime>(rig_lab);
+        return unit_inputs(part(), runtime.resolved(workspace), *unit_row(part(), unit)->unit);
+    }
+    UnitInput input(const std::string& unit, const std::string& path) {
+        for (const UnitInput& each : inputs(unit))
+            if (each.path == path) return each;
+        ADD_FAILURE() << "no input " << path << " in " << unit;
+        return {};
+    }
+    void expect_says(const std::string& text, const std::string& what) {
+        EXPECT_NE(text.find(what), std::string::npos) << what << " is not in:\n" << text;
+    }
+    std::string panel_text() { return reader_.panel(lab(), workspace); }
+    std::string inspector_text() { return reader_.inspector(lab(), workspace); }
+
+  private:
+    test::PanelReader reader_;
+};
+
+/// Members of a unit's JSON that are no inputs, or have rows of their own.
+bool is_input(const std::string& member) {
+    return member != "unit" && member != "name" && member != "enabled" && member != "body";
+}
+
+TEST_F(RigPanels, EveryMemberOfEveryUnitIsListed) {
+    for (std::size_t i = 0; i < std::variant_size_v<rig::Operation>; ++i) {
+        run("rig.preset", {{"name", "fk"}});
+        run("rig.curve.add", {{"name", "smile"}});
+        run("rig.select", {{"element", "bone 5"}});
+        const UnitOffer offer = offered_unit(part(), i);
+        ASSERT_TRUE(offer.unit) << rig::operation_name(i);
+        Json unit = **offer.unit;
+        unit["name"] = "new";
+        run("rig.unit.add", unit);
+        const rig::Unit& added = *unit_row(part(), "new")->unit;
+        const Json json = unit_json(added);
+        std::set<std::string> listed, members;
+        for (const UnitInput& each : inputs("new")) {
+            EXPECT_NO_THROW(static_cast<void>(json.at(Json::json_pointer(each.path)))) << each.path;
+            listed.insert(each.path.substr(1, each.path.find('/', 1) - 1));
+        }
+        for (const auto& [key, value] : json.items())
+            if (is_input(key)) members.insert(key);
+        EXPECT_EQ(listed, members) << rig::operation_name(i);
+    }
+}
+
+TEST_F(RigPanels, WhatIsOfferedIsTaken) {
+    std::size_t taken = 0;
+    const auto offer_all = [&] {
+        for (std::size_t i = 0; i < std::variant_size_v<rig::Operation>; ++i) {
+            const UnitOffer offer = offered_unit(part(), i);
+            if (!offer.unit) {
+                EXPECT_STRNE(offer.needs, "") << rig::operation_name(i);
+                continue;
+            }
+            const std::size_t before = part().state.units.size();
+            run("rig.unit.add", *offer.unit);
+            EXPECT_EQ(part().state.units.size(), before + 1);
+            ++taken;
+        }
+    };
+    offer_all();  // an empty rig
+    EXPECT_EQ(taken, 7u) << "those without an item";
+    for (const RigPreset& preset : rig_presets()) {
+        run("rig.preset", {{"name", preset.name}});
+        const std::vector<rig::Element> elements = part().rig.definition().elements;
+        for (std::size_t i = 0; i < elements.size(); i += 3) {
+            run("rig.preset", {{"name", preset.name}});
+            run("rig.select", {{"element", elements[i].name}});
+            offer_all();
+            tick();
+        }
+    }
+    EXPECT_EQ(free_element_name(part(), "left 1"), "left 1 2");
+}
+
+TEST_F(RigPanels, ALiteralIsSetAndNothingElse) {
+    run("rig.preset", {{"name", "fk"}});
+    for (const rig::Unit& unit : part().rig.definition().units) {
+        for (const UnitInput& each : inputs(unit.name)) {
+            const auto* value = std::get_if<rig::Value>(&each.value);
+            if (!each.literal() || value == nullptr) continue;
+            Json other;
+            if (const auto* on = std::get_if<bool>(value)) other = !*on;
+            if (const auto* literal = std::get_if<double>(value)) other = *literal - 0.25;
+            if (other.is_null()) continue;
+            Json wanted = unit_json(*unit_row(part(), unit.name)->unit);
+            wanted[Json::json_pointer(each.path)] = other;
+            run("rig.unit.set", with_input(*unit_row(part(), unit.name)->unit, each.path, other));
+            EXPECT_EQ(unit_json(*unit_row(part(), unit.name)->unit), wanted) << unit.name << each.path;
+        }
+    }
+}
+
+TEST_F(RigPanels, InputsSayWhereTheyComeFromAndWhatTheyAreNow) {
+    run("rig.preset", {{"name", "morph"}});
+    set("shape", {0.25, 0.5});
+    tick();
+    const UnitInput value = input("ease", "/value");
+    EXPECT_EQ(value.from, "shape, x, local");
+    EXPECT_EQ(std::get<rig::Value>(value.value), rig::Value(0.25));
+    const UnitInput result = input("set bulge", "/value");
+    EXPECT_EQ(result.from, "unit late");
+    EXPECT_EQ(value_json(std::get<rig::Value>(result.value)), output("late"));
+    EXPECT_TRUE(input("ease", "/curve").literal());
+    run("rig.preset", {{"name", "secondary"}});
+    EXPECT_EQ(input("spring", "/target").from, "unit tip");
+    EXPECT_TRUE(std::holds_alternative<std::monostate>(input("strength", "/value").value))
+        << "another one in each round";
+}
+
+TEST_F(RigPanels, UnitsMoveAmongTheirOwn) {
+    run("rig.preset", {{"name", "morph"}});
+    const auto names = [&] {
+        std::string all;
+        for (const Json& each : list("units")) all += each.at("name").get<std::string>() + ' ';
+        return all;
+    };
+    EXPECT_EQ(names(), "ease set stretch late set bulge bands set hue ");
+    run("rig.unit.move", {{"name", "late"}, {"at", 0}});
+    EXPECT_EQ(names(), "late ease set stretch set bulge bands set hue ");
+    run("rig.unit.move", {{"name", "late"}, {"at", 2}});
+    EXPECT_EQ(names(), "ease set stretch late set bulge bands set hue ");
+    expect_refused("rig.unit.move", {{"name", "late"}, {"at", 4}}, {"set bulge", "late"});
+    expect_refused("rig.unit.move", {{"name", "late"}, {"at", 6}}, {"at must be 0 to 5"});
+    expect_refused("rig.unit.move", {{"name", "nobody"}, {"at", 0}}, {"nobody"});
+    run("rig.preset", {{"name", "secondary"}});
+    run("rig.unit.move", {{"name", "share"}, {"at", 0}});  // in its body
+    EXPECT_EQ(list("units")[0].at("body")[0].at("name"), "share");
+    expect_refused("rig.unit.move", {{"name", "bend"}, {"at", 0}}, {"bend"});
+}
+
+TEST_F(RigPanels, ReadingCleansTheWayToTheRootAndChangesNothing) {
+    element("bone 1");
+    for (int i = 2; i <= 9; ++i) {
+        const std::string name = "bone " + std::to_string(i), parent = "bone " + std::to_string(i - 1);
+        element(name.c_str(), parent.c_str(), transform(0, 1, 0));
+    }
+    const auto pending = [&](const char* name) {
+        return part().state.elements.pending(part().rig.id(*part().rig.element(name)));
+    };
+    const auto said = [&] { return workspace.ui.toasts.back().text; };
+    run("rig.read", {{"name", "bone 9"}});
+    run("rig.element.set", {{"name", "bone 3"}, {"space", "global"}, {"transform", transform(5, 0, 0)}});
+    EXPECT_EQ(pending("bone 3"), rig::Pending::Local);
+    EXPECT_EQ(pending("bone 4"), rig::Pending::Global);
+    EXPECT_EQ(pending("bone 9"), rig::Pending::Global);
+    EXPECT_EQ(pending("bone 2"), rig::Pending::None);
+    const Document before = workspace.document;
+    const std::size_t steps = workspace.history.size();
+    run("rig.read", {{"name", "bone 7"}});
+    EXPECT_EQ(said(), "Reading bone 7: 4 transforms worked out");  // of bones 4, 5, 6 and 7
+    EXPECT_EQ(pending("bone 7"), rig::Pending::None);
+    EXPECT_EQ(pending("bone 5"), rig::Pending::None);
+    EXPECT_EQ(pending("bone 8"), rig::Pending::Global);
+    run("rig.read", {{"name", "bone 7"}});
+    EXPECT_EQ(said(), "Reading bone 7: nothing was pending");
+    EXPECT_EQ(workspace.history.size(), steps);
+    EXPECT_TRUE(workspace.document.get<RigPart>(rig_lab) == before.get<RigPart>(rig_lab));
+    expect_refused("rig.read", {{"name", "bone 10"}}, {"bone 10"});
+}
+
+TEST_F(RigPanels, AWarningIsTold) {
+    run("rig.preset", {{"name", "aim"}});
+    tick();
+    EXPECT_EQ(panel_text().find("! "), std::string::npos);
+    run("rig.unit.set", {{"name", "aim"}, {"primary", {{"axis", {0, 0, 1}}, {"target", "head"}}}});
+    tick();
+    expect_says(panel_text(), "! The target is where the item is");
+}
+
+TEST_F(RigPanels, WhatABackwardSolveLeftIsTold) {
+    run("rig.preset", {{"name", "loop"}});
+    solve("backward");
+    expect_says(panel_text(), "The controls give every bone's pose.");
+    // As an imported animation poses it: no dial turns one joint alone.
+    auto& posed = workspace.document.edit<RigPart>(rig_lab);
+    const rig::ElementId joint = posed.rig.id(*posed.rig.element("arm 1 joint 3"));
+    ASSERT_TRUE(posed.state.elements.set(joint, rig::Space::Local, {.rotation = {0.8, 0.6, 0.0, 0.0}}));
+    solve("backward");
+    EXPECT_GT(part().backward->worst_degrees(), 1.0);
+    expect_says(panel_text(), "worst first");
+    expect_says(panel_text(), part().backward->bone);
+}
+
+TEST_F(RigPanels, TheInspectorHasWhatIsSelected) {
+    expect_says(inspector_text(), "Nothing is selected");
+    run("rig.preset", {{"name", "aim"}});
+    tick();
+    run("rig.select", {{"element", "look"}, {"unit", "aim"}});
+    const std::string text = inspector_text();
+    for (const char* said : {"Unit: aim", "primary target", "look, translation", "control, vector2d",
+                             "-1.00  -1.00 to 1.00  1.00", "along x", "pending"})
+        expect_says(text, said);
+    run("rig.select", {{"element", "head"}});
+    expect_says(inspector_text(), "Input pose, within its parent");
+}
+
+TEST_F(RigPanels, DigitsThatWereNotTouchedStay) {
+    const glm::dvec3 before(0.1, 1.0 / 3.0, 2.0);
+    const glm::vec3 shown(before);
+    EXPECT_EQ(edited_vector(before, shown, shown), before);
+    EXPECT_EQ(edited_vector(before, shown, {0.3f, shown.y, shown.z}), glm::dvec3(0.3, 1.0 / 3.0, 2.0));
+}
+
+}  // namespace
+}  // namespace tendril::app
