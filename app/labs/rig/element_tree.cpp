@@ -115,16 +115,16 @@ void draw_row(const RigPanel& panel, const Row& row, bool marks) {
               panel.colours);
     const float mark = marks ? 1.1f * em : 0.0f;
     if (marks) draw_pending(pending, {corner.x + width - 0.4f * em, corner.y + 0.5f * line}, panel.colours);
+    // The name comes first; the value stands beside it where there is room.
     const std::string value = short_text(panel.part, panel.now, row.element);
     const float from = at.x + indent + 1.2f * em, end = at.x + width - mark;
-    const float value_width = std::min(ImGui::CalcTextSize(value.c_str()).x, 0.5f * width);
-    const float name_width = std::max(end - from - value_width - 0.6f * em, 3.0f * em);
+    const float value_width = ImGui::CalcTextSize(value.c_str()).x;
+    const std::string name = elided(element.name, end - from);
     ImGui::SetCursorPos({from, at.y});
-    const std::string name = elided(element.name, name_width);
     ImGui::TextUnformatted(name.c_str());
-    const float used = from + ImGui::CalcTextSize(name.c_str()).x + 0.6f * em;
-    ImGui::SameLine(std::max(end - value_width, used) - 0.0f);
-    ImGui::TextDisabled("%s", elided(value, end - std::max(end - value_width, used) + 1.0f).c_str());
+    if (from + ImGui::CalcTextSize(name.c_str()).x + 0.6f * em > end - value_width) return;
+    ImGui::SameLine(end - value_width);
+    ImGui::TextDisabled("%s", value.c_str());
 }
 
 void add_menu(const RigPanel& panel) {

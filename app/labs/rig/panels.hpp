@@ -45,6 +45,9 @@ void why_rows(const RigPanel& panel);
 /// The selected unit: fields for its literals, and what the rest is now.
 void unit_inspector(const RigPanel& panel);
 
+/// Why a unit, or a part of it, was left out; nothing where it was not.
+void warning_line(const RigPanel& panel, rig::Warning warning, float margin = 0.0f);
+
 /// Selects the one, and leaves the other kind of thing selected as it is.
 void select_element(const RigPanel& panel, const std::string& name);
 void select_unit(const RigPanel& panel, const std::string& name);

@@ -32,6 +32,9 @@ void check_name(const std::string& name) {
                                     " characters; the most is " + std::to_string(longest));
     if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
         throw std::invalid_argument("a name has a character that cannot be shown");
+    // What is no text a recording has as U+FFFD: refused as well, so that it plays again as it went.
+    if (name.find("\xEF\xBF\xBD") != name.npos)
+        throw std::invalid_argument("a name has a character that is none, U+FFFD");
     try {
         static_cast<void>(Json(name).dump());  // looks at every character
     } catch (const Json::exception&) {

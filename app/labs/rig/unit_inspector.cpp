@@ -183,6 +183,7 @@ void unit_inspector(const RigPanel& panel) {
     std::replace(operation.begin(), operation.end(), '_', ' ');
     note(operation + (row->inner ? ", run on each element of its for-each" : "") +
          (row->unit->enabled ? "" : ", switched off"));
+    if (row->unit->enabled) warning_line(panel, panel.part.state.units[row->at].warning);
     Fields fields(panel, *row);
     for (const UnitInput& input : unit_inputs(panel.part, panel.now, *row->unit)) {
         if (input.path == "/when" && row->unit->when == rig::Unit().when) continue;  // the switch does that

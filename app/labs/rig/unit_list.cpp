@@ -61,21 +61,18 @@ void title_row(const RigPanel& panel, const UnitRow& row, const std::vector<doub
     }
 }
 
-/// A line of a unit: what it reads or hands out, and what that is now.
-void live_line(const std::string& title, const std::string& value, float margin) {
+/// A line of a unit: what it reads or hands out, and what that is now; below it, where there is no room.
+void live_line(const std::string& title, const std::string& from, const std::string& value, float margin) {
+    const float gap = 0.6f * ImGui::GetFontSize(), width = ImGui::GetContentRegionAvail().x - margin;
+    const auto width_of = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + margin);
-    const float width = ImGui::GetContentRegionAvail().x;
-    const float gap = 0.6f * ImGui::GetFontSize();
-    const float needed = ImGui::CalcTextSize(value.c_str()).x;
-    const float for_title = std::max(width - needed - gap, 0.3f * width);
-    const std::string shown = elided(title, for_title);
-    ImGui::TextDisabled("%s", shown.c_str());
+    ImGui::TextDisabled("%s", elided(title, 0.6f * width).c_str());
     ImGui::SameLine();
-    const float room = width - ImGui::CalcTextSize(shown.c_str()).x - gap;
-    text_flush_right(elided(value, room));
-    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-    if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect({low.x - width, low.y}, high))
-        ImGui::SetTooltip("%s: %s", title.c_str(), value.c_str());
+    const std::string both = from.empty() || value.empty() ? from + value : from + ": " + value;
+    const float room = width - std::min(width_of(title), 0.6f * width) - gap;
+    if (from.empty() || width_of(both) <= room) return text_flush_right(elided(both, room));
+    text_flush_right(elided(from, room));
+    if (!value.empty()) text_flush_right(elided(value, ImGui::GetContentRegionAvail().x));
 }
 
 std::string live_text(const UnitInput& input) {
@@ -96,9 +93,7 @@ std::string live_text(const UnitInput& input) {
         }
         std::string operator()(const InputCurve& curve) const { return count_text(curve.curve.keys.size(), "key"); }
     };
-    const std::string value = std::visit(ToText(), input.value);
-    if (input.literal()) return value;
-    return value.empty() ? input.from : input.from + ": " + value;
+    return std::visit(ToText(), input.value);
 }
 
 void live_lines(const RigPanel& panel, const UnitRow& row) {
@@ -108,25 +103,12 @@ void live_lines(const RigPanel& panel, const UnitRow& row) {
         // Weight 1 and no condition are what one expects.
         if (input.path == "/weight" && row.unit->weight == usual.weight) continue;
         if (input.path == "/when" && row.unit->when == usual.when) continue;
-        live_line(input.title, live_text(input), margin);
+        live_line(input.title, input.from, live_text(input), margin);
     }
     const std::vector<rig::Output> outputs = rig::outputs(row.unit->operation);
     const rig::UnitState& state = panel.part.state.units[row.at];
     for (std::size_t i = 0; i < outputs.size(); ++i)
-        live_line(std::string("gives ") + outputs[i].name, value_text(state.outputs[i]), margin);
-}
-
-void warning_line(const RigPanel& panel, const UnitRow& row, rig::Warning warning) {
-    const float margin = (row.inner ? 2.6f : 1.4f) * ImGui::GetFontSize();
-    const glm::vec3 c = panel.colours.limit;
-    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + margin);
-    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(c.r, c.g, c.b, 1.0f));
-    ImGui::PushTextWrapPos(0.0f);
-    std::string text = rig::message(warning);
-    if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-    ImGui::TextUnformatted(("! " + text).c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::PopStyleColor();
+        live_line(std::string("gives ") + outputs[i].name, "", value_text(state.outputs[i]), margin);
 }
 
 void add_menu(const RigPanel& panel) {
@@ -173,6 +155,19 @@ void order_buttons(const RigPanel& panel, const std::vector<UnitRow>& rows) {
 
 }  // namespace
 
+void warning_line(const RigPanel& panel, rig::Warning warning, float margin) {
+    std::string text = rig::message(warning);
+    if (text.empty()) return;
+    text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+    const glm::vec3 c = panel.colours.limit;
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + margin);
+    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(c.r, c.g, c.b, 1.0f));
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted(("! " + text).c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+}
+
 void unit_list(const RigPanel& panel) {
     section("Units, in order");
     const std::vector<UnitRow> rows = unit_rows(panel.part);
@@ -194,7 +189,7 @@ void unit_list(const RigPanel& panel) {
         }
         ImGui::PushID(static_cast<int>(row.at));
         title_row(panel, row, times);
-        if (warning != rig::Warning::None && row.unit->enabled) warning_line(panel, row, warning);
+        if (row.unit->enabled) warning_line(panel, warning, (row.inner ? 2.6f : 1.4f) * ImGui::GetFontSize());
         if (selected) live_lines(panel, row);
         ImGui::PopID();
     }
