@@ -25,7 +25,8 @@ namespace signal = tendril::signal;
 std::string control_code(const rig::Control& control) {
     std::string text = "rig::Control{.kind = rig::ControlKind::" + pascal_text(rig::name(control.kind));
     if (control.axes != rig::Control().axes) {
-        text += ", .axes = {" + std::to_string(control.axes[0]) + ", " + std::to_string(control.axes[1]) + '}';
+        text +=
+            ", .axes = {" + std::to_string(control.axes[0]) + ", " + std::to_string(control.axes[1]) + '}';
     }
     const auto end = [&](const char* name, const std::optional<glm::dvec3>& value) {
         if (value) text += std::string(", .") + name + " = glm::dvec3" + vector_code(*value);
@@ -64,8 +65,8 @@ std::string inputs_code(const RigPart& part) {
         if (!poses.contains("input")) continue;
         const bool global = poses.at("input").contains("global");
         const JsonPlace place(poses.at("input").at(global ? "global" : "local"), "");
-        text += "    state.elements.put(id(" + string_text(name) + "), rig::Space::" +
-                (global ? "Global" : "Local") + ", " +
+        text += "    state.elements.put(id(" + string_text(name) +
+                "), rig::Space::" + (global ? "Global" : "Local") + ", " +
                 transform_code(read_transform(place, {}, most_reached)) +
                 ",\n                       rig::Propagate::Yes, rig::Pose::Input);\n";
     }
@@ -88,7 +89,8 @@ std::string memories_code(const RigPart& part) {
         for (std::size_t i = 0; i < part.state.units[unit].memory.size(); ++i)
             text += memory_code("state.units[" + std::to_string(unit) + "].memory[" + std::to_string(i) + ']',
                                 part.state.units[unit].memory[i]);
-    return text.empty() ? text : "    // What its units remember by now: springs swing on from here.\n" + text;
+    return text.empty() ? text
+                        : "    // What its units remember by now: springs swing on from here.\n" + text;
 }
 
 constexpr const char* tail = R"(

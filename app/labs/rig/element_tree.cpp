@@ -77,7 +77,8 @@ std::string short_text(const RigPart& part, const rig::Hierarchy& now, std::size
         return text.substr(0, text.rfind("  "));
     }
     if (const auto* pose = std::get_if<rig::Transform>(&value)) return vector_text(pose->translation, 1);
-    if (const auto* rotation = std::get_if<glm::dquat>(&value)) return vector_text(euler_degrees(*rotation), 0) + "\xC2\xB0";
+    if (const auto* rotation = std::get_if<glm::dquat>(&value))
+        return vector_text(euler_degrees(*rotation), 0) + "\xC2\xB0";
     if (const auto* vector = std::get_if<glm::dvec3>(&value)) return vector_text(*vector, 1);
     return value_text(value);
 }
@@ -127,6 +128,30 @@ void draw_row(const RigPanel& panel, const Row& row, bool marks) {
     ImGui::TextDisabled("%s", value.c_str());
 }
 
+/// What was selected elsewhere is scrolled into view, once.
+void show_selected(const RigPanel& panel, const std::vector<Row>& rows) {
+    std::string& shown = panel.runtime.panel.shown;
+    const std::string& selected = panel.part.selected.element;
+    if (shown == selected) return;
+    shown = selected;
+    const auto element = panel.part.rig.element(selected);
+    const auto row = std::find_if(rows.begin(), rows.end(),
+                                  [&](const Row& each) { return element && each.element == *element; });
+    if (row == rows.end()) return;
+    const float top = row_height() * static_cast<float>(row - rows.begin());
+    const float from = ImGui::GetScrollY(), height = ImGui::GetWindowHeight();
+    if (top < from || top + row_height() > from + height) ImGui::SetScrollY(top - 0.5f * height);
+}
+
+/// What the marks mean.
+void marks_legend(const Palette& colours) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float em = ImGui::GetFontSize();
+    draw_pending(rig::Pending::Global, {at.x + 0.4f * em, at.y + 0.5f * ImGui::GetTextLineHeight()}, colours);
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 1.2f * em);
+    note("local, global: filled while pending");
+}
+
 void add_menu(const RigPanel& panel) {
     if (row_button("Add", 2)) ImGui::OpenPopup("add element");
     if (ImGui::BeginPopup("add element")) {
@@ -144,9 +169,9 @@ void add_menu(const RigPanel& panel) {
         };
         add("Bone", "bone", "");
         add("Null", "null", "");
-        for (const auto kind : {rig::ControlKind::Transform, rig::ControlKind::Position,
-                                rig::ControlKind::Rotation, rig::ControlKind::Float, rig::ControlKind::Bool,
-                                rig::ControlKind::Vector2d})
+        for (const auto kind :
+             {rig::ControlKind::Transform, rig::ControlKind::Position, rig::ControlKind::Rotation,
+              rig::ControlKind::Float, rig::ControlKind::Bool, rig::ControlKind::Vector2d})
             add((std::string("Control, ") + rig::name(kind)).c_str(), "control", rig::name(kind));
         note(panel.part.selected.element.empty() ? "In the scene" : "Below " + panel.part.selected.element);
         ImGui::EndPopup();
@@ -172,6 +197,7 @@ void element_tree(const RigPanel& panel) {
     ImGui::BeginChild("elements", {0.0f, shown * row_height() + 2.0f}, false);
     const ImVec2 spacing(ImGui::GetStyle().ItemSpacing.x, row_height() - ImGui::GetTextLineHeight());
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, spacing);
+    show_selected(panel, rows);
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(rows.size()), row_height());
     while (clipper.Step())
@@ -179,6 +205,7 @@ void element_tree(const RigPanel& panel) {
             draw_row(panel, rows[static_cast<std::size_t>(i)], marks);
     ImGui::PopStyleVar();
     ImGui::EndChild();
+    if (marks && !rows.empty()) marks_legend(panel.colours);
     if (count == 0) note("No elements.");
     if (count > 0 && rows.empty()) note("No element has this in its name.");
     add_menu(panel);
@@ -191,8 +218,8 @@ void element_tree(const RigPanel& panel) {
 void draw_pending(rig::Pending pending, glm::vec2 at, const Palette& colours) {
     const float em = ImGui::GetFontSize(), w = 0.22f * em, h = 0.30f * em, gap = 0.07f * em;
     const auto bar = [&](float x, bool waits) {
-        const glm::vec3 c = waits ? colours.accent : colours.border;
-        const ImU32 colour = ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1.0f});
+        const glm::vec3 c = waits ? colours.accent : colours.text_dim;
+        const ImU32 colour = ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, waits ? 1.0f : 0.5f});
         ImDrawList* list = ImGui::GetWindowDrawList();
         const ImVec2 low(x, at.y - h), high(x + w, at.y + h);
         if (waits)

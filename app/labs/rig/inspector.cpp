@@ -71,8 +71,7 @@ class ControlFields {
             case rig::ControlKind::Transform:
                 if (const auto changed =
                         transform_fields(panel_, std::get<rig::Transform>(value), low(), high()))
-                    panel_.edit("rig.control.set",
-                                             {{"name", element_.name}, {"value", *changed}});
+                    panel_.edit("rig.control.set", {{"name", element_.name}, {"value", *changed}});
                 break;
         }
     }
@@ -83,8 +82,7 @@ class ControlFields {
         }
         const rig::Value rest = rig::rest_value(control_, element_.initial);
         if (row_button("Reset", 2, !(value == rest), "Sets it to its initial value"))
-            panel_.edit("rig.control.set",
-                        arguments(SharedJson(control_value_json(control_.kind, rest))));
+            panel_.edit("rig.control.set", arguments(SharedJson(control_value_json(control_.kind, rest))));
         end_row();
     }
 
@@ -94,9 +92,7 @@ class ControlFields {
     ArgumentList arguments(ArgumentValue value) const {
         return {{"name", element_.name}, {"value", std::move(value)}};
     }
-    void set(Json value) const {
-        panel_.edit("rig.control.set", arguments(SharedJson(std::move(value))));
-    }
+    void set(Json value) const { panel_.edit("rig.control.set", arguments(SharedJson(std::move(value)))); }
     /// Along its two axes, each by its name.
     void pair(const glm::dvec3& value) const {
         for (int i = 0; i < 2; ++i) {
@@ -131,7 +127,8 @@ void pose_lines(const char* title, const rig::Transform& pose, const char* what)
 
 void pending_rows(const RigPanel& panel, const std::string& name, rig::ElementId id) {
     const rig::Pending pending = panel.part.state.elements.pending(id);
-    text_line("pending", rig::name(pending),
+    text_line(
+        "pending", rig::name(pending),
         "An element stores a local and a global transform. What is written makes the other one pending, and "
         "for a global one those of all elements below it. It is worked out when something reads it.");
     if (row_button("Read it", 2, true,

@@ -41,16 +41,19 @@ void residual_rows(const RigPanel& panel, const BackwardLeft& left) {
                 fixed_text(1000.0 * each.metres, 1).c_str(),
                 fixed_text(glm::degrees(each.radians), 1).c_str());
     }
-    if (bones.size() > shown)
-        note("and " + count_text(bones.size() - shown, "bone") + " with less");
+    if (bones.size() > shown) note("and " + count_text(bones.size() - shown, "bone") + " with less");
 }
 
 }  // namespace
 
 RigPanel rig_panel(const Workspace& workspace, Emit& emit) {
     auto& runtime = workspace.runtimes.of<RigRuntime>(rig_lab);
-    return {workspace, rig_part(workspace),           runtime, runtime.resolved(workspace),
-            palette(workspace.settings.theme), emit};
+    return {workspace,
+            rig_part(workspace),
+            runtime,
+            runtime.resolved(workspace),
+            palette(workspace.settings.theme),
+            emit};
 }
 
 void RigPanel::edit(const char* command, const ArgumentList& arguments) const {
@@ -59,11 +62,12 @@ void RigPanel::edit(const char* command, const ArgumentList& arguments) const {
 }
 
 LabSetting pending_marks() {
-    return {.key = "pending_poses",
-            .command = "view.pending_poses",
-            .argument = "marks",
-            .help = "Marks in the tree of the Rig lab which local and global transforms wait to be worked out",
-            .choices = {{"shown", "Pending poses marked"}, {"hidden", "Not marked"}}};
+    return {
+        .key = "pending_poses",
+        .command = "view.pending_poses",
+        .argument = "marks",
+        .help = "Marks in the tree of the Rig lab which local and global transforms wait to be worked out",
+        .choices = {{"shown", "Pending poses marked"}, {"hidden", "Not marked"}}};
 }
 
 void select_element(const RigPanel& panel, const std::string& name) {
@@ -88,14 +92,16 @@ void solve_rows(const RigPanel& panel) {
     section("Solve");
     if (row_button("Forward", 2, true, "Runs the units: from controls to bones. A tick does this too"))
         panel.emit("rig.solve", {{"direction", "forward"}});
-    if (row_button("Backward", 2, true, "Sets the controls so that the bones stay as they are, if that can be"))
+    if (row_button("Backward", 2, true,
+                   "Sets the controls so that the bones stay as they are, if that can be"))
         panel.emit("rig.solve", {{"direction", "backward"}});
     end_row();
     if (!panel.part.backward) return;
     const BackwardLeft& left = *panel.part.backward;
     if (left.bone.empty()) return note("Without a bone there is nothing to match.");
     // Under what shows: a tenth of a millimetre, a hundredth of a degree.
-    if (left.worst_mm() < 0.1 && left.worst_degrees() < 0.01) return note("The controls give every bone's pose.");
+    if (left.worst_mm() < 0.1 && left.worst_degrees() < 0.01)
+        return note("The controls give every bone's pose.");
     note("The controls cannot give the pose. What is left, worst first:");
     residual_rows(panel, left);
 }

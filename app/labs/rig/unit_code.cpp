@@ -101,7 +101,8 @@ struct FieldsCode {
         rig::fields(of, [&](const char* name, const auto& field) {
             using Field = std::remove_cvref_t<decltype(field)>;
             if (field == *static_cast<const Field*>(by_default[at++])) return;
-            text += (text.empty() ? "." : ",\n" + margin + '.') + std::string(name) + " = " + field_code(field);
+            text +=
+                (text.empty() ? "." : ",\n" + margin + '.') + std::string(name) + " = " + field_code(field);
         });
         return '{' + text + '}';
     }
@@ -144,7 +145,9 @@ struct FieldsCode {
     }
     static std::string field_code(bool flag) { return literal_code(flag); }
     static std::string field_code(const std::string& text) { return string_text(text); }
-    static std::string field_code(const std::array<double, 2>& range) { return list_code(range, double_text); }
+    static std::string field_code(const std::array<double, 2>& range) {
+        return list_code(range, double_text);
+    }
     std::string field_code(const signal::Curve& curve) const {
         const signal::Curve usual;
         std::string text = ".keys = " + keys_text(curve, margin + "    ");
@@ -188,8 +191,8 @@ std::string value_code(const rig::Value& value) {
 
 std::string unit_code(const rig::Unit& unit, const std::string& margin) {
     const std::string next = ",\n" + margin + "    ";
-    std::string text = "rig::Unit{.name = " + string_text(unit.name) + next + ".operation = rig::" +
-                       pascal_text(rig::operation_name(unit.operation.index()));
+    std::string text = "rig::Unit{.name = " + string_text(unit.name) + next +
+                       ".operation = rig::" + pascal_text(rig::operation_name(unit.operation.index()));
     const FieldsCode inner{margin + "        "};
     text += std::visit([&](const auto& operation) { return inner.all(operation); }, unit.operation);
     const rig::Unit usual;

@@ -59,15 +59,14 @@ void add_unit_commands(CommandTable& table) {
                           "Changes inputs of a unit; those that are not given stay", set));
     table.add(rig_command("rig.unit.remove", {unit_name_argument(true)},
                           "Removes a unit from which no other takes an output", remove));
-    table.add(rig_command(
-        "rig.unit.move",
-        {unit_name_argument(true),
-         {.name = "at",
-          .type = ArgumentType::Integer,
-          .help = "its new place among the units of the rig, or of the body that it is in",
-          .low = 0,
-          .high = static_cast<double>(max_lab_units)}},
-        "Moves a unit, so that it runs earlier or later", move));
+    table.add(rig_command("rig.unit.move",
+                          {unit_name_argument(true),
+                           {.name = "at",
+                            .type = ArgumentType::Integer,
+                            .help = "its new place among the units of the rig, or of the body that it is in",
+                            .low = 0,
+                            .high = static_cast<double>(max_lab_units)}},
+                          "Moves a unit, so that it runs earlier or later", move));
     table.add(rig_command("rig.unit.enable",
                           {unit_name_argument(true), {.name = "on", .type = ArgumentType::Boolean}},
                           "Switches a unit off or on", enable));

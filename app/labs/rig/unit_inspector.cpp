@@ -50,7 +50,8 @@ class Fields {
         ImGui::TextDisabled("%s", title.c_str());
         if (room > 6.0f * ImGui::GetFontSize()) ImGui::SameLine();
         text_flush_right(elided(input_->from, ImGui::GetContentRegionAvail().x));
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s comes from: %s", title.c_str(), input_->from.c_str());
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("%s comes from: %s", title.c_str(), input_->from.c_str());
         if (const auto* value = std::get_if<rig::Value>(&input_->value))
             text_flush_right(elided(value_text(*value), width), true);
     }
@@ -84,7 +85,9 @@ class Fields {
         axes("rotation", passes.rotation);
         axes("scale", passes.scale);
         if (changed)
-            set({{"translation", passes.translation}, {"rotation", passes.rotation}, {"scale", passes.scale}});
+            set({{"translation", passes.translation},
+                 {"rotation", passes.rotation},
+                 {"scale", passes.scale}});
     }
     void field(const InputRange& range) const {
         float low = static_cast<float>(range.low), high = static_cast<float>(range.high);
@@ -142,9 +145,12 @@ class Fields {
         float shown = static_cast<float>(value);
         const bool weight = is_weight(*input_);
         const std::string unit = input_->unit;
-        const std::string format = unit == "\xC2\xB0/s" ? "%.1f" + unit : unit.empty() ? "%.3f" : "%.3f " + unit;
+        const std::string format = unit == "\xC2\xB0/s" ? "%.1f" + unit
+                                   : unit.empty()       ? "%.3f"
+                                                        : "%.3f " + unit;
         if (number_field(input_->title.c_str(), shown, weight ? 0.005f : 0.01f,
-                         weight || *input_->unit != '\0' ? 0.0f : -most, weight ? 1.0f : most, format.c_str()))
+                         weight || *input_->unit != '\0' ? 0.0f : -most, weight ? 1.0f : most,
+                         format.c_str()))
             set(number(shown));
     }
     void literal_field(const glm::dvec3& value) const {

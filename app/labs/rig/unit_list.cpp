@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
@@ -91,7 +92,9 @@ std::string live_text(const UnitInput& input) {
             for (const std::string& each : names.names) text += (text.empty() ? "" : ", ") + each;
             return text;
         }
-        std::string operator()(const InputCurve& curve) const { return count_text(curve.curve.keys.size(), "key"); }
+        std::string operator()(const InputCurve& curve) const {
+            return count_text(curve.curve.keys.size(), "key");
+        }
     };
     return std::visit(ToText(), input.value);
 }
@@ -122,8 +125,7 @@ void add_menu(const RigPanel& panel) {
         if (!offer.unit) title += std::string(": needs ") + offer.needs;
         if (!ImGui::MenuItem(title.c_str(), nullptr, false, offer.unit.has_value())) continue;
         ArgumentList arguments;
-        for (const auto& [key, value] : (*offer.unit)->items())
-            arguments.push_back({key, SharedJson(value)});
+        for (const auto& [key, value] : (*offer.unit)->items()) arguments.push_back({key, SharedJson(value)});
         panel.edit("rig.unit.add", arguments);
     }
     ImGui::EndPopup();
@@ -171,9 +173,8 @@ void warning_line(const RigPanel& panel, rig::Warning warning, float margin) {
 void unit_list(const RigPanel& panel) {
     section("Units, in order");
     const std::vector<UnitRow> rows = unit_rows(panel.part);
-    const std::vector<double> times = panel.workspace.clock.measured
-                                          ? panel.runtime.microseconds(panel.part.rig)
-                                          : std::vector<double>();
+    const std::vector<double> times =
+        panel.workspace.clock.measured ? panel.runtime.microseconds(panel.part.rig) : std::vector<double>();
     const float line = ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
     constexpr float most_lines = 26.0f;
     // As high as what is in it, as long as that is not too much: then it scrolls.
@@ -189,6 +190,9 @@ void unit_list(const RigPanel& panel) {
         }
         ImGui::PushID(static_cast<int>(row.at));
         title_row(panel, row, times);
+        if (many && selected && std::exchange(panel.runtime.panel.unit, row.unit->name) != row.unit->name &&
+            !ImGui::IsItemVisible())
+            ImGui::SetScrollHereY(0.3f);
         if (row.unit->enabled) warning_line(panel, warning, (row.inner ? 2.6f : 1.4f) * ImGui::GetFontSize());
         if (selected) live_lines(panel, row);
         ImGui::PopID();

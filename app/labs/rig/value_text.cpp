@@ -21,7 +21,9 @@ std::string value_text(const rig::Value& value) {
         std::string operator()(bool on) const { return on ? "on" : "off"; }
         std::string operator()(double number) const { return fixed_text(number, 3); }
         std::string operator()(const glm::dvec3& vector) const { return vector_text(vector); }
-        std::string operator()(const glm::dquat& rotation) const { return rotation_text(rotation) + "\xC2\xB0"; }
+        std::string operator()(const glm::dquat& rotation) const {
+            return rotation_text(rotation) + "\xC2\xB0";
+        }
         std::string operator()(const rig::Transform& pose) const {
             const bool turned = pose.rotation != rig::Transform().rotation;
             return vector_text(pose.translation) +

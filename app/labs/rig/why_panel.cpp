@@ -20,7 +20,8 @@ std::string length_text(double metres) {
 }
 
 std::string added_text(const rig::Contribution& step) {
-    std::string text = length_text(step.metres) + "  " + fixed_text(glm::degrees(step.radians), 1) + "\xC2\xB0";
+    std::string text =
+        length_text(step.metres) + "  " + fixed_text(glm::degrees(step.radians), 1) + "\xC2\xB0";
     return step.before.scale == step.after.scale ? text : text + ", scale";
 }
 
@@ -40,8 +41,8 @@ void unit_line(const RigPanel& panel, const rig::Unit& unit, const rig::Contribu
     if (ImGui::IsItemHovered()) ImGui::SetTooltip(on ? "Click to mute this unit" : "Muted; click to run it");
     ImGui::SameLine(0.0f, 0.5f * ImGui::GetFontSize());
     const std::string added = !on ? "muted" : touched(step) ? added_text(step) : "nothing";
-    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(added.c_str()).x -
-                       0.6f * ImGui::GetFontSize();
+    const float room =
+        ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(added.c_str()).x - 0.6f * ImGui::GetFontSize();
     text_elided(unit.name, std::max(room, 3.0f * ImGui::GetFontSize()), !on || !touched(step));
     ImGui::SameLine();
     text_flush_right(added, !on || !touched(step));

@@ -35,7 +35,9 @@ class RigWhy : public RigTest {
         }
         return {{"translation", {a, b, c}}, {"rotation", {b, c, d, a}}};
     }
-    static rig::Transform read(const Json& json) { return read_transform(JsonPlace(json, ""), {}, most_reached); }
+    static rig::Transform read(const Json& json) {
+        return read_transform(JsonPlace(json, ""), {}, most_reached);
+    }
     static void expect_same(const rig::Transform& a, const rig::Transform& b, const std::string& what) {
         EXPECT_LT(glm::length(a.translation - b.translation), 1e-5) << what;
         EXPECT_GT(std::abs(glm::dot(a.rotation, b.rotation)), 1.0 - 1e-10) << what;
@@ -73,7 +75,9 @@ TEST_F(RigWhy, AMutedUnitAddsNothing) {
     set("dial", 0.5);
     select("bone 2");
     tick();
-    const auto added = [&](std::size_t unit) { return state().at("why").at("units")[unit]["degrees"].get<double>(); };
+    const auto added = [&](std::size_t unit) {
+        return state().at("why").at("units")[unit]["degrees"].get<double>();
+    };
     ASSERT_EQ(state().at("why").at("units")[2].at("name"), "follow 2");
     EXPECT_NEAR(added(2), 12.5, 1e-6);
     run("rig.unit.enable", {{"name", "follow 2"}, {"on", false}});

@@ -1,0 +1,65 @@
+// A rig as a C++ program: what stands in it. That it compiles and poses every element as the lab does is held
+// by tests/package/code.cmake.
+#include "app/labs/rig/code.hpp"
+
+#include "app/labs/rig/presets.hpp"
+#include "rig_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+class RigCode : public RigTest {
+  protected:
+    std::string code() const { return rig_code(part()); }
+    void expect_says(const std::string& what) const {
+        EXPECT_NE(code().find(what), std::string::npos) << what << " is not in:\n" << code();
+    }
+    void expect_silent_about(const std::string& what) const {
+        EXPECT_EQ(code().find(what), std::string::npos) << what << " is in:\n" << code();
+    }
+};
+
+TEST_F(RigCode, HasEveryElementAndUnitOfEveryScene) {
+    for (const RigPreset& preset : rig_presets()) {
+        run("rig.preset", {{"name", preset.name}});
+        for (const rig::Element& each : part().rig.definition().elements)
+            expect_says(".name = \"" + each.name + '"');
+        for (const std::string& each : part().rig.unit_names()) expect_says(".name = \"" + each + '"');
+        EXPECT_EQ(lab().code(workspace), code());
+    }
+}
+
+TEST_F(RigCode, SaysOnlyWhatIsNotAsItIsByItself) {
+    element("bone 1");
+    unit({{"unit", "offset_transform"},
+          {"name", "shift"},
+          {"item", "bone 1"},
+          {"offset", transform(1, 0, 0)}});
+    expect_says(".offset = rig::Transform{.translation = {1.0, 0.0, 0.0}}");
+    for (const char* unsaid :
+         {".weight", ".when", ".enabled", ".propagate", ".scale =", "state.controls", "held"})
+        expect_silent_about(unsaid);
+    run("rig.unit.set", {{"name", "shift"}, {"propagate", false}, {"weight", 0.5}, {"enabled", false}});
+    for (const char* said : {".propagate = false", ".weight = 0.5", ".enabled = false"}) expect_says(said);
+}
+
+TEST_F(RigCode, TakesAlongWhatWasSetAndWhatIsRemembered) {
+    run("rig.preset", {{"name", "secondary"}});
+    expect_silent_about("state.controls");
+    set("head", transform(0.5, 1, 0));
+    run("rig.element.set", {{"name", "left 2"}, {"transform", transform(0, 0.25, 0)}});
+    tick(5);
+    expect_says(
+        "state.controls[*made->element(\"head\")] = rig::Value(rig::Transform{.translation = {0.5, 1.0, "
+        "0.0}");
+    expect_says("state.elements.put(id(\"left 2\"), rig::Space::Local");
+    expect_says("signal::SpringState<glm::dvec3>{.value = glm::dvec3(");
+}
+
+TEST_F(RigCode, NamesAreWrittenSoThatTheyComeBack) {
+    element("a \"b\" \\");
+    expect_says(R"(.name = "a \"b\" \\")");
+}
+
+}  // namespace
+}  // namespace tendril::app
