@@ -13,6 +13,10 @@ constexpr const char* head = R"(// A rig, exported from Tendril.
 //
 // CMake: find_package(tendril REQUIRED)
 //        target_link_libraries(your_program PRIVATE tendril::core)
+#if defined(__GNUC__) && !defined(__clang__)
+// GCC 12 takes variants that are moved for ones that were never initialised.
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 #include <cstdio>
 #include <tendril/rig/rig.hpp>
 #include <tendril/rig/workspace.hpp>
