@@ -217,6 +217,7 @@ void App::advance_time() {
     const Clock& clock = workspace_.clock;
     if (clock.steps_due > 0 || (clock.playing && lab().moving(workspace_))) step_lab();
     while (clock.steps_due > 0) step_lab();
+    if (lab().working(workspace_)) lab().work(workspace_);
     auto& toasts = workspace_.ui.toasts;
     for (Toast& toast : toasts) --toast.ticks_left;
     std::erase_if(toasts, [](const Toast& toast) { return toast.ticks_left <= 0; });
@@ -269,7 +270,10 @@ Json App::state() {
     state["handles"] = std::move(handles);
     state["camera"] = save_camera(workspace_.camera);
     const Clock& clock = workspace_.clock;
-    state["time"] = {{"playing", clock.playing}, {"tick", clock.tick}, {"speed", number(clock.speed)}};
+    state["time"] = {{"playing", clock.playing},
+                     {"tick", clock.tick},
+                     {"speed", number(clock.speed)},
+                     {"seconds", lab().seconds(workspace_)}};
     if (!workspace_.rewind.empty()) {
         const std::uint64_t newest = std::max(workspace_.rewind.newest(), clock.tick);
         state["time"]["ticks_back"] = newest - clock.tick;
@@ -284,7 +288,7 @@ bool App::busy() const {
 
 bool App::restless() const {
     const bool moving = workspace_.clock.playing && lab().moving(workspace_);
-    return moving || settling_ > 0 || !workspace_.ui.toasts.empty();
+    return moving || lab().working(workspace_) || settling_ > 0 || !workspace_.ui.toasts.empty();
 }
 
 }  // namespace tendril::app

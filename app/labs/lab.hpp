@@ -106,6 +106,9 @@ class Lab {
     }
     /// Whether its last seconds are remembered, to go back in time.
     virtual bool rewinds() const { return false; }
+    /// Whether something long is being worked out, a share of it in every tick, paused or not.
+    virtual bool working(const Workspace&) const { return false; }
+    virtual void work(Workspace&) const {}
     /// The strip of time below the scene; shown while has_timeline().
     virtual bool has_timeline(const Workspace&) const { return false; }
     virtual void timeline(const Workspace&, Emit&) const {}

@@ -64,12 +64,37 @@ class Strip {
         list_->AddLine({from_, base_}, {from_ + span_ * share, base_},
                        ImGui::GetColorU32(ImGuiCol_CheckMark, 0.45f), 2.0f * unit());
     }
-    void head(float share) {
+    void head(float share) { played(0.0f, share, share); }
+    /// From where it began to the head, which is there, and on to what is known.
+    void played(float begin, float share, float known) {
         const float x = from_ + span_ * share;
         const ImU32 accent = ImGui::GetColorU32(ImGuiCol_CheckMark);
-        list_->AddLine({from_, base_}, {x, base_}, accent, 2.0f * unit());
+        if (known > share)
+            list_->AddLine({x, base_}, {from_ + span_ * known, base_},
+                           ImGui::GetColorU32(ImGuiCol_CheckMark, 0.45f), 2.0f * unit());
+        list_->AddLine({from_ + span_ * begin, base_}, {x, base_}, accent, 2.0f * unit());
         const float radius = ImGui::IsItemHovered() || ImGui::IsItemActive() ? 6.0f : 5.0f;
         list_->AddCircleFilled({x, base_ - unit()}, radius * unit(), accent, 20);
+    }
+
+    /// The share of the strip that the mouse is on; negative where it is not.
+    float hovered() const {
+        if (!ImGui::IsItemHovered()) return -1.0f;
+        return std::clamp((ImGui::GetIO().MousePos.x - from_) / span_, 0.0f, 1.0f);
+    }
+    void bar(float from, float to, const TimeBar& bar) {
+        const float left = from_ + span_ * from, high = (2.0f + 8.0f * bar.height) * unit();
+        const float right = std::max(left + 1.0f, from_ + span_ * to);
+        list_->AddRectFilled({left, base_ - high}, {right, base_},
+                             ImGui::GetColorU32({bar.colour.r, bar.colour.g, bar.colour.b, 1.0f}));
+    }
+    /// Where time begins that one can go back to.
+    void flag(float share) {
+        const float x = from_ + span_ * share, top = base_ - 11.0f * unit();
+        const ImU32 colour = ImGui::GetColorU32(ImGuiCol_Text);
+        list_->AddLine({x, top}, {x, base_ + 2.0f * unit()}, colour, unit());
+        list_->AddTriangleFilled({x, top}, {x + 6.0f * unit(), top + 3.0f * unit()}, {x, top + 6.0f * unit()},
+                                 colour);
     }
 
   private:
@@ -117,6 +142,31 @@ bool step_timeline(const char* id, int& step, const std::vector<int>& ends) {
     }
     strip.head(static_cast<float>(step) / static_cast<float>(last));
     return step != before;
+}
+
+TimeStripUse time_strip(const char* id, int& tick, const TimeStrip& content) {
+    Strip strip(id);
+    const float whole = static_cast<float>(std::max(1, content.ticks));
+    const auto share = [&](int at) { return static_cast<float>(at) / whole; };
+    const auto tick_at = [&](float part) { return static_cast<int>(std::lround(part * whole)); };
+    const int before = tick;
+    if (const float part = strip.dragged(); part >= 0.0f) tick = std::max(tick_at(part), content.start);
+    for (std::size_t i = 0; i < content.bars.size(); ++i) {
+        const int at = content.bars_from + static_cast<int>(i);
+        if (at >= 0 && at <= content.ticks)
+            strip.bar(share(at) - 0.5f / whole, share(at) + 0.5f / whole, content.bars[i]);
+    }
+    const double step = mark_seconds(content.ticks * content.seconds / static_cast<double>(strip.span()),
+                                     60.0 * static_cast<double>(Strip::unit()));
+    const double last = content.first_seconds + content.ticks * content.seconds;
+    for (double t = step * std::ceil(content.first_seconds / step - 1e-9); t <= last + 1e-9; t += step) {
+        const std::string text = fixed_text(t, step < 1.0 ? 1 : 0) + " s";
+        strip.mark(static_cast<float>((t - content.first_seconds) / content.seconds) / whole, text.c_str());
+    }
+    strip.played(share(content.start), share(tick), share(std::max(tick, content.known)));
+    if (content.start > 0) strip.flag(share(content.start));
+    const float over = strip.hovered();
+    return {tick != before, over < 0.0f ? -1 : tick_at(over)};
 }
 
 }  // namespace tendril::app

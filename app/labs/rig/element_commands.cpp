@@ -5,6 +5,7 @@
 #include "app/labs/rig/definition_json.hpp"
 #include "app/labs/rig/rig_commands.hpp"
 #include "app/labs/rig/rig_edit.hpp"
+#include "app/labs/rig/take.hpp"
 #include "app/labs/rig/value_json.hpp"
 
 namespace tendril::app {
@@ -57,7 +58,13 @@ void set_control(RigPart& part, const Arguments& given) {
     require_ok(part.rig.set_control(after, at, value));
     if (after.controls[at] == part.state.controls[at]) return;  // units may have moved it since
     part.state = std::move(after);
-    changed(part);
+    part.moving = true;
+    part.backward.reset();
+    part.rates.reset();
+    // One that is set does not walk on; else the take remembers it, and goes on.
+    const bool walked =
+        std::erase_if(part.walks, [&](const RigWalk& walk) { return walk.control == element.name; }) > 0;
+    walked ? begin_take(part) : key_control(part, at);
 }
 
 void add_curve(RigPart& part, const Arguments& given) {

@@ -9,6 +9,7 @@
 #include "app/labs/rig/panels.hpp"
 #include "app/labs/rig/presets.hpp"
 #include "app/labs/rig/rig_lab.hpp"
+#include "app/labs/rig/time_panel.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/text.hpp"
 
@@ -113,6 +114,7 @@ void RigLab::panel(const Workspace& workspace, Emit& emit) const {
     unit_list(panel);
     curve_rows(panel);
     solve_rows(panel);
+    time_rows(workspace, emit);
     section("Export");
     if (row_button("Copy as C++", 1, true, "The rig as it is set, as a program against the library"))
         emit("rig.copy");

@@ -18,5 +18,6 @@ Argument json_argument(const char* name, bool required, const char* help);
 void add_element_commands(CommandTable& table);
 void add_unit_commands(CommandTable& table);
 void add_solve_commands(CommandTable& table);
+void add_time_commands(CommandTable& table);
 
 }  // namespace tendril::app

@@ -8,6 +8,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/labs/kit/require.hpp"
 #include "app/labs/rig/definition_json.hpp"
+#include "app/labs/rig/take.hpp"
 #include "app/labs/rig/unit_json.hpp"
 #include "app/labs/rig/uses.hpp"
 
@@ -117,6 +118,7 @@ void redefine(RigPart& part, rig::Definition definition) {
     part.state = rig.adopted(part.rig, part.state);
     part.rig = std::move(rig);
     forget_missing_selection(part);
+    std::erase_if(part.walks, [&](const RigWalk& walk) { return !part.rig.element(walk.control); });
     changed(part);
 }
 
@@ -129,6 +131,9 @@ void forget_missing_selection(RigPart& part) {
 void changed(RigPart& part) {
     part.moving = true;
     part.backward.reset();
+    part.rates.reset();
+    part.clip_left.reset();  // it was of the rig as it was
+    begin_take(part);
 }
 
 void remove_element(RigPart& part, const std::string& name) {
@@ -213,6 +218,15 @@ const rig::Unit& unit_named(const RigPart& part, const std::string& name) {
     require_unit(part.rig.definition(), name,
                  [&](const std::vector<rig::Unit>& units, std::size_t at) { result = &units[at]; });
     return *result;
+}
+
+std::vector<std::size_t> from_the_roots(const rig::Rig& rig, const rig::Hierarchy& tree) {
+    std::vector<std::size_t> at(tree.size()), order;
+    for (std::size_t i = 0; i < at.size(); ++i) at[rig.id(i).index] = i;
+    for (rig::ElementId top = tree.first_child({}); top; top = tree.next_sibling(top))
+        for (rig::ElementId each = top; each; each = tree.next_depth_first(each, top))
+            order.push_back(at[each.index]);
+    return order;
 }
 
 std::size_t element_named(const RigPart& part, const std::string& name) {

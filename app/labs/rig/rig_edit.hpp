@@ -4,6 +4,7 @@
 
 #include <string>
 #include <tendril/rig/rig.hpp>
+#include <vector>
 
 #include "app/labs/rig/rig_part.hpp"
 
@@ -33,11 +34,13 @@ void set_unit(RigPart& part, const std::string& name, rig::Unit unit);
 /// Throws std::invalid_argument: there is no unit "arm".
 const rig::Unit& unit_named(const RigPart& part, const std::string& name);
 
+/// The places in the definition of all elements, parents before their children.
+std::vector<std::size_t> from_the_roots(const rig::Rig& rig, const rig::Hierarchy& tree);
 /// The place in the definition. Throws std::invalid_argument: there is no element "arm".
 std::size_t element_named(const RigPart& part, const std::string& name);
 std::size_t curve_named(const RigPart& part, const std::string& name);
 
-/// Something that a solve begins with was changed.
+/// Something that a solve begins with was changed: a new take begins.
 void changed(RigPart& part);
 
 }  // namespace tendril::app

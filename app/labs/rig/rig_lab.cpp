@@ -52,21 +52,7 @@ void RigLab::add_commands(CommandTable& table) const {
     add_solve_commands(table);
     add_element_commands(table);
     add_unit_commands(table);
-}
-
-void RigLab::step(Workspace& workspace) const {
-    const bool modified = workspace.modified();
-    RigPart& part = workspace.document.edit<RigPart>(rig_lab);
-    const double dt = tick_seconds * static_cast<double>(workspace.clock.speed);
-    part.moving = runtime_of(workspace).solve(part, dt, workspace.clock.measured);
-    if (!modified) workspace.saved = workspace.document;  // that time passes is nothing that wants saving
-}
-
-std::uint64_t RigLab::tick_work(const Workspace& workspace) const {
-    const rig::State& state = rig_part(workspace).state;
-    std::uint64_t work = state.controls.size();
-    for (const rig::UnitState& unit : state.units) work += 10 * unit.memory.size();
-    return work;
+    add_time_commands(table);
 }
 
 void RigLab::draw(const View& view, DrawList& list) const {
@@ -148,6 +134,12 @@ std::vector<TestScene> RigLab::test_scenes() const {
          words}};
     for (const RigPreset& preset : rig_presets())
         scenes.push_back({preset.name, {{"rig.preset", {{"name", preset.name}}}}, words});
+    scenes.push_back({"walking",
+                      {{"rig.preset", {{"name", "secondary"}}},
+                       {"rig.motion", {{"name", "head"}, {"path", "figure_eight"}, {"period", 1.5}}},
+                       {"rig.clip.record", {{"seconds", 0.5}}},
+                       {"rig.clip.solve", {}}},
+                      words});
     return scenes;
 }
 

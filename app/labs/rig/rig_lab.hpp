@@ -15,10 +15,15 @@ class RigLab final : public Lab {
     const char* invitation() const override { return "Drag the square in front of the head."; }
     void add_commands(CommandTable& table) const override;
 
-    bool moving(const Workspace& workspace) const override { return rig_part(workspace).moving; }
+    bool moving(const Workspace& workspace) const override;
     void step(Workspace& workspace) const override;
     std::uint64_t tick_work(const Workspace& workspace) const override;
     bool rewinds() const override { return true; }
+    double seconds(const Workspace& workspace) const override;
+    bool working(const Workspace& workspace) const override;
+    void work(Workspace& workspace) const override;
+    bool has_timeline(const Workspace& workspace) const override;
+    void timeline(const Workspace& workspace, Emit& emit) const override;
 
     void draw(const View& view, DrawList& list) const override;
     std::vector<Handle> handles(const Workspace& workspace) const override;

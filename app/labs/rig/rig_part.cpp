@@ -15,6 +15,11 @@ bool same(const rig::Residual& a, const rig::Residual& b) {
     return a.metres == b.metres && a.radians == b.radians && a.scale == b.scale;
 }
 
+template <class T>
+bool same_value(const std::shared_ptr<const T>& a, const std::shared_ptr<const T>& b) {
+    return a == b || (a && b && *a == *b);
+}
+
 }  // namespace
 
 bool BackwardLeft::operator==(const BackwardLeft& other) const {
@@ -47,15 +52,26 @@ RigPart first_rig() {
 
 bool RigPart::operator==(const RigPart& other) const {
     return moving == other.moving && backward == other.backward && selected == other.selected &&
-           rig.definition() == other.rig.definition() && state == other.state;
+           walks == other.walks && rates == other.rates && same_value(clip, other.clip) &&
+           same_value(clip_left, other.clip_left) && rig.definition() == other.rig.definition() &&
+           state == other.state && take == other.take;
 }
 
-/// Roughly; what is compiled is as large again as what it was made of.
+std::size_t state_bytes(const rig::State& state) {
+    constexpr std::size_t an_element = 750, a_unit = 200;
+    std::size_t bytes = state.controls.size() * an_element + state.units.size() * a_unit;
+    for (const rig::UnitState& unit : state.units) bytes += unit.memory.size() * sizeof(rig::UnitMemory);
+    return bytes;
+}
+
+/// Roughly; what is compiled is as large again as what it was made of. Copies share the clip and the keys:
+/// each counts a part of them.
 std::size_t RigPart::bytes() const {
-    constexpr std::size_t an_element = 1'500, a_unit = 1'000;
-    std::size_t memory = 0;
-    for (const rig::UnitState& unit : state.units) memory += unit.memory.size() * sizeof(rig::UnitMemory);
-    return sizeof(*this) + state.controls.size() * an_element + state.units.size() * a_unit + memory;
+    constexpr std::size_t an_element = 750, a_unit = 800, sharing = 16;
+    std::size_t shared = clip ? clip->poses.size() * sizeof(ClipPose) : 0;
+    if (take.keys) shared += take.keys->size() * sizeof(ControlKey);
+    return sizeof(*this) + state.controls.size() * an_element + state.units.size() * a_unit +
+           state_bytes(state) + shared / sharing;
 }
 
 }  // namespace tendril::app

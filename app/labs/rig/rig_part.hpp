@@ -15,6 +15,8 @@
 
 #include "app/document/document.hpp"
 #include "app/document/workspace.hpp"
+#include "app/labs/rig/rig_clip.hpp"
+#include "app/labs/rig/rig_take.hpp"
 
 namespace tendril::app {
 
@@ -30,6 +32,16 @@ struct BackwardLeft {
 
     double worst_mm() const;       ///< of all bones
     double worst_degrees() const;  ///< likewise
+};
+
+/// How far apart the bones come at the usual frame rates, until something is changed.
+struct RateDifference {
+    double mm = 0.0, degrees = 0.0;  ///< the most of any bone
+    std::string bone;                ///< the one that is farthest apart; empty in a rig without bones
+    std::string between;             ///< which rates: "15 Hz and 144 Hz"
+    double seconds = 0.0;            ///< in the take, when it is
+    double ticks = 0.0;              ///< of the take that were compared
+    bool operator==(const RateDifference&) const = default;
 };
 
 /// What the panel shows more of, by name; empty: nothing.
@@ -49,6 +61,11 @@ struct RigPart final : Part {
     /// Whether the next tick has anything to do: something was changed, or something that remembers moves.
     bool moving = false;
     std::optional<BackwardLeft> backward;
+    RigTake take;                ///< `state` is its state at its tick
+    std::vector<RigWalk> walks;  ///< of controls that the rig has
+    std::optional<RateDifference> rates;
+    std::shared_ptr<const RigClip> clip;         ///< null where none was recorded
+    std::shared_ptr<const ClipSolve> clip_left;  ///< null where it was not solved
     RigSelection selected;
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<RigPart>(*this); }
@@ -57,6 +74,9 @@ struct RigPart final : Part {
     std::size_t bytes() const override;
     bool operator==(const RigPart& other) const;
 };
+
+/// Roughly.
+std::size_t state_bytes(const rig::State& state);
 
 /// What the lab starts with.
 RigPart first_rig();

@@ -11,6 +11,7 @@
 
 #include "app/document/runtime.hpp"
 #include "app/labs/rig/rig_part.hpp"
+#include "app/labs/rig/snapshots.hpp"
 
 namespace tendril::app {
 
@@ -28,6 +29,8 @@ class RigRuntime final : public Runtime {
 
     /// The elements of the lab's part with all poses worked out. The reference holds until the next call.
     const rig::Hierarchy& resolved(const Workspace& workspace);
+
+    TakeSnapshots snapshots;
 
     /// Why an element of the lab's part is where it is; worked out anew where the part has changed. The
     /// reference holds until the next call.

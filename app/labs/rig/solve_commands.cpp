@@ -9,6 +9,7 @@
 #include "app/labs/rig/rig_commands.hpp"
 #include "app/labs/rig/rig_edit.hpp"
 #include "app/labs/rig/rig_runtime.hpp"
+#include "app/labs/rig/take.hpp"
 
 namespace tendril::app {
 namespace {
@@ -66,13 +67,14 @@ BackwardLeft solve_backward(RigPart& part, rig::Workspace& scratch) {
 void solve(Workspace& workspace, const Arguments& given) {
     auto& runtime = workspace.runtimes.of<RigRuntime>(rig_lab);
     const bool backward = given.has("direction") && given.text("direction") == "backward";
-    change_part<RigPart>(workspace, rig_lab, [&](RigPart& part, const RigPart&) {
+    change_part<RigPart>(workspace, rig_lab, [&](RigPart& part, const RigPart& before) {
         if (backward) {
             part.backward = solve_backward(part, runtime.workspace(part.rig));
             part.moving = true;
         } else {
             part.moving |= runtime.solve(part, 0.0, workspace.clock.measured);
         }
+        if (part.state != before.state) begin_take(part);
     });
 }
 

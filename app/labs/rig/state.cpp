@@ -2,8 +2,10 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/document/json_complete.hpp"
+#include "app/labs/rig/clip.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rig/rig_runtime.hpp"
+#include "app/labs/rig/time_json.hpp"
 #include "app/labs/rig/value_json.hpp"
 
 namespace tendril::app {
@@ -94,6 +96,41 @@ Json why_state(const Workspace& workspace, RigRuntime& runtime) {
                 {"result", transform_json(why.result)}};
 }
 
+Json take_state(const RigPart& part) {
+    const RigTake& take = part.take;
+    return Json{{"seconds", static_cast<double>(take.now()) * tick_seconds},
+                {"tick", take.now()},
+                {"began", take.began},
+                {"played_to", take.began + take.last},
+                {"keys", take.keys ? take.keys->size() : 0}};
+}
+
+/// "frames" that cannot be expressed, by the worst of each stretch.
+Json left_state(const RigClip& clip, const ClipSolve& solve) {
+    Json runs = Json::array();
+    for (const LeftRun& run : left_runs(solve)) {
+        const FrameLeft& worst = solve.left[run.worst];
+        runs.push_back({{"from", run.first},
+                        {"to", run.last},
+                        {"frame", run.worst},
+                        {"bone", clip.bones[worst.bone]},
+                        {"mm", worst.mm},
+                        {"degrees", worst.degrees}});
+    }
+    return runs;
+}
+
+Json clip_state(const RigPart& part) {
+    if (!part.clip) return nullptr;
+    Json json{
+        {"began", part.clip->began}, {"frames", part.clip->frames()}, {"bones", part.clip->bones.size()}};
+    if (!part.clip_left) return json;
+    json["solved"] = part.clip_left->done();
+    json["solving"] = part.clip_left->running;
+    json["not_expressed"] = left_state(*part.clip, *part.clip_left);
+    return json;
+}
+
 }  // namespace
 
 Json RigLab::state(const Workspace& workspace) const {
@@ -106,7 +143,11 @@ Json RigLab::state(const Workspace& workspace) const {
                 {"backward", backward_state(part)},
                 {"why", why_state(workspace, runtime)},
                 {"selected", {{"element", part.selected.element}, {"unit", part.selected.unit}}},
-                {"moving", part.moving}};
+                {"moving", part.moving},
+                {"take", take_state(part)},
+                {"motions", walks_json(part)},
+                {"clip", clip_state(part)},
+                {"rates", rates_json(part)}};
 }
 
 }  // namespace tendril::app

@@ -1,0 +1,33 @@
+// Baking a take into a clip, and solving a clip backward.
+#pragma once
+
+#include <optional>
+
+#include "app/labs/rig/rig_part.hpp"
+
+namespace tendril::app {
+
+/// The first `frames` ticks of the take, and its start. Throws std::invalid_argument where the rig has no
+/// bones, or where that would be more than a clip holds or take too long.
+RigClip record_clip(const RigPart& part, std::size_t frames, rig::Workspace& scratch);
+
+/// Begins a backward solve of the clip. Throws std::invalid_argument where there is no clip, where it is of
+/// other bones than the rig has, or where a single frame would take too long.
+void start_clip_solve(RigPart& part);
+/// What start_clip_solve refuses.
+void check_clip_solve(const RigPart& part);
+/// As many frames of it as a tick has time for, by count and not by the clock: so that it comes out the same.
+void continue_clip_solve(RigPart& part, rig::Workspace& scratch);
+
+/// Frames one after the other that the rig cannot express, with the worst of them.
+struct LeftRun {
+    std::size_t first = 0, last = 0;  ///< frames, the last included
+    std::size_t worst = 0;
+};
+std::vector<LeftRun> left_runs(const ClipSolve& solve);
+/// The frame with the most left; none where none was solved.
+std::optional<std::size_t> worst_frame(const ClipSolve& solve);
+/// Metres and radians together, as a backward solve weighs them for bones some 0.3 m long.
+double amount(const FrameLeft& left);
+
+}  // namespace tendril::app

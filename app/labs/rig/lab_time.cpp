@@ -1,0 +1,48 @@
+// The Rig lab from tick to tick.
+#include "app/labs/rig/clip.hpp"
+#include "app/labs/rig/rig_lab.hpp"
+#include "app/labs/rig/take.hpp"
+
+namespace tendril::app {
+namespace {
+
+RigRuntime& runtime_of(const Workspace& workspace) {
+    return workspace.runtimes.of<RigRuntime>(rig_lab);
+}
+
+}  // namespace
+
+bool RigLab::moving(const Workspace& workspace) const {
+    return time_moves(rig_part(workspace));
+}
+
+void RigLab::step(Workspace& workspace) const {
+    const int due = workspace.clock.whole_ticks();
+    if (due == 0) return;
+    const bool modified = workspace.modified();
+    RigPart& part = workspace.document.edit<RigPart>(rig_lab);
+    for (int i = 0; i < due; ++i) pass_tick(part, runtime_of(workspace), workspace.clock.measured);
+    if (!modified) workspace.saved = workspace.document;  // that time passes is nothing that wants saving
+}
+
+std::uint64_t RigLab::tick_work(const Workspace& workspace) const {
+    return tick_work_of(rig_part(workspace).state);
+}
+
+double RigLab::seconds(const Workspace& workspace) const {
+    return static_cast<double>(rig_part(workspace).take.now()) * tick_seconds;
+}
+
+bool RigLab::working(const Workspace& workspace) const {
+    const RigPart& part = rig_part(workspace);
+    return part.clip_left && part.clip_left->running;
+}
+
+void RigLab::work(Workspace& workspace) const {
+    const bool modified = workspace.modified();
+    RigPart& part = workspace.document.edit<RigPart>(rig_lab);
+    continue_clip_solve(part, runtime_of(workspace).workspace(part.rig));
+    if (!modified) workspace.saved = workspace.document;
+}
+
+}  // namespace tendril::app

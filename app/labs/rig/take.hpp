@@ -1,0 +1,42 @@
+// How a take goes on: tick by tick, to any tick, and where another begins.
+#pragma once
+
+#include "app/labs/rig/rig_part.hpp"
+#include "app/labs/rig/rig_runtime.hpp"
+
+namespace tendril::app {
+
+/// What comes now does not follow from the take so far: another begins here, and time goes on.
+void begin_take(RigPart& part);
+/// The control has been set, after the present tick: what was known to come is forgotten.
+void key_control(RigPart& part, std::size_t element);
+
+/// Whether a tick would change anything.
+bool time_moves(const RigPart& part);
+void pass_tick(RigPart& part, RigRuntime& runtime, bool measured);
+/// To a tick of the take, as playing there would; later ones too. Throws std::invalid_argument where that
+/// would take too long.
+void go_to(RigPart& part, std::uint32_t tick, RigRuntime& runtime);
+
+/// What a tick takes, in steps of some 30 ns.
+std::uint64_t tick_work_of(const rig::State& state);
+
+/// A state on its way through a take, in other hands than the part's.
+class TakeRunner {
+  public:
+    /// From the take's start.
+    TakeRunner(const RigPart& part, rig::Workspace& scratch);
+    /// A frame of `seconds`, at whose end so many `ticks` of the take have passed, whole or not.
+    void frame(double seconds, double ticks);
+    void tick();  ///< as pass_tick
+    rig::State& state() { return state_; }
+
+  private:
+    const RigPart& part_;
+    rig::Workspace& scratch_;
+    rig::State state_;
+    std::uint32_t ticks_ = 0;
+    std::size_t next_key_ = 0;
+};
+
+}  // namespace tendril::app

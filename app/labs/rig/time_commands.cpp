@@ -1,0 +1,174 @@
+// Time in the lab: controls that walk, going to any tick, clips, frame rates.
+#include <cmath>
+#include <glm/common.hpp>
+#include <stdexcept>
+
+#include "app/document/json_complete.hpp"
+#include "app/labs/kit/part_command.hpp"
+#include "app/labs/rig/clip.hpp"
+#include "app/labs/rig/rates.hpp"
+#include "app/labs/rig/rig_commands.hpp"
+#include "app/labs/rig/rig_edit.hpp"
+#include "app/labs/rig/take.hpp"
+#include "app/labs/rig/walk.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr double longest_clip = static_cast<double>(most_clip_frames) * tick_seconds;
+
+RigRuntime& runtime_of(const Workspace& workspace) {
+    return workspace.runtimes.of<RigRuntime>(rig_lab);
+}
+
+glm::vec3 place_of(const rig::Value& value) {
+    const auto* pose = std::get_if<rig::Transform>(&value);
+    return glm::vec3(pose ? pose->translation : std::get<glm::dvec3>(value));
+}
+
+/// The path starts where the control is, so setting it going never makes it jump; unless its centre is given.
+void set_motion(RigPart& part, const Arguments& given) {
+    const std::size_t at = element_named(part, given.text("name"));
+    const rig::Element& element = part.rig.definition().elements[at];
+    if (!element.control) throw std::invalid_argument("\"" + element.name + "\" is no control");
+    if (!can_walk(element.control->kind))
+        throw std::invalid_argument("only a transform or position control can follow a path; \"" +
+                                    element.name + "\" is a " + rig::name(element.control->kind) +
+                                    " control");
+    const auto old = std::ranges::find(part.walks, element.name, &RigWalk::control);
+    RigWalk walk = old == part.walks.end() ? RigWalk{element.name, {.radius = 0.5f}, false} : *old;
+    walk.motion.path = motion_paths.value(given.text("path"));
+    if (given.has("radius")) walk.motion.radius = given.number("radius");
+    if (given.has("period")) walk.motion.period = given.number("period");
+    if (given.has("turn")) walk.turn = given.boolean("turn");
+    if (walk.turn && element.control->kind != rig::ControlKind::Transform)
+        throw std::invalid_argument("only a transform control turns along its path");
+    walk.motion.ticks = 0;
+    walk.motion.centre = glm::vec3(0.0f);
+    const glm::vec3 start(walk_point(walk.motion, 0.0));
+    walk.motion.centre =
+        given.has("centre") ? given.point("centre") : place_of(part.state.controls[at]) - start;
+    check_path(walk.motion.centre, glm::vec3(walk.motion.radius), "the control's path");
+    if (old != part.walks.end()) part.walks.erase(old);
+    part.moving = true;
+    part.rates.reset();
+    begin_take(part);
+    if (walk.motion.path != Motion::Path::Still) part.walks.push_back(std::move(walk));
+}
+
+void go(Workspace& workspace, const Arguments& given) {
+    if (given.has("tick") == given.has("seconds"))
+        throw std::invalid_argument("give either a tick or seconds");
+    const RigTake& take = rig_part(workspace).take;
+    const double wanted =
+        given.has("tick") ? given.integer("tick") : std::round(given.real("seconds") / tick_seconds);
+    const double tick = wanted - static_cast<double>(take.began);
+    const auto said = [](double ticks) { return std::to_string(static_cast<std::int64_t>(ticks)); };
+    if (tick < 0.0)
+        throw std::invalid_argument("the take begins at tick " + std::to_string(take.began) +
+                                    ", after tick " + said(wanted));
+    if (tick > most_take_ticks)
+        throw std::invalid_argument("the take can be " + std::to_string(most_take_ticks) +
+                                    " ticks long, which ends before tick " + said(wanted));
+    const bool modified = workspace.modified();
+    RigPart& part = workspace.document.edit<RigPart>(rig_lab);
+    go_to(part, static_cast<std::uint32_t>(tick), runtime_of(workspace));
+    workspace.clock.playing = false;
+    if (!modified) workspace.saved = workspace.document;  // that time passes is nothing that wants saving
+}
+
+/// What was played, or ten seconds of what would walk by itself.
+std::uint32_t ticks_worth_looking_at(const RigPart& part) {
+    if (part.take.last > 0) return part.take.last;
+    if (part.walks.empty()) throw std::invalid_argument("nothing has been played yet: play, or say how long");
+    return 600;
+}
+
+void record(Workspace& workspace, const Arguments& given) {
+    change_part<RigPart>(workspace, rig_lab, [&](RigPart& part, const RigPart&) {
+        const std::size_t frames =
+            given.has("seconds") ? static_cast<std::size_t>(std::lround(given.real("seconds") / tick_seconds))
+                                 : std::min<std::size_t>(ticks_worth_looking_at(part), most_clip_frames);
+        RigClip clip = record_clip(part, frames, runtime_of(workspace).workspace(part.rig));
+        part.clip = std::make_shared<const RigClip>(std::move(clip));
+        part.clip_left.reset();
+    });
+}
+
+void clear_clip(RigPart& part, const Arguments&) {
+    part.clip.reset();
+    part.clip_left.reset();
+}
+
+void solve_clip(RigPart& part, const Arguments&) {
+    start_clip_solve(part);
+}
+
+/// What is done stays.
+void cancel_clip(RigPart& part, const Arguments&) {
+    if (!part.clip_left || !part.clip_left->running)
+        throw std::invalid_argument("no backward solve of a clip goes on");
+    ClipSolve stopped = *part.clip_left;
+    stopped.running = false;
+    part.clip_left = std::make_shared<const ClipSolve>(std::move(stopped));
+}
+
+void compare_rates(Workspace& workspace, const Arguments& given) {
+    change_part<RigPart>(workspace, rig_lab, [&](RigPart& part, const RigPart&) {
+        const double ticks = given.has("seconds") ? std::round(given.real("seconds") / tick_seconds)
+                                                  : std::min(600u, ticks_worth_looking_at(part));
+        part.rates = compare_take_rates(part, static_cast<std::uint32_t>(ticks),
+                                        runtime_of(workspace).workspace(part.rig));
+    });
+}
+
+void add_clip_commands(CommandTable& table) {
+    table.add(
+        {.name = "rig.clip.record",
+         .arguments = {number_argument("seconds", "from the take's start; where left out, what was played",
+                                       tick_seconds, longest_clip)},
+         .help = "Records the bones of the take as a clip, a pose a frame, 60 a second",
+         .effect = Effect::Edit,
+         .apply = record});
+    table.add(rig_command("rig.clip.clear", {}, "Removes the clip", clear_clip));
+    table.add(rig_command("rig.clip.solve", {},
+                          "Solves the clip backward, frame by frame, and shows on the timeline what the rig "
+                          "cannot express; some frames a tick",
+                          solve_clip));
+    table.add(rig_command("rig.clip.cancel", {}, "Stops the backward solve of the clip", cancel_clip));
+}
+
+}  // namespace
+
+void add_time_commands(CommandTable& table) {
+    table.add(rig_command(
+        "rig.motion",
+        {text_argument("name", true, "of a transform or position control"),
+         choice_argument("path", true, "the path, flat on the ground", motion_paths.names()),
+         point_argument("centre", false,
+                        "within the control's space; where left out, the path starts at the control"),
+         number_argument("radius", "metres", 0, static_cast<double>(max_motion_radius)),
+         number_argument("period", "seconds per round", shortest_decimal(shortest_period),
+                         shortest_decimal(longest_period)),
+         switch_argument("turn", "a transform control looks along the path, with its z axis")},
+        "Moves a control along a path while the simulation runs", set_motion));
+    table.add({.name = "rig.time",
+               .arguments = {number_argument("seconds", "as the clock shows them", 0, 1e9),
+                             integer_argument("tick", "of 1/60 s, instead of seconds", 0, 1e9)},
+               .help = "Pauses and goes to a moment of the take, earlier or later: what playing there shows, "
+                       "to the bit",
+               .effect = Effect::Look,
+               .apply = go});
+    table.add(
+        {.name = "rig.rates",
+         .arguments = {number_argument("seconds",
+                                       "from the take's start; where left out, what was played, "
+                                       "ten seconds at most",
+                                       tick_seconds, 10)},
+         .help = "Compares the take at 15, 30, 60, 144 Hz and at uneven frames: how far apart its bones come",
+         .effect = Effect::Edit,
+         .apply = compare_rates});
+    add_clip_commands(table);
+}
+
+}  // namespace tendril::app

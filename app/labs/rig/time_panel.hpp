@@ -1,0 +1,11 @@
+// The panel's rows about time: what walks, the clip, the frame rates.
+#pragma once
+
+#include "app/document/workspace.hpp"
+#include "app/widgets/emit.hpp"
+
+namespace tendril::app {
+
+void time_rows(const Workspace& workspace, Emit& emit);
+
+}  // namespace tendril::app

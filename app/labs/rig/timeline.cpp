@@ -1,0 +1,98 @@
+// The strip below the scene: the take, where it is, and which frames of the clip the rig cannot express.
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "app/document/units.hpp"
+#include "app/labs/rig/clip.hpp"
+#include "app/labs/rig/rig_lab.hpp"
+#include "app/widgets/timeline.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr std::uint64_t shortest = 600, longest = 2ull * most_take_ticks, lead = 60;  ///< ticks
+
+/// From a little before the take, or from the clip where that is near, to what is farthest to the right.
+struct Window {
+    std::uint64_t first = 0, last = 0;
+};
+Window shown_window(const RigPart& part) {
+    const RigTake& take = part.take;
+    Window window{take.began - std::min(take.began, lead), take.began + take.last};
+    if (take.began < shortest) window.first = 0;
+    if (part.clip) {
+        const std::uint64_t from = part.clip->began, to = from + part.clip->frames() - 1;
+        if (from < window.first && window.last - from <= longest) window.first = from;
+        if (to > window.last && from >= window.first && to - window.first <= longest) window.last = to;
+    }
+    window.last = std::max({window.last, take.now(), window.first + shortest});
+    return window;
+}
+
+/// From 0 at a tenth of a millimetre to 1 at a metre.
+float share_of(const FrameLeft& left) {
+    return static_cast<float>(std::clamp((std::log10(std::max(amount(left), 1e-4)) + 4.0) / 4.0, 0.0, 1.0));
+}
+
+/// What is expressed stands back; what is not goes from yellow to red.
+TimeBar bar_of(const FrameLeft& left, const Palette& colours) {
+    if (left.expressed()) return {glm::mix(colours.panel, colours.axis_y, 0.55f), 0.1f};
+    const float share = share_of(left);
+    return {glm::mix(rgb(0xE6C229), rgb(0xD5442E), share), 0.3f + 0.7f * share};
+}
+
+std::vector<TimeBar> clip_bars(const RigPart& part, const Palette& colours) {
+    std::vector<TimeBar> bars;
+    for (std::size_t i = 0; i < part.clip->frames(); ++i)
+        bars.push_back(part.clip_left && i < part.clip_left->done()
+                           ? bar_of(part.clip_left->left[i], colours)
+                           : TimeBar{glm::mix(colours.panel, colours.text_dim, 0.4f), 0.1f});
+    return bars;
+}
+
+/// "2.35 s: the rig cannot express left 6: 12.3 mm and 8.1 degrees are left"
+std::string told(const RigPart& part, std::uint64_t tick) {
+    std::string text = fixed_text(static_cast<double>(tick) * tick_seconds, 2) + " s";
+    if (tick < part.take.began) text += ", before the take: what was then is not known any more";
+    if (!part.clip || tick < part.clip->began || tick - part.clip->began >= part.clip->frames()) return text;
+    const std::size_t frame = tick - part.clip->began;
+    text += "\nClip, frame " + std::to_string(frame) + ": ";
+    if (!part.clip_left || frame >= part.clip_left->done()) return text + "not solved backward yet";
+    const FrameLeft& left = part.clip_left->left[frame];
+    if (left.expressed()) return text + "the rig can express it";
+    return text + "the rig cannot express " + part.clip->bones[left.bone] + ": " +
+           fixed_text(static_cast<double>(left.mm), 1) + " mm and " +
+           fixed_text(static_cast<double>(left.degrees), 2) + "\u00b0 are left";
+}
+
+}  // namespace
+
+bool RigLab::has_timeline(const Workspace& workspace) const {
+    return !rig_part(workspace).state.controls.empty();
+}
+
+void RigLab::timeline(const Workspace& workspace, Emit& emit) const {
+    const RigPart& part = rig_part(workspace);
+    const Window window = shown_window(part);
+    TimeStrip strip{.ticks = static_cast<int>(window.last - window.first),
+                    .seconds = tick_seconds,
+                    .first_seconds = static_cast<double>(window.first) * tick_seconds,
+                    .start = static_cast<int>(part.take.began - window.first),
+                    .known = static_cast<int>(part.take.began + part.take.last - window.first),
+                    .bars_from = 0,
+                    .bars = {}};
+    if (part.clip && part.clip->began >= window.first && part.clip->began <= window.last) {
+        strip.bars_from = static_cast<int>(part.clip->began - window.first);
+        strip.bars = clip_bars(part, palette(workspace.settings.theme));
+    }
+    int tick = static_cast<int>(part.take.now() - window.first);
+    const TimeStripUse use = time_strip("take", tick, strip);
+    if (use.moved) emit.continuously("rig.time", {{"tick", window.first + static_cast<std::uint64_t>(tick)}});
+    if (use.hovered >= 0)
+        ImGui::SetTooltip("%s", told(part, window.first + static_cast<std::uint64_t>(use.hovered)).c_str());
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,248 @@
+// Clips in the Rig lab: what is recorded, and which of its frames a rig can express.
+#include <random>
+
+#include "app/labs/rig/clip.hpp"
+#include "rig_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+class RigClips : public RigTest {
+  protected:
+    void play(int ticks) {
+        for (int i = 0; i < ticks; ++i) lab().step(workspace);
+    }
+    /// The whole of it, as ticks take it further.
+    int solve_clip() {
+        run("rig.clip.solve");
+        int ticks = 0;
+        for (; lab().working(workspace); ++ticks) lab().work(workspace);
+        return ticks;
+    }
+    const ClipSolve& left() const { return *part().clip_left; }
+    void walking_head() {
+        run("rig.preset", {{"name", "secondary"}});
+        run("rig.motion", {{"name", "head"}, {"path", "circle"}, {"radius", 0.5}, {"period", 1}});
+    }
+};
+
+TEST_F(RigClips, ADialThatTurnsIsExpressedInEveryFrame) {
+    run("rig.preset", {{"name", "fk"}});
+    play(1);
+    for (int i = 0; i < 60; ++i) {
+        set("dial", 0.5 - 0.5 * std::cos(0.1 * i));
+        play(1);
+    }
+    run("rig.clip.record");
+    EXPECT_EQ(part().clip->frames(), 62u);
+    EXPECT_EQ(part().clip->bones.size(), 6u);
+    EXPECT_NE(part().clip->poses[1], part().clip->poses[40 * 6 + 1]) << "it moves";
+    EXPECT_GT(solve_clip(), 1) << "not in one tick";
+    ASSERT_EQ(left().done(), 62u);
+    for (const FrameLeft& each : left().left) {
+        EXPECT_LT(each.mm, 0.1f);
+        EXPECT_LT(each.degrees, 0.0057f);
+    }
+    EXPECT_TRUE(state().at("clip").at("not_expressed").empty());
+}
+
+/// The antennae lag behind, and no value of the head's gives that.
+TEST_F(RigClips, WhatSpringsAddCannotBeExpressed) {
+    walking_head();
+    run("rig.clip.record", {{"seconds", 1}});
+    solve_clip();
+    ASSERT_EQ(left().done(), 61u);
+    EXPECT_TRUE(left().left.front().expressed()) << "at rest";
+    const Json runs = state().at("clip").at("not_expressed");
+    ASSERT_EQ(runs.size(), 1u);
+    EXPECT_LE(runs[0].at("from"), 5);
+    EXPECT_EQ(runs[0].at("to"), 60);
+    const std::string bone = runs[0].at("bone");
+    EXPECT_TRUE(bone.starts_with("left") || bone.starts_with("right")) << bone;
+    EXPECT_GT(runs[0].at("mm"), 10.0);
+    EXPECT_GT(runs[0].at("degrees"), 1.0);
+}
+
+TEST_F(RigClips, TheSameAfterSavingAndOpeningInTheMiddle) {
+    walking_head();
+    run("rig.clip.record", {{"seconds", 0.5}});
+    run("rig.clip.solve");
+    lab().work(workspace);
+    ASSERT_TRUE(left().running);
+    Workspace other = reopened();
+    EXPECT_EQ(*rig_part(other).clip, *part().clip);
+    EXPECT_EQ(*rig_part(other).clip_left, left());
+    while (lab().working(workspace)) lab().work(workspace);
+    while (lab().working(other)) lab().work(other);
+    EXPECT_EQ(*rig_part(other).clip_left, left());
+}
+
+TEST_F(RigClips, IsUndoneCancelledAndCleared) {
+    walking_head();
+    expect_refused("rig.clip.solve", Json::object(), {"no clip"});
+    expect_refused("rig.clip.cancel", Json::object(), {"no backward solve"});
+    run("rig.clip.record", {{"seconds", 1}});
+    run("rig.clip.solve");
+    lab().work(workspace);
+    const std::size_t done = left().done();
+    EXPECT_GT(done, 0u);
+    run("rig.clip.cancel");
+    EXPECT_FALSE(lab().working(workspace));
+    EXPECT_EQ(left().done(), done);
+    run("rig.clip.clear");
+    EXPECT_TRUE(state().at("clip").is_null());
+    run("undo");
+    EXPECT_EQ(left().done(), done);
+}
+
+TEST_F(RigClips, AClipOfOtherBonesIsRefused) {
+    walking_head();
+    run("rig.clip.record", {{"seconds", 0.2}});
+    run("rig.clip.solve");
+    run("rig.element.add", {{"name", "tail"}, {"parent", "skull"}});
+    EXPECT_FALSE(lab().working(workspace)) << "it was of the rig as it was";
+    expect_refused("rig.clip.solve", Json::object(), {"other bones"});
+    run("rig.element.remove", {{"name", "tail"}});
+    run("rig.clip.solve");
+    EXPECT_TRUE(lab().working(workspace));
+}
+
+TEST_F(RigClips, WhatIsTooLongIsRefused) {
+    expect_refused("rig.clip.record", {{"seconds", 1}}, {"no bones"});
+    walking_head();
+    expect_refused("rig.clip.record", {{"seconds", 61}}, {"seconds", "60"});
+    expect_refused("rig.clip.record", {{"seconds", 0}}, {"seconds"});
+    run("rig.preset", {{"name", "fk"}});
+    expect_refused("rig.clip.record", Json::object(), {"nothing has been played"});
+}
+
+TEST_F(RigClips, FilesThatAreNoClipsAreRefused) {
+    walking_head();
+    play(20);
+    set("head", {{"translation", {0.1, 1, 0}}});
+    play(20);
+    set("head", {{"translation", {0.2, 1, 0}}});
+    play(5);
+    run("rig.motion", {{"name", "head"}, {"path", "circle"}});
+    play(5);
+    run("rig.clip.record");
+    run("rig.clip.solve");
+    lab().work(workspace);
+    const Json scene = save_scene(workspace);
+    const auto expect_place = [&](const char* at, const Json& value, const std::string& place) {
+        Json broken = scene;
+        broken["labs"]["rig"]["state"][Json::json_pointer(at)] = value;
+        try {
+            load_scene(workspace, broken);
+            ADD_FAILURE() << place << " was taken";
+        } catch (const std::runtime_error& error) {
+            EXPECT_EQ(std::string(error.what()).find("labs.rig.state." + place), 0u) << error.what();
+        }
+    };
+    expect_place("/take/tick", 6, "take.tick");
+    expect_place("/take/last", 1e9, "take.last");
+    expect_place("/take/start", 7, "take.start");
+    expect_place("/take/start/poses", {{"nobody", {}}}, "take.start.poses");
+    expect_place("/take/keys", {{1, "nobody", 0}}, "take.keys.0.1");
+    expect_place("/take/keys", {{1, "head"}}, "take.keys.0");
+    expect_place("/take/keys", {{2, "head", Json::object()}, {1, "head", Json::object()}}, "take.keys");
+    expect_place("/take/began", -1, "take.began");
+    expect_place("/motions/head/period", 0, "motions.head.period");
+    expect_place("/motions/head/path", "still", "motions.head.path");
+    expect_place("/motions/skull", scene["labs"]["rig"]["state"]["motions"]["head"], "motions.skull");
+    expect_place("/clip/frames", 0, "clip");
+    expect_place("/clip/frames", 1e6, "clip.frames");
+    expect_place("/clip/bones", Json::object(), "clip.bones");
+    expect_place("/clip/bones/skull/rotation", {0, 0, 0, 2}, "clip.bones.skull.rotation");
+    expect_place("/clip/bones/skull/translation", {0, 0}, "clip.bones.skull.translation");
+    expect_place("/clip/solve/left/0", {0, 0, 99}, "clip.solve.left.0.2");
+    expect_place("/clip/bones/another", {{"translation", {0, 0, 0}}, {"rotation", {0, 0, 0, 1}}},
+                 "clip.solve");
+}
+
+// ------------------------------------------------------------------ single poses, there and back
+
+class RigBackward : public RigTest {
+  protected:
+    double random(double low, double high) {
+        return low + (high - low) * static_cast<double>(random_() >> 8) / static_cast<double>(1u << 24);
+    }
+    void set_number(const char* name) { set(name, random(0.0, 1.0)); }
+    void set_rotation(const std::string& name) {
+        Json q = Json::array();
+        for (int i = 0; i < 3; ++i) q.push_back(random(-0.4, 0.4));
+        q.push_back(1.0);
+        run("rig.control.set", {{"name", name}, {"value", q}});
+    }
+    /// The bones keep their poses, the controls forget their values; a backward solve has to find some that
+    /// lead to the same poses.
+    void expect_there_and_back(int i) {
+        solve();
+        rig::State wanted = part().state;
+        auto& now = workspace.document.edit<RigPart>(rig_lab);
+        now.state.controls = now.rig.initial_state().controls;
+        solve("backward");
+        const Json left = state().at("backward");
+        EXPECT_LT(left.at("worst_mm"), 0.1) << i;
+        EXPECT_LT(left.at("worst_degrees"), 0.0057) << i;
+        rig::State found = part().state;
+        for (const rig::Residual& each : rig::residuals(part().rig, found, wanted)) {
+            ASSERT_LT(each.metres, 1e-4) << i;
+            ASSERT_LT(each.radians, 1e-4) << i;
+        }
+    }
+    std::mt19937 random_{17};
+};
+
+TEST_F(RigBackward, AimGivesEveryPoseBack) {
+    run("rig.preset", {{"name", "aim"}});
+    for (int i = 0; i < 150; ++i) {
+        const double x = random(-1, 1), y = random(-1, 1), side = random(-0.8, 0.8), up = random(0.2, 1.2);
+        set("look", {x, y});
+        set("tilt", {side, up, 0.0});
+        run("rig.control.set", {{"name", "math form"}, {"value", i % 2 == 0}});
+        expect_there_and_back(i);
+    }
+}
+
+TEST_F(RigBackward, FkGivesEveryPoseBack) {
+    run("rig.preset", {{"name", "fk"}});
+    for (int i = 0; i < 150; ++i) {
+        set_number("dial");
+        for (int k = 1; k <= 6; ++k) set_rotation("control " + std::to_string(k));
+        expect_there_and_back(i);
+    }
+}
+
+TEST_F(RigBackward, LoopGivesEveryPoseBack) {
+    run("rig.preset", {{"name", "loop"}});
+    for (int i = 0; i < 150; ++i) {
+        set_number("dial");
+        expect_there_and_back(i);
+    }
+}
+
+/// One bone of a tentacle is pulled off: no value of any control gives that.
+TEST_F(RigBackward, WhatItCannotExpressIsSaidWithBoneAndAmount) {
+    run("rig.preset", {{"name", "loop"}});
+    for (int i = 0; i < 100; ++i) {
+        set_number("dial");
+        solve();
+        const int arm = 1 + i % 5;
+        const std::string bone = "arm " + std::to_string(arm) + " joint 6";
+        const double off = random(0.02, 0.2);
+        auto& now = workspace.document.edit<RigPart>(rig_lab);
+        const rig::ElementId id = now.rig.id(*now.rig.element(bone));
+        rig::Transform pose = now.state.elements.get(id, rig::Space::Global);
+        pose.translation.y += off;
+        now.state.elements.put(id, rig::Space::Global, pose);
+        solve("backward");
+        const Json left = state().at("backward");
+        EXPECT_EQ(left.at("bone"), bone) << i;
+        EXPECT_GT(left.at("worst_mm"), 700.0 * off) << i;
+        EXPECT_LT(left.at("worst_mm"), 1001.0 * off) << i;
+    }
+}
+
+}  // namespace
+}  // namespace tendril::app

@@ -1,0 +1,92 @@
+// Time in the Rig lab of the running program: the strip below the scene, and long work in small shares.
+#include "app/labs/rig/rig_lab.hpp"
+#include "tests/app/e2e/monkey.hpp"
+
+namespace tendril::test {
+namespace {
+
+using namespace app;
+
+void walking_head(App& app) {
+    app.run({"lab.open", Json{{"name", rig_lab}}});
+    app.run({"rig.preset", Json{{"name", "secondary"}}});
+    app.run({"rig.motion", Json{{"name", "head"}, {"path", "circle"}, {"period", 1.5}}});
+}
+void send(App& app, const Event& event) {
+    app.tick(&event);
+}
+/// Presses on the strip at so many of its ten seconds, and drags the head on to each of the others.
+void scrub(App& app, const std::vector<float>& seconds) {
+    constexpr float left = 292.5f, right = 988.5f, y = 677.0f;  // of the strip, in a window of 1280 x 720
+    const auto at = [&](float s) { return MouseMove{{left + (right - left) * s / 10.0f, y}}; };
+    send(app, at(seconds.front()));
+    send(app, MousePress{MouseButton::Left, true});
+    for (const float each : seconds) send(app, at(each));
+    send(app, MousePress{MouseButton::Left, false});
+}
+const RigPart& part_of(App& app) {
+    return rig_part(app.workspace());
+}
+
+class RigTimeApp : public testing::Test {
+  protected:
+    std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
+    App app_{*window_, false};
+};
+
+TEST_F(RigTimeApp, TheStripIsDraggedToAnyTickOfTheTake) {
+    walking_head(app_);
+    std::vector<rig::State> states{part_of(app_).state};
+    for (int i = 0; i < 240; ++i) {
+        app_.tick(nullptr);
+        states.push_back(part_of(app_).state);
+    }
+    for (const float seconds : {3.0f, 0.5f, 2.25f, 0.0f, 3.9f}) {
+        scrub(app_, {1.0f, seconds});
+        const std::uint64_t tick = part_of(app_).take.now();
+        EXPECT_NEAR(static_cast<double>(tick), 60.0 * static_cast<double>(seconds), 1.0);
+        EXPECT_EQ(part_of(app_).state, states[tick]) << tick;
+        EXPECT_FALSE(app_.workspace().clock.playing);
+    }
+    EXPECT_DOUBLE_EQ(app_.state().at("time").at("seconds").get<double>(),
+                     static_cast<double>(part_of(app_).take.now()) * tick_seconds);
+    EXPECT_EQ(app_.workspace().history.size(), 2u) << "the preset and the walk";
+}
+
+TEST_F(RigTimeApp, AClipIsSolvedThoughTimeIsPausedAndStaysResponsive) {
+    walking_head(app_);
+    app_.run({"time.pause"});
+    app_.run({"rig.clip.record", Json{{"seconds", 1.0}}});
+    app_.run({"rig.clip.solve"});
+    EXPECT_TRUE(app_.restless());
+    int ticks = 0;
+    for (; app_.restless() && ticks < 600; ++ticks) app_.tick(nullptr);
+    EXPECT_FALSE(part_of(app_).clip_left->running);
+    EXPECT_GT(ticks, 5);
+    EXPECT_EQ(part_of(app_).take.now(), 0u);
+    app_.run({"undo"});
+    EXPECT_EQ(part_of(app_).clip_left, nullptr);
+}
+
+TEST(RigTimeRecording, AllOfItIsReplayed) {
+    expect_replay_ends_the_same([](App& app) {
+        walking_head(app);
+        app.workspace().history.clear();
+        app.workspace().cameras.clear();
+        app.start_recording();
+        for (int i = 0; i < 50; ++i) app.tick(nullptr);
+        scrub(app, {0.2f, 0.6f, 0.3f});
+        app.run({"rig.clip.record", Json{{"seconds", 0.5}}});
+        app.run({"rig.clip.solve"});
+        for (int i = 0; i < 4; ++i) app.tick(nullptr);
+        scrub(app, {0.5f, 5.0f});
+        app.run({"rig.rates"});
+        app.run({"time.play"});
+        app.run({"rig.control.set", Json{{"name", "head"}, {"value", {{"translation", {0, 1, 1}}}}}});
+        for (int i = 0; i < 30; ++i) app.tick(nullptr);
+        app.run({"undo"});
+    });
+}
+
+}  // namespace
+}  // namespace tendril::test

@@ -1,0 +1,329 @@
+// Time in the Rig lab: any tick of a take, in any order, is what playing there shows, to the bit.
+#include <random>
+
+#include "app/labs/rig/rig_runtime.hpp"
+#include "app/labs/rig/take.hpp"
+#include "rig_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+class RigTime : public RigTest {
+  protected:
+    void walk(const Json& more = Json::object()) {
+        Json arguments{{"name", "head"}, {"path", "figure_eight"}, {"radius", 0.6}, {"period", 1.7}};
+        arguments.update(more);
+        run("rig.motion", arguments);
+    }
+    void secondary() {
+        run("rig.preset", {{"name", "secondary"}});
+        walk();
+    }
+    void go(std::uint64_t tick) { run("rig.time", {{"tick", tick}}); }
+    /// Plays, and gives the states on the way, the first being the one now.
+    std::vector<rig::State> play(int ticks) {
+        std::vector<rig::State> states{part().state};
+        for (int i = 0; i < ticks; ++i) {
+            lab().step(workspace);
+            states.push_back(part().state);
+        }
+        return states;
+    }
+    void expect_scrubs(const std::vector<rig::State>& states, int times, unsigned seed,
+                       std::uint64_t began = 0) {
+        std::mt19937 random(seed);
+        for (int i = 0; i < times; ++i) {
+            const std::size_t tick = random() % states.size();
+            go(began + tick);
+            ASSERT_EQ(part().state, states[tick]) << tick;
+            ASSERT_EQ(part().take.now(), began + tick);
+        }
+    }
+    glm::dvec3 head() const { return translation("head"); }
+    static Json at(double x, double y, double z) { return {{"translation", {x, y, z}}}; }
+};
+
+TEST_F(RigTime, AControlFollowsItsPathFromWhereItIs) {
+    run("rig.preset", {{"name", "secondary"}});
+    const glm::dvec3 start = head();
+    run("rig.motion", {{"name", "head"}, {"path", "circle"}, {"radius", 0.5}, {"period", 2.0}});
+    for (int i = 1; i <= 120; ++i) {
+        lab().step(workspace);
+        EXPECT_NEAR(glm::distance(head(), start - glm::dvec3(0.5, 0, 0)), 0.5, 1e-6) << i;
+        EXPECT_EQ(head().y, start.y);
+    }
+    EXPECT_NEAR(glm::distance(head(), start), 0.0, 1e-6) << "one round";
+    EXPECT_EQ(state().at("motions").at("head").at("path"), "circle");
+    run("undo");
+    EXPECT_TRUE(part().walks.empty());
+}
+
+TEST_F(RigTime, AWalkStopsAtTheLimitsAndTurnsAlongItsPath) {
+    control("place", "position", {{"maximum", {0.2, 1, 1}}, {"minimum", {-1, -1, -1}}});
+    run("rig.motion", {{"name", "place"}, {"path", "sweep"}, {"radius", 0.5}});
+    double most = -1.0;
+    for (int i = 0; i < 240; ++i) {
+        lab().step(workspace);
+        most = std::max(most, translation("place").x);
+    }
+    EXPECT_EQ(most, 0.2);
+    run("rig.preset", {{"name", "secondary"}});
+    run("rig.motion", {{"name", "head"}, {"path", "circle"}, {"turn", true}});
+    for (int i = 0; i < 50; ++i) {
+        const glm::dvec3 before = head();
+        lab().step(workspace);
+        const glm::dvec3 along = glm::normalize(head() - before);
+        const glm::dvec3 looks = rotation("head") * glm::dvec3(0, 0, 1);
+        EXPECT_GT(glm::dot(along, looks), 0.999);
+    }
+}
+
+TEST_F(RigTime, OneThatIsSetWalksNoFurther) {
+    secondary();
+    play(20);
+    set("head", at(0, 1, 0));
+    EXPECT_TRUE(part().walks.empty());
+    run("undo");
+    EXPECT_EQ(part().walks.size(), 1u);
+}
+
+TEST_F(RigTime, AnyTickInAnyOrderIsWhatPlayingShowed) {
+    secondary();
+    const auto states = play(600);
+    expect_scrubs(states, 200, 1);
+    go(600);
+    const auto on = play(30);
+    go(620);
+    EXPECT_EQ(part().state, on[20]);
+}
+
+/// Caches are thrown away at any moment.
+TEST_F(RigTime, TheSameWithoutSnapshots) {
+    secondary();
+    const auto states = play(300);
+    std::mt19937 random(2);
+    for (int i = 0; i < 60; ++i) {
+        if (random() % 2 == 0) workspace.runtimes.clear();
+        const std::size_t tick = random() % states.size();
+        go(tick);
+        ASSERT_EQ(part().state, states[tick]) << tick;
+    }
+}
+
+TEST_F(RigTime, TheSameWhereNobodyPlayedYet) {
+    secondary();
+    const Document before = workspace.document;
+    const auto states = play(200);
+    workspace.document = before;
+    workspace.runtimes.clear();
+    for (const std::size_t tick : {150u, 3u, 200u, 77u, 0u, 1u}) {
+        go(tick);
+        EXPECT_EQ(part().state, states[tick]) << tick;
+    }
+}
+
+TEST_F(RigTime, TheSameAfterSavingAndOpening) {
+    secondary();
+    const auto states = play(240);
+    go(131);
+    workspace = reopened();
+    EXPECT_EQ(part().state, states[131]);
+    EXPECT_EQ(part().take.last, 240u);
+    expect_scrubs(states, 50, 3);
+}
+
+TEST_F(RigTime, TheSameAfterUndo) {
+    secondary();
+    const auto states = play(200);
+    run("rig.unit.enable", {{"name", "trail"}, {"on", false}});
+    play(50);
+    run("undo");
+    EXPECT_EQ(part().state, states[200]);
+    expect_scrubs(states, 50, 4);
+    run("redo");
+    EXPECT_EQ(part().take.began, 200u);
+}
+
+/// What was dragged comes again, at its ticks.
+TEST_F(RigTime, WhatWasDraggedIsPartOfTheTake) {
+    run("rig.preset", {{"name", "secondary"}});
+    std::vector<rig::State> states = play(10);
+    for (int i = 1; i <= 90; ++i) {
+        if (i % 2 == 0) set("head", at(0.01 * i, 1.0, 0.3 * std::sin(0.1 * i)));
+        if (i % 2 == 0) states.back() = part().state;
+        lab().step(workspace);
+        states.push_back(part().state);
+    }
+    EXPECT_EQ(part().take.began, 0u);
+    EXPECT_EQ(part().take.keys->size(), 45u);
+    expect_scrubs(states, 60, 5);
+    workspace.runtimes.clear();
+    workspace = reopened();
+    expect_scrubs(states, 60, 6);
+    go(20);
+    EXPECT_TRUE(lab().moving(workspace)) << "there is more to come";
+    for (std::size_t i = 21; i < states.size(); ++i) {
+        lab().step(workspace);
+        ASSERT_EQ(part().state, states[i]) << "played again: " << i;
+    }
+}
+
+TEST_F(RigTime, SettingAControlForgetsWhatCameLater) {
+    run("rig.preset", {{"name", "secondary"}});
+    play(10);
+    set("head", at(0.5, 1, 0));
+    play(30);
+    set("head", at(-0.5, 1, 0));
+    play(10);
+    go(25);
+    set("head", at(0, 1.5, 0));
+    EXPECT_EQ(part().take.last, 25u);
+    EXPECT_EQ(part().take.keys->size(), 2u);
+    const auto states = play(40);
+    expect_scrubs(states, 0, 0);
+    go(60);
+    EXPECT_EQ(part().state, states[35]);
+    run("undo");
+    EXPECT_EQ(part().take.last, 50u) << "undo brings it back";
+}
+
+/// Whatever else is changed begins a take; time goes on.
+TEST_F(RigTime, AnEditInTheMiddleBeginsATake) {
+    secondary();
+    const auto first = play(100);
+    run("rig.unit.enable", {{"name", "trail"}, {"on", false}});
+    EXPECT_EQ(part().take.began, 100u);
+    EXPECT_DOUBLE_EQ(lab().seconds(workspace), 100.0 / 60.0);
+    const auto second = play(50);
+    EXPECT_NEAR(glm::distance(glm::dvec3(part().walks.front().motion.centre), head()), 0.6, 0.6);
+    expect_scrubs(second, 30, 7, 100);
+    expect_refused("rig.time", {{"tick", 99}}, {"begins at tick 100", "99"});
+    run("rig.preset", {{"name", "secondary"}});
+    EXPECT_EQ(part().take.now(), 0u);
+    EXPECT_EQ(lab().seconds(workspace), 0.0);
+    go(40);
+    EXPECT_EQ(part().take.now(), 40u);
+}
+
+/// The walk goes on from where it was, to rounding, whatever else begins a take.
+TEST_F(RigTime, AWalkGoesOnOverAnEdit) {
+    secondary();
+    const auto states = play(80);
+    go(33);
+    run("rig.unit.enable", {{"name", "trail"}, {"on", false}});
+    lab().step(workspace);
+    const std::size_t at = *part().rig.element("head");
+    EXPECT_EQ(part().state.controls[at], states[34].controls[at]);
+}
+
+TEST_F(RigTime, SlowMotionShowsTheSamePoses) {
+    secondary();
+    const Document before = workspace.document;
+    const auto states = play(60);
+    workspace.document = before;
+    workspace.clock.speed = 0.25f;
+    std::size_t distinct = 0;
+    for (int i = 0; i < 240; ++i) {
+        lab().step(workspace);
+        workspace.clock.passed += static_cast<double>(workspace.clock.speed);
+        distinct = part().take.tick;
+        ASSERT_EQ(part().state, states[distinct]);
+    }
+    EXPECT_EQ(distinct, 60u);
+}
+
+TEST_F(RigTime, ALongTakeGoesOnAsAnother) {
+    control("dial", "position");
+    run("rig.motion", {{"name", "dial"}, {"path", "circle"}});
+    go(most_take_ticks - 1);
+    play(3);
+    EXPECT_EQ(part().take.began, most_take_ticks);
+    EXPECT_EQ(part().take.now(), most_take_ticks + 2);
+}
+
+TEST_F(RigTime, ThatTimePassesIsNothingToSaveAndNothingToUndo) {
+    secondary();
+    workspace.saved = workspace.document;
+    const std::size_t steps = workspace.history.size();
+    go(100);
+    play(5);
+    EXPECT_FALSE(workspace.modified());
+    EXPECT_EQ(workspace.history.size(), steps);
+    EXPECT_FALSE(workspace.clock.playing) << "going somewhere pauses";
+}
+
+TEST_F(RigTime, WhatItRefuses) {
+    secondary();
+    expect_refused("rig.time", Json::object(), {"either a tick or seconds"});
+    expect_refused("rig.time", {{"tick", 1}, {"seconds", 1}}, {"either a tick or seconds"});
+    expect_refused("rig.time", {{"tick", 1000000000}}, {"36000 ticks", "1000000000"});
+    expect_refused("rig.time", {{"tick", -1}}, {"tick"});
+    expect_refused("rig.time", {{"seconds", std::nan("")}}, {"seconds"});
+    expect_refused("rig.motion", {{"name", "skull"}, {"path", "circle"}}, {"\"skull\" is no control"});
+    expect_refused("rig.motion", {{"name", "nobody"}, {"path", "circle"}}, {"no element \"nobody\""});
+    expect_refused("rig.motion", {{"name", "head"}, {"path", "spiral"}}, {"path", "\"spiral\""});
+    expect_refused("rig.motion", {{"name", "head"}, {"path", "circle"}, {"period", 0}}, {"period", "0.1"});
+    expect_refused("rig.motion", {{"name", "head"}, {"path", "circle"}, {"radius", std::nan("")}},
+                   {"radius"});
+    expect_refused("rig.motion",
+                   {{"name", "head"}, {"path", "circle"}, {"centre", {1e9, 1, 1}}, {"radius", 1e4}},
+                   {"farther than 1e9 m"});
+    control("dial", "float");
+    expect_refused("rig.motion", {{"name", "dial"}, {"path", "circle"}}, {"\"dial\" is a float control"});
+    control("place", "position");
+    expect_refused("rig.motion", {{"name", "place"}, {"path", "circle"}, {"turn", true}}, {"transform"});
+}
+
+TEST_F(RigTime, AControlThatIsRemovedWalksNoMore) {
+    control("place", "position");
+    run("rig.motion", {{"name", "place"}, {"path", "circle"}});
+    play(10);
+    run("rig.element.remove", {{"name", "place"}});
+    EXPECT_TRUE(part().walks.empty());
+    play(3);
+    run("undo");
+    EXPECT_EQ(part().walks.size(), 1u);
+}
+
+/// The same motion at any frame rate, but for what springs make of each other within a frame.
+TEST_F(RigTime, FrameRatesAreComparedAsOneNumber) {
+    expect_refused("rig.rates", Json::object(), {"nothing has been played yet"});
+    secondary();
+    run("rig.rates");
+    const Json rates = state().at("rates");
+    EXPECT_GT(rates.at("mm"), 0.0);
+    EXPECT_GT(rates.at("degrees"), 0.0);
+    EXPECT_NE(rates.at("bone"), "");
+    EXPECT_EQ(rates.at("between").get<std::string>().find("15 Hz and "), 0u) << rates.at("between");
+    EXPECT_EQ(Workspace(reopened()).document.get<RigPart>(rig_lab).rates, part().rates);
+    play(5);
+    EXPECT_FALSE(state().at("rates").is_null()) << "that time passes changes nothing about them";
+    run("rig.unit.enable", {{"name", "trail"}, {"on", false}});
+    EXPECT_TRUE(state().at("rates").is_null());
+    run("rig.rates");
+    EXPECT_LT(state().at("rates").at("mm"), 1e-6) << "nothing remembers";
+}
+
+/// One spring on its own is exact, however its time is cut: the control is set where a frame of each begins.
+TEST_F(RigTime, ASpringAloneIsTheSameAtAllRates) {
+    control("place", "position", {{"local", {{"translation", {0, 0, 1}}}}});
+    element("bone");
+    element("tip", "bone", transform(0, 0, 1));
+    unit({{"unit", "spring_interpolate"},
+          {"name", "spring"},
+          {"target", {{"element", "place"}, {"of", "translation"}}},
+          {"strength", 2}});
+    unit({{"unit", "aim"},
+          {"item", "bone"},
+          {"primary", {{"axis", {0, 0, 1}}, {"target", {{"unit", "spring"}}}}}});
+    play(4);
+    set("place", {1, 0, 1});
+    play(120);
+    run("rig.rates");
+    EXPECT_GT(glm::distance(translation("tip"), glm::dvec3(0, 0, 1)), 0.3) << "it turns";
+    EXPECT_LT(state().at("rates").at("mm"), 1e-3);
+    EXPECT_LT(state().at("rates").at("degrees"), 1e-4);
+}
+
+}  // namespace
+}  // namespace tendril::app
