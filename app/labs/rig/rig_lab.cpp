@@ -5,6 +5,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/labs/rig/code.hpp"
+#include "app/labs/rig/draw_walks.hpp"
 #include "app/labs/rig/panels.hpp"
 #include "app/labs/rig/presets.hpp"
 #include "app/labs/rig/rig_commands.hpp"
@@ -72,6 +73,7 @@ void RigLab::draw(const View& view, DrawList& list) const {
             list.sphere(at, (control ? 9.0f : 5.0f) * view.scale, Unit::Pixels, glm::vec4(colour, 1.0f));
         if (control) ball.pick = static_cast<PickId>(i);
     }
+    draw_walks(view, list);
 }
 
 std::vector<Handle> RigLab::handles(const Workspace& workspace) const {
