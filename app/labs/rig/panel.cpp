@@ -110,6 +110,7 @@ void solve_rows(const RigPanel& panel) {
 void RigLab::panel(const Workspace& workspace, Emit& emit) const {
     const RigPanel panel = rig_panel(workspace, emit);
     preset_section(emit);
+    walk_rows(workspace, emit);
     element_tree(panel);
     unit_list(panel);
     curve_rows(panel);

@@ -41,23 +41,6 @@ void walk_fields(const RigWalk& walk, bool turns, Emit& emit) {
         emit("rig.motion", {{"name", walk.control}, {"path", path}, {"turn", turn}});
 }
 
-void walk_rows(const RigPart& part, bool playing, Emit& emit) {
-    const rig::Element* const control = walker(part);
-    if (!control) return;
-    section("Walk");
-    const auto walk = std::ranges::find(part.walks, control->name, &RigWalk::control);
-    const bool walks = walk != part.walks.end();
-    int path = static_cast<int>(walks ? walk->motion.path : Motion::Path::Still);
-    const auto titles = motion_paths.titles();
-    if (choice_field(control->name.c_str(), path, titles.data(), static_cast<int>(titles.size())))
-        emit("rig.motion",
-             {{"name", control->name}, {"path", motion_paths.name(static_cast<Motion::Path>(path))}});
-    explain("The control follows a path, flat on the ground, from where it is. Dragging it ends that");
-    if (!walks) return;
-    walk_fields(*walk, control->control->kind == rig::ControlKind::Transform, emit);
-    if (!playing) note("Paused: press Space to let it walk.");
-}
-
 std::string clip_text(const RigPart& part) {
     const std::string frames = std::to_string(part.clip->frames()) + " frames";
     if (!part.clip_left) return frames + ", not solved backward yet.";
@@ -105,7 +88,8 @@ void rate_rows(const RigPart& part, Emit& emit) {
     end_row();
     if (!part.rates) return;
     const RateDifference& most = *part.rates;
-    reading("apart", "%s mm, %s\u00b0", fixed_text(most.mm, 3).c_str(), fixed_text(most.degrees, 3).c_str());
+    reading("apart", "%s mm, %s\u00b0", fixed_text(most.mm, most.mm < 10.0 ? 3 : 1).c_str(),
+            fixed_text(most.degrees, most.degrees < 10.0 ? 3 : 1).c_str());
     explain("The most that any bone differs between two frame rates");
     if (most.mm > 0.0)
         note("Most: " + most.bone + ", " + most.between + ", " + fixed_text(most.seconds, 2) +
@@ -114,9 +98,26 @@ void rate_rows(const RigPart& part, Emit& emit) {
 
 }  // namespace
 
+void walk_rows(const Workspace& workspace, Emit& emit) {
+    const RigPart& part = rig_part(workspace);
+    const rig::Element* const control = walker(part);
+    if (!control) return;
+    section("Walk");
+    const auto walk = std::ranges::find(part.walks, control->name, &RigWalk::control);
+    const bool walks = walk != part.walks.end();
+    int path = static_cast<int>(walks ? walk->motion.path : Motion::Path::Still);
+    const auto titles = motion_paths.titles();
+    if (choice_field(control->name.c_str(), path, titles.data(), static_cast<int>(titles.size())))
+        emit("rig.motion",
+             {{"name", control->name}, {"path", motion_paths.name(static_cast<Motion::Path>(path))}});
+    explain("The control follows a path, flat on the ground, from where it is. Dragging it ends that");
+    if (!walks) return;
+    walk_fields(*walk, control->control->kind == rig::ControlKind::Transform, emit);
+    if (!workspace.clock.playing) note("Paused: press Space to let it walk.");
+}
+
 void time_rows(const Workspace& workspace, Emit& emit) {
     const RigPart& part = rig_part(workspace);
-    walk_rows(part, workspace.clock.playing, emit);
     clip_rows(part, emit);
     rate_rows(part, emit);
 }

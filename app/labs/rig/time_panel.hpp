@@ -6,6 +6,9 @@
 
 namespace tendril::app {
 
+/// What moves a control by itself; nothing where no control can.
+void walk_rows(const Workspace& workspace, Emit& emit);
+/// Clip and frame rates.
 void time_rows(const Workspace& workspace, Emit& emit);
 
 }  // namespace tendril::app
