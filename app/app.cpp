@@ -11,6 +11,7 @@
 #include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
+#include "app/shell/gizmo_view.hpp"
 #include "app/shell/labels_view.hpp"
 #include "app/shell/theme.hpp"
 
@@ -120,6 +121,7 @@ void App::compose(const Event* event, Pass pass) {
         pointer_.dragged() != no_pick && !bound.empty()) {
         hint = "Moving " + bound + ".";
     }
+    if (const std::string by_part = gizmo_hint(lab(), workspace_, pointer_); !by_part.empty()) hint = by_part;
     if (hint.empty())
         hint = "Right-drag turns the view, middle-drag shifts it, the wheel zooms. ? shows every key.";
     shell_.frame({workspace_, labs_, lab(), *commands_, shortcuts_, layout_, hint}, emit);
@@ -129,9 +131,10 @@ void App::compose(const Event* event, Pass pass) {
 
     const Camera camera(workspace_.camera, layout_.view);
     drawn_.clear();
-    lab().draw({workspace_, camera, palette(workspace_.settings.theme), pointer_.hovered(),
-                pointer_.dragged(), layout_.scale},
-               drawn_);
+    const View view{workspace_,         camera,       palette(workspace_.settings.theme), pointer_.hovered(),
+                    pointer_.dragged(), layout_.scale};
+    lab().draw(view, drawn_);
+    show_gizmo(drawn_, lab(), view, pointer_);
     show_labels(drawn_, camera, palette(workspace_.settings.theme), layout_.scale);
     ui_.end();
 }
@@ -267,6 +270,8 @@ Json App::state() {
         const auto at = camera.project(handle.frame.position);
         handles.push_back({{"name", handle.name}, {"pixel", at ? pixel(*at) : Json(nullptr)}});
     }
+    for (const NamedGrip& grip : gizmo_grips(drawn_, lab(), workspace_, camera, layout_.scale))
+        handles.push_back({{"name", grip.name}, {"pixel", pixel(grip.pixel)}});
     state["handles"] = std::move(handles);
     state["camera"] = save_camera(workspace_.camera);
     const Clock& clock = workspace_.clock;

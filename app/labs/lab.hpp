@@ -16,6 +16,7 @@
 #include "app/labs/kit/shortcut.hpp"
 #include "app/view/camera.hpp"
 #include "app/view/draw_list.hpp"
+#include "app/view/gizmo.hpp"
 #include "app/view/palette.hpp"
 #include "app/widgets/emit.hpp"
 
@@ -33,19 +34,16 @@ struct View {
     float scale = 1.0f;  ///< of everything measured in pixels
 };
 
-/// What a drag may change of a handle's frame.
-enum class Drag : std::uint8_t { Nothing, Position };
-
-/// A frame that a person can take hold of.
+/// A frame that a person can take hold of. Dragged by what is drawn there it moves in the plane of the view
+/// or along a held axis, if it may move; its gizmo, where one is shown, has a part for all else.
 struct Handle {
-    struct Frame {
-        glm::vec3 position{0.0f};
-        glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
-    };
+    using Frame = HandleFrame;
     std::string name;       ///< as --state has it: "target", "segment.3"
     PickId pick = no_pick;  ///< of what is drawn there
     Frame frame;
     Drag drag = Drag::Position;
+    /// Dragging it is dragging this part of a gizmo: a knob on its rail, a ring that is always there.
+    std::optional<GizmoPart> part{};
 };
 
 /// A sphere around what should be in view.
@@ -122,12 +120,19 @@ class Lab {
     virtual std::vector<Handle> handles(const Workspace&) const { return {}; }
     /// What is picked, if it is there. Of handles() unless there is more to pick than has a name.
     virtual std::optional<Handle> handle(const Workspace& workspace, PickId pick) const;
+    /// The handle whose gizmo is shown, the one that is selected; --state has its parts as "head.move_x".
+    /// What it drags comes to drag() with the handle's pick.
+    virtual std::optional<Handle> gizmo(const Workspace&) const { return std::nullopt; }
     /// The handle is dragged to a frame; called each time the pointer moves.
     virtual void drag(const Workspace&, PickId, const Handle::Frame&, Emit&) const {}
     /// The handle that was dragged is let go, wherever it is now.
     virtual void drop(const Workspace&, PickId, Emit&) const {}
     /// The handle, or with no_pick the empty scene, is clicked.
     virtual void click(const Workspace&, PickId, Emit&) const {}
+    /// The second click on a handle; the first was a click too.
+    virtual void double_click(const Workspace& workspace, PickId pick, Emit& emit) const {
+        click(workspace, pick, emit);
+    }
     /// What the mouse would do there, for the status line.
     virtual std::string hint(const Workspace&, PickId) const { return {}; }
     /// What the camera frames; all handles unless the lab knows better.

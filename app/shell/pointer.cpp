@@ -11,6 +11,7 @@ namespace {
 
 constexpr float drag_threshold = 4.0f;  ///< pixels; less is a click
 constexpr float slack = 4.0f;           ///< pixels beyond a handle's edge that still catch it
+constexpr int double_click_ticks = 20;
 
 /// The axis of the first axis key held.
 std::optional<glm::vec3> held_axis(const Input& input) {
@@ -44,12 +45,13 @@ void emit_camera(Emit& emit, const CameraPose& from, const CameraPose& to) {
 }  // namespace
 
 void Pointer::take(const Event* event, const Input& input, const Scene& scene, Emit& emit) {
+    since_click_ = std::min(since_click_ + 1, 1000);
     // What was caught in another lab means nothing in this one.
     if (caught_ != no_pick && caught_in_ != &scene.lab) release(scene, emit);
     if (event != nullptr) {
         if (const auto* button = std::get_if<MousePress>(event)) {
             if (button->down && doing_ == Doing::Nothing && !scene.over_panel) press(*button, input, scene);
-            if (!button->down && button->button == button_) let_go(scene, emit);
+            if (!button->down && button->button == button_) let_go(input, scene, emit);
         } else if (std::holds_alternative<MouseMove>(*event)) {
             move(input, scene, emit);
         } else if (const auto* wheel = std::get_if<MouseWheel>(event)) {
@@ -70,9 +72,10 @@ void Pointer::take(const Event* event, const Input& input, const Scene& scene, E
 }
 
 void Pointer::release(const Scene& scene, Emit& emit) {
-    if (doing_ == Doing::Drag) caught_in_->drop(scene.workspace, caught_, emit);
+    if (doing_ == Doing::Drag) caught_in_->drop(scene.workspace, caught_handle_, emit);
     doing_ = Doing::Nothing;
-    caught_ = no_pick;
+    caught_ = caught_handle_ = no_pick;
+    by_.reset();
 }
 
 void Pointer::press(const MousePress& press, const Input& input, const Scene& scene) {
@@ -88,16 +91,41 @@ void Pointer::press(const MousePress& press, const Input& input, const Scene& sc
     doing_ = Doing::Press;
     caught_ = hovered_ = pick(scene.drawn, scene.camera, input.mouse(), slack * scene.scale);
     caught_in_ = &scene.lab;
-    const auto handle = scene.lab.handle(scene.workspace, caught_);
-    draggable_ = handle && handle->drag == Drag::Position;
-    if (!handle) return;
-    caught_frame_ = handle->frame;
-    const auto pixel = scene.camera.project(caught_frame_.position);
-    offset_ = pixel ? *pixel - caught_at_ : glm::vec2(0.0f);
+    draggable_ = false;
+    const auto part = picked_part(caught_);
+    const auto handle = part ? scene.lab.gizmo(scene.workspace) : scene.lab.handle(scene.workspace, caught_);
+    if (handle) take_hold(*handle, part ? part : handle->part, scene);
 }
 
-void Pointer::let_go(const Scene& scene, Emit& emit) {
-    if (doing_ == Doing::Press) scene.lab.click(scene.workspace, caught_, emit);
+void Pointer::take_hold(const Handle& handle, std::optional<GizmoPart> part, const Scene& scene) {
+    caught_handle_ = handle.pick;
+    caught_frame_ = handle.frame;
+    draggable_ = part.has_value() || has(handle.drag, Drag::Position);
+    const auto pixel = scene.camera.project(caught_frame_.position);
+    offset_ = pixel ? *pixel - caught_at_ : glm::vec2(0.0f);
+    if (!part) return;
+    const Gizmo gizmo{handle.frame, handle.drag, scene.scale};
+    by_.emplace(*part, handle.frame, scene.camera.ray(caught_at_),
+                gizmo.reach(changed_by(*part), scene.camera), scene.camera.pose().orthographic);
+}
+
+bool Pointer::clicked_before(const Input& input, const Scene& scene) const {
+    return since_click_ < double_click_ticks && clicked_ == caught_ && caught_ != no_pick &&
+           glm::distance(input.mouse(), clicked_at_) < drag_threshold * scene.scale;
+}
+
+void Pointer::let_go(const Input& input, const Scene& scene, Emit& emit) {
+    if (doing_ == Doing::Press && !picked_part(caught_)) {
+        const bool twice = clicked_before(input, scene);
+        if (twice) {
+            scene.lab.double_click(scene.workspace, caught_, emit);
+        } else {
+            scene.lab.click(scene.workspace, caught_, emit);
+        }
+        clicked_ = twice ? no_pick : caught_;  // a third click is a first one again
+        clicked_at_ = input.mouse();
+        since_click_ = 0;
+    }
     release(scene, emit);
 }
 
@@ -125,8 +153,14 @@ void Pointer::move(const Input& input, const Scene& scene, Emit& emit) {
 }
 
 void Pointer::drag(const Input& input, const Scene& scene, Emit& emit) {
-    if (const auto to = dragged_to(input, scene.camera))
-        scene.lab.drag(scene.workspace, caught_, {*to, caught_frame_.rotation}, emit);
+    const bool bound = !constraint(input).empty();
+    if (by_ && !(bound && changed_by(by_->part()) == Drag::Position)) {
+        scene.lab.drag(scene.workspace, caught_handle_, by_->to(scene.camera.ray(input.mouse())), emit);
+    } else if (const auto to = dragged_to(input, scene.camera)) {
+        HandleFrame frame = caught_frame_;
+        frame.position = *to;
+        scene.lab.drag(scene.workspace, caught_handle_, frame, emit);
+    }
 }
 
 std::optional<glm::vec3> Pointer::dragged_to(const Input& input, const Camera& camera) const {

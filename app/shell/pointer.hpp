@@ -9,6 +9,7 @@
 #include "app/labs/lab.hpp"
 #include "app/shell/input.hpp"
 #include "app/shell/shortcuts.hpp"
+#include "app/view/gizmo_drag.hpp"
 #include "app/window/window.hpp"
 
 namespace tendril::app {
@@ -30,8 +31,15 @@ class Pointer {
     /// Ends whatever is going on, without a click; what was dragged is dropped.
     void release(const Scene& scene, Emit& emit);
 
-    PickId hovered() const { return hovered_; }
-    PickId dragged() const { return doing_ == Doing::Drag ? caught_ : no_pick; }
+    /// What the lab has drawn; nothing where it is a gizmo.
+    PickId hovered() const { return hovered_part() ? no_pick : hovered_; }
+    /// The lab's handle, by its gizmo too.
+    PickId dragged() const { return doing_ == Doing::Drag ? caught_handle_ : no_pick; }
+    std::optional<GizmoPart> hovered_part() const { return picked_part(hovered_); }
+    /// The part that is dragged; null where the handle goes freely.
+    const GizmoDrag* dragged_part() const { return doing_ == Doing::Drag && by_ ? &*by_ : nullptr; }
+    /// Whether it is a gizmo's, and not one that the lab has drawn.
+    bool drags_gizmo() const { return dragged_part() != nullptr && picked_part(caught_).has_value(); }
     bool busy() const { return doing_ != Doing::Nothing; }
     /// The axis or plane that a held key binds the drag to; empty for the view plane.
     std::string constraint(const Input& input) const;
@@ -41,21 +49,28 @@ class Pointer {
     enum class Doing { Nothing, Press, Stray, Drag, Orbit, Pan };  ///< Stray: a drag that caught nothing
 
     void press(const MousePress& press, const Input& input, const Scene& scene);
-    void let_go(const Scene& scene, Emit& emit);
+    void let_go(const Input& input, const Scene& scene, Emit& emit);
     void move(const Input& input, const Scene& scene, Emit& emit);
     void drag(const Input& input, const Scene& scene, Emit& emit);
     std::optional<glm::vec3> dragged_to(const Input& input, const Camera& camera) const;
+    void take_hold(const Handle& handle, std::optional<GizmoPart> part, const Scene& scene);
+    bool clicked_before(const Input& input, const Scene& scene) const;
 
     Doing doing_ = Doing::Nothing;
     MouseButton button_ = MouseButton::Left;
     PickId hovered_ = no_pick;
-    PickId caught_ = no_pick;
+    PickId caught_ = no_pick;         ///< what is drawn there
+    PickId caught_handle_ = no_pick;  ///< whose it is, where it is a part of a gizmo
     const Lab* caught_in_ = nullptr;  ///< what it means there
     glm::vec2 caught_at_{0.0f};       ///< where the button went down
     glm::vec2 last_{0.0f};            ///< the mouse a tick ago
     glm::vec2 offset_{0.0f};          ///< from the mouse to the handle's pixel when caught
     Handle::Frame caught_frame_;      ///< the handle's when caught
     bool draggable_ = false;          ///< what is caught can be dragged
+    std::optional<GizmoDrag> by_;     ///< by a part
+    int since_click_ = 1000;          ///< ticks
+    PickId clicked_ = no_pick;        ///< last
+    glm::vec2 clicked_at_{0.0f};
 };
 
 }  // namespace tendril::app

@@ -58,8 +58,9 @@ struct DrawList {
     std::vector<Stroke> strokes;
     std::vector<Label> labels;
     Mesh mesh{};
+    Mesh overlay{};  ///< over the scene, and under the strokes that are over it
 
-    void clear() { strokes.clear(), labels.clear(), mesh.clear(); }
+    void clear() { strokes.clear(), labels.clear(), mesh.clear(), overlay.clear(); }
 
     /// Each returns the stroke it appended, for the fields that are seldom set.
     Stroke& sphere(glm::vec3 centre, float radius, Unit unit, glm::vec4 colour);

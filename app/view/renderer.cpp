@@ -76,6 +76,10 @@ void Renderer::draw(const DrawList& list, const Camera& camera, const Palette& p
         calls += impl_->mesh.draw(list.mesh, camera, frame);
         impl_->strokes.prepare(list, camera, frame);
         calls += impl_->strokes.draw(Layer::Scene);
+        if (!list.overlay.indices.empty()) {
+            glClear(GL_DEPTH_BUFFER_BIT);
+            calls += impl_->mesh.draw(list.overlay, camera, frame);
+        }
         calls += impl_->strokes.draw(Layer::Overlay);
     }
     leave_plain_state();

@@ -48,12 +48,14 @@ void remove(RigPart& part, const Arguments& given) {
     remove_element(part, given.text("name"));
 }
 
-void set_control(RigPart& part, const Arguments& given) {
-    const std::size_t at = element_named(part, given.text("name"));
-    const rig::Element& element = part.rig.definition().elements[at];
-    if (!element.control) throw std::invalid_argument("\"" + element.name + "\" is no control");
-    const rig::Value value =
-        read_control_value(place_of(given, "value"), element.control->kind, part.state.controls[at]);
+std::size_t control_named(const RigPart& part, const std::string& name) {
+    const std::size_t at = element_named(part, name);
+    if (!part.rig.definition().elements[at].control)
+        throw std::invalid_argument("\"" + name + "\" is no control");
+    return at;
+}
+
+void set_value(RigPart& part, std::size_t at, const rig::Value& value) {
     rig::State after = part.state;
     require_ok(part.rig.set_control(after, at, value));
     if (after.controls[at] == part.state.controls[at]) return;  // units may have moved it since
@@ -65,6 +67,18 @@ void set_control(RigPart& part, const Arguments& given) {
     const bool walked =
         std::erase_if(part.walks, [&](const RigWalk& walk) { return walk.control == element.name; }) > 0;
     walked ? begin_take(part) : key_control(part, at);
+}
+
+void set_control(RigPart& part, const Arguments& given) {
+    const std::size_t at = control_named(part, given.text("name"));
+    const rig::Control& control = *part.rig.definition().elements[at].control;
+    set_value(part, at, read_control_value(place_of(given, "value"), control.kind, part.state.controls[at]));
+}
+
+void reset_control(RigPart& part, const Arguments& given) {
+    const std::size_t at = control_named(part, given.text("name"));
+    const rig::Element& element = part.rig.definition().elements[at];
+    set_value(part, at, rig::rest_value(*element.control, element.initial));
 }
 
 void add_curve(RigPart& part, const Arguments& given) {
@@ -113,6 +127,8 @@ void add_element_commands(CommandTable& table) {
                                         "{translation, rotation, scale}, [x, y, z], [x, y, z, w], a number, "
                                         "a bool or [a, b], as its kind has it")},
         "Sets a control, within its limits", set_control));
+    table.add(rig_command("rig.control.reset", {name_argument()},
+                          "Sets a control to the value that it begins with", reset_control));
     table.add(rig_command("rig.curve.add",
                           {curve_argument(), number_argument("value", "0 where left out", -1e9, 1e9)},
                           "Adds a named curve, which units write", add_curve));

@@ -59,8 +59,8 @@ Definition aim_scene() {
                         .minimum = glm::dvec3(-0.8, 0.2, -0.5),
                         .maximum = glm::dvec3(0.8, 1.2, 0.5)};
     Definition rig;
-    rig.elements = {bone("neck", "", at(0, 0.8, 0)),
-                    bone("head", "neck", at(0, 0.4, 0)),
+    rig.elements = {bone("neck", "", at(0, 0.5, 0)),
+                    bone("head", "neck", at(0, 0.7, 0)),
                     bone("nose", "head", at(0, 0, 0.45)),
                     bone("crown", "head", at(0, 0.45, 0)),
                     control("look", "", at(0, 1.2, 1.6), square),
@@ -221,7 +221,7 @@ Definition secondary_scene() {
 
 const std::vector<RigPreset>& rig_presets() {
     static const std::vector<RigPreset> list{
-        {"aim", "Aim", aim_scene, view({0.0f, 1.1f, 0.6f}, -50.0f, 14.0f, 5.2f)},
+        {"aim", "Aim", aim_scene, view({0.1f, 1.15f, 0.7f}, -24.0f, 12.0f, 5.8f)},
         {"fk", "FK", fk_scene, view({0.0f, 1.2f, 0.0f}, -30.0f, 12.0f, 5.4f)},
         {"loop", "Loop", loop_scene, view({0.0f, 0.8f, 0.0f}, -30.0f, 24.0f, 5.8f)},
         {"morph", "Morph and material", morph_scene, view({0.0f, 0.8f, 0.0f}, -16.0f, 10.0f, 4.8f)},

@@ -26,12 +26,21 @@ class RigLab final : public Lab {
     void timeline(const Workspace& workspace, Emit& emit) const override;
 
     void draw(const View& view, DrawList& list) const override;
+    std::vector<LegendRow> legend(const Workspace& workspace) const override;
+    std::vector<LabSetting> settings() const override;
+
     std::vector<Handle> handles(const Workspace& workspace) const override;
+    std::optional<Handle> handle(const Workspace& workspace, PickId pick) const override;
+    std::optional<Handle> gizmo(const Workspace& workspace) const override;
     void drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const override;
+    void click(const Workspace& workspace, PickId pick, Emit& emit) const override;
+    void double_click(const Workspace& workspace, PickId pick, Emit& emit) const override;
+    std::string hint(const Workspace& workspace, PickId pick) const override;
+    std::vector<MouseHelp> mouse_help() const override;
+    Bounds bounds(const Workspace& workspace, bool selection_only) const override;
 
     void panel(const Workspace& workspace, Emit& emit) const override;
     void inspector(const Workspace& workspace, Emit& emit) const override;
-    std::vector<LabSetting> settings() const override;
 
     std::string code(const Workspace& workspace) const override;
     Json state(const Workspace& workspace) const override;

@@ -52,7 +52,9 @@ void copy(Workspace& workspace, const Arguments&) {
 
 void take_preset(Workspace& workspace, const Arguments& given) {
     const RigPreset& preset = rig_preset(given.text("name"));
-    workspace.document.edit<RigPart>(rig_lab) = RigPart(preset.make());
+    // Where it is there already nothing is changed: a recording cannot tell that from what was opened.
+    change_part<RigPart>(workspace, rig_lab,
+                         [&](RigPart& part, const RigPart&) { part = RigPart(preset.make()); });
     (workspace.lab == rig_lab ? workspace.camera : workspace.cameras[rig_lab]) = preset.view;
 }
 

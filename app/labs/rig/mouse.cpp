@@ -1,0 +1,220 @@
+// What the mouse takes hold of in the Rig lab, and what comes of it.
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "app/document/json_complete.hpp"
+#include "app/labs/rig/control_shape.hpp"
+#include "app/labs/rig/figure.hpp"
+#include "app/labs/rig/rig_lab.hpp"
+#include "app/labs/rig/rig_runtime.hpp"
+#include "app/labs/rig/value_json.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// Bones and nulls have names among the handles where they are no more than this.
+constexpr std::size_t most_named = 400;
+
+const rig::Hierarchy& elements_of(const Workspace& workspace) {
+    return workspace.runtimes.of<RigRuntime>(rig_lab).resolved(workspace);
+}
+
+bool is_there(const RigPart& part, PickId pick) {
+    return pick >= 0 && picked_element(pick) < part.state.controls.size();
+}
+
+/// What is drawn of it: a knob, a joint.
+Handle handle_of(const Workspace& workspace, std::size_t i) {
+    const RigPart& part = rig_part(workspace);
+    const rig::Hierarchy& elements = elements_of(workspace);
+    const rig::Element& element = part.rig.definition().elements[i];
+    if (const auto shape = ControlShape::of(part, elements, i))
+        return {element.name, element_pick(i), frame_of(shape->pose()), shape->drag(), shape->part()};
+    const rig::Transform pose = *elements.known(part.rig.id(i), rig::Space::Global);
+    return {element.name, element_pick(i), frame_of(pose), Drag::Nothing};
+}
+
+/// A bone or a null is set where a solve begins with it, before any unit has moved it.
+Handle input_handle(const Workspace& workspace, std::size_t i) {
+    const RigPart& part = rig_part(workspace);
+    const rig::Element& element = part.rig.definition().elements[i];
+    const rig::Transform pose =
+        *elements_of(workspace).known(part.rig.id(i), rig::Space::Global, rig::Pose::Input);
+    const Drag turn = Drag::Position | Drag::Rotation;
+    return {element.name, element_pick(i), frame_of(pose),
+            element.kind == rig::ElementKind::Null ? turn | Drag::Scale : turn};
+}
+
+const char* kind_of(rig::ControlKind kind) {
+    switch (kind) {
+        case rig::ControlKind::Transform:
+            return "transform control";
+        case rig::ControlKind::Position:
+            return "position control";
+        case rig::ControlKind::Rotation:
+            return "rotation control";
+        case rig::ControlKind::Float:
+            return "slider";
+        case rig::ControlKind::Bool:
+            return "switch";
+        case rig::ControlKind::Vector2d:
+            break;
+    }
+    return "2D control";
+}
+
+const char* what_dragging_does(rig::ControlKind kind) {
+    switch (kind) {
+        case rig::ControlKind::Transform:
+            return "drag moves it; selected, it has arrows, rings and boxes";
+        case rig::ControlKind::Position:
+            return "drag moves it; selected, it has arrows and planes";
+        case rig::ControlKind::Rotation:
+            return "drag a ring to turn it";
+        case rig::ControlKind::Float:
+            return "drag its knob along the rail";
+        case rig::ControlKind::Bool:
+            return "click turns it on or off";
+        case rig::ControlKind::Vector2d:
+            break;
+    }
+    return "drag its knob within the rectangle";
+}
+
+}  // namespace
+
+std::vector<Handle> RigLab::handles(const Workspace& workspace) const {
+    const RigPart& part = rig_part(workspace);
+    const std::size_t count = part.state.controls.size();
+    std::vector<Handle> handles;
+    for (std::size_t i = 0; i < count; ++i)
+        if (count <= most_named || part.rig.definition().elements[i].control)
+            handles.push_back(handle_of(workspace, i));
+    return handles;
+}
+
+std::optional<Handle> RigLab::handle(const Workspace& workspace, PickId pick) const {
+    if (!is_there(rig_part(workspace), pick)) return std::nullopt;
+    Handle handle = handle_of(workspace, picked_element(pick));
+    handle.pick = pick;
+    if (const int ring = picked_ring(pick); ring >= 0)
+        handle.part = static_cast<GizmoPart>(static_cast<int>(GizmoPart::RotateX) + ring);
+    return handle;
+}
+
+std::optional<Handle> RigLab::gizmo(const Workspace& workspace) const {
+    const RigPart& part = rig_part(workspace);
+    const auto selected = part.rig.element(part.selected.element);
+    if (!selected) return std::nullopt;
+    if (!part.rig.definition().elements[*selected].control) return input_handle(workspace, *selected);
+    // A knob on its rail, or in its rectangle, needs nothing more to be dragged by.
+    const Handle handle = handle_of(workspace, *selected);
+    if (handle.part || handle.drag == Drag::Nothing) return std::nullopt;
+    return handle;
+}
+
+/// While the simulation is paused no tick solves, so a drag does.
+void RigLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame& to, Emit& emit) const {
+    const RigPart& part = rig_part(workspace);
+    if (!is_there(part, pick)) return;
+    const std::size_t i = picked_element(pick);
+    const std::string& name = part.rig.definition().elements[i].name;
+    if (const auto shape = ControlShape::of(part, elements_of(workspace), i)) {
+        Json value = shape->value_at(frame_of(shape->pose()), to);
+        if (value.empty() && value.is_object()) return;
+        emit.continuously("rig.control.set", {{"name", name}, {"value", SharedJson(std::move(value))}});
+    } else {
+        const HandleFrame from = input_handle(workspace, i).frame;
+        const Json all =
+            transform_json({glm::dvec3(to.position), glm::dquat(to.rotation), glm::dvec3(to.scale)});
+        Json changed = Json::object();
+        if (to.position != from.position) changed["translation"] = all["translation"];
+        if (to.rotation != from.rotation) changed["rotation"] = all["rotation"];
+        if (to.scale != from.scale) changed["scale"] = all["scale"];
+        if (changed.empty()) return;
+        emit.continuously(
+            "rig.element.set",
+            {{"name", name}, {"space", "global"}, {"transform", SharedJson(std::move(changed))}});
+    }
+    if (!workspace.clock.playing) emit.continuously("rig.solve", {});
+}
+
+void RigLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
+    const RigPart& part = rig_part(workspace);
+    if (!is_there(part, pick)) {
+        if (part.selected.element.empty()) return;
+        part.selected.unit.empty() ? emit("rig.select") : emit("rig.select", {{"unit", part.selected.unit}});
+        return;
+    }
+    const rig::Element& element = part.rig.definition().elements[picked_element(pick)];
+    ArgumentList chosen{{"element", element.name}};
+    if (!part.selected.unit.empty()) chosen.push_back({"unit", part.selected.unit});
+    if (part.selected.element != element.name) emit("rig.select", chosen);
+    if (!element.control || element.control->kind != rig::ControlKind::Bool) return;
+    const bool on = std::get<bool>(part.state.controls[picked_element(pick)]);
+    emit("rig.control.set", {{"name", element.name}, {"value", SharedJson(Json(!on))}});
+    if (!workspace.clock.playing) emit("rig.solve");
+}
+
+void RigLab::double_click(const Workspace& workspace, PickId pick, Emit& emit) const {
+    const RigPart& part = rig_part(workspace);
+    if (!is_there(part, pick)) return click(workspace, pick, emit);
+    const rig::Element& element = part.rig.definition().elements[picked_element(pick)];
+    if (!element.control) return click(workspace, pick, emit);
+    emit("rig.control.reset", {{"name", element.name}});
+    if (!workspace.clock.playing) emit("rig.solve");
+}
+
+std::string RigLab::hint(const Workspace& workspace, PickId pick) const {
+    const RigPart& part = rig_part(workspace);
+    if (!is_there(part, pick)) return {};
+    const std::size_t i = picked_element(pick);
+    const rig::Element& element = part.rig.definition().elements[i];
+    const auto shape = ControlShape::of(part, elements_of(workspace), i);
+    if (!shape) {
+        const bool selected = part.selected.element == element.name;
+        return element.name + " (" + rig::name(element.kind) + "): " +
+               (selected ? "its gizmo sets the pose that every solve begins with."
+                         : "click selects it and shows the gizmo of its pose.");
+    }
+    std::string text = element.name + " (" + kind_of(shape->kind());
+    if (const std::string value = shape->text(); !value.empty()) text += ", " + value;
+    if (shape->at_limit()) text += ", at its limit";
+    return text + "): " + what_dragging_does(shape->kind()) + ". Double click resets it.";
+}
+
+std::vector<MouseHelp> RigLab::mouse_help() const {
+    return {{"Double click on a control", "resets it to its initial value"},
+            {"Drag of an arrow, a square, a ring or a box", "moves, turns or scales what is selected"}};
+}
+
+Bounds RigLab::bounds(const Workspace& workspace, bool selection_only) const {
+    const RigPart& part = rig_part(workspace);
+    const rig::Hierarchy& elements = elements_of(workspace);
+    const auto selected = part.rig.element(part.selected.element);
+    if (selection_only && selected) {
+        const rig::ElementId id = part.rig.id(*selected);
+        const auto at = glm::vec3(elements.known(id, rig::Space::Global)->translation);
+        return {at, std::max(2.0f * static_cast<float>(bone_size(elements, id)), 0.4f)};
+    }
+    if (part.state.controls.empty()) return {{0.0f, 1.0f, 0.0f}, 1.5f};
+    glm::vec3 low(1e30f), high(-1e30f);
+    const auto take = [&](glm::vec3 at, float radius) {
+        low = glm::min(low, at - radius);
+        high = glm::max(high, at + radius);
+    };
+    for (std::size_t i = 0; i < part.state.controls.size(); ++i) {
+        const Bounds figure = figure_bounds(part, elements, i);
+        take(figure.centre, std::max(figure.radius, 0.1f));
+        const auto shape = ControlShape::of(part, elements, i);
+        if (!shape || !shape->control().minimum || !shape->control().maximum) continue;
+        const bool placed =
+            shape->kind() != rig::ControlKind::Float && shape->kind() != rig::ControlKind::Bool;
+        for (const glm::dvec3& end : {*shape->control().minimum, *shape->control().maximum})
+            if (placed) take(glm::vec3(shape->placed(end)), 0.0f);
+    }
+    return bounds_of(low, high);
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,36 @@
+#include "app/labs/rig/settings.hpp"
+
+#include "app/labs/rig/panels.hpp"
+#include "app/labs/rig/rig_lab.hpp"
+
+namespace tendril::app {
+LabSetting rig_axes_setting() {
+    return {.key = "bone_axes",
+            .command = "view.bone_axes",
+            .argument = "show",
+            .help = "Shows or hides the axes of every bone",
+            .choices = {{"shown", "Axes at every bone"}, {"hidden", "No axes at bones"}}};
+}
+
+LabSetting rig_pending_setting() {
+    return {
+        .key = "pending_rings",
+        .command = "view.pending_rings",
+        .argument = "show",
+        .help = "Draws a ring around what the last edit or solve left pending, in the colours of the tree",
+        .choices = {{"hidden", "No rings around pending poses"}, {"shown", "Rings around pending poses"}}};
+}
+
+LabSetting rig_figures_setting() {
+    return {.key = "figures",
+            .command = "view.figures",
+            .argument = "show",
+            .help = "Shows or hides heads and blobs, so that the bones within are seen",
+            .choices = {{"shown", "Heads and blobs drawn"}, {"hidden", "Bones only"}}};
+}
+
+std::vector<LabSetting> RigLab::settings() const {
+    return {rig_axes_setting(), rig_figures_setting(), pending_marks(), rig_pending_setting()};
+}
+
+}  // namespace tendril::app

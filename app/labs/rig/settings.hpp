@@ -1,0 +1,12 @@
+// What the Rig lab's picture leaves to the person.
+#pragma once
+
+#include "app/labs/kit/setting.hpp"
+
+namespace tendril::app {
+
+LabSetting rig_axes_setting();     ///< the axes of every bone: shown, hidden
+LabSetting rig_pending_setting();  ///< which poses are pending: hidden, shown
+LabSetting rig_figures_setting();  ///< heads and blobs: shown, hidden
+
+}  // namespace tendril::app

@@ -1,0 +1,66 @@
+#include "app/shell/gizmo_view.hpp"
+
+#include "app/shell/pointer.hpp"
+#include "app/view/picking.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// The handle that is dragged, as it is now: the gizmo's, or one that the lab has drawn.
+std::optional<Handle> dragged_handle(const Lab& lab, const Workspace& workspace, const Pointer& pointer) {
+    return pointer.drags_gizmo() ? lab.gizmo(workspace) : lab.handle(workspace, pointer.dragged());
+}
+
+/// The lab says itself where a knob of its own is moved to; how far something was turned it does not know.
+bool tells(const Pointer& pointer) {
+    const GizmoDrag* drag = pointer.dragged_part();
+    return drag != nullptr && (pointer.drags_gizmo() || changed_by(drag->part()) == Drag::Rotation);
+}
+
+}  // namespace
+
+void show_gizmo(DrawList& list, const Lab& lab, const View& view, const Pointer& pointer) {
+    const auto handle = lab.gizmo(view.workspace);
+    const bool dragging = pointer.dragged() != no_pick;
+    if (handle && (!dragging || pointer.drags_gizmo())) {
+        draw_gizmo(list, {handle->frame, handle->drag, view.scale, handle->pick}, view.camera, view.palette,
+                   pointer.hovered_part(), pointer.dragged_part());
+    }
+    if (!tells(pointer)) return;
+    if (const auto now = dragged_handle(lab, view.workspace, pointer)) {
+        list.labels.push_back({.at = now->frame.position,
+                               .clearance = 26.0f * view.scale,
+                               .text = pointer.dragged_part()->text(now->frame),
+                               .colour = view.palette.text,
+                               .rank = 100});
+    }
+}
+
+std::string gizmo_hint(const Lab& lab, const Workspace& workspace, const Pointer& pointer) {
+    if (!tells(pointer)) return {};
+    const auto now = dragged_handle(lab, workspace, pointer);
+    if (!now) return {};
+    const GizmoDrag& drag = *pointer.dragged_part();
+    const Drag what = changed_by(drag.part());
+    const char* verb = what == Drag::Position ? "Moving " : what == Drag::Rotation ? "Turning " : "Scaling ";
+    return verb + drag.text(now->frame) + ".";
+}
+
+std::vector<NamedGrip> gizmo_grips(const DrawList& drawn, const Lab& lab, const Workspace& workspace,
+                                   const Camera& camera, float scale) {
+    std::vector<NamedGrip> grips;
+    const auto handle = lab.gizmo(workspace);
+    if (!handle) return grips;
+    const Gizmo gizmo{handle->frame, handle->drag, scale};
+    for (const GizmoPart part : gizmo.parts(camera)) {
+        for (const glm::vec3 point : gizmo.grips(part, camera)) {
+            const auto pixel = camera.project(point);
+            if (!pixel || pick(drawn, camera, *pixel, 0.0f) != gizmo_pick(part)) continue;
+            grips.push_back({handle->name + "." + name(part), *pixel});
+            break;
+        }
+    }
+    return grips;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,220 @@
+// Every kind of control under the mouse, in the running program: real events, through picking.
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "app/document/refused.hpp"
+#include "app/labs/rig/rig_lab.hpp"
+#include "rig_support.hpp"
+#include "tests/app/e2e/monkey.hpp"
+
+namespace tendril::test {
+namespace {
+
+using namespace app;
+
+class RigMouse : public testing::Test {
+  protected:
+    RigMouse() {
+        app_.run({"lab.open", Json{{"name", rig_lab}}});
+        app_.run({"time.pause"});
+    }
+    /// One control alone, looked at slantwise.
+    void one(const char* kind, const Json& more = Json::object()) {
+        app_.run({"rig.clear"});
+        Json arguments{{"name", "it"}, {"kind", "control"}, {"control", kind}};
+        arguments.update(more);
+        app_.run({"rig.element.add", arguments});
+        app_.run({"camera.set", Json{{"target", {0, 0, 0}},
+                                     {"yaw_deg", 30},
+                                     {"pitch_deg", 25},
+                                     {"distance", 5},
+                                     {"orthographic", true}}});
+    }
+    void select(const char* name = "it") { app_.run({"rig.select", Json{{"element", name}}}); }
+    void send(const Event& event) { app_.tick(&event); }
+    void drag(glm::vec2 from, const std::vector<glm::vec2>& way, bool drop = true) {
+        send(MouseMove{from});
+        send(MousePress{MouseButton::Left, true});
+        for (const glm::vec2 by : way) send(MouseMove{from + by});
+        if (drop) send(MousePress{MouseButton::Left, false});
+    }
+    void click(glm::vec2 at) {
+        send(MouseMove{at});
+        send(MousePress{MouseButton::Left, true});
+        send(MousePress{MouseButton::Left, false});
+    }
+    void wait(int ticks) {
+        for (int i = 0; i < ticks; ++i) app_.tick(nullptr);
+    }
+    glm::vec2 at(const std::string& name) { return handle(app_.state(), name); }
+    bool has_handle(const std::string& name) {
+        const Json state = app_.state();
+        for (const Json& each : state.at("handles"))
+            if (each.at("name") == name) return true;
+        return false;
+    }
+    Json element(const std::string& name = "it") {
+        const Json state = app_.state();
+        for (const Json& each : state.at("elements"))
+            if (each.at("name") == name) return each;
+        return nullptr;
+    }
+    Json value(const std::string& name = "it") { return element(name).at("value"); }
+    Json selected() { return app_.state().at("selected").at("element"); }
+    std::size_t steps() { return app_.workspace().history.size(); }
+
+    std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
+    App app_{*window_, false};
+};
+
+double number(const Json& list, std::size_t i) {
+    return list.at(i).get<double>();
+}
+
+TEST_F(RigMouse, AFloatIsDraggedAlongItsRailAndStopsAtItsEnds) {
+    one("float", {{"minimum", -1}, {"maximum", 3}});
+    drag(at("it"), {{10.0f, 0.0f}, {40.0f, 0.0f}});
+    const double inside = value().get<double>();
+    EXPECT_GT(inside, 0.1);
+    EXPECT_LT(inside, 3.0);
+    drag(at("it"), {{100.0f, 0.0f}, {3000.0f, 0.0f}});
+    EXPECT_EQ(value(), 3.0);
+    drag(at("it"), {{-100.0f, 0.0f}, {-3000.0f, 0.0f}});
+    EXPECT_EQ(value(), -1.0);
+}
+
+TEST_F(RigMouse, AFloatWithoutLimitsGoesOnBeyondItsRail) {
+    one("float");
+    drag(at("it"), {{100.0f, 0.0f}, {300.0f, 0.0f}});
+    EXPECT_GT(value().get<double>(), 1.5);
+}
+
+TEST_F(RigMouse, ATwoDimensionalControlStopsAtItsRectangle) {
+    one("vector2d", {{"axes", {"z", "y"}}, {"minimum", {-0.5, -0.25}}, {"maximum", {0.5, 0.75}}});
+    drag(at("it"), {{40.0f, -40.0f}, {400.0f, -1500.0f}});
+    const Json corner = value();
+    EXPECT_EQ(std::abs(number(corner, 0)), 0.5);
+    EXPECT_EQ(number(corner, 1), 0.75);
+    drag(at("it"), {{0.0f, 40.0f}, {0.0f, 2000.0f}});
+    EXPECT_EQ(number(value(), 1), -0.25);
+    EXPECT_EQ(number(value(), 0), number(corner, 0))
+        << "straight down in the picture is down its second axis";
+}
+
+TEST_F(RigMouse, ABoolIsToggledByAClick) {
+    one("bool");
+    click(at("it"));
+    EXPECT_EQ(value(), true);
+    EXPECT_EQ(selected(), "it");
+    wait(30);
+    click(at("it"));
+    EXPECT_EQ(value(), false);
+}
+
+TEST_F(RigMouse, APositionIsDraggedFreelyAndByItsArrowsWithinItsBox) {
+    one("position", {{"minimum", {-0.5, -0.5, -0.5}}, {"maximum", {0.5, 0.5, 0.5}}});
+    drag(at("it"), {{20.0f, 0.0f}, {30.0f, -30.0f}});
+    const Json moved = value();
+    EXPECT_GT(number(moved, 1), 0.05);
+    select();
+    drag(at("it.move_x"), {{10.0f, 5.0f}, {40.0f, 10.0f}});
+    EXPECT_GT(number(value(), 0), number(moved, 0) + 0.05);
+    EXPECT_NEAR(number(value(), 1), number(moved, 1), 1e-6);
+    EXPECT_NEAR(number(value(), 2), number(moved, 2), 1e-6);
+    const Json before = value();
+    drag(at("it.move_zx"), {{10.0f, 10.0f}, {25.0f, 20.0f}});
+    EXPECT_NE(value(), before);
+    EXPECT_NEAR(number(value(), 1), number(before, 1), 1e-6);
+    drag(at("it.move_y"), {{0.0f, -60.0f}, {0.0f, -900.0f}});
+    EXPECT_EQ(number(value(), 1), 0.5);
+}
+
+TEST_F(RigMouse, ARotationTurnsByItsOwnRingsAndByTheGizmo) {
+    one("rotation");
+    EXPECT_FALSE(has_handle("it.rotate_y"));
+    select();
+    const glm::vec2 centre = at("it"), from = at("it.rotate_z") - centre;
+    const std::size_t before = steps();
+    drag(centre + from, {1.1f * from + glm::vec2(from.y, -from.x) * 0.2f - from,
+                         glm::vec2(from.y, -from.x) - from});  // a quarter turn against the clock
+    const Json turned = value();
+    EXPECT_NEAR(number(turned, 0), 0.0, 1e-6);
+    EXPECT_NEAR(number(turned, 1), 0.0, 1e-6);
+    const double degrees = glm::degrees(2.0 * std::acos(std::abs(number(turned, 3))));
+    EXPECT_GT(degrees, 50.0);
+    EXPECT_LT(degrees, 130.0);
+    EXPECT_EQ(steps(), before + 1) << "one drag, one step";
+    app_.run({"undo"});
+    EXPECT_EQ(number(value(), 3), 1.0);
+    // The ring that is always there: its near side to the right.
+    app_.run({"rig.select"});
+    const float metre = 720.0f / (2.0f * 5.0f * std::tan(0.35f));
+    const glm::vec2 ring = centre + glm::vec2(0.0f, 0.14f * metre * std::sin(glm::radians(25.0f)));
+    drag(ring, {{10.0f, 0.0f}, {20.0f, 0.0f}});
+    EXPECT_NEAR(number(value(), 0), 0.0, 1e-6);
+    EXPECT_GT(number(value(), 1), 0.02) << value();
+    EXPECT_NEAR(number(value(), 2), 0.0, 1e-6);
+}
+
+TEST_F(RigMouse, ATransformIsMovedTurnedAndScaledByItsGizmo) {
+    one("transform", {{"minimum", {-0.4, -0.4, -0.4}}, {"maximum", {0.4, 0.4, 0.4}}});
+    select();
+    const Json rest = value();
+    drag(at("it.scale_y"), {{0.0f, -20.0f}, {0.0f, -50.0f}});
+    EXPECT_GT(number(value()["scale"], 1), 1.3);
+    EXPECT_EQ(number(value()["scale"], 0), 1.0);
+    EXPECT_EQ(value()["translation"], rest["translation"]);
+    const Json scaled = value();
+    drag(at("it.rotate_y"), {{12.0f, 0.0f}, {40.0f, 0.0f}});
+    EXPECT_NE(value()["rotation"], scaled["rotation"]);
+    EXPECT_EQ(value()["scale"], scaled["scale"]) << "to the bit";
+    drag(at("it.move_y"), {{0.0f, -60.0f}, {0.0f, -600.0f}});
+    EXPECT_EQ(number(value()["translation"], 1), 0.4);
+}
+
+TEST_F(RigMouse, EscapeInMidDragPutsBackWhatWas) {
+    one("transform");
+    select();
+    const Json rest = value();
+    drag(at("it.rotate_x"), {{0.0f, 15.0f}, {0.0f, 60.0f}}, false);
+    EXPECT_NE(value(), rest);
+    send(KeyTap{*chord_from_name("escape")});
+    EXPECT_EQ(value(), rest);
+    send(MouseMove{{600.0f, 400.0f}});
+    send(MousePress{MouseButton::Left, false});
+    EXPECT_EQ(value(), rest);
+}
+
+TEST_F(RigMouse, ADoubleClickResetsAControl) {
+    one("vector2d", {{"local", {{"translation", {0.1, 0.2, 0.3}}}}});
+    drag(at("it"), {{20.0f, 0.0f}, {50.0f, -30.0f}});
+    EXPECT_NE(value(), (Json{0.0, 0.0}));
+    wait(30);
+    click(at("it"));
+    EXPECT_NE(value(), (Json{0.0, 0.0})) << "one click selects";
+    click(at("it"));
+    EXPECT_EQ(value(), (Json{0.0, 0.0}));
+    EXPECT_THROW(app_.run({"rig.control.reset", Json{{"name", "nobody"}}}), Refused);
+}
+
+TEST_F(RigMouse, AClickSelectsAndAClickOnNothingDeselects) {
+    click(at("nose"));
+    EXPECT_EQ(selected(), "nose");
+    click({640.0f, 660.0f});
+    EXPECT_EQ(selected(), "");
+}
+
+TEST_F(RigMouse, ABonesGizmoSetsThePoseThatEverySolveBeginsWith) {
+    const Json nose = element("nose"), head = element("head");
+    select("nose");
+    drag(at("nose.move_y"), {{0.0f, -20.0f}, {0.0f, -50.0f}});
+    EXPECT_GT(number(element("nose")["local"]["translation"], 1), 0.1);
+    EXPECT_EQ(element("head"), head);
+    app_.run({"rig.solve"});
+    EXPECT_GT(number(element("nose")["local"]["translation"], 1), 0.1);
+    EXPECT_FALSE(has_handle("nose.scale_x"));
+}
+
+}  // namespace
+}  // namespace tendril::test
