@@ -59,7 +59,7 @@ class Drawing {
   private:
     glm::vec3 colour() const {
         const glm::vec3 plain = limit_ ? p_.view.palette.limit : p_.view.palette.target;
-        return limit_ && p_.is_selected(i_) ? plain : p_.marked(plain, i_);
+        return limit_ ? plain : p_.marked(plain, i_);
     }
     glm::vec3 pale() const {
         return glm::vec3(faded(p_.view.palette, p_.marked(p_.view.palette.target, i_), 0.55f));

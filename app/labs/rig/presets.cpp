@@ -225,7 +225,7 @@ const std::vector<RigPreset>& rig_presets() {
         {"fk", "FK", fk_scene, view({0.0f, 1.2f, 0.0f}, -30.0f, 12.0f, 5.4f)},
         {"loop", "Loop", loop_scene, view({0.0f, 0.8f, 0.0f}, -30.0f, 24.0f, 5.8f)},
         {"morph", "Morph and material", morph_scene, view({0.0f, 0.8f, 0.0f}, -16.0f, 10.0f, 4.8f)},
-        {"secondary", "Secondary motion", secondary_scene, view({0.0f, 1.2f, 0.0f}, -24.0f, 10.0f, 4.4f)}};
+        {"secondary", "Secondary motion", secondary_scene, view({0.0f, 1.3f, 0.0f}, -16.0f, 8.0f, 3.3f)}};
     return list;
 }
 

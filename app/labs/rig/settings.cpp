@@ -4,6 +4,7 @@
 #include "app/labs/rig/rig_lab.hpp"
 
 namespace tendril::app {
+
 LabSetting rig_axes_setting() {
     return {.key = "bone_axes",
             .command = "view.bone_axes",
@@ -17,7 +18,7 @@ LabSetting rig_pending_setting() {
         .key = "pending_rings",
         .command = "view.pending_rings",
         .argument = "show",
-        .help = "Draws a ring around what the last edit or solve left pending, in the colours of the tree",
+        .help = "Draws a ring around what the last edit or solve left pending",
         .choices = {{"hidden", "No rings around pending poses"}, {"shown", "Rings around pending poses"}}};
 }
 
