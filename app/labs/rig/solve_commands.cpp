@@ -52,7 +52,7 @@ void copy(Workspace& workspace, const Arguments&) {
 
 void take_preset(Workspace& workspace, const Arguments& given) {
     const RigPreset& preset = rig_preset(given.text("name"));
-    // Where it is there already nothing is changed: a recording cannot tell that from what was opened.
+    // Where that is open nothing is changed: a recording begins with a scene file, which cannot tell.
     change_part<RigPart>(workspace, rig_lab,
                          [&](RigPart& part, const RigPart&) { part = RigPart(preset.make()); });
     (workspace.lab == rig_lab ? workspace.camera : workspace.cameras[rig_lab]) = preset.view;

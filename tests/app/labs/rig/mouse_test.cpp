@@ -98,7 +98,7 @@ TEST_F(RigMouse, ATwoDimensionalControlStopsAtItsRectangle) {
     EXPECT_EQ(number(corner, 1), 0.75);
     drag(at("it"), {{0.0f, 40.0f}, {0.0f, 2000.0f}});
     EXPECT_EQ(number(value(), 1), -0.25);
-    EXPECT_EQ(number(value(), 0), number(corner, 0))
+    EXPECT_NEAR(number(value(), 0), number(corner, 0), 1e-4)
         << "straight down in the picture is down its second axis";
 }
 
