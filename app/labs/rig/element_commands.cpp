@@ -63,9 +63,10 @@ void set_value(RigPart& part, std::size_t at, const rig::Value& value) {
     part.moving = true;
     part.backward.reset();
     part.rates.reset();
+    const std::string& name = part.rig.definition().elements[at].name;
     // One that is set does not walk on; else the take remembers it, and goes on.
     const bool walked =
-        std::erase_if(part.walks, [&](const RigWalk& walk) { return walk.control == element.name; }) > 0;
+        std::erase_if(part.walks, [&](const RigWalk& walk) { return walk.control == name; }) > 0;
     walked ? begin_take(part) : key_control(part, at);
 }
 

@@ -7,7 +7,6 @@
 #include "app/labs/rig/rig_commands.hpp"
 
 namespace tendril::app {
-
 std::shared_ptr<Part> RigLab::blank() const {
     return std::make_shared<RigPart>(first_rig());
 }
