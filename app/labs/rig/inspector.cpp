@@ -177,7 +177,7 @@ std::optional<SharedJson> transform_fields(const RigPanel& panel, const rig::Tra
 void element_inspector(const RigPanel& panel) {
     const auto found = panel.part.rig.element(panel.part.selected.element);
     section("Element");
-    if (!found) return note("Nothing is selected. Click an element in the list.");
+    if (!found) return note("Nothing is selected. Click an element, in the list or in the picture.");
     const rig::Element& element = panel.part.rig.definition().elements[*found];
     text_line("name", element.name);
     text_line("kind", element.control ? std::string("control, ") + rig::name(element.control->kind)
