@@ -9,8 +9,8 @@
 //
 // A solve first puts bones and nulls back to their input pose (the initial one, until set_element changes it)
 // and then runs the units, so solving twice gives what solving once gives; what has to be remembered from
-// frame to frame (springs) is in the state, and changes with dt alone. It allocates nothing, throws nothing,
-// and gives the same bits for the same state and dt.
+// frame to frame (springs) is in the state, and changes with dt alone. The same state and dt give the same
+// bits. Nothing is thrown, nor allocated but where an IK chain is new, or a bone of it has a new length.
 //
 // What cannot be computed as asked (an aim whose target is where the item is) is left out with a Warning, and
 // the item stays as it is; nothing that is not finite comes out.
