@@ -29,8 +29,9 @@ void apply_key(const rig::Rig& rig, const ControlKey& key, rig::State& state) {
 void apply_keys(RigPart& part) {
     if (!part.take.keys) return;
     const auto& keys = *part.take.keys;
-    const auto [first, end] = std::ranges::equal_range(keys, part.take.tick, {}, &ControlKey::tick);
-    for (auto key = first; key != end; ++key) {
+    const std::uint32_t tick = part.take.tick;
+    auto key = std::ranges::lower_bound(keys, tick, {}, &ControlKey::tick);
+    for (; key != keys.end() && key->tick == tick; ++key) {
         apply_key(part.rig, *key, part.state);
         part.moving = true;
     }
