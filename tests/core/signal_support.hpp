@@ -16,9 +16,10 @@
 
 namespace tendril::test {
 
-inline constexpr double infinity = std::numeric_limits<double>::infinity();
-inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-inline constexpr double turn = 6.28318530717958647692;
+// Not inline: chain_support.hpp has an infinity of float, and a program can hold one of that name.
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double turn = 6.28318530717958647692;
 
 /// -range to range.
 inline double around(Random& random, double range) {
