@@ -136,7 +136,7 @@ class NaiveRig {
     void run(const Unit& unit) {
         unit_ = unit.name;
         on_ = unit.enabled && read(unit.when);
-        weight_ = on_ ? std::clamp(read(unit.weight), 0.0, 1.0) : 0.0;
+        weight_ = on_ ? std::clamp(read(unit.weight), 0.0, 1.0) * around_ : 0.0;
         std::visit([&](const auto& operation) { operate(operation); }, unit.operation);
     }
     void hand_out(const Value& value) { outputs[unit_] = {value}; }
@@ -225,6 +225,7 @@ class NaiveRig {
     void operate(const ForEach& op) {
         const std::string own = unit_;
         const bool runs = weight_ > 0.0;
+        around_ = weight_;
         double count = 0.0;
         for (const std::string& root : op.roots) {
             std::vector<ElementId> found;
@@ -237,6 +238,7 @@ class NaiveRig {
             count += static_cast<double>(found.size());
         }
         round_ = 0;
+        around_ = 1.0;
         outputs[own] = {count};
     }
 
@@ -295,7 +297,7 @@ class NaiveRig {
     int round_ = 0;
     std::string unit_;
     bool on_ = true;
-    double weight_ = 1.0, dt_ = 0.0;
+    double weight_ = 1.0, around_ = 1.0, dt_ = 0.0;
     std::map<std::pair<std::string, int>, signal::OutputState> eased_;
     std::map<std::pair<std::string, int>, signal::SpringState<double>> numbers_;
     std::map<std::pair<std::string, int>, signal::SpringState<glm::dvec3>> vectors_;

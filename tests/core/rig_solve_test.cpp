@@ -88,6 +88,23 @@ TEST(RigSolve, ForEachCurlsAnArmAndPropagationMattersToItsShape) {
     EXPECT_EQ(std::get<double>(curled.unit("curl").outputs[0]), 5.0);
 }
 
+TEST(RigSolve, TheWeightOfAForEachIsItsBodys) {
+    Definition definition;
+    definition.elements = {{.name = "a"}};
+    definition.units = {
+        {.name = "all",
+         .operation =
+             ForEach{.roots = {"a"},
+                     .body = {{.name = "move",
+                               .operation = OffsetTransform{.item = ThisElement(), .offset = at(1, 0, 0)},
+                               .weight = 0.5}}},
+         .weight = 0.5},
+        {.name = "after", .operation = OffsetTransform{.item = "a", .offset = at(0, 1, 0)}}};
+    Held rig(definition);
+    rig.solve();
+    expect_near(rig.global("a").translation, {0.25, 1, 0});
+}
+
 TEST(RigSolve, EachElementKnowsItsPlaceAmongThoseOfItsRoot) {
     Definition definition;
     definition.elements = {{.name = "a"},

@@ -143,6 +143,89 @@ TEST(RigState, AnEditThatChangesATypeForgetsWhatWasRemembered) {
     EXPECT_EQ(state.units[0].outputs[0], Value(glm::dvec3(1, 2, 3)));
 }
 
+TEST(RigState, AGlobalPoseIsTheOneThatASolveBeginsWithBelowAMovedControlToo) {
+    Definition definition;
+    definition.elements = {{.name = "control", .kind = ElementKind::Control},
+                           {.name = "a", .parent = "control", .initial = at(1, 0, 0)},
+                           {.name = "b", .parent = "a", .initial = at(0, 1, 0)}};
+    for (const Propagate propagate : {Propagate::Yes, Propagate::No}) {
+        Held rig(definition);
+        Transform moved = turned(90, {0, 0, 1});
+        moved.translation = {1, 0, 0};
+        ASSERT_TRUE(rig.control("control", moved));
+        const Transform child = rig.global("b");
+        Transform wanted = turned(30, {1, 0, 0});
+        wanted.translation = {3, 3, 0};
+        ASSERT_TRUE(rig.rig.set_element(rig.state, 1, Space::Global, wanted, propagate));
+        for (int i = 0; i < 2; ++i) {
+            expect_near(rig.global("a").translation, wanted.translation);
+            EXPECT_NEAR(std::abs(glm::dot(rig.global("a").rotation, wanted.rotation)), 1.0, 1e-12);
+            expect_near(rig.global("b").translation, propagate == Propagate::No
+                                                         ? child.translation
+                                                         : compose(wanted, at(0, 1, 0)).translation);
+            expect_near(rig.rig.start_pose(rig.state, 1).translation, wanted.translation);
+            rig.solve();
+        }
+    }
+}
+
+TEST(RigState, AChainThatIsGivenOtherEndsIsSolved) {
+    Definition definition;
+    for (int i = 0; i < 5; ++i)
+        definition.elements.push_back({.name = numbered("b", i),
+                                       .parent = i > 0 ? numbered("b", i - 1) : std::string(),
+                                       .initial = at(i > 0 ? 1 : 0, 0, 0)});
+    definition.units = {
+        {.name = "reach", .operation = Fabrik{.root = "b0", .tip = "b4", .target = glm::dvec3(1, 1.2, 0.5)}}};
+    Held rig(definition);
+    rig.solve();
+    for (const auto& [root, tip] : {std::pair{"b0", "b3"}, std::pair{"b1", "b4"}, std::pair{"b1", "b3"}}) {
+        auto& reach = std::get<Fabrik>(definition.units[0].operation);
+        reach.root = root;
+        reach.tip = tip;
+        const Rig edited = Rig::make(definition).value();
+        Workspace workspace(edited);
+        // Adopted, and as an older file may have it.
+        for (State state : {edited.adopted(rig.rig, rig.state), rig.state}) {
+            edited.solve(state, 0.0, workspace);
+            EXPECT_EQ(state.units[0].warning, Warning::None) << root << ' ' << tip;
+            expect_near(state.elements.get(edited.id(*edited.element(tip)), Space::Global).translation,
+                        {1, 1.2, 0.5}, 2e-3);
+        }
+    }
+}
+
+TEST(RigState, WhatIsRememberedOfAnElementStaysWithIt) {
+    Definition definition;
+    for (const char* name : {"left", "right"})
+        definition.elements.push_back({.name = name, .kind = ElementKind::Control});
+    ForEach trail{.roots = {"left", "right"}};
+    trail.body = {{.name = "spring",
+                   .operation = SpringInterpolate{.target = FromElement{.element = ThisElement()},
+                                                  .critical_damping = 0.2}}};
+    definition.units = {{.name = "trail", .operation = trail}};
+    Held rig(definition);
+    rig.solve(0.1);
+    ASSERT_TRUE(rig.control("left", at(1, 0, 0)));
+    ASSERT_TRUE(rig.control("right", at(0, 5, 0)));
+    rig.solve(0.1);
+    const std::vector<UnitMemory> before = rig.state.units[1].memory;
+    ASSERT_NE(before[0], before[1]);
+    // The other way round, with a third between them, and one gone.
+    definition.elements.push_back({.name = "new", .parent = "right"});
+    std::get<ForEach>(definition.units[0].operation).roots = {"right", "left"};
+    const Rig edited = Rig::make(definition).value();
+    const State state = edited.adopted(rig.rig, rig.state);
+    ASSERT_TRUE(edited.fits(state));
+    ASSERT_EQ(state.units[1].memory.size(), 3u);
+    EXPECT_EQ(state.units[1].memory[0], before[1]);
+    EXPECT_EQ(state.units[1].memory[1], UnitMemory());
+    EXPECT_EQ(state.units[1].memory[2], before[0]);
+    std::get<ForEach>(definition.units[0].operation).roots = {"left"};
+    const Rig fewer = Rig::make(definition).value();
+    EXPECT_EQ(fewer.adopted(edited, state).units[1].memory, std::vector<UnitMemory>{before[0]});
+}
+
 TEST(RigState, TheInputPoseIsWhereASolveBegins) {
     Held rig(loop_rig(3));
     ASSERT_TRUE(rig.control("dial", 1.0));

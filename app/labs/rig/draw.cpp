@@ -121,27 +121,32 @@ class Drawing {
     void input_pose(std::size_t i) {
         const rig::ElementId id = p_.part.rig.id(i);
         if (p_.elements.kind(id) == rig::ElementKind::Control) return;
-        const rig::Transform input = input_of(id), now = p_.pose(i);
+        const rig::Transform input = p_.part.rig.start_pose(p_.part.state, i), now = p_.pose(i);
         const bool same = glm::distance(input.translation, now.translation) < 1e-6 &&
                           std::abs(glm::dot(input.rotation, now.rotation)) > 1.0 - 1e-10;
         if (same) return;
-        for (auto at = p_.elements.first_child(id); at; at = p_.elements.first_child(at)) ghost(at);
+        std::vector<std::size_t> places(p_.part.state.controls.size());  // in the definition, by handle
+        for (std::size_t each = 0; each < places.size(); ++each) places[p_.part.rig.id(each).index] = each;
+        const auto ghost_of = [&](rig::ElementId at) {
+            const rig::ElementId parent = p_.elements.parent(at);
+            const bool bone = parent && p_.elements.kind(parent) == rig::ElementKind::Bone;
+            ghost(start_of(places[at.index]),
+                  bone ? std::optional(start_of(places[parent.index])) : std::nullopt);
+        };
+        for (auto at = p_.elements.first_child(id); at; at = p_.elements.first_child(at)) ghost_of(at);
         for (auto at = id; at && p_.elements.kind(at) == rig::ElementKind::Bone; at = p_.elements.parent(at))
-            ghost(at);
+            ghost_of(at);
     }
-    rig::Transform input_of(rig::ElementId id) const {
-        return *p_.elements.known(id, rig::Space::Global, rig::Pose::Input);
+    glm::vec3 start_of(std::size_t i) const {
+        return glm::vec3(p_.part.rig.start_pose(p_.part.state, i).translation);
     }
     /// Of one bone, and of the one that leads to it.
-    void ghost(rig::ElementId id) {
+    void ghost(glm::vec3 to, std::optional<glm::vec3> from) {
         const glm::vec4 paint(p_.view.palette.ghost, 1.0f);
-        const auto to = glm::vec3(input_of(id).translation);
         p_.list.sphere(to, p_.px(4.0f), Unit::Pixels, paint).layer = Layer::Overlay;
-        const rig::ElementId parent = p_.elements.parent(id);
-        if (!parent || p_.elements.kind(parent) != rig::ElementKind::Bone) return;
-        const auto from = glm::vec3(input_of(parent).translation);
-        const float thick = 0.06f * glm::distance(from, to);
-        p_.list.bone(from, to, thick, 0.35f * thick, paint).layer = Layer::Overlay;
+        if (!from) return;
+        const float thick = 0.06f * glm::distance(*from, to);
+        p_.list.bone(*from, to, thick, 0.35f * thick, paint).layer = Layer::Overlay;
     }
 
     void labels() {

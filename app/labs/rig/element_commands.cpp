@@ -34,8 +34,10 @@ void set_element(RigPart& part, const Arguments& given) {
     const rig::Space space =
         given.has("space") && given.text("space") == "global" ? rig::Space::Global : rig::Space::Local;
     const bool control = part.rig.definition().elements[at].control.has_value();
-    const rig::Transform now =
-        part.state.elements.get(part.rig.id(at), space, control ? rig::Pose::Current : rig::Pose::Input);
+    const rig::Transform now = !control && space == rig::Space::Global
+                                   ? part.rig.start_pose(part.state, at)
+                                   : part.state.elements.get(part.rig.id(at), space,
+                                                             control ? rig::Pose::Current : rig::Pose::Input);
     const rig::Transform to = read_transform(place_of(given, "transform"), now);
     const bool propagate = !given.has("propagate") || given.boolean("propagate");
     const rig::State before = part.state;

@@ -39,8 +39,7 @@ Handle handle_of(const Workspace& workspace, std::size_t i) {
 Handle input_handle(const Workspace& workspace, std::size_t i) {
     const RigPart& part = rig_part(workspace);
     const rig::Element& element = part.rig.definition().elements[i];
-    const rig::Transform pose =
-        *elements_of(workspace).known(part.rig.id(i), rig::Space::Global, rig::Pose::Input);
+    const rig::Transform pose = part.rig.start_pose(part.state, i);
     const Drag turn = Drag::Position | Drag::Rotation;
     return {element.name, element_pick(i), frame_of(pose),
             element.kind == rig::ElementKind::Null ? turn | Drag::Scale : turn};

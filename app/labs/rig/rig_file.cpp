@@ -35,7 +35,8 @@ BackwardLeft load_backward(const JsonPlace& place, const rig::Definition& defini
         if (definition.elements[i].kind != rig::ElementKind::Bone) continue;
         const JsonPlace numbers = place["left"][definition.elements[i].name.c_str()];
         numbers.check_size(3, "numbers: metres, radians, scale");
-        left.elements[i] = {numbers.element(0).real(), numbers.element(1).real(), numbers.element(2).real()};
+        const auto left_of = [&](std::size_t part) { return numbers.element(part).real(0.0, most_reached); };
+        left.elements[i] = {left_of(0), left_of(1), left_of(2)};
     }
     return left;
 }

@@ -26,7 +26,14 @@ glm::vec3 place_of(const rig::Value& value) {
     return glm::vec3(pose ? pose->translation : std::get<glm::dvec3>(value));
 }
 
+/// The tick of `to` that is as far around as `ticks` after the start of `from` is.
+std::uint32_t phase_of(const Motion& from, std::uint32_t ticks, const Motion& to) {
+    const std::uint64_t round = ticks_per_round(from), at = (std::uint64_t{from.ticks} + ticks) % round;
+    return static_cast<std::uint32_t>(at * ticks_per_round(to) / round);
+}
+
 /// The path starts where the control is, so setting it going never makes it jump; unless its centre is given.
+/// One that follows the same path already goes on around the same centre.
 void set_motion(RigPart& part, const Arguments& given) {
     const std::size_t at = element_named(part, given.text("name"));
     const rig::Element& element = part.rig.definition().elements[at];
@@ -43,11 +50,14 @@ void set_motion(RigPart& part, const Arguments& given) {
     if (given.has("turn")) walk.turn = given.boolean("turn");
     if (walk.turn && element.control->kind != rig::ControlKind::Transform)
         throw std::invalid_argument("only a transform control turns along its path");
-    walk.motion.ticks = 0;
-    walk.motion.centre = glm::vec3(0.0f);
-    const glm::vec3 start(walk_point(walk.motion, 0.0));
-    walk.motion.centre =
-        given.has("centre") ? given.point("centre") : place_of(part.state.controls[at]) - start;
+    const bool goes_on = old != part.walks.end() && walk.motion.path == old->motion.path;
+    walk.motion.ticks = goes_on ? phase_of(old->motion, part.take.tick, walk.motion) : 0;
+    if (given.has("centre")) {
+        walk.motion.centre = given.point("centre");
+    } else if (!goes_on) {
+        walk.motion.centre = glm::vec3(0.0f);
+        walk.motion.centre = place_of(part.state.controls[at]) - glm::vec3(walk_point(walk.motion, 0.0));
+    }
     check_path(walk.motion.centre, glm::vec3(walk.motion.radius), "the control's path");
     if (old != part.walks.end()) part.walks.erase(old);
     part.moving = true;

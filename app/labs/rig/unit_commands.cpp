@@ -18,11 +18,19 @@ void add(RigPart& part, const Arguments& given) {
     add_unit(part, read_unit(JsonPlace(unit, "")), given.has("at") ? given.integer("at") : -1);
 }
 
-/// What is not given stays.
+/// What is not given stays, also within a part of an aim and within a filter.
 void set(RigPart& part, const Arguments& given) {
     const rig::Unit& now = unit_named(part, given.text("name"));
-    Json unit = unit_json(now);
-    unit.update(given.json());
+    Json unit = unit_json(now), changes = given.json();
+    for (const char* nested : {"primary", "secondary", "filter"}) {
+        if (!changes.contains(nested) || !changes[nested].is_object() || !unit.contains(nested)) continue;
+        if (unit[nested].is_object())
+            unit[nested].update(changes[nested]);
+        else
+            unit[nested] = changes[nested];
+        changes.erase(nested);
+    }
+    unit.update(changes);
     set_unit(part, now.name, read_unit(JsonPlace(unit, "")));
 }
 

@@ -141,10 +141,12 @@ class Builder {
         return {};
     }
 
-    /// `times`: how many elements it is run on.
-    Result add_unit(const Unit& unit, std::size_t& at, std::size_t times) {
+    /// `times`: how many elements it is run on. `around`: the for-each that has it, if one does.
+    Result add_unit(const Unit& unit, std::size_t& at, std::size_t times,
+                    std::optional<std::size_t> around = {}) {
         const std::size_t index = at++;
         UnitPlan& planned = plan_.units[index];
+        planned.for_each = around;
         UnitState state;
         state.memory.resize(times);
         for (const Output& output : planned.outputs) state.outputs.push_back(neutral(output.type));
@@ -158,7 +160,7 @@ class Builder {
         for (const std::string& root : for_each->roots) collect(*for_each, root, planned);
         const std::size_t count = planned.visits.size();
         for (const Unit& inner : for_each->body.units())
-            if (const Result bad = add_unit(inner, at, count); !bad) return bad;
+            if (const Result bad = add_unit(inner, at, count, index); !bad) return bad;
         return {};
     }
 

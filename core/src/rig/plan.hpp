@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,9 @@ struct Visit {
 
 /// Of one unit, or one in a body.
 struct UnitPlan {
-    std::vector<Visit> visits;         ///< of a for-each, in order
-    std::vector<std::uint32_t> bones;  ///< of a unit that solves a chain: its elements from root to tip
+    std::vector<Visit> visits;            ///< of a for-each, in order
+    std::vector<std::uint32_t> bones;     ///< of a unit that solves a chain: its elements from root to tip
+    std::optional<std::size_t> for_each;  ///< of a unit in a body: the one around it
     std::vector<Output> outputs;
 };
 

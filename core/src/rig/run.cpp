@@ -61,7 +61,7 @@ void Runner::put_back() noexcept {
 void Runner::run_unit(const Unit& unit) noexcept {
     unit_ = next_++;
     skipped_ = !unit.enabled || !read(unit.when);
-    weight_ = skipped_ ? 0.0 : weight(unit.weight);
+    weight_ = skipped_ ? 0.0 : weight(unit.weight) * for_each_weight_;
     std::visit(*this, unit.operation);
 }
 
@@ -69,6 +69,7 @@ void Runner::operator()(const ForEach& op) noexcept {
     const std::size_t own = unit_, first = next_;
     const std::vector<detail::Visit>& visits = plan_.units[own].visits;
     hand_out(0, static_cast<double>(visits.size()));
+    for_each_weight_ = weight_;
     if (weight_ > 0.0)
         for (place_in_for_each_ = 0; place_in_for_each_ < visits.size(); ++place_in_for_each_) {
             visit_ = &visits[place_in_for_each_];
@@ -76,6 +77,7 @@ void Runner::operator()(const ForEach& op) noexcept {
             for (const Unit& unit : op.body.units()) run_unit(unit);
         }
     visit_ = nullptr;
+    for_each_weight_ = 1.0;
     place_in_for_each_ = 0;
     next_ = first + op.body.units().size();
 }

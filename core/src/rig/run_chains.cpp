@@ -101,8 +101,8 @@ void Runner::solve_chain(ik::Method method, const Input<glm::dvec3>& target,
         if (!prepare_chain(chain)) {
             warn(Warning::CannotSolve);
         } else {
-            if (!std::holds_alternative<ik::State>(memory().held))
-                memory().held = chain.solver->initial_state();
+            const auto* remembered = std::get_if<ik::State>(&memory().held);
+            if (!remembered || remembered->bones() != bones) memory().held = chain.solver->initial_state();
             ik::Options options;
             if (pole_target) options.pole = math::narrow(detail::minus(read(*pole_target), origin));
             const ik::Report report =

@@ -85,7 +85,8 @@ class Runner {
     const detail::Visit* visit_ = nullptr;
     std::size_t place_in_for_each_ = 0;
     double weight_ = 1.0;
-    bool skipped_ = false;  ///< then its weight is 0, and what it remembers stands still
+    double for_each_weight_ = 1.0;  ///< of the for-each around the unit
+    bool skipped_ = false;          ///< then its weight is 0, and what it remembers stands still
     bool moving_ = false;
 };
 

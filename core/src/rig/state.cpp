@@ -1,6 +1,8 @@
 // The state of a rig: made, taken over after an edit, and changed by what a person sets.
 #include <algorithm>
+#include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -70,11 +72,46 @@ void take_value(const Control& control, State& state, std::size_t element, Eleme
     }
 }
 
+/// Which elements a unit remembers something of, by name; of a chain of bones, which those are. One name, an
+/// empty one, for a unit that remembers of itself.
+std::vector<std::string_view> remembered(const Plan& plan, std::size_t unit) {
+    std::vector<std::string_view> names;
+    const auto name = [&](std::uint32_t element) {
+        return std::string_view(plan.definition.elements[element].name);
+    };
+    for (const std::uint32_t bone : plan.units[unit].bones) names.push_back(name(bone));
+    if (plan.units[unit].for_each)
+        for (const detail::Visit& visit : plan.units[*plan.units[unit].for_each].visits)
+            names.push_back(name(visit.element));
+    if (names.empty()) names.emplace_back();
+    return names;
+}
+
+/// What `before` remembers of the elements that there still are. An element that is come to twice is found
+/// again in its order.
+void adopt_memory(const Plan& plan, std::size_t unit, UnitState& state, const Plan& before, std::size_t was,
+                  const UnitState& old) {
+    const std::vector<std::string_view> now = remembered(plan, unit), then = remembered(before, was);
+    if (!plan.units[unit].bones.empty() || !before.units[was].bones.empty()) {
+        if (now == then) state.memory = old.memory;
+        return;
+    }
+    std::multimap<std::string_view, std::size_t> places;
+    for (std::size_t i = 0; i < then.size(); ++i) places.emplace(then[i], i);
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        const auto place = places.lower_bound(now[i]);
+        if (place == places.end() || place->first != now[i]) continue;
+        state.memory[i] = old.memory[place->second];
+        places.erase(place);
+    }
+}
+
+bool same_outputs(const UnitState& a, const UnitState& b) {
+    return std::equal(a.outputs.begin(), a.outputs.end(), b.outputs.begin(), b.outputs.end(),
+                      [](const Value& one, const Value& other) { return one.index() == other.index(); });
+}
 bool same_shape(const UnitState& a, const UnitState& b) {
-    if (a.memory.size() != b.memory.size() || a.outputs.size() != b.outputs.size()) return false;
-    for (std::size_t i = 0; i < a.outputs.size(); ++i)
-        if (a.outputs[i].index() != b.outputs[i].index()) return false;
-    return true;
+    return a.memory.size() == b.memory.size() && same_outputs(a, b);
 }
 
 }  // namespace
@@ -135,10 +172,13 @@ State Rig::adopted(const Rig& before, const State& state) const {
             result.curves[i] = state.curves[*was];
             result.input_curves[i] = state.input_curves[*was];
         }
-    for (std::size_t i = 0; i < plan_->unit_names.size(); ++i)
-        if (const auto was = found(before.plan_->units_by_name, plan_->unit_names[i]);
-            was && same_shape(state.units[*was], result.units[i]))
-            result.units[i] = state.units[*was];
+    for (std::size_t i = 0; i < plan_->unit_names.size(); ++i) {
+        const auto was = found(before.plan_->units_by_name, plan_->unit_names[i]);
+        if (!was || !same_outputs(state.units[*was], result.units[i])) continue;
+        result.units[i].outputs = state.units[*was].outputs;
+        result.units[i].warning = state.units[*was].warning;
+        adopt_memory(*plan_, i, result.units[i], *before.plan_, *was, state.units[*was]);
+    }
     return result;
 }
 
@@ -169,6 +209,23 @@ Result Rig::set_control(State& state, std::size_t element, const Value& value) c
     return {};
 }
 
+Transform Rig::start_pose(const State& state, std::size_t element) const {
+    Transform global;
+    for (auto at = static_cast<std::int64_t>(element); at >= 0;) {
+        const auto each = static_cast<std::size_t>(at);
+        const auto base = state.elements.known(plan_->ids[each], Space::Local, Pose::Input);
+        if (!base) {
+            State copy = state;  // reading works out what is pending
+            return begun_global(*plan_, copy, element);
+        }
+        const std::optional<Control>& control = plan_->definition.elements[each].control;
+        const Transform local = control ? posed(*control, *base, state.controls[each]) : *base;
+        global = each == element ? local : compose(local, global);
+        at = plan_->parents[each];
+    }
+    return global;
+}
+
 Result Rig::set_element(State& state, std::size_t element, Space space, const Transform& transform,
                         Propagate propagate) const {
     if (element >= plan_->ids.size())
@@ -188,7 +245,12 @@ Result Rig::set_element(State& state, std::size_t element, Space space, const Tr
                 stay.emplace_back(i, compose(before, begun_local(*plan_, state, i)));
     }
 
-    tree.put(id, space, *fine, propagate, Pose::Input);
+    // Below a control a global pose is one beside where that control is, not beside where it was at rest.
+    const std::int64_t parent = plan_->parents[element];
+    const bool below = space == Space::Global && parent >= 0;
+    const Transform local =
+        below ? relative(begun_global(*plan_, state, static_cast<std::size_t>(parent)), *fine) : *fine;
+    tree.put(id, Space::Local, local, propagate, Pose::Input);
     tree.put(id, space, *fine, propagate);
     const std::optional<Control>& control = plan_->definition.elements[element].control;
     if (control) {

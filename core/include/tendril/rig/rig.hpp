@@ -109,7 +109,8 @@ class Rig {
 
     State initial_state() const;
     /// After an edit: what `state` of the rig `before` has of elements, curves and units that are here too
-    /// (by name, and of the same kind); the rest as initial_state.
+    /// (by name, and of the same kind), and what units remember of elements, again by name; the rest as
+    /// initial_state.
     State adopted(const Rig& before, const State& state) const;
     /// Whether a state is one of this rig, by its sizes and types; solve takes no other.
     bool fits(const State& state) const noexcept;
@@ -126,6 +127,8 @@ class Rig {
     /// is then the one that brings it nearest there, within its limits.
     Result set_element(State& state, std::size_t element, Space space, const Transform& transform,
                        Propagate propagate = Propagate::Yes) const;
+    /// Where a solve begins with it, global, before any unit has run. O(depth).
+    Transform start_pose(const State& state, std::size_t element) const;
     Result set_curve(State& state, std::size_t curve, double value) const;
 
     /// dt in seconds; what remembers stands still where it is not positive. Returns whether anything that

@@ -20,7 +20,7 @@
 //     TwoBone, Fabrik      turn the bones from `root` to `tip`. Metres left from the tip to the target
 //
 // Every unit has a weight in [0, 1]: at 0 the item stays as it is, to the bit; an operation without an item
-// hands out its input unchanged (identity, for FromTwoVectors).
+// hands out its input unchanged (identity, for FromTwoVectors). That of a for-each multiplies its body's.
 #pragma once
 
 #include <array>
