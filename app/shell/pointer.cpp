@@ -55,7 +55,8 @@ void Pointer::take(const Event* event, const Input& input, const Scene& scene, E
         } else if (std::holds_alternative<MouseMove>(*event)) {
             move(input, scene, emit);
         } else if (const auto* wheel = std::get_if<MouseWheel>(event)) {
-            if (!scene.over_panel && scene.camera.viewport().contains(input.mouse())) {
+            // What is caught of a gizmo was measured from where the eye was.
+            if (!scene.over_panel && !by_ && scene.camera.viewport().contains(input.mouse())) {
                 emit_camera(emit, scene.workspace.camera, zoomed(scene.camera, input.mouse(), wheel->by));
             }
         } else if (const auto* focus = std::get_if<Focus>(event); focus != nullptr && !focus->focused) {
@@ -154,13 +155,19 @@ void Pointer::move(const Input& input, const Scene& scene, Emit& emit) {
 
 void Pointer::drag(const Input& input, const Scene& scene, Emit& emit) {
     const bool bound = !constraint(input).empty();
+    const auto handle =
+        picked_part(caught_) ? scene.lab.gizmo(scene.workspace) : scene.lab.handle(scene.workspace, caught_);
+    // What carries the handle may have moved it since it was caught: only what is dragged follows the
+    // pointer.
+    HandleFrame frame = handle ? handle->frame : caught_frame_;
     if (by_ && !(bound && changed_by(by_->part()) == Drag::Position)) {
-        scene.lab.drag(scene.workspace, caught_handle_, by_->to(scene.camera.ray(input.mouse())), emit);
+        frame = by_->changed(frame, by_->to(scene.camera.ray(input.mouse())));
     } else if (const auto to = dragged_to(input, scene.camera)) {
-        HandleFrame frame = caught_frame_;
         frame.position = *to;
-        scene.lab.drag(scene.workspace, caught_handle_, frame, emit);
+    } else {
+        return;
     }
+    scene.lab.drag(scene.workspace, caught_handle_, frame, emit);
 }
 
 std::optional<glm::vec3> Pointer::dragged_to(const Input& input, const Camera& camera) const {

@@ -115,6 +115,20 @@ glm::vec2 GizmoDrag::measured(glm::vec3 at) const {
     return {changed_by(part_) == Drag::Rotation ? about_axis(at) : along_axis(at, axis_), 0.0f};
 }
 
+HandleFrame GizmoDrag::changed(const HandleFrame& now, const HandleFrame& dragged) const {
+    HandleFrame frame = now;
+    const glm::vec3 by = dragged.position - now.position;
+    if (is_plane(part_))
+        frame.position += glm::dot(by, u_) * u_ + glm::dot(by, v_) * v_;
+    else if (changed_by(part_) == Drag::Position)
+        frame.position += glm::dot(by, axis_) * axis_;
+    else if (changed_by(part_) == Drag::Scale)
+        frame.scale = dragged.scale;
+    else
+        frame.rotation = dragged.rotation;
+    return frame;
+}
+
 HandleFrame GizmoDrag::to(const Ray& ray) {
     const auto at = facing(ray);
     if (!at) return last_;

@@ -25,6 +25,10 @@ class GizmoDrag {
     /// two. Where the line of sight says nothing (it is not finite, or looks away), the last frame.
     HandleFrame to(const Ray& ray);
 
+    /// `now` with what the part changes as `dragged` has it: its rotation, its scale, its place along the
+    /// arrow or in the plane.
+    HandleFrame changed(const HandleFrame& now, const HandleFrame& dragged) const;
+
     GizmoPart part() const { return part_; }
     const HandleFrame& from() const { return from_; }
     /// Of a ring: radians since it was caught, whole turns too.
