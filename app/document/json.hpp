@@ -78,7 +78,7 @@ Json read_json_file(const std::filesystem::path& path);
 
 /// Typed reads for files. Each throws std::runtime_error that begins with `where` (a path such as
 /// "labs.chain.target"; empty for the whole) and says what was found there; numbers must be finite and at
-/// most 1e9 in magnitude.
+/// most 1e9 in magnitude; a real number that is given its ends may be as large as those are.
 const Json& json_member(const Json& object, const char* key, const std::string& where);
 float json_number(const Json& value, const std::string& where);
 float json_number(const Json& value, const std::string& where, float low, float high);

@@ -156,6 +156,11 @@ TEST(Json, typed_reads_say_where_and_what) {
               "big: expected a number of at most 1e9, found 1100000000.0");
     EXPECT_EQ(message([&] { json_number(json["n"], "n", 2.0f, 3.0f); }),
               "n: expected a number from 2.0 to 3.0, found 1.5");
+    EXPECT_EQ(json_real(json["big"], "big", 0.0, 1e12), 1.1e9) << "its ends say how large it may be";
+    EXPECT_EQ(message([&] { json_real(json["big"], "big"); }),
+              "big: expected a number of at most 1e9, found 1100000000.0");
+    EXPECT_EQ(message([&] { json_real(json["big"], "big", 0.0, 1e9); }),
+              "big: expected a number from 0.0 to 1000000000.0, found 1100000000.0");
     EXPECT_EQ(message([&] { json_integer(json["n"], "n", 0, 9); }),
               "n: expected a whole number from 0 to 9, found 1.5");
     EXPECT_EQ(message([&] { json_integer(json["i"], "i", 0, 2); }),

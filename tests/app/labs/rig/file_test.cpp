@@ -107,6 +107,21 @@ TEST_F(RigFile, EveryUnitIsAddedByCommandAndReadBack) {
     EXPECT_TRUE(rig_part(other) == part());
 }
 
+/// Farther than anything that may be given: what the program itself wrote it reads again.
+TEST_F(RigFile, WhatABackwardSolveLeftIsReadBackHoweverFarItIs) {
+    run("rig.element.set", {{"name", "tip"}, {"transform", {{"scale", {10, 1, 1}}}}});
+    unit({{"unit", "set_transform"},
+          {"name", "away"},
+          {"item", "middle"},
+          {"transform", {{"translation", {9e8, 0, 0}}, {"scale", {9e8, 1, 1}}}}});
+    solve();
+    run("rig.unit.enable", {{"name", "away"}, {"on", false}});
+    solve("backward");  // no control gives the pose that the unit gave
+    EXPECT_GT(part().backward->worst_mm(), 1e12);
+    EXPECT_GT(part().backward->elements[*part().rig.element("tip")].scale, 1e9);
+    EXPECT_EQ(rig_part(reopened()).backward, part().backward);
+}
+
 /// What a file has of a unit can be given to the command as it is.
 TEST_F(RigFile, AUnitOfAFileIsOneOfACommand) {
     for (const Json& each : one_of_each()) unit(each);
