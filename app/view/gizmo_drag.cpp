@@ -123,7 +123,7 @@ HandleFrame GizmoDrag::changed(const HandleFrame& now, const HandleFrame& dragge
     else if (changed_by(part_) == Drag::Position)
         frame.position += glm::dot(by, axis_) * axis_;
     else if (changed_by(part_) == Drag::Scale)
-        frame.scale = dragged.scale;
+        frame.scale[axis_of(part_)] = dragged.scale[axis_of(part_)];
     else
         frame.rotation = dragged.rotation;
     return frame;

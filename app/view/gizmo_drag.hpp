@@ -25,8 +25,8 @@ class GizmoDrag {
     /// two. Where the line of sight says nothing (it is not finite, or looks away), the last frame.
     HandleFrame to(const Ray& ray);
 
-    /// `now` with what the part changes as `dragged` has it: its rotation, its scale, its place along the
-    /// arrow or in the plane.
+    /// `now` with what the part changes as `dragged` has it: its rotation, its scale along the axis,
+    /// its place along the arrow or in the plane.
     HandleFrame changed(const HandleFrame& now, const HandleFrame& dragged) const;
 
     GizmoPart part() const { return part_; }

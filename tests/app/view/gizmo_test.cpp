@@ -102,6 +102,43 @@ TEST(GizmoDrag, ChangesWhatItsPartSaysAndNothingElse) {
     }
 }
 
+/// What carries the handle may have moved, turned and scaled it since it was caught.
+TEST(GizmoDrag, LeavesWhatItsPartIsNotForAsItIsNow) {
+    Chance chance;
+    for (int round = 0; round < 2000; ++round) {
+        const Camera camera = chance.camera(round % 2 == 0);
+        const HandleFrame from = chance.frame(), now = chance.frame();
+        const auto part = static_cast<GizmoPart>(round % gizmo_parts);
+        GizmoDrag drag = caught(part, from, camera, chance.pixel());
+        const HandleFrame dragged = drag.to(camera.ray(chance.pixel()));
+        const HandleFrame to = drag.changed(now, dragged);
+        if (changed_by(part) != Drag::Rotation) {
+            EXPECT_EQ(to.rotation, now.rotation) << name(part);
+        } else {
+            EXPECT_EQ(to.rotation, dragged.rotation) << name(part);
+        }
+        for (int i = 0; i < 3; ++i) {
+            const bool scaled = changed_by(part) == Drag::Scale && i == axis_of(part);
+            EXPECT_EQ(to.scale[i], scaled ? dragged.scale[i] : now.scale[i]) << name(part);
+        }
+        if (changed_by(part) != Drag::Position) {
+            EXPECT_EQ(to.position, now.position) << name(part);
+            continue;
+        }
+        const float size = 1e-4f * (1.0f + glm::length(now.position) + glm::length(dragged.position));
+        const glm::vec3 upright = axis(from, part), by = to.position - now.position;
+        const glm::vec3 off = to.position - dragged.position;  // from where the pointer is
+        const float along = glm::dot(by, upright), missed = glm::dot(off, upright);
+        if (is_plane(part)) {
+            EXPECT_LE(std::abs(along), size) << name(part);
+            EXPECT_LE(glm::length(off - missed * upright), size) << name(part);
+        } else {
+            EXPECT_LE(glm::length(by - along * upright), size) << name(part);
+            EXPECT_LE(std::abs(missed), size) << name(part);
+        }
+    }
+}
+
 TEST(GizmoDrag, WhatWasCaughtStaysUnderThePointer) {
     Chance chance;
     int tried = 0;

@@ -173,6 +173,80 @@ TEST_F(RigMouse, ATransformIsMovedTurnedAndScaledByItsGizmo) {
     EXPECT_EQ(number(value()["translation"], 1), 0.4);
 }
 
+/// Its space walks while it is held by a part of its gizmo.
+class RigMovingSpace : public RigMouse {
+  protected:
+    RigMovingSpace() {
+        app_.run({"rig.clear"});
+        app_.run({"rig.element.add", Json{{"name", "cart"}, {"kind", "control"}}});
+        app_.run({"rig.element.add", Json{{"name", "it"},
+                                          {"kind", "control"},
+                                          {"space", "cart"},
+                                          {"local", {{"translation", {0, 0.3, 0}}, {"scale", {1, 2, 3}}}}}});
+        app_.run({"camera.set", Json{{"target", {0, 0, 0}},
+                                     {"yaw_deg", 30},
+                                     {"pitch_deg", 25},
+                                     {"distance", 6},
+                                     {"orthographic", true}}});
+        app_.run(
+            {"rig.motion",
+             Json{{"name", "cart"}, {"path", "circle"}, {"radius", 0.5}, {"period", 1}, {"turn", true}}});
+        select();
+        app_.run({"time.play"});
+    }
+};
+
+TEST_F(RigMovingSpace, ARingTurnsAndDoesNotMove) {
+    const Json rest = value();
+    const Json from = element()["global"]["translation"];
+    drag(at("it.rotate_y"), {{10.0f, 0.0f}, {20.0f, 5.0f}, {30.0f, 5.0f}, {40.0f, 8.0f}, {50.0f, 8.0f}});
+    EXPECT_NE(element()["global"]["translation"], from) << "its space goes on";
+    EXPECT_NE(value()["rotation"], rest["rotation"]);
+    EXPECT_EQ(value()["translation"], rest["translation"]) << "to the bit";
+    EXPECT_EQ(value()["scale"], rest["scale"]);
+}
+
+TEST_F(RigMovingSpace, ABoxScalesItsAxisAndNothingElse) {
+    const Json rest = value();
+    drag(at("it.scale_y"), {{0.0f, -10.0f}, {0.0f, -20.0f}, {0.0f, -30.0f}, {0.0f, -40.0f}});
+    EXPECT_GT(number(value()["scale"], 1), 2.2);
+    EXPECT_EQ(number(value()["scale"], 0), 1.0);
+    EXPECT_EQ(number(value()["scale"], 2), 3.0);
+    EXPECT_EQ(value()["translation"], rest["translation"]);
+    EXPECT_EQ(value()["rotation"], rest["rotation"]);
+}
+
+/// The pointer says nothing about what is at right angles to the arrow: there it goes with its space.
+TEST_F(RigMovingSpace, AnArrowMovesAlongItself) {
+    const Json rest = value();
+    drag(at("it.move_y"), {{0.0f, -10.0f}, {0.0f, -20.0f}, {0.0f, -30.0f}, {0.0f, -40.0f}});
+    EXPECT_GT(number(value()["translation"], 1), 0.35);
+    EXPECT_NEAR(number(value()["translation"], 0), 0.0, 1e-5);
+    EXPECT_NEAR(number(value()["translation"], 2), 0.0, 1e-5);
+    EXPECT_EQ(value()["rotation"], rest["rotation"]);
+    EXPECT_EQ(value()["scale"], rest["scale"]);
+}
+
+/// What is caught of a gizmo was measured from where the eye was: were it to come nearer, the handle would
+/// slip from under the pointer.
+TEST_F(RigMouse, TheWheelDoesNothingWhileAGizmoIsHeld) {
+    one("transform");
+    select();
+    const auto distance = [&] { return app_.workspace().camera.distance; };
+    const float before = distance();
+    const glm::vec2 from = at("it.move_y");
+    drag(from, {{0.0f, -10.0f}, {0.0f, -40.0f}}, false);
+    const Json moved = value();
+    send(MouseWheel{2.0f});
+    EXPECT_EQ(distance(), before);
+    send(MouseMove{from + glm::vec2(0.0f, -41.0f)});
+    send(MouseMove{from + glm::vec2(0.0f, -40.0f)});
+    EXPECT_NEAR(number(value()["translation"], 1), number(moved["translation"], 1), 1e-5);
+    send(MousePress{MouseButton::Left, false});
+    send(MouseWheel{2.0f});
+    EXPECT_LT(distance(), before);
+}
+
 TEST_F(RigMouse, EscapeInMidDragPutsBackWhatWas) {
     one("transform");
     select();
