@@ -52,6 +52,40 @@ TEST_F(RigCommands, SetsInputsOfAUnitAndLeavesTheOthers) {
     EXPECT_EQ(saved().at("units").at(0), before);
 }
 
+/// A part of an aim, and a filter, are changed as the unit is: what is not given stays.
+TEST_F(RigCommands, SetsMembersWithinAPartAndLeavesTheOthers) {
+    build_arm();
+    control("look", "position");
+    unit({{"unit", "aim"},
+          {"name", "aim"},
+          {"item", "arm"},
+          {"primary", {{"axis", {0, 0, 1}}, {"target", "look"}, {"weight", 0.5}}},
+          {"secondary", {{"axis", {1, 0, 0}}, {"target", {0, 1, 0}}, {"kind", "direction"}}}});
+    unit({{"unit", "parent_constraint"},
+          {"name", "follow"},
+          {"item", "hand"},
+          {"parents", {{{"item", "arm"}}}},
+          {"filter", {{"translation", {true, false, true}}, {"rotation", {false, false, false}}}}});
+    const auto now = [&](std::size_t at) { return saved().at("units").at(at); };
+    const auto expect_set = [&](std::size_t at, const char* nested, const char* member, const Json& to) {
+        Json wanted = now(at);
+        EXPECT_NE(wanted.at(nested).at(member), to);
+        wanted[nested][member] = to;
+        run("rig.unit.set", {{"name", wanted.at("name")}, {nested, {{member, to}}}});
+        EXPECT_EQ(now(at), wanted) << nested;
+    };
+    expect_set(1, "primary", "weight", 0.25);
+    expect_set(1, "primary", "axis", {0.0, 1.0, 0.0});
+    expect_set(1, "secondary", "kind", "location");
+    expect_set(2, "filter", "scale", {false, true, true});
+    run("rig.unit.set", {{"name", "aim"}, {"secondary", nullptr}});
+    EXPECT_TRUE(now(1).value("secondary", Json()).is_null());
+    run("rig.unit.set", {{"name", "aim"}, {"secondary", {{"target", {0, 1, 0}}}}});
+    EXPECT_EQ(now(1).at("secondary").at("target"), (Json{0.0, 1.0, 0.0})) << "one that there was not";
+    EXPECT_EQ(now(1).at("primary").at("axis"), (Json{0.0, 1.0, 0.0}));
+    expect_refused("rig.unit.set", {{"name", "aim"}, {"primary", {{"taget", "look"}}}}, {"taget"});
+}
+
 TEST_F(RigCommands, ASelectionIsSavedAndGoesWithWhatWasSelected) {
     build_arm();
     run("rig.select", {{"element", "hand"}, {"unit", "turn"}});

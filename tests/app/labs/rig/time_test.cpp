@@ -78,6 +78,33 @@ TEST_F(RigTime, AWalkStopsAtTheLimitsAndTurnsAlongItsPath) {
     }
 }
 
+/// Around the same centre, and as far around as it was.
+TEST_F(RigTime, AWalkThatIsChangedGoesOnWhereItIs) {
+    secondary();
+    run("rig.motion", {{"name", "head"}, {"path", "circle"}, {"radius", 0.5}, {"period", 2.0}});
+    play(33);
+    const glm::dvec3 centre(part().walks.front().motion.centre), before = head();
+    const auto change = [&](const char* what, const Json& value) {
+        run("rig.motion", {{"name", "head"}, {"path", "circle"}, {what, value}});
+        lab().step(workspace);
+        const glm::dvec3 now = head();
+        run("undo");
+        return now;
+    };
+    lab().step(workspace);
+    const glm::dvec3 next = head();
+    go(33);
+    EXPECT_LT(glm::distance(change("turn", true), next), 1e-6);
+    // A tick of a round that is three times as long, a third of the way.
+    EXPECT_LT(glm::distance(change("period", 6.0), glm::mix(before, next, 1.0 / 3.0)), 1e-3);
+    EXPECT_LT(glm::distance(change("radius", 0.25), glm::mix(centre, next, 0.5)), 1e-6);
+    EXPECT_LT(glm::distance(change("centre", {1, 1, 2}), next - centre + glm::dvec3(1, 1, 2)), 1e-6);
+    run("rig.motion", {{"name", "head"}, {"path", "sweep"}});
+    EXPECT_LT(glm::distance(head(), before), 1e-9) << "another path starts where the control is";
+    lab().step(workspace);
+    EXPECT_LT(glm::distance(head(), before), 0.05);
+}
+
 TEST_F(RigTime, OneThatIsSetWalksNoFurther) {
     secondary();
     play(20);
