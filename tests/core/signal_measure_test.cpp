@@ -116,6 +116,65 @@ TEST(SignalMeasure, OvershootAndSettlingOfSprings) {
     EXPECT_EQ(*signal::measure({&pass, 1}, sampled(step_at_one, 2.0, 60.0)).settling_time, 0.0);
 }
 
+TEST(SignalMeasure, WhatRunsAwayIsUnstableAndNothingElseIsSaidOfIt) {
+    const auto square = sampled([](double t) { return std::fmod(t, 2.0) < 1.0 ? 1.0 : -1.0; }, 10.0, 60.0);
+    const Filter explodes = filter_of("spring_semi_implicit", {{"strength", 8.0}, {"critical_damping", 1.0}});
+    const signal::Measures measures = signal::measure({&explodes, 1}, square);
+    EXPECT_EQ(measures.following, signal::Following::Unstable);
+    EXPECT_FALSE(measures.lag || measures.overshoot || measures.settling_time || measures.jitter);
+    EXPECT_GT(measures.rate_difference, 1e3);
+    // The same filter where there are frames enough, and any exact spring.
+    const auto fast = sampled([](double t) { return std::fmod(t, 2.0) < 1.0 ? 1.0 : -1.0; }, 10.0, 75.0);
+    EXPECT_EQ(signal::measure({&explodes, 1}, fast).following, signal::Following::Follows);
+    for (const double damping : {0.02, 0.35, 1.0, 3.0}) {
+        const Filter spring = filter_of("spring", {{"strength", 8.0}, {"critical_damping", damping}});
+        EXPECT_EQ(signal::measure({&spring, 1}, square).following, signal::Following::Follows) << damping;
+    }
+}
+
+TEST(SignalMeasure, ARunawayIsFarOutsideAndGoesOn) {
+    const auto wave = [](double t) { return std::sin(turn * t); };  // spans 2: far is beyond 21
+    const auto outcome = [&](const std::function<double(double)>& output) {
+        return signal::unstable(rows(wave, output).response());
+    };
+    EXPECT_FALSE(outcome([&](double t) { return 15.0 * wave(t); })) << "a resonance within bounds";
+    EXPECT_FALSE(outcome([&](double t) { return 500.0 * wave(t); })) << "it does not grow";
+    EXPECT_FALSE(outcome([&](double t) { return 500.0 * std::exp(-t) * wave(t); })) << "it dies away";
+    EXPECT_FALSE(outcome([&](double t) { return 5.0 * t * wave(t); })) << "not yet far";
+    EXPECT_TRUE(outcome([&](double t) { return 20.0 * t * wave(t); }));
+    EXPECT_TRUE(outcome([&](double t) { return std::exp(2.0 * t); }));
+    EXPECT_TRUE(outcome([&](double t) { return t < 2.0 ? 0.0 : 1e9; }))
+        << "stopped at the end of all numbers";
+    EXPECT_TRUE(outcome([&](double t) { return t < 2.0 ? 0.0 : infinity; }));
+    EXPECT_TRUE(outcome([&](double t) { return t < 2.0 ? 0.0 : not_a_number; }));
+    const auto flat = [](double) { return 2.0; };
+    EXPECT_FALSE(signal::unstable(rows(flat, [](double t) { return std::exp(9.0 * t); }).response()));
+    EXPECT_FALSE(signal::unstable({}));
+}
+
+TEST(SignalMeasure, WhatMovesByItselfHasNoLag) {
+    const auto wave = [](double t) { return std::sin(turn * t); };
+    const auto verdict = [&](const std::function<double(double)>& output) {
+        const Rows all = rows(wave, output);
+        return signal::measure(all.response(), all.wanted);
+    };
+    const auto other = [](double t) { return std::sin(3.7 * turn * t); };
+    EXPECT_EQ(verdict(other).following, signal::Following::DoesNotFollow);
+    EXPECT_FALSE(verdict(other).lag);
+    EXPECT_TRUE(verdict(other).jitter) << "what is left of the input's jitter is still a number";
+    EXPECT_EQ(verdict([](double) { return 3.0; }).following, signal::Following::DoesNotFollow);
+    // A tenth of the variance is the input's, and a little more or less.
+    EXPECT_EQ(verdict([&](double t) { return wave(t) + 2.9 * other(t); }).following,
+              signal::Following::Follows);
+    EXPECT_EQ(verdict([&](double t) { return wave(t) + 3.2 * other(t); }).following,
+              signal::Following::DoesNotFollow);
+    EXPECT_EQ(verdict(wave).following, signal::Following::Follows);
+    const auto flat = [](double) { return 2.0; };
+    const Rows nothing = rows(flat, wave);
+    EXPECT_EQ(signal::measure(nothing.response(), nothing.wanted).following, signal::Following::Unknown);
+    EXPECT_EQ(signal::measure({}, std::vector<double>{}).following, signal::Following::Unknown);
+}
+
 TEST(SignalMeasure, EveryStepCounts) {
     // Up by 1 with nothing over, down by 2 with a tenth of it over.
     const Rows both = rows([](double t) { return t < 1.0   ? 0.0

@@ -14,6 +14,7 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 /// Of the input's spread, by how much a fit may be worse than the best and still be as good: what is held
 /// beyond the ends favours large shifts where the output is weaker than the input.
 constexpr double as_good_as = 0.1;
+constexpr double explained = 0.1;  ///< of the output's variance, by an input that it follows
 
 class Fit {
   public:
@@ -41,6 +42,20 @@ class Fit {
         return sum;
     }
 
+    /// Of the output with what is wanted, `shift` seconds late; 0 where that does not change.
+    double correlation(double shift) const {
+        const auto& [time, wanted, output] = response_;
+        const double n = static_cast<double>(time.size());
+        double mean_x = 0.0, mean_y = 0.0, xx = 0.0, yy = 0.0, xy = 0.0;
+        const std::vector<double> late = shifted(shift);
+        for (std::size_t i = 0; i < time.size(); ++i) mean_x += late[i] / n, mean_y += output[i] / n;
+        for (std::size_t i = 0; i < time.size(); ++i) {
+            const double x = late[i] - mean_x, y = output[i] - mean_y;
+            xx += x * x, yy += y * y, xy += x * y;
+        }
+        return xx > 0.0 && yy > 0.0 ? xy / (std::sqrt(xx) * std::sqrt(yy)) : 0.0;
+    }
+
     /// Where the error is smallest between `low` and `high`, which has one minimum: golden section.
     double refined(double low, double high) const {
         constexpr double golden = 0.6180339887498949;
@@ -61,6 +76,20 @@ class Fit {
     }
 
   private:
+    std::vector<double> shifted(double shift) const {
+        const auto& [time, wanted, output] = response_;
+        std::vector<double> values;
+        values.reserve(time.size());
+        std::size_t next = 0;  // the first row that is later
+        for (const double each : time) {
+            const double at = each - shift;
+            while (next < time.size() && time[next] <= at) ++next;
+            values.push_back(wanted[next > 0 ? next - 1 : 0]);
+            if (next > 0 && next < time.size()) values.back() += slopes_[next - 1] * (at - time[next - 1]);
+        }
+        return values;
+    }
+
     const Response& response_;
     std::vector<double> slopes_;  ///< from each row to the next
 };
@@ -115,7 +144,10 @@ std::optional<double> lag(const Response& response, double longest) {
             const double error = error_at(shift);
             if (error > smallest + margin || error > error_at(shift - 1) || error > error_at(shift + 1))
                 continue;
-            return fit.refined(spacing * (shift - 1), spacing * (shift + 1));
+            const double found = fit.refined(spacing * (shift - 1), spacing * (shift + 1));
+            const double r = fit.correlation(found);
+            if (r > 0.0 && r * r >= explained) return found;
+            return std::nullopt;
         }
     }
     return std::nullopt;

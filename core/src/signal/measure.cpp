@@ -25,6 +25,27 @@ double size_of(const Step& step) {
 
 }  // namespace
 
+bool unstable(const Response& response) {
+    constexpr double far = 10.0, beyond_doubt = 1e6, grows = 1.1;
+    if (!usable(response, 3)) return false;
+    const auto& [time, wanted, output] = response;
+    const auto [low, high] = std::minmax_element(wanted.begin(), wanted.end());
+    const double span = *high - *low;
+    if (!(span > 0.0)) return false;
+    const double half = 0.5 * (time.back() - time.front()), begin = time.back() - half;
+    double most = 0.0, before = 0.0, last = 0.0;
+    for (std::size_t i = 0; i < time.size(); ++i) {
+        if (!std::isfinite(output[i])) return true;
+        const double outside = std::max({0.0, *low - output[i], output[i] - *high});
+        most = std::max(most, outside);
+        if (time[i] < begin) continue;
+        double& quarter = time[i] < begin + 0.5 * half ? before : last;
+        quarter = std::max(quarter, outside);
+    }
+    if (most > beyond_doubt * span) return true;
+    return last > far * span && last > grows * before;
+}
+
 std::vector<Step> steps_of(const Response& response) {
     std::vector<Step> steps;
     if (!usable(response, 4)) return steps;
@@ -87,6 +108,23 @@ std::optional<double> jitter(std::span<const double> time, std::span<const doubl
     return std::sqrt(after / before);
 }
 
+Measures measure(const Response& response, std::span<const double> input) {
+    Measures measures;
+    if (unstable(response)) {
+        measures.following = Following::Unstable;
+        return measures;
+    }
+    measures.lag = lag(response);
+    if (measures.lag)
+        measures.following = Following::Follows;
+    else if (usable(response, 3) && span_of(response.wanted) > 0.0)
+        measures.following = Following::DoesNotFollow;
+    measures.overshoot = overshoot(response);
+    measures.settling_time = settling_time(response);
+    measures.jitter = jitter(response.time, input, response.output);
+    return measures;
+}
+
 Measures measure(std::span<const Filter> filters, std::span<const Sample> samples) {
     const std::vector<double> time = times_of(samples), output = run(filters, samples);
     std::vector<double> input, wanted;
@@ -96,11 +134,9 @@ Measures measure(std::span<const Filter> filters, std::span<const Sample> sample
         wanted.push_back(!refused ? immediate(filters, sample.input) : wanted.empty() ? 0.0 : wanted.back());
     }
     const Response response{time, wanted, output};
-    return {.lag = lag(response),
-            .overshoot = overshoot(response),
-            .settling_time = settling_time(response),
-            .jitter = jitter(time, input, output),
-            .rate_difference = compare_rates(filters, samples).difference};
+    Measures measures = measure(response, input);
+    measures.rate_difference = compare_rates(filters, samples).difference;
+    return measures;
 }
 
 }  // namespace tendril::signal
