@@ -1,0 +1,49 @@
+// A file of filters is refused by a std::runtime_error, or every filter in it is one that the library takes:
+// it is written as it was read, and what it puts out is a number.
+#include <cmath>
+
+#include "app/document/json_complete.hpp"
+#include "app/labs/signal/filter_json.hpp"
+#include "tendril/signal/run.hpp"
+#include "tests/fuzz/check.hpp"
+
+using namespace tendril;
+using tendril::fuzz::check;
+
+namespace {
+
+constexpr std::size_t most_filters = 16;
+
+/// A jump, a stretch at rest, a ramp, a spike, frames of several lengths.
+std::vector<signal::Sample> rows() {
+    std::vector<signal::Sample> rows;
+    for (int i = 0; i < 60; ++i) {
+        const double dt = i % 7 == 0 ? 0.1 : i % 5 == 0 ? 0.0 : 1.0 / 60.0;
+        rows.push_back({dt, i < 10 ? 0.0 : i < 30 ? 1.0 : i == 40 ? -1e9 : 0.1 * i});
+    }
+    return rows;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const std::vector<signal::Sample> samples = rows();
+    std::vector<signal::Filter> filters;
+    try {
+        filters = app::filters_from_json(app::parse_json(fuzz::text_of(data, size)), "filters", most_filters);
+    } catch (const std::runtime_error& error) {
+        check(error.what()[0] != '\0', "a refusal says why");
+        return 0;
+    }
+    check(filters.size() <= most_filters, "no more than may be");
+    for (const signal::Filter& filter : filters) {
+        check(static_cast<bool>(signal::check(filter)), "the library takes it");
+        check(app::filter_from_json(app::filter_json(filter), "filter") == filter,
+              "it is written as it was read");
+        for (const double output : signal::run({&filter, 1}, samples))
+            check(!std::isnan(output), "what comes out is a number");
+    }
+    for (const double output : signal::run(filters, samples))
+        check(!std::isnan(output), "what comes out of all of them is a number");
+    return 0;
+}
