@@ -208,6 +208,7 @@ void App::run(const RunCommand& command) {
 void App::step_lab() {
     Clock& clock = workspace_.clock;
     if (lab().moving(workspace_)) {
+        if (const auto& finish = commands_->find(command.name)->finish) finish(workspace_);
         if (lab().rewinds()) workspace_.remember_moment();
         lab().step(workspace_);
     }

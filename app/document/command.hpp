@@ -28,6 +28,9 @@ struct Command {
     Effect effect = Effect::Edit;
     /// Whatever it throws becomes a refusal, with the command's name before it.
     std::function<void(Workspace&, const Arguments&)> apply{};
+    /// Of what it only begins, and ticks go on with (Lab::work): does the rest at once. For scripts, whose
+    /// next line finds it done.
+    std::function<void(Workspace&)> finish{};
 };
 
 class CommandTable {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/document/runtime.hpp"
-#include "app/labs/signal/signal_part.hpp"
+#include "app/labs/signal/fitting.hpp"
 
 namespace tendril::app {
 
@@ -39,6 +39,8 @@ class SignalRuntime final : public Runtime {
   public:
     const ChainAnalysis& chain(const SignalPart& part);
     /// Those that both can be measured of.
+    FitWork fit_work;
+
     const std::vector<ShelfPoint>& shelf(const SignalPart& part);
     /// What the chain would have made of what went in during the last ticks: one list for each stage.
     const std::vector<std::vector<double>>& recent(const SignalPart& part);

@@ -13,27 +13,38 @@
 namespace tendril::app {
 namespace {
 
-class KindFit {
+class KindFit final : public FitTask {
   public:
-    KindFit(const signal::Kind& kind, const FitProblem& problem)
-        : kind_(kind), trial_(problem), space_(fit_space(kind, FitFacts(problem))), filter_(kind.blank()) {}
+    KindFit(const signal::Kind& kind, const FitProblem& problem, const signal::Filter* like)
+        : kind_(kind),
+          trial_(problem),
+          space_(fit_space(kind, FitFacts(problem))),
+          filter_(kind.blank()),
+          minimiser_([this](std::span<const double> at) { return residual(at); }, search(like)) {}
 
-    Fit run(const signal::Filter* like) {
+    bool advance() override { return minimiser_.advance(); }
+
+    Fit fit() override {
+        std::vector<double> at = minimiser_.best().at;
+        for (std::size_t d = 0; d < space_.size(); ++d)
+            if (space_[d].stepped) centre(at, d);
+        signal::Filter filter = filter_at(at);
+        leave_defaults(filter);
+        return {filter, trial_.residual_of(filter), evaluations()};
+    }
+
+    int evaluations() const override { return minimiser_.best().evaluations + evaluations_; }
+
+  private:
+    Search search(const signal::Filter* like) const {
         Search search{.dimensions = space_.size(), .enough = exact_residual};
         for (std::size_t d = 0; d < space_.size(); ++d)
             if (space_[d].stepped) search.stepped.push_back(d);
         search.starts.push_back(place_of(kind_.blank()));
         if (like != nullptr) search.starts.push_back(place_of(*like));
-        const Minimum found = minimise([this](std::span<const double> at) { return residual(at); }, search);
-        std::vector<double> at = found.at;
-        evaluations_ = found.evaluations;
-        for (const std::size_t d : search.stepped) centre(at, d);
-        signal::Filter filter = filter_at(at);
-        leave_defaults(filter);
-        return {filter, trial_.residual_of(filter), evaluations_};
+        return search;
     }
 
-  private:
     std::vector<double> place_of(signal::Filter filter) const {
         if (auto* damp = std::get_if<signal::SmoothDamp>(&filter)) damp->max_speed *= damp->smooth_time;
         std::vector<double> at;
@@ -109,7 +120,8 @@ class KindFit {
     Trial trial_;
     std::vector<Dimension> space_;
     signal::Filter filter_;
-    int evaluations_ = 0;
+    Minimiser minimiser_;
+    int evaluations_ = 0;  ///< beside the minimiser's
 };
 
 /// Parameters that are not at their defaults: what a person has to set. A curve's keys have two numbers each.
@@ -135,12 +147,20 @@ double residual_of(const signal::Filter& filter, const FitProblem& problem) {
     return Trial(problem).residual_of(filter);
 }
 
-Fit fit_kind(const signal::Kind& kind, const FitProblem& problem, const signal::Filter* like) {
+std::unique_ptr<FitTask> begin_fit(const signal::Kind& kind, const FitProblem& problem,
+                                   const signal::Filter* like) {
     if (like != nullptr && &signal::kind_of(*like) != &kind) like = nullptr;
     const signal::Filter blank = kind.blank();
-    if (std::holds_alternative<signal::Curve>(blank)) return fit_curve(problem);
-    if (std::holds_alternative<signal::ScaleBiasClamp>(blank)) return fit_scale_bias_clamp(problem);
-    return KindFit(kind, problem).run(like);
+    if (std::holds_alternative<signal::Curve>(blank)) return begin_curve_fit(problem);
+    if (std::holds_alternative<signal::ScaleBiasClamp>(blank)) return begin_scale_fit(problem);
+    return std::make_unique<KindFit>(kind, problem, like);
+}
+
+Fit fit_kind(const signal::Kind& kind, const FitProblem& problem, const signal::Filter* like) {
+    const std::unique_ptr<FitTask> task = begin_fit(kind, problem, like);
+    while (task->advance()) {
+    }
+    return task->fit();
 }
 
 void rank(std::vector<Fit>& fits) {

@@ -6,6 +6,7 @@
 // where it has six. All kinds together take about 0.3 s for 300 rows.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <tendril/signal/filter.hpp>
 #include <tendril/signal/run.hpp>
@@ -25,6 +26,20 @@ struct Fit {
     double residual = 0.0;
     int evaluations = 0;
 };
+
+/// A fit of one kind, worked out a share at a time. The problem and its rows have to outlive it.
+class FitTask {
+  public:
+    virtual ~FitTask() = default;
+    /// Whether there is more to do after this share.
+    virtual bool advance() = 0;
+    /// When there is nothing more to do.
+    virtual Fit fit() = 0;
+    /// Runs of a filter over the rows, so far.
+    virtual int evaluations() const = 0;
+};
+std::unique_ptr<FitTask> begin_fit(const signal::Kind& kind, const FitProblem& problem,
+                                   const signal::Filter* like = nullptr);
 
 /// The best of a kind, beginning from `like` too where that is of the kind. A parameter that this input says
 /// nothing about is left at its default; where a range of a threshold does equally well, it is the middle.

@@ -6,6 +6,7 @@
 #include "app/io/samples.hpp"
 #include "app/labs/signal/analysis.hpp"
 #include "app/labs/signal/code.hpp"
+#include "app/labs/signal/fitting.hpp"
 #include "app/labs/signal/recording.hpp"
 #include "app/labs/signal/signal_commands.hpp"
 
@@ -32,6 +33,7 @@ void draw(SignalPart& part, const Arguments& given) {
         part.wanted[i] = from_value + share * (to_value - from_value);
     }
     part.fits.clear();
+    part.fitting.reset();
     part.plot = SignalPlot::Fit;
 }
 
@@ -71,18 +73,17 @@ void fit(SignalPart& part, const Arguments& given) {
         const Json& to = given.json("to");
         to.is_string() ? take_file(part, to.get<std::string>()) : take_numbers(part, to);
     }
-    if (part.wanted.empty())
-        throw Refused("no response is wanted yet: draw one into the plot Fit, or give one with to");
-    const FitProblem problem{part.fit_input, part.wanted};
-    part.fits.clear();
-    for (const signal::Kind& kind : signal::kinds()) {
-        const auto like = std::find_if(part.stages.begin(), part.stages.end(), [&](const SignalStage& stage) {
-            return &signal::kind_of(stage.filter) == &kind;
-        });
-        part.fits.push_back(fit_kind(kind, problem, like == part.stages.end() ? nullptr : &like->filter));
-    }
-    rank(part.fits);
-    part.plot = SignalPlot::Fit;
+    start_fitting(part);
+}
+
+/// For who does not wait for ticks.
+void finish_fit(Workspace& workspace) {
+    SignalPart& part = workspace.document.edit<SignalPart>(signal_lab);
+    for (FitWork work; part.fitting;) work.advance(part);
+}
+
+void cancel(SignalPart& part, const Arguments&) {
+    cancel_fitting(part);
 }
 
 void use_fit(SignalPart& part, const Arguments& given) {
@@ -97,6 +98,7 @@ void forget(SignalPart& part, const Arguments&) {
     part.wanted.clear();
     part.fit_input.clear();
     part.fits.clear();
+    part.fitting.reset();
 }
 
 /// Time has to pass for it.
@@ -152,13 +154,17 @@ Argument number(const char* name, const char* help, double most) {
 }  // namespace
 
 void add_fit_commands(CommandTable& table) {
-    table.add(part_command<SignalPart>(
+    Command fitting = part_command<SignalPart>(
         signal_lab, "signal.fit",
         {{.name = "to",
           .type = ArgumentType::ListOrText,
           .required = false,
           .help = "the response: samples at 60 Hz, or a CSV file; what was drawn when left out"}},
-        "Fits every kind of filter to a response, and ranks them", fit));
+        "Fits every kind of filter to a response, and ranks them", fit);
+    fitting.finish = finish_fit;
+    table.add(std::move(fitting));
+    table.add(part_command<SignalPart>(signal_lab, "signal.fit.cancel", {},
+                                       "Ends a fit that is running; what is fitted so far stays", cancel));
     table.add(part_command<SignalPart>(
         signal_lab, "signal.fit.draw",
         {number("from", "seconds", 1e3), number("from_value", "the response there", most_amplitude),

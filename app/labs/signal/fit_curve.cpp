@@ -40,7 +40,7 @@ std::vector<double> solve(std::vector<double> matrix, std::vector<double> right)
     return right;
 }
 
-class CurveFit {
+class CurveFit final : public FitTask {
   public:
     explicit CurveFit(const FitProblem& problem) : problem_(problem), facts_(problem), trial_(problem) {
         const double range = facts_.input_range() > 0.0 ? facts_.input_range() : 1.0;
@@ -50,24 +50,31 @@ class CurveFit {
         std::iota(order_.begin(), order_.end(), std::size_t{0});
         std::stable_sort(order_.begin(), order_.end(),
                          [&](std::size_t a, std::size_t b) { return times_[a] < times_[b]; });
+        left_ = residual(keys_);
     }
 
-    Fit run() {
-        std::vector<double> keys{0.0, 1.0};
-        double left = residual(keys);
-        while (left > exact_residual && keys.size() < most_fitted_keys) {
-            std::vector<double> more = with_another(keys);
-            if (more.size() == keys.size()) break;
-            const double then = improve(more);
-            if (then > 0.9 * left) break;
-            keys = std::move(more);
-            left = then;
-        }
-        const signal::Filter filter = curve_through(keys);
+    /// Another key, where it helps.
+    bool advance() override {
+        if (!wants_another()) return false;
+        std::vector<double> more = with_another(keys_);
+        if (more.size() == keys_.size()) return false;
+        const double then = improve(more);
+        if (then > 0.9 * left_) return false;
+        keys_ = std::move(more);
+        left_ = then;
+        return wants_another();
+    }
+
+    Fit fit() override {
+        const signal::Filter filter = curve_through(keys_);
         return {filter, trial_.residual_of(filter), evaluations_};
     }
 
+    int evaluations() const override { return evaluations_; }
+
   private:
+    bool wants_another() const { return left_ > exact_residual && keys_.size() < most_fitted_keys; }
+
     /// Of a key: its value, the slope that arrives at it and the one that leaves it.
     static std::size_t unknown(std::size_t key, std::size_t which) { return 3 * key + which; }
 
@@ -177,13 +184,15 @@ class CurveFit {
     Trial trial_;
     std::vector<double> times_;       ///< of each row: its input from 0 to 1
     std::vector<std::size_t> order_;  ///< of rows by time
+    std::vector<double> keys_{0.0, 1.0};
+    double left_ = 0.0;  ///< by those keys
     int evaluations_ = 0;
 };
 
 }  // namespace
 
-Fit fit_curve(const FitProblem& problem) {
-    return CurveFit(problem).run();
+std::unique_ptr<FitTask> begin_curve_fit(const FitProblem& problem) {
+    return std::make_unique<CurveFit>(problem);
 }
 
 }  // namespace tendril::app

@@ -1,5 +1,6 @@
 // scale_bias_clamp: a straight line, a clamp and an interpolation, of which any may be missing.
 #include <cmath>
+#include <optional>
 
 #include "app/labs/signal/fit_linear.hpp"
 #include "app/labs/signal/fit_space.hpp"
@@ -41,7 +42,7 @@ Line regression(const FitProblem& problem, const FitFacts& facts, double low, do
     return {slope * facts.input_low + bias, slope * facts.input_high + bias};
 }
 
-class ScaleFit {
+class ScaleFit final : public FitTask {
   public:
     explicit ScaleFit(const FitProblem& problem)
         : problem_(problem),
@@ -49,24 +50,35 @@ class ScaleFit {
           trial_(problem),
           kind_(signal::kind_of(signal::ScaleBiasClamp())) {}
 
-    Fit run() {
-        std::vector<Fit> fits;
-        for (const bool interp : {false, true})
-            for (const bool clamp : {false, true}) {
-                fits.push_back(search(clamp, interp));
-                if (fits.back().residual <= 10.0 * exact_residual) return total(fits, fits.back());
-            }
-        double best = fits.front().residual;
-        for (const Fit& fit : fits) best = std::min(best, fit.residual);
-        for (const Fit& fit : fits)
-            if (fit.residual <= 1.01 * best + 10.0 * exact_residual) return total(fits, fit);
-        return total(fits, fits.back());
+    /// One search after the other, the simplest first, until one leaves nothing.
+    bool advance() override {
+        const bool clamp = fits_.size() % 2 == 1, interp = fits_.size() >= 2;
+        if (!minimiser_) minimiser_.emplace(search(clamp, interp));
+        if (minimiser_->advance()) return true;
+        const Minimum& found = minimiser_->best();
+        fits_.push_back({filter_at(found.at, clamp, interp), found.value, found.evaluations});
+        minimiser_.reset();
+        return fits_.size() < 4 && fits_.back().residual > 10.0 * exact_residual;
+    }
+
+    Fit fit() override {
+        double best = fits_.front().residual;
+        for (const Fit& fit : fits_) best = std::min(best, fit.residual);
+        if (fits_.back().residual <= 10.0 * exact_residual) return total(fits_.back());
+        for (const Fit& fit : fits_)
+            if (fit.residual <= 1.01 * best + 10.0 * exact_residual) return total(fit);
+        return total(fits_.back());
+    }
+
+    int evaluations() const override {
+        int count = minimiser_ ? minimiser_->best().evaluations : 0;
+        for (const Fit& fit : fits_) count += fit.evaluations;
+        return count;
     }
 
   private:
-    static Fit total(const std::vector<Fit>& fits, Fit best) {
-        best.evaluations = 0;
-        for (const Fit& fit : fits) best.evaluations += fit.evaluations;
+    Fit total(Fit best) const {
+        best.evaluations = evaluations();
         return best;
     }
 
@@ -128,26 +140,27 @@ class ScaleFit {
         return starts;
     }
 
-    Fit search(bool clamp, bool interp) {
-        const Search wanted{.dimensions = 2u + (clamp ? 2u : 0u) + (interp ? 2u : 0u),
-                            .starts = starts(clamp, interp),
-                            .enough = exact_residual};
-        const Minimum found = minimise(
-            [&](std::span<const double> at) { return trial_.residual_of(filter_at(at, clamp, interp)); },
-            wanted);
-        return {filter_at(found.at, clamp, interp), found.value, found.evaluations};
+    Minimiser search(bool clamp, bool interp) {
+        return {[this, clamp, interp](std::span<const double> at) {
+                    return trial_.residual_of(filter_at(at, clamp, interp));
+                },
+                {.dimensions = 2u + (clamp ? 2u : 0u) + (interp ? 2u : 0u),
+                 .starts = starts(clamp, interp),
+                 .enough = exact_residual}};
     }
 
     const FitProblem& problem_;
     FitFacts facts_;
     Trial trial_;
     const signal::Kind& kind_;
+    std::vector<Fit> fits_;  ///< of the searches that are done
+    std::optional<Minimiser> minimiser_;
 };
 
 }  // namespace
 
-Fit fit_scale_bias_clamp(const FitProblem& problem) {
-    return ScaleFit(problem).run();
+std::unique_ptr<FitTask> begin_scale_fit(const FitProblem& problem) {
+    return std::make_unique<ScaleFit>(problem);
 }
 
 }  // namespace tendril::app

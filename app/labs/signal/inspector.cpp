@@ -60,7 +60,11 @@ void fit_rows(const SignalPart& part, Emit& emit) {
             emit("signal.fit.draw", {{"from", -1.0}, {"from_value", 0.0}, {"to", -1.0}, {"to_value", 0.0}});
         if (row_button("Record by hand", 1, true, recording)) emit("signal.fit.record");
     } else {
-        if (row_button("Fit", 3, true, "Finds the parameters of every kind of filter")) emit("signal.fit");
+        if (part.fitting) {
+            if (row_button("Cancel", 3, true, "What is fitted so far stays")) emit("signal.fit.cancel");
+        } else if (row_button("Fit", 3, true, "Finds the parameters of every kind of filter")) {
+            emit("signal.fit");
+        }
         if (row_button("Record", 3, true, recording)) emit("signal.fit.record");
         if (row_button("Forget", 3, true, "Forgets the response that is wanted")) emit("signal.fit.clear");
         end_row();
@@ -83,6 +87,11 @@ void fit_rows(const SignalPart& part, Emit& emit) {
         ImGui::SameLine();
         text_flush_right(left, i > 0);
         ImGui::PopID();
+    }
+    if (part.fitting) {
+        const std::size_t done = part.fits.size(), all = signal::kinds().size();
+        ImGui::ProgressBar(static_cast<float>(done) / static_cast<float>(all), {-1.0f, 0.0f}, "");
+        note(std::to_string(done) + " of " + std::to_string(all) + " kinds of filter are fitted.");
     }
     note("What is left, as a part of the response's range. Click one to put it in place.");
 }

@@ -41,6 +41,7 @@ void begin_recording(SignalPart& part) {
     part.wanted.assign(part.fit_input.size(), within);
     part.recording = Recording{.value = within};
     part.fits.clear();
+    part.fitting.reset();
     part.plot = SignalPlot::Fit;
     part.time = 0.0;
     part.past.clear();

@@ -9,8 +9,6 @@
 namespace tendril::app {
 namespace {
 
-using Point = std::vector<double>;
-
 constexpr double very_large = 1e60;
 
 /// The digits of `number` in base `base`, mirrored at the point: with a prime base for each dimension, the
@@ -24,127 +22,116 @@ double radical_inverse(unsigned number, unsigned base) {
     return result;
 }
 
-class Minimiser {
-  public:
-    Minimiser(const Objective& objective, const Search& search) : objective_(objective), search_(search) {
-        best_.value = very_large;
-        best_.at.assign(search.dimensions, 0.5);
-    }
+constexpr std::size_t rounds = 2;
 
-    Minimum run() {
-        std::vector<Candidate> candidates = spread();
-        const std::size_t tops = std::min<std::size_t>(candidates.size(), dimensions() == 1 ? 3 : 8);
-        for (std::size_t i = 0; i < tops && !enough(); ++i) {
-            Point at = candidates[i].at;
-            if (!search_.stepped.empty()) at = scan(at);
-            improve(NLOPT_LN_SBPLX, at, first_step(), 60);
-        }
-        for (int round = 0; round < rounds && !enough(); ++round) {
-            improve(NLOPT_LN_SBPLX, best_.at, 0.03, 250);
-            if (!enough()) improve(NLOPT_LN_NELDERMEAD, best_.at, 0.003, 250);
-        }
-        return std::move(best_);
-    }
+}  // namespace
 
-  private:
+Minimiser::Minimiser(Objective objective, Search search)
+    : objective_(std::move(objective)), search_(std::move(search)) {
+    best_.value = very_large;
+    best_.at.assign(search_.dimensions, 0.5);
+}
+
+/// First all over the range, then around each of the best places, then closer and closer around the very
+/// best.
+bool Minimiser::advance() {
+    const std::size_t share = shares_++;
+    if (dimensions() == 0) {
+        value({});
+        return false;
+    }
+    if (share == 0) {
+        spread();
+    } else if (share <= candidates_.size()) {
+        Point at = candidates_[share - 1];
+        if (!search_.stepped.empty()) at = scan(std::move(at));
+        improve(NLOPT_LN_SBPLX, std::move(at), dimensions() == 1 ? 1.0 / 48.0 : 0.08, 60);
+    } else if ((share - candidates_.size()) % 2 == 1) {
+        improve(NLOPT_LN_SBPLX, best_.at, 0.03, 250);
+    } else {
+        improve(NLOPT_LN_NELDERMEAD, best_.at, 0.003, 250);
+    }
+    return !enough() && shares_ < 1 + candidates_.size() + 2 * rounds;
+}
+
+/// Of the points, and so the size of the neighbourhood that is looked into first.
+std::size_t Minimiser::point_count() const {
+    return dimensions() == 1 ? 48 : std::max<std::size_t>(48 * dimensions() + 48, 288);
+}
+
+double Minimiser::value(std::span<const double> at) {
+    const double found = objective_(at);
+    const double result = std::isfinite(found) ? std::min(found, very_large) : very_large;
+    ++best_.evaluations;
+    if (result < best_.value) {
+        best_.value = result;
+        best_.at.assign(at.begin(), at.end());
+    }
+    return result;
+}
+
+void Minimiser::spread() {
+    static constexpr std::array<unsigned, 8> primes{2, 3, 5, 7, 11, 13, 17, 19};
     struct Candidate {
         double value;
         Point at;
     };
-    static constexpr int rounds = 2;
-
-    std::size_t dimensions() const { return search_.dimensions; }
-    bool enough() const { return best_.value <= search_.enough; }
-    /// Of the points, and so the size of the neighbourhood that is looked into first.
-    std::size_t point_count() const {
-        return dimensions() == 1 ? 48 : std::max<std::size_t>(48 * dimensions() + 48, 288);
+    std::vector<Candidate> all;
+    const auto add = [&](Point at) { all.push_back({value(at), std::move(at)}); };
+    for (const Point& start : search_.starts) add(start);
+    const std::size_t count = point_count();
+    for (std::size_t i = 1; i <= count; ++i) {
+        Point at(dimensions());
+        for (std::size_t d = 0; d < at.size(); ++d)
+            at[d] = at.size() == 1 ? (static_cast<double>(i) - 0.5) / static_cast<double>(count)
+                                   : radical_inverse(static_cast<unsigned>(i), primes[d % primes.size()]);
+        add(std::move(at));
     }
-    double first_step() const { return dimensions() == 1 ? 1.0 / 48.0 : 0.08; }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.value < b.value; });
+    all.resize(std::min<std::size_t>(all.size(), dimensions() == 1 ? 3 : 8));
+    for (Candidate& each : all) candidates_.push_back(std::move(each.at));
+}
 
-    double value(std::span<const double> at) {
-        const double found = objective_(at);
-        const double result = std::isfinite(found) ? std::min(found, very_large) : very_large;
-        ++best_.evaluations;
-        if (result < best_.value) {
-            best_.value = result;
-            best_.at.assign(at.begin(), at.end());
-        }
-        return result;
-    }
-
-    /// Spread evenly, the best first.
-    std::vector<Candidate> spread() {
-        static constexpr std::array<unsigned, 8> primes{2, 3, 5, 7, 11, 13, 17, 19};
-        std::vector<Candidate> candidates;
-        const auto add = [&](Point at) { candidates.push_back({value(at), std::move(at)}); };
-        for (const Point& start : search_.starts) add(start);
-        const std::size_t count = point_count();
-        for (std::size_t i = 1; i <= count; ++i) {
-            Point at(dimensions());
-            for (std::size_t d = 0; d < at.size(); ++d)
-                at[d] = at.size() == 1 ? (static_cast<double>(i) - 0.5) / static_cast<double>(count)
-                                       : radical_inverse(static_cast<unsigned>(i), primes[d % primes.size()]);
-            add(std::move(at));
-        }
-        std::stable_sort(candidates.begin(), candidates.end(),
-                         [](const Candidate& a, const Candidate& b) { return a.value < b.value; });
-        return candidates;
-    }
-
-    /// The best of evenly spaced values in each stepped dimension in turn, then of finer ones around it.
-    Point scan(Point at) {
-        constexpr int cells = 48;
-        double here = value(at);
-        for (const double reach : {1.0, 1.0, 1.0 / cells}) {
-            for (const std::size_t d : search_.stepped) {
-                const double low = reach == 1.0 ? 0.0 : at[d] - reach;
-                const double high = reach == 1.0 ? 1.0 : at[d] + reach;
-                double best = at[d];
-                for (int i = 0; i <= cells; ++i) {
-                    Point tried = at;
-                    tried[d] = std::clamp(low + (high - low) * i / cells, 0.0, 1.0);
-                    const double there = value(tried);
-                    if (there < here) here = there, best = tried[d];
-                }
-                at[d] = best;
+/// The best of evenly spaced values in each stepped dimension in turn, then of finer ones around it.
+Minimiser::Point Minimiser::scan(Point at) {
+    constexpr int cells = 48;
+    double here = value(at);
+    for (const double reach : {1.0, 1.0, 1.0 / cells}) {
+        for (const std::size_t d : search_.stepped) {
+            const double low = reach == 1.0 ? 0.0 : at[d] - reach;
+            const double high = reach == 1.0 ? 1.0 : at[d] + reach;
+            double best = at[d];
+            for (int i = 0; i <= cells; ++i) {
+                Point tried = at;
+                tried[d] = std::clamp(low + (high - low) * i / cells, 0.0, 1.0);
+                const double there = value(tried);
+                if (there < here) here = there, best = tried[d];
             }
+            at[d] = best;
         }
-        return at;
     }
+    return at;
+}
 
-    void improve(nlopt_algorithm algorithm, Point at, double step, std::size_t evaluations_each) {
-        const auto n = static_cast<unsigned>(dimensions());
-        nlopt_opt optimiser = nlopt_create(algorithm, n);
-        if (optimiser == nullptr) return;
-        const auto call = [](unsigned count, const double* x, double*, void* self) {
-            return static_cast<Minimiser*>(self)->value({x, count});
-        };
-        nlopt_set_min_objective(optimiser, call, this);
-        nlopt_set_lower_bounds1(optimiser, 0.0);
-        nlopt_set_upper_bounds1(optimiser, 1.0);
-        nlopt_set_maxeval(optimiser, static_cast<int>(evaluations_each * dimensions()));
-        nlopt_set_initial_step1(optimiser, step);
-        nlopt_set_xtol_rel(optimiser, 1e-10);
-        nlopt_set_stopval(optimiser, search_.enough);
-        double last = 0.0;
-        // Whatever it ends with, the best of all evaluations is known.
-        static_cast<void>(nlopt_optimize(optimiser, at.data(), &last));
-        nlopt_destroy(optimiser);
-    }
-
-    const Objective& objective_;
-    const Search& search_;
-    Minimum best_;
-};
-
-}  // namespace
-
-Minimum minimise(const Objective& objective, const Search& search) {
-    if (search.dimensions == 0) {
-        const double value = objective({});
-        return {{}, std::isfinite(value) ? value : very_large, 1};
-    }
-    return Minimiser(objective, search).run();
+void Minimiser::improve(int algorithm, Point at, double step, std::size_t evaluations_each) {
+    const auto n = static_cast<unsigned>(dimensions());
+    nlopt_opt optimiser = nlopt_create(static_cast<nlopt_algorithm>(algorithm), n);
+    if (optimiser == nullptr) return;
+    const auto call = [](unsigned count, const double* x, double*, void* self) {
+        return static_cast<Minimiser*>(self)->value({x, count});
+    };
+    nlopt_set_min_objective(optimiser, call, this);
+    nlopt_set_lower_bounds1(optimiser, 0.0);
+    nlopt_set_upper_bounds1(optimiser, 1.0);
+    nlopt_set_maxeval(optimiser, static_cast<int>(evaluations_each * dimensions()));
+    nlopt_set_initial_step1(optimiser, step);
+    nlopt_set_xtol_rel(optimiser, 1e-10);
+    nlopt_set_stopval(optimiser, search_.enough);
+    double last = 0.0;
+    // Whatever it ends with, the best of all evaluations is known.
+    static_cast<void>(nlopt_optimize(optimiser, at.data(), &last));
+    nlopt_destroy(optimiser);
 }
 
 }  // namespace tendril::app

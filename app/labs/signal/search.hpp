@@ -26,8 +26,33 @@ struct Minimum {
     int evaluations = 0;
 };
 
-/// Cost: some 200 evaluations in one dimension to 10 000 in six. Values that are not finite count as very
-/// large.
-Minimum minimise(const Objective& objective, const Search& search);
+/// The search, a share at a time. Cost: some 200 evaluations in one dimension to 10 000 in six, of which a
+/// share has 1500 at most. Values that are not finite count as very large.
+class Minimiser {
+  public:
+    Minimiser(Objective objective, Search search);
+
+    /// Whether there is more to do after this share.
+    bool advance();
+    /// So far.
+    const Minimum& best() const { return best_; }
+
+  private:
+    using Point = std::vector<double>;
+
+    std::size_t dimensions() const { return search_.dimensions; }
+    bool enough() const { return best_.value <= search_.enough; }
+    std::size_t point_count() const;
+    double value(std::span<const double> at);
+    void spread();
+    Point scan(Point at);
+    void improve(int algorithm, Point at, double step, std::size_t evaluations_each);
+
+    Objective objective_;
+    Search search_;
+    Minimum best_;
+    std::vector<Point> candidates_;  ///< the best of those that were spread, to be improved
+    std::size_t shares_ = 0;
+};
 
 }  // namespace tendril::app

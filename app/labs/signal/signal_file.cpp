@@ -78,12 +78,27 @@ Json save_stage(const SignalStage& stage) {
 Json save_fits(const SignalPart& part) {
     Json fits = Json::array();
     for (const Fit& fit : part.fits)
-        fits.push_back({{"filter", filter_json(fit.filter)}, {"residual", std::min(fit.residual, 1e9)}});
+        fits.push_back(
+            {{"filter", filter_json(fit.filter)}, {"residual", std::min(fit.residual, most_residual)}});
     Json json{{"input", save_rows(part.fit_input)}, {"wanted", part.wanted}, {"ranking", std::move(fits)}};
     if (const auto& recording = part.recording)
         json["recording"] = {
             {"value", recording->value}, {"rows", recording->rows}, {"begun", recording->begun}};
+    if (part.fitting) {
+        Json from = Json::array();
+        for (const signal::Filter& filter : part.fitting->from) from.push_back(filter_json(filter));
+        json["fitting"] = {{"from", std::move(from)}, {"shares", part.fitting->shares}};
+    }
     return json;
+}
+
+/// What is still to come of the fits.
+Fitting load_fitting(const SignalPart& part, const JsonPlace& place) {
+    constexpr std::size_t most_shares = 1000;
+    if (part.wanted.size() < 2 || part.recording) place.fail("there is no response to fit to");
+    if (part.fits.size() >= signal::kinds().size()) place.fail("every kind is fitted already");
+    const JsonPlace from = place["from"];
+    return {filters_from_json(from.json(), from.where(), most_stages), place["shares"].index(most_shares)};
 }
 
 void load_fits(SignalPart& part, const JsonPlace& place) {
@@ -99,8 +114,9 @@ void load_fits(SignalPart& part, const JsonPlace& place) {
     place["ranking"].for_each("fits", 100, [&](const JsonPlace& each) {
         const JsonPlace filter = each["filter"];
         part.fits.push_back(
-            {filter_from_json(filter.json(), filter.where()), each["residual"].real(0.0, 1e9), 0});
+            {filter_from_json(filter.json(), filter.where()), each["residual"].real(0.0, most_residual), 0});
     });
+    if (const auto fitting = place.optional("fitting")) part.fitting = load_fitting(part, *fitting);
 }
 
 }  // namespace

@@ -69,6 +69,12 @@ std::vector<Handle> SignalLab::handles(const Workspace& workspace) const {
              .drag = part.recording ? Drag::Position : Drag::Nothing}};
 }
 
+void SignalLab::work(Workspace& workspace) const {
+    const bool modified = workspace.modified();
+    signal_runtime(workspace).fit_work.advance(workspace.document.edit<SignalPart>(signal_lab));
+    if (!modified) workspace.saved = workspace.document;
+}
+
 void SignalLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const {
     const double height = static_cast<double>(frame.position.y - ball_level);
     const double value = std::clamp(height, -most_amplitude, most_amplitude);
@@ -141,7 +147,8 @@ Json SignalLab::state(const Workspace& workspace) const {
                 {"plot", signal_plots.name(part.plot)},
                 {"wanted", part.recording ? part.recording->rows : part.wanted.size()},
                 {"recording", part.recording.has_value()},
-                {"fits", std::move(fits)}};
+                {"fits", std::move(fits)},
+                {"fitting", part.fitting.has_value()}};
 }
 
 std::vector<TestScene> SignalLab::test_scenes() const {

@@ -19,6 +19,10 @@ class SignalLab final : public Lab {
     bool moving(const Workspace& workspace) const override;
     void step(Workspace& workspace) const override;
     double seconds(const Workspace& workspace) const override { return signal_part(workspace).time; }
+    bool working(const Workspace& workspace) const override {
+        return signal_part(workspace).fitting.has_value();
+    }
+    void work(Workspace& workspace) const override;
 
     bool rewinds() const override { return true; }
     bool has_timeline(const Workspace& workspace) const override { return !workspace.rewind.empty(); }

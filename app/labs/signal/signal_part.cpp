@@ -65,6 +65,7 @@ std::shared_ptr<const Part> SignalPart::at_moment(std::shared_ptr<const Part> th
     part->fit_input = fit_input;
     part->wanted = wanted;
     part->fits = fits;
+    part->fitting = fitting;
     part->recording = recording;
     end_recording(*part);  // nobody goes on with it at another time
     return part;
@@ -73,7 +74,8 @@ std::shared_ptr<const Part> SignalPart::at_moment(std::shared_ptr<const Part> th
 std::size_t SignalPart::bytes() const {
     std::size_t bytes = sizeof(*this) + stages.size() * sizeof(SignalStage) +
                         (past.size() + fit_input.size()) * sizeof(signal::Sample) +
-                        wanted.size() * sizeof(double) + fits.size() * sizeof(Fit);
+                        wanted.size() * sizeof(double) + fits.size() * sizeof(Fit) +
+                        (fitting ? fitting->from.size() * sizeof(signal::Filter) : 0);
     for (const SignalStage& stage : stages)
         if (const auto* average = std::get_if<signal::MovingAverageState>(&stage.state))
             bytes += average->entries.size() * sizeof(signal::MovingAverageState::Entry);
@@ -83,7 +85,7 @@ std::size_t SignalPart::bytes() const {
 bool SignalPart::operator==(const SignalPart& other) const {
     const auto values = [](const SignalPart& part) {
         return std::tie(part.stages, part.input, part.time, part.past, part.selected, part.plot,
-                        part.fit_input, part.wanted, part.recording);
+                        part.fit_input, part.wanted, part.recording, part.fitting);
     };
     const auto same_fit = [](const Fit& a, const Fit& b) {
         return a.filter == b.filter && a.residual == b.residual;

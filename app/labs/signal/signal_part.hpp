@@ -43,6 +43,15 @@ struct Recording {
     bool operator==(const Recording&) const = default;
 };
 
+/// A fit that is being worked out, a share in every tick (fitting.hpp): one kind after the other, in the
+/// order of signal::kinds(), of which SignalPart::fits has those that are done.
+struct Fitting {
+    std::vector<signal::Filter> from;  ///< the chain as it was: searches begin there too
+    std::size_t shares = 0;            ///< ticks that the kind at hand has had
+    bool operator==(const Fitting&) const = default;
+};
+inline constexpr double most_residual = 1e9;  ///< of a fit, as a file has it
+
 struct SignalPart final : Part {
     std::vector<SignalStage> stages;
     SignalInput input;
@@ -55,6 +64,7 @@ struct SignalPart final : Part {
     std::vector<double> wanted;
     std::optional<Recording> recording;  ///< of `wanted`, which has a row for each of the input's
     std::vector<Fit> fits;               ///< the best first
+    std::optional<Fitting> fitting;      ///< what is still to come of them
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<SignalPart>(*this); }
     Json save() const override;

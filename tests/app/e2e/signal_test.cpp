@@ -61,6 +61,32 @@ TEST(SignalInTheWindow, AResponseIsDrawnWithTheMouse) {
     EXPECT_TRUE(state_after(script).at("fits").empty()) << "what was drawn is undone in one step";
 }
 
+/// The window stays responsive; a script's own command is done at once, and comes to the same.
+TEST(SignalInTheWindow, AFitThatAButtonBeginsGoesOnFromTickToTick) {
+    const glm::vec2 fit{1060.0f, 210.0f};
+    const ScriptText drawn =
+        ScriptText()
+            .command("lab.open", {{"name", "signal"}})
+            .command("signal.input", {{"kind", "square"}, {"period", 4}})
+            .command("time.pause")
+            .command("signal.fit.draw",
+                     {{"from", 2.5}, {"from_value", -1.5}, {"to", 2.7}, {"to_value", -1.3}})
+            .wait(3);
+    ScriptText clicked = drawn;
+    const Json running = state_after(clicked.click(fit).wait(15));
+    EXPECT_EQ(running.at("fitting"), true);
+    EXPECT_GT(running.at("fits").size(), 1u);
+    EXPECT_LT(running.at("fits").size(), 10u);
+    const Json done = state_after(clicked.wait(100));
+    EXPECT_EQ(done.at("fitting"), false);
+    ScriptText at_once = drawn;
+    EXPECT_EQ(done.at("fits"), state_after(at_once.command("signal.fit")).at("fits"));
+    ScriptText cancelled = drawn;
+    const Json stopped = state_after(cancelled.click(fit).wait(15).click(fit).wait(30));
+    EXPECT_EQ(stopped.at("fitting"), false);
+    EXPECT_EQ(stopped.at("fits"), running.at("fits")) << "what is fitted stays";
+}
+
 TEST(SignalInTheWindow, AResponseIsShownWithTheOutputBall) {
     const ScriptText before = ScriptText()
                                   .command("lab.open", {{"name", "signal"}})

@@ -17,6 +17,11 @@ LabTest::~LabTest() = default;
 
 void LabTest::run(const char* name, const Json& arguments, Gesture gesture) {
     table.run(workspace, name, arguments, gesture);
+    if (const auto& finish = table.find(name)->finish) finish(workspace);
+}
+
+void LabTest::begin(const char* name, const Json& arguments) {
+    table.run(workspace, name, arguments);
 }
 
 void LabTest::run_in(Workspace& other, const char* name, const Json& arguments) const {

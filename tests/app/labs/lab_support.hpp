@@ -30,7 +30,10 @@ class LabTest : public testing::Test {
 
     const Lab& lab() const { return *labs.find(lab_); }
     Json state() const { return lab().state(workspace); }
+    /// As a script runs it: what it begins is finished.
     void run(const char* name, const Json& arguments = Json::object(), Gesture gesture = 0);
+    /// As the window runs it: what it begins, ticks go on with.
+    void begin(const char* name, const Json& arguments = Json::object());
     void run_in(Workspace& other, const char* name, const Json& arguments) const;
     /// Runs what must be refused; gives the message, having checked that nothing changed.
     std::string refused(const char* name, const Json& arguments = Json::object());
