@@ -42,13 +42,7 @@ StageMeasures measure(const std::vector<double>& time, const std::vector<double>
     std::vector<double> wanted;
     wanted.reserve(input.size());
     for (const double each : input) wanted.push_back(signal::immediate(filters, each));
-    const signal::Response response{time, wanted, output};
-    StageMeasures measures;
-    measures.lag = signal::lag(response);
-    measures.overshoot = signal::overshoot(response);
-    measures.settling_time = signal::settling_time(response);
-    measures.jitter = signal::jitter(time, input, output);
-    return measures;
+    return signal::measure({time, wanted, output}, input);
 }
 
 /// The output of every stage; what is off puts out what came in.

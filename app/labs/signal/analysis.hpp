@@ -10,12 +10,8 @@
 
 namespace tendril::app {
 
-/// A filter on the input that reaches it.
-struct StageMeasures {
-    std::optional<double> lag, settling_time;  ///< seconds
-    std::optional<double> overshoot, jitter;   ///< parts: of the step, of the input's
-    double rate_difference = 0.0;              ///< of what the chain up to here puts out
-};
+/// Of a filter on the input that reaches it; the rate difference is of what the chain up to here puts out.
+using StageMeasures = signal::Measures;
 
 /// The chain over its measuring rows: for the hand those that went in up to the last quarter of a second,
 /// else the input from 0 on. Cost: 1.5 ms for eight filters, and for the hand no more often than that.
@@ -39,11 +35,11 @@ class SignalRuntime final : public Runtime {
   public:
     const ChainAnalysis& chain(const SignalPart& part);
     /// Those that both can be measured of.
-    FitWork fit_work;
-
     const std::vector<ShelfPoint>& shelf(const SignalPart& part);
     /// What the chain would have made of what went in during the last ticks: one list for each stage.
     const std::vector<std::vector<double>>& recent(const SignalPart& part);
+
+    FitWork fit_work;
 
   private:
     /// All that the numbers follow from.

@@ -25,15 +25,31 @@ std::string difference_text(double value) {
     return fixed_text(value, value < 10.0 ? 3 : 0);
 }
 
-void measure_rows(const StageMeasures& measures) {
-    reading("lag", "%s", or_dash(measures.lag, 1e3, 1, "ms").c_str());
-    explain("How far the output has to be shifted back in time to fit its input best.");
+void response_rows(const StageMeasures& measures) {
+    if (measures.following == signal::Following::DoesNotFollow) {
+        reading("lag", "does not follow");
+        explain("No shift in time makes the input explain even a tenth of what the output does.");
+    } else {
+        reading("lag", "%s", or_dash(measures.lag, 1e3, 1, "ms").c_str());
+        explain("How far the output has to be shifted back in time to fit its input best.");
+    }
     reading("overshoot", "%s", or_dash(measures.overshoot, 1e2, 1, "%").c_str());
     explain("How far it goes beyond a jump of the input, as a part of the jump. Needs jumps: a square wave.");
     reading("settling", "%s", or_dash(measures.settling_time, 1e3, 0, "ms").c_str());
     explain("From a jump until it stays within 2 % of it. Needs jumps: a square wave.");
     reading("jitter left", "%s", or_dash(measures.jitter, 1e2, 1, "%").c_str());
     explain("Second differences of the output over those of the input.");
+}
+
+void measure_rows(const StageMeasures& measures) {
+    if (measures.following == signal::Following::Unstable) {
+        reading("response", "unstable");
+        explain(
+            "It runs away: more than ten times as far as its input spans, and ever farther. Lag, overshoot, "
+            "settling and jitter of that would mean nothing.");
+    } else {
+        response_rows(measures);
+    }
     reading("rate difference", "%s", difference_text(measures.rate_difference).c_str());
     explain(
         "The maximum difference between 15, 30, 60, 144 Hz and uneven frames at one time, of what the chain "
@@ -72,6 +88,11 @@ void fit_rows(const SignalPart& part, Emit& emit) {
     std::string path;
     if (text_field("response", path, "CSV file, Enter")) emit("signal.fit", {{"to", path}});
     if (part.wanted.empty()) return;
+    if (part.fitting) {
+        const std::size_t done = part.fits.size(), all = signal::kinds().size();
+        ImGui::ProgressBar(static_cast<float>(done) / static_cast<float>(all), {-1.0f, 0.0f}, "");
+        note(std::to_string(done) + " of " + std::to_string(all) + " kinds of filter are fitted.");
+    }
     for (std::size_t i = 0; i < part.fits.size(); ++i) {
         const Fit& fit = part.fits[i];
         ImGui::PushID(static_cast<int>(i));
@@ -87,11 +108,6 @@ void fit_rows(const SignalPart& part, Emit& emit) {
         ImGui::SameLine();
         text_flush_right(left, i > 0);
         ImGui::PopID();
-    }
-    if (part.fitting) {
-        const std::size_t done = part.fits.size(), all = signal::kinds().size();
-        ImGui::ProgressBar(static_cast<float>(done) / static_cast<float>(all), {-1.0f, 0.0f}, "");
-        note(std::to_string(done) + " of " + std::to_string(all) + " kinds of filter are fitted.");
     }
     note("What is left, as a part of the response's range. Click one to put it in place.");
 }

@@ -22,6 +22,19 @@ Json number_or_null(const std::optional<double>& value, double factor) {
 }
 
 }  // namespace
+Json following_name(signal::Following following) {
+    switch (following) {
+        case signal::Following::Follows:
+            return "follows";
+        case signal::Following::DoesNotFollow:
+            return "does_not_follow";
+        case signal::Following::Unstable:
+            return "unstable";
+        default:
+            return nullptr;
+    }
+}
+
 
 std::shared_ptr<Part> SignalLab::blank() const {
     return std::make_shared<SignalPart>(first_signal());
@@ -138,6 +151,7 @@ Json SignalLab::state(const Workspace& workspace) const {
     return Json{{"lab", signal_lab},
                 {"input", input_of(part)},
                 {"input_kind", input_kinds.name(part.input.kind)},
+        json["following"] = following_name(measures.following);
                 {"amplitude", part.input.amplitude},
                 {"period", part.input.period},
                 {"output", output_of(part)},

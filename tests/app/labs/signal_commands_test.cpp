@@ -279,6 +279,19 @@ TEST_F(SignalCommands, WhatChangesTheInputEndsARecording) {
     EXPECT_TRUE(part().wanted.empty()) << "less than two rows are nothing";
 }
 
+TEST_F(SignalCommands, WhatRunsAwayIsSaidToBeUnstable) {
+    run("signal.preset", {{"name", "spring_that_explodes"}});
+    Json filter = state().at("filters")[0];
+    EXPECT_EQ(filter.at("following"), "unstable");
+    for (const char* key : {"lag_ms", "overshoot_percent", "settling_ms", "jitter_percent"})
+        EXPECT_TRUE(filter.at(key).is_null()) << key;
+    run("signal.filter.enable", {{"at", 0}, {"on", false}});
+    run("signal.filter.enable", {{"at", 1}, {"on", true}});
+    filter = state().at("filters")[1];
+    EXPECT_EQ(filter.at("following"), "follows");
+    EXPECT_TRUE(filter.at("lag_ms").is_number());
+}
+
 TEST_F(SignalCommands, EveryPresetMakesItsPoint) {
     for (const SignalPreset& preset : signal_presets()) {
         run("signal.preset", {{"name", preset.name}});
