@@ -152,10 +152,27 @@ void App::take_event(const Event& event, Emit& emit) {
         layout_ = lay_out(size_, ui_scale(), workspace_.settings, lab().has_timeline(workspace_),
                           lab().canvas_share(workspace_));
     } else if (const auto* drop = std::get_if<Drop>(&event)) {
-        if (!drop->paths.empty()) emit("scene.open", {{"path", drop->paths.front()}});
+        if (!drop->paths.empty()) take_file(drop->paths.front(), emit);
     } else if (std::holds_alternative<CloseRequest>(event)) {
         emit("quit");
     }
+}
+
+/// To the open lab, if it has a use for it. Where another has, it is no scene.
+void App::take_file(const std::string& path, Emit& emit) {
+    if (lab().take_file(path, emit)) return;
+    for (const auto& each : labs_.all()) {
+        Emit unused;
+        if (!each->take_file(path, unused)) continue;
+        return refuse(path + " is no scene. The lab " + each->title() +
+                      " takes it: open that, and drop it again");
+    }
+    emit("scene.open", {{"path", path}});
+}
+
+void App::refuse(const std::string& why) {
+    workspace_.toast(why, ToastKind::Refusal);
+    if (complain_) std::fprintf(stderr, "tendril: %s\n", why.c_str());
 }
 
 void App::take_shortcut(Emit& emit) {
@@ -183,8 +200,7 @@ void App::run_emitted(Emit& emit) {
             commands_->run(workspace_, command.name, command.arguments, command.continuous ? gesture_ : 0);
             if (command.continuous && pointer_.dragged() != no_pick) workspace_.settings.hint_seen = true;
         } catch (const Refused& refusal) {
-            workspace_.toast(refusal.what(), ToastKind::Refusal);
-            if (complain_) std::fprintf(stderr, "tendril: %s\n", refusal.what());
+            refuse(refusal.what());
         }
     }
 }
@@ -192,6 +208,7 @@ void App::run_emitted(Emit& emit) {
 void App::run(const RunCommand& command) {
     try {
         commands_->run(workspace_, command.name, command.arguments);
+        if (const auto& finish = commands_->find(command.name)->finish) finish(workspace_);
         if (recorder_) recorder_->command(command.name, command.arguments, false);
     } catch (const Refused& refusal) {
         if (recorder_) recorder_->command(command.name, command.arguments, true);
@@ -208,7 +225,6 @@ void App::run(const RunCommand& command) {
 void App::step_lab() {
     Clock& clock = workspace_.clock;
     if (lab().moving(workspace_)) {
-        if (const auto& finish = commands_->find(command.name)->finish) finish(workspace_);
         if (lab().rewinds()) workspace_.remember_moment();
         lab().step(workspace_);
     }

@@ -138,6 +138,10 @@ class Lab {
     /// What the camera frames; all handles unless the lab knows better.
     virtual Bounds bounds(const Workspace& workspace, bool selection_only) const;
 
+    /// Takes a file that is dropped on the window, by a command. False where it is none of the lab's: then it
+    /// opens as a scene.
+    virtual bool take_file(const std::string& /*path*/, Emit&) const { return false; }
+
     // the panels
     virtual void panel(const Workspace&, Emit&) const {}
     virtual void inspector(const Workspace&, Emit&) const {}

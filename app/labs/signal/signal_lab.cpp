@@ -1,6 +1,7 @@
 #include "app/labs/signal/signal_lab.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "app/document/json_complete.hpp"
@@ -21,7 +22,6 @@ Json number_or_null(const std::optional<double>& value, double factor) {
     return value ? Json(factor * *value) : Json(nullptr);
 }
 
-}  // namespace
 Json following_name(signal::Following following) {
     switch (following) {
         case signal::Following::Follows:
@@ -35,6 +35,7 @@ Json following_name(signal::Following following) {
     }
 }
 
+}  // namespace
 
 std::shared_ptr<Part> SignalLab::blank() const {
     return std::make_shared<SignalPart>(first_signal());
@@ -68,6 +69,12 @@ void SignalLab::step(Workspace& workspace) const {
     if (!modified) workspace.saved = workspace.document;  // that time passes is nothing that wants saving
 }
 
+void SignalLab::work(Workspace& workspace) const {
+    const bool modified = workspace.modified();
+    signal_runtime(workspace).fit_work.advance(workspace.document.edit<SignalPart>(signal_lab));
+    if (!modified) workspace.saved = workspace.document;
+}
+
 void SignalLab::timeline(const Workspace& workspace, Emit& emit) const {
     past_strip(workspace, emit);
 }
@@ -82,18 +89,22 @@ std::vector<Handle> SignalLab::handles(const Workspace& workspace) const {
              .drag = part.recording ? Drag::Position : Drag::Nothing}};
 }
 
-void SignalLab::work(Workspace& workspace) const {
-    const bool modified = workspace.modified();
-    signal_runtime(workspace).fit_work.advance(workspace.document.edit<SignalPart>(signal_lab));
-    if (!modified) workspace.saved = workspace.document;
-}
-
 void SignalLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const {
     const double height = static_cast<double>(frame.position.y - ball_level);
     const double value = std::clamp(height, -most_amplitude, most_amplitude);
     if (pick == hand_pick) emit.continuously("signal.hand", {{"value", value}});
     if (pick == output_pick && signal_part(workspace).recording)
         emit.continuously("signal.fit.hand", {{"value", value}});
+}
+
+/// Rows of a CSV become the input.
+bool SignalLab::take_file(const std::string& path, Emit& emit) const {
+    const std::size_t dot = path.rfind('.');
+    std::string ending = dot == path.npos ? "" : path.substr(dot);
+    for (char& each : ending) each = static_cast<char>(std::tolower(static_cast<unsigned char>(each)));
+    if (ending != ".csv") return false;
+    emit("signal.input", {{"kind", "csv"}, {"path", path}});
+    return true;
 }
 
 /// One step to undo, with the drag.
@@ -121,6 +132,7 @@ std::vector<MouseHelp> SignalLab::mouse_help() const {
     return {{"Left drag on the orange ball", "makes the hand's height the input"},
             {"Left drag on the blue ball, after Record", "shows the response that is wanted"},
             {"Mouse over a plot", "reads every curve at that time"},
+            {"CSV file, dropped on the window", "becomes the input"},
             {"Left drag in the plot Fit", "draws the response that is wanted"},
             {"Curve: drag, double-click, right-click", "moves, adds, removes a key"}};
 }
@@ -139,6 +151,7 @@ Json SignalLab::state(const Workspace& workspace) const {
         Json json{{"kind", signal::kind(stage.filter)}, {"enabled", stage.enabled}};
         json.update(parameters_json(stage.filter));
         json["output"] = output_of(part, i);
+        json["following"] = following_name(measures.following);
         json["lag_ms"] = number_or_null(measures.lag, 1e3);
         json["overshoot_percent"] = number_or_null(measures.overshoot, 1e2);
         json["settling_ms"] = number_or_null(measures.settling_time, 1e3);
@@ -151,7 +164,6 @@ Json SignalLab::state(const Workspace& workspace) const {
     return Json{{"lab", signal_lab},
                 {"input", input_of(part)},
                 {"input_kind", input_kinds.name(part.input.kind)},
-        json["following"] = following_name(measures.following);
                 {"amplitude", part.input.amplitude},
                 {"period", part.input.period},
                 {"output", output_of(part)},

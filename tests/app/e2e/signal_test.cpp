@@ -189,6 +189,39 @@ TEST(SignalInTheWindow, AFileIsTypedIntoThePanel) {
     EXPECT_EQ(state.at("input"), 7.0);
 }
 
+TEST(SignalInTheWindow, ACsvThatIsDroppedIsTheInput) {
+    const TempFolder folder;
+    for (const char* name : {"rows.csv", "ROWS.CSV"}) {
+        write(folder / name, "dt,input\n0.5,7\n0.5,-7\n");
+        ScriptText script = ScriptText().command("lab.open", {{"name", "signal"}}).wait(2);
+        script.line({{"drop", Json::array({(folder / name).string()})}}).wait(10);
+        const Json state = state_after(script);
+        EXPECT_EQ(state.at("input_kind"), "csv");
+        EXPECT_EQ(state.at("input"), 7.0);
+        EXPECT_EQ(state_after(script.command("undo").wait(2)).at("input_kind"), "square");
+    }
+}
+
+TEST(SignalInTheWindow, ACsvThatIsDroppedInVainSaysWhy) {
+    const TempFolder folder;
+    write(folder / "rows.csv", "dt,input\n0.5,7\n0.5,-7\n");
+    write(folder / "hole.csv", "dt,input\n0.5,\n");
+    const auto drop = [&](const char* lab, const char* file) {
+        const ScriptText script = ScriptText()
+                                      .command("lab.open", {{"name", lab}})
+                                      .line({{"drop", Json::array({(folder / file).string()})}})
+                                      .wait(2);
+        write(folder / "script.jsonl", script.text());
+        return run_program({"--headless", "--script", (folder / "script.jsonl").string(), "--state",
+                            (folder / "state.json").string()});
+    };
+    const auto state = [&] { return app::parse_json(read(folder / "state.json")); };
+    EXPECT_TRUE(complained(drop("signal", "hole.csv"), 0, {"hole.csv", "row 2, column 2"}));
+    EXPECT_EQ(state().at("input_kind"), "square");
+    EXPECT_TRUE(complained(drop("chain", "rows.csv"), 0, {"rows.csv is no scene", "Signal"}));
+    EXPECT_EQ(state().at("segments").size(), 8u);
+}
+
 TEST(SignalInTheWindow, AHandAtRestLetsTheWindowIdle) {
     ScriptText script = signal_lab().wait(650);
     const Json rested = state_after(script), later = state_after(script.wait(100));
