@@ -50,6 +50,17 @@ void remove(RigPart& part, const Arguments& given) {
     remove_element(part, given.text("name"));
 }
 
+/// The element or the unit, whichever was selected last.
+void remove_selected(RigPart& part, const Arguments&) {
+    const RigSelection selected = part.selected;
+    if (selected.unit_last)
+        remove_unit(part, selected.unit);
+    else if (!selected.element.empty())
+        remove_element(part, selected.element);
+    else
+        throw Refused("nothing is selected");
+}
+
 std::size_t control_named(const RigPart& part, const std::string& name) {
     const std::size_t at = element_named(part, name);
     if (!part.rig.definition().elements[at].control)
@@ -124,6 +135,8 @@ void add_element_commands(CommandTable& table) {
         "Sets an element's input pose, from which every solve begins", set_element));
     table.add(rig_command("rig.element.remove", {name_argument()},
                           "Removes an element that is no parent and that no unit names", remove));
+    table.add(rig_command("rig.remove_selected", {}, "Removes the element or the unit that was selected last",
+                          remove_selected));
     table.add(rig_command(
         "rig.control.set",
         {name_argument(), json_argument("value", true,

@@ -149,7 +149,7 @@ void RigLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
     const rig::Element& element = part.rig.definition().elements[picked_element(pick)];
     ArgumentList chosen{{"element", element.name}};
     if (!part.selected.unit.empty()) chosen.push_back({"unit", part.selected.unit});
-    if (part.selected.element != element.name) emit("rig.select", chosen);
+    if (part.selected.element != element.name || part.selected.unit_last) emit("rig.select", chosen);
     if (!element.control || element.control->kind != rig::ControlKind::Bool) return;
     const bool on = std::get<bool>(part.state.controls[picked_element(pick)]);
     emit("rig.control.set", {{"name", element.name}, {"value", SharedJson(Json(!on))}});
@@ -181,6 +181,10 @@ std::string RigLab::hint(const Workspace& workspace, PickId pick) const {
     if (const std::string value = shape->text(); !value.empty()) text += ", " + value;
     if (shape->at_limit()) text += ", at its limit";
     return text + "): " + what_dragging_does(shape->kind()) + ". Double click resets it.";
+}
+
+std::vector<Shortcut> RigLab::shortcuts() const {
+    return {delete_shortcut("rig.remove_selected")};
 }
 
 std::vector<MouseHelp> RigLab::mouse_help() const {

@@ -126,6 +126,8 @@ void forget_missing_selection(RigPart& part) {
     const auto names = part.rig.unit_names();
     if (!part.rig.element(part.selected.element)) part.selected.element.clear();
     if (std::ranges::find(names, part.selected.unit) == names.end()) part.selected.unit.clear();
+    part.selected.unit_last =
+        !part.selected.unit.empty() && (part.selected.unit_last || part.selected.element.empty());
 }
 
 void changed(RigPart& part) {

@@ -49,6 +49,7 @@ Json RigPart::save() const {
     saved["moving"] = moving;
     saved["backward"] = save_backward(*this);
     saved["selected"] = {{"element", selected.element}, {"unit", selected.unit}};
+    if (selected.unit_last) saved["selected"]["unit_last"] = true;
     save_time(*this, saved);
     return json;
 }
@@ -72,8 +73,9 @@ std::shared_ptr<Part> RigPart::load(const Json& json, const std::string& where) 
     if (const auto backward_place = state_place->optional("backward"))
         part->backward = load_backward(*backward_place, part->rig.definition());
     if (const auto selection = state_place->optional("selected")) {
-        check_members(*selection, {"element", "unit"});
-        part->selected = {(*selection)["element"].text(), (*selection)["unit"].text()};
+        check_members(*selection, {"element", "unit", "unit_last"});
+        part->selected = {(*selection)["element"].text(), (*selection)["unit"].text(),
+                          selection->has("unit_last") && (*selection)["unit_last"].flag()};
         forget_missing_selection(*part);
     }
     return part;

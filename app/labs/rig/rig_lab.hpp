@@ -36,6 +36,7 @@ class RigLab final : public Lab {
     void click(const Workspace& workspace, PickId pick, Emit& emit) const override;
     void double_click(const Workspace& workspace, PickId pick, Emit& emit) const override;
     std::string hint(const Workspace& workspace, PickId pick) const override;
+    std::vector<Shortcut> shortcuts() const override;
     std::vector<MouseHelp> mouse_help() const override;
     Bounds bounds(const Workspace& workspace, bool selection_only) const override;
 

@@ -47,6 +47,7 @@ struct RateDifference {
 /// What the panel shows more of, by name; empty: nothing.
 struct RigSelection {
     std::string element, unit;
+    bool unit_last = false;  ///< of both the unit was selected last: that is what Delete removes
     bool operator==(const RigSelection&) const = default;
 };
 

@@ -28,6 +28,8 @@ void select(RigPart& part, const Arguments& given) {
     if (given.has("unit")) selected.unit = given.text("unit");
     if (!selected.element.empty()) element_named(part, selected.element);
     if (!selected.unit.empty()) unit_named(part, selected.unit);
+    selected.unit_last =
+        !selected.unit.empty() && (selected.element.empty() || selected.unit != part.selected.unit);
     part.selected = std::move(selected);
 }
 

@@ -340,5 +340,37 @@ TEST_F(RigCommands, EverythingIsUndoneStepByStep) {
     }
 }
 
+TEST_F(RigCommands, WhatWasSelectedLastIsRemoved) {
+    expect_refused("rig.remove_selected", Json::object(), {"nothing is selected"});
+    run("rig.preset", {{"name", "aim"}});
+    const auto units = [&] { return list("units").size(); };
+    const auto elements = [&] { return list("elements").size(); };
+    const std::size_t all_units = units(), all_elements = elements();
+    run("rig.element.add", {{"name", "ear"}, {"parent", "head"}});
+    run("rig.select", {{"unit", "aim"}});
+    run("rig.select", {{"unit", "aim"}, {"element", "ear"}});
+    Workspace other = reopened();
+    run("rig.remove_selected");
+    EXPECT_EQ(elements(), all_elements);
+    EXPECT_EQ(units(), all_units);
+    EXPECT_EQ(part().selected.unit, "aim") << "it stays selected, and is next";
+    run("rig.remove_selected");
+    EXPECT_EQ(units(), all_units - 1);
+    expect_refused("rig.remove_selected", Json::object(), {"nothing is selected"});
+    run("undo");
+    run("undo");
+    EXPECT_EQ(units(), all_units);
+    EXPECT_EQ(elements(), all_elements + 1);
+    run("rig.select", {{"element", "ear"}});
+    run("rig.select", {{"element", "ear"}, {"unit", "aim"}});
+    other = reopened();
+    EXPECT_TRUE(rig_part(other).selected.unit_last) << "a file knows it";
+    run("rig.remove_selected");
+    EXPECT_EQ(units(), all_units - 1);
+    EXPECT_EQ(part().selected.element, "ear");
+    run("rig.select", {{"element", "head"}});
+    expect_refused("rig.remove_selected", Json::object(), {"head"});
+}
+
 }  // namespace
 }  // namespace tendril::app
