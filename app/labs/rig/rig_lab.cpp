@@ -39,6 +39,13 @@ std::vector<TestScene> RigLab::test_scenes() const {
           {"rig.unit.add",
            {{"unit", "offset_transform"}, {"item", "bone 1"}, {"offset", SharedJson(Json::object())}}},
           {"rig.unit.add", {{"unit", "set_rotation"}, {"item", "bone 2"}, {"rotation", "look"}}}},
+         words},
+        {"selected",
+         {{"rig.clear", {}},
+          {"rig.element.add", {{"name", "bone 1"}}},
+          {"rig.unit.add",
+           {{"unit", "offset_transform"}, {"item", "bone 1"}, {"offset", SharedJson(Json::object())}}},
+          {"rig.select", {{"unit", "offset_transform"}}}},
          words}};
     for (const RigPreset& preset : rig_presets())
         scenes.push_back({preset.name, {{"rig.preset", {{"name", preset.name}}}}, words});

@@ -61,6 +61,63 @@ TEST_F(RigApp, ADragInItsRectangleGoesWhereThePointerGoes) {
     EXPECT_LT(glm::distance(to, from + by), 1.0f) << "it moves in its own plane, under the pointer";
 }
 
+/// Its field is opened, a part of a name typed, and the row that is left clicked.
+TEST_F(RigApp, AnInputIsChosenFromElementsThatAreFoundByName) {
+    app_.run({"rig.select", Json{{"element", "head"}, {"unit", "aim"}}});
+    for (int i = 0; i < 3; ++i) app_.tick(nullptr);
+    const auto target = [&] {
+        const RigPart& part = rig_part(app_.workspace());
+        const auto& aim = std::get<rig::Aim>(part.rig.definition().units[1].operation);
+        return std::get<rig::FromElement>(aim.primary.target.source);
+    };
+    ASSERT_EQ(std::get<std::string>(target().element.which), "look");
+    const rig::FromElement before = target();
+    const std::size_t steps = app_.workspace().history.size();
+    const auto click = [&](glm::vec2 at) {
+        send(MouseMove{at});
+        send(MousePress{MouseButton::Left, true});
+        send(MousePress{MouseButton::Left, false});
+        for (int i = 0; i < 3; ++i) app_.tick(nullptr);
+    };
+    click({1190.0f, 277.0f});
+    send(TextInput{"TILT, tr"});
+    click({1000.0f, 341.0f});
+    EXPECT_EQ(std::get<std::string>(target().element.which), "tilt");
+    EXPECT_EQ(target().of, rig::Of::Translation);
+    EXPECT_EQ(target().space, rig::Space::Global);
+    EXPECT_EQ(app_.workspace().history.size(), steps + 1) << "one choice, one step, though time is paused";
+    app_.run({"undo"});
+    EXPECT_EQ(target(), before);
+    // Escape leaves it as it is.
+    click({1190.0f, 277.0f});
+    send(KeyTap{*chord_from_name("escape")});
+    click({1000.0f, 341.0f});
+    EXPECT_EQ(target(), before);
+}
+
+TEST_F(RigApp, DeleteRemovesWhatWasSelectedLast) {
+    const auto press = [&] { send(KeyTap{*chord_from_name("delete")}); };
+    const auto& units = [&]() -> const auto& {
+        return rig_part(app_.workspace()).rig.definition().units;
+    };
+    const std::size_t all = units().size();
+    app_.run({"rig.element.add", Json{{"name", "ear"}, {"parent", "head"}}});
+    app_.run({"rig.select", Json{{"element", "ear"}}});
+    app_.run({"rig.select", Json{{"element", "ear"}, {"unit", "aim"}}});
+    press();
+    EXPECT_EQ(units().size(), all - 1) << "the unit";
+    press();
+    EXPECT_TRUE(element("ear").is_null());
+    app_.run({"undo"});
+    EXPECT_FALSE(element("ear").is_null());
+    app_.run({"undo"});
+    EXPECT_EQ(units().size(), all);
+    app_.run({"rig.select", Json{{"element", "head"}}});
+    press();
+    EXPECT_FALSE(element("head").is_null()) << "it has children: refused";
+    EXPECT_EQ(app_.workspace().ui.toasts.back().kind, ToastKind::Refusal);
+}
+
 /// In any order, to the bit: the springs' states are part of what is remembered.
 TEST_F(RigApp, GoingBackInTimeShowsWhatPlayingShowed) {
     app_.run({"rig.preset", Json{{"name", "secondary"}}});
