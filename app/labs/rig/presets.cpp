@@ -197,9 +197,12 @@ Definition secondary_scene() {
     }
     const signal::Curve line;
     signal::Curve softer = line, more = line;
-    softer.target_min = 8.0;  // Hz at the root
-    softer.target_max = 2.5;
-    more.target_min = 0.25;
+    // Each spring takes its target as it is at the end of a frame, half a frame early, and every joint adds
+    // to that: with stiff springs that barely damp, frame rates would show nothing but that.
+    softer.target_min = 2.0;  // Hz at the root
+    softer.target_max = 1.2;
+    more.target_min = 0.1;
+    more.target_max = 0.4;
     trail.body = {
         {.name = "tip",
          .operation = TransformLocation{.transform = each_transform(), .location = glm::dvec3(0, length, 0)}},
@@ -207,7 +210,7 @@ Definition secondary_scene() {
         {.name = "spring",
          .operation =
              SpringInterpolate{
-                 .target = FromUnit{"tip"}, .strength = FromUnit{"strength"}, .critical_damping = 0.35}},
+                 .target = FromUnit{"tip"}, .strength = FromUnit{"strength"}, .critical_damping = 0.5}},
         {.name = "share", .operation = EvaluateCurve{.value = Each::Ratio, .curve = more}},
         {.name = "bend",
          .operation = Aim{.item = ThisElement(),

@@ -154,6 +154,23 @@ TEST_F(RigPresets, WeightsAndColourFollowTheirControlsThroughCurves) {
     expect_no_warning();
 }
 
+/// What differs by frame rate is small beside what the springs do, and there to be seen.
+TEST_F(RigPresets, TheAntennaeTrailMuchTheSameAtEveryFrameRate) {
+    open("secondary");
+    tick(1);
+    const auto antenna = [&] { return translation("right 6") - translation("head"); };
+    const glm::dvec3 rest = antenna();
+    run("rig.motion", {{"name", "head"}, {"path", "circle"}});
+    tick(300);
+    const double trails = glm::length(antenna() - rest);
+    EXPECT_GT(trails, 0.15);
+    run("rig.rates");
+    const Json rates = state().at("rates");
+    EXPECT_GT(rates.at("mm"), 20.0);
+    EXPECT_LT(rates.at("mm"), 0.5 * 1e3 * trails);
+    EXPECT_LT(rates.at("degrees"), 20.0);
+}
+
 TEST_F(RigPresets, TheAntennaeTrailTheHeadTheirTipsMost) {
     open("secondary");
     tick(2);
