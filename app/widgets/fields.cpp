@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
@@ -33,7 +34,8 @@ std::string begin_row(const char* name) {
         ImGui::SetNextItemWidth(-1.0f);
         return name;
     }
-    const bool below = narrow() || ImGui::CalcTextSize(name).x > field;
+    const float until = ImGui::GetCursorPosX() - from + ImGui::CalcTextSize(name).x;
+    const bool below = narrow() || until > field;
     if (below) {
         text_elided(name, ImGui::GetContentRegionAvail().x, true);
     } else {
@@ -192,6 +194,50 @@ bool choice_field(const char* name, int& chosen, const char* const* titles, int 
     }
     ImGui::EndCombo();
     return changed;
+}
+
+bool contains_text(std::string_view text, std::string_view part) {
+    const auto same = [](char a, char b) {
+        return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+    };
+    return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
+}
+
+/// The line stays above its rows, which scroll.
+bool begin_search(const char* name, const std::string* shown, SearchText& typed) {
+    std::string id = std::string("##") + name, preview;
+    if (shown != nullptr) {
+        id = begin_row(name);
+        preview = elided(*shown,
+                         ImGui::CalcItemWidth() - ImGui::GetFrameHeight() - ImGui::GetStyle().FramePadding.x);
+    }
+    const float em = ImGui::GetFontSize();
+    ImGui::SetNextWindowSizeConstraints({20.0f * em, 0.0f}, {40.0f * em, 30.0f * em});
+    if (!ImGui::BeginCombo(id.c_str(), preview.c_str(),
+                           shown != nullptr ? ImGuiComboFlags_None : ImGuiComboFlags_NoPreview))
+        return false;
+    close_popup_on_escape();
+    if (ImGui::IsWindowAppearing()) {
+        typed[0] = '\0';
+        ImGui::SetKeyboardFocusHere();
+    }
+    ImGui::SetNextItemWidth(-1.0f);
+    ImGui::InputTextWithHint("##typed", "Type a part of it", typed.data(), typed.size());
+    ImGui::BeginChild("rows", {0.0f, 10.0f * ImGui::GetTextLineHeightWithSpacing()});
+    return true;
+}
+
+bool search_row(const std::string& title, bool chosen, const SearchText& typed) {
+    if (!contains_text(title, typed.data())) return false;
+    const bool clicked = ImGui::Selectable(title.c_str(), chosen);
+    if (chosen && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY();
+    if (clicked) ImGui::CloseCurrentPopup();
+    return clicked;
+}
+
+void end_search() {
+    ImGui::EndChild();
+    ImGui::EndCombo();
 }
 
 bool option_button(const char* title, bool chosen) {

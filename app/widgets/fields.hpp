@@ -4,8 +4,10 @@
 // field takes the whole row.
 #pragma once
 
+#include <array>
 #include <glm/vec3.hpp>
 #include <string>
+#include <string_view>
 
 namespace tendril::app {
 
@@ -31,6 +33,16 @@ bool vector_field(const char* name, glm::vec3& value, float speed, glm::vec3 low
 /// reason stands beside it.
 bool choice_field(const char* name, int& chosen, const char* const* titles, int count,
                   const char* const* why_not = nullptr);
+/// A choice among many, which a person finds by typing a part of it; `typed` is kept from frame to frame. Its
+/// rows come between both calls, where the first says true; a row says true when it is chosen. With `shown`
+/// the field stands in the row of its name, without it is a small button beside what follows.
+using SearchText = std::array<char, 64>;
+bool begin_search(const char* name, const std::string* shown, SearchText& typed);
+bool search_row(const std::string& title, bool chosen, const SearchText& typed);
+void end_search();
+/// Whether `part` is in `text`, in whatever case.
+bool contains_text(std::string_view text, std::string_view part);
+
 /// One of several that exclude each other.
 bool option_button(const char* title, bool chosen);
 

@@ -20,21 +20,13 @@ struct Row {
     int depth;
 };
 
-/// Lower case, so that case does not count.
-bool contains(std::string_view text, std::string_view part) {
-    const auto same = [](char a, char b) {
-        return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-    };
-    return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
-}
-
 /// Depth first; with a filter those that pass it, all at the left.
 std::vector<Row> rows_of(const RigPart& part, const rig::Hierarchy& tree, std::string_view filter) {
     const std::vector<rig::Element>& elements = part.rig.definition().elements;
     std::vector<Row> rows;
     if (!filter.empty()) {
         for (std::size_t i = 0; i < elements.size(); ++i)
-            if (contains(elements[i].name, filter)) rows.push_back({i, 0});
+            if (contains_text(elements[i].name, filter)) rows.push_back({i, 0});
         return rows;
     }
     std::vector<std::size_t> at(elements.size());

@@ -39,6 +39,7 @@ class RigRuntime final : public Runtime {
     /// The interface's own: it follows from nothing, and nothing follows from it.
     struct Panel {
         std::array<char, 64> filter{};  ///< what names in the tree have to contain
+        std::array<char, 64> choice{};  ///< what is looked for among what an input may be
         std::string shown{}, unit{};    ///< what the lists were last scrolled to
         bool all_units = false;         ///< whether those that did not touch the element are listed too
         /// Euler angles as a person last set them, of the rotation that they give: one has many.

@@ -68,6 +68,7 @@ class Lister {
     template <class T>
     void list(const rig::Input<T>& input, const std::string& path, const std::string& title) {
         UnitInput& row = add(path, title);
+        takes_value(row, input);
         if (const T* literal = input.literal()) {
             if constexpr (std::is_same_v<T, rig::Value>)
                 row.value = *literal;
@@ -80,11 +81,20 @@ class Lister {
 
   private:
     UnitInput& add(const std::string& path, const std::string& title) {
-        return list_.emplace_back(UnitInput{path, title, unit_, {}, {}});
+        return list_.emplace_back(
+            UnitInput{.path = path, .title = title, .unit = unit_, .from = {}, .value = {}});
     }
+    template <class T>
+    static void takes_value(UnitInput& row, const rig::Input<T>&) {
+        row.takes = UnitInput::Takes::Value;
+        if constexpr (!std::is_same_v<T, rig::Value>) row.type = rig::type_of(rig::Value(T()));
+    }
+    template <class T>
+    static void takes_value(UnitInput&, const T&) {}
 
     void list(const rig::Item& item, const std::string& path, const std::string& title) {
         UnitInput& row = add(path, title);
+        row.takes = path == "/root" || path == "/tip" ? UnitInput::Takes::Bone : UnitInput::Takes::Element;
         if (const auto* name = std::get_if<std::string>(&item.which))
             row.value = InputNames{{*name}, true};
         else
@@ -96,7 +106,9 @@ class Lister {
     template <class T>
     void list(const std::optional<T>& field, const std::string& path, const std::string& title) {
         if (field) return list(*field, path, title);
-        add(path, title).from = "none";
+        UnitInput& row = add(path, title);
+        row.from = "none";
+        takes_value(row, T());
     }
     void list(rig::AimTarget kind, const std::string& path, const std::string& title) {
         add(path, title).value = InputChoice{static_cast<std::size_t>(kind), {"location", "direction"}};
@@ -113,14 +125,18 @@ class Lister {
         add(path, title).value = InputFilter{filter};
     }
     void list(const std::vector<std::string>& roots, const std::string& path, const std::string& title) {
-        add(path, title).value = InputNames{roots, true};
+        UnitInput& row = add(path, title);
+        row.value = InputNames{roots, true};
+        row.takes = UnitInput::Takes::Roots;
     }
     void list(const rig::Body&, const std::string&, const std::string&) {}  // rows of their own
     void list(bool flag, const std::string& path, const std::string& title) {
         add(path, title).value = rig::Value(flag);
     }
     void list(const std::string& curve, const std::string& path, const std::string& title) {
-        add(path, title).value = InputNames{{curve}, false};
+        UnitInput& row = add(path, title);
+        row.value = InputNames{{curve}, false};
+        row.takes = UnitInput::Takes::Curve;
     }
     void list(const std::array<double, 2>& range, const std::string& path, const std::string& title) {
         add(path, title).value = InputRange{range[0], range[1]};

@@ -46,6 +46,10 @@ struct UnitInput {
     std::variant<std::monostate, rig::Value, InputChoice, InputFilter, InputRange, InputNames, InputCurve>
         value;
 
+    /// What it can be chosen from (input_offers.hpp). Values: of `type`, or of any where that is empty.
+    enum class Takes : std::uint8_t { Nothing, Value, Element, Bone, Roots, Curve } takes = Takes::Nothing;
+    std::optional<rig::Type> type{};
+
     bool literal() const { return from.empty(); }
 };
 

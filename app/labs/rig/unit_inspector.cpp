@@ -7,6 +7,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
 #include "app/labs/kit/curve_json.hpp"
+#include "app/labs/rig/input_offers.hpp"
 #include "app/labs/rig/panels.hpp"
 #include "app/labs/rig/value_json.hpp"
 #include "app/labs/rig/value_text.hpp"
@@ -31,6 +32,10 @@ class Fields {
     void row(const UnitInput& input) {
         input_ = &input;
         if (!input.literal()) return source_row();
+        if (input.takes == UnitInput::Takes::Value) {
+            chooser(input.title, nullptr);
+            ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
+        }
         std::visit([&](const auto& value) { field(value); }, input.value);
     }
 
@@ -44,16 +49,27 @@ class Fields {
 
     /// Where it comes from, and what it is now below that.
     void source_row() const {
-        const float width = ImGui::GetContentRegionAvail().x;
-        const std::string& title = input_->title;
-        const float room = width - ImGui::CalcTextSize(title.c_str()).x - ImGui::GetFontSize();
-        ImGui::TextDisabled("%s", title.c_str());
-        if (room > 6.0f * ImGui::GetFontSize()) ImGui::SameLine();
-        text_flush_right(elided(input_->from, ImGui::GetContentRegionAvail().x));
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("%s comes from: %s", title.c_str(), input_->from.c_str());
+        chooser(input_->title, &input_->from);
         if (const auto* value = std::get_if<rig::Value>(&input_->value))
-            text_flush_right(elided(value_text(*value), width), true);
+            text_flush_right(elided(value_text(*value), ImGui::GetContentRegionAvail().x), true);
+    }
+
+    /// What else it may be, in a field that shows what it is, or behind a button.
+    void chooser(const std::string& title, const std::string* shown, std::size_t index = 0) const {
+        SearchText& typed = panel_.runtime.panel.choice;
+        const bool open = begin_search(title.c_str(), shown, typed);
+        if (!open && ImGui::IsItemHovered()) {
+            if (shown != nullptr)
+                ImGui::SetTooltip("%s: %s. Click for what else it may be", title.c_str(), shown->c_str());
+            else
+                ImGui::SetTooltip("%s: takes it from an element or a unit", title.c_str());
+        }
+        if (!open) return;
+        const std::vector<InputOffer> offers = input_offers(panel_.part, row_, *input_, index);
+        if (offers.empty()) note("Nothing in this rig gives that.");
+        for (const InputOffer& offer : offers)
+            if (search_row(offer.title, offer.now, typed) && !offer.now) set(*offer.value);
+        end_search();
     }
 
     void field(std::monostate) const {}
@@ -96,23 +112,13 @@ class Fields {
         if (first) set({number(low), range.high});
         if (second) set({range.low, number(high)});
     }
-    /// Of elements each is a link that selects it.
     void field(const InputNames& names) const {
-        ImGui::TextDisabled("%s", input_->title.c_str());
-        for (const std::string& name : names.names) {
-            if (&name == &names.names.front() && names.names.size() == 1) ImGui::SameLine();
-            const std::string shown = elided(name, ImGui::GetContentRegionAvail().x);
-            if (!names.elements) {
-                text_flush_right(shown);
-                continue;
-            }
-            const float width = ImGui::CalcTextSize(shown.c_str()).x;
-            ImGui::SetCursorPosX(ImGui::GetCursorPosX() +
-                                 std::max(0.0f, ImGui::GetContentRegionAvail().x - width));
-            if (ImGui::Selectable((shown + "##" + name).c_str(), false, 0, {width, 0.0f}))
-                select_element(panel_, name);
-            if (ImGui::IsItemHovered()) ImGui::SetTooltip("Selects %s", name.c_str());
-        }
+        const std::string& title = input_->title;
+        if (input_->takes != UnitInput::Takes::Roots) return chooser(title, &names.names.front());
+        for (std::size_t i = 0; i < names.names.size(); ++i)
+            chooser(names.names.size() > 1 ? "root " + std::to_string(i + 1) : "root", &names.names[i], i);
+        const std::string another = "another";
+        chooser("add a root", &another, names.names.size());
     }
     void field(const InputCurve& curve) const {
         signal::Curve edited = curve.curve;

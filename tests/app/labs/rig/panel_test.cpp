@@ -1,8 +1,11 @@
 // What the Rig lab's panels list, offer and change.
+#include <algorithm>
 #include <set>
 #include <tendril/rig/fields.hpp>
 
+#include "app/document/refused.hpp"
 #include "app/labs/rig/adding.hpp"
+#include "app/labs/rig/input_offers.hpp"
 #include "app/labs/rig/panels.hpp"
 #include "app/labs/rig/presets.hpp"
 #include "app/labs/rig/rig_runtime.hpp"
@@ -128,6 +131,111 @@ TEST_F(RigPanels, InputsSayWhereTheyComeFromAndWhatTheyAreNow) {
     EXPECT_EQ(input("spring", "/target").from, "unit tip");
     EXPECT_TRUE(std::holds_alternative<std::monostate>(input("strength", "/value").value))
         << "another one in each round";
+}
+
+class RigOffers : public RigPanels {
+  protected:
+    std::vector<InputOffer> offers(const std::string& unit, const UnitInput& input) {
+        return input_offers(part(), *unit_row(part(), unit), input);
+    }
+
+    /// Takes each of some of them, and takes that back.
+    void take_all(const std::string& unit, const UnitInput& before) {
+        const std::vector<InputOffer> all = offers(unit, before);
+        for (std::size_t i = 0; i<all.size(); i += all.size()> 20 ? 11 : 1)
+            if (!all[i].now) take(unit, before, all[i]);
+    }
+
+    std::size_t taken = 0, refusals = 0;
+
+  private:
+    void take(const std::string& unit, const UnitInput& before, const InputOffer& offer) {
+        try {
+            run("rig.unit.set", with_input(*unit_row(part(), unit)->unit, before.path, *offer.value));
+        } catch (const Refused& refusal) {
+            // What a chain of bones runs between, and what a spring is of, may not fit the rest.
+            EXPECT_TRUE(before.takes == UnitInput::Takes::Bone || !before.type.has_value())
+                << unit << before.path << offer.title << refusal.what();
+            ++refusals;
+            return;
+        }
+        ++taken;
+        const UnitInput now = input(unit, before.path);
+        const auto* names = std::get_if<InputNames>(&now.value);
+        const bool own = offer.title.starts_with("a value of") || offer.title.starts_with("a switch of");
+        if (own) {
+            EXPECT_TRUE(now.literal()) << unit << before.path;
+        } else if (before.takes != UnitInput::Takes::Roots) {
+            EXPECT_EQ(names != nullptr ? names->names.front() : now.from, offer.title);
+        }
+        run("undo");
+    }
+};
+
+TEST_F(RigOffers, WhatAnInputMayBeIsTakenAndIsWhatItThenIs) {
+    for (const RigPreset& preset : rig_presets()) {
+        run("rig.preset", {{"name", preset.name}});
+        tick();
+        std::vector<std::string> units;
+        for (const UnitRow& row : unit_rows(part())) units.push_back(row.unit->name);
+        for (std::size_t u = 0; u<units.size(); u += units.size()> 12 ? 5 : 1)
+            for (const UnitInput& each : inputs(units[u])) take_all(units[u], each);
+    }
+    EXPECT_GT(taken, 400u);
+    EXPECT_LT(refusals, taken / 4);
+}
+
+TEST_F(RigOffers, OneOfThemIsWhatItIsNow) {
+    for (const RigPreset& preset : rig_presets()) {
+        run("rig.preset", {{"name", preset.name}});
+        tick();
+        for (const UnitRow& row : unit_rows(part())) {
+            for (const UnitInput& each : inputs(row.unit->name)) {
+                const std::vector<InputOffer> all = offers(row.unit->name, each);
+                EXPECT_TRUE(all.empty() || each.takes != UnitInput::Takes::Nothing) << each.path;
+                const bool literal = each.takes == UnitInput::Takes::Value && each.literal();
+                if (all.empty() || each.from == "none") continue;
+                EXPECT_EQ(std::ranges::count_if(all, &InputOffer::now), literal ? 0 : 1)
+                    << row.unit->name << each.path << each.from;
+            }
+        }
+    }
+}
+
+TEST_F(RigPanels, OffersAreOfTheRightKind) {
+    const auto titles = [&](const std::string& unit, const std::string& path, std::size_t index = 0) {
+        std::set<std::string> all;
+        for (const InputOffer& each : input_offers(part(), *unit_row(part(), unit), input(unit, path), index))
+            all.insert(each.title);
+        return all;
+    };
+    run("rig.preset", {{"name", "morph"}});
+    tick();
+    const std::set<std::string> value = titles("set bulge", "/value");
+    for (const char* there :
+         {"a value of its own", "unit late", "unit ease", "colour, value", "shape, x, local"})
+        EXPECT_TRUE(value.contains(there)) << there;
+    for (const char* not_there : {"unit bands", "unit set bulge", "shape, value", "shape, rotation"})
+        EXPECT_FALSE(value.contains(not_there)) << not_there;
+    EXPECT_EQ(titles("set bulge", "/curve"), (std::set<std::string>{"stretch", "bulge", "hue"}));
+    run("rig.preset", {{"name", "aim"}});
+    tick();
+    const std::set<std::string> target = titles("aim", "/primary/target");
+    EXPECT_TRUE(target.contains("look, translation"));
+    EXPECT_TRUE(target.contains("tilt, translation, local"));
+    EXPECT_FALSE(target.contains("math form, value"));
+    EXPECT_TRUE(titles("aim", "/when").contains("math form, value")) << "a bool";
+    run("rig.preset", {{"name", "secondary"}});
+    tick();
+    const std::set<std::string> weight = titles("bend", "/weight");
+    EXPECT_TRUE(weight.contains("unit share") && weight.contains("each ratio, 0 to 1"));
+    EXPECT_FALSE(weight.contains("unit trail")) << "the for-each that it is in has not run by then";
+    EXPECT_FALSE(titles("trail", "/weight").contains("unit share"));
+    EXPECT_TRUE(titles("bend", "/item").contains("each element"));
+    EXPECT_TRUE(titles("trail", "/roots", 0).contains("none: no root any more"));
+    EXPECT_FALSE(titles("trail", "/roots", 0).contains("right 1")) << "a root already";
+    EXPECT_FALSE(titles("trail", "/roots", 2).contains("left 1"));
+    EXPECT_TRUE(titles("trail", "/roots", 2).contains("left 2"));
 }
 
 TEST_F(RigPanels, UnitsMoveAmongTheirOwn) {
