@@ -12,12 +12,14 @@ function(run)
     set(output "${output}" PARENT_SCOPE)
 endfunction()
 
-# Configures a project afresh and builds it: build_project(<source> <build> <options>...)
+# Configures a project afresh and builds it, for Release or for what build_type says:
+# build_project(<source> <build> <options>...)
+set(build_type Release)
 function(build_project from to)
     file(REMOVE_RECURSE ${to})
     run(${CMAKE_COMMAND} -S ${from} -B ${to} -G ${generator} -D CMAKE_CXX_COMPILER=${compiler}
-        -D CMAKE_BUILD_TYPE=Release ${ARGN})
-    run(${CMAKE_COMMAND} --build ${to} --config Release)
+        -D CMAKE_BUILD_TYPE=${build_type} ${ARGN})
+    run(${CMAKE_COMMAND} --build ${to} --config ${build_type})
 endfunction()
 
 function(expect_output program)

@@ -1,13 +1,12 @@
-# Builds the library alone, installs it and moves the result: nothing in it may depend on where it was.
+# Installs the library that was built beside the tests and moves the result: nothing in it may depend on where it was.
+# In, besides: build, libdir.
 include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 file(REMOVE_RECURSE ${work}/installed ${prefix})
-build_project(${source} ${work}/core -D TENDRIL_BUILD_APP=OFF -D TENDRIL_BUILD_TESTS=OFF
-              -D CMAKE_INSTALL_PREFIX=${work}/installed -D CMAKE_INSTALL_LIBDIR=lib)
-run(${CMAKE_COMMAND} --install ${work}/core --component core)
+run(${CMAKE_COMMAND} --install ${build} --component core --prefix ${work}/installed)
 file(RENAME ${work}/installed ${prefix})
 
-foreach(file IN ITEMS lib/libtendril_core.a lib/pkgconfig/tendril.pc lib/cmake/tendril/tendril-config.cmake
-        lib/cmake/tendril/tendril-config-version.cmake lib/cmake/tendril/tendril_targets.cmake
+foreach(file IN ITEMS ${libdir}/libtendril_core.a ${libdir}/pkgconfig/tendril.pc ${libdir}/cmake/tendril/tendril-config.cmake
+        ${libdir}/cmake/tendril/tendril-config-version.cmake ${libdir}/cmake/tendril/tendril_targets.cmake
         include/tendril/version.hpp include/tendril/chain/chain.hpp include/tendril/chain/segment.hpp
         include/tendril/ik/solver.hpp include/tendril/ik/many.hpp)
     if(NOT EXISTS ${prefix}/${file})

@@ -139,7 +139,7 @@ template <std::size_t... index>
 void make_operation(rig::Operation& operation, std::size_t wanted, std::index_sequence<index...>) {
     ((index == wanted ? static_cast<void>(operation.emplace<index>()) : void()), ...);
 }
-constexpr auto all_operations = std::make_index_sequence<std::variant_size_v<rig::Operation>>();
+constexpr auto all_operations = std::make_index_sequence<std::variant_size_v<rig::Operation::Variant>>();
 
 void make_operation(rig::Operation& operation, std::size_t wanted) {
     make_operation(operation, wanted, all_operations);
@@ -149,7 +149,7 @@ void make_operation(rig::Operation& operation, std::size_t wanted) {
 
 std::vector<std::string> operation_names() {
     std::vector<std::string> names;
-    for (std::size_t i = 0; i < std::variant_size_v<rig::Operation>; ++i)
+    for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i)
         names.emplace_back(rig::operation_name(i));
     return names;
 }
@@ -159,7 +159,7 @@ std::vector<std::string> unit_members() {
     const auto add = [&](const std::string& name) {
         if (std::find(members.begin(), members.end(), name) == members.end()) members.push_back(name);
     };
-    for (std::size_t i = 0; i < std::variant_size_v<rig::Operation>; ++i) {
+    for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i) {
         rig::Operation operation;
         make_operation(operation, i);
         std::visit([&](auto& each) { rig::fields(each, [&](const char* name, auto&) { add(name); }); },

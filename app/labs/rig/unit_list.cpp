@@ -118,7 +118,7 @@ void add_menu(const RigPanel& panel) {
     if (row_button("Add a unit", 1)) ImGui::OpenPopup("add unit");
     if (!ImGui::BeginPopup("add unit")) return;
     close_popup_on_escape();
-    for (std::size_t i = 0; i < std::variant_size_v<rig::Operation>; ++i) {
+    for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i) {
         const UnitOffer offer = offered_unit(panel.part, i);
         std::string title = operation_title(i);
         title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));

@@ -2,6 +2,27 @@
 
 namespace tendril::rig {
 
+Body::Body() noexcept = default;
+Body::Body(std::initializer_list<Unit> units) : units_(units) {}
+Body::Body(const Body&) = default;
+Body::Body(Body&&) noexcept = default;
+Body& Body::operator=(const Body&) = default;
+Body& Body::operator=(Body&&) noexcept = default;
+Body::~Body() = default;
+bool Body::operator==(const Body& other) const {
+    return units_ == other.units_;
+}
+
+Operation::Operation() noexcept = default;
+Operation::Operation(const Operation&) = default;
+Operation::Operation(Operation&&) noexcept = default;
+Operation& Operation::operator=(const Operation&) = default;
+Operation& Operation::operator=(Operation&&) noexcept = default;
+Operation::~Operation() = default;
+bool Operation::operator==(const Operation& other) const {
+    return static_cast<const Variant&>(*this) == static_cast<const Variant&>(other);
+}
+
 const char* operation_name(std::size_t index) noexcept {
     constexpr const char* names[] = {"aim",
                                      "aim_math",
@@ -20,7 +41,7 @@ const char* operation_name(std::size_t index) noexcept {
                                      "set_curve",
                                      "two_bone",
                                      "fabrik"};
-    static_assert(std::size(names) == std::variant_size_v<Operation>);
+    static_assert(std::size(names) == std::variant_size_v<Operation::Variant>);
     return names[index];
 }
 

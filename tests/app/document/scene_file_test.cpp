@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "tests/app/support/program.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/app/support/test_part.hpp"
 
@@ -246,7 +247,7 @@ TEST(SceneFile, with_any_byte_changed_is_refused_or_read_whole) {
     const std::string text = json_to_text(save_scene(make_busy_workspace()));
     std::mt19937 random(8);
     int refused = 0, accepted = 0;
-    for (int i = 0; i < 30'000; ++i) {
+    for (int i = 0; i < 30'000 / test::sanitizer_factor; ++i) {
         std::string changed = text;
         for (unsigned flips = 1 + static_cast<unsigned>(random()) % 3; flips > 0; --flips)
             changed[random() % changed.size()] = static_cast<char>(random() % 256);
@@ -263,8 +264,8 @@ TEST(SceneFile, with_any_byte_changed_is_refused_or_read_whole) {
             ASSERT_EQ(snapshot(workspace), before) << error.what();
         }
     }
-    EXPECT_GT(refused, 1000);
-    EXPECT_GT(accepted, 1000);
+    EXPECT_GT(refused, 1000 / test::sanitizer_factor);
+    EXPECT_GT(accepted, 1000 / test::sanitizer_factor);
 }
 
 /// Every value of a scene in turn replaced by one of every kind.

@@ -181,10 +181,23 @@ struct Fabrik {
     bool operator==(const Fabrik&) const = default;
 };
 
-using Operation =
-    std::variant<Aim, AimMath, ParentConstraint, OffsetTransform, SetTransform, SetRotation, ProjectToParent,
-                 FromTwoVectors, TransformLocation, TransformDirection, ForEach, AlphaInterpolate,
-                 SpringInterpolate, EvaluateCurve, SetCurve, TwoBone, Fabrik>;
+/// A variant of all of them. What copying, comparing and destroying one takes is compiled once, in the library: seventeen
+/// structs of inputs are much to ask of every file that has a Unit.
+struct Operation
+    : std::variant<Aim, AimMath, ParentConstraint, OffsetTransform, SetTransform, SetRotation, ProjectToParent,
+                   FromTwoVectors, TransformLocation, TransformDirection, ForEach, AlphaInterpolate,
+                   SpringInterpolate, EvaluateCurve, SetCurve, TwoBone, Fabrik> {
+    using Variant = variant;
+    using variant::variant;
+    using variant::operator=;
+    Operation() noexcept;
+    Operation(const Operation&);
+    Operation(Operation&&) noexcept;
+    Operation& operator=(const Operation&);
+    Operation& operator=(Operation&&) noexcept;
+    ~Operation();
+    bool operator==(const Operation& other) const;
+};
 /// "parent_constraint", as in scene files; in the order of Operation.
 const char* operation_name(std::size_t index) noexcept;
 
@@ -196,17 +209,6 @@ struct Unit {
     bool enabled = true;      ///< switched off by a person
     bool operator==(const Unit&) const = default;
 };
-
-inline Body::Body() noexcept = default;
-inline Body::Body(std::initializer_list<Unit> units) : units_(units) {}
-inline Body::Body(const Body&) = default;
-inline Body::Body(Body&&) noexcept = default;
-inline Body& Body::operator=(const Body&) = default;
-inline Body& Body::operator=(Body&&) noexcept = default;
-inline Body::~Body() = default;
-inline bool Body::operator==(const Body& other) const {
-    return units_ == other.units_;
-}
 
 struct Output {
     const char* name;

@@ -46,7 +46,7 @@ bool is_input(const std::string& member) {
 }
 
 TEST_F(RigPanels, EveryMemberOfEveryUnitIsListed) {
-    for (std::size_t i = 0; i < std::variant_size_v<rig::Operation>; ++i) {
+    for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i) {
         run("rig.preset", {{"name", "fk"}});
         run("rig.curve.add", {{"name", "smile"}});
         run("rig.select", {{"element", "bone 5"}});
@@ -71,7 +71,7 @@ TEST_F(RigPanels, EveryMemberOfEveryUnitIsListed) {
 TEST_F(RigPanels, WhatIsOfferedIsTaken) {
     std::size_t taken = 0;
     const auto offer_all = [&] {
-        for (std::size_t i = 0; i < std::variant_size_v<rig::Operation>; ++i) {
+        for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i) {
             const UnitOffer offer = offered_unit(part(), i);
             if (!offer.unit) {
                 EXPECT_STRNE(offer.needs, "") << rig::operation_name(i);
