@@ -35,13 +35,15 @@ double RigLab::seconds(const Workspace& workspace) const {
 
 bool RigLab::working(const Workspace& workspace) const {
     const RigPart& part = rig_part(workspace);
-    return part.clip_left && part.clip_left->running;
+    return (part.clip_left && part.clip_left->running) || (part.rates && part.rates->running);
 }
 
 void RigLab::work(Workspace& workspace) const {
     const bool modified = workspace.modified();
     RigPart& part = workspace.document.edit<RigPart>(rig_lab);
-    continue_clip_solve(part, runtime_of(workspace).workspace(part.rig));
+    RigRuntime& runtime = runtime_of(workspace);
+    continue_clip_solve(part, runtime.workspace(part.rig));
+    runtime.rates.advance(part);
     if (!modified) workspace.saved = workspace.document;
 }
 

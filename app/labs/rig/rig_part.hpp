@@ -36,11 +36,13 @@ struct BackwardLeft {
 
 /// How far apart the bones come at the usual frame rates, until something is changed.
 struct RateDifference {
-    double mm = 0.0, degrees = 0.0;  ///< the most of any bone
-    std::string bone;                ///< the one that is farthest apart; empty in a rig without bones
-    std::string between;             ///< which rates: "15 Hz and 144 Hz"
-    double seconds = 0.0;            ///< in the take, when it is
-    double ticks = 0.0;              ///< of the take that were compared
+    double mm = 0.0, degrees = 0.0;    ///< the most of any bone
+    std::string bone;                  ///< the one that is farthest apart; empty in a rig without bones
+    std::string between;               ///< which rates: "15 Hz and 144 Hz"
+    double seconds = 0.0;              ///< in the take, when it is
+    double ticks = 0.0;                ///< of the take that are compared
+    std::size_t frames = 0, done = 0;  ///< of the slowest rate: all, and those compared so far
+    bool running = false;              ///< ticks go on with it
     bool operator==(const RateDifference&) const = default;
 };
 

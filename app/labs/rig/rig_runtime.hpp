@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "app/document/runtime.hpp"
-#include "app/labs/rig/rig_part.hpp"
+#include "app/labs/rig/rates.hpp"
 #include "app/labs/rig/snapshots.hpp"
 
 namespace tendril::app {
@@ -31,6 +31,7 @@ class RigRuntime final : public Runtime {
     const rig::Hierarchy& resolved(const Workspace& workspace);
 
     TakeSnapshots snapshots;
+    RatesWork rates;
 
     /// Why an element of the lab's part is where it is; worked out anew where the part has changed. The
     /// reference holds until the next call.

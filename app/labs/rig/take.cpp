@@ -66,6 +66,7 @@ std::uint64_t tick_work_of(const rig::State& state) {
 }
 
 void begin_take(RigPart& part) {
+    if (part.rates && part.rates->running) part.rates.reset();  // it was of the take so far
     for (RigWalk& each : part.walks)
         each.motion.ticks = (each.motion.ticks + part.take.tick) % ticks_per_round(each.motion);
     part.take = {.start = nullptr, .keys = nullptr, .tick = 0, .last = 0, .began = part.take.now()};

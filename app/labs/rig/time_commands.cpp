@@ -127,9 +127,19 @@ void compare_rates(Workspace& workspace, const Arguments& given) {
     change_part<RigPart>(workspace, rig_lab, [&](RigPart& part, const RigPart&) {
         const double ticks = given.has("seconds") ? std::round(given.real("seconds") / tick_seconds)
                                                   : std::min(600u, ticks_worth_looking_at(part));
-        part.rates = compare_take_rates(part, static_cast<std::uint32_t>(ticks),
-                                        runtime_of(workspace).workspace(part.rig));
+        start_rates(part, static_cast<std::uint32_t>(ticks));
     });
+}
+
+/// For who does not wait for ticks.
+void finish_rates(Workspace& workspace) {
+    RigPart& part = workspace.document.edit<RigPart>(rig_lab);
+    for (RatesWork work; part.rates && part.rates->running;) work.advance(part);
+}
+
+void cancel_rates(RigPart& part, const Arguments&) {
+    if (!part.rates || !part.rates->running) throw std::invalid_argument("no frame rates are being compared");
+    part.rates.reset();
 }
 
 void add_clip_commands(CommandTable& table) {
@@ -174,10 +184,12 @@ void add_time_commands(CommandTable& table) {
          .arguments = {number_argument("seconds",
                                        "from the take's start; where left out, what was played, "
                                        "ten seconds at most",
-                                       tick_seconds, 10)},
+                                       tick_seconds, most_rate_seconds)},
          .help = "Compares the take at 15, 30, 60, 144 Hz and at uneven frames: how far apart its bones come",
          .effect = Effect::Edit,
-         .apply = compare_rates});
+         .apply = compare_rates,
+         .finish = finish_rates});
+    table.add(rig_command("rig.rates.cancel", {}, "Stops the comparison of frame rates", cancel_rates));
     add_clip_commands(table);
 }
 

@@ -1,11 +1,13 @@
 #include "app/labs/rig/time_json.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <tendril/rig/control.hpp>
 
 #include "app/document/json_complete.hpp"
 #include "app/labs/rig/clip_json.hpp"
+#include "app/labs/rig/rates.hpp"
 #include "app/labs/rig/state_json.hpp"
 #include "app/labs/rig/value_json.hpp"
 #include "app/labs/rig/walk.hpp"
@@ -87,13 +89,36 @@ RigWalk read_walk(const JsonPlace& place, const std::string& control, const RigP
 }
 
 RateDifference read_rates(const JsonPlace& place) {
-    check_members(place, {"mm", "degrees", "bone", "between", "seconds", "ticks"});
+    check_members(place,
+                  {"mm", "degrees", "bone", "between", "seconds", "ticks", "frames", "done", "running"});
+    const std::size_t frames = place.has("frames") ? place["frames"].index(most_rate_frames) : 0;
     return {.mm = place["mm"].real(0.0, most_reached),
             .degrees = place["degrees"].real(0.0, 360.0),
             .bone = place["bone"].text(),
             .between = place["between"].text(),
             .seconds = place["seconds"].real(0.0, 1e9),
-            .ticks = place["ticks"].real(0.0, 1e9)};
+            .ticks = place["ticks"].real(0.0, 1e9),
+            .frames = frames,
+            .done = place.has("done") ? place["done"].index(frames) : 0,
+            .running = place.has("running") && place["running"].flag()};
+}
+
+/// One that goes on can only be of so many frames as there are in its time.
+RateDifference read_rates(const JsonPlace& place, const RigPart& part) {
+    RateDifference rates = read_rates(place);
+    if (!rates.running) return rates;
+    RigPart begun = part;
+    const double most_ticks = most_rate_seconds / tick_seconds;
+    if (!(rates.ticks >= 1.0 && rates.ticks <= most_ticks && rates.ticks == std::floor(rates.ticks)))
+        place["ticks"].fail("expected 1 to " + std::to_string(std::lround(most_ticks)) + ", whole");
+    try {
+        start_rates(begun, static_cast<std::uint32_t>(rates.ticks));
+    } catch (const std::invalid_argument& refusal) {
+        place.fail(refusal.what());
+    }
+    if (rates.frames != begun.rates->frames || rates.done >= rates.frames)
+        place["frames"].fail("that is not how far such a comparison comes");
+    return rates;
 }
 
 }  // namespace
@@ -111,7 +136,8 @@ Json rates_json(const RigPart& part) {
     if (!part.rates) return nullptr;
     const RateDifference& most = *part.rates;
     return {{"mm", most.mm},           {"degrees", most.degrees}, {"bone", most.bone},
-            {"between", most.between}, {"seconds", most.seconds}, {"ticks", most.ticks}};
+            {"between", most.between}, {"seconds", most.seconds}, {"ticks", most.ticks},
+            {"frames", most.frames},   {"done", most.done},       {"running", most.running}};
 }
 
 void save_time(const RigPart& part, Json& state) {
@@ -129,7 +155,7 @@ void load_time(const JsonPlace& state, RigPart& part) {
         for (const auto& [name, stored] : walks->json().items())
             part.walks.push_back(read_walk((*walks)[name.c_str()], name, part));
     }
-    if (const auto rates = state.optional("rates")) part.rates = read_rates(*rates);
+    if (const auto rates = state.optional("rates")) part.rates = read_rates(*rates, part);
     if (const auto clip = state.optional("clip")) load_clip(*clip, part);
 }
 

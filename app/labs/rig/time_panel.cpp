@@ -7,6 +7,7 @@
 
 #include "app/document/units.hpp"
 #include "app/labs/rig/clip.hpp"
+#include "app/labs/rig/rates.hpp"
 #include "app/labs/rig/walk.hpp"
 #include "app/widgets/fields.hpp"
 
@@ -82,12 +83,18 @@ void clip_rows(const RigPart& part, Emit& emit) {
 void rate_rows(const RigPart& part, Emit& emit) {
     const bool something = part.take.last > 0 || !part.walks.empty();
     section("Frame rates");
-    if (row_button("Compare frame rates", 1, something,
-                   something ? "Runs the take at 15, 30, 60, 144 Hz and at uneven frames" : "Play first"))
+    const bool running = part.rates && part.rates->running;
+    if (running) {
+        if (row_button("Cancel##rates", 1)) emit("rig.rates.cancel");
+    } else if (row_button(
+                   "Compare frame rates", 1, something,
+                   something ? "Runs the take at 15, 30, 60, 144 Hz and at uneven frames" : "Play first")) {
         emit("rig.rates");
+    }
     end_row();
     if (!part.rates) return;
     const RateDifference& most = *part.rates;
+    if (running) ImGui::ProgressBar(rates_done(most), {-1.0f, 0.0f}, "");
     reading("apart", "%s mm, %s\u00b0", fixed_text(most.mm, most.mm < 10.0 ? 3 : 1).c_str(),
             fixed_text(most.degrees, most.degrees < 10.0 ? 3 : 1).c_str());
     explain("The most that any bone differs between two frame rates");
