@@ -175,6 +175,80 @@ TEST(RigBackward, TriesSwitchesBothWays) {
     expect_nothing_left(report, 0);
 }
 
+/// Fourteen rotation controls, all of them turned, with as much work as a solve may do.
+BackwardReport bounded(const BackwardOptions& options, State& state) {
+    Held rig(fk_rig(14));
+    const State rest = rig.state;
+    for (int i = 0; i < 14; ++i)
+        EXPECT_TRUE(rig.control(numbered("c", i), turned(10.0 + 3.0 * i, {1, 0, 1}).rotation));
+    rig.solve();
+    rig.state.controls = rest.controls;
+    const BackwardReport report = solve_backward(rig.rig, rig.state, rig.workspace, options);
+    state = rig.state;
+    if (report.iterations == 0) {
+        EXPECT_EQ(state.controls, rest.controls) << "nothing was done";
+    }
+    return report;
+}
+
+TEST(RigBackward, StopsWhereItsWorkEndsAndSaysSo) {
+    State state, whole_state;
+    const BackwardReport whole = bounded({}, whole_state);
+    EXPECT_FALSE(whole.stopped);
+    expect_nothing_left(whole, 0);
+    double last = 1e9;
+    int stops = 0;
+    for (std::uint64_t work = 100; work < 100'000'000; work *= 2) {
+        const BackwardReport report = bounded({.max_work = work}, state);
+        double left = 0.0;
+        for (const Residual& each : report.elements) left += each.metres + each.radians;
+        EXPECT_LE(report.iterations, whole.iterations);
+        EXPECT_LE(report.solves, whole.solves);
+        if (report.stopped) {
+            ++stops;
+            EXPECT_GT(left, 1e-3);
+            EXPECT_LE(left, last * 1.5) << "more work, less left, but for what trades places";
+            last = left;
+        } else {
+            EXPECT_EQ(state, whole_state);
+        }
+        // A forward solve counts as Rig::work at least, so that the bound is one on solves too.
+        const std::uint64_t one = Held(fk_rig(14)).rig.work();
+        EXPECT_LE(static_cast<std::uint64_t>(report.solves) * one, work + 2 * one);
+    }
+    EXPECT_GT(stops, 4);
+    EXPECT_LT(stops, 20);
+    const BackwardReport once = bounded({.max_iterations = 1}, state);
+    EXPECT_TRUE(once.stopped);
+    EXPECT_EQ(once.iterations, 1);
+}
+
+TEST(RigBackward, WorkCountsEveryElementUnitVisitAndBone) {
+    const auto work = [](const Definition& definition) { return Rig::make(definition).value().work(); };
+    EXPECT_EQ(work({}), 0u);
+    Definition line;
+    for (int i = 0; i < 30; ++i)
+        line.elements.push_back({.name = numbered("b", i),
+                                 .parent = i > 0 ? numbered("b", i - 1) : std::string(),
+                                 .initial = at(0, i > 0 ? 1 : 0, 0)});
+    const std::uint64_t elements = work(line);
+    EXPECT_EQ(elements, 30u);
+    const auto with = [&](const Operation& operation) {
+        Definition more = line;
+        more.units = {{.name = "unit", .operation = operation}};
+        return work(more) - elements;
+    };
+    const std::uint64_t turn = with(SetRotation{.item = "b0"});
+    EXPECT_GT(turn, 0u);
+    const std::uint64_t short_chain = with(Fabrik{.root = "b0", .tip = "b5"}),
+                        long_chain = with(Fabrik{.root = "b0", .tip = "b29"});
+    EXPECT_EQ((short_chain - turn) * 5, long_chain - turn) << "6 joints and 30";
+    ForEach loop{.roots = {"b0"}, .include_parent = true, .recursive = true};
+    const std::uint64_t empty = with(loop);
+    loop.body.units().push_back({.name = "inner", .operation = SetRotation{.item = ThisElement()}});
+    EXPECT_EQ(with(loop) - empty, 30 * turn);
+}
+
 TEST(RigBackward, IsTheSameAtEveryRun) {
     for (int i = 0; i < 2; ++i) {
         Held a(fk_rig(3)), b(fk_rig(3));

@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 
-#include "math/cholesky.hpp"
 #include "rig/math.hpp"
+#include "rig/normal_equations.hpp"
 #include "rig/parameters.hpp"
 
 namespace tendril::rig {
 namespace {
 
 constexpr int parts = 9;  ///< numbers that are left of a bone: translation, rotation, scale
+// Of the work that is counted: a step is some 30 ns.
+constexpr std::uint64_t work_a_bone = 4, multiplications_a_step = 48;
 
 /// The rotation vector from one rotation to another, the short way round.
 glm::dvec3 turn_between(const glm::dquat& from, const glm::dquat& to) noexcept {
@@ -52,37 +56,36 @@ class Descent {
             bones_.push_back(rig.id(i));
             wanted_.push_back(state.elements.get(rig.id(i), Space::Global));
         }
+        solve_work_ = rig.work() + work_a_bone * bones_.size();
     }
 
-    /// From the control values of the state to the nearest minimum; they are left there. The sum of squares.
-    double run(BackwardReport& report) {
+    /// From the control values of the state to the nearest minimum, as far as the work goes; they are left
+    /// there. The sum of squares.
+    double run() {
         Parameters now(rig_.definition(), state_.controls);
-        std::vector<double> left = left_of(now), trial_left;
+        std::vector<double> left = left_of(now);
         double cost = squared(left);
-        double damping = 1e-3;
-        for (report.iterations = 0;
-             report.iterations < std::clamp(options_.max_iterations, 1, 10'000) && cost > 1e-24;
-             ++report.iterations) {
-            const double before = cost;
-            linearize(now, left);
-            // More damping makes a shorter step, nearer to steepest descent, until one gains.
-            for (; damping < 1e12; damping *= 8.0) {
-                const std::optional<Parameters> trial = stepped(now, damping);
-                if (!trial) continue;
-                trial_left = left_of(*trial);
-                if (const double gained = squared(trial_left); gained < cost) {
-                    now = *trial;
-                    left.swap(trial_left);
-                    cost = gained;
-                    damping = std::max(1e-12, damping * 0.1);
-                    break;
-                }
+        damping_ = 1e-3;
+        const int most = std::clamp(options_.max_iterations, 1, 10'000);
+        for (iterations_ = 0; cost > 1e-24; ++iterations_) {
+            if (iterations_ == most) {
+                stopped_ = true;
+                break;
             }
+            const double before = cost;
+            if (!linearize(now, left)) break;
+            descend(now, left, cost);
             if (!(cost < before * (1.0 - 1e-9))) break;
         }
         now.write(state_.controls);
-        report.solves = solves_;
         return cost;
+    }
+
+    bool out_of_work() const { return out_of_work_; }
+    void report_to(BackwardReport& report) const {
+        report.iterations = iterations_;
+        report.solves = solves_;
+        report.stopped = stopped_ || out_of_work_;
     }
 
   private:
@@ -90,6 +93,30 @@ class Descent {
         double sum = 0.0;
         for (const double value : values) sum += value * value;
         return sum;
+    }
+
+    /// Counts so much more; false where that would be too much.
+    bool spend(std::uint64_t more) {
+        if (options_.max_work > 0 && work_ + more > options_.max_work) out_of_work_ = true;
+        if (!out_of_work_) work_ += more;
+        return !out_of_work_;
+    }
+
+    /// More damping makes a shorter step, nearer to steepest descent, until one gains.
+    void descend(Parameters& now, std::vector<double>& left, double& cost) {
+        for (; damping_ < 1e12; damping_ *= 8.0) {
+            if (!spend(equations_.solving() / multiplications_a_step + solve_work_)) return;
+            const std::optional<Parameters> trial = stepped(now);
+            if (!trial) continue;
+            std::vector<double> trial_left = left_of(*trial);
+            const double gained = squared(trial_left);
+            if (!(gained < cost)) continue;
+            now = *trial;
+            left.swap(trial_left);
+            cost = gained;
+            damping_ = std::max(1e-12, damping_ * 0.1);
+            return;
+        }
     }
 
     /// What is left of every bone with these control values, as one list.
@@ -111,50 +138,34 @@ class Descent {
         return left;
     }
 
-    /// Fills the matrix J'J and the gradient J'r from differences.
-    void linearize(const Parameters& now, const std::vector<double>& left) {
-        const std::size_t count = now.size();
-        columns_.resize(count);
-        for (std::size_t i = 0; i < count; ++i) {
+    /// The derivatives, from differences. False where that would be too much work.
+    bool linearize(const Parameters& now, const std::vector<double>& left) {
+        if (!spend(now.size() * solve_work_)) return false;
+        columns_.resize(now.size());
+        Parameters moved = now;
+        for (std::size_t i = 0; i < now.size(); ++i) {
             const double by = 1e-6 * std::max(1.0, std::abs(now.value(i))) * (now.at_maximum(i) ? -1.0 : 1.0);
-            Parameters moved = now;
             moved.set(i, now.value(i) + by);
             columns_[i] = left_of(moved);
+            moved.set(i, now.value(i));
             for (std::size_t k = 0; k < left.size(); ++k) columns_[i][k] = (left[k] - columns_[i][k]) / by;
         }
-        normal_.assign(count * count, 0.0);
-        gradient_.assign(count, 0.0);
-        for (std::size_t i = 0; i < count; ++i) {
-            for (std::size_t k = 0; k < left.size(); ++k) gradient_[i] += columns_[i][k] * left[k];
-            for (std::size_t j = 0; j <= i; ++j) {
-                double sum = 0.0;
-                for (std::size_t k = 0; k < left.size(); ++k) sum += columns_[i][k] * columns_[j][k];
-                normal_[i * count + j] = normal_[j * count + i] = sum;
-            }
-        }
+        equations_.plan(columns_);
+        if (!spend(equations_.assembling() / multiplications_a_step)) return false;
+        equations_.assemble(columns_, left);
+        return true;
     }
 
-    /// The damped step from there, within the limits; none where the matrix has no root.
-    std::optional<Parameters> stepped(const Parameters& now, double damping) const {
-        const std::size_t count = now.size();
-        std::vector<double> matrix = normal_, step = gradient_;
-        double largest = 0.0;
-        for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, normal_[i * count + i]);
-        if (!(largest > 0.0)) return std::nullopt;
-        // The same for all: scaled to its own column, what hardly matters would be moved the furthest.
-        for (std::size_t i = 0; i < count; ++i) matrix[i * count + i] += damping * largest;
-        // A number at an end of its range that the descent pushes against stays there, and the others are
-        // solved for without it.
-        for (std::size_t i = 0; i < count; ++i) {
-            if (!(now.at_maximum(i) && gradient_[i] > 0.0) && !(now.at_minimum(i) && gradient_[i] < 0.0))
-                continue;
-            for (std::size_t k = 0; k < count; ++k) matrix[i * count + k] = matrix[k * count + i] = 0.0;
-            matrix[i * count + i] = 1.0;
-            step[i] = 0.0;
-        }
-        if (!math::solve_cholesky(matrix, step)) return std::nullopt;
+    /// The damped step from there, within the limits. A number at an end of its range that the descent pushes
+    /// against stays there.
+    std::optional<Parameters> stepped(const Parameters& now) {
+        const std::vector<double>& gradient = equations_.gradient();
+        still_.resize(now.size());
+        for (std::size_t i = 0; i < now.size(); ++i)
+            still_[i] = (now.at_maximum(i) && gradient[i] > 0.0) || (now.at_minimum(i) && gradient[i] < 0.0);
+        if (!equations_.solve(damping_, still_, step_)) return std::nullopt;
         Parameters trial = now;
-        for (std::size_t i = 0; i < count; ++i) trial.set(i, now.value(i) + step[i]);
+        for (std::size_t i = 0; i < now.size(); ++i) trial.set(i, now.value(i) + step_[i]);
         trial.clamp();
         return trial;
     }
@@ -167,8 +178,13 @@ class Descent {
     std::vector<ElementId> bones_;
     std::vector<Transform> wanted_;
     std::vector<std::vector<double>> columns_;
-    std::vector<double> normal_, gradient_;
-    int solves_ = 0;
+    NormalEquations equations_;
+    std::vector<bool> still_;
+    std::vector<double> step_;
+    double damping_ = 1e-3;
+    std::uint64_t solve_work_, work_ = 0;  ///< steps of some 30 ns
+    int iterations_ = 0, solves_ = 0;
+    bool stopped_ = false, out_of_work_ = false;
 };
 
 }  // namespace
@@ -193,19 +209,20 @@ BackwardReport solve_backward(const Rig& rig, State& state, Workspace& workspace
     State wanted = state;
     Descent descent(rig, state, workspace, options);
     const std::vector<Value> start = state.controls;
-    double cost = descent.run(report);
-    for (std::size_t i = 0; i < start.size() && cost > 1e-16; ++i) {
+    double cost = descent.run();
+    for (std::size_t i = 0; i < start.size() && cost > 1e-16 && !descent.out_of_work(); ++i) {
         if (!rig.definition().elements[i].control || !std::holds_alternative<bool>(start[i])) continue;
         const std::vector<Value> best = state.controls;
         state.controls = start;
         for (std::size_t k = 0; k < i; ++k)
             if (std::holds_alternative<bool>(best[k])) state.controls[k] = best[k];
         state.controls[i] = !std::get<bool>(best[i]);
-        if (const double other = descent.run(report); other < 0.99 * cost)
+        if (const double other = descent.run(); other < 0.99 * cost)
             cost = other;
         else
             state.controls = best;
     }
+    descent.report_to(report);
     forget(state);
     rig.solve(state, 0.0, workspace);
 

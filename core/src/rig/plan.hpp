@@ -43,6 +43,7 @@ struct Plan {
     std::vector<std::string> unit_names;
     std::vector<UnitPlan> units;  ///< one a name
     State initial;
+    std::uint64_t work = 0;  ///< of a solve, see Rig::work
 };
 
 }  // namespace tendril::rig::detail

@@ -134,6 +134,9 @@ Rig::~Rig() {
 const Definition& Rig::definition() const noexcept {
     return plan_->definition;
 }
+std::uint64_t Rig::work() const noexcept {
+    return plan_->work;
+}
 ElementId Rig::id(std::size_t element) const noexcept {
     return plan_->ids[element];
 }

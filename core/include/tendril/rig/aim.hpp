@@ -42,7 +42,8 @@ struct AimOptions {
     AimPart primary{};
     AimPart secondary{.axis = {0.0, 1.0, 0.0}, .weight = 0.0};
     double weight = 1.0;  ///< of both; 0: the transform comes back to the bit
-    /// Radians a second that the rotation changes by at most.
+    /// Radians a second that the rotation changes by at most; 0: it does not turn. (Of a rig's unit, where it
+    /// is in degrees, 0 means no limit.)
     double max_speed = std::numeric_limits<double>::infinity();
 };
 

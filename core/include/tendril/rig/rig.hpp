@@ -121,6 +121,9 @@ class Rig {
     /// Of every unit, those in bodies after the for-each that has them.
     std::span<const std::string> unit_names() const noexcept;
 
+    /// What a forward solve takes, roughly, in steps of some 30 ns: for whoever bounds what he asks for.
+    std::uint64_t work() const noexcept;
+
     /// What a person sets. A value beyond the limits of the control goes to the end of them.
     Result set_control(State& state, std::size_t element, const Value& value) const;
     /// Changes the input pose, from which every solve begins, and the current one. For a control: its value

@@ -49,7 +49,7 @@ struct Aim {
     Item item{};
     AimInputs primary{};
     std::optional<AimInputs> secondary{};
-    Input<double> max_speed = 0.0;  ///< degrees a second; 0: as fast as it likes
+    Input<double> max_speed = 0.0;  ///< degrees a second; 0: no limit
     bool operator==(const Aim&) const = default;
 };
 struct AimMath {
