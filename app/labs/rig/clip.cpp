@@ -12,7 +12,7 @@
 namespace tendril::app {
 namespace {
 
-// Steps of some 30 ns, as tick_work_of counts them.
+// Steps of some 30 ns, as Rig::work counts them.
 constexpr std::uint64_t most_record_work = 40'000'000, most_frame_work = 20'000'000, tick_budget = 300'000;
 constexpr std::size_t most_frames_a_tick = 16;
 constexpr double farthest = 1e9;
@@ -86,7 +86,7 @@ std::uint64_t numbers_in_controls(const rig::Definition& definition) {
 /// Of a frame: a few descents of some steps, each with a forward solve a number.
 std::uint64_t frame_work(const RigPart& part) {
     const std::uint64_t numbers = numbers_in_controls(part.rig.definition()) + 1;
-    return numbers * (8 * tick_work_of(part.state) + numbers * part.clip->bones.size());
+    return numbers * (8 * part.rig.work() + numbers * part.clip->bones.size() / 8);
 }
 
 FrameLeft left_of(const rig::BackwardReport& report, const std::vector<ClipBone>& bones) {
@@ -112,7 +112,7 @@ RigClip record_clip(const RigPart& part, std::size_t frames, rig::Workspace& scr
                                     std::to_string(bones.size()) + " bones is larger than the most, " +
                                     std::to_string(most_clip_frames) + " frames and " +
                                     std::to_string(most_clip_poses) + " poses");
-    if (frames * tick_work_of(part.state) > most_record_work)
+    if (frames * part.rig.work() > most_record_work)
         throw std::invalid_argument("a clip of " + std::to_string(frames) +
                                     " frames of so large a rig would take too long to record");
     RigClip clip{.bones = {}, .poses = {}, .began = part.take.began};

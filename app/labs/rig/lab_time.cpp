@@ -26,7 +26,7 @@ void RigLab::step(Workspace& workspace) const {
 }
 
 std::uint64_t RigLab::tick_work(const Workspace& workspace) const {
-    return tick_work_of(rig_part(workspace).state);
+    return rig_part(workspace).rig.work();
 }
 
 double RigLab::seconds(const Workspace& workspace) const {

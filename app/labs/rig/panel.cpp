@@ -94,7 +94,7 @@ void solve_rows(const RigPanel& panel) {
     if (row_button("Forward", 2, true, "Runs the units: from controls to bones. A tick does this too"))
         panel.emit("rig.solve", {{"direction", "forward"}});
     if (row_button("Backward", 2, true,
-                   "Sets the controls so that the bones stay as they are, if that can be"))
+                   "Sets the controls so that the bones stay as they are, if that can be. Begins a take"))
         panel.emit("rig.solve", {{"direction", "backward"}});
     end_row();
     if (!panel.part.backward) return;

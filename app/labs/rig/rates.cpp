@@ -72,7 +72,7 @@ std::uint64_t solves_of(const signal::RateComparison& rates) {
 
 void start_rates(RigPart& part, std::uint32_t ticks) {
     const signal::RateComparison rates = runs_over(ticks);
-    if (solves_of(rates) * tick_work_of(part.state) > most_work)
+    if (solves_of(rates) * part.rig.work() > most_work)
         throw std::invalid_argument("the rig is so large that this would take too long");
     RateDifference begun;
     begun.ticks = static_cast<double>(ticks);
@@ -133,7 +133,7 @@ void RatesWork::advance(RigPart& part) {
     }
     const std::size_t frames = part.rates->frames;
     const std::uint64_t each = std::max<std::uint64_t>(solves_of(takes_->rates) / frames, 1);
-    const std::uint64_t work = each * std::max<std::uint64_t>(tick_work_of(part.state), 1);
+    const std::uint64_t work = each * std::max<std::uint64_t>(part.rig.work(), 1);
     for (std::uint64_t spent = 0; spent < tick_budget && takes_->done < frames; spent += work)
         takes_->frame();
     const RateDifference& most = takes_->most;

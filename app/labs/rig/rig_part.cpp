@@ -69,7 +69,7 @@ std::size_t state_bytes(const rig::State& state) {
 std::size_t RigPart::bytes() const {
     constexpr std::size_t an_element = 750, a_unit = 800, sharing = 16;
     std::size_t shared = clip ? clip->poses.size() * sizeof(ClipPose) : 0;
-    if (take.keys) shared += take.keys->size() * sizeof(ControlKey);
+    if (take.keys) shared += take.keys->size() * sizeof(TakeKey);
     return sizeof(*this) + state.controls.size() * an_element + state.units.size() * a_unit +
            state_bytes(state) + shared / sharing;
 }

@@ -9,7 +9,7 @@ constexpr std::size_t most_bytes = 32u << 20;
 constexpr std::uint32_t first_stride = 8;
 
 /// The first tick whose keys are not the same in both: what comes after it is not known any more.
-std::uint32_t first_difference(const std::vector<ControlKey>& a, const std::vector<ControlKey>& b) {
+std::uint32_t first_difference(const std::vector<TakeKey>& a, const std::vector<TakeKey>& b) {
     const auto [in_a, in_b] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
     constexpr std::uint32_t never = ~0u;
     return std::min(in_a == a.end() ? never : in_a->tick, in_b == b.end() ? never : in_b->tick);
@@ -21,7 +21,7 @@ void TakeSnapshots::follow(const RigPart& part) {
     const bool same = start_ == part.take.start && walks_ == part.walks && rig_ &&
                       &rig_->definition() == &part.rig.definition();
     if (same && keys_ == part.take.keys) return;
-    static const std::vector<ControlKey> none;
+    static const std::vector<TakeKey> none;
     if (!same) {
         by_tick_.clear();
         bytes_ = 0;
@@ -42,7 +42,12 @@ void TakeSnapshots::follow(const RigPart& part) {
 
 void TakeSnapshots::offer(const RigPart& part) {
     follow(part);
-    if (part.take.tick % stride_ != 0 || by_tick_.contains(part.take.tick)) return;
+    if (part.take.tick % stride_ == 0) keep(part);
+}
+
+void TakeSnapshots::keep(const RigPart& part) {
+    follow(part);
+    if (by_tick_.contains(part.take.tick)) return;
     by_tick_.emplace(part.take.tick, Snapshot{part.state, part.moving});
     bytes_ += state_bytes(part.state);
     while (bytes_ > most_bytes && stride_ < most_take_ticks) {  // every other one goes

@@ -16,6 +16,8 @@ class TakeSnapshots {
     };
     /// The part as it is at its tick; taken where it is one of those that are kept.
     void offer(const RigPart& part);
+    /// Takes it in any case. What was set at its tick is to be no part of it yet.
+    void keep(const RigPart& part);
     /// The last one at or before a tick, with its tick; null where there is none.
     const std::pair<const std::uint32_t, Snapshot>* nearest(const RigPart& part, std::uint32_t tick);
     std::size_t size() const { return by_tick_.size(); }
@@ -28,7 +30,7 @@ class TakeSnapshots {
     std::size_t bytes_ = 0;
     // what they follow from
     std::shared_ptr<const rig::State> start_;
-    std::shared_ptr<const std::vector<ControlKey>> keys_;
+    std::shared_ptr<const std::vector<TakeKey>> keys_;
     std::vector<RigWalk> walks_;
     std::optional<rig::Rig> rig_;
 };

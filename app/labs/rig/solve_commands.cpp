@@ -76,11 +76,11 @@ void solve(Workspace& workspace, const Arguments& given) {
             part.backward = solve_backward(part, runtime.workspace(part.rig));
             part.moving = true;
         } else {
-            part.moving |= runtime.solve(part, 0.0, workspace.clock.measured);
+            solve_now(part, runtime, workspace.clock.measured);
         }
-        if (part.state != before.state) begin_take(part);
     });
 }
+            if (part.state != before.state) begin_take(part);
 
 }  // namespace
 

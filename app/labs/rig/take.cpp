@@ -1,7 +1,9 @@
 #include "app/labs/rig/take.hpp"
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "app/labs/rig/walk.hpp"
 
@@ -22,18 +24,22 @@ void walk(const rig::Rig& rig, const std::vector<RigWalk>& walks, rig::State& st
             static_cast<void>(rig.set_control(state, *at, walk_value(each, state.controls[*at], ticks)));
 }
 
-void apply_key(const rig::Rig& rig, const ControlKey& key, rig::State& state) {
+void apply_key(const rig::Rig& rig, const TakeKey& key, rig::State& state) {
     static_cast<void>(rig.set_control(state, key.element, key.value));
 }
 
-void apply_keys(RigPart& part) {
+void apply_keys(RigPart& part, RigRuntime& runtime, bool measured = false) {
     if (!part.take.keys) return;
     const auto& keys = *part.take.keys;
     const std::uint32_t tick = part.take.tick;
-    auto key = std::ranges::lower_bound(keys, tick, {}, &ControlKey::tick);
+    auto key = std::ranges::lower_bound(keys, tick, {}, &TakeKey::tick);
     for (; key != keys.end() && key->tick == tick; ++key) {
-        apply_key(part.rig, *key, part.state);
-        part.moving = true;
+        if (key->element == TakeKey::solve) {
+            part.moving |= runtime.solve(part, 0.0, measured);
+        } else {
+            apply_key(part.rig, *key, part.state);
+            part.moving = true;
+        }
     }
 }
 
@@ -44,11 +50,60 @@ void pass(RigPart& part, RigRuntime& runtime, bool measured) {
     ++part.take.tick;
     part.take.last = std::max(part.take.last, part.take.tick);
     runtime.snapshots.offer(part);
-    apply_keys(part);
+    apply_keys(part, runtime);
 }
 
 void ensure_start(RigPart& part) {
     if (!part.take.start) part.take.start = std::make_shared<const rig::State>(part.state);
+}
+
+std::shared_ptr<const std::vector<TakeKey>> shared(std::vector<TakeKey> keys) {
+    return keys.empty() ? nullptr : std::make_shared<const std::vector<TakeKey>>(std::move(keys));
+}
+
+/// Those up to the present tick.
+std::vector<TakeKey> keys_so_far(const RigTake& take) {
+    std::vector<TakeKey> keys;
+    if (take.keys)
+        keys.assign(take.keys->begin(), std::ranges::upper_bound(*take.keys, take.tick, {}, &TakeKey::tick));
+    return keys;
+}
+
+bool too_far(const RigPart& part, std::uint32_t ticks) {
+    return ticks * part.rig.work() > most_seek_work;
+}
+
+/// To a tick, from the nearest one before it that is known. False where that is too far away.
+bool go_from_known(RigPart& part, std::uint32_t tick, RigRuntime& runtime) {
+    const auto* nearest = runtime.snapshots.nearest(part, tick);
+    const std::uint32_t from = nearest ? nearest->first : 0;
+    if (too_far(part, tick - from)) return false;
+    part.state = nearest ? nearest->second.state : *part.take.start;
+    part.moving = nearest ? nearest->second.moving : true;
+    part.take.tick = from;
+    apply_keys(part, runtime);
+    while (part.take.tick < tick) pass(part, runtime, false);
+    return true;
+}
+
+/// Takes what was done at the tick back. `keys`: of the ticks before it.
+bool undo_keys_here(RigPart& part, std::vector<TakeKey> keys, RigRuntime& runtime) {
+    part.take.keys = shared(std::move(keys));
+    if (!go_from_known(part, part.take.tick, runtime)) return false;
+    runtime.snapshots.keep(part);  // a drag comes back again and again
+    return true;
+}
+
+/// What was set, the last of each control; and then one solve.
+std::vector<TakeKey> as_one(std::span<const TakeKey> keys, std::uint32_t tick) {
+    std::vector<TakeKey> once;
+    for (const TakeKey& key : keys) {
+        if (key.element == TakeKey::solve) continue;
+        std::erase_if(once, [&](const TakeKey& each) { return each.element == key.element; });
+        once.push_back(key);
+    }
+    once.push_back({tick, TakeKey::solve});
+    return once;
 }
 
 }  // namespace
@@ -57,12 +112,6 @@ bool RigTake::operator==(const RigTake& other) const {
     return tick == other.tick && last == other.last && began == other.began &&
            (start == other.start || (start && other.start && *start == *other.start)) &&
            same_keys(*this, other);
-}
-
-std::uint64_t tick_work_of(const rig::State& state) {
-    std::uint64_t work = state.controls.size();
-    for (const rig::UnitState& unit : state.units) work += 10 * unit.memory.size();
-    return work;
 }
 
 void begin_take(RigPart& part) {
@@ -76,14 +125,44 @@ void key_control(RigPart& part, std::size_t element) {
     const std::size_t count = part.take.keys ? part.take.keys->size() : 0;
     if (part.take.tick == 0 || count >= most_take_keys) return begin_take(part);
     const std::uint32_t tick = part.take.tick, at = static_cast<std::uint32_t>(element);
-    std::vector<ControlKey> keys;
-    if (part.take.keys) keys = *part.take.keys;
-    std::erase_if(keys, [&](const ControlKey& key) {
-        return key.tick > tick || (key.tick == tick && key.element == at);
+    std::vector<TakeKey> keys = keys_so_far(part.take);
+    // What was set before the rig was last solved at this tick has been seen by its units.
+    const auto seen = std::find_if(keys.rbegin(), keys.rend(), [&](const TakeKey& key) {
+        return key.tick < tick || key.element == TakeKey::solve;
     });
+    keys.erase(std::remove_if(seen.base(), keys.end(), [&](const TakeKey& key) { return key.element == at; }),
+               keys.end());
     keys.push_back({tick, at, part.state.controls[element]});
-    part.take.keys = std::make_shared<const std::vector<ControlKey>>(std::move(keys));
+    part.take.keys = shared(std::move(keys));
     part.take.last = tick;
+}
+
+void solve_now(RigPart& part, RigRuntime& runtime, bool measured) {
+    const RigPart before = part;
+    std::vector<TakeKey> keys = keys_so_far(part.take);
+    const std::uint32_t tick = part.take.tick;
+    const auto here = std::ranges::lower_bound(keys, tick, {}, &TakeKey::tick);
+    const std::vector<TakeKey> set_here = as_one({here, keys.end()}, tick);
+    const bool again = std::ranges::find(here, keys.end(), TakeKey::solve, &TakeKey::element) != keys.end();
+    keys.erase(here, keys.end());
+    bool remembered = tick > 0 && keys.size() + set_here.size() <= most_take_keys;
+    if (remembered && again && !undo_keys_here(part, keys, runtime)) {
+        part = before;
+        remembered = false;
+    }
+    if (!remembered) {
+        part.moving |= runtime.solve(part, 0.0, measured);
+        if (part.state != before.state) begin_take(part);
+        return;
+    }
+    keys.insert(keys.end(), set_here.begin(), set_here.end());
+    part.take.keys = shared(std::move(keys));
+    part.take.last = tick;
+    if (again)
+        apply_keys(part, runtime, measured);
+    else
+        part.moving |= runtime.solve(part, 0.0, measured);
+    if (part.state == before.state) part = before;
 }
 
 bool time_moves(const RigPart& part) {
@@ -103,28 +182,35 @@ void go_to(RigPart& part, std::uint32_t tick, RigRuntime& runtime) {
     const auto* nearest = runtime.snapshots.nearest(part, tick);
     const std::uint32_t known = nearest ? nearest->first : 0;
     const bool from_here = part.take.tick < tick && part.take.tick >= known;
-    const std::uint32_t from = from_here ? part.take.tick : known;
-    if ((tick - from) * tick_work_of(part.state) > most_seek_work)
-        throw std::invalid_argument("that is " + std::to_string(tick - from) +
+    const std::uint32_t ticks = tick - (from_here ? part.take.tick : known);
+    if (too_far(part, ticks))
+        throw std::invalid_argument("that is " + std::to_string(ticks) +
                                     " ticks from the nearest that is known, which would take too long; go "
                                     "there in smaller steps");
-    if (!from_here) {
-        part.state = nearest ? nearest->second.state : *part.take.start;
-        part.moving = nearest ? nearest->second.moving : true;
-        part.take.tick = from;
-        apply_keys(part);
-    }
-    while (part.take.tick < tick) pass(part, runtime, false);
+    if (from_here)
+        while (part.take.tick < tick) pass(part, runtime, false);
+    else
+        go_from_known(part, tick, runtime);
 }
 
 TakeRunner::TakeRunner(const RigPart& part, rig::Workspace& scratch)
     : part_(part), scratch_(scratch), state_(part.take.start ? *part.take.start : part.state) {}
 
-void TakeRunner::frame(double seconds, double ticks) {
+void TakeRunner::keys_before(double ticks) {
     constexpr double rounding = 1e-6;
-    while (part_.take.keys && next_key_ < part_.take.keys->size() &&
-           (*part_.take.keys)[next_key_].tick < ticks - rounding)
-        apply_key(part_.rig, (*part_.take.keys)[next_key_++], state_);
+    if (!part_.take.keys) return;
+    for (; next_key_ < part_.take.keys->size(); ++next_key_) {
+        const TakeKey& key = (*part_.take.keys)[next_key_];
+        if (!(key.tick < ticks - rounding)) return;
+        if (key.element == TakeKey::solve)
+            part_.rig.solve(state_, 0.0, scratch_);
+        else
+            apply_key(part_.rig, key, state_);
+    }
+}
+
+void TakeRunner::frame(double seconds, double ticks) {
+    keys_before(ticks);
     walk(part_.rig, part_.walks, state_, ticks);
     part_.rig.solve(state_, seconds, scratch_);
 }
@@ -132,6 +218,7 @@ void TakeRunner::frame(double seconds, double ticks) {
 void TakeRunner::tick() {
     ++ticks_;
     frame(tick_seconds, ticks_);
+    keys_before(ticks_ + 1.0);
 }
 
 }  // namespace tendril::app

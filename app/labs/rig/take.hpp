@@ -10,6 +10,10 @@ namespace tendril::app {
 void begin_take(RigPart& part);
 /// The control has been set, after the present tick: what was known to come is forgotten.
 void key_control(RigPart& part, std::size_t element);
+/// Solves without any time passing. Where that changes anything the take remembers it, and what was known to
+/// come is forgotten. However often that is done at a tick, with whatever set in between, it comes out as if
+/// all had been set at once and then solved.
+void solve_now(RigPart& part, RigRuntime& runtime, bool measured);
 
 /// Whether a tick would change anything.
 bool time_moves(const RigPart& part);
@@ -17,9 +21,6 @@ void pass_tick(RigPart& part, RigRuntime& runtime, bool measured);
 /// To a tick of the take, as playing there would; later ones too. Throws std::invalid_argument where that
 /// would take too long.
 void go_to(RigPart& part, std::uint32_t tick, RigRuntime& runtime);
-
-/// What a tick takes, in steps of some 30 ns.
-std::uint64_t tick_work_of(const rig::State& state);
 
 /// A state on its way through a take, in other hands than the part's.
 class TakeRunner {
@@ -32,6 +33,8 @@ class TakeRunner {
     rig::State& state() { return state_; }
 
   private:
+    void keys_before(double ticks);
+
     const RigPart& part_;
     rig::Workspace& scratch_;
     rig::State state_;

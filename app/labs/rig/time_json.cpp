@@ -20,14 +20,20 @@ constexpr std::uint64_t latest = 1'000'000'000'000;  ///< ticks
 /// [tick, name, value]
 Json keys_json(const RigPart& part) {
     Json keys = Json::array();
-    for (const ControlKey& key : *part.take.keys) {
+    for (const TakeKey& key : *part.take.keys) {
+        if (key.element == TakeKey::solve) {
+            keys.push_back(Json::array({key.tick}));
+            continue;
+        }
         const rig::Element& element = part.rig.definition().elements[key.element];
         keys.push_back({key.tick, element.name, control_value_json(element.control->kind, key.value)});
     }
     return keys;
 }
 
-ControlKey read_key(const JsonPlace& place, const RigPart& part) {
+TakeKey read_key(const JsonPlace& place, const RigPart& part) {
+    if (place.json().is_array() && place.json().size() == 1)
+        return {static_cast<std::uint32_t>(place.element(0).count(most_take_ticks)), TakeKey::solve};
     place.check_size(3, "values: tick, control, value");
     const auto at = part.rig.element(place.element(1).text());
     if (!at || !part.rig.definition().elements[*at].control)
@@ -61,12 +67,12 @@ RigTake read_take(const JsonPlace& place, const RigPart& part) {
     take.last = static_cast<std::uint32_t>(place["last"].count(most_take_ticks));
     take.tick = static_cast<std::uint32_t>(place["tick"].count(take.last));
     if (const auto stored = place.optional("keys")) {
-        std::vector<ControlKey> keys;
+        std::vector<TakeKey> keys;
         stored->for_each("keys", most_take_keys,
                          [&](const JsonPlace& each) { keys.push_back(read_key(each, part)); });
-        if (!std::ranges::is_sorted(keys, {}, &ControlKey::tick))
+        if (!std::ranges::is_sorted(keys, {}, &TakeKey::tick))
             stored->fail("expected the keys in the order of their ticks");
-        take.keys = std::make_shared<const std::vector<ControlKey>>(std::move(keys));
+        take.keys = std::make_shared<const std::vector<TakeKey>>(std::move(keys));
     }
     return take;
 }

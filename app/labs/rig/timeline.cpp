@@ -56,7 +56,10 @@ std::vector<TimeBar> clip_bars(const RigPart& part, const Palette& colours) {
 /// "2.35 s: the rig cannot express left 6: 12.3 mm and 8.1 degrees are left"
 std::string told(const RigPart& part, std::uint64_t tick) {
     std::string text = fixed_text(static_cast<double>(tick) * tick_seconds, 2) + " s";
-    if (tick < part.take.began) text += ", before the take: what was then is not known any more";
+    if (tick < part.take.began)
+        text +=
+            ", before the take, which began where the rig was last edited: what was then is not known any "
+            "more";
     if (!part.clip || tick < part.clip->began || tick - part.clip->began >= part.clip->frames()) return text;
     const std::size_t frame = tick - part.clip->began;
     text += "\nClip, frame " + std::to_string(frame) + ": ";

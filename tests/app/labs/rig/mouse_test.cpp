@@ -247,6 +247,28 @@ TEST_F(RigMouse, TheWheelDoesNothingWhileAGizmoIsHeld) {
     EXPECT_LT(distance(), before);
 }
 
+TEST_F(RigMouse, ADragInAPauseKeepsTheTake) {
+    app_.run({"rig.preset", Json{{"name", "secondary"}}});
+    app_.run({"rig.control.set", Json{{"name", "head"}, {"value", {{"translation", {0.2, 1, 0}}}}}});
+    app_.run({"time.play"});
+    wait(60);
+    app_.run({"time.pause"});
+    const Json skull = element("skull");
+    app_.run({"rig.time", Json{{"tick", 20}}});
+    const Json earlier = element("skull");
+    app_.run({"rig.time", Json{{"tick", 60}}});
+    EXPECT_EQ(element("skull"), skull);
+    drag(at("head"), {{20.0f, 0.0f}, {40.0f, -10.0f}, {60.0f, -20.0f}, {80.0f, -20.0f}});
+    const Json moved = element("skull");
+    EXPECT_NE(moved["global"], skull["global"]);
+    EXPECT_EQ(app_.state()["take"]["began"], 0);
+    EXPECT_EQ(app_.state()["take"]["played_to"], 60);
+    app_.run({"rig.time", Json{{"tick", 20}}});
+    EXPECT_EQ(element("skull"), earlier);
+    app_.run({"rig.time", Json{{"tick", 60}}});
+    EXPECT_EQ(element("skull"), moved);
+}
+
 TEST_F(RigMouse, EscapeInMidDragPutsBackWhatWas) {
     one("transform");
     select();
