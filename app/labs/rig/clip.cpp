@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <tendril/rig/backward.hpp>
 
+#include "app/document/units.hpp"
 #include "app/labs/rig/rig_edit.hpp"
 #include "app/labs/rig/take.hpp"
 
@@ -91,11 +92,13 @@ std::uint64_t frame_work(const RigPart& part) {
 
 FrameLeft left_of(const rig::BackwardReport& report, const std::vector<ClipBone>& bones) {
     FrameLeft left;
+    left.stopped = report.stopped;
     for (std::size_t i = 0; i < bones.size(); ++i) {
         if (report.worst != bones[i].element) continue;
         const rig::Residual& most = report.elements[bones[i].element];
         left.mm = static_cast<float>(std::min(1000.0 * most.metres, farthest));
         left.degrees = static_cast<float>(glm::degrees(most.radians));
+        left.scale = static_cast<float>(std::min(most.scale, farthest));
         left.bone = static_cast<std::uint32_t>(i);
     }
     return left;
@@ -153,7 +156,8 @@ void continue_clip_solve(RigPart& part, rig::Workspace& scratch) {
     const std::size_t frames = std::clamp<std::size_t>(tick_budget / frame_work(part), 1, most_frames_a_tick);
     for (std::size_t i = 0; i < frames && solve.done() < part.clip->frames(); ++i) {
         pose_bones(&part.clip->poses[solve.done() * bones.size()], bones, state.elements);
-        solve.left.push_back(left_of(rig::solve_backward(part.rig, state, scratch), bones));
+        solve.left.push_back(
+            left_of(rig::solve_backward(part.rig, state, scratch, {.max_work = most_frame_work}), bones));
     }
     solve.controls = std::move(state.controls);
     solve.running = solve.done() < part.clip->frames();
@@ -161,7 +165,15 @@ void continue_clip_solve(RigPart& part, rig::Workspace& scratch) {
 }
 
 double amount(const FrameLeft& left) {
-    return 1e-3 * static_cast<double>(left.mm) + 0.3 * glm::radians(static_cast<double>(left.degrees));
+    return amount(rig::Residual{1e-3 * static_cast<double>(left.mm),
+                                glm::radians(static_cast<double>(left.degrees)),
+                                static_cast<double>(left.scale)});
+}
+
+std::string left_text(double mm, double degrees, double scale) {
+    std::string text = fixed_text(mm, 1) + " mm, " + fixed_text(degrees, 1) + "\u00b0";
+    if (scale >= smallest_shown_scale) text += ", scale " + fixed_text(scale, 3);
+    return text;
 }
 
 std::vector<LeftRun> left_runs(const ClipSolve& solve) {
@@ -178,7 +190,8 @@ std::vector<LeftRun> left_runs(const ClipSolve& solve) {
 
 std::optional<std::size_t> worst_frame(const ClipSolve& solve) {
     if (solve.left.empty()) return std::nullopt;
-    const auto worst = std::ranges::max_element(solve.left, {}, amount);
+    const auto worst =
+        std::ranges::max_element(solve.left, {}, [](const FrameLeft& each) { return amount(each); });
     return static_cast<std::size_t>(worst - solve.left.begin());
 }
 

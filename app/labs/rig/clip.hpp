@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "app/labs/rig/rig_part.hpp"
 
@@ -27,7 +28,8 @@ struct LeftRun {
 std::vector<LeftRun> left_runs(const ClipSolve& solve);
 /// The frame with the most left; none where none was solved.
 std::optional<std::size_t> worst_frame(const ClipSolve& solve);
-/// Metres and radians together, as a backward solve weighs them for bones some 0.3 m long.
-double amount(const FrameLeft& left);
+double amount(const FrameLeft& left);  ///< as of a residual
+/// "12.3 mm, 8.1 degrees", and the scale where it shows: ", scale 0.250"
+std::string left_text(double mm, double degrees, double scale);
 
 }  // namespace tendril::app

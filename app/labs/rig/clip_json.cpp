@@ -74,7 +74,7 @@ Json solve_json(const RigPart& part) {
     const ClipSolve& solve = *part.clip_left;
     Json left = Json::array(), controls = Json::object();
     for (const FrameLeft& each : solve.left)
-        left.push_back({number(each.mm), number(each.degrees), each.bone});
+        left.push_back({number(each.mm), number(each.degrees), each.bone, number(each.scale), each.stopped});
     if (solve.running)
         for (std::size_t i = 0; i < solve.controls.size(); ++i)
             if (const rig::Element& element = part.rig.definition().elements[i]; element.control)
@@ -86,10 +86,15 @@ ClipSolve read_solve(const JsonPlace& place, const RigPart& part) {
     check_members(place, {"running", "left", "controls"});
     ClipSolve solve{.running = place["running"].flag(), .left = {}, .controls = {}};
     place["left"].for_each("frames", part.clip->frames(), [&](const JsonPlace& each) {
-        each.check_size(3, "numbers: millimetres, degrees, bone");
-        solve.left.push_back(
-            {each.element(0).number(0.0f, 1e9f), each.element(1).number(0.0f, 360.0f),
-             static_cast<std::uint32_t>(each.element(2).index(part.clip->bones.size() - 1))});
+        const bool older = each.json().is_array() && each.json().size() == 3;  // it had no more
+        if (!older) each.check_size(5, "values: millimetres, degrees, bone, scale, stopped");
+        FrameLeft left{each.element(0).number(0.0f, 1e9f), each.element(1).number(0.0f, 360.0f),
+                       static_cast<std::uint32_t>(each.element(2).index(part.clip->bones.size() - 1))};
+        if (!older) {
+            left.scale = each.element(3).number(0.0f, 1e9f);
+            left.stopped = each.element(4).flag();
+        }
+        solve.left.push_back(left);
     });
     if (!solve.running) return solve;
     try {

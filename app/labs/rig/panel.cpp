@@ -6,6 +6,7 @@
 
 #include "app/document/units.hpp"
 #include "app/labs/kit/preset_rows.hpp"
+#include "app/labs/rig/clip.hpp"
 #include "app/labs/rig/panels.hpp"
 #include "app/labs/rig/presets.hpp"
 #include "app/labs/rig/rig_lab.hpp"
@@ -31,16 +32,14 @@ void residual_rows(const RigPanel& panel, const BackwardLeft& left) {
     for (std::size_t i = 0; i < left.elements.size(); ++i)
         if (panel.part.rig.definition().elements[i].kind == rig::ElementKind::Bone) bones.push_back(i);
     std::stable_sort(bones.begin(), bones.end(), [&](std::size_t a, std::size_t b) {
-        return left.elements[a].metres + left.elements[a].radians >
-               left.elements[b].metres + left.elements[b].radians;
+        return amount(left.elements[a]) > amount(left.elements[b]);
     });
     constexpr std::size_t shown = 8;
     for (std::size_t i = 0; i < std::min(shown, bones.size()); ++i) {
         const std::string& name = panel.part.rig.definition().elements[bones[i]].name;
         const rig::Residual& each = left.elements[bones[i]];
-        reading(elided(name, 0.4f * ImGui::GetContentRegionAvail().x).c_str(), "%s mm  %s\xC2\xB0",
-                fixed_text(1000.0 * each.metres, 1).c_str(),
-                fixed_text(glm::degrees(each.radians), 1).c_str());
+        reading(elided(name, 0.4f * ImGui::GetContentRegionAvail().x).c_str(), "%s",
+                left_text(1000.0 * each.metres, glm::degrees(each.radians), each.scale).c_str());
     }
     if (bones.size() > shown) note("and " + count_text(bones.size() - shown, "bone") + " with less");
 }
@@ -100,10 +99,10 @@ void solve_rows(const RigPanel& panel) {
     if (!panel.part.backward) return;
     const BackwardLeft& left = *panel.part.backward;
     if (left.bone.empty()) return note("Without a bone there is nothing to match.");
-    // Under what shows: a tenth of a millimetre, a hundredth of a degree.
-    if (left.worst_mm() < 0.1 && left.worst_degrees() < 0.01)
-        return note("The controls give every bone's pose.");
-    note("The controls cannot give the pose. What is left, worst first:");
+    if (left.expressed()) return note("The controls give every bone's pose.");
+    note(left.stopped ? "Stopped before the end, for the rig is large: there may be values that come nearer. "
+                        "What is left, worst first:"
+                      : "The controls cannot give the pose. What is left, worst first:");
     residual_rows(panel, left);
 }
 

@@ -39,16 +39,19 @@ std::string name_of(const signal::FrameRate& rate) {
     return std::to_string(std::lround(rate.hz)) + (rate.jittered ? " Hz uneven" : " Hz");
 }
 
-/// Whether something is farther apart than anything before.
-bool compare(const rig::Rig& rig, rig::State& a, rig::State& b, double seconds, RateDifference& most) {
+/// Whether something is farther apart than anything before, and `farthest`.
+bool compare(const rig::Rig& rig, rig::State& a, rig::State& b, double seconds, RateDifference& most,
+             double& farthest) {
     bool farther = false;
     const std::vector<rig::Residual> apart = rig::residuals(rig, a, b);
     for (std::size_t i = 0; i < apart.size(); ++i) {
         const rig::Element& element = rig.definition().elements[i];
         if (element.kind != rig::ElementKind::Bone) continue;
+        most.mm = std::max(most.mm, 1000.0 * apart[i].metres);
         most.degrees = std::max(most.degrees, glm::degrees(apart[i].radians));
-        if (const double mm = 1000.0 * apart[i].metres; most.bone.empty() || mm > most.mm) {
-            most.mm = mm;
+        most.scale = std::max(most.scale, apart[i].scale);
+        if (const double all = amount(apart[i]); most.bone.empty() || all > farthest) {
+            farthest = all;
             most.bone = element.name;
             most.seconds = seconds;
             farther = true;
@@ -110,7 +113,7 @@ struct RatesWork::Takes {
         for (RateTake& take : takes) take.run_to(end);
         for (std::size_t a = 0; a < takes.size(); ++a)
             for (std::size_t b = a + 1; b < takes.size(); ++b)
-                if (compare(part.rig, takes[a].state(), takes[b].state(), end, most))
+                if (compare(part.rig, takes[a].state(), takes[b].state(), end, most, farthest))
                     most.between = name_of(rates.runs[a].rate) + " and " + name_of(rates.runs[b].rate);
     }
 
@@ -119,6 +122,7 @@ struct RatesWork::Takes {
     signal::RateComparison rates;
     std::vector<RateTake> takes;
     RateDifference most;
+    double farthest = 0.0;  ///< as amount has it
     std::size_t done = 0;
 };
 

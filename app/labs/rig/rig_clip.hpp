@@ -30,12 +30,20 @@ struct RigClip {
     bool operator==(const RigClip&) const = default;
 };
 
+/// What is left of a bone, and is less than that, nobody sees, and a clip's numbers do not tell.
+inline constexpr double smallest_shown_mm = 0.1, smallest_shown_degrees = 0.01, smallest_shown_scale = 0.001;
+
 /// Of the bone with the most left in a frame.
 struct FrameLeft {
     float mm = 0.0f, degrees = 0.0f;
     std::uint32_t bone = 0;  ///< its place in RigClip::bones
-    /// Closer than anybody sees or a clip's numbers tell.
-    bool expressed() const { return mm <= 0.1f && degrees <= 0.01f; }
+    float scale = 0.0f;      ///< the largest difference of a component
+    bool stopped = false;    ///< by the work it took: there may be values that come nearer
+    bool expressed() const {
+        return static_cast<double>(mm) <= smallest_shown_mm &&
+               static_cast<double>(degrees) <= smallest_shown_degrees &&
+               static_cast<double>(scale) <= smallest_shown_scale;
+    }
     bool operator==(const FrameLeft&) const = default;
 };
 

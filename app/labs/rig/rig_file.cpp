@@ -24,12 +24,14 @@ Json save_backward(const RigPart& part) {
         if (element.kind == rig::ElementKind::Bone)
             elements[element.name] = Json::array({left.metres, left.radians, left.scale});
     }
-    return Json{{"bone", part.backward->bone}, {"left", std::move(elements)}};
+    return Json{
+        {"bone", part.backward->bone}, {"left", std::move(elements)}, {"stopped", part.backward->stopped}};
 }
 
 BackwardLeft load_backward(const JsonPlace& place, const rig::Definition& definition) {
-    check_members(place, {"bone", "left"});
+    check_members(place, {"bone", "left", "stopped"});
     BackwardLeft left{place["bone"].text(), {}};
+    if (const auto stopped = place.optional("stopped")) left.stopped = stopped->flag();
     left.elements.resize(definition.elements.size());
     for (std::size_t i = 0; i < left.elements.size(); ++i) {
         if (definition.elements[i].kind != rig::ElementKind::Bone) continue;

@@ -23,7 +23,8 @@ bool same_value(const std::shared_ptr<const T>& a, const std::shared_ptr<const T
 }  // namespace
 
 bool BackwardLeft::operator==(const BackwardLeft& other) const {
-    return bone == other.bone && std::ranges::equal(elements, other.elements, same);
+    return bone == other.bone && stopped == other.stopped &&
+           std::ranges::equal(elements, other.elements, same);
 }
 
 double BackwardLeft::worst_mm() const {
@@ -36,6 +37,21 @@ double BackwardLeft::worst_degrees() const {
     double worst = 0.0;
     for (const rig::Residual& each : elements) worst = std::max(worst, glm::degrees(each.radians));
     return worst;
+}
+
+double BackwardLeft::worst_scale() const {
+    double worst = 0.0;
+    for (const rig::Residual& each : elements) worst = std::max(worst, each.scale);
+    return worst;
+}
+
+bool BackwardLeft::expressed() const {
+    return worst_mm() < smallest_shown_mm && worst_degrees() < smallest_shown_degrees &&
+           worst_scale() < smallest_shown_scale;
+}
+
+double amount(const rig::Residual& left) {
+    return left.metres + 0.3 * (left.radians + left.scale);
 }
 
 RigPart::RigPart() : RigPart(rig::Definition()) {}

@@ -28,15 +28,20 @@ inline constexpr std::size_t max_lab_runs = 100'000;
 struct BackwardLeft {
     std::string bone;                     ///< the worst; empty in a rig without bones
     std::vector<rig::Residual> elements;  ///< in the order of the definition
+    bool stopped = false;                 ///< by the work it took: there may be values that come nearer
     bool operator==(const BackwardLeft& other) const;
 
     double worst_mm() const;       ///< of all bones
     double worst_degrees() const;  ///< likewise
+    double worst_scale() const;    ///< likewise
+    bool expressed() const;        ///< all of them closer than shows
 };
+/// Metres, radians and scales together, as a backward solve weighs them for bones some 0.3 m long.
+double amount(const rig::Residual& left);
 
 /// How far apart the bones come at the usual frame rates, until something is changed.
 struct RateDifference {
-    double mm = 0.0, degrees = 0.0;    ///< the most of any bone
+    double mm = 0.0, degrees = 0.0, scale = 0.0;  ///< the most of any bone
     std::string bone;                  ///< the one that is farthest apart; empty in a rig without bones
     std::string between;               ///< which rates: "15 Hz and 144 Hz"
     double seconds = 0.0;              ///< in the take, when it is

@@ -1,4 +1,5 @@
 // The rig as a whole: emptied, solved, put in the place of another.
+#include <stdexcept>
 #include <tendril/rig/backward.hpp>
 
 #include "app/document/units.hpp"
@@ -61,8 +62,13 @@ void take_preset(Workspace& workspace, const Arguments& given) {
 }
 
 BackwardLeft solve_backward(RigPart& part, rig::Workspace& scratch) {
-    const rig::BackwardReport report = rig::solve_backward(part.rig, part.state, scratch);
-    BackwardLeft left{{}, report.elements};
+    constexpr std::uint64_t most_work = 40'000'000;  // a second or so
+    const rig::BackwardReport report =
+        rig::solve_backward(part.rig, part.state, scratch, {.max_work = most_work});
+    if (report.stopped && report.iterations == 0)
+        throw std::invalid_argument(
+            "the rig is so large, and has so many controls, that a backward solve would take too long");
+    BackwardLeft left{{}, report.elements, report.stopped};
     if (report.worst) left.bone = part.rig.definition().elements[*report.worst].name;
     return left;
 }
@@ -75,12 +81,12 @@ void solve(Workspace& workspace, const Arguments& given) {
         if (backward) {
             part.backward = solve_backward(part, runtime.workspace(part.rig));
             part.moving = true;
+            if (part.state != before.state) begin_take(part);
         } else {
             solve_now(part, runtime, workspace.clock.measured);
         }
     });
 }
-            if (part.state != before.state) begin_take(part);
 
 }  // namespace
 

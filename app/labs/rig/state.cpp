@@ -73,6 +73,8 @@ Json backward_state(const RigPart& part) {
     if (!part.backward->bone.empty()) bone = part.backward->bone;
     return Json{{"worst_mm", part.backward->worst_mm()},
                 {"worst_degrees", part.backward->worst_degrees()},
+                {"worst_scale", part.backward->worst_scale()},
+                {"stopped", part.backward->stopped},
                 {"bone", std::move(bone)}};
 }
 
@@ -115,7 +117,9 @@ Json left_state(const RigClip& clip, const ClipSolve& solve) {
                         {"frame", run.worst},
                         {"bone", clip.bones[worst.bone]},
                         {"mm", worst.mm},
-                        {"degrees", worst.degrees}});
+                        {"degrees", worst.degrees},
+                        {"scale", worst.scale},
+                        {"stopped", worst.stopped}});
     }
     return runs;
 }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t latest = 1'000'000'000'000;  ///< ticks
 
-/// [tick, name, value]
+/// [tick, name, value], or [tick] where the rig was solved.
 Json keys_json(const RigPart& part) {
     Json keys = Json::array();
     for (const TakeKey& key : *part.take.keys) {
@@ -95,11 +95,13 @@ RigWalk read_walk(const JsonPlace& place, const std::string& control, const RigP
 }
 
 RateDifference read_rates(const JsonPlace& place) {
-    check_members(place,
-                  {"mm", "degrees", "bone", "between", "seconds", "ticks", "frames", "done", "running"});
+    check_members(place, {"mm", "degrees", "scale", "bone", "between", "seconds", "ticks", "frames", "done",
+                          "running"});
+    const auto scale = place.optional("scale");
     const std::size_t frames = place.has("frames") ? place["frames"].index(most_rate_frames) : 0;
     return {.mm = place["mm"].real(0.0, most_reached),
             .degrees = place["degrees"].real(0.0, 360.0),
+            .scale = scale ? scale->real(0.0, most_reached) : 0.0,
             .bone = place["bone"].text(),
             .between = place["between"].text(),
             .seconds = place["seconds"].real(0.0, 1e9),
@@ -141,9 +143,10 @@ Json walks_json(const RigPart& part) {
 Json rates_json(const RigPart& part) {
     if (!part.rates) return nullptr;
     const RateDifference& most = *part.rates;
-    return {{"mm", most.mm},           {"degrees", most.degrees}, {"bone", most.bone},
-            {"between", most.between}, {"seconds", most.seconds}, {"ticks", most.ticks},
-            {"frames", most.frames},   {"done", most.done},       {"running", most.running}};
+    return {{"mm", most.mm},          {"degrees", most.degrees}, {"scale", most.scale},
+            {"bone", most.bone},      {"between", most.between}, {"seconds", most.seconds},
+            {"ticks", most.ticks},    {"frames", most.frames},   {"done", most.done},
+            {"running", most.running}};
 }
 
 void save_time(const RigPart& part, Json& state) {

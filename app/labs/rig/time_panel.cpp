@@ -53,8 +53,9 @@ std::string clip_text(const RigPart& part) {
     const FrameLeft& worst = solve.left[*worst_frame(solve)];
     return std::to_string(left) + " of " + frames +
            " cannot be expressed. Worst: " + part.clip->bones[worst.bone] + ", " +
-           fixed_text(static_cast<double>(worst.mm), 1) + " mm and " +
-           fixed_text(static_cast<double>(worst.degrees), 1) + "\u00b0.";
+           left_text(static_cast<double>(worst.mm), static_cast<double>(worst.degrees),
+                     static_cast<double>(worst.scale)) +
+           (worst.stopped ? "; stopped before the end." : ".");
 }
 
 void clip_rows(const RigPart& part, Emit& emit) {
@@ -98,7 +99,8 @@ void rate_rows(const RigPart& part, Emit& emit) {
     reading("apart", "%s mm, %s\u00b0", fixed_text(most.mm, most.mm < 10.0 ? 3 : 1).c_str(),
             fixed_text(most.degrees, most.degrees < 10.0 ? 3 : 1).c_str());
     explain("The most that any bone differs between two frame rates");
-    if (most.mm > 0.0)
+    if (most.scale >= smallest_shown_scale) reading("", "scale %s", fixed_text(most.scale, 3).c_str());
+    if (most.mm > 0.0 || most.degrees > 0.0 || most.scale > 0.0)
         note("Most: " + most.bone + ", " + most.between + ", " + fixed_text(most.seconds, 2) +
              " s into the take.");
 }
@@ -117,7 +119,9 @@ void walk_rows(const Workspace& workspace, Emit& emit) {
     if (choice_field(control->name.c_str(), path, titles.data(), static_cast<int>(titles.size())))
         emit("rig.motion",
              {{"name", control->name}, {"path", motion_paths.name(static_cast<Motion::Path>(path))}});
-    explain("The control follows a path, flat on the ground, from where it is. Dragging it ends that");
+    explain(
+        "The control follows a path, flat on the ground, from where it is. Dragging it ends that, and begins "
+        "a take");
     if (!walks) return;
     walk_fields(*walk, control->control->kind == rig::ControlKind::Transform, emit);
     if (!workspace.clock.playing) note("Paused: press Space to let it walk.");

@@ -53,7 +53,7 @@ std::vector<TimeBar> clip_bars(const RigPart& part, const Palette& colours) {
     return bars;
 }
 
-/// "2.35 s: the rig cannot express left 6: 12.3 mm and 8.1 degrees are left"
+/// "2.35 s: the rig cannot express left 6: 12.3 mm, 8.1 degrees are left"
 std::string told(const RigPart& part, std::uint64_t tick) {
     std::string text = fixed_text(static_cast<double>(tick) * tick_seconds, 2) + " s";
     if (tick < part.take.began)
@@ -67,8 +67,9 @@ std::string told(const RigPart& part, std::uint64_t tick) {
     const FrameLeft& left = part.clip_left->left[frame];
     if (left.expressed()) return text + "the rig can express it";
     return text + "the rig cannot express " + part.clip->bones[left.bone] + ": " +
-           fixed_text(static_cast<double>(left.mm), 1) + " mm and " +
-           fixed_text(static_cast<double>(left.degrees), 2) + "\u00b0 are left";
+           left_text(static_cast<double>(left.mm), static_cast<double>(left.degrees),
+                     static_cast<double>(left.scale)) +
+           " are left" + (left.stopped ? ", stopped before the end" : "");
 }
 
 }  // namespace

@@ -95,6 +95,35 @@ TEST_F(RigClips, IsUndoneCancelledAndCleared) {
     EXPECT_EQ(left().done(), done);
 }
 
+TEST_F(RigClips, AScaleThatTheRigDoesNotHaveIsNotExpressed) {
+    run("rig.preset", {{"name", "loop"}});
+    const auto scale = [&](double by) {
+        run("rig.element.set", {{"name", "arm 2 joint 6"}, {"transform", {{"scale", {1, by, 1}}}}});
+        play(2);
+    };
+    scale(1.25);
+    run("rig.clip.record");
+    scale(1.0);
+    solve_clip();
+    for (const FrameLeft& each : left().left) {
+        EXPECT_FALSE(each.expressed());
+        EXPECT_LT(each.mm, 0.1f);
+        EXPECT_LT(each.degrees, 0.01f);
+        EXPECT_NEAR(each.scale, 0.25f, 1e-4f);
+        EXPECT_EQ(part().clip->bones[each.bone], "arm 2 joint 6");
+    }
+    const Json runs = state().at("clip").at("not_expressed");
+    ASSERT_EQ(runs.size(), 1u);
+    EXPECT_NEAR(runs[0].at("scale").get<double>(), 0.25, 1e-4);
+    EXPECT_EQ(runs[0].at("stopped"), false);
+    EXPECT_EQ(Workspace(reopened()).document.get<RigPart>(rig_lab).clip_left->left, left().left);
+    // As the program wrote it before it knew of scales.
+    Json scene = save_scene(workspace);
+    for (Json& each : scene["labs"]["rig"]["state"]["clip"]["solve"]["left"]) each.erase(4), each.erase(3);
+    load_scene(workspace, scene);
+    EXPECT_EQ(left().left.front().scale, 0.0f);
+}
+
 TEST_F(RigClips, AClipOfOtherBonesIsRefused) {
     walking_head();
     run("rig.clip.record", {{"seconds", 0.2}});

@@ -1,7 +1,9 @@
 // What the lab refuses, and how it says so. Nothing has changed then: LabTest::refused checks it.
+#include <cmath>
 #include <limits>
 
 #include "rig_support.hpp"
+#include "tests/app/support/panel_text.hpp"
 
 namespace tendril::app {
 namespace {
@@ -87,6 +89,73 @@ TEST_F(RigHostile, ControlsOutOfOrder) {
     add({{"space", "nobody"}}, {"\"nobody\""});
     expect_refused("rig.element.add", {{"name", "new"}, {"minimum", 1}}, {"minimum", "only a control"});
     expect_refused("rig.element.add", {{"name", "new"}, {"space", "hand"}}, {"space", "only a control"});
+}
+
+/// It is told by what it would cost, before it is done.
+TEST_F(RigHostile, ABackwardSolveThatWouldTakeTooLongIsRefused) {
+    Json scene = save_scene(workspace);
+    Json& rig = scene["labs"]["rig"];
+    rig.erase("state");
+    for (int i = 0; i < 1000; ++i) {
+        std::string name = "finger ";
+        name += std::to_string(i);
+        rig["elements"].push_back({{"name", name}, {"kind", "bone"}, {"parent", "root"}});
+    }
+    for (int i = 0; i < 12; ++i) {
+        std::string name = "control ";
+        name += std::to_string(i);
+        rig["elements"].push_back({{"name", name}, {"kind", "control"}, {"control", "transform"}});
+    }
+    Json body = Json::array();
+    for (int i = 0; i < 40; ++i)
+        body.push_back({{"unit", "transform_location"}, {"transform", {{"item", "each"}}}});
+    rig["units"] = {{{"unit", "for_each"}, {"name", "all"}, {"roots", {"root"}}, {"body", body}}};
+    load_scene(workspace, scene);
+    auto& posed = workspace.document.edit<RigPart>(rig_lab);
+    ASSERT_TRUE(posed.state.elements.set(posed.rig.id(*posed.rig.element("finger 7")), rig::Space::Local,
+                                         {.translation = {1, 0, 0}}));
+    expect_refused("rig.solve", {{"direction", "backward"}}, {"so large", "too long"});
+}
+
+/// Controls one below the other, so that each of them moves all the bones after it.
+TEST_F(RigHostile, ABackwardSolveStopsWhereItHasTakenLongEnoughAndSaysSo) {
+    constexpr int count = 120;
+    Json scene = save_scene(workspace);
+    Json& rig = scene["labs"]["rig"];
+    rig.erase("state");
+    rig["elements"] = rig["units"] = Json::array();
+    const auto named = [](const char* kind, int i) {
+        std::string name(kind);
+        name += std::to_string(i);
+        return name;
+    };
+    for (int i = 0; i < count; ++i) {
+        for (const char* kind : {"control", "bone"}) {
+            Json element{{"name", named(kind, i)}, {"kind", kind}, {"local", transform(0, 0.3, 0)}};
+            if (i > 0) element["parent"] = named(kind, i - 1);
+            rig["elements"].push_back(element);
+        }
+        rig["units"].push_back({{"unit", "parent_constraint"},
+                                {"name", named("follow ", i)},
+                                {"item", named("bone", i)},
+                                {"parents", {{{"item", named("control", i)}}}}});
+    }
+    load_scene(workspace, scene);
+    auto& posed = workspace.document.edit<RigPart>(rig_lab);
+    for (int i = 0; i < count; ++i) {
+        const rig::ElementId bone = posed.rig.id(*posed.rig.element(named("bone", i)));
+        const double angle = 0.2 * std::sin(2.3 * i);
+        ASSERT_TRUE(posed.state.elements.set(bone, rig::Space::Local,
+                                             {.translation = {0.05 * std::sin(i), 0.3, 0.0},
+                                              .rotation = {std::cos(angle), std::sin(angle), 0.0, 0.0}}));
+    }
+    solve("backward");
+    const Json left = state().at("backward");
+    EXPECT_EQ(left.at("stopped"), true) << left;
+    EXPECT_GT(left.at("worst_mm"), 0.1);
+    EXPECT_EQ(rig_part(reopened()).backward, part().backward);
+    test::PanelReader reader;
+    EXPECT_NE(reader.panel(lab(), workspace).find("Stopped before the end"), std::string::npos);
 }
 
 /// One value is a range too.

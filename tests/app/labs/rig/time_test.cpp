@@ -333,6 +333,32 @@ TEST_F(RigTime, FrameRatesAreComparedAsOneNumber) {
     EXPECT_LT(state().at("rates").at("mm"), 1e-6) << "nothing remembers";
 }
 
+TEST_F(RigTime, FrameRatesDifferByScaleToo) {
+    element("bone");
+    control("dial", "float");
+    unit({{"unit", "spring_interpolate"},
+          {"name", "one"},
+          {"target", {{"element", "dial"}, {"of", "value"}}}});
+    unit({{"unit", "spring_interpolate"},
+          {"name", "two"},
+          {"target", {{"unit", "one"}}},
+          {"critical_damping", 1}});
+    unit({{"unit", "set_transform"},
+          {"item", "bone"},
+          {"transform", {{"scale", {3, 1, 1}}}},
+          {"weight", {{"unit", "two"}}}});
+    play(4);
+    set("dial", 0.9);
+    play(60);
+    run("rig.rates");
+    const Json rates = state().at("rates");
+    EXPECT_EQ(rates.at("mm"), 0.0);
+    EXPECT_GT(rates.at("scale"), 0.001);
+    EXPECT_EQ(rates.at("bone"), "bone");
+    EXPECT_GT(rates.at("seconds"), 0.0);
+    EXPECT_EQ(Workspace(reopened()).document.get<RigPart>(rig_lab).rates, part().rates);
+}
+
 /// One spring on its own is exact, however its time is cut: the control is set where a frame of each begins.
 TEST_F(RigTime, ASpringAloneIsTheSameAtAllRates) {
     control("place", "position", {{"local", {{"translation", {0, 0, 1}}}}});
