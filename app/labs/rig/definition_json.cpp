@@ -5,6 +5,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/labs/rig/unit_json.hpp"
 #include "app/labs/rig/value_json.hpp"
+#include "app/labs/rig/value_text.hpp"
 
 namespace tendril::app {
 namespace {
@@ -40,7 +41,7 @@ void read_end(const JsonPlace& place, const char* key, rig::ControlKind kind,
     if (!place.has(key)) return;
     const JsonPlace found = place[key];
     const std::size_t parts = parts_of(kind);
-    if (parts == 0) found.fail("a " + std::string(rig::name(kind)) + " control has no range");
+    if (parts == 0) found.fail("a " + std::string(control_title(kind)) + " has no range");
     end.emplace(0.0);
     if (parts == 1) {
         end->x = found.real();
@@ -57,7 +58,7 @@ rig::Control read_control(const JsonPlace& place) {
             read_name(place["control"], {"transform", "position", "rotation", "float", "bool", "vector2d"}));
     if (place.has("axes")) {
         const JsonPlace axes = place["axes"];
-        if (control.kind != rig::ControlKind::Vector2d) axes.fail("only a vector2d control has axes");
+        if (control.kind != rig::ControlKind::Vector2d) axes.fail("only a 2D control (vector2d) has axes");
         axes.check_size(2, "axes, two of x, y, z");
         for (std::size_t i = 0; i < 2; ++i)
             control.axes[i] = static_cast<int>(read_name(axes.element(i), {"x", "y", "z"}));

@@ -121,7 +121,7 @@ void add_element_commands(CommandTable& table) {
                        "{translation, rotation [x, y, z, w], scale} within the parent; the initial pose"),
          choice_argument("control", false, "what kind of control; transform where left out",
                          {"transform", "position", "rotation", "float", "bool", "vector2d"}),
-         json_argument("axes", false, "of a vector2d: two of \"x\", \"y\", \"z\""),
+         json_argument("axes", false, "of a 2D control, vector2d: two of \"x\", \"y\", \"z\""),
          json_argument("minimum", false, "of a control: a number, [a, b] or [x, y, z] as its kind has it"),
          json_argument("maximum", false, "likewise"),
          text_argument("space", false, "of a control: the element that it goes with, its parent")},

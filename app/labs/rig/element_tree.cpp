@@ -77,8 +77,8 @@ std::string short_text(const RigPart& part, const rig::Hierarchy& now, std::size
 
 void row_tooltip(const RigPart& part, std::size_t i, rig::Pending pending, bool marks) {
     const rig::Element& element = part.rig.definition().elements[i];
-    std::string text = element.name + ": " + rig::name(element.kind);
-    if (element.control) text += std::string(", ") + rig::name(element.control->kind);
+    std::string text = element.name + ": ";
+    text += element.control ? control_title(element.control->kind) : rig::name(element.kind);
     if (!element.parent.empty()) text += ", child of " + element.parent;
     if (marks)
         text += std::string("\nThe two bars are its local and its global transform: ") +
@@ -163,8 +163,11 @@ void add_menu(const RigPanel& panel) {
         add("Null", "null", "");
         for (const auto kind :
              {rig::ControlKind::Transform, rig::ControlKind::Position, rig::ControlKind::Rotation,
-              rig::ControlKind::Float, rig::ControlKind::Bool, rig::ControlKind::Vector2d})
-            add((std::string("Control, ") + rig::name(kind)).c_str(), "control", rig::name(kind));
+              rig::ControlKind::Float, rig::ControlKind::Bool, rig::ControlKind::Vector2d}) {
+            std::string title = control_title(kind);
+            title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
+            add(title.c_str(), "control", rig::name(kind));
+        }
         note(panel.part.selected.element.empty() ? "In the scene" : "Below " + panel.part.selected.element);
         ImGui::EndPopup();
     }

@@ -180,8 +180,7 @@ void element_inspector(const RigPanel& panel) {
     if (!found) return note("Nothing is selected. Click an element, in the list or in the picture.");
     const rig::Element& element = panel.part.rig.definition().elements[*found];
     text_line("name", element.name);
-    text_line("kind", element.control ? std::string("control, ") + rig::name(element.control->kind)
-                                      : std::string(rig::name(element.kind)));
+    text_line("kind", element.control ? control_title(element.control->kind) : rig::name(element.kind));
     if (!element.parent.empty()) text_line("parent", element.parent);
     if (!element.control) return;
     ImGui::PushID("control");

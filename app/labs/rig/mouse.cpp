@@ -9,6 +9,7 @@
 #include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rig/rig_runtime.hpp"
 #include "app/labs/rig/value_json.hpp"
+#include "app/labs/rig/value_text.hpp"
 
 namespace tendril::app {
 namespace {
@@ -43,24 +44,6 @@ Handle input_handle(const Workspace& workspace, std::size_t i) {
     const Drag turn = Drag::Position | Drag::Rotation;
     return {element.name, element_pick(i), frame_of(pose),
             element.kind == rig::ElementKind::Null ? turn | Drag::Scale : turn};
-}
-
-const char* kind_of(rig::ControlKind kind) {
-    switch (kind) {
-        case rig::ControlKind::Transform:
-            return "transform control";
-        case rig::ControlKind::Position:
-            return "position control";
-        case rig::ControlKind::Rotation:
-            return "rotation control";
-        case rig::ControlKind::Float:
-            return "slider";
-        case rig::ControlKind::Bool:
-            return "switch";
-        case rig::ControlKind::Vector2d:
-            break;
-    }
-    return "2D control";
 }
 
 const char* what_dragging_does(rig::ControlKind kind) {
@@ -177,7 +160,7 @@ std::string RigLab::hint(const Workspace& workspace, PickId pick) const {
                (selected ? "its gizmo sets the pose that every solve begins with."
                          : "click selects it and shows the gizmo of its pose.");
     }
-    std::string text = element.name + " (" + kind_of(shape->kind());
+    std::string text = element.name + " (" + control_title(shape->kind());
     if (const std::string value = shape->text(); !value.empty()) text += ", " + value;
     if (shape->at_limit()) text += ", at its limit";
     return text + "): " + what_dragging_does(shape->kind()) + ". Double click resets it.";

@@ -10,6 +10,7 @@
 #include "app/labs/rig/rig_commands.hpp"
 #include "app/labs/rig/rig_edit.hpp"
 #include "app/labs/rig/take.hpp"
+#include "app/labs/rig/value_text.hpp"
 #include "app/labs/rig/walk.hpp"
 
 namespace tendril::app {
@@ -40,8 +41,7 @@ void set_motion(RigPart& part, const Arguments& given) {
     if (!element.control) throw std::invalid_argument("\"" + element.name + "\" is no control");
     if (!can_walk(element.control->kind))
         throw std::invalid_argument("only a transform or position control can follow a path; \"" +
-                                    element.name + "\" is a " + rig::name(element.control->kind) +
-                                    " control");
+                                    element.name + "\" is a " + control_title(element.control->kind));
     const auto old = std::ranges::find(part.walks, element.name, &RigWalk::control);
     RigWalk walk = old == part.walks.end() ? RigWalk{element.name, {.radius = 0.5f}, false} : *old;
     walk.motion.path = motion_paths.value(given.text("path"));

@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "app/document/json_complete.hpp"
+#include "app/document/units.hpp"
 #include "app/labs/rig/unit_json.hpp"
+#include "app/labs/rig/value_text.hpp"
 
 namespace tendril::app {
 namespace {
@@ -165,6 +167,7 @@ class Lister {
         if (from.output != "result") row.from += ", " + from.output;
         const auto giver = unit_row(part_, from.unit);
         if (!giver) return;
+        row.count = std::holds_alternative<rig::ForEach>(giver->unit->operation);
         const std::vector<rig::Output> outputs = rig::outputs(giver->unit->operation);
         for (std::size_t i = 0; i < outputs.size(); ++i)
             if (outputs[i].name == from.output) row.value = part_.state.units[giver->at].outputs[i];
@@ -189,6 +192,18 @@ std::vector<UnitInput> unit_inputs(const RigPart& part, const rig::Hierarchy& no
     lister.list(unit.when, "/when", "when");
     std::visit([&](const auto& operation) { lister.all(operation, "", ""); }, unit.operation);
     return list;
+}
+
+bool is_speed_limit(const UnitInput& input) {
+    return input.path.ends_with("max_speed");
+}
+
+std::string input_text(const UnitInput& input, const rig::Value& value) {
+    const auto* number = std::get_if<double>(&value);
+    if (number && input.count) return fixed_text(*number, 0);
+    if (number && is_speed_limit(input))
+        return *number > 0.0 ? fixed_text(*number, 1) + input.unit : std::string("no limit");
+    return value_text(value);
 }
 
 Json with_input(const rig::Unit& unit, const std::string& path, Json value) {

@@ -45,6 +45,7 @@ struct UnitInput {
     /// The literal, or what it is now; monostate where that differs from round to round of a for-each.
     std::variant<std::monostate, rig::Value, InputChoice, InputFilter, InputRange, InputNames, InputCurve>
         value;
+    bool count = false;  ///< a number of elements, or of anything else that is whole
 
     /// What it can be chosen from (input_offers.hpp). Values: of `type`, or of any where that is empty.
     enum class Takes : std::uint8_t { Nothing, Value, Element, Bone, Roots, Curve } takes = Takes::Nothing;
@@ -52,6 +53,11 @@ struct UnitInput {
 
     bool literal() const { return from.empty(); }
 };
+
+/// A limit to how fast an aim turns, of which 0 means that there is none.
+bool is_speed_limit(const UnitInput& input);
+/// A value of it, on one line: a count without decimals, "no limit".
+std::string input_text(const UnitInput& input, const rig::Value& value);
 
 /// Weight and switch first. `now`: all poses worked out, as they are after the last unit.
 std::vector<UnitInput> unit_inputs(const RigPart& part, const rig::Hierarchy& now, const rig::Unit& unit);

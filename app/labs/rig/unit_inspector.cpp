@@ -51,7 +51,7 @@ class Fields {
     void source_row() const {
         chooser(input_->title, &input_->from);
         if (const auto* value = std::get_if<rig::Value>(&input_->value))
-            text_flush_right(elided(value_text(*value), ImGui::GetContentRegionAvail().x), true);
+            text_flush_right(elided(input_text(*input_, *value), ImGui::GetContentRegionAvail().x), true);
     }
 
     /// What else it may be, in a field that shows what it is, or behind a button.
@@ -151,9 +151,9 @@ class Fields {
         float shown = static_cast<float>(value);
         const bool weight = is_weight(*input_);
         const std::string unit = input_->unit;
-        const std::string format = unit == "\xC2\xB0/s" ? "%.1f" + unit
-                                   : unit.empty()       ? "%.3f"
-                                                        : "%.3f " + unit;
+        const std::string format = is_speed_limit(*input_) ? "%.1f" + unit + (value > 0.0 ? "" : ", no limit")
+                                   : unit.empty()          ? "%.3f"
+                                                           : "%.3f " + unit;
         if (number_field(input_->title.c_str(), shown, weight ? 0.005f : 0.01f,
                          weight || *input_->unit != '\0' ? 0.0f : -most, weight ? 1.0f : most,
                          format.c_str()))
@@ -206,7 +206,7 @@ void unit_inspector(const RigPanel& panel) {
     const std::vector<rig::Output> outputs = rig::outputs(row->unit->operation);
     for (std::size_t i = 0; i < outputs.size(); ++i)
         reading((std::string("gives ") + outputs[i].name).c_str(), "%s",
-                value_text(panel.part.state.units[row->at].outputs[i]).c_str());
+                output_text(row->unit->operation, panel.part.state.units[row->at].outputs[i]).c_str());
     if (row->inner) note("What it gives is of the last element of the for-each.");
     if (row_button("Close", 2, true, "Selects no unit")) select_unit(panel, "");
     end_row();

@@ -78,8 +78,9 @@ void live_line(const std::string& title, const std::string& from, const std::str
 
 std::string live_text(const UnitInput& input) {
     struct ToText {
+        const UnitInput& input;
         std::string operator()(std::monostate) const { return {}; }
-        std::string operator()(const rig::Value& value) const { return value_text(value); }
+        std::string operator()(const rig::Value& value) const { return input_text(input, value); }
         std::string operator()(const InputChoice& choice) const { return choice.names[choice.chosen]; }
         std::string operator()(const InputFilter& filter) const {
             return filter.passes == rig::TransformFilter() ? "all pass" : "some do not pass";
@@ -96,7 +97,7 @@ std::string live_text(const UnitInput& input) {
             return count_text(curve.curve.keys.size(), "key");
         }
     };
-    return std::visit(ToText(), input.value);
+    return std::visit(ToText{input}, input.value);
 }
 
 void live_lines(const RigPanel& panel, const UnitRow& row) {
@@ -111,7 +112,8 @@ void live_lines(const RigPanel& panel, const UnitRow& row) {
     const std::vector<rig::Output> outputs = rig::outputs(row.unit->operation);
     const rig::UnitState& state = panel.part.state.units[row.at];
     for (std::size_t i = 0; i < outputs.size(); ++i)
-        live_line(std::string("gives ") + outputs[i].name, "", value_text(state.outputs[i]), margin);
+        live_line(std::string("gives ") + outputs[i].name, "",
+                  output_text(row.unit->operation, state.outputs[i]), margin);
 }
 
 void add_menu(const RigPanel& panel) {

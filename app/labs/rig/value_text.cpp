@@ -33,6 +33,30 @@ std::string value_text(const rig::Value& value) {
     return std::visit(ToText(), value);
 }
 
+std::string output_text(const rig::Operation& operation, const rig::Value& value) {
+    const auto* count = std::get_if<double>(&value);
+    return count && std::holds_alternative<rig::ForEach>(operation) ? fixed_text(*count, 0)
+                                                                    : value_text(value);
+}
+
+const char* control_title(rig::ControlKind kind) {
+    switch (kind) {
+        case rig::ControlKind::Transform:
+            return "transform control";
+        case rig::ControlKind::Position:
+            return "position control";
+        case rig::ControlKind::Rotation:
+            return "rotation control";
+        case rig::ControlKind::Float:
+            return "float control";
+        case rig::ControlKind::Bool:
+            return "bool control";
+        case rig::ControlKind::Vector2d:
+            break;
+    }
+    return "2D control";
+}
+
 glm::dvec3 euler_degrees(const glm::dquat& rotation) {
     return glm::degrees(rig::to_euler(rotation)) + 0.0;
 }

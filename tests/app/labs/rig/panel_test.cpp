@@ -312,13 +312,60 @@ TEST_F(RigPanels, WhatABackwardSolveLeftIsTold) {
     expect_says(panel_text(), part().backward->bone);
 }
 
+TEST_F(RigPanels, AScaleThatIsLeftIsTold) {
+    run("rig.preset", {{"name", "loop"}});
+    auto& posed = workspace.document.edit<RigPart>(rig_lab);
+    const rig::ElementId joint = posed.rig.id(*posed.rig.element("arm 1 joint 6"));
+    rig::Transform pose = posed.state.elements.get(joint, rig::Space::Local);
+    pose.scale.z = 1.5;
+    ASSERT_TRUE(posed.state.elements.set(joint, rig::Space::Local, pose));
+    solve("backward");
+    EXPECT_LT(part().backward->worst_mm(), 0.1);
+    EXPECT_NEAR(state().at("backward").at("worst_scale").get<double>(), 0.5, 1e-6);
+    EXPECT_EQ(state().at("backward").at("stopped"), false);
+    EXPECT_EQ(part().backward->bone, "arm 1 joint 6");
+    expect_says(panel_text(), "The controls cannot give the pose");
+    expect_says(panel_text(), "scale 0.500");
+    EXPECT_EQ(rig_part(reopened()).backward, part().backward);
+    run("rig.clip.record", {{"seconds", 0.1}});
+    run("rig.clip.solve");
+    while (lab().working(workspace)) lab().work(workspace);
+    expect_says(panel_text(), "The rig expresses all");
+}
+
+TEST_F(RigPanels, CountsAreWholeAndALimitOf0IsNone) {
+    run("rig.preset", {{"name", "loop"}});
+    tick();
+    const auto& units = part().rig.definition().units;
+    const auto loop = std::ranges::find_if(
+        units, [](const rig::Unit& unit) { return std::holds_alternative<rig::ForEach>(unit.operation); });
+    ASSERT_NE(loop, units.end());
+    const std::string count = std::to_string(static_cast<int>(output(loop->name).get<double>()));
+    run("rig.unit.add",
+        {{"unit", "evaluate_curve"}, {"name", "of count"}, {"value", {{"unit", loop->name}}}});
+    tick();
+    EXPECT_EQ(input_text(input("of count", "/value"), rig::Value(12.0)), "12");
+    run("rig.select", {{"unit", loop->name}});
+    for (const std::string& text : {panel_text(), inspector_text()}) {
+        const std::size_t at = text.find("gives result " + count);
+        ASSERT_NE(at, std::string::npos) << text;
+        EXPECT_NE(text[at + 13 + count.size()], '.') << text;
+    }
+    run("rig.preset", {{"name", "aim"}});
+    EXPECT_EQ(input_text(input("aim", "/max_speed"), rig::Value(0.0)), "no limit");
+    EXPECT_EQ(input_text(input("aim", "/max_speed"), rig::Value(90.0)), "90.0\xC2\xB0/s");
+    run("rig.unit.set", {{"name", "aim"}, {"max_speed", 90}});
+    run("rig.select", {{"unit", "aim"}});
+    EXPECT_EQ(inspector_text().find("no limit"), std::string::npos);
+}
+
 TEST_F(RigPanels, TheInspectorHasWhatIsSelected) {
     expect_says(inspector_text(), "Nothing is selected");
     run("rig.preset", {{"name", "aim"}});
     tick();
     run("rig.select", {{"element", "look"}, {"unit", "aim"}});
     const std::string text = inspector_text();
-    for (const char* said : {"Unit: aim", "primary target", "look, translation", "control, vector2d",
+    for (const char* said : {"Unit: aim", "primary target", "look, translation", "2D control", "no limit",
                              "-1.00  -1.00 to 1.00  1.00", "along x", "pending"})
         expect_says(text, said);
     run("rig.select", {{"element", "head"}});
