@@ -91,6 +91,15 @@ TEST(RigMake, RefusesInputsThatNameWhatIsNotThere) {
     EXPECT_EQ(refusal(with(ForEach{})), "unit \"first\": roots must have at least one");
 }
 
+TEST(RigMake, RefusesSpringsOutOfTheirRange) {
+    EXPECT_EQ(refusal(with(SpringInterpolate{.strength = -1.0})),
+              "unit \"first\": strength must be 0 to 1e4 Hz, got -1");
+    EXPECT_EQ(refusal(with(SpringInterpolate{.critical_damping = 1001.0})),
+              "unit \"first\": critical_damping must be 0 to 1000, got 1001");
+    EXPECT_EQ(refusal(with(SpringInterpolate{.target_velocity_amount = 2.0})),
+              "unit \"first\": target_velocity_amount must be 0 to 1, got 2");
+}
+
 TEST(RigMake, RefusesInputsOfTheWrongType) {
     EXPECT_EQ(refusal(with(EvaluateCurve{.value = FromElement{"hand"}})),
               "unit \"first\": value takes a number, got a vector");

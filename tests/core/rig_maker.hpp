@@ -167,7 +167,7 @@ class Maker {
             case 10:
                 made.operation =
                     SpringInterpolate{.target = input(in_body, value(static_cast<Type>(random_.below(5)))),
-                                      .strength = input(in_body, number())};
+                                      .strength = input(in_body, std::min(std::abs(number()), 1e4))};
                 break;
             case 11:
                 made.operation = EvaluateCurve{.value = input(in_body, number())};

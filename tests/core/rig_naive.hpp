@@ -263,9 +263,10 @@ class NaiveRig {
                 std::map<std::pair<std::string, int>, signal::SpringState<T>>& states) {
         outputs[unit_] = {target, none};
         if (!on_) return;
-        signal::Spring<T> parameters{.strength = read(op.strength),
-                                     .critical_damping = read(op.critical_damping),
-                                     .target_velocity_amount = read(op.target_velocity_amount)};
+        signal::Spring<T> parameters{
+            .strength = std::clamp(read(op.strength), 0.0, 1e4),
+            .critical_damping = std::clamp(read(op.critical_damping), 0.0, 1e3),
+            .target_velocity_amount = std::clamp(read(op.target_velocity_amount), 0.0, 1.0)};
         if (op.force) parameters.force = std::get<Rate>(read(*op.force));
         signal::SpringState<T>& state = states[{unit_, round_}];
         const T result = signal::step(parameters, state, target, dt_);

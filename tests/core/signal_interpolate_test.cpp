@@ -37,7 +37,10 @@ TEST(SignalInterpolate, ExactlyItDoesNot) {
         const double dt = between(random, 1e-4, 1.0), speed = between(random, 0.0, 20.0);
         const double whole = interp_to_exact(from, to, dt, speed);
         const double halves = interp_to_exact(interp_to_exact(from, to, dt / 2, speed), to, dt / 2, speed);
-        EXPECT_NEAR(whole, halves, 1e-6 * std::abs(to - from) + 1e-4);
+        EXPECT_NEAR(whole, halves, 1e-9 * (1.0 + std::abs(to - from)));
+        const double near = to + 1e-5;  // where interp_to is there already
+        EXPECT_NEAR(interp_to_exact(interp_to_exact(near, to, dt / 2, speed), to, dt / 2, speed) - to,
+                    1e-5 * std::exp(-speed * dt), 1e-12);
     }
 }
 

@@ -284,28 +284,6 @@ TEST(SignalRates, AtItsOwnRateItIsThePlainRun) {
     EXPECT_NEAR(high - low, once.difference, 1e-12) << "outputs_at shows the same runs";
 }
 
-TEST(SignalRates, OfStagesAreThoseOfTheFiltersUpToThere) {
-    const auto samples = sampled([](double t) { return std::sin(9.0 * t) + 0.1 * t; }, 2.0, 60.0);
-    std::vector<Filter> chain;
-    for (const signal::Kind& kind : signal::kinds()) chain.push_back(kind.blank());
-    const std::vector<signal::RateComparison> stages = signal::compare_rates_of_stages(chain, samples);
-    ASSERT_EQ(stages.size(), chain.size());
-    for (std::size_t i = 0; i < chain.size(); ++i) {
-        const auto alone = signal::compare_rates(std::span<const Filter>(chain).first(i + 1), samples);
-        EXPECT_EQ(stages[i].difference, alone.difference) << i;
-        EXPECT_EQ(stages[i].at, alone.at) << i;
-        ASSERT_EQ(stages[i].runs.size(), alone.runs.size());
-        for (std::size_t rate = 0; rate < alone.runs.size(); ++rate) {
-            EXPECT_EQ(stages[i].runs[rate].rate, alone.runs[rate].rate);
-            EXPECT_EQ(stages[i].runs[rate].time, alone.runs[rate].time);
-            EXPECT_EQ(stages[i].runs[rate].output, alone.runs[rate].output) << i;
-        }
-    }
-    EXPECT_TRUE(signal::compare_rates_of_stages({}, samples).empty());
-    const std::vector<Sample> none;
-    EXPECT_TRUE(signal::compare_rates_of_stages(chain, none).at(0).runs.empty());
-}
-
 TEST(SignalRates, FramesLastAsSaid) {
     const Filter filter = filter_of("curve");
     const std::vector<Sample> samples(600, {1.0 / 60.0, 1.0});

@@ -21,8 +21,7 @@ constexpr const char* head = R"(// A rig, exported from Tendril.
 #include <tendril/rig/rig.hpp>
 #include <tendril/rig/workspace.hpp>
 
-namespace rig = tendril::rig;
-namespace signal = tendril::signal;
+using namespace tendril;
 
 )";
 

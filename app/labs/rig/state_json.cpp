@@ -22,7 +22,7 @@ using rig::Space;
 /// In the order of rig::Warning.
 constexpr std::string_view warnings[] = {
     "none",         "target_at_item",      "zero_axis",    "secondary_on_primary", "axes_parallel",
-    "zero_weights", "weight_out_of_range", "out_of_range", "cannot_solve"};
+    "zero_weights", "weight_out_of_range", "out_of_range", "cannot_solve",         "parameter_out_of_range"};
 
 bool same_bits(const rig::Transform& a, const rig::Transform& b) {
     return std::memcmp(&a, &b, sizeof(a)) == 0;

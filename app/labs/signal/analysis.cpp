@@ -37,6 +37,11 @@ std::vector<double> inputs_of(const InputRows& rows) {
     return inputs;
 }
 
+InputRows with_inputs(InputRows rows, const std::vector<double>& inputs) {
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].input = inputs[i];
+    return rows;
+}
+
 StageMeasures measure(const std::vector<double>& time, const std::vector<double>& input,
                       const std::vector<double>& output, std::span<const signal::Filter> filters) {
     std::vector<double> wanted;
@@ -67,20 +72,18 @@ ChainAnalysis analyse(const SignalPart& part) {
     analysis.input = inputs_of(rows);
     analysis.outputs = run_chain(part, rows);
     const std::vector<signal::Filter> filters = enabled_filters(part);
-    std::vector<signal::RateComparison> rates = signal::compare_rates_of_stages(filters, rows);
     const std::vector<double>* before = &analysis.input;
-    std::size_t on = 0;  // filters up to here
     for (std::size_t i = 0; i < part.stages.size(); ++i) {
         const SignalStage& stage = part.stages[i];
         const std::span<const signal::Filter> own(&stage.filter, stage.enabled ? 1 : 0);
         StageMeasures measures = measure(analysis.time, *before, analysis.outputs[i], own);
-        if (stage.enabled) ++on;
-        if (on > 0) measures.rate_difference = rates[on - 1].difference;
+        if (stage.enabled)
+            measures.rate_difference = signal::compare_rates(own, with_inputs(rows, *before)).difference;
         analysis.stages.push_back(measures);
         before = &analysis.outputs[i];
     }
     analysis.whole = measure(analysis.time, analysis.input, *before, filters);
-    analysis.rates = filters.empty() ? signal::compare_rates({}, rows) : std::move(rates.back());
+    analysis.rates = signal::compare_rates(filters, rows);
     analysis.whole.rate_difference = analysis.rates.difference;
     return analysis;
 }

@@ -10,7 +10,7 @@
 
 namespace tendril::app {
 
-/// Of a filter on the input that reaches it; the rate difference is of what the chain up to here puts out.
+/// Of a filter on the input that reaches it at the measuring rate.
 using StageMeasures = signal::Measures;
 
 /// The chain over its measuring rows: for the hand those that went in up to the last quarter of a second,

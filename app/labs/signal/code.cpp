@@ -45,7 +45,7 @@ std::string signal_code(const SignalPart& part) {
         "#include <cstdio>\n"
         "#include <tendril/signal/run.hpp>\n"
         "#include <vector>\n\n"
-        "namespace signal = tendril::signal;\n\n"
+        "using namespace tendril;\n\n"
         "int main() {\n"
         "    // Applied in this order.\n"
         "    const std::vector<signal::Filter> filters{";

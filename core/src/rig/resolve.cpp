@@ -7,6 +7,7 @@
 #include "rig/checks.hpp"
 #include "rig/value.hpp"
 #include "tendril/magnitude.hpp"
+#include "tendril/signal/spring.hpp"
 
 namespace tendril::rig {
 
@@ -231,6 +232,13 @@ void Resolver::check_literal(const std::string& name, const Value& value) {
         if (is_weight(name) && !name.starts_with("parents[") && !(*number >= 0.0 && *number <= 1.0))
             refuse(name + " must be 0 to 1" + got);
         if (name == "max_speed" && !(*number >= 0.0)) refuse(name + " must not be negative" + got);
+        const auto check_up_to = [&](const char* parameter, double maximum, const char* range) {
+            if (name == parameter && !(*number >= 0.0 && *number <= maximum))
+                refuse(name + " must be " + range + got);
+        };
+        check_up_to("strength", signal::max_strength, "0 to 1e4 Hz");
+        check_up_to("critical_damping", signal::max_damping, "0 to 1000");
+        check_up_to("target_velocity_amount", 1.0, "0 to 1");
     }
     if (const Result bad = check(name.c_str(), value); !bad) refuse(bad.message());
 }

@@ -25,6 +25,8 @@ const char* message(Warning warning) noexcept {
             return "the result is out of range, and was not taken";
         case Warning::CannotSolve:
             return "the chain cannot be solved: a bone has no length or is out of range";
+        case Warning::ParameterOutOfRange:
+            return "a parameter is out of its range, and was clamped";
     }
     return "";
 }
@@ -114,6 +116,12 @@ double Runner::weight(const Input<double>& input) noexcept {
     const double given = read(input);
     if (!(given >= 0.0 && given <= 1.0)) warn(Warning::WeightOutOfRange);
     return std::clamp(given, 0.0, 1.0);
+}
+
+double Runner::parameter(const Input<double>& input, double maximum) noexcept {
+    const double given = read(input);
+    if (!(given >= 0.0 && given <= maximum)) warn(Warning::ParameterOutOfRange);
+    return std::clamp(given, 0.0, maximum);
 }
 
 void Runner::warn(Warning warning) noexcept {

@@ -22,6 +22,12 @@ glm::dvec3 blended(const glm::dvec3& from, const glm::dvec3& to, double weight) 
 glm::dquat blended(const glm::dquat& from, const glm::dquat& to, double weight) noexcept {
     return blend(from, to, weight);
 }
+double difference(double a, double b) noexcept {
+    return a - b;
+}
+glm::dvec3 difference(const glm::dvec3& a, const glm::dvec3& b) noexcept {
+    return detail::minus(a, b);
+}
 double size(double rate) noexcept {
     return std::abs(rate);
 }
@@ -67,16 +73,19 @@ void Runner::spring(const SpringInterpolate& op, const T& target) noexcept {
         hand_out(0, target);
         return hand_out(1, Rate{});
     }
-    signal::Spring<T> parameters{.strength = read(op.strength),
-                                 .critical_damping = read(op.critical_damping),
-                                 .target_velocity_amount = read(op.target_velocity_amount)};
+    signal::Spring<T> parameters{.strength = parameter(op.strength, signal::max_strength),
+                                 .critical_damping = parameter(op.critical_damping, signal::max_damping),
+                                 .target_velocity_amount = parameter(op.target_velocity_amount, 1.0)};
     if (op.force) parameters.force = std::get<Rate>(read(*op.force));
     using Memory = signal::SpringState<T>;
     if (!std::holds_alternative<Memory>(memory().held)) memory().held = Memory();
     auto& remembered = std::get<Memory>(memory().held);
     // Without time its first step would not count as one: the place to start from has to stick.
+    const Rate before = remembered.velocity;
     const T result = signal::step(parameters, remembered, target, dt_);
-    moving_ |= size(remembered.velocity) > still;
+    // It stands still for a moment where it turns round, and before a force without a spring has moved it.
+    moving_ |= size(remembered.velocity) > still || size(difference(remembered.velocity, before)) > still ||
+               (parameters.strength < signal::no_strength && size(parameters.force) > still);
     hand_out(0, blended(target, result, weight_));
     hand_out(1, remembered.velocity);
 }

@@ -52,6 +52,8 @@ class Runner {
     Value value_of(const FromElement& from) noexcept;
     ElementId item(const Item& item) const noexcept;
     double weight(const Input<double>& input) noexcept;
+    /// From 0 to `maximum`; what is not is clamped, with a warning.
+    double parameter(const Input<double>& input, double maximum) noexcept;
     const Transform& global(const Item& item) noexcept {
         return state_.elements.get(this->item(item), Space::Global);
     }

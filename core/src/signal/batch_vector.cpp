@@ -118,12 +118,11 @@ HWY_INLINE void interp_register(const InterpRows& rows, std::size_t i, Lanes dt)
     const Lanes speed = hn::LoadU(d, rows.speed + i), way = hn::Sub(target, current);
     const Lanes time = hn::Mul(speed, dt);
     Mask moves = both(hn::Gt(speed, all(0.0f)), is_within(current, max_magnitude));
-    moves = both(moves, hn::Ge(hn::Mul(way, way), all(1e-8f)));
     Lanes next;
     if constexpr (exact) {
         next = hn::Sub(target, hn::Mul(way, decay(hn::IfThenElseZero(moves, time))));
     } else {
-        moves = both(moves, hn::Lt(time, all(1.0f)));
+        moves = both(both(moves, hn::Lt(time, all(1.0f))), hn::Ge(hn::Mul(way, way), all(1e-8f)));
         next = hn::Add(current, hn::Mul(way, time));
     }
     const Lanes reached = hn::IfThenElse(moves, next, target);

@@ -5,11 +5,11 @@
 namespace tendril::signal {
 namespace {
 
-constexpr double arrived = 1e-8;  ///< squared distance at which the target itself is returned
-
-/// `part_of(dt)` is the part of the way, from 0 to 1.
+/// `part_of(dt)` is the part of the way, from 0 to 1; within a squared distance of `arrived` it is the target
+/// itself.
 template <class T, class Part>
-T interpolated(const T& current, const T& target, double dt, double speed, const Part& part_of) noexcept {
+T interpolated(const T& current, const T& target, double dt, double speed, double arrived,
+               const Part& part_of) noexcept {
     if (!is_input(target) || !is_step(dt)) return current;
     if (!(speed > 0.0) || !is_input(current)) return target;
     const auto from = detail::wide(current), to = detail::wide(target);
@@ -21,11 +21,11 @@ T interpolated(const T& current, const T& target, double dt, double speed, const
 
 template <class T>
 T by_steps(const T& current, const T& target, double dt, double speed) noexcept {
-    return interpolated(current, target, dt, speed, [&](double time) { return time * speed; });
+    return interpolated(current, target, dt, speed, 1e-8, [&](double time) { return time * speed; });
 }
 template <class T>
 T exactly(const T& current, const T& target, double dt, double speed) noexcept {
-    return interpolated(current, target, dt, speed,
+    return interpolated(current, target, dt, speed, 0.0,
                         [&](double time) { return 1.0 - math::decay(time * speed); });
 }
 

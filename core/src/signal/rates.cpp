@@ -143,25 +143,6 @@ RateRun run_of(std::span<const Filter> filters, const HeldInput& input, const Fr
     return run;
 }
 
-/// The run of each stage at a rate, in one pass over its frames.
-void add_runs(std::vector<RateComparison>& stages, std::span<const Filter> filters, const HeldInput& input,
-              const FrameRate& rate) {
-    const std::vector<double> ends = frame_ends(rate, input);
-    for (RateComparison& stage : stages) {
-        stage.runs.push_back({rate, ends, {}});
-        stage.runs.back().output.reserve(ends.size());
-    }
-    std::vector<FilterState> states(filters.size());
-    Reader reader(input);
-    double before = 0.0;
-    for (const double time : ends) {
-        double value = reader.at(time);
-        for (std::size_t i = 0; i < filters.size(); ++i)
-            stages[i].runs.back().output.push_back(value = step(filters[i], states[i], value, time - before));
-        before = time;
-    }
-}
-
 void find_difference(RateComparison& comparison, const HeldInput& input) {
     // The frames of the slowest end in frames of all others.
     auto& runs = comparison.runs;
@@ -197,17 +178,6 @@ RateComparison compare_rates(std::span<const Filter> filters, std::span<const Sa
     for (const FrameRate& rate : rates) comparison.runs.push_back(run_of(filters, input, rate));
     find_difference(comparison, input);
     return comparison;
-}
-
-std::vector<RateComparison> compare_rates_of_stages(std::span<const Filter> filters,
-                                                    std::span<const Sample> samples,
-                                                    std::span<const FrameRate> rates) {
-    std::vector<RateComparison> stages(filters.size());
-    const HeldInput input(samples, rates);
-    if (input.empty() || stages.empty()) return stages;
-    for (const FrameRate& rate : rates) add_runs(stages, filters, input, rate);
-    for (RateComparison& stage : stages) find_difference(stage, input);
-    return stages;
 }
 
 std::vector<std::vector<double>> outputs_at(std::span<const Filter> filters, std::span<const Sample> samples,

@@ -11,10 +11,6 @@ namespace {
 
 using tendril::detail::refused;
 
-/// Hz; under it there is no spring.
-constexpr double weakest = 1e-5;
-constexpr double max_strength = 1e4, max_damping = 1e3;
-
 template <class T>
 bool in_range(const Spring<T>& spring) noexcept {
     return spring.strength >= 0.0 && spring.strength <= max_strength && spring.critical_damping >= 0.0 &&
@@ -26,7 +22,7 @@ bool in_range(const Spring<T>& spring) noexcept {
 template <class T>
 auto shifted(const Spring<T>& spring, const T& target) noexcept {
     const auto place = detail::wide(target);
-    if (spring.strength < weakest) return place;
+    if (spring.strength < no_strength) return place;
     const double w = 2.0 * math::pi * spring.strength;
     return detail::moved(place, detail::times(detail::wide(spring.force), 1.0 / (w * w)));
 }
@@ -46,7 +42,7 @@ T step(const Spring<T>& spring, SpringState<T>& state, const std::type_identity_
     if (!is_step(dt)) return state.value;
 
     const double t = bounded_dt(dt), w = 2.0 * math::pi * spring.strength;
-    const bool is_spring = spring.strength >= weakest;
+    const bool is_spring = spring.strength >= no_strength;
     auto goal = shifted(spring, target);
     auto velocity = wide(state.velocity);
     if (!is_spring) velocity = plus(velocity, times(wide(spring.force), t));

@@ -44,7 +44,8 @@ enum class Warning : std::uint8_t {
     ZeroWeights,         ///< parent constraint: all weights are 0
     WeightOutOfRange,    ///< a weight that another unit or a control gave is not in [0, 1], and was clamped
     OutOfRange,          ///< the result is not finite, or over max_magnitude
-    CannotSolve          ///< IK: bones of no length
+    CannotSolve,         ///< IK: bones of no length
+    ParameterOutOfRange  ///< of a spring, given by another unit or a control: clamped
 };
 /// "the target is where the item is"; empty for None.
 const char* message(Warning warning) noexcept;

@@ -181,12 +181,12 @@ struct Fabrik {
     bool operator==(const Fabrik&) const = default;
 };
 
-/// A variant of all of them. What copying, comparing and destroying one takes is compiled once, in the library: seventeen
-/// structs of inputs are much to ask of every file that has a Unit.
+/// A variant of all of them. What copying, comparing and destroying one takes is compiled once, in the
+/// library: seventeen structs of inputs are much to ask of every file that has a Unit.
 struct Operation
-    : std::variant<Aim, AimMath, ParentConstraint, OffsetTransform, SetTransform, SetRotation, ProjectToParent,
-                   FromTwoVectors, TransformLocation, TransformDirection, ForEach, AlphaInterpolate,
-                   SpringInterpolate, EvaluateCurve, SetCurve, TwoBone, Fabrik> {
+    : std::variant<Aim, AimMath, ParentConstraint, OffsetTransform, SetTransform, SetRotation,
+                   ProjectToParent, FromTwoVectors, TransformLocation, TransformDirection, ForEach,
+                   AlphaInterpolate, SpringInterpolate, EvaluateCurve, SetCurve, TwoBone, Fabrik> {
     using Variant = variant;
     using variant::variant;
     using variant::operator=;

@@ -25,8 +25,8 @@ glm::dvec3 interp_to(const glm::dvec3& current, const glm::dvec3& target, double
 glm::quat interp_to(const glm::quat& current, const glm::quat& target, double dt, double speed) noexcept;
 glm::dquat interp_to(const glm::dquat& current, const glm::dquat& target, double dt, double speed) noexcept;
 
-/// The same with `1 - exp(-speed * dt)` for the part of the way: two half steps are one whole one, to
-/// rounding, down to a distance of 1e-4.
+/// The same with `1 - exp(-speed * dt)` for the part of the way, however near the target is: two half steps
+/// are one whole one, to rounding.
 float interp_to_exact(float current, float target, double dt, double speed) noexcept;
 double interp_to_exact(double current, double target, double dt, double speed) noexcept;
 glm::vec3 interp_to_exact(const glm::vec3& current, const glm::vec3& target, double dt,

@@ -60,12 +60,6 @@ struct RateComparison {
 RateComparison compare_rates(std::span<const Filter> filters, std::span<const Sample> samples,
                              std::span<const FrameRate> rates = usual_rates());
 
-/// The same for the first filter alone, the first two, and so on: one for each filter, at the cost of the
-/// last one and its memory for each.
-std::vector<RateComparison> compare_rates_of_stages(std::span<const Filter> filters,
-                                                    std::span<const Sample> samples,
-                                                    std::span<const FrameRate> rates = usual_rates());
-
 /// The outputs of the same runs at each of `times`, which ascend: one list for each rate. Between two frames
 /// it is what a frame that ended then would give.
 std::vector<std::vector<double>> outputs_at(std::span<const Filter> filters, std::span<const Sample> samples,

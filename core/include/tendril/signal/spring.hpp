@@ -41,6 +41,9 @@ struct RateOf<glm::dquat> {
 template <class T>
 using Rate = typename RateOf<T>::type;
 
+/// Hz and damping ratio: the ends of their ranges. Under no_strength there is no spring and no damping.
+inline constexpr double max_strength = 1e4, max_damping = 1e3, no_strength = 1e-5;
+
 /// T: double, float, glm::dvec3, glm::vec3, glm::dquat or glm::quat. A parameter out of its
 /// range leaves the state alone, as a refused input does.
 template <class T = double>
