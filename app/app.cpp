@@ -72,6 +72,10 @@ void App::start_from(const RecordingStart& start) {
     base_scale_ = start.scale;
     window_.resize(start.size);
     size_ = start.size;
+    settle();
+}
+
+void App::settle() {
     for (int i = 0; i < settling_ticks; ++i) compose(nullptr, Pass::Settle);
 }
 

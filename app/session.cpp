@@ -61,6 +61,7 @@ void open_scene(App& app, const SessionOptions& options) {
         app.workspace().open_lab(options.lab);
         app.workspace().cameras.clear();  // a recording knows the camera of the open lab alone
     }
+    app.settle();
 }
 
 void write_outputs(App& app, const SessionOptions& options) {
