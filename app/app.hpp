@@ -33,8 +33,8 @@ class App final : public Stage {
     const CommandTable& commands() const { return *commands_; }
     const Labs& labs() const { return labs_; }
 
-    /// Lays out what was opened without a command, as a tick would: so that the state has handles where the picture has
-    /// them.
+    /// Lays out what was opened without a command, as a tick would: so that the state has handles where the
+    /// picture has them.
     void settle();
     /// What a recording starts from: taken on from there, and written down from now on.
     void start_from(const RecordingStart& start);

@@ -15,6 +15,18 @@ namespace {
 
 constexpr glm::vec4 unseen{0.0f};  ///< of strokes that can be caught, but are drawn otherwise
 constexpr std::size_t most_labels = 2000;
+constexpr float gizmo_clearance = 84.0f;  ///< a name stands beyond the gizmo
+constexpr const char* before_units = "before any unit";
+
+/// Whether units move an element from where its gizmo sets it.
+bool starts_elsewhere(const RigPart& part, const rig::Hierarchy& elements, std::size_t i) {
+    const rig::ElementId id = part.rig.id(i);
+    if (elements.kind(id) == rig::ElementKind::Control) return false;
+    const rig::Transform input = part.rig.start_pose(part.state, i),
+                         now = *elements.known(id, rig::Space::Global);
+    return glm::distance(input.translation, now.translation) >= 1e-6 ||
+           std::abs(glm::dot(input.rotation, now.rotation)) <= 1.0 - 1e-10;
+}
 
 class Drawing {
   public:
@@ -119,12 +131,8 @@ class Drawing {
     /// Where the selected element begins before any unit moves it, with the bones that lead there and go on
     /// from it: this is what its gizmo sets.
     void input_pose(std::size_t i) {
+        if (!starts_elsewhere(p_.part, p_.elements, i)) return;
         const rig::ElementId id = p_.part.rig.id(i);
-        if (p_.elements.kind(id) == rig::ElementKind::Control) return;
-        const rig::Transform input = p_.part.rig.start_pose(p_.part.state, i), now = p_.pose(i);
-        const bool same = glm::distance(input.translation, now.translation) < 1e-6 &&
-                          std::abs(glm::dot(input.rotation, now.rotation)) > 1.0 - 1e-10;
-        if (same) return;
         std::vector<std::size_t> places(p_.part.state.controls.size());  // in the definition, by handle
         for (std::size_t each = 0; each < places.size(); ++each) places[p_.part.rig.id(each).index] = each;
         const auto ghost_of = [&](rig::ElementId at) {
@@ -136,6 +144,7 @@ class Drawing {
         for (auto at = p_.elements.first_child(id); at; at = p_.elements.first_child(at)) ghost_of(at);
         for (auto at = id; at && p_.elements.kind(at) == rig::ElementKind::Bone; at = p_.elements.parent(at))
             ghost_of(at);
+        p_.label(start_of(i), p_.name(i) + " " + before_units, p_.view.palette.text, gizmo_clearance, 3);
     }
     glm::vec3 start_of(std::size_t i) const {
         return glm::vec3(p_.part.rig.start_pose(p_.part.state, i).translation);
@@ -156,8 +165,8 @@ class Drawing {
             if (p_.part.rig.definition().elements[i].control) continue;  // has its own
             const bool marked = p_.is_lit(i) || p_.is_selected(i);
             if (!marked && !(always && i % stride == 0)) continue;
-            // A gizmo's name stands beyond it.
-            p_.label(p_.point(i), p_.name(i), p_.view.palette.text, p_.is_selected(i) ? 84.0f : 14.0f,
+            const bool has_gizmo = p_.is_selected(i) && !starts_elsewhere(p_.part, p_.elements, i);
+            p_.label(p_.point(i), p_.name(i), p_.view.palette.text, has_gizmo ? gizmo_clearance : 14.0f,
                      marked ? 3 : 0);
         }
     }
@@ -208,6 +217,11 @@ std::vector<LegendRow> RigLab::legend(const Workspace& workspace) const {
                                 {"control", colours.target},
                                 {"at its limit", colours.limit},
                                 {"selection", colours.selection, true}};
+    const auto selected = rig_part(workspace).rig.element(rig_part(workspace).selected.element);
+    if (selected &&
+        starts_elsewhere(rig_part(workspace), workspace.runtimes.of<RigRuntime>(rig_lab).resolved(workspace),
+                         *selected))
+        rows.push_back({before_units, colours.ghost});
     if (rig_pending_setting().chosen(workspace.settings) == 1) {
         rows.push_back({"global pose pending", colours.accent, true});
         rows.push_back({"local pose pending", colours.tail, true});

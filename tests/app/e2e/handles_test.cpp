@@ -62,6 +62,15 @@ INSTANTIATE_TEST_SUITE_P(
         Pose{"front", R"({"yaw_deg": 0, "pitch_deg": 0, "distance": 14, "orthographic": true})"}),
     [](const auto& pose) { return pose.param.name; });
 
+/// A lab that is opened from the command line is laid out before anything is drawn.
+TEST(HandlesAtTheStart, are_where_the_first_frame_has_them) {
+    for (const char* lab : {"chain", "rig"}) {
+        const app::Json none = play(ScriptText(), {.more = {"--lab", lab}}).state["handles"];
+        EXPECT_EQ(none, play(ScriptText(), {.more = {"--lab", lab, "--frames", "1"}}).state["handles"])
+            << lab;
+    }
+}
+
 TEST(HandlesOutOfView, have_a_pixel_outside_or_none) {
     ScriptText script;
     script.command("camera.set",
