@@ -28,29 +28,52 @@ void apply_key(const rig::Rig& rig, const TakeKey& key, rig::State& state) {
     static_cast<void>(rig.set_control(state, key.element, key.value));
 }
 
-void apply_keys(RigPart& part, RigRuntime& runtime, bool measured = false) {
-    if (!part.take.keys) return;
-    const auto& keys = *part.take.keys;
-    const std::uint32_t tick = part.take.tick;
-    auto key = std::ranges::lower_bound(keys, tick, {}, &TakeKey::tick);
-    for (; key != keys.end() && key->tick == tick; ++key) {
-        if (key->element == TakeKey::solve) {
+/// The keys of a tick: first those that the rig was solved with at that tick, up to the last solve; then
+/// those that were set after that, which are seen one tick later.
+struct KeysOfTick {
+    std::span<const TakeKey> solved, set;
+};
+KeysOfTick keys_at(const RigTake& take, std::uint32_t tick) {
+    if (!take.keys) return {};
+    const auto begin = std::ranges::lower_bound(*take.keys, tick, {}, &TakeKey::tick);
+    const auto end = std::ranges::upper_bound(*take.keys, tick, {}, &TakeKey::tick);
+    const auto is_solve = [](const TakeKey& key) { return key.element == TakeKey::solve; };
+    const auto set = std::find_if(std::reverse_iterator(end), std::reverse_iterator(begin), is_solve).base();
+    return {{begin, set}, {set, end}};
+}
+
+/// Whether a key is already what its control shows: it was set here, or changes nothing.
+bool is_shown(const RigPart& part, const TakeKey& key) {
+    return part.state.controls[key.element] == key.value;
+}
+
+/// What was done at the part's tick before it was shown.
+void arrive(RigPart& part, RigRuntime& runtime, bool measured = false) {
+    for (const TakeKey& key : keys_at(part.take, part.take.tick).solved) {
+        if (key.element == TakeKey::solve) {
             part.moving |= runtime.solve(part, 0.0, measured);
         } else {
-            apply_key(part.rig, *key, part.state);
+            apply_key(part.rig, key, part.state);
             part.moving = true;
         }
     }
 }
 
+/// What was set at the part's tick after it was shown.
+void leave(RigPart& part) {
+    for (const TakeKey& key : keys_at(part.take, part.take.tick).set)
+        if (!is_shown(part, key)) apply_key(part.rig, key, part.state);
+}
+
 /// From the part's tick to the next.
 void pass(RigPart& part, RigRuntime& runtime, bool measured) {
+    leave(part);
     walk(part.rig, part.walks, part.state, part.take.tick + 1.0);
     part.moving = runtime.solve(part, tick_seconds, measured);
     ++part.take.tick;
     part.take.last = std::max(part.take.last, part.take.tick);
     runtime.snapshots.offer(part);
-    apply_keys(part, runtime);
+    arrive(part, runtime);
 }
 
 void ensure_start(RigPart& part) {
@@ -61,11 +84,17 @@ std::shared_ptr<const std::vector<TakeKey>> shared(std::vector<TakeKey> keys) {
     return keys.empty() ? nullptr : std::make_shared<const std::vector<TakeKey>>(std::move(keys));
 }
 
-/// Those up to the present tick.
-std::vector<TakeKey> keys_so_far(const RigTake& take) {
-    std::vector<TakeKey> keys;
-    if (take.keys)
-        keys.assign(take.keys->begin(), std::ranges::upper_bound(*take.keys, take.tick, {}, &TakeKey::tick));
+/// Those up to what is shown: at the present tick what was set after it had been shown, and is not, is still
+/// to come.
+std::vector<TakeKey> keys_so_far(const RigPart& part) {
+    const RigTake& take = part.take;
+    if (!take.keys) return {};
+    std::vector<TakeKey> keys(take.keys->begin(),
+                              std::ranges::lower_bound(*take.keys, take.tick, {}, &TakeKey::tick));
+    const KeysOfTick here = keys_at(take, take.tick);
+    keys.insert(keys.end(), here.solved.begin(), here.solved.end());
+    for (const TakeKey& key : here.set)
+        if (is_shown(part, key)) keys.push_back(key);
     return keys;
 }
 
@@ -81,7 +110,7 @@ bool go_from_known(RigPart& part, std::uint32_t tick, RigRuntime& runtime) {
     part.state = nearest ? nearest->second.state : *part.take.start;
     part.moving = nearest ? nearest->second.moving : true;
     part.take.tick = from;
-    apply_keys(part, runtime);
+    arrive(part, runtime);
     while (part.take.tick < tick) pass(part, runtime, false);
     return true;
 }
@@ -125,7 +154,7 @@ void key_control(RigPart& part, std::size_t element) {
     const std::size_t count = part.take.keys ? part.take.keys->size() : 0;
     if (part.take.tick == 0 || count >= most_take_keys) return begin_take(part);
     const std::uint32_t tick = part.take.tick, at = static_cast<std::uint32_t>(element);
-    std::vector<TakeKey> keys = keys_so_far(part.take);
+    std::vector<TakeKey> keys = keys_so_far(part);
     // What was set before the rig was last solved at this tick has been seen by its units.
     const auto seen = std::find_if(keys.rbegin(), keys.rend(), [&](const TakeKey& key) {
         return key.tick < tick || key.element == TakeKey::solve;
@@ -139,7 +168,7 @@ void key_control(RigPart& part, std::size_t element) {
 
 void solve_now(RigPart& part, RigRuntime& runtime, bool measured) {
     const RigPart before = part;
-    std::vector<TakeKey> keys = keys_so_far(part.take);
+    std::vector<TakeKey> keys = keys_so_far(part);
     const std::uint32_t tick = part.take.tick;
     const auto here = std::ranges::lower_bound(keys, tick, {}, &TakeKey::tick);
     const std::vector<TakeKey> set_here = as_one({here, keys.end()}, tick);
@@ -159,7 +188,7 @@ void solve_now(RigPart& part, RigRuntime& runtime, bool measured) {
     part.take.keys = shared(std::move(keys));
     part.take.last = tick;
     if (again)
-        apply_keys(part, runtime, measured);
+        arrive(part, runtime, measured);
     else
         part.moving |= runtime.solve(part, 0.0, measured);
     if (part.state == before.state) part = before;
@@ -167,7 +196,10 @@ void solve_now(RigPart& part, RigRuntime& runtime, bool measured) {
 
 bool time_moves(const RigPart& part) {
     if (part.moving || !part.walks.empty()) return true;
-    return part.take.keys && !part.take.keys->empty() && part.take.keys->back().tick > part.take.tick;
+    if (!part.take.keys || part.take.keys->empty()) return false;
+    const KeysOfTick here = keys_at(part.take, part.take.tick);
+    return part.take.keys->back().tick > part.take.tick ||
+           std::ranges::any_of(here.set, [&](const TakeKey& key) { return !is_shown(part, key); });
 }
 
 void pass_tick(RigPart& part, RigRuntime& runtime, bool measured) {
@@ -202,11 +234,15 @@ void TakeRunner::keys_before(double ticks) {
     for (; next_key_ < part_.take.keys->size(); ++next_key_) {
         const TakeKey& key = (*part_.take.keys)[next_key_];
         if (!(key.tick < ticks - rounding)) return;
-        if (key.element == TakeKey::solve)
-            part_.rig.solve(state_, 0.0, scratch_);
-        else
-            apply_key(part_.rig, key, state_);
+        apply(key);
     }
+}
+
+void TakeRunner::apply(const TakeKey& key) {
+    if (key.element == TakeKey::solve)
+        part_.rig.solve(state_, 0.0, scratch_);
+    else
+        apply_key(part_.rig, key, state_);
 }
 
 void TakeRunner::frame(double seconds, double ticks) {
@@ -218,7 +254,9 @@ void TakeRunner::frame(double seconds, double ticks) {
 void TakeRunner::tick() {
     ++ticks_;
     frame(tick_seconds, ticks_);
-    keys_before(ticks_ + 1.0);
+    const std::size_t solved = keys_at(part_.take, ticks_).solved.size();
+    for (const std::size_t end = next_key_ + solved; next_key_ < end; ++next_key_)
+        apply((*part_.take.keys)[next_key_]);
 }
 
 }  // namespace tendril::app

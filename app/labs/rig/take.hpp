@@ -34,6 +34,7 @@ class TakeRunner {
 
   private:
     void keys_before(double ticks);
+    void apply(const TakeKey& key);
 
     const RigPart& part_;
     rig::Workspace& scratch_;

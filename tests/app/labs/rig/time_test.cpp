@@ -177,7 +177,6 @@ TEST_F(RigTime, WhatWasDraggedIsPartOfTheTake) {
     std::vector<rig::State> states = play(10);
     for (int i = 1; i <= 90; ++i) {
         if (i % 2 == 0) set("head", at(0.01 * i, 1.0, 0.3 * std::sin(0.1 * i)));
-        if (i % 2 == 0) states.back() = part().state;
         lab().step(workspace);
         states.push_back(part().state);
     }
@@ -214,6 +213,26 @@ TEST_F(RigTime, SettingAControlForgetsWhatCameLater) {
     EXPECT_TRUE(part().moving) << "it still swings, and plays on from here";
     run("undo");
     EXPECT_EQ(part().take.last, 50u) << "undo brings it back";
+}
+
+/// At the moment where a hand moved it, a control shows what it showed before: what the units had seen.
+TEST_F(RigTime, SettingWhatIsShownMidwayForgetsWhatWasSetThereLater) {
+    run("rig.preset", {{"name", "secondary"}});
+    play(10);
+    const rig::State before = part().state;
+    set("head", at(0.5, 1, 0));
+    play(10);
+    go(10);
+    EXPECT_EQ(part().state, before);
+    EXPECT_TRUE(lab().moving(workspace)) << "the control is still to move";
+    run("rig.control.set", {{"name", "head"}, {"value", at(-0.5, 1, 0)}});
+    ASSERT_EQ(part().take.keys->size(), 1u);
+    const auto states = play(10);
+    EXPECT_LT(head().x, 0.0);
+    go(10);
+    EXPECT_EQ(part().state, before);
+    go(15);
+    EXPECT_EQ(part().state, states[5]);
 }
 
 /// Whatever else is changed begins a take; time goes on.
