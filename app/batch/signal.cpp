@@ -39,29 +39,29 @@ Filters read_filters(const std::string& path) {
 /// Rows go out until `ending` is set.
 class Rows {
   public:
-    Rows(const SignalSamples& samples, const std::atomic<bool>& ending)
-        : samples_(samples), times_(signal::times_of(samples)), ending_(ending), out_(progress_) {}
+    Rows(const TimedSamples& rows, const std::atomic<bool>& ending)
+        : rows_(rows), ending_(ending), out_(progress_) {}
 
     void write(const std::string& outputs, auto output_of) {
         out_.write("time,input," + outputs + "\n");
-        for (std::size_t i = 0; i < samples_.size() && !ending_; ++i)
-            out_.write(decimal(times_[i]) + "," + decimal(samples_[i].input) + "," + output_of(i) + "\n");
+        for (std::size_t i = 0; i < rows_.samples.size() && !ending_; ++i) {
+            out_.write(decimal(rows_.times[i]) + "," + decimal(rows_.samples[i].input) + "," + output_of(i) +
+                       "\n");
+        }
         out_.finish();
     }
-    const std::vector<double>& times() const { return times_; }
 
   private:
-    const SignalSamples& samples_;
-    std::vector<double> times_;
+    const TimedSamples& rows_;
     const std::atomic<bool>& ending_;
     Progress progress_;
     Output out_;
 };
 
-void print_outputs(const Filters& filters, const SignalSamples& samples, const std::atomic<bool>& ending) {
+void print_outputs(const Filters& filters, const TimedSamples& rows, const std::atomic<bool>& ending) {
     std::vector<signal::FilterState> states(filters.size());
-    Rows(samples, ending).write("output", [&](std::size_t i) {
-        return decimal(signal::step(filters, states, samples[i].input, samples[i].dt));
+    Rows(rows, ending).write("output", [&](std::size_t i) {
+        return decimal(signal::step(filters, states, rows.samples[i].input, rows.samples[i].dt));
     });
 }
 
@@ -70,20 +70,22 @@ std::string column_name(const signal::FrameRate& rate) {
     return "output_" + decimal(rate.hz) + (rate.jittered ? "_jittered" : "");
 }
 
-void print_rates(const Filters& filters, const SignalSamples& samples, const std::atomic<bool>& ending) {
-    Rows rows(samples, ending);
+void print_rates(const Filters& filters, const TimedSamples& rows, const std::atomic<bool>& ending) {
+    const SignalSamples& samples = rows.samples;
     std::string names;
     for (const signal::FrameRate& rate : signal::usual_rates())
         names.append(names.empty() ? "" : ",").append(column_name(rate));
-    const std::vector<std::vector<double>> outputs = signal::outputs_at(filters, samples, rows.times());
-    rows.write(names, [&](std::size_t i) {
+    const std::vector<std::vector<double>> outputs =
+        signal::outputs_at(filters, samples, signal::times_of(samples));
+    Rows(rows, ending).write(names, [&](std::size_t i) {
         std::string text;
         for (const auto& each : outputs) text.append(text.empty() ? "" : ",").append(decimal(each[i]));
         return text;
     });
+    const double begin = rows.times.front() - std::max(samples.front().dt, 0.0);
     const signal::RateComparison comparison = signal::compare_rates(filters, samples);
     std::fprintf(stderr, "maximum difference between the rates: %s at %s s\n",
-                 decimal(comparison.difference).c_str(), decimal(comparison.at).c_str());
+                 decimal(comparison.difference).c_str(), decimal(comparison.at + begin).c_str());
 }
 
 /// FILTER.json says where the search of its kinds begins, too.
@@ -120,13 +122,13 @@ void print_fits(const Filters& filters, const SignalSamples& samples, const std:
 
 void run_signal(const SignalOptions& options, const std::atomic<bool>& ending) {
     const Filters filters = read_filters(options.filters);
-    const SignalSamples samples = read_samples(options.samples);
+    const TimedSamples rows = read_timed_samples(options.samples);
     if (!options.fit.empty())
-        print_fits(filters, samples, read_response(options.fit, samples.size()), ending);
+        print_fits(filters, rows.samples, read_response(options.fit, rows.samples.size()), ending);
     else if (options.rates)
-        print_rates(filters, samples, ending);
+        print_rates(filters, rows, ending);
     else
-        print_outputs(filters, samples, ending);
+        print_outputs(filters, rows, ending);
 }
 
 const char* const signal_subcommand = "signal";
@@ -139,7 +141,8 @@ std::string signal_help() {
 What is left out has its default; a key that the kind does not have is refused.
 SAMPLES is a CSV file, a row a sample: dt,input. dt is in seconds, the time since
 the row before; a row whose dt is not over 0 changes nothing. A first row may name
-the columns: dt or time, and input. Printed are rows of time,input,output.
+the columns: dt or time, which must not fall, and input. Printed are rows of
+time,input,output.
 --rates prints one output for each frame rate (15, 30, 60 and 144 Hz, and 60 Hz
 with uneven frames), and on stderr the maximum difference between them.
 --fit finds for every kind of filter the parameters with which it answers the

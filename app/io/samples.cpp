@@ -22,6 +22,21 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
+/// Where the first field of a line ends; a comma between quotes belongs to its field.
+std::size_t field_end(std::string_view line) {
+    bool quoted = false;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        if (line[i] == '"') quoted = !quoted;
+        if (line[i] == ',' && !quoted) return i;
+    }
+    return line.npos;
+}
+
+std::string_view unquoted(std::string_view field) {
+    const bool quoted = field.size() >= 2 && field.front() == '"' && field.back() == '"';
+    return quoted ? trimmed(field.substr(1, field.size() - 2)) : field;
+}
+
 std::optional<double> number_in(std::string_view field) {
     if (field.starts_with('+')) field.remove_prefix(1);
     double value = 0.0;
@@ -49,13 +64,23 @@ class Table {
         ++row_;
         fields.clear();
         for (;;) {
-            const auto comma = line.find(',');
-            fields.push_back(trimmed(line.substr(0, comma)));
+            const auto comma = field_end(line);
+            const std::string_view field = trimmed(line.substr(0, comma));
+            if (row_ == 1) check_separator(field);
+            fields.push_back(unquoted(field));
             if (comma == line.npos) break;
             line.remove_prefix(comma + 1);
         }
         if (fields.size() == 1 && fields[0].empty()) fail(" is empty");
         return true;
+    }
+
+    /// What a row is made of, by the first one.
+    void check_separator(std::string_view field) const {
+        const auto other = field.starts_with('"') ? field.npos : field.find_first_of(";\t");
+        if (other == field.npos) return;
+        fail(std::string(": columns are separated by commas, found a ") +
+             (field[other] == ';' ? "semicolon" : "tab"));
     }
 
     [[noreturn]] void fail(const std::string& what) const {
@@ -68,15 +93,17 @@ class Table {
     double number(const Fields& fields, std::size_t column, const std::string& title) const {
         const std::string_view field = fields[column];
         const auto value = number_in(field);
-        const auto refuse = [&](const std::string& expected) {
-            const std::string found =
-                field.empty() ? "nothing" : '"' + single_line(std::string(field.substr(0, 40))) + '"';
-            fail(", column " + std::to_string(column + 1) + " (" + title + "): expected " + expected +
-                 ", found " + found);
-        };
-        if (!value) refuse("a number");
-        if (!(std::abs(*value) <= most)) refuse("a number from -1e9 to 1e9");
+        const std::string found =
+            field.empty() ? "nothing" : '"' + single_line(std::string(field.substr(0, 40))) + '"';
+        if (!value) fail(column, title, "a number", found);
+        if (!(std::abs(*value) <= most)) fail(column, title, "a number from -1e9 to 1e9", found);
         return *value;
+    }
+
+    [[noreturn]] void fail(std::size_t column, const std::string& title, const std::string& expected,
+                           const std::string& found) const {
+        fail(", column " + std::to_string(column + 1) + " (" + title + "): expected " + expected +
+             ", found " + found);
     }
 
     void check_width(const Fields& fields, std::size_t width, const char* what) const {
@@ -105,40 +132,81 @@ std::optional<std::size_t> column_named(const Fields& names, std::initializer_li
     return std::nullopt;
 }
 
+/// Where samples have what counts of them.
+struct Columns {
+    std::size_t time = 0, input = 1, width = 2;
+    bool absolute = false;  ///< time is that of the row, and not that since the one before
+};
+
+Columns named_columns(const Table& table, const Fields& names) {
+    const auto dt = column_named(names, {"dt"}), time = column_named(names, {"time"});
+    const auto input = column_named(names, {"input"});
+    if (!input || !(dt || time)) table.fail(" names no columns dt and input");
+    return {.time = dt ? *dt : *time, .input = *input, .width = names.size(), .absolute = !dt};
+}
+
+void check_order(const Table& table, const Columns& columns, double time, double before) {
+    if (time < before)
+        table.fail(columns.time, "time", "at least " + decimal(before) + ", the time of the row before",
+                   decimal(time));
+    if (time - before > most)
+        table.fail(columns.time, "time", "at most 1e9 s after " + decimal(before), decimal(time));
+}
+
+/// Of samples that have times. Nobody knows how long before the first one its input came: it counts for as
+/// long as the next, wherever time begins.
+void difference(TimedSamples& rows) {
+    for (std::size_t i = 1; i < rows.times.size(); ++i) {
+        rows.samples[i].dt = rows.times[i] - rows.times[i - 1];
+        double& first = rows.samples[0].dt;
+        if (first <= 0.0) first = rows.samples[i].dt;
+    }
+    rows.samples[0].dt = std::max(rows.samples[0].dt, signal::min_dt);
+}
+
 }  // namespace
 
-std::vector<signal::Sample> parse_samples(std::string_view text, const std::string& name) {
+TimedSamples parse_timed_samples(std::string_view text, const std::string& name) {
     Table table(text, name);
     Fields fields;
     if (!table.next(fields)) table.fail_whole("has no samples");
-    std::size_t time_column = 0, input_column = 1, width = 2;
-    bool absolute = false, more = true;
+    Columns columns;
+    bool more = true;
     if (names_columns(fields)) {
-        const auto dt = column_named(fields, {"dt"}), time = column_named(fields, {"time"});
-        const auto input = column_named(fields, {"input"});
-        if (!input || !(dt || time)) table.fail(" names no columns dt and input");
-        time_column = dt ? *dt : *time;
-        absolute = !dt;
-        input_column = *input;
-        width = fields.size();
+        columns = named_columns(table, fields);
         more = table.next(fields);
     }
-    std::vector<signal::Sample> samples;
-    double before = 0.0;
+    const std::size_t width = columns.width;
+    TimedSamples rows;
     for (; more; more = table.next(fields)) {
         table.check_width(fields, width, width == 2 ? ": dt,input" : ", as the row of names has");
-        const double time = table.number(fields, time_column, absolute ? "time" : "dt");
-        const double input = table.number(fields, input_column, "input");
-        samples.push_back({absolute ? time - before : time, input});
-        before = time;
-        if (samples.size() > most_samples) table.fail(" is one too many: the most is 1000000 samples");
+        const double time = table.number(fields, columns.time, columns.absolute ? "time" : "dt");
+        const double input = table.number(fields, columns.input, "input");
+        if (columns.absolute) {
+            if (!rows.times.empty()) check_order(table, columns, time, rows.times.back());
+            rows.times.push_back(time);
+        }
+        rows.samples.push_back({columns.absolute ? 0.0 : time, input});
+        if (rows.samples.size() > most_samples) table.fail(" is one too many: the most is 1000000 samples");
     }
-    if (samples.empty()) table.fail_whole("has no samples");
-    return samples;
+    if (rows.samples.empty()) table.fail_whole("has no samples");
+    if (columns.absolute)
+        difference(rows);
+    else
+        rows.times = signal::times_of(rows.samples);
+    return rows;
+}
+
+TimedSamples read_timed_samples(const std::filesystem::path& path) {
+    return parse_timed_samples(read_text_file(path), path.string());
+}
+
+std::vector<signal::Sample> parse_samples(std::string_view text, const std::string& name) {
+    return parse_timed_samples(text, name).samples;
 }
 
 std::vector<signal::Sample> read_samples(const std::filesystem::path& path) {
-    return parse_samples(read_text_file(path), path.string());
+    return read_timed_samples(path).samples;
 }
 
 std::vector<double> parse_response(std::string_view text, const std::string& name, std::size_t count) {
@@ -147,15 +215,17 @@ std::vector<double> parse_response(std::string_view text, const std::string& nam
     if (!table.next(fields)) table.fail_whole("has no response");
     const std::size_t width = fields.size();
     std::size_t column = width - 1;
+    std::string title = "response";
     bool more = true;
     if (names_columns(fields)) {
         column = column_named(fields, {"output", "response", "value"}).value_or(column);
+        title = single_line(std::string(fields[column].substr(0, 40)));
         more = table.next(fields);
     }
     std::vector<double> response;
     for (; more; more = table.next(fields)) {
         table.check_width(fields, width, ", as the first row");
-        response.push_back(table.number(fields, column, "response"));
+        response.push_back(table.number(fields, column, title));
     }
     if (response.size() != count) {
         table.fail_whole("has " + std::to_string(response.size()) + " values, expected " +

@@ -29,6 +29,16 @@ class Editor {
         left_ -= side, right_ += side;
     }
 
+    /// What of time and value is in sight. It follows from the keys, but in the middle of a drag: there it
+    /// has to stay what it was, else a place would mean another value in every frame.
+    struct View {
+        double left = 0.0, right = 1.0, low = 0.0, high = 1.0;
+    };
+    View view() const { return {left_, right_, low_, high_}; }
+    void show(const View& view) {
+        left_ = view.left, right_ = view.right, low_ = view.low, high_ = view.high;
+    }
+
     void draw(int active, double input) {
         list_->AddRectFilled(at_, {at_.x + size_.x, at_.y + size_.y},
                              ImGui::GetColorU32(ImGuiCol_FrameBg, 0.5f));
@@ -143,6 +153,24 @@ class Editor {
     double left_ = 0.0, right_ = 1.0, low_ = 0.0, high_ = 1.0;
 };
 
+/// The view of the frame in which the mouse button went down on the last item, while it is down.
+Editor::View view_of_drag(Editor::View view) {
+    const bool held = ImGui::IsItemActive() && !ImGui::IsItemActivated();
+    ImGuiStorage& kept = *ImGui::GetStateStorage();
+    const auto keep = [&](const char* name, double& value) {
+        float& before = *kept.GetFloatRef(ImGui::GetID(name), static_cast<float>(value));
+        if (held)
+            value = static_cast<double>(before);
+        else
+            before = static_cast<float>(value);
+    };
+    keep("left", view.left);
+    keep("right", view.right);
+    keep("low", view.low);
+    keep("high", view.high);
+    return view;
+}
+
 /// How the active key's piece goes on.
 bool piece_row(signal::CurveKey& key) {
     bool changed = false;
@@ -166,6 +194,7 @@ bool curve_editor(const char* id, signal::Curve& curve, glm::vec3 colour, float 
     const int count = static_cast<int>(curve.keys.size());
     if (active >= count) active = no_key;
     Editor editor(curve, colour, at, size);
+    editor.show(view_of_drag(editor.view()));
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     bool changed = false;
     const Editor::Hit under = editor.hit(mouse, active);

@@ -331,13 +331,38 @@ float value_at(const Curve& curve, float x) {
     return a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x);
 }
 
+namespace {
+
+/// The axes of the frame in which the mouse button went down on the last item, while it is down.
+PlotAxes axes_of_stroke(const char* id, PlotAxes axes) {
+    const bool held = ImGui::IsItemActive() && !ImGui::IsItemActivated();
+    ImGuiStorage& kept = *ImGui::GetStateStorage();
+    ImGui::PushID(id);
+    const auto keep = [&](const char* name, float& value) {
+        float& before = *kept.GetFloatRef(ImGui::GetID(name), value);
+        if (held)
+            value = before;
+        else
+            before = value;
+    };
+    keep("low_y", axes.low_y);
+    keep("high_y", axes.high_y);
+    keep("from_x", axes.from_x);
+    keep("min_x", axes.min_x);
+    ImGui::PopID();
+    return axes;
+}
+
+}  // namespace
+
 PlotStroke plot(const char* id, std::span<const Curve> curves, const PlotAxes& axes, float height) {
     ImGui::PushFont(small_font());
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const ImVec2 size{std::max(80.0f, ImGui::GetContentRegionAvail().x), height * ImGui::GetFontSize()};
     ImGui::InvisibleButton(id, size);
     const bool hovered = ImGui::IsItemHovered();
-    Plot drawing(curves, axes, at, size);
+    const PlotAxes shown = axes.keeps_axes ? axes_of_stroke(id, axes) : axes;
+    Plot drawing(curves, shown, at, size);
     drawing.draw();
     const ImVec2 mouse = ImGui::GetIO().MousePos, moved = ImGui::GetIO().MouseDelta;
     if (hovered) drawing.tell(mouse);

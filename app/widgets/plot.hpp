@@ -35,6 +35,9 @@ struct PlotAxes {
     bool whole_x = false;    ///< x counts something: marks at whole numbers only
     bool reads_all = false;  ///< the mouse reads every curve at its x, rather than the nearest point
     bool named = false;      ///< curves of one point have their name beside it, as far as there is room
+    /// It is drawn into: while the mouse button is down, low_y, high_y, from_x and min_x stay what they were
+    /// when it went down. Else a place would mean another value in every frame.
+    bool keeps_axes = false;
 };
 
 /// The value of a curve at x, between its points in a straight line; NaN outside them.

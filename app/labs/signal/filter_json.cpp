@@ -66,6 +66,23 @@ Json filter_json(const signal::Filter& filter) {
     return json;
 }
 
+namespace {
+
+/// What a parameter that is out of order goes against.
+std::string other_end(const signal::Filter& filter) {
+    if (const auto* scale = std::get_if<signal::ScaleBiasClamp>(&filter))
+        if (scale->clamp_min > scale->clamp_max) return "; clamp_max is " + decimal(scale->clamp_max);
+    if (const auto* hysteresis = std::get_if<signal::Hysteresis>(&filter))
+        if (hysteresis->low > hysteresis->high) return "; high is " + decimal(hysteresis->high);
+    if (const auto* curve = std::get_if<signal::Curve>(&filter))
+        for (std::size_t i = 1; i < curve->keys.size(); ++i)
+            if (!(curve->keys[i].time > curve->keys[i - 1].time))
+                return "; that is " + decimal(curve->keys[i - 1].time);
+    return {};
+}
+
+}  // namespace
+
 void set_parameters(signal::Filter& filter, const Json& given, const std::string& where) {
     signal::Filter changed = filter;
     if (auto* curve = std::get_if<signal::Curve>(&changed); curve != nullptr && given.contains("keys"))
@@ -83,7 +100,8 @@ void set_parameters(signal::Filter& filter, const Json& given, const std::string
         const auto element = static_cast<std::size_t>(parameter.element);
         read_parameter(changed, parameter, json[element], here + "." + std::to_string(element));
     }
-    if (const Result result = signal::check(changed); !result) fail(where, result.message());
+    if (const Result result = signal::check(changed); !result)
+        fail(where, result.message() + other_end(changed));
     filter = std::move(changed);
 }
 

@@ -7,6 +7,7 @@
 
 #include "app/labs/signal/fit_linear.hpp"
 #include "app/labs/signal/fit_space.hpp"
+#include "app/labs/signal/fit_starts.hpp"
 #include "app/labs/signal/search.hpp"
 #include "app/labs/signal/trial.hpp"
 
@@ -20,7 +21,7 @@ class KindFit final : public FitTask {
           trial_(problem),
           space_(fit_space(kind, FitFacts(problem))),
           filter_(kind.blank()),
-          minimiser_([this](std::span<const double> at) { return residual(at); }, search(like)) {}
+          minimiser_([this](std::span<const double> at) { return residual(at); }, search(problem, like)) {}
 
     bool advance() override { return minimiser_.advance(); }
 
@@ -36,12 +37,14 @@ class KindFit final : public FitTask {
     int evaluations() const override { return minimiser_.best().evaluations + evaluations_; }
 
   private:
-    Search search(const signal::Filter* like) const {
+    Search search(const FitProblem& problem, const signal::Filter* like) const {
         Search search{.dimensions = space_.size(), .enough = exact_residual};
         for (std::size_t d = 0; d < space_.size(); ++d)
             if (space_[d].stepped) search.stepped.push_back(d);
         search.starts.push_back(place_of(kind_.blank()));
         if (like != nullptr) search.starts.push_back(place_of(*like));
+        for (const signal::Filter& guess : first_guesses(kind_, problem, FitFacts(problem)))
+            search.starts.push_back(place_of(guess));
         return search;
     }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "app/labs/signal/panels.hpp"
+#include "app/labs/signal/recording.hpp"
 #include "app/labs/signal/scene.hpp"
 #include "app/labs/signal/span.hpp"
 #include "app/widgets/plot.hpp"
@@ -16,9 +17,7 @@ glm::vec3 fit_colour(const Palette& palette, std::size_t rank) {
 
 void fit_plot(const SignalPart& part, const Palette& palette, float height, Emit& emit) {
     const bool drawn = !part.wanted.empty();
-    const InputRows rows = drawn                                ? part.fit_input
-                           : part.input.kind == InputKind::Hand ? part.past
-                                                                : measuring_rows(part.input, 60.0);
+    const InputRows rows = drawn ? part.fit_input : rows_to_answer(part);
     const std::vector<double> time = signal::times_of(rows);
     std::vector<double> input;
     for (const signal::Sample& row : rows) input.push_back(row.input);
@@ -34,10 +33,18 @@ void fit_plot(const SignalPart& part, const Palette& palette, float height, Emit
     }
     // There is always room to draw beyond what there is.
     Span span = span_of(part.input, input);
+    const double range = span.high - span.low, low = span.low - range, high = span.high + range;
     for (const double value : part.wanted)
         span.low = std::min(span.low, value), span.high = std::max(span.high, value);
+    if (!drawn) {  // a stroke begins with what the chain makes of the input
+        for (const double value : signal::run(enabled_filters(part), rows)) {
+            span.low = std::min(span.low, std::max(value, low));
+            span.high = std::max(span.high, std::min(value, high));
+        }
+    }
     const double margin = 0.25 * (span.high - span.low), end = time.empty() ? 1.0 : time.back();
     PlotAxes axes = time_axes({span.low - margin, span.high + margin}, 0.0, end);
+    axes.keeps_axes = true;
     if (part.recording) axes.at_x = static_cast<float>(part.time);
     const PlotStroke stroke = plot("fit", curves, axes, height);
     if (!stroke.drawn) return;

@@ -45,11 +45,12 @@ double span_per_shortest(const FitFacts& facts) {
 double farthest(const FitFacts& facts) {
     return std::max({std::abs(facts.input_low), std::abs(facts.input_high), 1e-9});
 }
-double input_low(const FitFacts& facts) {
-    return facts.input_low;
+/// Where a threshold is never passed.
+double under_input(const FitFacts& facts) {
+    return facts.input_low - 0.1 * facts.input_range();
 }
-double input_high(const FitFacts& facts) {
-    return facts.input_high;
+double over_input(const FitFacts& facts) {
+    return facts.input_high + 0.1 * facts.input_range();
 }
 double jump(const FitFacts& facts) {
     return std::max(facts.largest_jump, 1e-9);
@@ -73,19 +74,19 @@ const Row rows[] = {
     {"rate_limit", "rise", {span_per_duration, 1e-3}, {span_per_shortest, 2.0}, Scale::Ratio},
     {"rate_limit", "fall", {span_per_duration, 1e-3}, {span_per_shortest, 2.0}, Scale::Ratio},
     {"smooth_damp", "smooth_time", {shortest, 0.25}, {duration, 2.0}, Scale::Ratio},
-    {"smooth_damp", "max_speed", {span, 0.02}, {span, 2.0}, Scale::Ratio},  // times smooth_time: see fit.cpp
+    {"smooth_damp", "max_speed", {span, 1e-4}, {span, 2.0}, Scale::Ratio},  // times smooth_time: see fit.cpp
     {"spring_semi_implicit", "strength", {per_duration, 0.05}, {per_shortest, 0.5}, Scale::Ratio},
     {"spring_semi_implicit", "critical_damping", {nothing, 0.0}, {nothing, 4.0}, Scale::Cube},
-    {"spring", "strength", {per_duration, 0.05}, {per_shortest, 2.0}, Scale::Ratio},
-    {"spring", "critical_damping", {nothing, 0.0}, {nothing, 8.0}, Scale::Cube},
+    {"spring", "strength", {per_duration, 0.05}, {per_shortest, 8.0}, Scale::Ratio},
+    {"spring", "critical_damping", {nothing, 0.0}, {nothing, 100.0}, Scale::Fifth},
     {"spring", "target_velocity_amount", {nothing, 0.0}, {nothing, 1.0}, Scale::Even},
     {"one_euro", "min_cutoff", {per_duration, 0.02}, {per_shortest, 10.0}, Scale::Ratio},
     {"one_euro", "beta", {nothing, 0.0}, {per_speed, 100.0}, Scale::Cube},
     {"one_euro", "derivative_cutoff", {per_duration, 0.02}, {per_shortest, 10.0}, Scale::Ratio},
     {"moving_average", "window", {shortest, 1.0}, {duration, 2.0}, Scale::Ratio},
     {"dead_zone", "width", {nothing, 0.0}, {farthest, 1.0}, Scale::Even},
-    {"hysteresis", "low", {input_low, 1.0}, {input_high, 1.0}, Scale::Even, true},
-    {"hysteresis", "high", {input_low, 1.0}, {input_high, 1.0}, Scale::Even, true},
+    {"hysteresis", "low", {under_input, 1.0}, {over_input, 1.0}, Scale::Even, true},
+    {"hysteresis", "high", {under_input, 1.0}, {over_input, 1.0}, Scale::Even, true},
     {"inertialize", "halflife", {shortest, 0.25}, {duration, 1.0}, Scale::Ratio},
     {"inertialize", "threshold", {nothing, 0.0}, {jump, 1.01}, Scale::Cube, true},
 };
@@ -133,6 +134,8 @@ double Dimension::value(double at) const {
             return low * std::pow(high / low, share);
         case Scale::Cube:
             return low + share * share * share * (high - low);
+        case Scale::Fifth:
+            return low + std::pow(share, 5.0) * (high - low);
     }
     return low;
 }
@@ -149,6 +152,9 @@ double Dimension::at(double value) const {
             break;
         case Scale::Cube:
             share = std::cbrt((value - low) / (high - low));
+            break;
+        case Scale::Fifth:
+            share = std::pow(std::max(value - low, 0.0) / (high - low), 0.2);
             break;
     }
     return std::clamp(share, 0.0, 1.0);

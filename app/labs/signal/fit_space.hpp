@@ -32,7 +32,8 @@ struct Dimension {
     enum class Scale {
         Even,
         Ratio,  ///< by ratio: low and high are over 0
-        Cube    ///< finer the nearer to low, which it reaches
+        Cube,   ///< finer the nearer to low, which it reaches
+        Fifth   ///< finer still
     };
     const signal::Parameter* parameter = nullptr;
     double low = 0.0, high = 1.0;

@@ -7,14 +7,13 @@
 namespace tendril::app {
 
 InputRows rows_to_answer(const SignalPart& part) {
-    InputRows rows = part.input.kind == InputKind::Hand ? part.past : measuring_rows(part.input, 60.0);
-    if (rows.size() > most_wanted) {
-        const auto extra = static_cast<std::ptrdiff_t>(rows.size() - most_wanted);
-        if (part.input.kind == InputKind::Hand)
-            rows.erase(rows.begin(), rows.begin() + extra);
-        else
-            rows.resize(most_wanted);
+    if (part.input.kind == InputKind::Hand) {
+        const auto count = static_cast<std::ptrdiff_t>(std::min(part.past.size(), most_wanted));
+        return {part.past.end() - count, part.past.end()};
     }
+    InputRows rows = measuring_rows(part.input, 60.0);
+    if (!rows.empty()) rows.erase(rows.begin());  // the input at 0, which no tick plays
+    if (rows.size() > most_wanted) rows.resize(most_wanted);
     return rows;
 }
 

@@ -5,7 +5,8 @@
 
 namespace tendril::app {
 
-/// The input that a response answers: the lab's from its beginning on, or what the hand did last.
+/// The input that a response answers: the rows that the lab plays from its beginning on, a tick each, or
+/// what the hand did last.
 InputRows rows_to_answer(const SignalPart& part);
 
 /// What the hand did last, from where it first moved on; null where it did not.

@@ -89,7 +89,9 @@ void Minimiser::spread() {
     }
     std::stable_sort(all.begin(), all.end(),
                      [](const Candidate& a, const Candidate& b) { return a.value < b.value; });
-    all.resize(std::min<std::size_t>(all.size(), dimensions() == 1 ? 3 : 8));
+    // Where there are guesses they lie close together: more of them are improved.
+    const std::size_t improved = dimensions() == 1 ? 3 : search_.starts.size() > 16 ? 24 : 8;
+    all.resize(std::min(all.size(), improved));
     for (Candidate& each : all) candidates_.push_back(std::move(each.at));
 }
 

@@ -86,6 +86,35 @@ TEST_F(SignalProgram, finds_columns_by_their_names) {
     EXPECT_EQ(by_time.out, by_dt.out);
 }
 
+TEST_F(SignalProgram, the_first_time_is_where_filters_start) {
+    for (const char* filter : {R"({"kind": "interp_to_exact", "speed": 12.56})",
+                               R"({"kind": "moving_average", "window": 0.15})"}) {
+        const Table by_dt = table_of(run(filter, "0.1,0\n0.1,1\n0.1,1\n").out);
+        for (const double start : {0.0, 5.0, -2.0, 0.1}) {
+            std::string samples = "time,input\n";
+            for (int i = 0; i < 3; ++i) samples += app::decimal(start + 0.1 * i) + (i == 0 ? ",0\n" : ",1\n");
+            const Outcome outcome = run(filter, samples);
+            ASSERT_TRUE(succeeded(outcome));
+            const Table table = table_of(outcome.out);
+            ASSERT_EQ(table.size(), by_dt.size());
+            for (std::size_t i = 1; i < table.size(); ++i) {
+                EXPECT_EQ(number(table[i][0]), start + 0.1 * static_cast<double>(i - 1)) << "as it was given";
+                EXPECT_NEAR(number(table[i][2]), number(by_dt[i][2]), 1e-9) << filter << " from " << start;
+            }
+        }
+    }
+    const Outcome one = run(R"({"kind": "interp_to"})", "time,input\n0,3\n");
+    ASSERT_TRUE(succeeded(one));
+    EXPECT_EQ(table_of(one.out)[1], (Strings{"0", "3", "3"}));
+}
+
+TEST_F(SignalProgram, reads_names_and_numbers_between_quotes) {
+    const Outcome outcome =
+        run(R"({"kind": "dead_zone"})", "\"note, of mine\",\"dt\",\"input\"\n\"a,b\",0.5,\"2\"\n");
+    ASSERT_TRUE(succeeded(outcome));
+    EXPECT_EQ(table_of(outcome.out)[1][1], "2");
+}
+
 TEST_F(SignalProgram, what_it_printed_can_be_read_again) {
     const Outcome first = run(R"({"kind": "spring", "critical_damping": 0.3})", step_samples(40));
     ASSERT_TRUE(succeeded(first));
@@ -168,7 +197,9 @@ TEST_F(SignalProgram, says_what_is_wrong_with_a_filter_and_where) {
          {"line 2", "filters.1.strenght", "spring has no such parameter", "strength"}},
         {R"({"kind": "scale_bias_clamp", "clamp": 1})", {"filter.clamp"}},
         {R"({"kind": "scale_bias_clamp", "in_range": [1]})", {"filter.in_range", "two numbers"}},
-        {R"({"kind": "hysteresis", "low": 2, "high": 1})", {"filter", "low"}},
+        {R"({"kind": "hysteresis", "low": 2, "high": 1})", {"filter", "low", "2", "high is 1"}},
+        {R"({"kind": "scale_bias_clamp", "clamp_min": 2, "clamp_max": 0.5})",
+         {"filter", "clamp_min", "2", "clamp_max is 0.5"}},
         {R"({"kind": "curve", "keys": []})", {"filter.keys"}},
         {R"({"kind": "curve", "keys": [{"time": 0, "value": 0}, {"time": 0, "value": 1}]})",
          {"keys", "time"}},
@@ -203,7 +234,11 @@ TEST_F(SignalProgram, says_what_is_wrong_with_samples_by_row_and_column) {
         {"0.1,inf\n", {"row 1", "column 2"}},
         {"0.1,1e300\n", {"row 1", "column 2", "-1e9 to 1e9"}},
         {"0.1,1e999\n", {"row 1", "column 2"}},
-        {"0.1;0\n", {"row 1"}},
+        {"0.1;0\n", {"row 1", "columns are separated by commas", "semicolon"}},
+        {"dt;input\n0,1;0\n", {"row 1", "columns are separated by commas", "semicolon"}},
+        {"dt\tinput\n0.1\t0\n", {"row 1", "columns are separated by commas", "tab"}},
+        {"time,input\n0,0\n0.2,1\n0.1,1\n", {"row 4", "column 1 (time)", "at least 0.2", "found 0.1"}},
+        {"time,input\n-1e9,0\n1e9,1\n", {"row 3", "column 1 (time)", "1e9 s after"}},
         {"when,what\n0.1,0\n", {"row 1", "dt and input"}},
     };
     for (const Bad& bad : all) {
@@ -222,6 +257,9 @@ TEST_F(SignalProgram, a_response_has_a_row_for_each_sample) {
     write(folder_ / "response.csv", "0\nx\n");
     EXPECT_TRUE(complained(run(R"({"kind": "interp_to"})", "0.1,0\n0.1,1\n", fit), 2,
                            {"response.csv", "row 2", "column 1 (response)"}));
+    write(folder_ / "response.csv", "output\n0\nx\n");
+    EXPECT_TRUE(complained(run(R"({"kind": "interp_to"})", "0.1,0\n0.1,1\n", fit), 2,
+                           {"response.csv", "row 3", "column 1 (output)"}));
     Strings both = fit;
     both.push_back("--rates");
     EXPECT_EQ(run(R"({"kind": "interp_to"})", "0.1,0\n", both).exit_code, 2);

@@ -1,4 +1,5 @@
 // The Signal lab in the running program: the ball dragged by the mouse, a response drawn, small windows.
+#include <algorithm>
 #include <cmath>
 
 #include "tests/app/support/play.hpp"
@@ -59,6 +60,33 @@ TEST(SignalInTheWindow, AResponseIsDrawnWithTheMouse) {
     EXPECT_TRUE(undone.at("fits").empty());
     script.command("signal.fit", Json::object(), true);
     EXPECT_TRUE(state_after(script).at("fits").empty()) << "what was drawn is undone in one step";
+}
+
+double most_wanted_after(ScriptText script) {
+    const TempFolder folder;
+    script.command("scene.save", {{"path", (folder / "drawn.json").string()}});
+    play(script);
+    const Json scene = app::parse_json(read(folder / "drawn.json"));
+    const Json& wanted = scene.at("labs").at("signal").at("fit").at("wanted");
+    double most = 0.0;
+    for (const Json& each : wanted) most = std::max(most, each.get<double>());
+    return most;
+}
+
+/// The axes make room for what was drawn, but not before the button is up: the value under a mouse at rest
+/// would grow in every frame.
+TEST(SignalInTheWindow, TheAxesOfAResponseStayWhileItIsDrawn) {
+    ScriptText script = ScriptText()
+                            .command("lab.open", {{"name", "signal"}})
+                            .command("signal.preset", {{"name", "spring"}})
+                            .command("signal.plot", {{"name", "fit"}})
+                            .wait(150);
+    script.move({400, 560}).wait(1).down().move({450, 500}).move({500, 410});
+    ScriptText held = script;
+    const double at_once = most_wanted_after(script.up().wait(3));
+    EXPECT_GT(at_once, 1.7) << "there is room over the response";
+    EXPECT_LT(at_once, 3.0);
+    EXPECT_NEAR(most_wanted_after(held.wait(60).up().wait(3)), at_once, 0.1);
 }
 
 /// The window stays responsive; a script's own command is done at once, and comes to the same.
@@ -141,6 +169,17 @@ TEST_F(CurveInTheWindow, AKeyIsDraggedAndThatIsOneStep) {
     script.command("undo").wait(2);
     EXPECT_NEAR(keys()[1].at("time").get<double>(), 0.5, 1e-9);
     EXPECT_NEAR(keys()[1].at("value").get<double>(), 0.8, 1e-9);
+}
+
+TEST_F(CurveInTheWindow, AKeyStaysUnderAMouseAtRest) {
+    const glm::vec2 up = middle + glm::vec2(0.0f, -40.0f);
+    const ScriptText before = script;
+    script.drag({middle, up}).wait(2);
+    const double at_once = keys()[1].at("value").get<double>();
+    EXPECT_GT(at_once, 1.0);
+    script = before;
+    script.move(middle).down().move(up).wait(60).up().wait(2);
+    EXPECT_NEAR(keys()[1].at("value").get<double>(), at_once, 1e-6);
 }
 
 TEST_F(CurveInTheWindow, AKeyStaysBetweenItsNeighbours) {

@@ -3,6 +3,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/labs/signal/presets.hpp"
+#include "app/labs/signal/recording.hpp"
 #include "app/labs/signal/signal_part.hpp"
 #include "tests/app/labs/lab_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
@@ -150,7 +151,7 @@ TEST_F(SignalCommands, ACsvFileIsPlayedOverAndOver) {
 
 TEST_F(SignalCommands, AFitRanksAndItsBestIsPutInPlace) {
     run("signal.clear");
-    const std::vector<signal::Sample> rows = measuring_rows(part().input, 60.0);
+    const std::vector<signal::Sample> rows = rows_to_answer(part());
     const signal::Filter truth = signal::RateLimit{.rise = 5.0, .fall = 2.5};
     std::vector<double> wanted = signal::run({&truth, 1}, rows);
     wanted.resize(180);
@@ -195,12 +196,12 @@ TEST_F(SignalCommands, AResponseIsRecordedByHand) {
     EXPECT_EQ(state().at("input"), 1.0) << "the input plays from its start";
     run("signal.fit.hand", {{"value", 0.75}});
     wait(15);
-    EXPECT_EQ(state().at("wanted"), 46);
+    EXPECT_EQ(state().at("wanted"), 45);
     run("signal.fit.stop");
     EXPECT_FALSE(state().at("recording").get<bool>());
-    ASSERT_EQ(part().wanted.size(), 46u);
-    ASSERT_EQ(part().fit_input.size(), 46u);
-    for (std::size_t i = 0; i < 46; ++i) EXPECT_EQ(part().wanted[i], i <= 30 ? -0.5 : 0.75) << i;
+    ASSERT_EQ(part().wanted.size(), 45u);
+    ASSERT_EQ(part().fit_input.size(), 45u);
+    for (std::size_t i = 0; i < 45; ++i) EXPECT_EQ(part().wanted[i], i < 30 ? -0.5 : 0.75) << i;
     run("signal.fit");
     EXPECT_EQ(part().fits.size(), signal::kinds().size());
 }
@@ -213,8 +214,8 @@ TEST_F(SignalCommands, ARecordedResponseEndsWithItsInput) {
     EXPECT_TRUE(state().at("recording").get<bool>());
     wait(1);
     EXPECT_FALSE(state().at("recording").get<bool>());
-    EXPECT_EQ(part().wanted, std::vector<double>(241, 0.25));
-    EXPECT_EQ(part().fit_input.size(), 241u);
+    EXPECT_EQ(part().wanted, std::vector<double>(240, 0.25));
+    EXPECT_EQ(part().fit_input.size(), 240u);
     EXPECT_NE(refused("signal.fit.hand", {{"value", 0}}).find("no response is being recorded"),
               std::string::npos);
     EXPECT_NE(refused("signal.fit.stop").find("no response"), std::string::npos);
@@ -233,7 +234,7 @@ TEST_F(SignalCommands, AGestureIsTheInputThatARecordedResponseAnswers) {
     wait(20);
     EXPECT_GT(state().at("input").get<double>(), 1.0) << "it is played";
     run("signal.fit.stop");
-    EXPECT_EQ(part().wanted.size(), 21u);
+    EXPECT_EQ(part().wanted.size(), 20u);
 }
 
 TEST_F(SignalCommands, ARecordingStartsAfreshAndIsNoLongerThanAFitTakes) {
