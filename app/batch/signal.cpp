@@ -138,7 +138,7 @@ std::string signal_help() {
            ".\n"
            R"(FILTER is a filter, or a list of up to 64 that are applied in order:
   {"kind": "spring", "strength": 4, "critical_damping": 0.5}
-What is left out has its default; a key that the kind does not have is refused.
+What is left out has its default; keys that the kind does not have are ignored.
 SAMPLES is a CSV file, a row a sample: dt,input. dt is in seconds, the time since
 the row before; a row whose dt is not over 0 changes nothing. A first row may name
 the columns: dt or time, which must not fall, and input. Printed are rows of

@@ -118,36 +118,14 @@ signal::Filter filter_from_json(const Json& json, const std::string& where) {
     return filter;
 }
 
-namespace {
-
-/// A misspelled parameter would otherwise keep its default without a word.
-void refuse_unknown_members(const Json& json, const signal::Filter& filter, const std::string& where) {
-    const std::vector<std::string> names = parameter_names(signal::kind_of(filter));
-    for (const auto& [key, value] : json.items()) {
-        if (key == "kind" || std::find(names.begin(), names.end(), key) != names.end()) continue;
-        std::string known;
-        for (const std::string& name : names) known += ", " + name;
-        fail(place(where, key),
-             std::string(signal::kind(filter)) + " has no such parameter; expected kind" + known);
-    }
-}
-
-signal::Filter only_filter_from_json(const Json& json, const std::string& where) {
-    signal::Filter filter = filter_from_json(json, where);
-    refuse_unknown_members(json, filter, where);
-    return filter;
-}
-
-}  // namespace
-
 std::vector<signal::Filter> filters_from_json(const Json& json, const std::string& where, std::size_t most) {
-    if (!json.is_array()) return {only_filter_from_json(json, where)};
+    if (!json.is_array()) return {filter_from_json(json, where)};
     if (json.size() > most) {
         fail(where, "has " + std::to_string(json.size()) + " filters; the most is " + std::to_string(most));
     }
     std::vector<signal::Filter> filters;
     for (const Json& each : json)
-        filters.push_back(only_filter_from_json(each, place(where, std::to_string(filters.size()))));
+        filters.push_back(filter_from_json(each, place(where, std::to_string(filters.size()))));
     return filters;
 }
 

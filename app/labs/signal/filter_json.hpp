@@ -23,7 +23,7 @@ Json parameters_json(const signal::Filter& filter);
 /// What is left out is as the kind has it; other keys are not looked at. Throws std::runtime_error that
 /// begins with the place of what is wrong: "filters.1.halflife: expected 0 to 10000, found -1".
 signal::Filter filter_from_json(const Json& json, const std::string& where);
-/// One filter, or a list of at most `most`, with no other keys than kind and parameters. In a list its places
+/// One filter, or a list of at most `most`. In a list its places
 /// are "<where>.1.halflife".
 std::vector<signal::Filter> filters_from_json(const Json& json, const std::string& where, std::size_t most);
 
