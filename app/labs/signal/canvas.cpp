@@ -131,20 +131,26 @@ void plot_choice(const SignalPart& part, Emit& emit) {
     }
 }
 
-/// What colours mean, in one line.
-void key_line(const std::vector<std::pair<std::string, glm::vec3>>& rows) {
+/// What colours mean, in as many lines as that takes; of very many in three, and how many more there are.
+void colour_key(const std::vector<std::pair<std::string, glm::vec3>>& rows) {
+    constexpr int most_lines = 3;
     ImGui::PushFont(small_font());
-    bool first = true;
-    for (const auto& [name, colour] : rows) {
-        if (!first) {
+    int lines = 1;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const auto& [name, colour] = rows[i];
+        if (i > 0) {
             ImGui::SameLine(0.0f, ImGui::GetFontSize());
-            const float needed = ImGui::CalcTextSize(name.c_str()).x + 1.4f * ImGui::GetFontSize();
+            const float more = lines == most_lines ? ImGui::CalcTextSize("and 99 more").x : 0.0f;
+            const float needed = ImGui::CalcTextSize(name.c_str()).x + 1.4f * ImGui::GetFontSize() + more;
             if (ImGui::GetContentRegionAvail().x < needed) {
+                if (++lines > most_lines) {
+                    ImGui::AlignTextToFramePadding();
+                    ImGui::TextDisabled("and %zu more", rows.size() - i);
+                    break;
+                }
                 ImGui::NewLine();
-                break;
             }
         }
-        first = false;
         colour_mark(colour);
         ImGui::AlignTextToFramePadding();
         ImGui::TextDisabled("%s", name.c_str());
@@ -161,7 +167,7 @@ void SignalLab::canvas(const Workspace& workspace, Emit& emit) const {
     for (std::size_t i = 0; i < part.stages.size(); ++i)
         if (part.stages[i].enabled)
             key.emplace_back(kind_title(part.stages[i].filter), stage_colour(colours, part, i));
-    key_line(key);
+    colour_key(key);
     ImGui::PushFont(small_font());
     const float line = ImGui::GetFontSize();
     ImGui::PopFont();
@@ -179,7 +185,7 @@ void SignalLab::canvas(const Workspace& workspace, Emit& emit) const {
         for (std::size_t i = 0; i < std::min(shown_fits, part.fits.size()); ++i)
             lower.emplace_back(kind_title(part.fits[i].filter), fit_colour(colours, i));
     }
-    if (!lower.empty()) key_line(lower);
+    if (!lower.empty()) colour_key(lower);
     const float rest = std::max(8.0f, ImGui::GetContentRegionAvail().y / line - 0.5f);
     if (part.plot == SignalPlot::Rates) rates_plot(workspace, colours, rest);
     if (part.plot == SignalPlot::Shelf) shelf_plot(workspace, colours, rest);
