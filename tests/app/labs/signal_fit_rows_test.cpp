@@ -54,7 +54,7 @@ TEST_F(SignalFitRows, AreThoseThatAreTicked) {
     }
     test::write(folder / "out.csv", response);
     run("signal.fit", {{"to", (folder / "out.csv").string()}});
-    EXPECT_EQ(signal::kind(part().fits.front().filter), "rate_limit") << "a row of the file for each tick";
+    EXPECT_STREQ(signal::kind(part().fits.front().filter), "rate_limit") << "a row of the file for each tick";
     EXPECT_LT(part().fits.front().residual, 1e-6);
 }
 
