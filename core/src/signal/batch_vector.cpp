@@ -7,6 +7,7 @@
 
 #include "math/dispatch.hpp"
 #include "tendril/signal/input.hpp"
+#include "tendril/signal/spring.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "signal/batch_vector.cpp"
@@ -20,7 +21,7 @@ namespace tendril::signal::detail {
 namespace HWY_NAMESPACE {
 
 constexpr float two_pi = 6.28318531f;
-constexpr float weakest = 1e-5f;  ///< Hz, as in spring.cpp
+constexpr float weakest = static_cast<float>(no_strength);
 constexpr float largest_state = static_cast<float>(max_output);
 constexpr float smallest_state = 1e-25f;  ///< below, it is 0: denormal numbers take a hundred times longer
 
@@ -86,7 +87,8 @@ HWY_INLINE void step_register(const SpringRows& rows, std::size_t i, Lanes dt, L
     const Lanes force = rows.force ? load(rows.force) : zero;
     const Lanes amount = rows.target_velocity_amount ? load(rows.target_velocity_amount) : zero;
 
-    Mask valid = both(is_between(strength, 0.0f, 1e4f), is_between(damping, 0.0f, 1e3f));
+    Mask valid = both(is_between(strength, 0.0f, static_cast<float>(max_strength)),
+                      is_between(damping, 0.0f, static_cast<float>(max_damping)));
     valid = both(valid, both(is_within(force, max_magnitude), is_between(amount, 0.0f, 1.0f)));
     valid = both(valid, both(is_within(target, max_magnitude), is_within(previous, max_magnitude)));
     valid = both(valid, both(is_within(value, largest_state), is_within(velocity, largest_state)));

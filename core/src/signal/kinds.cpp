@@ -67,7 +67,7 @@ constexpr Parameter flag(std::string_view name) {
 }
 
 constexpr Range any{-1e9, 1e9}, amount{0.0, 1e9}, speeds{-1e6, 1e6}, seconds{0.0, 1e4};
-constexpr Range strengths{0.0, 1e4}, dampings{0.0, 1e3}, cutoffs{0.0, 1e6};
+constexpr Range strengths{0.0, max_strength}, dampings{0.0, max_damping}, cutoffs{0.0, 1e6};
 constexpr Range usual_values{-10.0, 10.0}, usual_speeds{0.1, 60.0}, usual_strengths{0.1, 20.0};
 constexpr Range usual_seconds{0.005, 2.0};
 

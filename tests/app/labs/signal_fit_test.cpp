@@ -8,6 +8,7 @@
 #include "app/labs/signal/fit.hpp"
 #include "app/labs/signal/fit_space.hpp"
 #include "app/labs/signal/signal_input.hpp"
+#include "tests/app/labs/fit_support.hpp"
 #include "tests/core/random.hpp"
 
 namespace tendril::app {
@@ -91,17 +92,6 @@ signal::Filter some_filter(const signal::Kind& kind, test::Random& random) {
     return filter;
 }
 
-/// Whether the response says what the parameter is: it is another one where that is 2 % off.
-bool excited(const signal::Filter& truth, const signal::Parameter& parameter, const FitProblem& problem) {
-    double smallest = 1e9;
-    for (const double factor : {0.98, 1.02}) {
-        signal::Filter other = truth;
-        parameter.set(other, factor * parameter.get(truth));
-        if (signal::check(other)) smallest = std::min(smallest, residual_of(other, problem));
-    }
-    return smallest > 1e-4 && smallest < 1e9;
-}
-
 struct Case {
     std::size_t kind;
     bool uneven;
@@ -126,7 +116,7 @@ TEST_P(FitOfAKind, MeetsTheResponseByTheParametersThatMadeIt) {
         if (std::holds_alternative<signal::Curve>(truth)) continue;
         int compared = 0;
         for (const signal::Parameter& parameter : kind.parameters) {
-            if (!excited(truth, parameter, problem)) continue;
+            if (!test::excited(truth, parameter, problem, 1e-4)) continue;
             const double wanted = parameter.get(truth);
             EXPECT_NEAR(parameter.get(fit.filter), wanted, 0.02 * std::abs(wanted))
                 << kind.name << " " << parameter.name << ", draw " << draw;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/labs/signal/fit.hpp"
+#include "tests/app/labs/fit_support.hpp"
 #include "tests/core/random.hpp"
 
 namespace tendril::app {
@@ -80,17 +81,6 @@ signal::Filter wide_filter(const signal::Kind& kind, test::Random& random) {
     return filter;
 }
 
-/// Whether the response says what the parameter is: it is another one where that is 2 % off.
-bool excited(const signal::Filter& truth, const signal::Parameter& parameter, const FitProblem& problem) {
-    double smallest = 1e9;
-    for (const double factor : {0.98, 1.02}) {
-        signal::Filter other = truth;
-        parameter.set(other, factor * parameter.get(truth));
-        if (signal::check(other)) smallest = std::min(smallest, residual_of(other, problem));
-    }
-    return smallest > 1e-3 && smallest < 1e9;
-}
-
 void expect_found(const signal::Filter& truth, const Samples& samples, bool parameters) {
     const std::vector<double> response = signal::run({&truth, 1}, samples);
     const FitProblem problem{samples, response};
@@ -100,7 +90,7 @@ void expect_found(const signal::Filter& truth, const Samples& samples, bool para
     EXPECT_TRUE(signal::check(fit.filter)) << kind.name;
     if (!parameters) return;
     for (const signal::Parameter& parameter : kind.parameters) {
-        if (!excited(truth, parameter, problem)) continue;
+        if (!test::excited(truth, parameter, problem, 1e-3)) continue;
         const double wanted = parameter.get(truth);
         EXPECT_NEAR(parameter.get(fit.filter), wanted, 0.02 * std::abs(wanted))
             << kind.name << " " << parameter.name;

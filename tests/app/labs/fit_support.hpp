@@ -1,0 +1,22 @@
+// What tests of fits share.
+#pragma once
+
+#include <algorithm>
+
+#include "app/labs/signal/fit.hpp"
+
+namespace tendril::test {
+
+/// Whether the response says what the parameter is: where it is 2 % off, more than `least` is left.
+inline bool excited(const signal::Filter& truth, const signal::Parameter& parameter,
+                    const app::FitProblem& problem, double least) {
+    double smallest = 1e9;
+    for (const double factor : {0.98, 1.02}) {
+        signal::Filter other = truth;
+        parameter.set(other, factor * parameter.get(truth));
+        if (signal::check(other)) smallest = std::min(smallest, app::residual_of(other, problem));
+    }
+    return smallest > least && smallest < 1e9;
+}
+
+}  // namespace tendril::test
