@@ -144,8 +144,11 @@ class Drawing {
         for (auto at = p_.elements.first_child(id); at; at = p_.elements.first_child(at)) ghost_of(at);
         for (auto at = id; at && p_.elements.kind(at) == rig::ElementKind::Bone; at = p_.elements.parent(at))
             ghost_of(at);
-        p_.label(start_of(i), p_.name(i) + " " + before_units, p_.view.palette.text, gizmo_clearance, 3);
+        if (lies_elsewhere(i))
+            p_.label(start_of(i), p_.name(i) + " " + before_units, p_.view.palette.text, gizmo_clearance, 3);
     }
+    /// Not only turned: two names have room.
+    bool lies_elsewhere(std::size_t i) const { return glm::distance(start_of(i), p_.point(i)) > 1e-4f; }
     glm::vec3 start_of(std::size_t i) const {
         return glm::vec3(p_.part.rig.start_pose(p_.part.state, i).translation);
     }
@@ -165,7 +168,7 @@ class Drawing {
             if (p_.part.rig.definition().elements[i].control) continue;  // has its own
             const bool marked = p_.is_lit(i) || p_.is_selected(i);
             if (!marked && !(always && i % stride == 0)) continue;
-            const bool has_gizmo = p_.is_selected(i) && !starts_elsewhere(p_.part, p_.elements, i);
+            const bool has_gizmo = p_.is_selected(i) && !lies_elsewhere(i);
             p_.label(p_.point(i), p_.name(i), p_.view.palette.text, has_gizmo ? gizmo_clearance : 14.0f,
                      marked ? 3 : 0);
         }
