@@ -8,6 +8,7 @@
 #include <tendril/version.hpp>
 
 #include "app/batch/code.hpp"
+#include "app/batch/motion.hpp"
 #include "app/batch/paper_table.hpp"
 #include "app/batch/signal.hpp"
 #include "app/batch/solve.hpp"
@@ -179,6 +180,29 @@ CLI::App* add_signal(CLI::App& line, SignalOptions& options) {
     return signal;
 }
 
+CLI::App* add_lint(CLI::App& line, LintOptions& options) {
+    CLI::App* lint = line.add_subcommand("lint", "Say what is wrong with a character's clips");
+    lint->add_option("FILE", options.file, "A character: .gltf, .glb, .vrm, .fbx or .bvh")->required();
+    lint->add_flag("--json", options.json, "Print one JSON object");
+    lint->footer(lint_help);
+    return lint;
+}
+
+CLI::App* add_bake(CLI::App& line, BakeOptions& options) {
+    CLI::App* bake = line.add_subcommand("bake", "Write a character's clip to a file, feet on the ground");
+    bake->add_option("FILE", options.file, "A character: .gltf, .glb, .vrm, .fbx or .bvh")->required();
+    bake->add_option("--clip", options.clip, "Which one; the first if left out")->option_text("NAME");
+    bake->add_option("--ground", options.ground, "What its feet stand on; none, and uncorrected, if left out")
+        ->check(CLI::IsMember(bake_grounds()))
+        ->option_text("KIND");
+    bake->add_option("--fps", options.fps, "Frames a second, 1 to 1000; 60 if left out")
+        ->check(CLI::Range(1.0, 1000.0))
+        ->option_text("N");
+    bake->add_option("--out", options.out, "A .gltf, .glb or .bvh file; see below")->option_text("FILE");
+    bake->footer(bake_help);
+    return bake;
+}
+
 int complain(const std::string& what) {
     std::fprintf(stderr, "tendril: %s\n", single_line(what).c_str());
     return 2;
@@ -202,26 +226,33 @@ class BatchLine {
           solve_(solve_options_.add_to(line)),
           signal_(add_signal(line, signal_options_)),
           paper_(line.add_subcommand("paper", "Measure the solvers and print a table")),
-          code_(line.add_subcommand("code", "Print a scene as a C++ program against the library")) {
+          code_(line.add_subcommand("code", "Print a scene as a C++ program against the library")),
+          lint_(add_lint(line, lint_options_)),
+          bake_(add_bake(line, bake_options_)) {
         paper_->add_flag("--csv", paper_csv_, "Print rows of comma-separated values");
         paper_->footer(paper_help);
         code_->add_option("SCENE", scene_, "A scene file; its open lab is printed")->required();
     }
     bool asked() const { return !line_.get_subcommands().empty(); }
-    void run() {
+    /// The program's exit code.
+    int run() {
         refuse_options_before(line_, *line_.get_subcommands().front());
         const std::atomic<bool>& ending = end_session_on_signals();
         if (solve_->parsed()) solve_cases(solve_options_.checked(), ending);
         if (signal_->parsed()) run_signal(signal_options_, ending);
         if (paper_->parsed()) print_paper(paper_csv_, ending);
         if (code_->parsed()) print_code(scene_);
+        if (bake_->parsed()) run_bake(bake_options_);
+        return lint_->parsed() && run_lint(lint_options_) > 0 ? 1 : 0;
     }
 
   private:
     CLI::App& line_;
     SolveLine solve_options_;
     SignalOptions signal_options_;
-    CLI::App *solve_, *signal_, *paper_, *code_;
+    LintOptions lint_options_;
+    BakeOptions bake_options_;
+    CLI::App *solve_, *signal_, *paper_, *code_, *lint_, *bake_;
     bool paper_csv_ = false;
     std::string scene_;
 };
@@ -240,8 +271,7 @@ int main(int argc, char** argv) {
             session.check();
             return session.run();
         }
-        batch.run();
-        return 0;
+        return batch.run();
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return line.exit(error);
         return complain(error.what());

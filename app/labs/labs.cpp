@@ -7,6 +7,7 @@
 #include "app/document/command.hpp"
 #include "app/labs/camera_commands.hpp"
 #include "app/labs/chain/chain_lab.hpp"
+#include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/signal/signal_lab.hpp"
@@ -18,6 +19,7 @@ Labs::Labs() {
     add(std::make_unique<RopeLab>());
     add(std::make_unique<SignalLab>());
     add(std::make_unique<RigLab>());
+    add(std::make_unique<HumanoidLab>());
 }
 
 void Labs::add(std::unique_ptr<Lab> lab) {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "app/view/mesh.hpp"
+#include "app/view/skinned_mesh.hpp"
 
 namespace tendril::app {
 
@@ -58,9 +59,10 @@ struct DrawList {
     std::vector<Stroke> strokes;
     std::vector<Label> labels;
     Mesh mesh{};
-    Mesh overlay{};  ///< over the scene, and under the strokes that are over it
+    std::vector<SkinDraw> skins{};  ///< drawn with the mesh, or over the scene's strokes where seen through
+    Mesh overlay{};                 ///< over the scene, and under the strokes that are over it
 
-    void clear() { strokes.clear(), labels.clear(), mesh.clear(), overlay.clear(); }
+    void clear() { strokes.clear(), labels.clear(), mesh.clear(), skins.clear(), overlay.clear(); }
 
     /// Each returns the stroke it appended, for the fields that are seldom set.
     Stroke& sphere(glm::vec3 centre, float radius, Unit unit, glm::vec4 colour);

@@ -3,6 +3,7 @@
 #include "app/view/renderer_backdrop.hpp"
 #include "app/view/renderer_mesh.hpp"
 #include "app/view/renderer_shadows.hpp"
+#include "app/view/renderer_skin.hpp"
 #include "app/view/renderer_strokes.hpp"
 
 namespace tendril::app {
@@ -11,6 +12,7 @@ struct Renderer::Impl {
     Backdrop backdrop;
     ShadowPass shadows;
     MeshPass mesh;
+    SkinPass skins;
     StrokePass strokes;
     int draw_calls = 0;
 };
@@ -74,8 +76,10 @@ void Renderer::draw(const DrawList& list, const Camera& camera, const Palette& p
         calls += impl_->shadows.draw(camera);
         glViewport(0, 0, size.x, size.y);
         calls += impl_->mesh.draw(list.mesh, camera, frame);
+        calls += impl_->skins.draw(list.skins, true, camera, frame);
         impl_->strokes.prepare(list, camera, frame);
         calls += impl_->strokes.draw(Layer::Scene);
+        calls += impl_->skins.draw(list.skins, false, camera, frame);
         if (!list.overlay.indices.empty()) {
             glClear(GL_DEPTH_BUFFER_BIT);
             calls += impl_->mesh.draw(list.overlay, camera, frame);

@@ -1,7 +1,8 @@
-// Draws a DrawList with GL 3.3 core: background, ground grid, contact shadows, the mesh, strokes. Seven draw
-// calls at the most, however much is in the list. Edges are anti-aliased by coverage, without multisampling,
-// so that a software rasteriser is fast and every backend gives the same picture. (Where two solids run
-// through each other, the line between them is not.)
+// Draws a DrawList with GL 3.3 core: background, ground grid, contact shadows, the mesh, skins, strokes.
+// Seven draw calls at the most, however much is in the list, and those of skins: one or two for each
+// material. Edges are anti-aliased by coverage, without multisampling, so that a software rasteriser is fast
+// and every backend gives the same picture. (Where two solids run through each other, the line between them
+// is not.)
 //
 // Cost, on two cores without a graphics card at 1280 x 720: 20 000 strokes about 20 ms; the background about
 // 5 ms, and next to nothing while the camera stands still.

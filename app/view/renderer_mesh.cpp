@@ -1,38 +1,35 @@
 #include "app/view/renderer_mesh.hpp"
 
-#include <array>
-#include <cstddef>
-
 namespace tendril::app {
 
 // Where a point is on the screen, and how deep, has to come out as StrokeProjector and StrokePass have it, or
 // strokes would not lie on the surfaces that they belong to.
-void MeshPass::set_uniforms(const Camera& camera, const Frame& frame) const {
+void set_surface_uniforms(const Program& program, const Camera& camera, const Frame& frame) {
     const glm::mat4& p = camera.projection();
     const glm::vec3 right = camera.right(), up = camera.up(), forward = camera.forward();
     const bool orthographic = camera.pose().orthographic;
     const glm::vec3 target = camera.pose().target;
-    program_.set("eye", camera.eye());
-    program_.set(
+    program.set("eye", camera.eye());
+    program.set(
         "to_eye_space",
         glm::mat4(glm::vec4(right.x, up.x, forward.x, 0.0f), glm::vec4(right.y, up.y, forward.y, 0.0f),
                   glm::vec4(right.z, up.z, forward.z, 0.0f), glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)));
-    program_.set("orthographic", orthographic ? 1.0f : 0.0f);
+    program.set("orthographic", orthographic ? 1.0f : 0.0f);
     // Window pixels to a metre, at a depth of 1 m or everywhere; then from pixels to the framebuffer's -1
     // to 1.
     const float pixels = (orthographic ? 1.0f : camera.depth(target)) / camera.metres_per_pixel(target);
     const glm::vec2 unit = 2.0f * frame.pixel_ratio / glm::vec2(frame.framebuffer_size);
     const glm::vec2 centre = camera.viewport().centre() * unit;
-    program_.set("scale", pixels * unit);
-    program_.set("shift", glm::vec2(centre.x - 1.0f, 1.0f - centre.y));
-    program_.set("to_clip_depth", glm::vec2(-p[2][2], p[3][2]));
-    program_.set("sky", glm::vec3(right.y, up.y, -forward.y));
+    program.set("scale", pixels * unit);
+    program.set("shift", glm::vec2(centre.x - 1.0f, 1.0f - centre.y));
+    program.set("to_clip_depth", glm::vec2(-p[2][2], p[3][2]));
+    program.set("sky", glm::vec3(right.y, up.y, -forward.y));
 }
 
 int MeshPass::draw(const Mesh& mesh, const Camera& camera, const Frame& frame) {
     if (mesh.indices.empty()) return 0;
     program_.use();
-    set_uniforms(camera, frame);
+    set_surface_uniforms(program_, camera, frame);
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LEQUAL);

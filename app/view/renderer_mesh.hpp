@@ -6,6 +6,9 @@
 
 namespace tendril::app {
 
+/// Of a program whose vertex shader includes surface.glsl, and whose fragment shader light.glsl.
+void set_surface_uniforms(const Program& program, const Camera& camera, const Frame& frame);
+
 class MeshPass {
   public:
     /// Draws into the bound framebuffer, the GL viewport being all of it. Returns the number of draw calls:
@@ -13,8 +16,6 @@ class MeshPass {
     int draw(const Mesh& mesh, const Camera& camera, const Frame& frame);
 
   private:
-    void set_uniforms(const Camera& camera, const Frame& frame) const;
-
     Program program_{"mesh.vert", "mesh.frag"};
     Triangles triangles_;
 };

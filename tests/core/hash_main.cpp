@@ -17,7 +17,8 @@ int main(int count, char** arguments) {
                                 {"ropes", rope_hash(), golden_rope_hash},
                                 {"rigs", rig_hash(), golden_rig_hash},
                                 {"rig solves", rig_solve_hash(), golden_rig_solve_hash},
-                                {"signals", signal_hash(), golden_signal_hash}};
+                                {"signals", signal_hash(), golden_signal_hash},
+                                {"characters", humanoid_hash(), golden_humanoid_hash}};
     const bool check = count > 1 && std::string_view(arguments[1]) == "--check";
     int different = 0;
     for (const auto& [name, hash, golden] : sessions) {

@@ -48,4 +48,11 @@ inline constexpr std::uint64_t golden_signal_hash = 0xc67e090ab75d10b8u;
 /// hashes the bits of every output and measure.
 std::uint64_t signal_hash();
 
+/// The same for characters: what `humanoid_hash` gives.
+inline constexpr std::uint64_t golden_humanoid_hash = 0x0b433c053b120a38u;
+
+/// Solves a body 600 times, free and within limits and capsules, walks it over stairs, and hashes the bits of
+/// every pose.
+std::uint64_t humanoid_hash();
+
 }  // namespace tendril::test

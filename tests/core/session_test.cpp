@@ -28,4 +28,8 @@ TEST(Session, SignalsEndInTheSameBitsInEveryBuild) {
     EXPECT_EQ(signal_hash(), golden_signal_hash);
 }
 
+TEST(Session, characters_give_the_same_bits) {
+    EXPECT_EQ(humanoid_hash(), golden_humanoid_hash);
+}
+
 }  // namespace tendril::test

@@ -18,8 +18,10 @@ std::string missing(const std::string& backend) {
 app::Image draw(const fs::path& script, const std::string& backend) {
     const TempFolder folder;
     const fs::path picture = folder / "picture.png";
+    // Beside the script lie the files that it names.
     const Outcome outcome = run_program(
-        {"--headless", "--backend", backend, "--script", script.string(), "--screenshot", picture.string()});
+        {"--headless", "--backend", backend, "--script", script.string(), "--screenshot", picture.string()},
+        {}, script.parent_path());
     // What a script expects to be refused is told all the same.
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     return outcome.exit_code == 0 ? app::read_png(picture) : app::Image{};

@@ -117,11 +117,12 @@ std::vector<std::string> program_command(const std::vector<std::string>& argumen
     return command;
 }
 
-Outcome run_program(const std::vector<std::string>& arguments, const Environment& changes) {
+Outcome run_program(const std::vector<std::string>& arguments, const Environment& changes,
+                    const std::filesystem::path& folder) {
     const TempFolder config;
     Environment environment{{"XDG_CONFIG_HOME", config.path().string()}};
     environment.insert(environment.end(), changes.begin(), changes.end());
-    return Process(program_command(arguments), environment).wait();
+    return Process(program_command(arguments), environment, folder).wait();
 }
 
 int count_lines(const std::string& text) {

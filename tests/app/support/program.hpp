@@ -53,8 +53,9 @@ class Process {
 };
 
 /// The built program with these arguments. Whatever the tests' own surroundings are, it finds an empty config
-/// folder.
-Outcome run_program(const std::vector<std::string>& arguments, const Environment& changes = {});
+/// folder. It starts in `folder`, or where the tests do.
+Outcome run_program(const std::vector<std::string>& arguments, const Environment& changes = {},
+                    const std::filesystem::path& folder = {});
 
 /// The command that starts the built program.
 std::vector<std::string> program_command(const std::vector<std::string>& arguments);

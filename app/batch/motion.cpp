@@ -1,0 +1,169 @@
+#include "app/batch/motion.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+#include <tendril/humanoid/lint.hpp>
+
+#include "app/batch/output.hpp"
+#include "app/document/json_complete.hpp"
+#include "app/document/text.hpp"
+#include "app/io/character/bake.hpp"
+#include "app/io/character/export.hpp"
+#include "app/io/character/read.hpp"
+#include "app/labs/humanoid/ground_setting.hpp"
+
+namespace tendril::app {
+namespace {
+
+namespace fs = std::filesystem;
+using humanoid::Clip;
+using humanoid::Finding;
+using humanoid::LintReport;
+
+/// A file without clips is judged as it rests.
+std::vector<Clip> clips_of(const Character& character) {
+    if (!character.clips.empty()) return character.clips;
+    return {Clip{.name = "rest", .duration = 0.0, .channels = {}}};
+}
+
+std::string counted(std::size_t count, const char* what) {
+    return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
+}
+
+Json finding_json(const Finding& finding, const humanoid::Skeleton& skeleton) {
+    const Json node = finding.node < 0 ? Json() : Json(skeleton[static_cast<std::size_t>(finding.node)].name);
+    return {{"kind", name(finding.fault)}, {"frame", finding.frame}, {"first_frame", finding.first},
+            {"last_frame", finding.last},  {"time", finding.time},   {"joint", node},
+            {"amount", finding.amount},    {"unit", finding.unit},   {"text", finding.text},
+            {"cure", finding.has_cure}};
+}
+
+Json report_json(const LintReport& report, const Clip& clip, const humanoid::Skeleton& skeleton) {
+    Json findings = Json::array();
+    for (const Finding& each : report.findings) findings.push_back(finding_json(each, skeleton));
+    return {{"name", clip.name},
+            {"duration", clip.duration},
+            {"frame_rate", report.rate},
+            {"frames", report.frames},
+            {"floor", report.has_floor ? Json(report.floor) : Json()},
+            {"findings", findings}};
+}
+
+void print_lines(const LintReport& report, const Clip& clip, Output& out) {
+    for (const Finding& each : report.findings) {
+        char place[120];
+        std::snprintf(place, sizeof place, "frame %zu of %zu at %.6g fps, %.3f s", each.frame, report.frames,
+                      report.rate, each.time);
+        out.write(single_line(clip.name) + ": " + name(each.fault) + ", " + place + ": " +
+                  single_line(each.text) + '\n');
+    }
+}
+
+const Clip& clip_named(const Character& character, const BakeOptions& options) {
+    const std::string file = fs::path(options.file).filename().string();
+    if (character.clips.empty()) throw std::runtime_error(file + ": has no clips");
+    if (options.clip.empty()) return character.clips.front();
+    std::string names;
+    for (const Clip& each : character.clips) {
+        if (each.name == options.clip) return each;
+        names += (names.empty() ? "" : ", ") + each.name;
+    }
+    throw std::runtime_error(file + ": has no clip \"" + options.clip + "\"; it has " + names);
+}
+
+/// Beside the file, of its kind where that can be written.
+fs::path place_beside(const fs::path& file) {
+    const std::string ending = ends_as_export(file) ? file.extension().string() : ".glb";
+    return file.parent_path() / (file.stem().string() + "_baked" + ending);
+}
+
+}  // namespace
+
+std::size_t run_lint(const LintOptions& options) {
+    const Character character = read_character(options.file);
+    const humanoid::BoneMap map = bone_map(character);
+    Progress progress;
+    Output out(progress);
+    Json clips = Json::array();
+    std::size_t findings = 0;
+    const std::vector<Clip> all = clips_of(character);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        progress.show("judging", static_cast<double>(i) / static_cast<double>(all.size()));
+        const LintReport report = lint(character.skeleton, map, all[i]);
+        findings += report.findings.size();
+        if (options.json)
+            clips.push_back(report_json(report, all[i], character.skeleton));
+        else
+            print_lines(report, all[i], out);
+    }
+    if (options.json)
+        out.write(Json{{"file", options.file}, {"clips", clips}, {"findings", findings}}.dump(
+                      2, ' ', false, Json::error_handler_t::replace) +
+                  '\n');
+    else
+        out.write(counted(findings, "finding") + " in " + counted(character.clips.size(), "clip") + '\n');
+    out.finish();
+    return findings;
+}
+
+std::vector<std::string> bake_grounds() {
+    return ground_kinds.names();
+}
+
+void run_bake(const BakeOptions& options) {
+    // The command line's own check lets through what is no number at all.
+    if (!(options.fps >= smallest_rate && options.fps <= largest_rate))
+        throw std::runtime_error("--fps: must be 1 to 1000, got " + std::to_string(options.fps));
+    const Character character = read_character(options.file);
+    const Clip& clip = clip_named(character, options);
+    const fs::path out = options.out.empty() ? place_beside(options.file) : fs::path(options.out);
+    Clip corrected = clip;
+    if (options.ground != "none") {
+        try {
+            corrected = with_feet_on(make_ground({.kind = ground_kinds.value(options.ground)}),
+                                     character.skeleton, bone_map(character), clip, options.fps);
+        } catch (const std::runtime_error& error) {
+            throw std::runtime_error(fs::path(options.file).filename().string() + ": " + error.what());
+        }
+    }
+    const ExportReport report = export_clip({.character = character,
+                                             .file = options.file,
+                                             .original = clip,
+                                             .corrected = corrected,
+                                             .rate = options.fps},
+                                            out);
+    Progress progress;
+    Output print(progress);
+    print.write(out.string() + ": " + single_line(clip.name) + ", " + report.text() + '\n');
+    print.finish();
+}
+
+const char* const lint_help =
+    R"(FILE is a .gltf, .glb, .vrm, .fbx or .bvh file. All of its clips are judged:
+skating, floating and sinking feet, knees that pop, signs of rotation keys that
+flip, joints that jump or are far beyond what a human's do, scale and axis faults.
+Printed is a line a finding, with its frame, time, joint and amount; with --json
+one object:
+  {"file", "findings": 2, "clips": [{"name", "duration", "frame_rate", "frames",
+   "floor", "findings": [{"kind", "frame", "first_frame", "last_frame", "time",
+   "joint", "amount", "unit", "text", "cure"}]}]}
+Frames are counted from 0 at the rate that the clip's keys have; the floor is
+null where no foot stands. Feet and knees need a skeleton with legs.
+Exit code 0: nothing was found; 1: something was; 2: the file cannot be read.
+To open a scene file that is named lint, write ./lint.)";
+
+const char* const bake_help =
+    R"(FILE is a .gltf, .glb, .vrm, .fbx or .bvh file. One of its clips, the first if
+left out, is written to --out, or to FILE_baked beside the file: as glTF, GLB or
+BVH by the name's ending. glTF from a glTF file keeps nodes, skins, materials,
+meshes and pictures as they came. With a ground the feet are put on it first: flat,
+a slope of 20 degrees or stairs of 15 cm height and 30 cm depth, which rise along
++Z, or terrain, low hills. What was written is read back: printed are the joint that is the furthest
+from where it was, in mm, and how far a standing foot slides at most, before and
+after. A BVH's frame 0 is time 0. An existing file is replaced as a whole, or stays as it
+was (exit code 2).
+To open a scene file that is named bake, write ./bake.)";
+
+}  // namespace tendril::app

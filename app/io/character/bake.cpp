@@ -1,0 +1,92 @@
+#include "app/io/character/bake.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace tendril::app {
+namespace {
+
+using humanoid::Channel;
+using humanoid::Clip;
+using humanoid::Skeleton;
+
+/// Keys of a node that the solver moved, at every frame.
+struct Recording {
+    bool is_changed = false;
+    Channel channel{};
+};
+
+void add_key(Channel& channel, double time, const rig::Transform& local) {
+    glm::dquat rotation = local.rotation;
+    if (!channel.rotation.values.empty() && glm::dot(channel.rotation.values.back(), rotation) < 0.0)
+        rotation = -rotation;
+    channel.translation.times.push_back(time);
+    channel.translation.values.push_back(local.translation);
+    channel.rotation.values.push_back(rotation);
+    channel.scale.values.push_back(local.scale);
+}
+
+/// A track that says all along what the node does at rest needs no keys.
+template <class T>
+void drop_constant(humanoid::Track<T>& track, const T& rest) {
+    if (std::ranges::all_of(track.values, [&](const T& each) { return each == rest; })) track = {};
+}
+
+Channel finished(Channel channel, const rig::Transform& rest) {
+    channel.rotation.times = channel.scale.times = channel.translation.times;
+    drop_constant(channel.translation, rest.translation);
+    drop_constant(channel.rotation, rest.rotation);
+    drop_constant(channel.scale, rest.scale);
+    return channel;
+}
+
+}  // namespace
+
+Clip baked(const Skeleton& skeleton, const Clip& clip, double rate, const PoseStep& step) {
+    constexpr double most_keys = 50'000'000;
+    if (clip.duration * rate * static_cast<double>(skeleton.size()) > most_keys)
+        throw std::runtime_error("clip " + clip.name + " would have more than 50000000 keys");
+    std::vector<Recording> nodes(skeleton.size());
+    std::vector<rig::Transform> before(skeleton.size()), pose;
+    const auto frames = static_cast<std::size_t>(std::floor(clip.duration * rate + 1e-6)) + 1;
+    const bool ends_between = clip.duration - static_cast<double>(frames - 1) / rate > 1e-5;
+    double last = 0.0;
+    for (std::size_t i = 0; i < frames + ends_between; ++i) {
+        const double time = std::min(static_cast<double>(i) / rate, clip.duration);
+        sample(clip, skeleton, time, before);
+        pose = before;
+        step(pose, time, time - last);
+        last = time;
+        for (std::size_t node = 0; node < nodes.size(); ++node) {
+            nodes[node].is_changed |= !(pose[node] == before[node]);
+            add_key(nodes[node].channel, time, pose[node]);
+        }
+    }
+    Clip result{.name = clip.name, .duration = clip.duration, .channels = {}};
+    for (std::size_t node = 0; node < nodes.size(); ++node) {
+        const auto own = std::find_if(clip.channels.begin(), clip.channels.end(),
+                                      [&](const Channel& each) { return each.node == node; });
+        if (!nodes[node].is_changed) {
+            if (own != clip.channels.end()) result.channels.push_back(*own);
+            continue;
+        }
+        nodes[node].channel.node = node;
+        result.channels.push_back(finished(std::move(nodes[node].channel), skeleton[node].rest));
+    }
+    return result;
+}
+
+Clip with_feet_on(const humanoid::Ground& ground, const Skeleton& skeleton, const humanoid::BoneMap& map,
+                  const Clip& clip, double rate) {
+    const auto feet = humanoid::Feet::make(skeleton, map);
+    if (!feet) throw std::runtime_error(feet.message());
+    humanoid::FeetState state;
+    humanoid::FeetOptions options;
+    options.floor = clip_floor(skeleton, feet->soles(), clip);
+    return baked(skeleton, clip, rate, [&](std::span<rig::Transform> pose, double, double dt) {
+        feet->step(pose, ground, dt, state, options);
+    });
+}
+
+}  // namespace tendril::app

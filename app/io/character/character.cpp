@@ -1,0 +1,86 @@
+#include "app/io/character/character.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+
+namespace tendril::app {
+namespace {
+
+/// What takes the file's up axis to Y, and keeps the figure upright and its left side left.
+glm::dquat to_y_up(char up) {
+    const double half = std::sqrt(0.5);
+    if (up == 'z') return {half, -half, 0.0, 0.0};  // a quarter turn about X: Z becomes Y, Y becomes -Z
+    if (up == 'x') return {half, 0.0, 0.0, half};   // a quarter turn about Z: X becomes Y
+    return {1.0, 0.0, 0.0, 0.0};
+}
+
+}  // namespace
+
+void normalise(std::vector<humanoid::Node>& nodes, std::vector<humanoid::Clip>& clips, char up,
+               double scale) {
+    const glm::dquat turn = to_y_up(up);
+    for (humanoid::Node& node : nodes) {
+        node.rest.translation *= scale;
+        if (up == 'y' || node.parent >= 0) continue;
+        node.rest.translation = turn * node.rest.translation;
+        node.rest.rotation = turn * node.rest.rotation;
+    }
+    for (humanoid::Clip& clip : clips) {
+        for (humanoid::Channel& channel : clip.channels) {
+            for (glm::dvec3& value : channel.translation.values) value *= scale;
+            if (up == 'y' || nodes[channel.node].parent >= 0) continue;
+            for (glm::dvec3& value : channel.translation.values) value = turn * value;
+            for (glm::dquat& value : channel.rotation.values) value = turn * value;
+        }
+    }
+}
+
+humanoid::BoneMap bone_map(const Character& character) {
+    if (!character.bones) return humanoid::match_bones(character.skeleton);
+    humanoid::BoneMap map;
+    for (std::size_t i = 0; i < map.bones.size(); ++i) {
+        const std::int32_t node = character.bones->nodes[i];
+        if (node >= 0) map.bones[i] = {node, 1.0, "named by the file's " + character.bones->source};
+    }
+    humanoid::review(map, character.skeleton);
+    return map;
+}
+
+humanoid::Skeleton skeleton_of(std::vector<humanoid::Node> nodes) {
+    if (nodes.size() > humanoid::Skeleton::max_nodes)
+        throw std::runtime_error("its skeleton has " + std::to_string(nodes.size()) + " nodes, more than " +
+                                 std::to_string(humanoid::Skeleton::max_nodes));
+    std::vector<std::string> names;
+    for (const humanoid::Node& node : nodes) names.push_back(node.name);
+    auto skeleton = humanoid::Skeleton::make(std::move(nodes));
+    if (skeleton) return std::move(*skeleton);
+    std::string words(skeleton.message());
+    std::size_t place = names.size();
+    constexpr std::string_view list = "nodes[";
+    if (const std::size_t at = words.find(list); at != words.npos)
+        std::from_chars(words.data() + at + list.size(), words.data() + words.size(), place);
+    if (place < names.size()) words += " (node " + names[place] + ')';
+    throw std::runtime_error(words);
+}
+
+LengthUnit guess_unit(double height) {
+    // CMU's captures are in inches of a skeleton drawn at 0.45 of its size.
+    constexpr std::array<LengthUnit, 6> units{{{"metres", 1.0},
+                                               {"centimetres", 0.01},
+                                               {"inches", 0.0254},
+                                               {"CMU's inches / 0.45", 0.0254 / 0.45},
+                                               {"decimetres", 0.1},
+                                               {"millimetres", 0.001}}};
+    LengthUnit best = units[0];
+    double nearest = INFINITY;
+    for (const LengthUnit& unit : units) {
+        if (!(height > 0.0)) break;
+        const double off = std::abs(std::log(height * unit.metres / 1.75));
+        if (off < nearest) nearest = off, best = unit;
+    }
+    return best;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,166 @@
+#include "app/io/character/export.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <tendril/humanoid/lint.hpp>
+
+#include "app/document/atomic_file.hpp"
+#include "app/io/character/bvh.hpp"
+#include "app/io/character/gltf.hpp"
+#include "app/io/character/gltf_write.hpp"
+#include "app/io/character/read.hpp"
+
+namespace tendril::app {
+namespace {
+
+namespace fs = std::filesystem;
+using humanoid::Placement;
+using humanoid::Skeleton;
+
+std::string ending_of(const fs::path& path) {
+    std::string ending = path.extension().string();
+    std::ranges::transform(ending, ending.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return ending;
+}
+
+GltfOrigin origin_of(const std::string& file) {
+    const std::string ending = ending_of(file);
+    if (ending != ".gltf" && ending != ".glb" && ending != ".vrm") return {};
+    return {character_bytes(file), fs::path(file).parent_path()};
+}
+
+/// Where each of the character's nodes is in what was read back; throws where one is missing.
+std::vector<std::size_t> places_of(const Skeleton& skeleton, const Skeleton& read, bool is_bvh) {
+    std::vector<std::size_t> places(skeleton.size());
+    if (is_bvh) {
+        // Both go depth first; behind a joint without children stands the end site that was given to it.
+        std::size_t next = 0;
+        for (const std::int32_t each : skeleton.order()) {
+            const auto node = static_cast<std::size_t>(each);
+            if (next >= read.size())
+                throw std::runtime_error("node " + skeleton[node].name + " was not written");
+            places[node] = next++;
+            if (skeleton.children(node).empty() && next < read.size() &&
+                read[next].parent == static_cast<std::int32_t>(places[node]))
+                ++next;
+        }
+        return places;
+    }
+    for (std::size_t i = 0; i < skeleton.size(); ++i) {
+        const auto place = read.find(skeleton[i].name);
+        if (!place) throw std::runtime_error("node " + skeleton[i].name + " was not written");
+        places[i] = *place;
+    }
+    return places;
+}
+
+/// Compares all joints at one time.
+class Comparison {
+  public:
+    Comparison(const Export& what, const Character& read, bool is_bvh, bool has_origin)
+        : what_(what),
+          read_(read),
+          places_(places_of(what.character.skeleton, read.skeleton, is_bvh)),
+          ratio_(has_origin ? what.character.scale : 1.0) {}
+    void at(double time, ExportReport& report) {
+        const Skeleton& skeleton = what_.character.skeleton;
+        pose(what_.corrected, skeleton, time, wanted_);
+        pose(clip(), read_.skeleton, time, found_);
+        for (std::size_t i = 0; i < skeleton.size(); ++i) {
+            const double off = glm::distance(wanted_[i].position, found_[places_[i]].position * ratio_);
+            if (report.worst_joint.empty() || !(off <= report.worst)) {
+                report.worst = off;
+                report.worst_joint = skeleton[i].name;
+            }
+        }
+    }
+
+  private:
+    const humanoid::Clip& clip() const {
+        static const humanoid::Clip none{};
+        return read_.clips.empty() ? none : read_.clips.front();
+    }
+    void pose(const humanoid::Clip& clip, const Skeleton& skeleton, double time,
+              std::vector<Placement>& placed) {
+        local_.resize(skeleton.size());
+        placed.resize(skeleton.size());
+        sample(clip, skeleton, time, local_);
+        place(skeleton, local_, placed);
+    }
+
+    const Export& what_;
+    const Character& read_;
+    std::vector<std::size_t> places_;
+    double ratio_;  ///< metres of a unit of what was read back
+    std::vector<rig::Transform> local_{};
+    std::vector<Placement> wanted_{}, found_{};
+};
+
+ExportReport report_of(const Export& what, const Character& read, bool is_bvh, bool has_origin) {
+    ExportReport report;
+    const double frames = std::floor(what.corrected.duration * what.rate + 1e-9) + 1.0;
+    report.frames = static_cast<std::size_t>(frames);
+    Comparison comparison(what, read, is_bvh, has_origin);
+    for (std::size_t i = 0; i < report.frames; ++i) {
+        comparison.at(static_cast<double>(i) / what.rate, report);
+        // A BVH says nothing of what is between frames.
+        if (!is_bvh) comparison.at((static_cast<double>(i) + 0.5) / what.rate, report);
+    }
+    const Skeleton& skeleton = what.character.skeleton;
+    const humanoid::BoneMap map = bone_map(what.character);
+    const humanoid::LintReport before = lint(skeleton, map, what.original, {.rate = what.rate}),
+                               after = lint(skeleton, map, what.corrected, {.rate = what.rate});
+    report.has_feet = before.has_floor && after.has_floor;
+    if (report.has_feet) report.skating_before = before.skating, report.skating_after = after.skating;
+    return report;
+}
+
+}  // namespace
+
+std::string ExportReport::text() const {
+    char numbers[160];
+    std::snprintf(numbers, sizeof numbers, ", %.4f mm", 1000.0 * worst);
+    std::string text = std::to_string(frames) + (frames == 1 ? " frame" : " frames");
+    text += "; worst joint " + worst_joint + numbers;
+    if (!has_feet) return text + "; no foot stands in it";
+    std::snprintf(numbers, sizeof numbers, "; skating %.1f mm before, %.1f mm after", 1000.0 * skating_before,
+                  1000.0 * skating_after);
+    return text + numbers;
+}
+
+bool ends_as_export(const fs::path& path) {
+    const std::string ending = ending_of(path);
+    return ending == ".gltf" || ending == ".glb" || ending == ".bvh";
+}
+
+ExportReport export_clip(const Export& what, const fs::path& path) {
+    const std::string name = path.filename().string(), ending = ending_of(path);
+    if (!ends_as_export(path))
+        throw std::runtime_error(name + ": expected a name that ends in .gltf, .glb or .bvh");
+    if (!(what.rate >= smallest_rate && what.rate <= largest_rate))
+        throw std::runtime_error(name + ": expected 1 to 1000 frames a second");
+    constexpr double most_frames = 1'000'000;
+    if (what.corrected.duration * what.rate > most_frames)
+        throw std::runtime_error(name + ": would have more than 1000000 frames");
+    check_writable(path);
+    try {
+        const bool is_bvh = ending == ".bvh";
+        const GltfOrigin origin = is_bvh ? GltfOrigin() : origin_of(what.file);
+        const std::string bytes =
+            is_bvh ? bvh_text(what.character.skeleton, what.corrected, what.rate)
+                   : gltf_bytes(what.character, what.corrected, what.rate, origin, ending == ".glb");
+        const Character read = is_bvh ? parse_bvh(bytes, name) : parse_gltf(bytes, name, {});
+        const ExportReport report = report_of(what, read, is_bvh, !origin.bytes.empty());
+        write_file_atomically(path, bytes);
+        return report;
+    } catch (const nlohmann::json::exception& error) {
+        throw std::runtime_error(name + ": " + error.what());
+    }
+}
+
+}  // namespace tendril::app

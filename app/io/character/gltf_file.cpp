@@ -1,0 +1,209 @@
+#include "app/io/character/gltf_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+
+namespace tendril::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void pad(std::string& bytes, char with) {
+    while (bytes.size() % 4 != 0) bytes += with;
+}
+void put_number(std::string& bytes, std::size_t value) {
+    if (value > 0xffffffffu) throw std::runtime_error("would be larger than 4 GB");
+    for (int i = 0; i < 4; ++i) bytes += static_cast<char>((value >> (8 * i)) & 0xff);
+}
+
+std::string base64(std::string_view bytes) {
+    constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve(bytes.size() / 3 * 4 + 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t three = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            three = (three << 8) | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+        for (int k = 3; k >= 0; --k) text += digits[(three >> (6 * k)) & 63];
+    }
+    const std::size_t missing = (3 - bytes.size() % 3) % 3;
+    for (std::size_t k = 0; k < missing; ++k) text[text.size() - 1 - k] = '=';
+    return text;
+}
+
+/// What kind of picture the bytes are; empty where glTF does not have it.
+std::string kind_of_picture(const std::vector<unsigned char>& bytes) {
+    const auto begins = [&](std::string_view mark) {
+        return bytes.size() > mark.size() &&
+               std::equal(mark.begin(), mark.end(), bytes.begin(),
+                          [](char a, unsigned char b) { return static_cast<unsigned char>(a) == b; });
+    };
+    if (begins("\x89PNG")) return "image/png";
+    if (begins("\xff\xd8\xff")) return "image/jpeg";
+    return {};
+}
+
+}  // namespace
+
+GltfFile::GltfFile() : json{{"asset", {{"version", "2.0"}, {"generator", "Tendril"}}}} {}
+
+GltfFile::GltfFile(std::string_view json_text, const tinygltf::Model& model)
+    : json(Json::parse(json_text.begin(), json_text.end(), nullptr, false)) {
+    if (!json.is_object()) throw std::runtime_error("its JSON cannot be read");
+    take_buffers(model);
+    take_pictures(model);
+}
+
+void GltfFile::take_buffers(const tinygltf::Model& model) {
+    std::vector<std::size_t> begins;
+    for (const tinygltf::Buffer& each : model.buffers) {
+        pad(buffer_, '\0');
+        begins.push_back(buffer_.size());
+        buffer_.append(each.data.begin(), each.data.end());
+    }
+    const auto move = [&](Json& view) {
+        if (!view.is_object() || !view.contains("buffer")) return;
+        const auto buffer = view["buffer"].get<std::size_t>();
+        if (buffer >= begins.size()) throw std::runtime_error("a buffer view is of no buffer");
+        view["byteOffset"] = view.value("byteOffset", std::size_t{0}) + begins[buffer];
+        view["buffer"] = 0;
+    };
+    if (!json.contains("bufferViews")) return;
+    for (Json& view : json["bufferViews"]) {
+        move(view);
+        // Compressed views say in an extension where they lie.
+        if (view.contains("extensions"))
+            for (Json& extension : view["extensions"]) move(extension);
+    }
+}
+
+void GltfFile::take_pictures(const tinygltf::Model& model) {
+    if (!json.contains("images")) return;
+    for (std::size_t i = 0; i < std::min(json["images"].size(), model.images.size()); ++i) {
+        Json& image = json["images"][i];
+        const std::vector<unsigned char>& bytes = model.images[i].image;
+        const std::string kind = kind_of_picture(bytes);
+        if (!image.contains("uri") || kind.empty()) continue;
+        if (image["uri"].get_ref<const std::string&>().starts_with("data:")) continue;
+        image.erase("uri");
+        image["mimeType"] = kind;
+        image["bufferView"] = add_view(bytes.data(), bytes.size());
+    }
+}
+
+std::size_t GltfFile::add_view(const void* data, std::size_t size) {
+    pad(buffer_, '\0');
+    Json& views = json["bufferViews"];
+    views.push_back({{"buffer", 0}, {"byteOffset", buffer_.size()}, {"byteLength", size}});
+    buffer_.append(static_cast<const char*>(data), size);
+    return views.size() - 1;
+}
+
+std::size_t GltfFile::add_rows(const char* type, const std::vector<float>& numbers) {
+    const auto [place, is_new] = rows_.try_emplace({type, numbers}, 0);
+    if (!is_new) return place->second;
+    const std::string_view name = type;
+    const std::size_t width = name == "SCALAR" ? 1 : name == "VEC3" ? 3 : 4;
+    const std::size_t view = add_view(numbers.data(), numbers.size() * sizeof(float));
+    Json& accessors = json["accessors"];
+    accessors.push_back({{"bufferView", view},
+                         {"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT},
+                         {"count", numbers.size() / width},
+                         {"type", type}});
+    return place->second = accessors.size() - 1;
+}
+
+std::size_t GltfFile::add_times(const std::vector<float>& times) {
+    const std::size_t place = add_rows("SCALAR", times);
+    Json& accessor = json["accessors"][place];
+    accessor["min"] = Json::array({static_cast<double>(times.front())});
+    accessor["max"] = Json::array({static_cast<double>(times.back())});
+    return place;
+}
+
+/// One row of a set of weights: where its four floats are in the buffer.
+std::optional<std::size_t> GltfFile::row_of_floats(const Json& accessor, std::size_t row) const {
+    if (accessor.value("componentType", 0) != TINYGLTF_COMPONENT_TYPE_FLOAT || accessor.contains("sparse") ||
+        accessor.value("type", std::string()) != "VEC4" || !accessor.contains("bufferView"))
+        return std::nullopt;
+    const auto place = accessor["bufferView"].get<std::size_t>();
+    if (place >= json["bufferViews"].size()) return std::nullopt;
+    const Json& view = json["bufferViews"][place];
+    if (view.contains("extensions")) return std::nullopt;
+    const std::size_t at = view.value("byteOffset", std::size_t{0}) +
+                           accessor.value("byteOffset", std::size_t{0}) +
+                           row * view.value("byteStride", 4 * sizeof(float));
+    if (at + 4 * sizeof(float) > buffer_.size()) return std::nullopt;
+    return at;
+}
+
+void GltfFile::normalise_weights_of(const Json& primitive) {
+    std::vector<std::size_t> sets;
+    const Json attributes = primitive.value("attributes", Json::object());
+    for (int set = 0; attributes.contains("WEIGHTS_" + std::to_string(set)); ++set)
+        sets.push_back(attributes["WEIGHTS_" + std::to_string(set)].get<std::size_t>());
+    if (sets.empty()) return;
+    const auto accessor = [&](std::size_t set) -> Json& { return json["accessors"].at(sets[set]); };
+    std::size_t rows = accessor(0).value("count", std::size_t{0});
+    bool touched = false;
+    for (std::size_t row = 0; row < rows; ++row) {
+        std::vector<std::size_t> places;
+        double sum = 0.0;
+        for (std::size_t set = 0; set < sets.size(); ++set) {
+            const auto at = row_of_floats(accessor(set), row);
+            if (!at || row >= accessor(set).value("count", std::size_t{0})) return;
+            float four[4];
+            std::memcpy(four, buffer_.data() + *at, sizeof four);
+            for (std::size_t i = 0; i < 4; ++i) sum += static_cast<double>(four[i]);
+            places.push_back(*at);
+        }
+        if (!(sum > 1e-6) || std::abs(sum - 1.0) < 1e-4) continue;
+        touched = true;
+        for (const std::size_t at : places) {
+            float four[4];
+            std::memcpy(four, buffer_.data() + at, sizeof four);
+            for (float& each : four) each = static_cast<float>(static_cast<double>(each) / sum);
+            std::memcpy(buffer_.data() + at, four, sizeof four);
+        }
+    }
+    // What they range over is another now; glTF asks for a range of positions alone.
+    if (touched)
+        for (std::size_t set = 0; set < sets.size(); ++set)
+            accessor(set).erase("min"), accessor(set).erase("max");
+}
+
+void GltfFile::normalise_weights() {
+    if (!json.contains("meshes")) return;
+    const Json meshes = json["meshes"];
+    for (const Json& mesh : meshes)
+        for (const Json& primitive : mesh.value("primitives", Json::array())) normalise_weights_of(primitive);
+}
+
+std::string GltfFile::bytes(bool binary) const {
+    Json file = json;
+    file.erase("buffers");
+    if (!buffer_.empty()) {
+        file["buffers"] = Json::array({{{"byteLength", buffer_.size()}}});
+        if (!binary) file["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64(buffer_);
+    }
+    std::string text = file.dump(-1, ' ', false, Json::error_handler_t::replace);
+    if (!binary) return text + '\n';
+
+    pad(text, ' ');
+    std::string all = "glTF";
+    std::string body = buffer_;
+    pad(body, '\0');
+    put_number(all, 2);
+    put_number(all, 12 + 8 + text.size() + (body.empty() ? 0 : 8 + body.size()));
+    put_number(all, text.size());
+    all += "JSON" + text;
+    if (body.empty()) return all;
+    put_number(all, body.size());
+    all.append("BIN\0", 4);
+    return all + body;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,274 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "app/io/character/gltf.hpp"
+#include "app/io/character/gltf_accessor.hpp"
+#include "app/io/character/gltf_parse.hpp"
+#include "app/io/character/gltf_skin.hpp"
+#include "app/io/character/gltf_vrm.hpp"
+#include "app/io/character/unique_names.hpp"
+
+namespace tendril::app {
+namespace {
+
+using humanoid::Channel;
+using humanoid::Clip;
+using humanoid::Interpolation;
+using humanoid::Node;
+
+/// Of all clips together: keys may be shared, so that a small file can claim any number.
+constexpr std::size_t most_keys = 20'000'000;
+
+/// Translation, rotation and scale of a matrix, column by column as glTF has it; shear is lost.
+rig::Transform decomposed(const std::vector<double>& m) {
+    humanoid::Placement placement;
+    rig::Transform result;
+    for (int c = 0; c < 3; ++c) {
+        for (int r = 0; r < 3; ++r) placement.axes[c][r] = m[static_cast<std::size_t>(4 * c + r)];
+        result.scale[c] = glm::length(placement.axes[c]);
+    }
+    if (glm::determinant(placement.axes) < 0.0) {
+        placement.axes[2] = -placement.axes[2];
+        result.scale[2] = -result.scale[2];
+    }
+    result.rotation = placement.rotation();
+    result.translation = {m[12], m[13], m[14]};
+    return result;
+}
+
+rig::Transform local_of(const tinygltf::Node& node, std::size_t index) {
+    rig::Transform local;
+    const auto has = [&](const std::vector<double>& list, std::size_t wanted, const char* what) {
+        if (list.empty() || list.size() == wanted) return !list.empty();
+        throw std::runtime_error("nodes[" + std::to_string(index) + "]." + what + ": expected " +
+                                 std::to_string(wanted) + " numbers, found " + std::to_string(list.size()));
+    };
+    for (const std::vector<double>* list : {&node.matrix, &node.translation, &node.rotation, &node.scale})
+        for (const double each : *list)
+            if (!std::isfinite(each))
+                throw std::runtime_error("nodes[" + std::to_string(index) +
+                                         "] has a number that is not finite");
+    if (has(node.matrix, 16, "matrix")) return decomposed(node.matrix);
+    if (has(node.translation, 3, "translation"))
+        local.translation = {node.translation[0], node.translation[1], node.translation[2]};
+    if (has(node.rotation, 4, "rotation"))
+        local.rotation = {node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]};
+    if (has(node.scale, 3, "scale")) local.scale = {node.scale[0], node.scale[1], node.scale[2]};
+    return local;
+}
+
+class Reader {
+  public:
+    explicit Reader(const tinygltf::Model& model, LoadProgress* progress = nullptr)
+        : model_(model), progress_(progress), parents_(model_.nodes.size(), -1) {}
+
+    Character read() {
+        find_parents();
+        choose();
+        std::vector<Node> nodes = read_nodes();
+        std::vector<Clip> clips;
+        for (std::size_t i = 0; i < model_.animations.size(); ++i) {
+            report(progress_,
+                   0.5 + 0.3 * static_cast<double>(i) / static_cast<double>(model_.animations.size()));
+            clips.push_back(read_clip(i));
+        }
+        report(progress_, 0.8);
+        Character character;
+        character.skeleton = skeleton_of(std::move(nodes));
+        for (const Clip& clip : clips)
+            if (const Result bad = check(clip, character.skeleton); !bad)
+                throw std::runtime_error(bad.message());
+        character.clips = std::move(clips);
+        if (vrm_) {
+            character.bones.emplace();
+            character.bones->source = vrm_->extension;
+            for (std::size_t i = 0; i < vrm_->nodes.size(); ++i)
+                character.bones->nodes[i] =
+                    vrm_->nodes[i] < 0 ? -1 : place_[static_cast<std::size_t>(vrm_->nodes[i])];
+        }
+        std::vector<humanoid::Placement> local;
+        for (std::size_t i = 0; i < model_.nodes.size(); ++i)
+            local.push_back(humanoid::placement(local_of(model_.nodes[i], i)));
+        character.skin = gltf_skin(model_, {parents_, place_}, local, character.notes);
+        return character;
+    }
+
+    /// The file's nodes that are the skeleton's, in its order.
+    std::vector<std::size_t> nodes() {
+        find_parents();
+        choose();
+        return std::move(chosen_);
+    }
+
+  private:
+    static std::string indexed(const char* list, std::size_t index) {
+        return std::string(list) + '[' + std::to_string(index) + ']';
+    }
+    std::size_t node_at(int index, const std::string& what) const {
+        if (index < 0 || static_cast<std::size_t>(index) >= model_.nodes.size())
+            throw std::runtime_error(what + ": there is no node " + std::to_string(index) +
+                                     ", the file has " + std::to_string(model_.nodes.size()));
+        return static_cast<std::size_t>(index);
+    }
+    void find_parents() {
+        for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
+            for (const int each : model_.nodes[i].children) {
+                const std::size_t child = node_at(each, indexed("nodes", i) + ".children");
+                if (parents_[child] >= 0)
+                    throw std::runtime_error(indexed("nodes", child) + " is a child of two nodes, " +
+                                             std::to_string(parents_[child]) + " and " + std::to_string(i));
+                parents_[child] = static_cast<std::int32_t>(i);
+            }
+        }
+    }
+    /// Joints and what is animated, and what those hang on.
+    void choose() {
+        std::vector<bool> wanted(model_.nodes.size());
+        bool any = false;
+        for (std::size_t i = 0; i < model_.skins.size(); ++i)
+            for (const int joint : model_.skins[i].joints)
+                wanted[node_at(joint, indexed("skins", i) + ".joints")] = any = true;
+        for (std::size_t i = 0; i < model_.animations.size(); ++i)
+            for (const auto& channel : model_.animations[i].channels)
+                if (channel.target_node >= 0 && channel.target_path != "weights")
+                    wanted[node_at(channel.target_node, indexed("animations", i) + ".channels")] = any = true;
+        vrm_ = vrm_bones(model_);
+        if (vrm_)
+            for (const int node : vrm_->nodes)
+                if (node >= 0) wanted[static_cast<std::size_t>(node)] = any = true;
+        if (!any)
+            throw std::runtime_error("has no skeleton: no node is a joint of a skin, and none is animated");
+        place_.assign(model_.nodes.size(), -1);
+        for (std::size_t i = 0; i < wanted.size(); ++i) {
+            if (!wanted[i]) continue;
+            std::size_t steps = 0;
+            for (std::int32_t above = parents_[i]; above >= 0 && !wanted[static_cast<std::size_t>(above)];
+                 above = parents_[static_cast<std::size_t>(above)]) {
+                wanted[static_cast<std::size_t>(above)] = true;
+                if (++steps > wanted.size()) break;  // a circle: Skeleton::make says so
+            }
+        }
+        for (std::size_t i = 0; i < wanted.size(); ++i)
+            if (wanted[i]) place_[i] = static_cast<std::int32_t>(chosen_.size()), chosen_.push_back(i);
+        if (chosen_.size() > humanoid::Skeleton::max_nodes)
+            throw std::runtime_error("its skeleton has " + std::to_string(chosen_.size()) +
+                                     " nodes, more than " + std::to_string(humanoid::Skeleton::max_nodes));
+    }
+    std::vector<Node> read_nodes() const {
+        std::vector<Node> nodes;
+        UniqueNames names;
+        for (const std::size_t i : chosen_) {
+            const std::int32_t parent = parents_[i] < 0 ? -1 : place_[static_cast<std::size_t>(parents_[i])];
+            nodes.push_back({names.add(model_.nodes[i].name, i), parent, local_of(model_.nodes[i], i)});
+        }
+        return nodes;
+    }
+
+    static Interpolation interpolation_of(const std::string& text, const std::string& what) {
+        if (text.empty() || text == "LINEAR") return Interpolation::Linear;
+        if (text == "STEP") return Interpolation::Step;
+        if (text == "CUBICSPLINE") return Interpolation::Cubic;
+        throw std::runtime_error(what + ": unknown interpolation \"" + text + '"');
+    }
+    static void put(glm::dvec3& value, const double* row) { value = {row[0], row[1], row[2]}; }
+    static void put(glm::dquat& value, const double* row) { value = {row[3], row[0], row[1], row[2]}; }
+
+    template <class T>
+    humanoid::Track<T> read_track(const tinygltf::AnimationSampler& sampler, const std::string& what) {
+        humanoid::Track<T> track;
+        keys_ += accessor_count(model_, sampler.input, what + ".input") +
+                 accessor_count(model_, sampler.output, what + ".output");
+        if (keys_ > most_keys)
+            throw std::runtime_error(what + ": more than " + std::to_string(most_keys) + " keys together");
+        track.interpolation = interpolation_of(sampler.interpolation, what);
+        track.times = accessor_rows(model_, sampler.input, 1, what + ".input");
+        const std::vector<double> rows = accessor_rows(model_, sampler.output, T::length(), what + ".output");
+        const std::size_t width = static_cast<std::size_t>(T::length());
+        const bool cubic = track.interpolation == Interpolation::Cubic;
+        if (rows.size() != track.times.size() * width * (cubic ? 3 : 1))
+            throw std::runtime_error(what + ": " + std::to_string(track.times.size()) + " times and " +
+                                     std::to_string(rows.size() / width) + " values");
+        track.values.resize(rows.size() / width);
+        for (std::size_t i = 0; i < track.values.size(); ++i) {
+            put(track.values[i], &rows[i * width]);
+            if constexpr (T::length() == 4)
+                if (!cubic || i % 3 == 1) track.values[i] = unit(track.values[i], what + ".output", i);
+        }
+        return track;
+    }
+    /// Keys that were rounded to bytes are off by a little.
+    static glm::dquat unit(const glm::dquat& value, const std::string& what, std::size_t row) {
+        const double size = std::sqrt(glm::dot(value, value));
+        if (!(size > 0.5 && size < 2.0))
+            throw std::runtime_error(what + ", row " + std::to_string(row) +
+                                     ": expected a unit quaternion, found one of length " +
+                                     std::to_string(size));
+        return rig::normalised(value);
+    }
+
+    Clip read_clip(std::size_t index) {
+        const tinygltf::Animation& animation = model_.animations[index];
+        Clip clip;
+        clip.name = animation.name.empty() ? "clip_" + std::to_string(index) : animation.name;
+        std::map<std::size_t, Channel> channels;
+        for (std::size_t i = 0; i < animation.channels.size(); ++i) {
+            const tinygltf::AnimationChannel& from = animation.channels[i];
+            if (from.target_node < 0 || from.target_path == "weights") continue;
+            const std::string what = indexed("animations", index) + '.' + indexed("channels", i);
+            if (from.sampler < 0 || static_cast<std::size_t>(from.sampler) >= animation.samplers.size())
+                throw std::runtime_error(what + ": there is no sampler " + std::to_string(from.sampler));
+            const auto& sampler = animation.samplers[static_cast<std::size_t>(from.sampler)];
+            const std::size_t node = node_at(from.target_node, what + ".target");
+            Channel& to = channels[static_cast<std::size_t>(place_[node])];
+            if (from.target_path == "translation")
+                to.translation = read_track<glm::dvec3>(sampler, what);
+            else if (from.target_path == "rotation")
+                to.rotation = read_track<glm::dquat>(sampler, what);
+            else if (from.target_path == "scale")
+                to.scale = read_track<glm::dvec3>(sampler, what);
+            else
+                throw std::runtime_error(what + ": unknown path \"" + from.target_path + '"');
+        }
+        for (auto& [node, channel] : channels) {
+            channel.node = node;
+            bool any = false;
+            for (const std::vector<double>* times :
+                 {&channel.translation.times, &channel.rotation.times, &channel.scale.times}) {
+                if (times->empty()) continue;
+                any = true;
+                clip.duration = std::max(clip.duration, times->back());
+            }
+            if (any) clip.channels.push_back(std::move(channel));
+        }
+        return clip;
+    }
+
+    const tinygltf::Model& model_;
+    LoadProgress* progress_;
+    std::vector<std::int32_t> parents_;
+    std::vector<std::int32_t> place_{};  // of the file's nodes in the skeleton; -1: left out
+    std::vector<std::size_t> chosen_{};  // the other way round
+    std::optional<VrmBones> vrm_{};
+    std::size_t keys_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::size_t> gltf_nodes(const tinygltf::Model& model) {
+    return Reader(model).nodes();
+}
+
+Character parse_gltf(std::string_view bytes, const std::string& name, const std::filesystem::path& folder,
+                     LoadProgress* progress) {
+    try {
+        const tinygltf::Model model = gltf_model(bytes, folder);
+        report(progress, 0.5);
+        return Reader(model, progress).read();
+    } catch (const std::exception& error) {
+        throw std::runtime_error(name + ": " + error.what());
+    }
+}
+
+}  // namespace tendril::app

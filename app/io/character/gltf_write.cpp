@@ -1,0 +1,243 @@
+#include "app/io/character/gltf_write.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include "app/io/character/gltf_file.hpp"
+#include "app/io/character/gltf_parse.hpp"
+
+namespace tendril::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using humanoid::Channel;
+using humanoid::Interpolation;
+using humanoid::Track;
+
+constexpr double nearest_keys = 1e-5;  // seconds; a frame nearer to a key needs none of its own
+
+const glm::dvec3& part_of(const rig::Transform& local, const Track<glm::dvec3>& track,
+                          const Channel& channel) {
+    return &track == &channel.scale ? local.scale : local.translation;
+}
+const glm::dquat& part_of(const rig::Transform& local, const Track<glm::dquat>&, const Channel&) {
+    return local.rotation;
+}
+
+/// A linear track with a key at each frame between its first and its last besides.
+template <class T>
+Track<T> with_frames(const Channel& channel, const Track<T>& track, double rate) {
+    if (track.interpolation != Interpolation::Linear || track.times.size() < 2 || !(rate > 0.0)) return track;
+    Track<T> result{track.interpolation, {}, {}};
+    auto frame = static_cast<std::size_t>(std::ceil(track.times.front() * rate));
+    for (std::size_t i = 0; i < track.times.size(); ++i) {
+        for (; static_cast<double>(frame) / rate < track.times[i] + nearest_keys; ++frame) {
+            const double time = static_cast<double>(frame) / rate;
+            if (time > track.times[i] - nearest_keys || time < result.times.back() + nearest_keys) continue;
+            rig::Transform local;
+            sample(channel, time, local);
+            result.times.push_back(time);
+            result.values.push_back(part_of(local, track, channel));
+        }
+        result.times.push_back(track.times[i]);
+        result.values.push_back(track.values[i]);
+    }
+    return result;
+}
+
+void put_on_one_hemisphere(Track<glm::dquat>& track) {
+    const bool cubic = track.interpolation == Interpolation::Cubic;
+    const std::size_t width = cubic ? 3 : 1, middle = cubic ? 1 : 0;
+    for (std::size_t i = 1; i < track.times.size(); ++i)
+        if (glm::dot(track.values[(i - 1) * width + middle], track.values[i * width + middle]) < 0.0)
+            for (std::size_t k = 0; k < width; ++k) track.values[i * width + k] *= -1.0;
+}
+
+void put(std::vector<float>& numbers, const glm::dvec3& value) {
+    for (int i = 0; i < 3; ++i) numbers.push_back(static_cast<float>(value[i]));
+}
+void put(std::vector<float>& numbers, const glm::dquat& value) {
+    for (const double each : {value.x, value.y, value.z, value.w})
+        numbers.push_back(static_cast<float>(each));
+}
+
+Json array_of(const glm::dvec3& value) {
+    return Json::array({value.x, value.y, value.z});
+}
+
+/// The transform of a node's own, and not a matrix: the animation of a node wants it so.
+void set_transform(Json& node, const rig::Transform& local) {
+    node.erase("matrix");
+    node["translation"] = array_of(local.translation);
+    node["rotation"] = Json::array({local.rotation.x, local.rotation.y, local.rotation.z, local.rotation.w});
+    node["scale"] = array_of(local.scale);
+}
+
+class Animation {
+  public:
+    Animation(GltfFile& file, std::string name, double rate)
+        : file_(file), rate_(rate), json_{{"name", std::move(name)}} {
+        json_["channels"] = Json::array();
+        json_["samplers"] = Json::array();
+    }
+    /// What a node's channel has; translations are multiplied by `scale`.
+    void add(const Channel& channel, std::size_t node, double scale) {
+        add(channel, channel.translation, node, "translation", scale);
+        add(channel, channel.rotation, node, "rotation", 1.0);
+        add(channel, channel.scale, node, "scale", 1.0);
+    }
+    /// A channel of another animation of the file, with its sampler.
+    void keep(const Json& channel, const Json& sampler) {
+        json_["channels"].push_back(channel);
+        json_["channels"].back()["sampler"] = json_["samplers"].size();
+        json_["samplers"].push_back(sampler);
+    }
+    bool is_empty() const { return json_["channels"].empty(); }
+    const Json& json() const { return json_; }
+
+  private:
+    template <class T>
+    void add(const Channel& channel, const Track<T>& from, std::size_t node, const char* path, double scale) {
+        if (from.times.empty()) return;
+        Track<T> track = with_frames(channel, from, rate_);
+        if constexpr (T::length() == 4) put_on_one_hemisphere(track);
+        const std::size_t width = track.interpolation == Interpolation::Cubic ? 3 : 1;
+        std::vector<float> times, numbers;
+        for (std::size_t i = 0; i < track.times.size(); ++i) {
+            auto time = static_cast<float>(track.times[i]);
+            // A step that came later by what floats lack would be missed by who asks at its time.
+            if (track.interpolation == Interpolation::Step && static_cast<double>(time) > track.times[i])
+                time = std::nextafter(time, 0.0f);
+            if (!times.empty() && !(time > times.back())) continue;  // one and the same as a float
+            times.push_back(time);
+            for (std::size_t k = 0; k < width; ++k) put(numbers, track.values[i * width + k] * scale);
+        }
+        constexpr const char* names[]{"STEP", "LINEAR", "CUBICSPLINE"};
+        // A cubic needs two keys, and of one key all say the same.
+        if (times.size() == 1 && width == 3) {
+            const auto row = static_cast<std::ptrdiff_t>(numbers.size() / 3);
+            numbers = std::vector<float>(numbers.begin() + row, numbers.begin() + 2 * row);
+            track.interpolation = Interpolation::Step;
+        }
+        json_["channels"].push_back(
+            {{"sampler", json_["samplers"].size()}, {"target", {{"node", node}, {"path", path}}}});
+        json_["samplers"].push_back(
+            {{"input", file_.add_times(times)},
+             {"interpolation", names[static_cast<std::size_t>(track.interpolation)]},
+             {"output", file_.add_rows(T::length() == 4 ? "VEC4" : "VEC3", numbers)}});
+    }
+
+    GltfFile& file_;
+    double rate_;
+    Json json_;
+};
+
+/// Channels that move no node as a whole, from the file's animation that the clip was read from.
+void keep_weights(const Json& animations, std::size_t index, Animation& into) {
+    if (index >= animations.size()) return;
+    const Json& from = animations[index];
+    for (const Json& channel : from.value("channels", Json::array())) {
+        const Json target = channel.value("target", Json::object());
+        const std::string path = target.value("path", std::string());
+        if (path == "translation" || path == "rotation" || path == "scale") continue;
+        const auto sampler = channel.value("sampler", std::size_t{0});
+        if (sampler < from.at("samplers").size()) into.keep(channel, from.at("samplers")[sampler]);
+    }
+}
+
+/// A node belongs to the skeleton because it is a joint or is animated. What other animations moved, and this
+/// one does not, keeps a key of how it rests.
+void keep_animated(const Json& animations, const Character& character, const std::vector<std::size_t>& nodes,
+                   std::set<std::size_t> animated, Animation& into) {
+    for (const Json& animation : animations) {
+        for (const Json& channel : animation.value("channels", Json::array())) {
+            const Json target = channel.value("target", Json::object());
+            if (!target.contains("node") || target.value("path", std::string()) == "weights") continue;
+            const auto node = target["node"].get<std::size_t>();
+            const auto place = std::find(nodes.begin(), nodes.end(), node);
+            if (place == nodes.end() || !animated.insert(node).second) continue;
+            Channel rest{.node = static_cast<std::size_t>(place - nodes.begin())};
+            rest.rotation = {Interpolation::Linear, {0.0}, {character.skeleton[rest.node].rest.rotation}};
+            into.add(rest, node, 1.0);
+        }
+    }
+}
+
+std::string with_origin(const Character& character, const humanoid::Clip& clip, double rate,
+                        const GltfOrigin& origin, bool binary) {
+    const tinygltf::Model model = gltf_model(origin.bytes, origin.folder);
+    const std::vector<std::size_t> nodes = gltf_nodes(model);
+    if (nodes.size() != character.skeleton.size())
+        throw std::runtime_error("has other nodes than when it was loaded");
+    GltfFile file(gltf_json(origin.bytes), model);
+    const Json animations = file.json.value("animations", Json::array());
+    file.json.erase("animations");
+    file.normalise_weights();
+
+    Animation animation(file, clip.name, rate);
+    std::set<std::size_t> animated;
+    for (const Channel& channel : clip.channels) {
+        const std::size_t node = nodes[channel.node];
+        animation.add(channel, node, 1.0 / character.scale);
+        animated.insert(node);
+        Json& json = file.json["nodes"][node];
+        if (json.contains("matrix")) {
+            rig::Transform rest = character.skeleton[channel.node].rest;
+            rest.translation /= character.scale;
+            set_transform(json, rest);
+        }
+    }
+    keep_animated(animations, character, nodes, animated, animation);
+    const auto same = std::find_if(character.clips.begin(), character.clips.end(),
+                                   [&](const humanoid::Clip& each) { return each.name == clip.name; });
+    keep_weights(animations, static_cast<std::size_t>(same - character.clips.begin()), animation);
+    if (!animation.is_empty()) file.json["animations"] = Json::array({animation.json()});
+    return file.bytes(binary);
+}
+
+/// A skin for each tree: the joints of one must have a common root.
+void add_skins(const humanoid::Skeleton& skeleton, GltfFile& file) {
+    std::vector<std::size_t> skin_of(skeleton.size());
+    Json skins = Json::array();
+    for (const std::int32_t each : skeleton.order()) {
+        const auto node = static_cast<std::size_t>(each);
+        const std::int32_t parent = skeleton[node].parent;
+        if (parent < 0) skins.push_back({{"joints", Json::array()}});
+        skin_of[node] = parent < 0 ? skins.size() - 1 : skin_of[static_cast<std::size_t>(parent)];
+        skins[skin_of[node]]["joints"].push_back(node);
+    }
+    if (!skins.empty()) file.json["skins"] = std::move(skins);
+}
+
+std::string on_its_own(const Character& character, const humanoid::Clip& clip, double rate, bool binary) {
+    const humanoid::Skeleton& skeleton = character.skeleton;
+    GltfFile file;
+    Json nodes = Json::array(), roots = Json::array();
+    for (std::size_t i = 0; i < skeleton.size(); ++i) {
+        Json node{{"name", skeleton[i].name}};
+        if (!skeleton.children(i).empty()) node["children"] = skeleton.children(i);
+        set_transform(node, skeleton[i].rest);
+        nodes.push_back(std::move(node));
+        if (skeleton[i].parent < 0) roots.push_back(i);
+    }
+    file.json["scene"] = 0;
+    file.json["scenes"] = Json::array({{{"nodes", roots}}});
+    file.json["nodes"] = std::move(nodes);
+    add_skins(skeleton, file);
+    Animation animation(file, clip.name, rate);
+    for (const Channel& channel : clip.channels) animation.add(channel, channel.node, 1.0);
+    if (!animation.is_empty()) file.json["animations"] = Json::array({animation.json()});
+    return file.bytes(binary);
+}
+
+}  // namespace
+
+std::string gltf_bytes(const Character& character, const humanoid::Clip& clip, double rate,
+                       const GltfOrigin& origin, bool binary) {
+    return origin.bytes.empty() ? on_its_own(character, clip, rate, binary)
+                                : with_origin(character, clip, rate, origin, binary);
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,2 @@
+#define TINYGLTF_IMPLEMENTATION
+#include "app/io/character/tiny_gltf.hpp"

@@ -1,0 +1,10 @@
+// tinygltf as this program uses it: without reading or writing pictures, which are kept as they came.
+#pragma once
+
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#define TINYGLTF_NO_EXTERNAL_IMAGE
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#include <tiny_gltf.h>
+#pragma GCC diagnostic pop

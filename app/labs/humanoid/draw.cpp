@@ -1,0 +1,313 @@
+// The Humanoid lab's picture: the character's bones and nodes, and behind them what was before anything
+// changed the pose.
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "app/labs/humanoid/draw_ground.hpp"
+#include "app/labs/humanoid/figure.hpp"
+#include "app/labs/humanoid/humanoid_lab.hpp"
+#include "app/labs/humanoid/humanoid_runtime.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr std::size_t most_labels = 60;
+constexpr float see_through = 0.35f;  // of a skin that shows its bones
+
+class Drawing {
+  public:
+    Drawing(const View& view, DrawList& list)
+        : view_(view),
+          list_(list),
+          part_(humanoid_part(view.workspace)),
+          shown_(shown_pose(view.workspace)),
+          body_(body_nodes(part_)),
+          selected_(part_.skeleton().find(part_.selected)),
+          clad_(part_.loaded->character.skin.mesh && part_.view.skin != SkinLook::None),
+          tapered_(bones_setting().chosen(view.workspace.settings) == 0),
+          helpers_(helpers_setting().chosen(view.workspace.settings) == 0),
+          thickest_(static_cast<float>(0.014 * glm::distance(part_.loaded->low, part_.loaded->high))) {}
+
+    void run() {
+        const std::size_t middle = part_.node_of(humanoid::Bone::Hips).value_or(0);
+        draw_ground(view_, list_, part_.ik.ground, shown_.point(middle));
+        soles();
+        skin();
+        volumes();
+        if (part_.view.ghost && !shown_.before.empty()) ghost();
+        for (std::size_t i = 0; i < part_.skeleton().size(); ++i) {
+            if (!body_[i] && !helpers_) continue;
+            bones_from(i);
+            node(i);
+        }
+        if (humanoid_runtime(view_.workspace).solvers.body(part_) != nullptr)
+            for (const humanoid::Effector each : all_effectors) effector(each);
+        if (shown_.look) gaze();
+        labels();
+    }
+
+  private:
+    float px(float pixels) const { return pixels * view_.scale; }
+    bool lit(std::size_t i) const {
+        return (view_.dragged != no_pick ? view_.dragged : view_.hovered) == node_pick(i);
+    }
+    glm::vec3 marked(glm::vec3 colour, std::size_t i) const {
+        if (selected_ == i) return glm::mix(colour, view_.palette.selection, 0.75f);
+        return lit(i) ? glm::mix(colour, view_.palette.accent, 0.6f) : colour;
+    }
+    /// Whether its limit holds the bone that ends or turns there.
+    bool at_limit(std::size_t i) const {
+        const auto bone = part_.bone_of(i);
+        return bone && shown_.body && shown_.body->at_limit[static_cast<std::size_t>(*bone)];
+    }
+    glm::vec3 colour_of(std::size_t i) const {
+        if (at_limit(i)) return marked(view_.palette.limit, i);
+        return marked(body_[i] ? view_.palette.joint : view_.palette.neutral, i);
+    }
+
+    /// From a node to those that hang on it; its turning moves them.
+    void bones_from(std::size_t i) {
+        if (tapered_ && !clad_ && part_.node_of(humanoid::Bone::Head) == i && head(i)) return;
+        bool ended = false;
+        for (const std::int32_t each : part_.skeleton().children(i)) {
+            const auto child = static_cast<std::size_t>(each);
+            if (!body_[child] && !helpers_) continue;
+            bone(i, shown_.point(i), shown_.point(child), body_[i] && body_[child]);
+            ended = ended || body_[child];
+        }
+        if (!ended && body_[i] && part_.bone_of(i))
+            bone(i, shown_.point(i), glm::vec3(shown_.placed[i].apply(end_of(part_, i))), true);
+    }
+    /// A ball above the joint: up to the one node above it, or as large as a head is for such a trunk.
+    bool head(std::size_t i) {
+        const auto hips = part_.node_of(humanoid::Bone::Hips);
+        const std::int32_t neck = part_.skeleton()[i].parent;
+        if (!hips || neck < 0) return false;
+        const std::vector<humanoid::Placement>& rest = part_.loaded->rest;
+        const double trunk = glm::distance(rest[i].position, rest[*hips].position);
+        glm::dvec3 up = rest[i].position - rest[static_cast<std::size_t>(neck)].position;
+        double size = 0.145 * trunk;
+        if (const auto ends = part_.skeleton().children(i); ends.size() == 1) {
+            const glm::dvec3 end = rest[static_cast<std::size_t>(ends[0])].position - rest[i].position;
+            if (const double half = 0.5 * glm::length(end); half > 0.5 * size && half < 1.5 * size)
+                up = end, size = half;
+        }
+        if (!(size > 0.0) || !(glm::length(up) > 1e-9)) return false;
+        const glm::dvec3 way = glm::conjugate(rest[i].rotation()) * (size * glm::normalize(up));
+        const glm::vec3 centre(shown_.placed[i].position + shown_.placed[i].rotation() * way);
+        Stroke& ball = list_.sphere(centre, static_cast<float>(size), Unit::Metres,
+                                    glm::vec4(marked(view_.palette.joint, i), 1.0f));
+        ball.pick = node_pick(i);
+        ball.shadow = true;
+        return true;
+    }
+    void bone(std::size_t i, glm::vec3 from, glm::vec3 to, bool of_body) {
+        if (glm::distance(from, to) < 1e-5f) return;
+        const glm::vec4 paint(marked(of_body ? view_.palette.joint : view_.palette.neutral, i), 1.0f);
+        if (!of_body || !tapered_) {
+            Stroke& stroke = list_.line(from, to, px(of_body ? 3.0f : 1.2f), paint);
+            stroke.pick = node_pick(i);
+            stroke.shadow = of_body;
+            return;
+        }
+        const float thick = std::min(0.11f * glm::distance(from, to), thickest_) * (clad_ ? 0.6f : 1.0f);
+        const glm::vec3 belly = glm::mix(from, to, 0.15f);
+        for (const auto& [a, b, ra, rb] :
+             {std::tuple(from, belly, 0.45f * thick, thick), std::tuple(belly, to, thick, 0.35f * thick)}) {
+            Stroke& stroke = list_.bone(a, b, ra, rb, paint);
+            stroke.pick = node_pick(i);
+            stroke.shadow = true;
+        }
+    }
+    void node(std::size_t i) {
+        const bool marks = selected_ == i || lit(i);
+        const float radius = (at_limit(i) ? 6.0f : body_[i] ? 4.0f : 2.0f) + (marks ? 1.5f : 0.0f);
+        Stroke& ball = list_.sphere(shown_.point(i), px(radius), Unit::Pixels, glm::vec4(colour_of(i), 1.0f));
+        ball.pick = node_pick(i);
+        ball.rank = body_[i] ? 2 : 1;
+        if (marks) ball.layer = Layer::Overlay;
+    }
+
+    /// What the hands are kept out of, as outlines.
+    void volumes() {
+        Solvers& solvers = humanoid_runtime(view_.workspace).solvers;
+        for (const humanoid::BodyCapsule& each : solvers.capsules(part_)) {
+            const humanoid::PlacedCapsule at = humanoid::place(each, *part_.map, shown_.placed);
+            outline(glm::vec3(at.from), glm::vec3(at.to), static_cast<float>(at.radius));
+        }
+    }
+    void outline(glm::vec3 from, glm::vec3 to, float radius) {
+        const glm::vec3 sight = glm::normalize(0.5f * (from + to) - view_.camera.eye());
+        const glm::vec3 flat = (to - from) - glm::dot(to - from, sight) * sight;
+        const glm::vec3 along = glm::length(flat) > 1e-6f ? glm::normalize(flat) : view_.camera.up();
+        const glm::vec3 aside = glm::cross(sight, along);
+        constexpr int steps = 24;  // from the right side of `to` round its end, and back round the other one
+        const auto point = [&](int i) {
+            const float angle = glm::two_pi<float>() * static_cast<float>(i) / steps;
+            return (i <= steps / 2 ? to : from) +
+                   radius * (std::cos(angle) * aside + std::sin(angle) * along);
+        };
+        const glm::vec4 paint(view_.palette.neutral, 0.7f);
+        for (int i = 0; i < steps; ++i) list_.line(point(i), point(i + 1), px(1.0f), paint);
+        list_.line(point(steps), point(0), px(1.0f), paint);
+    }
+
+    void skin() {
+        if (!clad_) return;
+        const Skin& skin = part_.loaded->character.skin;
+        const float opacity = part_.view.skin == SkinLook::Solid ? 1.0f : see_through;
+        SkinDraw& draw = list_.skins.emplace_back(SkinDraw{skin.mesh, skin_matrices(skin, shown_.placed)});
+        draw.opacity = opacity;
+        const Playback& playback = part_.playback;
+        if (playback.clip) draw.morph_weights = morph_weights(skin, *playback.clip, playback.time);
+    }
+
+    /// A ball at its target, or at its bone: what one drags. From where it could not get to a line goes on.
+    void effector(humanoid::Effector which) {
+        const PickId pick = effector_pick(which);
+        const bool marks = view_.dragged == pick || view_.hovered == pick;
+        const glm::vec3 bone = shown_.point(*part_.node_of(humanoid::bone_of(which)));
+        const auto& target = part_.ik.target(which);
+        const glm::vec3 at = target ? glm::vec3(target->position) : bone;
+        const glm::vec4 paint(view_.palette.target, 1.0f);
+        const float radius = (target ? 8.0f : 6.0f) + (marks ? 1.5f : 0.0f);
+        Stroke& ball = list_.sphere(at, px(radius), Unit::Pixels, paint);
+        ball.pick = pick;
+        ball.rank = 5;
+        ball.layer = Layer::Overlay;
+        if (!target) return;
+        list_.ring(at, px(13.0f), px(1.6f), glm::vec4(view_.palette.target, 0.7f)).layer = Layer::Overlay;
+        if (glm::distance(bone, at) > 0.001f * static_cast<float>(part_.loaded->height()))
+            list_.line(bone, at, px(1.6f), glm::vec4(view_.palette.limit, 1.0f)).layer = Layer::Overlay;
+    }
+
+    /// What the head looks at, and a thin line from there to the head.
+    void gaze() {
+        const auto at = glm::vec3(part_.ik.look_at.target);
+        const glm::vec3 head = shown_.point(*part_.node_of(humanoid::Bone::Head));
+        list_.line(head, at, px(1.0f), glm::vec4(view_.palette.target, 0.35f)).layer = Layer::Overlay;
+        const bool marks = view_.dragged == look_pick || view_.hovered == look_pick;
+        Stroke& ball =
+            list_.sphere(at, px(marks ? 9.0f : 7.5f), Unit::Pixels, glm::vec4(view_.palette.target, 1.0f));
+        ball.pick = look_pick;
+        ball.rank = 5;
+        if (!marks) return;
+        list_.labels.push_back(
+            {.at = at, .clearance = px(14.0f), .text = "looked at", .colour = view_.palette.text, .rank = 3});
+    }
+
+    /// Where planted feet touch the ground.
+    void soles() {
+        if (!shown_.feet) return;
+        for (std::size_t side = 0; side < 2; ++side) {
+            if (!shown_.feet->feet[side].planted) continue;
+            const glm::vec4 paint(view_.palette.tail, 1.0f);
+            const humanoid::SolePoints& sole = shown_.soles[side];
+            list_.line(glm::vec3(sole.heel), glm::vec3(sole.toe), px(3.0f), paint).layer = Layer::Overlay;
+            for (const glm::dvec3& at : {sole.heel, sole.toe})
+                list_.sphere(glm::vec3(at), px(3.5f), Unit::Pixels, paint).layer = Layer::Overlay;
+        }
+    }
+
+    void ghost() {
+        const glm::vec4 paint = faded(view_.palette, view_.palette.ghost, 0.6f);
+        const auto at = [&](std::size_t i) { return glm::vec3(shown_.before[i].position); };
+        for (std::size_t i = 0; i < part_.skeleton().size(); ++i) {
+            if (!body_[i]) continue;
+            for (const std::int32_t each : part_.skeleton().children(i))
+                if (const auto child = static_cast<std::size_t>(each);
+                    body_[child] && glm::distance(at(i), at(child)) > 1e-5f)
+                    list_.line(at(i), at(child), px(2.0f), paint);
+        }
+    }
+
+    std::string text_of(std::size_t i) const {
+        const std::string& name = part_.skeleton()[i].name;
+        const auto bone = part_.bone_of(i);
+        if (!bone || name == humanoid::name(*bone)) return name;
+        return name + " (" + humanoid::name(*bone) + ")";
+    }
+    void labels() {
+        const bool always = view_.workspace.settings.labels == LabelMode::Always;
+        const std::size_t stride = part_.skeleton().size() / most_labels + 1;
+        const PickId pointed = view_.dragged != no_pick ? view_.dragged : view_.hovered;
+        if (const auto which = picked_effector(pointed)) {
+            const auto& target = part_.ik.target(*which);
+            const glm::vec3 bone = shown_.point(*part_.node_of(humanoid::bone_of(*which)));
+            list_.labels.push_back({.at = target ? glm::vec3(target->position) : bone,
+                                    .clearance = px(16.0f),
+                                    .text = title(*which),
+                                    .colour = view_.palette.text,
+                                    .rank = 3});
+        }
+        for (std::size_t i = 0; i < part_.skeleton().size(); ++i) {
+            const bool marks = lit(i) || selected_ == i;
+            if (!marks && !(always && body_[i] && i % stride == 0)) continue;
+            list_.labels.push_back({.at = shown_.point(i),
+                                    .clearance = px(10.0f),
+                                    .text = text_of(i),
+                                    .colour = view_.palette.text,
+                                    .rank = lit(i)  ? 2
+                                            : marks ? 1
+                                                    : 0});
+        }
+    }
+
+    const View& view_;
+    DrawList& list_;
+    const HumanoidPart& part_;
+    const ShownPose& shown_;
+    std::vector<bool> body_;
+    std::optional<std::size_t> selected_;
+    bool clad_;  // in a skin that is drawn: bones stay inside of it
+    bool tapered_, helpers_;
+    float thickest_;  ///< metres
+};
+
+}  // namespace
+
+LabSetting bones_setting() {
+    return {.key = "character_bones",
+            .command = "view.character_bones",
+            .argument = "style",
+            .help = "Shows the bones of a character as tapered bones, or as lines and spheres",
+            .choices = {{"tapered", "Tapered bones"}, {"lines", "Lines and spheres"}}};
+}
+
+LabSetting helpers_setting() {
+    return {.key = "character_helpers",
+            .command = "view.character_helpers",
+            .argument = "nodes",
+            .help = "Shows the nodes of a character that are no bones of its body: fingers, helpers",
+            .choices = {{"shown", "Nodes beside the body shown"}, {"hidden", "The body alone"}}};
+}
+
+std::vector<LabSetting> HumanoidLab::settings() const {
+    return {bones_setting(), helpers_setting()};
+}
+
+void HumanoidLab::draw(const View& view, DrawList& list) const {
+    Drawing(view, list).run();
+}
+
+std::vector<LegendRow> HumanoidLab::legend(const Workspace& workspace) const {
+    const Palette& colours = palette(workspace.settings.theme);
+    const HumanoidPart& part = humanoid_part(workspace);
+    const ShownPose& shown = shown_pose(workspace);
+    std::vector<LegendRow> rows{{"bone", colours.joint}};
+    if (humanoid_runtime(workspace).solvers.body(part) != nullptr) rows.push_back({"target", colours.target});
+    if (shown.body && std::ranges::find(shown.body->at_limit, true) != shown.body->at_limit.end())
+        rows.push_back({"at its limit", colours.limit});
+    const std::vector<bool> body = body_nodes(part);
+    if (std::ranges::find(body, false) != body.end()) rows.push_back({"helper", colours.neutral});
+    if (shown.feet && (shown.feet->feet[0].planted || shown.feet->feet[1].planted))
+        rows.push_back({"planted", colours.tail});
+    if (part.view.ghost && !shown.before.empty()) rows.push_back({"before", colours.ghost});
+    return rows;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,26 @@
+// The commands of the Humanoid lab, by what they are about.
+#pragma once
+
+#include "app/document/command.hpp"
+#include "app/labs/humanoid/humanoid_part.hpp"
+#include "app/labs/kit/part_command.hpp"
+
+namespace tendril::app {
+
+/// The node of that name; throws std::invalid_argument where there is none.
+std::size_t node_named(const HumanoidPart& part, const std::string& name);
+
+/// Waits for the file that is being read, if one is, and shows its character. Throws Refused.
+void finish_loading(Workspace& workspace);
+
+/// "sign_flip"
+std::optional<humanoid::Fault> fault_named(const std::string& name);
+
+void add_character_commands(CommandTable& table);
+void add_clip_commands(CommandTable& table);
+void add_ik_commands(CommandTable& table);
+void add_humanoid_look_commands(CommandTable& table);
+/// Maps, exports, and cures.
+void add_humanoid_file_commands(CommandTable& table);
+
+}  // namespace tendril::app

@@ -1,0 +1,186 @@
+// The Humanoid lab in a scene file: which file the character came from, and all that a person has set. The
+// character itself is read again.
+#include <filesystem>
+
+#include "app/document/json_complete.hpp"
+#include "app/labs/humanoid/clip_lint.hpp"
+#include "app/labs/humanoid/humanoid_commands.hpp"
+#include "app/labs/kit/json_place.hpp"
+
+namespace tendril::app {
+namespace {
+
+using humanoid::Bone;
+
+/// Where the scene was saved the file had a path of its own; elsewhere it may have its name alone.
+SharedCharacter read_again(const JsonPlace& place, const std::string& file) {
+    const auto path = place.optional("path");
+    const bool elsewhere = path && !std::filesystem::exists(path->text());
+    try {
+        SharedCharacter loaded = load_character(path && !elsewhere ? path->text() : file);
+        if (loaded->file == file) return loaded;
+        auto named = std::make_shared<LoadedCharacter>(*loaded);
+        named->file = file;
+        return named;
+    } catch (const std::exception& error) {
+        place["file"].fail(error.what());
+    }
+}
+
+/// The bones that a person has picked another node for.
+Json corrections(const HumanoidPart& part) {
+    Json bones = Json::object();
+    for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
+        const std::int32_t node = part.map->bones[i].node;
+        if (node == part.loaded->matched.bones[i].node) continue;
+        bones[humanoid::name(static_cast<Bone>(i))] =
+            node < 0 ? Json(nullptr) : Json(part.skeleton()[static_cast<std::size_t>(node)].name);
+    }
+    return bones;
+}
+
+void read_corrections(const JsonPlace& place, HumanoidPart& part) {
+    if (!place.json().is_object()) place.fail("expected an object of bones");
+    // First those that are taken away: their nodes are free then.
+    for (const bool picked : {false, true}) {
+        for (const auto& [name, value] : place.json().items()) {
+            const auto bone = humanoid::bone_named(name);
+            if (!bone) place.fail("there is no bone \"" + name + "\"");
+            if (value.is_null() == picked) continue;
+            if (!picked) {
+                set_bone(part, *bone, std::nullopt);
+                continue;
+            }
+            const JsonPlace at = place[name.c_str()];
+            const auto node = part.skeleton().find(at.text());
+            if (!node) at.fail("the character has no node \"" + at.text() + "\"");
+            set_bone(part, *bone, node);
+        }
+    }
+}
+
+Json save_playback(const HumanoidPart& part) {
+    const Playback& playback = part.playback;
+    Json json = Json::object();
+    if (playback.clip) {
+        json["name"] = part.clip()->name;
+        json["index"] = *playback.clip;
+    }
+    json["playing"] = playback.playing;
+    json["time"] = playback.time;
+    json["rounds"] = playback.rounds;
+    json["speed"] = playback.speed;
+    json["loop"] = playback.loop;
+    json["in_place"] = playback.in_place;
+    return json;
+}
+
+/// Names may be double: the place in the list says which, where that still has the name.
+std::size_t read_clip(const JsonPlace& place, const LoadedCharacter& character) {
+    const std::string name = place["name"].text();
+    const std::vector<humanoid::Clip>& clips = character.clips();
+    if (const auto index = place.optional("index")) {
+        const std::size_t at = index->index(1'000'000);
+        if (at < clips.size() && clips[at].name == name) return at;
+    }
+    for (std::size_t i = 0; i < clips.size(); ++i)
+        if (clips[i].name == name) return i;
+    place["name"].fail("the character has no clip \"" + name + "\"");
+}
+
+Playback read_playback(const JsonPlace& place, const LoadedCharacter& character) {
+    Playback playback;
+    if (place.has("name")) playback.clip = read_clip(place, character);
+    if (const auto playing = place.optional("playing")) playback.playing = playing->flag();
+    if (const auto speed = place.optional("speed")) playback.speed = speed->real(0.0, fastest_clip);
+    if (const auto loop = place.optional("loop")) playback.loop = loop->flag();
+    if (const auto in_place = place.optional("in_place")) playback.in_place = in_place->flag();
+    if (!playback.clip) return playback;
+    const double duration = character.clips()[*playback.clip].duration;
+    if (const auto time = place.optional("time")) playback.time = time->real(0.0, duration);
+    if (const auto rounds = place.optional("rounds"))
+        playback.rounds = static_cast<std::int64_t>(rounds->count(most_rounds));
+    return playback;
+}
+
+Json cures_json(const std::vector<ClipCure>& cures) {
+    Json list = Json::array();
+    for (const ClipCure& each : cures) {
+        list.push_back({{"clip", each.clip}, {"kind", humanoid::name(each.fault)}});
+        if (!each.node.empty()) list.back()["node"] = each.node;
+        if (each.frame) list.back()["frame"] = *each.frame;
+    }
+    return list;
+}
+
+/// Done again, one after another, on what was read from the character's file.
+void read_cures(const JsonPlace& place, HumanoidPart& part) {
+    constexpr std::size_t most_cures = 10'000;
+    place.for_each("cures", most_cures, [&](const JsonPlace& each) {
+        ClipCure cure{.clip = each["clip"].text()};
+        const auto fault = fault_named(each["kind"].text());
+        if (!fault) each["kind"].fail("there is no such fault");
+        cure.fault = *fault;
+        if (const auto node = each.optional("node")) cure.node = node->text();
+        if (const auto frame = each.optional("frame")) cure.frame = frame->index(humanoid::max_lint_frames);
+        try {
+            part.loaded = cured(part, cure);
+        } catch (const std::invalid_argument& error) {
+            each.fail(error.what());
+        }
+    });
+}
+
+SkinLook skin_look(const JsonPlace& place) {
+    try {
+        return skin_looks.value(place.text());
+    } catch (const std::invalid_argument& error) {
+        place.fail(error.what());
+    }
+}
+
+}  // namespace
+
+Json HumanoidPart::save() const {
+    Json json{{"file", loaded->file}};
+    if (!loaded->file.empty()) {
+        json["path"] = loaded->path;
+        json["scale"] = loaded->character.scale;
+    }
+    json["bones"] = corrections(*this);
+    if (!loaded->cures.empty()) json["cures"] = cures_json(loaded->cures);
+    json["clip"] = save_playback(*this);
+    json["t_pose"] = t_pose;
+    json["ik"] = ik_json(*this);
+    json["quiet_ticks"] = quiet_ticks;
+    json["selected"] = selected;
+    json["view"] = {{"ghost", view.ghost}, {"follow", view.follow}, {"skin", skin_looks.name(view.skin)}};
+    return json;
+}
+
+std::shared_ptr<Part> HumanoidPart::load(const Json& json, const std::string& where) const {
+    const JsonPlace place(json, where);
+    const std::string file = place["file"].text();
+    SharedCharacter character = file.empty() ? load_character(file) : read_again(place, file);
+    if (const auto scale = place.optional("scale"))
+        if (const double metres = scale->real(smallest_unit, largest_unit);
+            metres != character->character.scale)
+            character = rescaled(*character, metres);
+    auto part = std::make_shared<HumanoidPart>(std::move(character));
+    if (const auto bones = place.optional("bones")) read_corrections(*bones, *part);
+    if (const auto cures = place.optional("cures")) read_cures(*cures, *part);
+    if (const auto clip = place.optional("clip")) part->playback = read_playback(*clip, *part->loaded);
+    if (const auto on = place.optional("t_pose")) part->t_pose = on->flag();
+    if (const auto ik_place = place.optional("ik")) read_ik(*ik_place, *part);
+    if (const auto ticks = place.optional("quiet_ticks")) part->quiet_ticks = ticks->integer(0, 1'000'000);
+    if (const auto name = place.optional("selected"); name && part->skeleton().find(name->text()))
+        part->selected = name->text();
+    if (const auto shown = place.optional("view")) {
+        if (const auto ghost = shown->optional("ghost")) part->view.ghost = ghost->flag();
+        if (const auto skin = shown->optional("skin")) part->view.skin = skin_look(*skin);
+        if (const auto follow = shown->optional("follow")) part->view.follow = follow->flag();
+    }
+    return part;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,104 @@
+#include "app/labs/humanoid/humanoid_lab.hpp"
+
+#include <glm/trigonometric.hpp>
+
+#include "app/io/character/read.hpp"
+#include "app/labs/humanoid/humanoid_commands.hpp"
+#include "app/labs/humanoid/humanoid_runtime.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// Where the character stands: below its hips, or its first node.
+glm::vec3 standing_at(const Workspace& workspace) {
+    const HumanoidPart& part = humanoid_part(workspace);
+    const ShownPose& shown = shown_pose(workspace);
+    const glm::vec3 at = shown.point(part.node_of(humanoid::Bone::Hips).value_or(0));
+    return {at.x, shown.feet ? static_cast<float>(shown.feet->base) : 0.0f, at.z};
+}
+
+}  // namespace
+
+CameraPose HumanoidLab::first_view() const {
+    return {.target = {0.0f, 0.92f, 0.0f},
+            .yaw = glm::radians(28.0f),
+            .pitch = glm::radians(9.0f),
+            .distance = 3.6f};
+}
+
+void HumanoidLab::add_commands(CommandTable& table) const {
+    add_character_commands(table);
+    add_clip_commands(table);
+    add_ik_commands(table);
+    add_humanoid_look_commands(table);
+    add_humanoid_file_commands(table);
+}
+
+bool HumanoidLab::moving(const Workspace& workspace) const {
+    const HumanoidPart& part = humanoid_part(workspace);
+    constexpr int until_rest = 120;
+    const bool springs = part.ik.foot_ik.on && part.ik.ground.kind != humanoid::GroundKind::None;
+    const bool eases = part.ik.look_at.on || (part.ik.hand_ik.on && part.ik.has_targets());
+    return goes_on(part.playback, *part.loaded) || ((springs || eases) && part.quiet_ticks < until_rest);
+}
+
+void HumanoidLab::step(Workspace& workspace) const {
+    const bool modified = workspace.modified(), follows = humanoid_part(workspace).view.follow;
+    const glm::vec3 before = standing_at(workspace);
+    HumanoidPart& part = workspace.document.edit<HumanoidPart>(humanoid_lab);
+    const double seconds = tick_seconds * static_cast<double>(workspace.clock.speed);
+    part.quiet_ticks = goes_on(part.playback, *part.loaded) ? 0 : part.quiet_ticks + 1;
+    advance(part.playback, *part.loaded, seconds);
+    solve_pose(part, humanoid_runtime(workspace).solvers, seconds, part.ik_state);
+    if (follows) workspace.camera.target += standing_at(workspace) - before;
+    if (!modified) workspace.saved = workspace.document;  // that time passes is nothing that wants saving
+}
+
+bool HumanoidLab::working(const Workspace& workspace) const {
+    return humanoid_runtime(workspace).loading.running();
+}
+
+void HumanoidLab::work(Workspace& workspace) const {
+    if (!humanoid_runtime(workspace).loading.done()) return;
+    try {
+        finish_loading(workspace);
+    } catch (const Refused& refusal) {
+        workspace.toast(refusal.what(), ToastKind::Refusal);
+    }
+}
+
+bool HumanoidLab::take_file(const std::string& path, Emit& emit) const {
+    if (!ends_as_character(path)) return false;
+    emit("humanoid.load", {{"path", path}});
+    return true;
+}
+
+std::vector<TestScene> HumanoidLab::test_scenes() const {
+    const std::vector<std::string> words{"left_hand", "right_foot", "walk",         "punch",
+                                         "Hips",      "LeftHand",   "LeftUpperArm", "Head"};
+    return {{"rest", {{"humanoid.load", {}}}, words},
+            {"walking", {{"humanoid.clip", {{"name", "walk"}, {"play", true}}}}, words},
+            {"punching",
+             {{"humanoid.clip", {{"name", "punch"}, {"play", true}, {"loop", false}, {"speed", 0.5}}},
+              {"humanoid.select", {{"node", "RightHand"}}}},
+             words},
+            {"reaching",
+             {{"humanoid.clip", {{"name", "walk"}, {"time", 0.3}}},
+              {"humanoid.target", {{"effector", "left_hand"}, {"to", glm::vec3(0.4f, 1.5f, 0.7f)}}},
+              {"humanoid.target", {{"effector", "right_foot"}, {"to", glm::vec3(-0.2f, 0.4f, 0.6f)}}},
+              {"humanoid.clip", {{"play", true}}}},
+             words},
+            {"stairs",
+             {{"humanoid.ground", {{"kind", "stairs"}, {"step_height", 0.12}, {"step_depth", 0.35}}},
+              {"humanoid.foot_ik", {{"on", true}}},
+              {"humanoid.clip", {{"name", "walk"}, {"play", true}}}},
+             words},
+            {"hook",
+             {{"humanoid.clip", {{"name", "punch"}, {"play", true}}},
+              {"humanoid.target", {{"effector", "right_hand"}, {"to", glm::vec3(0.0f, 1.4f, 0.5f)}}},
+              {"humanoid.hand_ik", {{"on", true}, {"hand", "right"}, {"curve", true}}},
+              {"humanoid.look_at", {{"on", true}, {"to", glm::vec3(0.5f, 1.5f, 1.5f)}}}},
+             words}};
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,51 @@
+// The Humanoid lab: a character from a file, its bones, its clips, and targets that it reaches for.
+#pragma once
+
+#include "app/labs/humanoid/humanoid_part.hpp"
+#include "app/labs/lab.hpp"
+
+namespace tendril::app {
+
+class HumanoidLab final : public Lab {
+  public:
+    std::string name() const override { return humanoid_lab; }
+    std::string title() const override { return "Humanoid"; }
+    std::shared_ptr<Part> blank() const override { return std::make_shared<HumanoidPart>(); }
+    CameraPose first_view() const override;
+    const char* invitation() const override { return "Drag an orange ball."; }
+    void add_commands(CommandTable& table) const override;
+
+    bool moving(const Workspace& workspace) const override;
+    void step(Workspace& workspace) const override;
+    bool rewinds() const override { return true; }
+    bool working(const Workspace& workspace) const override;
+    void work(Workspace& workspace) const override;
+    bool has_timeline(const Workspace& workspace) const override;
+    void timeline(const Workspace& workspace, Emit& emit) const override;
+
+    void draw(const View& view, DrawList& list) const override;
+    std::vector<LegendRow> legend(const Workspace& workspace) const override;
+    std::vector<LabSetting> settings() const override;
+
+    std::vector<Handle> handles(const Workspace& workspace) const override;
+    std::optional<Handle> gizmo(const Workspace& workspace) const override;
+    void drag(const Workspace& workspace, PickId pick, const Handle::Frame& to, Emit& emit) const override;
+    void double_click(const Workspace& workspace, PickId pick, Emit& emit) const override;
+    std::vector<MouseHelp> mouse_help() const override;
+    void click(const Workspace& workspace, PickId pick, Emit& emit) const override;
+    std::string hint(const Workspace& workspace, PickId pick) const override;
+    Bounds bounds(const Workspace& workspace, bool selection_only) const override;
+    bool take_file(const std::string& path, Emit& emit) const override;
+
+    void panel(const Workspace& workspace, Emit& emit) const override;
+    void inspector(const Workspace& workspace, Emit& emit) const override;
+
+    Json state(const Workspace& workspace) const override;
+    std::vector<TestScene> test_scenes() const override;
+};
+
+/// Bones as tapered bones, or as lines and spheres; nodes that are no bones, shown or hidden.
+LabSetting bones_setting();
+LabSetting helpers_setting();
+
+}  // namespace tendril::app

@@ -1,0 +1,69 @@
+#include "app/labs/humanoid/humanoid_part.hpp"
+
+namespace tendril::app {
+
+using humanoid::Bone;
+using humanoid::BoneMap;
+using humanoid::BoneMatch;
+
+HumanoidPart::HumanoidPart() : HumanoidPart(load_character({})) {}
+
+HumanoidPart::HumanoidPart(SharedCharacter character)
+    : loaded(std::move(character)), map(std::make_shared<const BoneMap>(loaded->matched)) {}
+
+const humanoid::Clip* HumanoidPart::clip() const {
+    return playback.clip ? &loaded->clips()[*playback.clip] : nullptr;
+}
+
+std::optional<std::size_t> HumanoidPart::node_of(Bone bone) const {
+    const std::int32_t node = (*map)[bone].node;
+    return node < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(node));
+}
+
+std::optional<Bone> HumanoidPart::bone_of(std::size_t node) const {
+    for (std::size_t i = 0; i < humanoid::bone_count; ++i)
+        if (map->bones[i].node == static_cast<std::int32_t>(node)) return static_cast<Bone>(i);
+    return std::nullopt;
+}
+
+/// What is chosen and how it is shown does not go back in time.
+std::shared_ptr<const Part> HumanoidPart::at_moment(std::shared_ptr<const Part> then) const {
+    auto part = std::make_shared<HumanoidPart>(dynamic_cast<const HumanoidPart&>(*then));
+    part->view = view;
+    part->selected = part->skeleton().find(selected) ? selected : std::string();
+    return part;
+}
+
+/// Copies share the character and the map: each counts a part of them.
+std::size_t HumanoidPart::bytes() const {
+    constexpr std::size_t sharing = 16, a_node = 200, a_key = 48;
+    std::size_t keys = 0;
+    for (const humanoid::Clip& clip : loaded->clips())
+        for (const humanoid::Channel& channel : clip.channels)
+            keys +=
+                channel.translation.times.size() + channel.rotation.times.size() + channel.scale.times.size();
+    return sizeof(*this) + (skeleton().size() * a_node + keys * a_key) / sharing;
+}
+
+bool HumanoidPart::operator==(const HumanoidPart& other) const {
+    return loaded == other.loaded && (map == other.map || *map == *other.map) && playback == other.playback &&
+           t_pose == other.t_pose && ik == other.ik && ik_state == other.ik_state &&
+           quiet_ticks == other.quiet_ticks && selected == other.selected && view == other.view;
+}
+
+void set_bone(HumanoidPart& part, Bone bone, std::optional<std::size_t> node) {
+    BoneMap map = *part.map;
+    const std::int32_t to = node ? static_cast<std::int32_t>(*node) : -1;
+    const BoneMatch& matched = part.loaded->matched[bone];
+    if (node)
+        if (const auto before = part.bone_of(*node); before && *before != bone)
+            map[*before] = {-1, 0.0, "its node was picked for " + std::string(humanoid::name(bone))};
+    if (to == matched.node)
+        map[bone] = matched;
+    else
+        map[bone] = {to, node ? 1.0 : 0.0, node ? "picked by hand" : "taken away by hand"};
+    humanoid::review(map, part.skeleton());
+    part.map = std::make_shared<const BoneMap>(std::move(map));
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,75 @@
+// The Humanoid lab's share of the document: a character, which of its nodes are which bones, and what is
+// shown of it. What is drawn follows from it alone (shown_pose.hpp).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "app/document/document.hpp"
+#include "app/document/workspace.hpp"
+#include "app/labs/humanoid/ik_settings.hpp"
+#include "app/labs/humanoid/playback.hpp"
+#include "app/labs/kit/names.hpp"
+
+namespace tendril::app {
+
+inline constexpr const char* humanoid_lab = "humanoid";
+/// Metres of a unit of a file.
+inline constexpr double smallest_unit = 1e-6, largest_unit = 1e6;
+
+/// What a character wears: not drawn, drawn as it is, or so that its bones show through.
+enum class SkinLook : std::uint8_t { None, Solid, Transparent };
+
+inline constexpr EnumNames<SkinLook, 3> skin_looks{
+    "skin", {{"none", "none"}, {"solid", "solid"}, {"transparent", "transparent"}}};
+
+struct HumanoidView {
+    SkinLook skin = SkinLook::Transparent;
+    bool ghost = true;   ///< of the pose before anything changed it
+    bool follow = true;  ///< the camera goes along with a character that walks
+    bool operator==(const HumanoidView&) const = default;
+};
+
+struct HumanoidPart final : Part {
+    HumanoidPart();  ///< the stick figure
+    explicit HumanoidPart(SharedCharacter loaded);
+
+    SharedCharacter loaded;                        ///< never null
+    std::shared_ptr<const humanoid::BoneMap> map;  ///< as matched, or as a person has corrected it
+    Playback playback;
+    bool t_pose = false;  ///< the rest pose is shown as a T
+    IkSettings ik;
+    IkState ik_state;
+    int quiet_ticks = 0;   ///< since anything was set: springs come to rest meanwhile
+    std::string selected;  ///< a node's name; empty: none
+    HumanoidView view;
+
+    const humanoid::Skeleton& skeleton() const { return loaded->skeleton(); }
+    const humanoid::Clip* clip() const;  ///< null where none is chosen
+    std::optional<std::size_t> node_of(humanoid::Bone bone) const;
+    std::optional<humanoid::Bone> bone_of(std::size_t node) const;
+
+    std::shared_ptr<Part> clone() const override { return std::make_shared<HumanoidPart>(*this); }
+    Json save() const override;
+    std::shared_ptr<Part> load(const Json& json, const std::string& where) const override;
+    std::shared_ptr<const Part> at_moment(std::shared_ptr<const Part> then) const override;
+    std::size_t bytes() const override;
+    bool operator==(const HumanoidPart& other) const;
+};
+
+/// Makes a node the bone, or none; a node is one bone at most, and where it was another that one has none
+/// then.
+void set_bone(HumanoidPart& part, humanoid::Bone bone, std::optional<std::size_t> node);
+
+/// What is saved of IK.
+Json ik_json(const HumanoidPart& part);
+/// Throws std::runtime_error that begins with the place of what is wrong.
+void read_ik(const class JsonPlace& place, HumanoidPart& part);
+
+/// The lab's part of a workspace.
+inline const HumanoidPart& humanoid_part(const Workspace& workspace) {
+    return workspace.document.get<HumanoidPart>(humanoid_lab);
+}
+
+}  // namespace tendril::app

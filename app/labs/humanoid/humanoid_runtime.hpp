@@ -1,0 +1,40 @@
+// What the Humanoid lab works in: the shown pose of its part, worked out once, and what its panels keep.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "app/document/runtime.hpp"
+#include "app/labs/humanoid/clip_lint.hpp"
+#include "app/labs/humanoid/loading.hpp"
+#include "app/labs/humanoid/shown_pose.hpp"
+#include "app/widgets/fields.hpp"
+
+namespace tendril::app {
+
+class HumanoidRuntime final : public Runtime {
+  public:
+    const ShownPose& shown(const Workspace& workspace);
+
+    Loading loading;  ///< a file that is being read
+    Solvers solvers;
+    ClipLint lint;
+
+    /// The interface's own: it follows from nothing, and nothing follows from it.
+    struct Panel {
+        std::optional<humanoid::Bone> bone;   ///< the row for which a node is picked
+        SearchText node{}, clip{};            ///< what is looked for
+        bool past = false;                    ///< the strip shows the last ten seconds instead of the clip
+        std::string export_to{}, map_file{};  ///< paths that are typed
+    } panel;
+
+  private:
+    std::shared_ptr<const Part> part_;  ///< parts never change in place
+    ShownPose shown_;
+};
+
+inline HumanoidRuntime& humanoid_runtime(const Workspace& workspace) {
+    return workspace.runtimes.of<HumanoidRuntime>(humanoid_lab);
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,122 @@
+// What is selected in the Humanoid lab, and the character in numbers.
+#include <imgui.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/document/units.hpp"
+#include "app/labs/humanoid/chains.hpp"
+#include "app/labs/humanoid/humanoid_lab.hpp"
+#include "app/labs/humanoid/panels.hpp"
+#include "app/widgets/fields.hpp"
+#include "app/widgets/fonts.hpp"
+#include "app/widgets/text.hpp"
+
+namespace tendril::app {
+namespace {
+
+void text_row(const char* name, const std::string& value) {
+    const float free = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(name).x - ImGui::GetFontSize();
+    reading(name, "%s", elided(value, free).c_str());
+    explain(value.c_str());
+}
+
+std::size_t mapped(const humanoid::BoneMap& map) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(map.bones, [](const humanoid::BoneMatch& each) { return each.node >= 0; }));
+}
+
+/// "Reached", "12 mm short", or what there is to reach with.
+std::string verdict_of(const HumanoidPanel& panel) {
+    if (panel.runtime.solvers.body(panel.part) == nullptr) return "Not a whole body";
+    const ShownPose& shown = panel.runtime.shown(panel.workspace);
+    double worst = -1.0;
+    for (const humanoid::Effector effector : all_effectors)
+        if (panel.part.ik.target(effector)) worst = std::max(worst, shown.residual(effector).value_or(-1.0));
+    if (worst < 0.0) return "A whole body";
+    const double mm = 1000.0 * worst;
+    if (mm < 1.0) return "Reached";
+    return mm < 100.0 ? fixed_text(mm, 1) + " mm short" : fixed_text(mm / 1000.0, 2) + " m short";
+}
+
+/// The largest text: what can be done with the character.
+void verdict(const HumanoidPanel& panel) {
+    const HumanoidPart& part = panel.part;
+    ImGui::PushFont(heading_font());
+    const std::string& why = panel.runtime.solvers.why_no_body(part);
+    ImGui::TextUnformatted(verdict_of(panel).c_str());
+    ImGui::PopFont();
+    note(why.empty() ? std::to_string(mapped(*part.map)) + " of " + std::to_string(humanoid::bone_count) +
+                           " bones are known."
+                     : why + '.');
+}
+
+void position_rows(const glm::dvec3& at) {
+    reading("x", "%.4f m", at.x);
+    reading("y", "%.4f m", at.y);
+    reading("z", "%.4f m", at.z);
+}
+
+}  // namespace
+
+void node_inspector(const HumanoidPanel& panel) {
+    section("Selection");
+    const HumanoidPart& part = panel.part;
+    const auto node = part.skeleton().find(part.selected);
+    if (!node) return note("Nothing is selected.");
+    text_row("node", part.selected);
+    const auto bone = part.bone_of(*node);
+    text_row("bone", bone ? humanoid::name(*bone) : "none of the body");
+    const std::int32_t parent = part.skeleton()[*node].parent;
+    text_row("hangs on", parent < 0 ? "nothing" : part.skeleton()[static_cast<std::size_t>(parent)].name);
+    const ShownPose& shown = panel.runtime.shown(panel.workspace);
+    position_rows(shown.placed[*node].position);
+    if (!shown.before.empty())
+        reading("from before", "%.1f mm",
+                1000.0 * glm::distance(shown.placed[*node].position, shown.before[*node].position));
+}
+
+void target_inspector(const HumanoidPanel& panel) {
+    if (!panel.part.ik.has_targets()) return;
+    section("Targets");
+    const ShownPose& shown = panel.runtime.shown(panel.workspace);
+    if (!shown.refused.empty()) return note(shown.refused);
+    for (const humanoid::Effector effector : all_effectors) {
+        if (!panel.part.ik.target(effector)) continue;
+        reading(title(effector).c_str(), "%.1f mm", 1000.0 * shown.residual(effector).value_or(0.0));
+        explain("How far the effector is from its target.");
+    }
+    if (!shown.body) return;
+    std::string limited;
+    for (std::size_t i = 0; i < humanoid::bone_count; ++i)
+        if (shown.body->at_limit[i])
+            limited +=
+                (limited.empty() ? "" : ", ") + std::string(humanoid::name(static_cast<humanoid::Bone>(i)));
+    note(limited.empty() ? "No joint is at its limit." : "At their limits: " + limited + ".");
+}
+
+void character_inspector(const HumanoidPanel& panel) {
+    section("Character");
+    const LoadedCharacter& loaded = *panel.part.loaded;
+    text_row("from",
+             loaded.file.empty() ? "the program" : std::filesystem::path(loaded.file).filename().string());
+    reading("nodes", "%zu", loaded.skeleton().size());
+    reading("clips", "%zu", loaded.clips().size());
+    if (const humanoid::Clip* clip = panel.part.clip()) {
+        section("Clip");
+        text_row("name", clip->name);
+        reading("time", "%.2f of %.2f s", panel.part.playback.time, clip->duration);
+        if (panel.part.playback.rounds > 0)
+            reading("round", "%lld", static_cast<long long>(panel.part.playback.rounds + 1));
+    }
+}
+
+void HumanoidLab::inspector(const Workspace& workspace, Emit& emit) const {
+    const HumanoidPanel panel = humanoid_panel(workspace, emit);
+    verdict(panel);
+    target_inspector(panel);
+    character_inspector(panel);
+    node_inspector(panel);
+}
+
+}  // namespace tendril::app

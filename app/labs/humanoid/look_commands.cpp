@@ -1,0 +1,33 @@
+// What is selected and how it is shown; leaves no step to undo.
+#include "app/labs/humanoid/humanoid_commands.hpp"
+#include "app/labs/kit/arguments.hpp"
+
+namespace tendril::app {
+namespace {
+
+void select(HumanoidPart& part, const Arguments& given) {
+    part.selected.clear();
+    if (given.has("node")) part.selected = part.skeleton()[node_named(part, given.text("node"))].name;
+}
+
+void set_view(HumanoidPart& part, const Arguments& given) {
+    if (given.has("ghost")) part.view.ghost = given.boolean("ghost");
+    if (given.has("skin")) part.view.skin = skin_looks.value(given.text("skin"));
+    if (given.has("follow")) part.view.follow = given.boolean("follow");
+}
+
+}  // namespace
+
+void add_humanoid_look_commands(CommandTable& table) {
+    table.add(
+        part_command<HumanoidPart>(humanoid_lab, "humanoid.select", {text_argument("node", false, "by name")},
+                                   "Selects a node; nothing when it is left out", select, Effect::Look));
+    table.add(part_command<HumanoidPart>(
+        humanoid_lab, "humanoid.view",
+        {switch_argument("ghost", "of the pose as it was before anything changed it"),
+         choice_argument("skin", false, "how what the character wears is drawn", skin_looks.names()),
+         switch_argument("follow", "the camera goes along with a walk")},
+        "Sets how the character is shown; what is left out stays", set_view, Effect::Look));
+}
+
+}  // namespace tendril::app

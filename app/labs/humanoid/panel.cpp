@@ -1,0 +1,129 @@
+// What one chooses in the Humanoid lab: the character, its bones, a clip, how all of it is shown.
+#include <imgui.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/document/units.hpp"
+#include "app/labs/humanoid/humanoid_lab.hpp"
+#include "app/labs/humanoid/panels.hpp"
+#include "app/widgets/fields.hpp"
+
+namespace tendril::app {
+namespace {
+
+void rest_row(const HumanoidPanel& panel) {
+    const HumanoidPart& part = panel.part;
+    const char* const name = humanoid::name(part.map->rest);
+    reading("rest pose", "%s", part.map->rest == humanoid::RestPose::Other ? "neither T nor A" : name);
+    explain("T: the arms are level at rest. A: they hang by a quarter to three quarters of a right angle.");
+    bool on = part.t_pose;
+    if (ImGui::Checkbox("Rest as a T-pose", &on)) panel.emit("humanoid.t_pose", {{"on", on}});
+    explain(
+        "Shows the rest pose with its arms straight aside and its legs straight down, and as it came as a "
+        "ghost.");
+}
+
+void scale_row(const HumanoidPanel& panel) {
+    if (panel.part.loaded->file.empty()) return;
+    // Units span many orders of magnitude: centimetres are the usual one.
+    auto centimetres = static_cast<float>(100.0 * panel.part.loaded->character.scale);
+    if (number_field("unit of the file", centimetres, 0.01f, 1e-4f, 1e8f, "%.4g cm"))
+        panel.emit.continuously("humanoid.scale", {{"metres", 0.01 * static_cast<double>(centimetres)}});
+    explain("How long a unit of the file is. The character's height says whether it is right.");
+}
+
+}  // namespace
+
+HumanoidPanel humanoid_panel(const Workspace& workspace, Emit& emit) {
+    return {workspace, humanoid_part(workspace), humanoid_runtime(workspace),
+            palette(workspace.settings.theme), emit};
+}
+
+void character_rows(const HumanoidPanel& panel) {
+    section("Character");
+    const LoadedCharacter& loaded = *panel.part.loaded;
+    std::string file = loaded.file;
+    if (text_field("file", file, "type or drop one") && file != loaded.file) {
+        if (file.empty())
+            panel.emit("humanoid.load");
+        else
+            panel.emit("humanoid.load", {{"path", file}});
+    }
+    explain("A character with its clips: .gltf, .glb, .fbx or .bvh. Enter reads it.");
+    if (const Loading& loading = panel.runtime.loading; loading.running()) {
+        note("Loading " + std::filesystem::path(loading.file()).filename().string() + " ...");
+        ImGui::ProgressBar(loading.part(), {-1.0f, 0.0f}, "");
+        if (row_button("Cancel", 1, true, "The character that is there stays"))
+            panel.emit("humanoid.load.cancel");
+        end_row();
+    }
+    if (row_button("Stick figure", 1, !loaded.file.empty(), "The figure that is there without a file"))
+        panel.emit("humanoid.load");
+    end_row();
+    scale_row(panel);
+    reading("height", "%.2f m", loaded.height());
+    rest_row(panel);
+    for (const std::string& text : loaded.character.notes) note(text);
+}
+
+void clip_rows(const HumanoidPanel& panel) {
+    section("Clip");
+    const std::vector<humanoid::Clip>& clips = panel.part.loaded->clips();
+    const Playback& playback = panel.part.playback;
+    if (clips.empty()) return note("The character has no clips.");
+    const std::string shown = playback.clip ? clips[*playback.clip].name : "none (rest pose)";
+    if (begin_search("clip", &shown, panel.runtime.panel.clip)) {
+        if (search_row("none (rest pose)", !playback.clip, panel.runtime.panel.clip))
+            panel.emit("humanoid.clip", {{"name", ""}});
+        for (std::size_t i = 0; i < clips.size(); ++i) {
+            ImGui::PushID(static_cast<int>(i));
+            if (search_row(clips[i].name, playback.clip == i, panel.runtime.panel.clip))
+                panel.emit("humanoid.clip", {{"index", i}, {"play", true}});
+            ImGui::PopID();
+        }
+        end_search();
+    }
+    float percent = static_cast<float>(100.0 * playback.speed);
+    if (number_field("speed", percent, 0.5f, 0.0f, 1000.0f, "%.0f %%"))
+        panel.emit.continuously("humanoid.clip", {{"speed", static_cast<double>(percent) / 100.0}});
+    bool loop = playback.loop, in_place = playback.in_place;
+    if (ImGui::Checkbox("Loop", &loop)) panel.emit("humanoid.clip", {{"loop", loop}});
+    explain("A walk goes on from where its last round ended. Else it stops at its end.");
+    if (ImGui::Checkbox("In place", &in_place)) panel.emit("humanoid.clip", {{"in_place", in_place}});
+    explain("The hips stay above the point where the clip begins.");
+    if (playback.playing && !panel.workspace.clock.playing) note("Paused: press Space to let it play.");
+}
+
+void look_rows(const HumanoidPanel& panel) {
+    section("View");
+    HumanoidView view = panel.part.view;
+    if (ImGui::Checkbox("Camera follows", &view.follow))
+        panel.emit("humanoid.view", {{"follow", view.follow}});
+    explain("The camera goes along with a character that walks.");
+    if (panel.part.loaded->character.skin.mesh) {
+        int look = static_cast<int>(view.skin);
+        const auto titles = skin_looks.titles();
+        if (choice_field("skin", look, titles.data(), static_cast<int>(titles.size())))
+            panel.emit("humanoid.view", {{"skin", skin_looks.name(static_cast<SkinLook>(look))}});
+        explain("What the character wears: as it is, or so that its bones show through.");
+    }
+    if (ImGui::Checkbox("Ghost", &view.ghost)) panel.emit("humanoid.view", {{"ghost", view.ghost}});
+    explain("The pose as it was before anything changed it, in gray.");
+}
+
+void HumanoidLab::panel(const Workspace& workspace, Emit& emit) const {
+    const HumanoidPanel panel = humanoid_panel(workspace, emit);
+    character_rows(panel);
+    clip_rows(panel);
+    lint_rows(panel);
+    target_rows(panel);
+    hand_rows(panel);
+    ground_rows(panel);
+    look_rows(panel);
+    export_rows(panel);
+    bone_rows(panel);
+    map_rows(panel);
+}
+
+}  // namespace tendril::app

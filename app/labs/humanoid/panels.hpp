@@ -1,0 +1,49 @@
+// The pieces that the Humanoid lab's panels are put together from.
+#pragma once
+
+#include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "app/view/palette.hpp"
+#include "app/widgets/emit.hpp"
+
+namespace tendril::app {
+
+/// All that a section reads.
+struct HumanoidPanel {
+    const Workspace& workspace;
+    const HumanoidPart& part;
+    HumanoidRuntime& runtime;
+    const Palette& colours;
+    Emit& emit;
+};
+HumanoidPanel humanoid_panel(const Workspace& workspace, Emit& emit);
+
+// left
+/// Which file it is, and what was done to it.
+void character_rows(const HumanoidPanel& panel);
+/// The bones of a body, each with its node and how sure that is.
+void bone_rows(const HumanoidPanel& panel);
+/// Which clip, and how it plays.
+void clip_rows(const HumanoidPanel& panel);
+/// The effectors with their targets, and where the limits of joints come from.
+void target_rows(const HumanoidPanel& panel);
+/// What it walks on, and how its feet take that.
+void ground_rows(const HumanoidPanel& panel);
+/// Hands that a clip moves, and what the head looks at.
+void hand_rows(const HumanoidPanel& panel);
+void look_rows(const HumanoidPanel& panel);
+/// What the motion lint has found in the clip, with its cures.
+void lint_rows(const HumanoidPanel& panel);
+/// Where the clip is written to.
+void export_rows(const HumanoidPanel& panel);
+/// Bone maps that are saved and loaded.
+void map_rows(const HumanoidPanel& panel);
+
+// right
+/// How far effectors are from their targets.
+void target_inspector(const HumanoidPanel& panel);
+/// The selected node.
+void node_inspector(const HumanoidPanel& panel);
+/// The character in numbers.
+void character_inspector(const HumanoidPanel& panel);
+
+}  // namespace tendril::app

@@ -1,0 +1,54 @@
+// The library's solvers, made ready for the lab's character: kept until it, its bone map or its limits are
+// others.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "app/labs/humanoid/humanoid_part.hpp"
+
+namespace tendril::app {
+
+class Solvers {
+  public:
+    /// Null where there is none for this map; then why_no_body() says why.
+    humanoid::Body* body(const HumanoidPart& part);
+    /// "LeftHand and RightHand are missing"; empty where there is a body.
+    const std::string& why_no_body(const HumanoidPart& part);
+    /// Null where the map has no legs that could be solved.
+    const humanoid::Feet* feet(const HumanoidPart& part);
+    /// Null where the map is not one of a body; then why_no_body() says why.
+    const humanoid::Hands* hands(const HumanoidPart& part);
+    const humanoid::LookAt* look_at(const HumanoidPart& part);
+    /// Empty where there are feet.
+    const std::string& why_no_feet(const HumanoidPart& part);
+    /// How high the clip's own floor is, metres. Of the chosen clip; nothing for the rest pose.
+    std::optional<double> floor(const HumanoidPart& part);
+    /// What self-collision keeps apart; empty where that is off.
+    const std::vector<humanoid::BodyCapsule>& capsules(const HumanoidPart& part);
+    const humanoid::Ground& ground(const HumanoidPart& part);
+
+  private:
+    struct Made {
+        SharedCharacter loaded;
+        std::shared_ptr<const humanoid::BoneMap> map;
+        LimitsFrom limits = LimitsFrom::Defaults;
+        bool self_collision = false;
+        bool operator==(const Made&) const = default;
+    };
+    void make(const HumanoidPart& part);
+
+    Made made_{};
+    std::optional<humanoid::Body> body_;
+    std::vector<humanoid::BodyCapsule> capsules_;
+    std::optional<humanoid::Feet> feet_;
+    std::optional<humanoid::Hands> hands_;
+    std::optional<humanoid::LookAt> look_at_;
+    std::string why_not_, why_no_feet_;
+    std::map<std::size_t, double> floors_;  // by clip
+    std::optional<GroundSetting> ground_of_;
+    humanoid::Ground ground_;
+};
+
+}  // namespace tendril::app

@@ -1,0 +1,203 @@
+// What --state writes of the Humanoid lab.
+#include <glm/trigonometric.hpp>
+
+#include "app/document/json_complete.hpp"
+#include "app/labs/humanoid/chains.hpp"
+#include "app/labs/humanoid/humanoid_lab.hpp"
+#include "app/labs/humanoid/humanoid_runtime.hpp"
+
+namespace tendril::app {
+namespace {
+
+using humanoid::Bone;
+
+Json rotation_of(const humanoid::Placement& placement) {
+    const glm::dquat rotation = placement.rotation();
+    return Json::array({rotation.x, rotation.y, rotation.z, rotation.w});
+}
+
+Json nodes_state(const HumanoidPart& part, const ShownPose& shown) {
+    Json list = Json::array();
+    const humanoid::Skeleton& skeleton = part.skeleton();
+    for (std::size_t i = 0; i < skeleton.size(); ++i) {
+        const std::int32_t parent = skeleton[i].parent;
+        list.push_back(
+            {{"name", skeleton[i].name},
+             {"parent", parent < 0 ? Json(nullptr) : Json(skeleton[static_cast<std::size_t>(parent)].name)},
+             {"position", dpoint(shown.placed[i].position)},
+             {"rotation", rotation_of(shown.placed[i])}});
+    }
+    return list;
+}
+
+Json bones_state(const HumanoidPart& part, const ShownPose& shown) {
+    Json bones = Json::object();
+    for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
+        const humanoid::BoneMatch& match = part.map->bones[i];
+        if (match.node < 0) continue;
+        const auto node = static_cast<std::size_t>(match.node);
+        bones[humanoid::name(static_cast<Bone>(i))] = {{"node", part.skeleton()[node].name},
+                                                       {"confidence", match.confidence},
+                                                       {"position", dpoint(shown.placed[node].position)},
+                                                       {"rotation", rotation_of(shown.placed[node])}};
+    }
+    return bones;
+}
+
+Json unmatched_state(const HumanoidPart& part) {
+    Json names = Json::array();
+    for (std::size_t i = 0; i < humanoid::bone_count; ++i)
+        if (part.map->bones[i].node < 0) names.push_back(humanoid::name(static_cast<Bone>(i)));
+    return names;
+}
+
+Json character_state(const HumanoidPart& part, const ShownPose& shown) {
+    return Json{{"file", part.loaded->file},
+                {"scale", part.loaded->character.scale},
+                {"nodes", nodes_state(part, shown)},
+                {"bones", bones_state(part, shown)},
+                {"unmatched", unmatched_state(part)},
+                {"rest", humanoid::name(part.map->rest)},
+                {"t_pose", part.t_pose},
+                {"notes", part.loaded->character.notes}};
+}
+
+/// What is left between a chain's end and its target, metres; 0 without one.
+double residual(const ShownPose& shown, Bone end) {
+    for (const humanoid::Effector effector : all_effectors)
+        if (humanoid::bone_of(effector) == end) return shown.residual(effector).value_or(0.0);
+    return 0.0;
+}
+
+Json chains_state(const HumanoidPart& part, const ShownPose& shown) {
+    Json list = Json::array();
+    for (const BodyChain& chain : body_chains(*part.map)) {
+        Json bones = Json::array(), active = Json::array();
+        for (const Bone bone : chain.bones) {
+            bones.push_back(humanoid::name(bone));
+            if (shown.body && shown.body->at_limit[static_cast<std::size_t>(bone)])
+                active.push_back(humanoid::name(bone));
+        }
+        list.push_back({{"layer", chain.layer},
+                        {"bones", std::move(bones)},
+                        {"end", humanoid::name(chain.end)},
+                        {"residual", residual(shown, chain.end)},
+                        {"active_limits", std::move(active)}});
+    }
+    return list;
+}
+
+Json targets_state(const HumanoidPart& part, const ShownPose& shown) {
+    Json targets = Json::object();
+    for (const humanoid::Effector effector : all_effectors) {
+        const auto& target = part.ik.target(effector);
+        if (!target) continue;
+        Json rotation = nullptr;
+        if (target->rotation)
+            rotation = Json::array(
+                {target->rotation->x, target->rotation->y, target->rotation->z, target->rotation->w});
+        targets[humanoid::name(effector)] = {{"position", dpoint(target->position)},
+                                             {"rotation", std::move(rotation)},
+                                             {"weight", target->weight},
+                                             {"residual", residual(shown, humanoid::bone_of(effector))}};
+    }
+    return targets;
+}
+
+Json body_state(const Workspace& workspace, const ShownPose& shown) {
+    const HumanoidPart& part = humanoid_part(workspace);
+    Solvers& solvers = humanoid_runtime(workspace).solvers;
+    Json json{{"usable", solvers.body(part) != nullptr},
+              {"why_not", solvers.why_no_body(part)},
+              {"limits", limits_from.name(part.ik.limits)},
+              {"self_collision", part.ik.self_collision},
+              {"targets", targets_state(part, shown)}};
+    if (shown.body) json["iterations"] = shown.body->iterations;
+    if (shown.body && part.ik.self_collision) json["penetration"] = shown.body->penetration;
+    return json;
+}
+
+Json feet_state(const HumanoidPart& part, const ShownPose& shown) {
+    Json feet = Json::array();
+    if (!shown.has_soles) return feet;
+    for (std::size_t side = 0; side < 2; ++side) {
+        Json foot{{"side", side == 0 ? "left" : "right"},
+                  {"planted", shown.feet && shown.feet->feet[side].planted},
+                  {"heel", dpoint(shown.soles[side].heel)},
+                  {"toe", dpoint(shown.soles[side].toe)}};
+        if (part.ik.foot_ik.on) foot["left_alone"] = why_alone(part, shown, side);
+        feet.push_back(std::move(foot));
+    }
+    return feet;
+}
+
+Json ground_state(const GroundSetting& ground) {
+    Json json{{"kind", ground_kinds.name(ground.kind)}};
+    if (ground.kind == humanoid::GroundKind::Slope) json["angle_deg"] = ground.angle_deg;
+    if (ground.kind == humanoid::GroundKind::Mesh) json["path"] = ground.mesh->path;
+    if (ground.kind == humanoid::GroundKind::Stairs) {
+        json["step_height"] = ground.step_height;
+        json["step_depth"] = ground.step_depth;
+    }
+    return json;
+}
+
+Json hands_state(const HumanoidPart& part, const ShownPose& shown) {
+    const HandIkSetting& setting = part.ik.hand_ik;
+    Json json{{"on", setting.on}, {"view_deg", setting.view_deg}};
+    if (!shown.hands) return json;
+    for (std::size_t hand = 0; hand < 2; ++hand)
+        json[hand == 0 ? "left" : "right"] = {{"weight", shown.hands->hands[hand].weight},
+                                              {"in_view", shown.hands->hands[hand].in_view}};
+    return json;
+}
+
+Json look_state(const HumanoidPart& part, const ShownPose& shown) {
+    const LookAtSetting& setting = part.ik.look_at;
+    Json json{{"on", setting.on}, {"target", dpoint(setting.target)}, {"weight", setting.weight}};
+    if (!shown.look) return json;
+    json["in_view"] = shown.look->in_view;
+    json["left_deg"] = glm::degrees(shown.look->left);
+    return json;
+}
+
+Json clip_state(const HumanoidPart& part) {
+    const humanoid::Clip* clip = part.clip();
+    if (clip == nullptr) return nullptr;
+    const Playback& playback = part.playback;
+    return Json{{"name", clip->name},
+                {"time", playback.time},
+                {"duration", clip->duration},
+                {"playing", playback.playing},
+                {"speed", playback.speed},
+                {"loop", playback.loop},
+                {"in_place", playback.in_place},
+                {"rounds", playback.rounds}};
+}
+
+Json clips_state(const HumanoidPart& part) {
+    Json names = Json::array();
+    for (const humanoid::Clip& clip : part.loaded->clips()) names.push_back(clip.name);
+    return names;
+}
+
+}  // namespace
+
+Json HumanoidLab::state(const Workspace& workspace) const {
+    const HumanoidPart& part = humanoid_part(workspace);
+    const ShownPose& shown = shown_pose(workspace);
+    return Json{{"lab", humanoid_lab},
+                {"character", character_state(part, shown)},
+                {"body", body_state(workspace, shown)},
+                {"chains", chains_state(part, shown)},
+                {"clip", clip_state(part)},
+                {"clips", clips_state(part)},
+                {"feet", feet_state(part, shown)},
+                {"foot_ik", part.ik.foot_ik.on},
+                {"hand_ik", hands_state(part, shown)},
+                {"look_at", look_state(part, shown)},
+                {"ground", ground_state(part.ik.ground)},
+                {"selected", part.selected}};
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,183 @@
+#include "app/view/renderer_skin.hpp"
+
+#include <algorithm>
+
+#include "app/view/renderer_mesh.hpp"
+
+namespace tendril::app {
+namespace {
+
+enum Slot : GLuint { Position, Normal, Uv, Tint, Joints, Weights };
+
+GLuint texture_of(glm::ivec2 size, const std::uint8_t* rgba) {
+    GLuint name = 0;
+    glGenTextures(1, &name);
+    glBindTexture(GL_TEXTURE_2D, name);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, size.x, size.y, 0, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glGenerateMipmap(GL_TEXTURE_2D);
+    return name;
+}
+
+}  // namespace
+
+class SkinPass::Sent {
+  public:
+    explicit Sent(const std::shared_ptr<const SkinnedMesh>& mesh) : mesh_(mesh) {
+        glGenVertexArrays(1, &vertex_array_);
+        glGenBuffers(static_cast<GLsizei>(buffers_.size()), buffers_.data());
+        glBindVertexArray(vertex_array_);
+        send(Position, mesh->positions, GL_DYNAMIC_DRAW);
+        glVertexAttribPointer(Position, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+        send(Normal, mesh->normals, GL_DYNAMIC_DRAW);
+        glVertexAttribPointer(Normal, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+        if (send(Uv, mesh->uvs)) glVertexAttribPointer(Uv, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
+        if (send(Tint, mesh->tints)) glVertexAttribPointer(Tint, 4, GL_UNSIGNED_BYTE, GL_TRUE, 0, nullptr);
+        send(Joints, mesh->weights);
+        const auto weights = reinterpret_cast<const void*>(offsetof(JointWeights, weights));
+        glVertexAttribIPointer(Joints, 4, GL_UNSIGNED_SHORT, sizeof(JointWeights), nullptr);
+        glEnableVertexAttribArray(Weights);
+        glVertexAttribPointer(Weights, 4, GL_FLOAT, GL_FALSE, sizeof(JointWeights), weights);
+        glGenBuffers(1, &indices_);
+        glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_);
+        glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+                     static_cast<GLsizeiptr>(mesh->indices.size() * sizeof mesh->indices[0]),
+                     mesh->indices.data(), GL_STATIC_DRAW);
+        glBindVertexArray(0);
+        for (const Picture& each : mesh->pictures)
+            pictures_.push_back(texture_of(each.size, each.rgba.data()));
+    }
+    ~Sent() {
+        glDeleteVertexArrays(1, &vertex_array_);
+        glDeleteBuffers(static_cast<GLsizei>(buffers_.size()), buffers_.data());
+        glDeleteBuffers(1, &indices_);
+        glDeleteTextures(static_cast<GLsizei>(pictures_.size()), pictures_.data());
+    }
+    Sent(const Sent&) = delete;
+    Sent& operator=(const Sent&) = delete;
+
+    bool is_gone() const { return mesh_.expired(); }
+    GLuint picture(std::int32_t place, GLuint otherwise) const {
+        return place < 0 ? otherwise : pictures_[static_cast<std::size_t>(place)];
+    }
+
+    /// Sends corners again where other weights are wanted than last time.
+    void morph(const SkinDraw& draw) {
+        const SkinnedMesh& mesh = *draw.mesh;
+        if (mesh.morphs.empty()) return;
+        std::vector<float> weights = draw.morph_weights;
+        for (std::size_t i = weights.size(); i < mesh.morphs.size(); ++i)
+            weights.push_back(mesh.morphs[i].weight);
+        if (weights == morph_weights_) return;
+        morph_weights_ = std::move(weights);
+        std::vector<glm::vec3> positions, normals;
+        apply_morphs(mesh, morph_weights_, positions, normals);
+        send(Position, positions, GL_DYNAMIC_DRAW);
+        send(Normal, normals, GL_DYNAMIC_DRAW);
+    }
+    /// Binds what draw() needs.
+    void bind() const {
+        glBindVertexArray(vertex_array_);
+        glVertexAttrib2f(Uv, 0.0f, 0.0f);
+        glVertexAttrib4f(Tint, 1.0f, 1.0f, 1.0f, 1.0f);
+    }
+
+  private:
+    /// Whether there is any; of what there is none, a constant takes its place.
+    template <class T>
+    bool send(Slot slot, const std::vector<T>& values, GLenum use = GL_STATIC_DRAW) {
+        if (values.empty()) return false;
+        glBindBuffer(GL_ARRAY_BUFFER, buffers_[slot]);
+        glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data(), use);
+        glBindVertexArray(vertex_array_);
+        glEnableVertexAttribArray(slot);
+        return true;
+    }
+
+    std::weak_ptr<const SkinnedMesh> mesh_;
+    GLuint vertex_array_ = 0, indices_ = 0;
+    std::array<GLuint, 5> buffers_{};
+    std::vector<GLuint> pictures_{};
+    std::vector<float> morph_weights_{};
+};
+
+SkinPass::SkinPass() {
+    glGenBuffers(1, &matrices_);
+    glGenTextures(1, &matrices_texture_);
+    const std::array<std::uint8_t, 4> white{255, 255, 255, 255};
+    white_ = texture_of({1, 1}, white.data());
+    glBindTexture(GL_TEXTURE_2D, 0);
+}
+
+SkinPass::~SkinPass() {
+    glDeleteBuffers(1, &matrices_);
+    glDeleteTextures(1, &matrices_texture_);
+    glDeleteTextures(1, &white_);
+}
+
+SkinPass::Sent& SkinPass::sent(const std::shared_ptr<const SkinnedMesh>& mesh) {
+    std::unique_ptr<Sent>& place = sent_[mesh.get()];
+    if (!place) place = std::make_unique<Sent>(mesh);
+    return *place;
+}
+
+void SkinPass::forget_those_gone() {
+    std::erase_if(sent_, [](const auto& each) { return each.second->is_gone(); });
+}
+
+void SkinPass::send_matrices(const std::vector<AffineRows>& matrices) {
+    const std::size_t bytes = matrices.size() * sizeof(AffineRows);
+    glBindBuffer(GL_TEXTURE_BUFFER, matrices_);
+    matrices_capacity_ = std::max(matrices_capacity_, bytes);
+    glBufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(matrices_capacity_), nullptr, GL_STREAM_DRAW);
+    glBufferSubData(GL_TEXTURE_BUFFER, 0, static_cast<GLsizeiptr>(bytes), matrices.data());
+    glActiveTexture(GL_TEXTURE1);
+    glBindTexture(GL_TEXTURE_BUFFER, matrices_texture_);
+    glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, matrices_);
+    glActiveTexture(GL_TEXTURE0);
+}
+
+int SkinPass::draw(const std::vector<SkinDraw>& skins, bool solid, const Camera& camera, const Frame& frame) {
+    forget_those_gone();
+    int calls = 0;
+    for (const SkinDraw& skin : skins) {
+        if ((skin.opacity >= 1.0f) != solid || skin.opacity <= 0.0f || !skin.mesh ||
+            skin.mesh->indices.empty() || skin.matrices.size() < skin.mesh->joints)
+            continue;
+        Sent& mesh = sent(skin.mesh);
+        mesh.morph(skin);
+        program_.use();
+        set_surface_uniforms(program_, camera, frame);
+        program_.set("picture", 0);
+        program_.set("matrices", 1);
+        program_.set("opacity", skin.opacity);
+        send_matrices(skin.matrices);
+        mesh.bind();
+        glEnable(GL_DEPTH_TEST);
+        glDepthMask(GL_TRUE);
+        glDepthFunc(GL_LEQUAL);
+        glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+        for (int pass = solid ? 1 : 0; pass < 2; ++pass) {
+            const GLboolean seen = pass == 1 ? GL_TRUE : GL_FALSE;
+            glColorMask(seen, seen, seen, seen);
+            if (pass == 1 && !solid) glEnable(GL_BLEND);
+            for (const SkinPart& part : skin.mesh->parts) {
+                glBindTexture(GL_TEXTURE_2D, mesh.picture(part.picture, white_));
+                program_.set("part_colour", part.colour * glm::vec4(skin.tint, 1.0f));
+                program_.set("cutoff", part.cutoff);
+                glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(part.count), GL_UNSIGNED_INT,
+                               reinterpret_cast<const void*>(part.first * sizeof(std::uint32_t)));
+                ++calls;
+            }
+            glDisable(GL_BLEND);
+        }
+        glBindVertexArray(0);
+        glBindTexture(GL_TEXTURE_2D, 0);
+    }
+    return calls;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,91 @@
+// The nodes of a character, as the file that it came from has them, in the file's order: each hangs on a
+// parent, which may stand before it or after it.
+//
+//     Expected<Skeleton> skeleton = Skeleton::make(std::move(nodes));
+//     if (!skeleton) return log(skeleton.message());  // "Skeleton: nodes[4].parent closes a circle"
+//
+//     std::vector<rig::Transform> pose = rest_pose(*skeleton);
+//     std::vector<Placement> placements(skeleton->size());
+//     place(*skeleton, pose, placements);
+//     placements[hand].position
+//
+// A placement is an affine map, not a translation, a rotation and a scale: files multiply matrices, so where
+// a scale differs from axis to axis and a child is turned, what hangs below is sheared, and its joints are
+// where the shear puts them.
+#pragma once
+
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tendril/result.hpp"
+#include "tendril/rig/transform.hpp"
+
+namespace tendril::humanoid {
+
+struct Node {
+    std::string name{};        ///< one of its own, not empty
+    std::int32_t parent = -1;  ///< place in the list; -1: it hangs on nothing
+    rig::Transform rest{};     ///< local to the parent; metres
+    bool operator==(const Node&) const = default;
+};
+
+class Skeleton {
+  public:
+    static constexpr std::size_t max_nodes = 4096;
+
+    /// No nodes.
+    Skeleton() = default;
+    /// Refuses more than max_nodes, a name that is empty or another's, a parent that is not there, circles,
+    /// and rest transforms that rig::checked() refuses.
+    static Expected<Skeleton> make(std::vector<Node> nodes);
+
+    std::size_t size() const noexcept { return nodes_.size(); }
+    const std::vector<Node>& nodes() const noexcept { return nodes_; }
+    const Node& operator[](std::size_t node) const noexcept { return nodes_[node]; }
+    /// Every node once, after its parent; siblings in the file's order.
+    const std::vector<std::int32_t>& order() const noexcept { return order_; }
+    /// In the file's order.
+    std::span<const std::int32_t> children(std::size_t node) const noexcept;
+    /// By name.
+    std::optional<std::size_t> find(std::string_view name) const noexcept;
+    /// Whether `node` is `above` or hangs below it.
+    bool is_below(std::size_t node, std::size_t above) const noexcept;
+
+    bool operator==(const Skeleton& other) const { return nodes_ == other.nodes_; }
+
+  private:
+    std::vector<Node> nodes_;
+    std::vector<std::int32_t> order_;
+    std::vector<std::int32_t> children_;  // of all, node by node
+    std::vector<std::uint32_t> first_;    // where a node's begin in children_; one more than there are nodes
+};
+
+/// Where a node is in the character's space: a point p of its own is at axes * p + position.
+struct Placement {
+    glm::dmat3 axes{1.0};
+    glm::dvec3 position{0.0};
+
+    glm::dvec3 apply(const glm::dvec3& point) const noexcept;
+    /// Without scale and shear: the x axis keeps its direction, the y axis its plane with it. The third one
+    /// follows by the right hand, also where the axes mirror. An axis of length 0 counts as perpendicular to
+    /// the others.
+    glm::dquat rotation() const noexcept;
+};
+/// First `child`, then `parent`.
+Placement operator*(const Placement& parent, const Placement& child) noexcept;
+Placement placement(const rig::Transform& transform) noexcept;
+
+/// The rest transforms.
+std::vector<rig::Transform> rest_pose(const Skeleton& skeleton);
+
+/// Where every node is when its local transform is that in `pose`. Both lists have size() elements.
+/// O(size()).
+void place(const Skeleton& skeleton, std::span<const rig::Transform> pose,
+           std::span<Placement> placements) noexcept;
+
+}  // namespace tendril::humanoid

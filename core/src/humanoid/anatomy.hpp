@@ -1,0 +1,92 @@
+// How the bones of a body hang together and where they point in a T-pose. Not installed.
+#pragma once
+
+#include <optional>
+
+#include "tendril/humanoid/t_pose.hpp"
+
+namespace tendril::humanoid::detail {
+
+/// Which bone a node is.
+inline std::optional<Bone> bone_of(const BoneMap& map, std::int32_t node) noexcept {
+    for (std::size_t i = 0; i < bone_count; ++i)
+        if (map.bones[i].node == node) return static_cast<Bone>(i);
+    return std::nullopt;
+}
+
+inline bool is_left(Bone bone) noexcept {
+    return name(bone)[0] == 'L';
+}
+
+/// The bone that follows an upper or lower arm or leg in its limb; none for all others.
+inline std::optional<Bone> limb_child(Bone bone) noexcept {
+    switch (bone) {
+        case Bone::LeftUpperArm:
+            return Bone::LeftLowerArm;
+        case Bone::LeftLowerArm:
+            return Bone::LeftHand;
+        case Bone::RightUpperArm:
+            return Bone::RightLowerArm;
+        case Bone::RightLowerArm:
+            return Bone::RightHand;
+        case Bone::LeftUpperLeg:
+            return Bone::LeftLowerLeg;
+        case Bone::LeftLowerLeg:
+            return Bone::LeftFoot;
+        case Bone::RightUpperLeg:
+            return Bone::RightLowerLeg;
+        case Bone::RightLowerLeg:
+            return Bone::RightFoot;
+        default:
+            return std::nullopt;
+    }
+}
+
+/// Where a bone points in a T-pose.
+inline glm::dvec3 t_direction(Bone bone, const Facing& facing) noexcept {
+    switch (bone) {
+        case Bone::LeftShoulder:
+        case Bone::LeftUpperArm:
+        case Bone::LeftLowerArm:
+        case Bone::LeftHand:
+            return facing.left;
+        case Bone::RightShoulder:
+        case Bone::RightUpperArm:
+        case Bone::RightLowerArm:
+        case Bone::RightHand:
+            return -facing.left;
+        case Bone::LeftUpperLeg:
+        case Bone::LeftLowerLeg:
+        case Bone::RightUpperLeg:
+        case Bone::RightLowerLeg:
+            return -facing.up;
+        case Bone::LeftFoot:
+        case Bone::RightFoot:
+        case Bone::LeftToes:
+        case Bone::RightToes:
+            return facing.forward;
+        default:
+            return facing.up;
+    }
+}
+
+/// Whether a body keeps the first bone out of the second: hands and lower arms out of what is not their own
+/// arm, lower legs out of each other.
+inline bool kept_apart(Bone moving, Bone still) noexcept {
+    switch (moving) {
+        case Bone::LeftHand:
+        case Bone::LeftLowerArm:
+            return still != Bone::LeftShoulder && still != Bone::LeftUpperArm &&
+                   still != Bone::LeftLowerArm && still != Bone::LeftHand && still != Bone::RightShoulder;
+        case Bone::RightHand:
+        case Bone::RightLowerArm:
+            return still != Bone::RightShoulder && still != Bone::RightUpperArm &&
+                   still != Bone::RightLowerArm && still != Bone::RightHand && still != Bone::LeftShoulder;
+        case Bone::LeftLowerLeg:
+            return still == Bone::RightLowerLeg;
+        default:
+            return false;
+    }
+}
+
+}  // namespace tendril::humanoid::detail

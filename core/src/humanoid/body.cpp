@@ -1,0 +1,334 @@
+#include "tendril/humanoid/body.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "humanoid/body_solve.hpp"
+#include "rig/checks.hpp"
+#include "rig/math.hpp"
+
+namespace tendril::humanoid {
+namespace {
+
+using namespace rig::detail;
+using detail::Link;
+
+constexpr const char* effector_names[]{"hips", "head", "left_hand", "right_hand", "left_foot", "right_foot"};
+
+/// How readily a bone turns, against an upper arm.
+double mobility_of(Bone bone) noexcept {
+    switch (bone) {
+        case Bone::Hips:
+            return 0.005;
+        case Bone::Spine:
+        case Bone::Chest:
+        case Bone::UpperChest:
+            return 0.012;
+        case Bone::LeftShoulder:
+        case Bone::RightShoulder:
+            return 0.03;
+        case Bone::Neck:
+            return 0.3;
+        default:
+            return 1.0;
+    }
+}
+
+/// What a limb may stop short of its full length, against that length: 0.7 mm of a leg of 0.85 m.
+constexpr double slack_part = 0.0008;
+
+/// The link of a bone; -1: the body has not got it.
+int link_of(const std::vector<Bone>& bones, Bone bone) noexcept {
+    const auto found = std::find(bones.begin(), bones.end(), bone);
+    return found == bones.end() ? -1 : static_cast<int>(found - bones.begin());
+}
+
+Result check_targets(std::span<const BodyTarget> targets) noexcept {
+    unsigned seen = 0;
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+        const BodyTarget& target = targets[i];
+        const auto index = static_cast<std::size_t>(target.effector);
+        if (index >= effector_count)
+            return refused("Body::solve", Argument("targets", i, "effector"), "one of the six",
+                           static_cast<int>(index));
+        if (seen >> index & 1u)
+            return refused("Body::solve", Argument("targets", i, "effector"), "one without another target",
+                           effector_names[index]);
+        seen |= 1u << index;
+        if (const Result bad = check_vector("Body::solve", "targets.position", target.position); !bad)
+            return bad;
+        if (!(target.weight >= 0.0 && target.weight <= 1e3))
+            return refused("Body::solve", Argument("targets", i, "weight"), "from 0 to 1e3", target.weight);
+        if (!target.rotation) continue;
+        const double size = std::sqrt(dot(*target.rotation, *target.rotation));
+        if (!(size > 1e-6 && size <= static_cast<double>(max_magnitude)))
+            return refused("Body::solve", Argument("targets", i, "rotation"), "a rotation",
+                           tendril::detail::Shown("a quaternion of length ", size));
+    }
+    return {};
+}
+
+Result check_state(const BodyState& state, std::size_t links) noexcept {
+    if (state.turns.empty()) return {};
+    if (state.turns.size() != links)
+        return tendril::detail::refused_count("Body::solve", "state.turns", state.turns.size(), links);
+    for (std::size_t i = 0; i < links; ++i) {
+        const double size = dot(state.turns[i], state.turns[i]);
+        if (!(std::abs(size - 1.0) < 1e-3))
+            return refused("Body::solve", Argument("state.turns", i), "a unit quaternion",
+                           tendril::detail::Shown("one of length ", std::sqrt(size)));
+    }
+    for (const glm::dvec3& left : state.left)
+        if (const Result bad = check_vector("Body::solve", "state.left", left); !bad) return bad;
+    for (const glm::dvec3& clip : state.clip)
+        if (const Result bad = check_vector("Body::solve", "state.clip", clip); !bad) return bad;
+    if (const Result bad = check_number("Body::solve", "state.deepest", state.deepest); !bad) return bad;
+    if (const Result bad = check_number("Body::solve", "state.pace", state.pace); !bad) return bad;
+    return check_vector("Body::solve", "state.shift", state.shift);
+}
+
+}  // namespace
+
+const char* name(Effector effector) noexcept {
+    return effector_names[static_cast<std::size_t>(effector)];
+}
+
+std::optional<Effector> effector_named(std::string_view name) noexcept {
+    for (std::size_t i = 0; i < effector_count; ++i)
+        if (name == effector_names[i]) return static_cast<Effector>(i);
+    return std::nullopt;
+}
+
+Bone bone_of(Effector effector) noexcept {
+    constexpr Bone bones[]{Bone::Hips,      Bone::Head,     Bone::LeftHand,
+                           Bone::RightHand, Bone::LeftFoot, Bone::RightFoot};
+    return bones[static_cast<std::size_t>(effector)];
+}
+
+Body::Body(std::unique_ptr<Work> work) noexcept : work_(std::move(work)) {}
+Body::Body(Body&&) noexcept = default;
+Body& Body::operator=(Body&&) noexcept = default;
+Body::~Body() = default;
+
+const std::vector<Bone>& Body::bones() const noexcept {
+    return work_->bones;
+}
+const BodyJoints& Body::joints() const noexcept {
+    return work_->joints;
+}
+
+Expected<Body> Body::make(const Skeleton& skeleton, const BoneMap& map, const BodyLimits& limits,
+                          std::span<const BodyCapsule> capsules) {
+    if (!map.missing.empty()) return refused("Body", name(map.missing.front()), "mapped", "none");
+    if (!map.upright) return refused("Body", "map", "of a body that stands upright", "one that does not");
+    Expected<BodyJoints> joints = BodyJoints::make(skeleton, map, limits);
+    if (!joints) return joints.error();
+    auto work = std::make_unique<Work>();
+    work->joints = std::move(*joints);
+    std::vector<char> needed(skeleton.size(), 0);
+    for (const BoneMatch& match : map.bones)
+        for (std::int32_t node = match.node; node >= 0;
+             node = skeleton[static_cast<std::size_t>(node)].parent)
+            needed[static_cast<std::size_t>(node)] = 1;
+    for (const std::int32_t each : skeleton.order()) {
+        const auto node = static_cast<std::size_t>(each);
+        if (!needed[node]) continue;
+        work->needed.push_back(node);
+        const auto bone = detail::bone_of(map, each);
+        if (!bone) continue;
+        const auto before = work->joints.parent(*bone);
+        const int parent = before ? link_of(work->bones, *before) : -1;
+        if ((parent < 0) != (*bone == Bone::Hips))
+            return refused("Body", name(*bone), "a bone that hangs on the hips",
+                           std::string_view(skeleton[node].name));
+        Link link{};
+        link.bone = *bone, link.node = node, link.parent = parent, link.mobility = mobility_of(*bone);
+        link.rest = work->joints.rest_rotation(*bone);
+        const ik::Limit& limit = work->joints.limit(*bone);
+        link.given = ik::detail::solvable_joint(limit, math::narrow(work->joints.direction(*bone)));
+        if (limit.kind == ik::JointKind::Hinge) link.hinge = math::wide(link.given.axis);
+        work->links.push_back(link);
+        work->bones.push_back(*bone);
+    }
+    for (std::size_t i = 0; i < effector_count; ++i) {
+        work->ends[i] = link_of(work->bones, humanoid::bone_of(static_cast<Effector>(i)));
+        for (int link = work->links[static_cast<std::size_t>(work->ends[i])].parent; link >= 0;
+             link = work->links[static_cast<std::size_t>(link)].parent)
+            work->links[static_cast<std::size_t>(link)].effectors |= 1u << i;
+    }
+    const BodyLimits usual = default_limits(skeleton, map);
+    for (const Bone upper :
+         {Bone::LeftUpperArm, Bone::RightUpperArm, Bone::LeftUpperLeg, Bone::RightUpperLeg}) {
+        const Bone lower = *detail::limb_child(upper), end = *detail::limb_child(lower);
+        detail::BodyLimb limb{link_of(work->bones, upper), link_of(work->bones, lower),
+                          link_of(work->bones, end)};
+        limb.axis = math::wide(usual[static_cast<std::size_t>(lower)].axis);
+        if (work->joints.parent(lower) == upper && work->joints.parent(end) == lower)
+            work->limbs.push_back(limb);
+    }
+    work->parents.reserve(skeleton.size());
+    for (const Node& node : skeleton.nodes()) work->parents.push_back(node.parent);
+    work->placements.resize(skeleton.size());
+    work->kept.resize(work->links.size());
+    find_tips(*work, skeleton);
+    if (const Result bad = work->add_volumes(rest_pose(skeleton), capsules); !bad) return bad;
+    work->first.resize(work->links.size() + work->tips.size());
+    return Body(std::move(work));
+}
+
+void Body::find_tips(Work& work, const Skeleton& skeleton) {
+    const std::vector<rig::Transform> rest = rest_pose(skeleton);
+    place(skeleton, rest, work.placements);
+    for (std::size_t i = 0; i < work.links.size(); ++i) {
+        const Link& link = work.links[i];
+        const int own = static_cast<int>(i);
+        if (std::any_of(work.links.begin(), work.links.end(),
+                        [&](const Link& each) { return each.parent == own; }))
+            continue;
+        glm::dvec3 farthest{0.0};
+        for (std::size_t node = 0; node < skeleton.size(); ++node) {
+            if (!skeleton.is_below(node, link.node)) continue;
+            const glm::dvec3 way = minus(work.placements[node].position, work.placements[link.node].position);
+            if (dot(way, way) > dot(farthest, farthest)) farthest = way;
+        }
+        const glm::dquat turn = math::compose(work.placements[link.node].rotation(), conjugate(link.rest));
+        work.tips.push_back({own, rotated(conjugate(turn), farthest)});
+    }
+}
+
+Expected<BodyReport> Body::solve(std::span<rig::Transform> pose, std::span<const BodyTarget> targets,
+                                 BodyState& state, const BodyOptions& options) {
+    if (const Result bad =
+            tendril::detail::check_count("Body::solve", "pose", pose.size(), work_->parents.size());
+        !bad)
+        return bad;
+    if (const Result bad = check_targets(targets); !bad) return bad;
+    if (const Result bad = check_state(state, work_->links.size()); !bad) return bad;
+    if (options.max_iterations < 1 || options.max_iterations > 1000)
+        return refused("Body::solve", "options.max_iterations", "from 1 to 1000", options.max_iterations);
+    if (!(options.tolerance > 0.0 && options.tolerance <= 1.0))
+        return refused("Body::solve", "options.tolerance", "over 0 and at most 1", options.tolerance);
+    if (!(options.twist_share >= 0.0 && options.twist_share <= 1.0))
+        return refused("Body::solve", "options.twist_share", "from 0 to 1", options.twist_share);
+    const bool touches = options.self_collision && !work_->pairs.empty();
+    if (!touches && std::none_of(targets.begin(), targets.end(),
+                                 [](const BodyTarget& each) { return each.weight > 0.0; })) {
+        state = BodyState{};
+        return BodyReport{};
+    }
+    return detail::BodySolve(*work_, targets, options).run(pose, state);
+}
+
+void Body::Work::place_needed(std::span<const rig::Transform> pose) noexcept {
+    for (const std::size_t node : needed) {
+        const Placement own = placement(pose[node]);
+        placements[node] =
+            parents[node] < 0 ? own : placements[static_cast<std::size_t>(parents[node])] * own;
+    }
+}
+
+void Body::Work::take(std::span<const rig::Transform> pose) noexcept {
+    place_needed(pose);
+    for (Link& link : links) {
+        link.start = math::compose(placements[link.node].rotation(), conjugate(link.rest));
+        if (link.parent < 0) {
+            link.offset = placements[link.node].position;
+            link.own = link.start;
+            continue;
+        }
+        const Link& before = links[static_cast<std::size_t>(link.parent)];
+        const glm::dquat back = conjugate(before.start);
+        link.offset = rotated(back, minus(placements[link.node].position, placements[before.node].position));
+        link.own = math::compose(back, link.start);
+    }
+    for (detail::Volume& volume : volumes) {
+        const Link& link = links[static_cast<std::size_t>(volume.link)];
+        const glm::dquat back = conjugate(link.start);
+        volume.from = rotated(back, placements[link.node].axes * volume.capsule.from);
+        volume.to = rotated(back, placements[link.node].axes * volume.capsule.to);
+    }
+    for (detail::BodyLimb& limb : limbs) {
+        const double a = length(links[static_cast<std::size_t>(limb.lower)].offset);
+        const double b = length(links[static_cast<std::size_t>(limb.end)].offset);
+        limb.square = a + b > 0.0 ? 0.5 * a * b / (a + b) : 0.0;
+        limb.even = 2.0 * std::sqrt(limb.square * slack_part * (a + b));  // at most that much off, half way
+    }
+}
+
+Result Body::Work::add_volumes(std::span<const rig::Transform> rest, std::span<const BodyCapsule> capsules) {
+    for (std::size_t i = 0; i < capsules.size(); ++i) {
+        const BodyCapsule& capsule = capsules[i];
+        if (const Result bad = check_vector("Body", "capsules.from", capsule.from); !bad) return bad;
+        if (const Result bad = check_vector("Body", "capsules.to", capsule.to); !bad) return bad;
+        if (!(capsule.radius >= 0.0 && capsule.radius <= static_cast<double>(max_magnitude)))
+            return refused("Body", Argument("capsules", i, "radius"), "from 0 to 1e9 m", capsule.radius);
+        const int link = link_of(bones, capsule.bone);
+        if (link < 0) return refused("Body", Argument("capsules", i, "bone"), "mapped", name(capsule.bone));
+        unsigned moved_by = 0;
+        for (int above = link; above >= 0; above = links[static_cast<std::size_t>(above)].parent)
+            if (links[static_cast<std::size_t>(above)].effectors != 0) moved_by |= 1u << above;
+        volumes.push_back({capsule, link, moved_by});
+    }
+    take(rest);
+    for (Link& link : links) link.turn = link.own;
+    place_links(glm::dvec3(0.0));
+    const auto placed = [&](const detail::Volume& volume) {
+        const Link& link = links[static_cast<std::size_t>(volume.link)];
+        return PlacedCapsule{plus(link.position, rotated(link.rotation, volume.from)),
+                             plus(link.position, rotated(link.rotation, volume.to)), volume.capsule.radius};
+    };
+    for (std::size_t i = 0; i < volumes.size(); ++i) {
+        for (std::size_t j = 0; j < volumes.size(); ++j) {
+            const Bone moving = volumes[i].capsule.bone, still = volumes[j].capsule.bone;
+            if (!detail::kept_apart(moving, still) || (detail::kept_apart(still, moving) && j < i)) continue;
+            const double allowed = gap(placed(volumes[i]), placed(volumes[j]));
+            const double radii = volumes[i].capsule.radius + volumes[j].capsule.radius;
+            pairs.push_back({i, j, radii + std::min(allowed, 0.0)});
+        }
+    }
+    return {};
+}
+
+glm::dvec3 Body::Work::place_of(const detail::Tip& tip) const noexcept {
+    const Link& link = links[static_cast<std::size_t>(tip.link)];
+    return plus(link.position, rotated(link.rotation, tip.at));
+}
+
+void Body::Work::place_links(const glm::dvec3& shift) noexcept {
+    for (Link& link : links) {
+        if (link.parent < 0) {
+            link.position = plus(link.offset, shift);
+            link.rotation = link.turn;
+            continue;
+        }
+        const Link& before = links[static_cast<std::size_t>(link.parent)];
+        link.position = plus(before.position, rotated(before.rotation, link.offset));
+        link.rotation = math::compose(before.rotation, link.turn);
+    }
+}
+
+void Body::Work::give(std::span<rig::Transform> pose, const glm::dvec3& shift) const noexcept {
+    for (const Link& link : links) {
+        rig::Transform& local = pose[link.node];
+        const glm::dquat was = math::compose(link.start, link.rest);
+        glm::dquat turned = math::compose(link.rotation, link.rest);
+        if (link.parent >= 0) {  // what lies between two bones turns with the one before
+            const Link& before = links[static_cast<std::size_t>(link.parent)];
+            turned = math::compose(math::compose(before.start, conjugate(before.rotation)), turned);
+        }
+        // Over the clip's own local rotation, so that what does not turn keeps its bits.
+        const glm::dquat by = math::compose(conjugate(was), turned);
+        if (length(glm::dvec3{by.x, by.y, by.z}) < 1e-14) continue;
+        local.rotation = rig::normalised(math::compose(local.rotation, by));
+    }
+    const Link& hips = links.front();
+    if (shift == glm::dvec3(0.0)) return;
+    glm::dvec3 own = shift;
+    if (const std::int32_t above = parents[hips.node]; above >= 0) {
+        const Placement& from = placements[static_cast<std::size_t>(above)];
+        own = glm::inverse(from.axes) * shift;
+    }
+    pose[hips.node].translation = plus(pose[hips.node].translation, own);
+}
+
+}  // namespace tendril::humanoid

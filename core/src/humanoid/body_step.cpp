@@ -1,0 +1,241 @@
+// One step of a body's solve: the equations of damped least squares, and the limits that hold in it.
+#include <algorithm>
+#include <cmath>
+
+#include "humanoid/body_solve.hpp"
+#include "humanoid/joint_turn.hpp"
+#include "ik/limits/clamp.hpp"
+#include "rig/math.hpp"
+
+namespace tendril::humanoid::detail {
+
+using namespace rig::detail;
+
+namespace {
+
+/// Of the hips' place, square metres against the square radians of an upper arm.
+constexpr double shift_mobility = 0.004;
+/// What cannot be brought nearer pulls a limb straight, more so the more it turns: that is stiffness, which
+/// least squares leave out. Times this, for joints one above the other turn together.
+constexpr double bends_away = 2.0;
+constexpr int most_changes = 3;  ///< of the limits that hold, in a step
+
+}  // namespace
+
+bool RowEquations::factorise() noexcept {
+    for (std::size_t j = 0; j < count; ++j) {
+        double pivot = a[j][j];
+        for (std::size_t k = 0; k < j; ++k) pivot -= a[j][k] * a[j][k];
+        if (!(pivot > 0.0)) return false;
+        a[j][j] = std::sqrt(pivot);
+        const double inverse = 1.0 / a[j][j];
+        for (std::size_t i = j + 1; i < count; ++i) {
+            double sum = a[i][j];
+            for (std::size_t k = 0; k < j; ++k) sum -= a[i][k] * a[j][k];
+            a[i][j] = sum * inverse;
+        }
+    }
+    return true;
+}
+
+void RowEquations::solve() noexcept {
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t k = 0; k < i; ++k) b[i] -= a[i][k] * b[k];
+        b[i] /= a[i][i];
+    }
+    for (std::size_t i = count; i-- > 0;) {
+        for (std::size_t k = i + 1; k < count; ++k) b[i] -= a[k][i] * b[k];
+        b[i] /= a[i][i];
+    }
+}
+
+/// What a torque turns a link about: all but the directions in which its limit holds it.
+glm::dvec3 BodySolve::let(std::size_t link, const glm::dvec3& torque) const noexcept {
+    const Link& at = work_.links[link];
+    if (at.parent < 0 && hips_given_) return glm::dvec3(0.0);
+    glm::dvec3 result = torque;
+    if (at.limit.hinge()) result = times(steps_[link].hinge, dot(steps_[link].hinge, torque));
+    for (int i = 0; i < steps_[link].blocked; ++i)
+        result = across(result, steps_[link].outward[static_cast<std::size_t>(i)]);
+    return result;
+}
+
+void BodySolve::find_step(double damping, double part_back, double budget) noexcept {
+    back_ = length(shift_) * part_back;
+    for (std::size_t i = 0; i < work_.links.size(); ++i) {
+        const Link& link = work_.links[i];
+        steps_[i].back = logarithm(math::compose(link.own, conjugate(link.turn)));
+        if (link.effectors != 0 && !(link.parent < 0 && hips_given_))
+            back_ = std::max(back_, part_back * length(steps_[i].back));
+    }
+    if (back_ > budget) {
+        part_back *= budget / back_;
+        back_ = budget;
+    }
+    for (std::size_t i = 0; i < work_.links.size(); ++i) {
+        const Link& link = work_.links[i];
+        Step& step = steps_[i];
+        step.blocked = 0;
+        step.rows = 0;
+        const glm::dquat before = link.parent < 0
+                                      ? glm::dquat(1.0, 0.0, 0.0, 0.0)
+                                      : work_.links[static_cast<std::size_t>(link.parent)].rotation;
+        if (link.effectors == 0) continue;
+        if (link.limit.hinge()) step.hinge = rotated(before, link.hinge);
+        double stiffness = damping / link.mobility;
+        for (std::size_t k = 0; k < count_; ++k) {
+            const Goal& goal = goals_[k];
+            if (!(link.effectors >> goal.effector & 1u)) continue;
+            const glm::dvec3 arm = minus(
+                work_.links[static_cast<std::size_t>(work_.ends[goal.effector])].position, link.position);
+            stiffness += goal.weight * bends_away * std::max(dot(goal.stuck, arm), 0.0);
+        }
+        step.compliance = 1.0 / stiffness;
+        step.back = rotated(before, times(step.back, part_back * damping / (link.mobility * stiffness)));
+        for (std::size_t k = 0; k < count_; ++k) {
+            const Goal& goal = goals_[k];
+            if (!(link.effectors >> goal.effector & 1u)) continue;
+            const glm::dvec3 arm = minus(
+                work_.links[static_cast<std::size_t>(work_.ends[goal.effector])].position, link.position);
+            step.rows |= 7u << 3 * k;
+            glm::dvec3* column = &columns_[i][3 * k];
+            column[0] = {0.0, arm.z, -arm.y};
+            column[1] = {-arm.z, 0.0, arm.x};
+            column[2] = {arm.y, -arm.x, 0.0};
+            if (!goal.limb || static_cast<std::size_t>(goal.limb->lower) != i) continue;
+            const double slope = goal.limb->slope(goal.limb->bend);
+            for (int axis = 0; axis < 3; ++axis)
+                column[axis] = minus(column[axis], times(goal.limb->about, slope * goal.limb->along[axis]));
+        }
+    }
+    shift_back_ = times(shift_, -part_back);
+    add_goal_rows();
+    solve_rows(damping);
+    for (int i = 0; i < most_changes && change_held(); ++i) solve_rows(damping);
+}
+
+void BodySolve::add_goal_rows() noexcept {
+    row_count_ = 3 * count_;
+    for (std::size_t k = 0; k < count_; ++k) {
+        for (int axis = 0; axis < 3; ++axis) {
+            Row& row = rows_[3 * k + static_cast<std::size_t>(axis)];
+            row = {glm::dvec3(0.0), goals_[k].left[axis], goals_[k].weight};
+            row.shift[axis] = 1.0;
+        }
+    }
+}
+
+void BodySolve::solve_rows(double damping) noexcept {
+    RowEquations& e = equations_;
+    e.count = row_count_;
+    for (std::size_t r = 0; r < row_count_; ++r) {
+        e.b[r] = rows_[r].left - dot(rows_[r].shift, shift_back_);
+        for (std::size_t q = 0; q <= r; ++q)
+            e.a[r][q] = shift_mobility / damping * dot(rows_[r].shift, rows_[q].shift);
+        e.a[r][r] += 1.0 / rows_[r].weight;
+    }
+    for (std::size_t i = 0; i < work_.links.size(); ++i) {
+        const Step& step = steps_[i];
+        if (step.rows == 0) continue;
+        const glm::dvec3 back = let(i, step.back);
+        for (std::size_t r = 0; r < row_count_; ++r) {
+            if (!(step.rows >> r & 1u)) continue;
+            e.b[r] -= dot(columns_[i][r], back);
+            const glm::dvec3 moved = times(let(i, columns_[i][r]), step.compliance);
+            for (std::size_t q = 0; q <= r; ++q)
+                if (step.rows >> q & 1u) e.a[r][q] += dot(columns_[i][q], moved);
+        }
+    }
+    if (!e.factorise())
+        e.b.fill(0.0);
+    else
+        e.solve();
+    pull_ = e.b;
+    shift_step_ = shift_back_;
+    for (std::size_t r = 0; r < row_count_; ++r)
+        shift_step_ = plus(shift_step_, times(rows_[r].shift, shift_mobility / damping * pull_[r]));
+    for (std::size_t i = 0; i < work_.links.size(); ++i) {
+        glm::dvec3 torque{0.0};
+        if (work_.links[i].effectors == 0) continue;
+        for (std::size_t r = 0; r < row_count_; ++r)
+            if (steps_[i].rows >> r & 1u) torque = plus(torque, times(columns_[i][r], pull_[r]));
+        steps_[i].turn = let(i, plus(steps_[i].back, times(torque, steps_[i].compliance)));
+    }
+}
+
+bool BodySolve::change_held() noexcept {
+    const bool limits = block_limits(), contacts = hold_contacts();
+    return limits || contacts;
+}
+
+bool BodySolve::block_limits() noexcept {
+    bool changed = false;
+    for (std::size_t i = 0; i < work_.links.size(); ++i) {
+        const Link& link = work_.links[i];
+        Step& step = steps_[i];
+        if (link.effectors == 0 || link.limit.free() || step.blocked == 3) continue;
+        if (dot(step.turn, step.turn) < 1e-24) continue;
+        const glm::quat turn = narrow(link.turn);
+        if (!link.limit.hinge() && ik::detail::is_inside(link.limit, turn)) continue;
+        const glm::dquat before = link.parent < 0
+                                      ? glm::dquat(1.0, 0.0, 0.0, 0.0)
+                                      : work_.links[static_cast<std::size_t>(link.parent)].rotation;
+        const auto block = [&](const glm::dvec3& outward) {
+            glm::dvec3 left = outward;
+            for (int j = 0; j < step.blocked; ++j)
+                left = across(left, step.outward[static_cast<std::size_t>(j)]);
+            const auto direction = direction_of(left, 1e-6);
+            if (!direction || step.blocked == 3) return;
+            step.outward[static_cast<std::size_t>(step.blocked++)] = *direction;
+            changed = true;
+        };
+        if (link.limit.hinge()) {
+            const double angle = hinge_angle(link.hinge, link.turn), by = dot(step.hinge, step.turn);
+            const double low = static_cast<double>(link.limit.min),
+                         high = static_cast<double>(link.limit.max);
+            if ((by > 0.0 && angle >= high - 1e-6) || (by < 0.0 && angle <= low + 1e-6)) block(step.hinge);
+            continue;
+        }
+        const ik::detail::Bounds bounds = ik::detail::bounds_of(link.limit, turn);
+        for (int j = 0; j < bounds.count; ++j) {
+            const glm::dvec3 outward = rotated(before, math::wide(bounds.at[j].outward));
+            const double by = dot(outward, step.turn);
+            if (by > 1e-12 || (bounds.at[j].both && by < -1e-12)) block(outward);
+        }
+    }
+    return changed;
+}
+
+double BodySolve::step_size() const noexcept {
+    double size = length(shift_step_);
+    for (std::size_t i = 0; i < work_.links.size(); ++i)
+        if (work_.links[i].effectors != 0) size = std::max(size, length(steps_[i].turn));
+    return size;
+}
+
+void BodySolve::keep() noexcept {
+    for (std::size_t i = 0; i < work_.links.size(); ++i) work_.kept[i] = work_.links[i].turn;
+    work_.kept_shift = shift_;
+}
+
+void BodySolve::put_back() noexcept {
+    for (std::size_t i = 0; i < work_.links.size(); ++i) work_.links[i].turn = work_.kept[i];
+    shift_ = work_.kept_shift;
+    work_.place_links(shift_);
+}
+
+void BodySolve::apply(double part) noexcept {
+    shift_ = plus(shift_, times(shift_step_, part));
+    for (std::size_t i = 0; i < work_.links.size(); ++i) {
+        Link& link = work_.links[i];
+        if (link.effectors == 0) continue;
+        const glm::dquat before = link.parent < 0
+                                      ? glm::dquat(1.0, 0.0, 0.0, 0.0)
+                                      : work_.links[static_cast<std::size_t>(link.parent)].rotation;
+        const glm::dvec3 turn = rotated(conjugate(before), times(steps_[i].turn, part));
+        link.turn = math::compose(exponential(turn), link.turn);
+        clamp_turn(link);
+    }
+}
+
+}  // namespace tendril::humanoid::detail

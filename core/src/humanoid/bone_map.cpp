@@ -1,0 +1,269 @@
+#include "tendril/humanoid/bone_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "humanoid/names.hpp"
+#include "humanoid/shape.hpp"
+#include "rig/math.hpp"
+
+namespace tendril::humanoid {
+namespace {
+
+using detail::NameReading;
+using detail::Part;
+using detail::ShapeReading;
+using detail::Side;
+
+constexpr const char* names[bone_count]{
+    "Hips",          "Spine",         "Chest",        "UpperChest",   "Neck",          "Head",
+    "LeftShoulder",  "LeftUpperArm",  "LeftLowerArm", "LeftHand",     "RightShoulder", "RightUpperArm",
+    "RightLowerArm", "RightHand",     "LeftUpperLeg", "LeftLowerLeg", "LeftFoot",      "LeftToes",
+    "RightUpperLeg", "RightLowerLeg", "RightFoot",    "RightToes"};
+
+using Nodes = std::array<std::int32_t, bone_count>;
+
+/// What the names say, one bone after the other, each where the ones before it let it be.
+class Names {
+  public:
+    /// Hips and head that no name tells are taken from the shape.
+    Names(const Skeleton& skeleton, const ShapeReading& shape)
+        : skeleton_(skeleton), readings_(skeleton.size()) {
+        for (std::size_t i = 0; i < skeleton.size(); ++i) readings_[i] = detail::read_name(skeleton[i].name);
+        found.fill(-1);
+        set(Bone::Hips, find_hips());
+        set(Bone::Head, topmost(Part::Head, Side::None, at(Bone::Hips)));
+        limb(Side::Left, Bone::LeftShoulder, Bone::LeftUpperLeg);
+        limb(Side::Right, Bone::RightShoulder, Bone::RightUpperLeg);
+        const auto or_shape = [&](Bone bone) { return at(bone) >= 0 ? at(bone) : shape[bone]; };
+        column(or_shape(Bone::Hips), or_shape(Bone::Head));
+    }
+    Nodes found;
+
+  private:
+    std::int32_t at(Bone bone) const { return found[static_cast<std::size_t>(bone)]; }
+    void set(Bone bone, std::int32_t node) { found[static_cast<std::size_t>(bone)] = node; }
+    const NameReading& reading(std::int32_t node) const { return readings_[static_cast<std::size_t>(node)]; }
+    std::int32_t parent(std::int32_t node) const { return skeleton_[static_cast<std::size_t>(node)].parent; }
+    bool below(std::int32_t node, std::int32_t above) const {
+        return above < 0 ||
+               skeleton_.is_below(static_cast<std::size_t>(node), static_cast<std::size_t>(above));
+    }
+
+    /// The first of that name from the root down, below a node.
+    std::int32_t topmost(Part part, Side side, std::int32_t above) const {
+        for (const std::int32_t node : skeleton_.order())
+            if (reading(node).part == part && reading(node).side == side && node != above &&
+                below(node, above))
+                return node;
+        return -1;
+    }
+    /// Of several that are named so, the one with most of what has a side below it; of those with the same,
+    /// the one that is called hips, or else the one nearest to the limbs.
+    std::int32_t find_hips() const {
+        std::int32_t best = -1;
+        std::size_t most = 0;
+        bool best_is_hips = false;
+        for (const std::int32_t node : skeleton_.order()) {
+            if (reading(node).part != Part::Hips) continue;
+            std::size_t sided = 0;
+            for (std::size_t i = 0; i < skeleton_.size(); ++i)
+                sided += readings_[i].side != Side::None && below(static_cast<std::int32_t>(i), node);
+            const bool is_hips = reading(node).is_plain;
+            if (best >= 0 && (sided < most || (sided == most && best_is_hips && !is_hips))) continue;
+            best = node, most = sided, best_is_hips = is_hips;
+        }
+        return best;
+    }
+    /// The next one above a node that is of one of these parts; up to the hips.
+    std::int32_t above(std::int32_t node, Side side, std::initializer_list<Part> parts) const {
+        for (std::int32_t each = parent(node); each >= 0 && each != at(Bone::Hips); each = parent(each))
+            if (reading(each).side == side &&
+                std::find(parts.begin(), parts.end(), reading(each).part) != parts.end())
+                return each;
+        return -1;
+    }
+    void limb(Side side, Bone shoulder, Bone upper_leg) {
+        const auto next = [](Bone bone, int by) { return static_cast<Bone>(static_cast<int>(bone) + by); };
+        const std::int32_t hand = topmost(Part::Hand, side, at(Bone::Hips));
+        std::int32_t lower = hand >= 0 ? above(hand, side, {Part::LowerArm, Part::Arm})
+                                       : topmost(Part::LowerArm, side, at(Bone::Hips));
+        std::int32_t upper =
+            lower >= 0 ? above(lower, side, {Part::UpperArm, Part::Arm, Part::ShoulderArm}) : -1;
+        if (lower < 0) upper = topmost(Part::UpperArm, side, at(Bone::Hips));
+        set(next(shoulder, 3), hand);
+        set(next(shoulder, 2), lower);
+        set(next(shoulder, 1), upper);
+        if (upper >= 0) set(shoulder, above(upper, side, {Part::Shoulder, Part::ShoulderArm}));
+
+        // Legs may hang beside what is named hips. A foot that hangs on something else than a leg, as IK rigs
+        // have it, is none of the body's.
+        std::int32_t foot = topmost(Part::Foot, side, -1);
+        if (foot >= 0 && above(foot, side, {Part::LowerLeg, Part::Leg}) < 0) foot = -1;
+        lower =
+            foot >= 0 ? above(foot, side, {Part::LowerLeg, Part::Leg}) : topmost(Part::LowerLeg, side, -1);
+        const std::int32_t thigh =
+            lower >= 0 ? above(lower, side, {Part::UpperLeg, Part::Leg}) : topmost(Part::UpperLeg, side, -1);
+        set(next(upper_leg, 2), foot);
+        set(next(upper_leg, 1), lower);
+        set(upper_leg, thigh);
+        if (foot >= 0) set(next(upper_leg, 3), topmost(Part::Toes, side, foot));
+    }
+    /// Between the hips and the head: a neck, and below it one to three bones of the spine.
+    void column(std::int32_t hips, std::int32_t head) {
+        if (hips < 0 || head < 0 || !below(head, hips)) return;
+        std::vector<std::int32_t> spine;
+        std::int32_t neck = -1;
+        for (std::int32_t node = parent(head); node >= 0 && node != hips; node = parent(node)) {
+            if (reading(node).part == Part::Neck) neck = node;
+            if (reading(node).part == Part::Spine && arms_below(node)) spine.push_back(node);
+        }
+        set(Bone::Neck, neck);
+        if (spine.empty()) return;
+        std::reverse(spine.begin(), spine.end());
+        set(Bone::Spine, spine.front());
+        if (spine.size() > 1) set(Bone::Chest, spine[spine.size() > 2 ? spine.size() - 2 : 1]);
+        if (spine.size() > 2) set(Bone::UpperChest, spine.back());
+    }
+
+    /// Rigify calls its neck a spine too.
+    bool arms_below(std::int32_t node) const {
+        const std::int32_t arm = at(Bone::LeftUpperArm);
+        return arm < 0 || below(arm, node);
+    }
+
+    const Skeleton& skeleton_;
+    std::vector<NameReading> readings_;
+};
+
+std::string named(const Skeleton& skeleton, std::int32_t node) {
+    std::string text = "named ";
+    text += skeleton[static_cast<std::size_t>(node)].name;
+    return text;
+}
+
+/// What both readers say of a bone, weighed. `agreed`: how many of the named bones the shape finds too, 0
+/// to 1.
+BoneMatch weigh(const Skeleton& skeleton, std::int32_t by_name, std::int32_t by_shape) {
+    BoneMatch match;
+    if (by_name < 0 && by_shape < 0) return match;
+    match.node = by_name >= 0 ? by_name : by_shape;
+    if (by_name < 0) {
+        match.confidence = 0.6;
+        match.reasons = "its place in the figure; its name says nothing";
+    } else if (by_shape < 0) {
+        match.confidence = 0.8;
+        match.reasons = named(skeleton, by_name);
+    } else if (by_name == by_shape) {
+        match.confidence = 0.98;
+        match.reasons = named(skeleton, by_name) + "; its place in the figure says the same";
+    } else {
+        match.confidence = 0.65;
+        match.reasons = named(skeleton, by_name) + "; by its place in the figure it would be " +
+                        skeleton[static_cast<std::size_t>(by_shape)].name;
+    }
+    return match;
+}
+
+/// The shape cannot tell left from right by itself where the feet do not point: names can.
+void swap_sides(ShapeReading& shape) {
+    for (std::size_t i = 0; i < bone_count; ++i) {
+        const auto bone = static_cast<Bone>(i);
+        if (mirrored(bone) > bone) std::swap(shape[bone], shape[mirrored(bone)]);
+    }
+}
+
+}  // namespace
+
+const char* name(Bone bone) noexcept {
+    return names[static_cast<std::size_t>(bone)];
+}
+std::optional<Bone> bone_named(std::string_view text) noexcept {
+    for (std::size_t i = 0; i < bone_count; ++i)
+        if (names[i] == text) return static_cast<Bone>(i);
+    return std::nullopt;
+}
+bool is_needed(Bone bone) noexcept {
+    switch (bone) {
+        case Bone::Chest:
+        case Bone::UpperChest:
+        case Bone::Neck:
+        case Bone::LeftShoulder:
+        case Bone::RightShoulder:
+        case Bone::LeftToes:
+        case Bone::RightToes:
+            return false;
+        default:
+            return true;
+    }
+}
+Bone mirrored(Bone bone) noexcept {
+    const int i = static_cast<int>(bone);
+    if (i < static_cast<int>(Bone::LeftShoulder)) return bone;
+    return static_cast<Bone>((i - 6) / 4 % 2 == 0 ? i + 4 : i - 4);
+}
+const char* name(RestPose pose) noexcept {
+    constexpr const char* all[]{"T", "A", "other"};
+    return all[static_cast<std::size_t>(pose)];
+}
+
+BoneMap match_bones(const Skeleton& skeleton) {
+    ShapeReading shape = detail::read_shape(skeleton);
+    const Names by_name(skeleton, shape);
+    std::size_t same = 0, crossed = 0;
+    for (std::size_t i = static_cast<std::size_t>(Bone::LeftShoulder); i < bone_count; ++i) {
+        if (by_name.found[i] < 0) continue;
+        same += by_name.found[i] == shape.nodes[i];
+        crossed += by_name.found[i] == shape[mirrored(static_cast<Bone>(i))];
+    }
+    if (crossed > same) swap_sides(shape);
+
+    BoneMap map;
+    std::vector<bool> taken(skeleton.size());
+    for (const std::int32_t node : by_name.found)
+        if (node >= 0) taken[static_cast<std::size_t>(node)] = true;
+    for (std::size_t i = 0; i < bone_count; ++i) {
+        std::int32_t by_shape = shape.nodes[i];
+        if (by_name.found[i] < 0 && by_shape >= 0) {
+            if (taken[static_cast<std::size_t>(by_shape)])
+                by_shape = -1;
+            else
+                taken[static_cast<std::size_t>(by_shape)] = true;
+        }
+        map.bones[i] = weigh(skeleton, by_name.found[i], by_shape);
+    }
+    review(map, skeleton);
+    return map;
+}
+
+void review(BoneMap& map, const Skeleton& skeleton) {
+    map.missing.clear();
+    for (std::size_t i = 0; i < bone_count; ++i)
+        if (map.bones[i].node < 0 && is_needed(static_cast<Bone>(i)))
+            map.missing.push_back(static_cast<Bone>(i));
+
+    std::vector<Placement> places(skeleton.size());
+    place(skeleton, rest_pose(skeleton), places);
+    const auto at = [&](Bone bone) { return places[static_cast<std::size_t>(map[bone].node)].position; };
+    const auto has = [&](Bone bone) { return map[bone].node >= 0; };
+    map.upright = true;
+    if (has(Bone::Hips) && has(Bone::Head)) {
+        const glm::dvec3 way = at(Bone::Head) - at(Bone::Hips);
+        map.upright = way.y > std::hypot(way.x, way.z);
+    }
+    map.rest = RestPose::Other;
+    double lowest = 90.0, highest = -90.0;  // degrees above level, of both upper arms
+    for (const Bone upper : {Bone::LeftUpperArm, Bone::RightUpperArm}) {
+        const auto lower = static_cast<Bone>(static_cast<int>(upper) + 1);
+        if (!has(upper) || !has(lower)) return;
+        const glm::dvec3 way = at(lower) - at(upper);
+        const double angle = std::atan2(way.y, std::hypot(way.x, way.z)) * 180.0 / rig::detail::pi;
+        lowest = std::min(lowest, angle), highest = std::max(highest, angle);
+    }
+    if (lowest >= -22.5 && highest <= 22.5)
+        map.rest = RestPose::T;
+    else if (lowest >= -67.5 && highest <= -22.5)
+        map.rest = RestPose::A;
+}
+
+}  // namespace tendril::humanoid

@@ -1,0 +1,151 @@
+#include "tendril/humanoid/clip.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "rig/checks.hpp"
+#include "rig/math.hpp"
+
+namespace tendril::humanoid {
+namespace {
+
+using tendril::detail::Argument;
+using tendril::detail::refused;
+
+/// Numbers of a translation or a scale, or of a rotation.
+std::span<const double> numbers(const glm::dvec3& value) noexcept {
+    return {&value.x, 3};
+}
+std::span<const double> numbers(const glm::dquat& value) noexcept {
+    return {&value.x, 4};
+}
+bool is_value(const glm::dvec3&) noexcept {
+    return true;
+}
+bool is_value(const glm::dquat& value) noexcept {
+    return std::abs(rig::detail::dot(value, value) - 1.0) <= 2e-3;
+}
+
+template <class T>
+Result check_track(const std::string& operation, const std::string& path, const Track<T>& track,
+                   double duration) {
+    const bool cubic = track.interpolation == Interpolation::Cubic;
+    const std::size_t wanted = track.times.size() * (cubic ? 3 : 1);
+    const auto place = [&](const char* list) { return path + list; };
+    if (track.values.size() != wanted)
+        return tendril::detail::refused_count(operation, place("values").c_str(), track.values.size(),
+                                              wanted);
+    const std::string times = place("times"), values = place("values");
+    for (std::size_t i = 0; i < track.times.size(); ++i) {
+        const double time = track.times[i];
+        if (!(time >= 0.0 && time <= duration))
+            return refused(operation, Argument(times, i), "from 0 to the duration", time);
+        if (i > 0 && !(time > track.times[i - 1]))
+            return refused(operation, Argument(times, i), "over the time before it", time);
+    }
+    for (std::size_t i = 0; i < track.values.size(); ++i) {
+        for (const double number : numbers(track.values[i]))
+            if (const Result bad = rig::detail::check_number(operation, Argument(values, i), number); !bad)
+                return bad;
+        if ((!cubic || i % 3 == 1) && !is_value(track.values[i]))
+            return refused(operation, Argument(values, i), "a unit quaternion", "another");
+    }
+    return {};
+}
+
+glm::dvec3 linear(const glm::dvec3& a, const glm::dvec3& b, double part) noexcept {
+    return rig::detail::mix(a, b, part);
+}
+glm::dquat linear(const glm::dquat& a, const glm::dquat& b, double part) noexcept {
+    return rig::blend(a, b, part);
+}
+/// A component of Hermite's cubic: values, and slopes times the time between them.
+double cubic(double from, double leaving, double to, double arriving, double u) noexcept {
+    const double u2 = u * u, u3 = u2 * u;
+    return (2.0 * u3 - 3.0 * u2 + 1.0) * from + (u3 - 2.0 * u2 + u) * leaving + (3.0 * u2 - 2.0 * u3) * to +
+           (u3 - u2) * arriving;
+}
+template <class T>
+T cubic_of(const T& from, const T& leaving, const T& to, const T& arriving, double span, double u) noexcept {
+    T result = from;
+    for (int i = 0; i < T::length(); ++i)
+        result[i] = cubic(from[i], leaving[i] * span, to[i], arriving[i] * span, u);
+    return result;
+}
+glm::dvec3 finished(const glm::dvec3& value) noexcept {
+    return value;
+}
+glm::dquat finished(const glm::dquat& value) noexcept {
+    return rig::normalised(value);
+}
+
+template <class T>
+void sample_track(const Track<T>& track, double time, T& value) noexcept {
+    const std::vector<double>& times = track.times;
+    if (times.empty()) return;
+    const bool is_cubic = track.interpolation == Interpolation::Cubic;
+    const auto key = [&](std::size_t i) -> const T& { return track.values[is_cubic ? 3 * i + 1 : i]; };
+    const auto next =
+        static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), time) - times.begin());
+    if (next == 0 || next == times.size() || track.interpolation == Interpolation::Step) {
+        value = finished(key(next == 0 ? 0 : next - 1));
+        return;
+    }
+    const std::size_t last = next - 1;
+    const double span = times[next] - times[last], u = (time - times[last]) / span;
+    if (!is_cubic)
+        value = linear(finished(key(last)), finished(key(next)), u);
+    else
+        value = finished(
+            cubic_of(key(last), track.values[3 * last + 2], key(next), track.values[3 * next], span, u));
+}
+
+}  // namespace
+
+const char* name(Interpolation interpolation) noexcept {
+    constexpr const char* names[] = {"step", "linear", "cubic"};
+    return names[static_cast<std::size_t>(interpolation)];
+}
+
+Result check(const Clip& clip, const Skeleton& skeleton) {
+    std::string operation = "Clip";
+    if (!clip.name.empty()) operation += ' ' + clip.name;
+    if (!(clip.duration >= 0.0 && clip.duration <= 1e9))
+        return refused(operation, "duration", "from 0 to 1e9 s", clip.duration);
+    std::vector<bool> seen(skeleton.size());
+    for (std::size_t i = 0; i < clip.channels.size(); ++i) {
+        const Channel& channel = clip.channels[i];
+        const Argument node("channels", i, "node");
+        if (channel.node >= skeleton.size())
+            return refused(operation, node, "the place of a node", channel.node);
+        if (seen[channel.node])
+            return refused(operation, node, "one without a channel before it", channel.node);
+        seen[channel.node] = true;
+        std::string path = "channels[";
+        path += std::to_string(i);
+        if (const Result bad =
+                check_track(operation, path + "].translation.", channel.translation, clip.duration);
+            !bad)
+            return bad;
+        if (const Result bad = check_track(operation, path + "].rotation.", channel.rotation, clip.duration);
+            !bad)
+            return bad;
+        if (const Result bad = check_track(operation, path + "].scale.", channel.scale, clip.duration); !bad)
+            return bad;
+    }
+    return {};
+}
+
+void sample(const Channel& channel, double time, rig::Transform& local) noexcept {
+    sample_track(channel.translation, time, local.translation);
+    sample_track(channel.rotation, time, local.rotation);
+    sample_track(channel.scale, time, local.scale);
+}
+
+void sample(const Clip& clip, const Skeleton& skeleton, double time,
+            std::span<rig::Transform> pose) noexcept {
+    for (std::size_t i = 0; i < skeleton.size(); ++i) pose[i] = skeleton[i].rest;
+    for (const Channel& channel : clip.channels) sample(channel, time, pose[channel.node]);
+}
+
+}  // namespace tendril::humanoid

@@ -1,0 +1,26 @@
+// What Feet knows of a character, shared by its making and its steps. Not installed.
+#pragma once
+
+#include "humanoid/limb.hpp"
+#include "tendril/humanoid/feet.hpp"
+
+namespace tendril::humanoid {
+
+namespace detail {
+
+struct FeetPlan {
+    Soles soles;
+    std::size_t nodes;                          // of the skeleton
+    std::vector<std::int32_t> above_hips;       // from what hangs on nothing down to the hips' parent
+    std::size_t hips;                           // node
+    glm::dquat hips_at_rest;                    // in the character's space
+    std::array<Limb, 2> legs;                   // down to the toes
+    std::array<glm::dvec3, 2> leg_direction{};  // from hip to ankle at rest
+    std::array<glm::dvec3, 12> disc;            // of radius 1, level: where the root asks for the ground
+};
+
+}  // namespace detail
+
+struct Feet::Plan : detail::FeetPlan {};
+
+}  // namespace tendril::humanoid

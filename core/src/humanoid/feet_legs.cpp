@@ -1,0 +1,177 @@
+// The legs' part of a step: what the hips come down by, how fast anything may move, and the pose.
+#include <cmath>
+
+#include "humanoid/feet_step.hpp"
+
+namespace tendril::humanoid::detail {
+
+using namespace rig::detail;
+
+namespace {
+
+/// What moves a foot faster than this part of max_speed is a jump of the ground.
+constexpr double jump_part = 0.6;
+/// A foot that is being set away from an edge stands when it is so near to where it goes, metres.
+constexpr double shifting = 0.001;
+
+/// Knees bend forwards.
+Pole pole_of(const glm::dvec3& forward) noexcept {
+    return {.direction = forward, .part = 0.1, .always = true};
+}
+
+/// The part of a way, 0 to 1, that one may go.
+template <class May>
+double part_of_way(const May& may) noexcept {
+    if (may(1.0)) return 1.0;
+    double part = 0.0;
+    for (double step = 0.5; step > 0.01; step *= 0.5)
+        if (may(part + step)) part += step;
+    return part;
+}
+
+}  // namespace
+
+/// What the hips must come down by so that the leg reaches.
+double FeetStep::missing(std::size_t i, double lift) const noexcept {
+    const LimbPlacement& leg = legs_[i];
+    const glm::dvec3 way = minus(plus(leg.end.position, goals_[i].slip), leg.upper.position);
+    const double longest = reach_of(leg, options_.straightest).longest;
+    const double level = way.x * way.x + way.z * way.z;
+    return state_.base - lift - way.y - std::sqrt(std::max(0.0, longest * longest - level));
+}
+
+/// The lift goes along with its goal; where that jumps, what it jumps by eases away.
+void FeetStep::ease_lift(FootState& foot, double goal) const noexcept {
+    const double most = options_.max_speed * dt_, change = goal - foot.goal, before = foot.lift;
+    foot.goal = goal;
+    if (fresh_) {
+        foot.lift = goal;
+        foot.ease = {.started = true};
+        return;
+    }
+    if (!(dt_ > 0.0)) {
+        foot.goal = goal - change;
+        return;
+    }
+    if (std::abs(change) > jump_part * most) foot.ease.value -= change;
+    const double sprung = step_spring(foot.ease, options_.lift_half_life, 0.0, dt_);
+    foot.lift = toward(before, goal + sprung, most);
+    if (foot.lift != goal + sprung) set(foot.ease, sprung, foot.lift - goal, 0.0);
+    if (std::abs(foot.ease.value) < 1e-9) {
+        foot.ease.value = 0.0;
+        foot.lift = goal;
+    }
+}
+
+void FeetStep::lower_pelvis() noexcept {
+    double needed = 0.0, at_once = 0.0;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const FootState& foot = state_.feet[i];
+        if (foot.alone != FootAlone::No) continue;
+        const double by = std::min(missing(i, foot.lift), options_.pelvis_drop);
+        needed = std::max(needed, by);
+        if (is_standing(i)) at_once = std::max(at_once, by);
+    }
+    const double before = state_.drop;
+    if (fresh_) {
+        state_.drop = needed;
+        state_.pelvis = {.value = needed, .previous_target = needed, .started = true};
+    } else if (dt_ > 0.0) {
+        const double sprung = step_spring(state_.pelvis, options_.pelvis_half_life, needed, dt_);
+        state_.drop = toward(before, std::max(sprung, at_once), options_.max_speed * dt_);
+        state_.drop = std::min(state_.drop, options_.pelvis_drop);
+        if (state_.drop != sprung) set(state_.pelvis, before, state_.drop, dt_);
+        if (needed == 0.0 && state_.drop < 1e-9) state_.drop = 0.0;
+    }
+}
+
+glm::dvec3 FeetStep::target(std::size_t i, double lift) const noexcept {
+    const glm::dvec3& slip = goals_[i].slip;
+    return plus(clips_[i].ankle, {slip.x, lift, slip.z});
+}
+
+/// How fast the knee moves against the clip, 1 where that is as fast as it may, where the hips are moved up
+/// by `along` and the ankle by `lift`.
+double FeetStep::knee_speed(std::size_t i, double along, double lift) const noexcept {
+    const glm::dvec3 on_hips = target(i, lift - along);
+    const glm::dvec3 knee = detail::bend_to(legs_[i], on_hips, pole_of(poles_[i]), options_.straightest).mid;
+    const glm::dvec3 correction = plus(minus(knee, knees_[i]), {0.0, along, 0.0});
+    return length(minus(correction, state_.feet[i].knee)) / (options_.max_speed * dt_);
+}
+
+/// A leg that is nearly straight moves its knee several times as far as its ends. Where the foot stands, the
+/// hips go as much of their way as the knee's speed allows, but no less than the leg needs.
+void FeetStep::spare_standing_knees() noexcept {
+    if (fresh_ || !(dt_ > 0.0)) return;
+    const double from = along_, way = state_.base - state_.drop - from;
+    const double part = part_of_way([&](double some) {
+        for (std::size_t i = 0; i < 2; ++i)
+            if (is_standing(i) && knee_speed(i, from + way * some, state_.feet[i].lift) > 1.0) return false;
+        return true;
+    });
+    if (part == 1.0) return;
+    double along = from + way * part;
+    for (std::size_t i = 0; i < 2; ++i)
+        if (is_standing(i))
+            along = std::min(along,
+                             state_.base - std::min(missing(i, state_.feet[i].lift), options_.pelvis_drop));
+    const double drop = std::max(0.0, state_.base - along);
+    set(state_.pelvis, state_.drop, drop, 0.0);
+    state_.drop = drop;
+}
+
+/// Where the foot is in the air, that goes as much of its way.
+void FeetStep::spare_knee(std::size_t i, double along) noexcept {
+    FootState& foot = state_.feet[i];
+    if (fresh_ || is_standing(i) || !(dt_ > 0.0)) return;
+    const double from = lifts_[i], way = foot.lift - from;
+    const double part =
+        part_of_way([&](double some) { return knee_speed(i, along, from + way * some) <= 1.0; });
+    if (part == 1.0) return;
+    foot.lift = from + way * part;
+    if (part == 0.0) {
+        // The clip itself moves the leg too fast: what is slowest of where the foot can go.
+        const double most = options_.max_speed * dt_;
+        double least = knee_speed(i, along, from);
+        for (const double by : {0.25, -0.25, 0.5, -0.5, 0.75, -0.75, 1.0, -1.0}) {
+            if (least <= 1.0) break;
+            const double speed = knee_speed(i, along, from + most * by);
+            if (speed >= least) continue;
+            least = speed;
+            foot.lift = from + most * by;
+        }
+    }
+    foot.ease.value = foot.lift - foot.goal;
+}
+
+void FeetStep::move() noexcept {
+    const double along = state_.base - state_.drop;
+    for (std::size_t i = 0; i < 2; ++i) {
+        if (state_.feet[i].alone != FootAlone::No) ease_lift(state_.feet[i], along);
+        spare_knee(i, along);
+    }
+    if (along != 0.0) {
+        const glm::dvec3 by = seen_from(above_hips_, {0.0, along, 0.0});
+        pose_[plan_.hips].translation = plus(pose_[plan_.hips].translation, by);
+        for (LimbPlacement& leg : legs_) leg.move({0.0, along, 0.0});
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+        FootState& foot = state_.feet[i];
+        if (!(foot.lift == along && goals_[i].slip == glm::dvec3(0.0) &&
+              foot.turn == glm::dquat{1.0, 0.0, 0.0, 0.0})) {
+            const glm::dvec3 ankle = target(i, foot.lift);
+            const Bend bend = detail::bend_to(legs_[i], ankle, pole_of(poles_[i]), options_.straightest);
+            apply(bend, foot.turn, plan_.legs[i], legs_[i], pose_);
+            short_of_[i] = length(minus(legs_[i].end.position, ankle));
+        }
+        foot.standing = foot.locked && std::abs(foot.lift - goals_[i].contact) + short_of_[i] <= touching &&
+                        std::abs(foot.shift_x) + std::abs(foot.shift_z) <= shifting;
+        foot.knee = minus(legs_[i].lower.position, knees_[i]);
+        foot.heel = clips_[i].heel;
+        foot.toe = clips_[i].toe;
+    }
+    state_.hips = hips_.position;
+    state_.started = true;
+}
+
+}  // namespace tendril::humanoid::detail

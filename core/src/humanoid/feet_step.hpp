@@ -1,0 +1,84 @@
+// A step of Feet, one piece after the other. Not installed.
+#pragma once
+
+#include <algorithm>
+
+#include "humanoid/feet.hpp"
+#include "humanoid/foot.hpp"
+
+namespace tendril::humanoid::detail {
+
+/// A foot stands where it is so near the ground, metres, and the leg got it there.
+inline constexpr double touching = 0.003;
+
+/// Moves a critically damped spring on.
+inline double step_spring(signal::SpringState<double>& spring, double half_life, double target,
+                          double dt) noexcept {
+    const double strength = math::ln2 / (math::pi * half_life);
+    return signal::step({.strength = strength, .critical_damping = 1.0}, spring, target, dt);
+}
+/// A spring's value that something else has set: its velocity is what that made of it.
+inline void set(signal::SpringState<double>& spring, double before, double value, double dt) noexcept {
+    spring.value = value;
+    if (dt > 0.0) spring.velocity = (value - before) / dt;
+}
+inline double toward(double from, double to, double most) noexcept {
+    return std::clamp(to, from - most, from + most);
+}
+
+class FeetStep {
+  public:
+    FeetStep(const FeetPlan& plan, Pose pose, const Ground& ground, double dt, FeetState& state,
+             const FeetOptions& options) noexcept
+        : plan_(plan),
+          pose_(pose),
+          ground_(ground),
+          dt_(dt > 0.0 ? std::min(dt, signal::max_dt) : 0.0),
+          state_(state),
+          options_(options) {}
+
+    /// False where the pose is not finite.
+    bool place() noexcept;
+    /// Then, in this order:
+    void ride() noexcept;
+    void find_feet() noexcept;
+    void lower_pelvis() noexcept;
+    void spare_standing_knees() noexcept;
+    void move() noexcept;
+    FeetReport report() const noexcept;
+
+  private:
+    void point_knees() noexcept;
+    bool is_elsewhere() const noexcept;
+    bool is_ground(const std::optional<GroundHit>& hit, double around) const noexcept;
+    double first_base() const noexcept;
+    double ground_around() const noexcept;
+    double missing(std::size_t leg, double lift) const noexcept;
+    void ease_lift(FootState& foot, double goal) const noexcept;
+    bool is_on_ground(const FootReport& foot) const noexcept;
+    glm::dvec3 target(std::size_t leg, double lift) const noexcept;
+    double knee_speed(std::size_t leg, double along, double lift) const noexcept;
+    bool is_standing(std::size_t leg) const noexcept {
+        return state_.feet[leg].standing && state_.feet[leg].locked;
+    }
+    void spare_knee(std::size_t leg, double along) noexcept;
+
+    const FeetPlan& plan_;
+    Pose pose_;
+    const Ground& ground_;
+    double dt_;
+    FeetState& state_;
+    const FeetOptions& options_;
+    bool fresh_ = false;
+    double floor_ = 0.0, steepest_ = 0.0;
+    Placement above_hips_, hips_;
+    std::array<LimbPlacement, 2> legs_;
+    std::array<FootClip, 2> clips_;
+    std::array<FootGoal, 2> goals_;
+    std::array<glm::dvec3, 2> knees_, poles_;  // of the clip; where knees point
+    double along_ = 0.0;                       // what the hips were moved up by before the step
+    std::array<double, 2> lifts_{};            // as they were before the step
+    std::array<double, 2> short_of_{};         // what the leg's end is from where it should be
+};
+
+}  // namespace tendril::humanoid::detail

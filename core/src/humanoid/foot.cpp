@@ -1,0 +1,256 @@
+#include "humanoid/foot.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tendril::humanoid::detail {
+namespace {
+
+using namespace rig::detail;
+
+constexpr glm::dvec3 up{0.0, 1.0, 0.0};
+
+/// On a first step, where no speed is known: a sole so high over the clip's floor is in stance.
+constexpr double standing = 0.015;
+/// A foot is locked again once so much of what the last lock moved it by has eased: otherwise a foot that
+/// slides in the clip would be let go and locked in turns.
+constexpr double lock_again = 0.25;
+/// Radians a second that a foot turns by with the ground, at most.
+constexpr double turn_speed = 3.0;
+/// m/s; what is faster is no motion, but a step of next to no time.
+constexpr double fastest = 1e3;
+/// How far ahead a foot in the air looks, seconds, and how much over the plane that it is above the ground
+/// there must be to count as a step, metres.
+constexpr double ahead[]{0.04, 0.08, 0.12};
+constexpr double step_over_plane = 0.02;
+
+double height_over_floor(const FootClip& clip, const FootContext& context) noexcept {
+    return std::min(clip.heel.y, clip.toe.y) - context.floor;
+}
+
+FootAlone judge(const std::optional<GroundHit>& hit, const FootContext& context) noexcept {
+    if (!hit) return FootAlone::NoHit;
+    if (hit->normal.y < context.steepest) return FootAlone::TooSteep;
+    const double step = std::abs(hit->height - (context.floor + context.base));
+    return step <= context.options.max_step ? FootAlone::No : FootAlone::TooFar;
+}
+
+/// What is below heel and toe, or why the foot cannot stand there.
+struct Footing {
+    std::optional<GroundHit> heel{}, toe{};  // only what can be stood on
+    FootAlone alone = FootAlone::No;
+
+    Footing(const glm::dvec3& heel_at, const glm::dvec3& toe_at, double from,
+            const FootContext& context) noexcept
+        : heel(context.ground.below({heel_at.x, from, heel_at.z})),
+          toe(context.ground.below({toe_at.x, from, toe_at.z})) {
+        const FootAlone why_heel = judge(heel, context), why_toe = judge(toe, context);
+        const auto is_wall = [&](const std::optional<GroundHit>& hit, FootAlone why) {
+            return why == FootAlone::TooSteep ||
+                   (why == FootAlone::TooFar && hit->height > context.floor + context.base);
+        };
+        // A foot may stick out over an edge, but not into what is too steep or too high.
+        if (is_wall(heel, why_heel))
+            alone = why_heel;
+        else if (is_wall(toe, why_toe))
+            alone = why_toe;
+        else if (why_heel != FootAlone::No && why_toe != FootAlone::No)
+            alone = std::max(why_heel, why_toe);
+        if (why_heel != FootAlone::No) heel.reset();
+        if (why_toe != FootAlone::No) toe.reset();
+    }
+    glm::dvec3 normal() const noexcept {
+        glm::dvec3 sum(0.0);
+        if (heel) sum = plus(sum, heel->normal);
+        if (toe) sum = plus(sum, toe->normal);
+        return direction_of(sum, 1e-9).value_or(up);
+    }
+};
+
+/// From straight up to the normal, but not further than `most`.
+glm::dquat turn_to(const glm::dvec3& normal, double most) noexcept {
+    const glm::dquat whole = minimal_rotation(up, normal);
+    const double angle = 2.0 * half_angle_between({1.0, 0.0, 0.0, 0.0}, whole);
+    return angle <= most ? whole : slerp({1.0, 0.0, 0.0, 0.0}, whole, most / angle);
+}
+
+glm::dquat eased_turn(const glm::dquat& from, const glm::dquat& to, double left, double most) noexcept {
+    const double angle = 2.0 * half_angle_between(from, to);
+    if (angle < 1e-7) return to;
+    return slerp(from, to, std::min(1.0 - left, most / angle));
+}
+
+/// Heel and toe against the ankle as the foot is turned, and the ankle, which follows from the toe: that is
+/// the anchor.
+struct Turned {
+    glm::dvec3 heel, toe, slip;
+
+    Turned(const FootState& foot, const FootClip& clip) noexcept
+        : heel(rotated(foot.turn, minus(clip.heel, clip.ankle))),
+          toe(rotated(foot.turn, minus(clip.toe, clip.ankle))) {
+        const glm::dvec3 back =
+            minus(minus(clip.toe, clip.ankle), toe);  // nothing, to the bit, without a turn
+        slip = {foot.offset_x + back.x, 0.0, foot.offset_z + back.z};
+    }
+};
+
+void ease(FootState& foot, double left) noexcept {
+    foot.offset_x *= left, foot.offset_z *= left;
+    if (std::abs(foot.offset_x) + std::abs(foot.offset_z) < 1e-9) foot.offset_x = foot.offset_z = 0.0;
+}
+
+bool is_eased(const FootState& foot, const FeetOptions& options) noexcept {
+    const double far = lock_again * options.break_distance;
+    return foot.offset_x * foot.offset_x + foot.offset_z * foot.offset_z <= far * far;
+}
+
+double height_of_plane(const GroundHit& hit, double x, double z) noexcept {
+    return hit.height - (hit.normal.x * x + hit.normal.z * z) / hit.normal.y;
+}
+
+/// What the foot must be moved by along a unit vector so that neither heel nor toe is on the edge of a step;
+/// 0 where both sides of it are as bad.
+double off_edge(const Footing& footing, const glm::dvec3& heel_at, const glm::dvec3& toe_at,
+                const glm::dvec3& along, double from, const FootContext& context) noexcept {
+    const auto is_edge = [&](const std::optional<GroundHit>& hit, const glm::dvec3& at, double by) {
+        if (!hit) return false;
+        const double x = along.x * by, z = along.z * by;
+        const auto there = context.ground.below({at.x + x, from, at.z + z});
+        return there && std::abs(there->height - height_of_plane(*hit, x, z)) > step_over_plane;
+    };
+    const double margin = context.options.edge;
+    const bool before = is_edge(footing.heel, heel_at, margin) || is_edge(footing.toe, toe_at, margin);
+    const bool behind = is_edge(footing.heel, heel_at, -margin) || is_edge(footing.toe, toe_at, -margin);
+    return before == behind ? 0.0 : before ? -margin : margin;
+}
+
+void keep_off_edges(FootState& foot, const Footing& footing, const glm::dvec3& heel_at,
+                    const glm::dvec3& toe_at, double from, const FootContext& context) noexcept {
+    foot.edges_known = true;
+    const glm::dvec3 way = minus(toe_at, heel_at);
+    const glm::dvec3 along =
+        direction_of(glm::dvec3(way.x, 0.0, way.z), 1e-9).value_or(glm::dvec3(0.0, 0.0, 1.0));
+    const glm::dvec3 side(along.z, 0.0, -along.x);
+    const double a = off_edge(footing, heel_at, toe_at, along, from, context),
+                 b = off_edge(footing, heel_at, toe_at, side, from, context);
+    foot.shift_x = along.x * a + side.x * b, foot.shift_z = along.z * a + side.z * b;
+}
+
+/// Of the toe, level.
+glm::dvec3 velocity_of(const FootState& foot, const FootClip& clip, const FootContext& context) noexcept {
+    if (context.fresh || !(context.dt > 0.0)) return foot.velocity;
+    const glm::dvec3 v =
+        plus(times(minus(clip.toe, foot.toe), 1.0 / context.dt), context.options.root_velocity);
+    const double speed = std::sqrt(v.x * v.x + v.z * v.z), part = speed > fastest ? fastest / speed : 1.0;
+    return {v.x * part, 0.0, v.z * part};
+}
+
+/// The step that a foot in the air comes to: the height that its sole must be over, where there is one.
+double look_ahead(const FootState& foot, const FootClip& clip, const glm::dvec3& toe_at,
+                  const Footing& footing, double from, const FootContext& context) noexcept {
+    double highest = -1e300;
+    if (foot.locked || !(context.dt > 0.0) || context.fresh || !footing.toe) return highest;
+    const glm::dvec3 velocity = velocity_of(foot, clip, context);
+    const double speed = length(velocity);
+    // What brakes comes to rest on this side of an edge, maybe.
+    const double braking =
+        speed > 1e-9 ? std::max(0.0, (dot(foot.velocity, velocity) / speed - speed) / context.dt) : 0.0;
+    for (const double seconds : ahead) {
+        const double t = braking * seconds > speed ? speed / braking : seconds;
+        const double part = t - (speed > 1e-9 ? 0.5 * braking * t * t / speed : 0.0);
+        const double x = velocity.x * part, z = velocity.z * part;
+        const auto hit = context.ground.below({toe_at.x + x, from, toe_at.z + z});
+        if (judge(hit, context) != FootAlone::No) continue;
+        if (hit->height > height_of_plane(*footing.toe, x, z) + step_over_plane)
+            highest = std::max(highest, hit->height);
+    }
+    return highest;
+}
+
+}  // namespace
+
+void update_lock(FootState& foot, const FootClip& clip, const FootContext& context) noexcept {
+    const FeetOptions& options = context.options;
+    const double height = height_over_floor(clip, context);
+    const auto lock = [&] {
+        foot.locked = true;
+        foot.edges_known = false;
+        foot.shift_x = foot.shift_z = 0.0;
+        foot.lock_x = clip.toe.x + foot.offset_x, foot.lock_z = clip.toe.z + foot.offset_z;
+    };
+    if (context.fresh) {
+        if (height < std::min(options.low, standing)) lock();
+    } else if (context.dt > 0.0) {
+        const glm::dvec3 moved = plus(minus(clip.toe, foot.toe), times(options.root_velocity, context.dt));
+        const double speed = length(moved) / context.dt;
+        if (foot.locked) {
+            foot.lock_x += foot.shift_x * (1.0 - context.eased) - options.root_velocity.x * context.dt;
+            foot.lock_z += foot.shift_z * (1.0 - context.eased) - options.root_velocity.z * context.dt;
+            foot.shift_x *= context.eased, foot.shift_z *= context.eased;
+            const bool fast = speed > (foot.speed_known ? options.leave_speed : options.enter_speed);
+            const double x = foot.lock_x - clip.toe.x, z = foot.lock_z - clip.toe.z;
+            const bool far = x * x + z * z > options.break_distance * options.break_distance;
+            // What is let go goes along with the clip from here on, by what it was moved by before.
+            if (fast || far || height > options.low)
+                foot.locked = false;
+            else
+                foot.offset_x = x, foot.offset_z = z;
+        } else if (foot.alone == FootAlone::No && height < options.low && speed < options.enter_speed &&
+                   is_eased(foot, options)) {
+            lock();
+        }
+        foot.speed_known = foot.locked;
+        if (!foot.locked) ease(foot, context.eased);
+    } else if (foot.locked) {
+        foot.offset_x = foot.lock_x - clip.toe.x, foot.offset_z = foot.lock_z - clip.toe.z;
+    }
+    const double planting = foot.locked ? 1.0 : 0.0;
+    foot.planting = context.fresh ? planting : planting + (foot.planting - planting) * context.eased;
+}
+
+FootGoal find_goal(FootState& foot, const FootClip& clip, const FootContext& context) noexcept {
+    const double from = clip.ankle.y + context.base + context.options.ray_start;
+    const auto footing_of = [&](const Turned& turned) {
+        const glm::dvec3 ankle = plus(clip.ankle, turned.slip);
+        return Footing(plus(ankle, turned.heel), plus(ankle, turned.toe), from, context);
+    };
+    const auto turn_by = [&](const Footing& footing) {
+        const glm::dquat goal = footing.alone == FootAlone::No
+                                    ? turn_to(footing.normal(), context.options.max_turn)
+                                    : glm::dquat{1.0, 0.0, 0.0, 0.0};
+        foot.turn =
+            context.fresh ? goal : eased_turn(foot.turn, goal, context.eased, turn_speed * context.dt);
+    };
+    turn_by(footing_of(Turned(foot, clip)));
+    Turned turned(foot, clip);
+    Footing footing = footing_of(turned);
+    foot.alone = footing.alone;
+    FootGoal goal{.slip = turned.slip};
+    if (foot.alone != FootAlone::No) return goal;
+
+    if (foot.locked && !foot.edges_known) {
+        const glm::dvec3 ankle = plus(clip.ankle, turned.slip);
+        keep_off_edges(foot, footing, plus(ankle, turned.heel), plus(ankle, turned.toe), from, context);
+        if (context.fresh) {
+            foot.lock_x += foot.shift_x, foot.lock_z += foot.shift_z;
+            foot.offset_x += foot.shift_x, foot.offset_z += foot.shift_z;
+            foot.shift_x = foot.shift_z = 0.0;
+            turned = Turned(foot, clip);
+            footing = footing_of(turned);
+            goal.slip = turned.slip;
+        }
+    }
+    double support = -1e300;
+    if (footing.heel) support = std::max(support, footing.heel->height - turned.heel.y);
+    if (footing.toe) support = std::max(support, footing.toe->height - turned.toe.y);
+    goal.contact = support - clip.ankle.y;
+    const double clearance = std::max(0.0, height_over_floor(clip, context)) * (1.0 - foot.planting);
+    const glm::dvec3 toe_at = plus(plus(clip.ankle, turned.slip), turned.toe);
+    const double over = look_ahead(foot, clip, toe_at, footing, from, context);
+    support = std::max(support, over - std::min(turned.heel.y, turned.toe.y));
+    goal.lift = clearance + support - clip.ankle.y;
+    foot.velocity = velocity_of(foot, clip, context);
+    return goal;
+}
+
+}  // namespace tendril::humanoid::detail

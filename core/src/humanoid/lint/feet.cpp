@@ -1,0 +1,202 @@
+// Feet that slide while they stand, or stand above or below the floor.
+#include "humanoid/lint/feet.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace tendril::humanoid::lint_detail {
+namespace {
+
+using namespace rig::detail;
+
+// Stances: slower than `enter` to begin, over `leave` to end, and lower than `low`. A standing foot that is
+// pulled away for a moment without being lifted has not taken a step.
+constexpr double enter = 0.6, leave = 1.2, low = 0.03;    // m/s, m
+constexpr double lifted = 0.025, shortest_step = 0.1;     // m, s
+constexpr double landing = 0.05, shortest_stance = 0.15;  // s
+
+double level(const glm::dvec3& v) noexcept {
+    return std::sqrt(v.x * v.x + v.z * v.z);
+}
+
+/// The way of the point of the sole that moves the least between two frames. Between its points too: the
+/// motion of a stiff foot is linear in the point.
+glm::dvec3 smallest_move(const Foot& foot, std::size_t frame, const glm::dvec3& treadmill) {
+    glm::dvec3 best(1e9);
+    const auto take = [&](const glm::dvec3& a, const glm::dvec3& b) {
+        const glm::dvec3 way = minus(b, a);
+        const double along = way.x * way.x + way.z * way.z;
+        const double part = along > 0.0 ? std::clamp(-(a.x * way.x + a.z * way.z) / along, 0.0, 1.0) : 0.0;
+        const glm::dvec3 move = plus(a, times(way, part));
+        if (level(move) < level(best)) best = move;
+    };
+    for (std::size_t k = 0; k < foot.points.size(); ++k) {
+        const auto move = [&](std::size_t point) {
+            return minus(minus(foot.at(point, frame), foot.at(point, frame - 1)), treadmill);
+        };
+        take(move(k), move(k + 1 < foot.points.size() ? k + 1 : k));
+    }
+    return best;
+}
+
+struct Stretch {
+    std::size_t first, last;
+};
+
+/// Frames in which the foot stands on the floor.
+std::vector<Stretch> stances_of(const Foot& foot, double floor, double rate) {
+    std::vector<Stretch> found;
+    bool stands = false, stepped = false;
+    double stood_at = floor;  // height when it was still last
+    for (std::size_t i = 0; i < foot.height.size(); ++i) {
+        const double height = foot.height[i];
+        if (foot.still[i]) stood_at = height;
+        // Who lifts a foot that moves, if only by 8 mm, takes a step.
+        const bool steps = foot.speed[i] > 0.4 && height > stood_at + 0.008;
+        stepped |= steps;
+        stands = height - floor < low && !steps && foot.speed[i] < (stands ? leave : enter);
+        if (!stands) continue;
+        if (!found.empty()) {
+            const std::size_t since = found.back().last;
+            bool stayed_low = true;
+            for (std::size_t k = since; k <= i; ++k) stayed_low &= foot.height[k] - floor < lifted;
+            if (i == since + 1 ||
+                (!stepped && stayed_low && static_cast<double>(i - since) < shortest_step * rate)) {
+                found.back().last = i;
+                continue;
+            }
+        }
+        stepped = false;
+        found.push_back({i, i});
+    }
+    return found;
+}
+
+/// A stance without its ends, in which a foot that lands or leaves still moves: from where the foot is still
+/// to where it is that last. One that never is slides all the while.
+Stretch without_ends(const Stretch& stance, const Foot& foot, double rate) {
+    Stretch core = stance;
+    while (core.first < core.last && !foot.still[core.first]) ++core.first;
+    while (core.last > core.first && !foot.still[core.last]) --core.last;
+    if (core.last > core.first) return core;
+    const auto ends = static_cast<std::size_t>(std::ceil(landing * rate));
+    if (stance.last - stance.first <= 2 * ends) return {stance.first, stance.first};
+    return {stance.first + ends, stance.last - ends};
+}
+
+void check_skating(Check& check, const Foot& foot, const glm::dvec3& treadmill, double limit) {
+    const double rate = check.report.rate;
+    for (const Stretch& stance : stances_of(foot, check.report.floor, rate)) {
+        const auto [first, last] = without_ends(stance, foot, rate);
+        if (static_cast<double>(last - first) < 0.08 * rate) continue;
+        glm::dvec3 slid(0.0);
+        double farthest = 0.0, fastest = 0.0;
+        std::size_t worst = first;
+        for (std::size_t i = first + 1; i <= last; ++i) {
+            const glm::dvec3 move = smallest_move(foot, i, times(treadmill, 1.0 / rate));
+            slid = plus(slid, move);
+            if (foot.jolt[i] > leave) continue;  // what stands apart for a frame is a jump
+            farthest = std::max(farthest, level(slid));
+            if (level(move) > fastest) fastest = level(move), worst = i;
+        }
+        check.report.skating = std::max(check.report.skating, farthest);
+        if (farthest <= limit) continue;
+        check.add(Fault::Skating, foot.node, worst, first, last, 1000.0 * farthest, "mm",
+                  "slides " + shown(1000.0 * farthest) + " mm over the ground while it stands");
+    }
+}
+
+/// Stretches of frames that `is_wrong` says are so, for at least `shortest` seconds.
+template <class IsWrong>
+std::vector<Stretch> stretches(std::size_t frames, double rate, double shortest, IsWrong is_wrong) {
+    std::vector<Stretch> found;
+    for (std::size_t i = 0; i < frames; ++i) {
+        if (!is_wrong(i)) continue;
+        if (!found.empty() && found.back().last + 1 == i)
+            found.back().last = i;
+        else
+            found.push_back({i, i});
+    }
+    std::erase_if(found, [&](const Stretch& each) {
+        return static_cast<double>(each.last - each.first + 1) < shortest * rate;
+    });
+    return found;
+}
+
+void check_floating(Check& check, const Foot& foot, double limit) {
+    const double floor = check.report.floor, most = 0.08;
+    // Without toes a foot on tiptoe looks as if it floated.
+    const double tilt = foot.points.size() > 1 ? 20.0 : 8.0;
+    for (const Stretch& each :
+         stretches(foot.height.size(), check.report.rate, shortest_stance, [&](std::size_t i) {
+             const double above = foot.height[i] - floor;
+             return foot.still[i] && foot.tilt[i] < tilt && above > limit && above < most;
+         })) {
+        std::size_t worst = each.first;
+        for (std::size_t i = each.first; i <= each.last; ++i)
+            if (foot.height[i] > foot.height[worst]) worst = i;
+        const double amount = 1000.0 * (foot.height[worst] - floor);
+        check.add(Fault::Floating, foot.node, worst, each.first, each.last, amount, "mm",
+                  "stands still " + shown(amount) + " mm above the floor");
+    }
+}
+
+void check_sinking(Check& check, const Foot& foot, double limit) {
+    const double floor = check.report.floor, most = 0.12;
+    for (const Stretch& each : stretches(foot.height.size(), check.report.rate, 0.03, [&](std::size_t i) {
+             // How far a sole reaches below its bones is known of a level foot.
+             const double below = floor - foot.height[i];
+             return below > limit + (foot.tilt[i] > 30.0 ? 0.04 : 0.0);
+         })) {
+        std::size_t worst = each.first;
+        for (std::size_t i = each.first; i <= each.last; ++i)
+            if (foot.height[i] < foot.height[worst]) worst = i;
+        const double amount = 1000.0 * (floor - foot.height[worst]);
+        if (amount > 1000.0 * most) continue;  // it is over another floor: stairs, a pit
+        check.add(Fault::Sinking, foot.node, worst, each.first, each.last, amount, "mm",
+                  "is " + shown(amount) + " mm below the floor");
+    }
+}
+
+/// The floor that feet stand on. Where the figure rests on the ground it is that, if feet stand there in the
+/// clip for a fifth of the time in which they stand at all; or else where they stand most.
+std::optional<double> floor_of(const std::vector<Foot>& feet, bool rests_on_ground, double rate) {
+    constexpr double width = 0.03;
+    std::vector<double> heights, at_rest;
+    for (const Foot& foot : feet) {
+        for (std::size_t i = 0; i < foot.height.size(); ++i) {
+            if (!foot.still[i]) continue;
+            heights.push_back(foot.height[i]);
+            if (std::abs(foot.height[i]) < 0.5 * width) at_rest.push_back(foot.height[i]);
+        }
+    }
+    if (static_cast<double>(heights.size()) < shortest_stance * rate) return std::nullopt;
+    const bool use_rest = rests_on_ground && 5 * at_rest.size() >= heights.size();
+    std::vector<double>& used = use_rest ? at_rest : heights;
+    std::sort(used.begin(), used.end());
+    return use_rest ? used[used.size() / 2] : densest(used, width);
+}
+
+}  // namespace
+
+void check_feet(Check& check) {
+    if (check.report.frames < 4) return;
+    const FeetMotion motion = feet_motion(check);
+    if (motion.feet.empty()) return;
+    const std::optional<double> floor = floor_of(motion.feet, motion.rests_on_ground, check.report.rate);
+    if (!floor) return;
+    check.report.has_floor = true;
+    check.report.floor = *floor;
+    const double unknown = motion.knows_soles ? 0.0 : 0.015;
+    // In place the ground's speed is a guess, and real hips go faster and slower within a step. Where no foot
+    // is ever still, nobody can say when it begins to land.
+    const double slide = std::max(check.settings.skating + unknown + (motion.always_slides ? 0.02 : 0.0),
+                                  0.15 * level(motion.treadmill));
+    for (const Foot& foot : motion.feet) {
+        check_skating(check, foot, motion.treadmill, slide);
+        check_floating(check, foot, check.settings.floating + unknown);
+        check_sinking(check, foot, check.settings.sinking + unknown);
+    }
+}
+
+}  // namespace tendril::humanoid::lint_detail

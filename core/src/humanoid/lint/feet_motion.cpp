@@ -1,0 +1,239 @@
+#include <algorithm>
+#include <limits>
+
+#include "humanoid/lint/feet.hpp"
+
+namespace tendril::humanoid::lint_detail {
+namespace {
+
+using namespace rig::detail;
+
+constexpr double slow = 0.2;         // m/s: a foot that is still
+constexpr double never_slow = 0.6;   // the same where feet never are, as they slide all the while
+constexpr double as_it_rests = 8.0;  // degrees by which a foot that stands may be tilted against its rest
+constexpr glm::dvec3 up{0.0, 1.0, 0.0};
+
+struct Side {
+    Bone foot, toes;
+};
+constexpr Side sides[]{{Bone::LeftFoot, Bone::LeftToes}, {Bone::RightFoot, Bone::RightToes}};
+
+double middle_of(std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+double level(const glm::dvec3& v) noexcept {
+    return std::sqrt(v.x * v.x + v.z * v.z);
+}
+double angle_between(const glm::dvec3& a, const glm::dvec3& b) noexcept {
+    return arctangent(length(cross(a, b)), dot(a, b)) * degrees;
+}
+
+/// The furthest node below `node` on the level: the tip of the toes.
+std::size_t tip_of(const Skeleton& skeleton, const std::vector<Placement>& rest, std::size_t node) {
+    std::size_t best = node;
+    double furthest = 0.0;
+    for (std::size_t i = 0; i < skeleton.size(); ++i) {
+        if (i == node || !skeleton.is_below(i, node)) continue;
+        const double far = level(minus(rest[i].position, rest[node].position));
+        if (far > furthest) furthest = far, best = i;
+    }
+    return best;
+}
+
+Foot foot_of(const Check& check, const Side& side, const std::vector<Placement>& rest) {
+    Foot foot;
+    foot.node = check.map[side.foot].node;
+    const auto ankle = static_cast<std::size_t>(foot.node);
+    foot.points.push_back({ankle, 0.0});
+    const std::int32_t toes = check.map[side.toes].node;
+    if (toes >= 0) foot.points.push_back({static_cast<std::size_t>(toes), 0.0});
+    const std::size_t tip = tip_of(check.skeleton, rest, toes >= 0 ? static_cast<std::size_t>(toes) : ankle);
+    if (tip != foot.points.back().node) foot.points.push_back({tip, 0.0});
+    foot.flat = rotated(conjugate(rest[ankle].rotation()), up);
+    for (SolePoint& point : foot.points) point.above = rest[point.node].position.y;
+    return foot;
+}
+
+/// What the rest pose says of the ground: whether both feet are on one level, and that level.
+struct Rest {
+    bool is_level = true, is_ground = false;
+};
+Rest look_at_rest(std::vector<Foot>& feet, double hips) {
+    double ground = std::numeric_limits<double>::max();
+    for (const Foot& foot : feet)
+        for (const SolePoint& point : foot.points) ground = std::min(ground, point.above);
+    const double leg = hips - ground;
+    Rest rest;
+    if (feet.size() == 2)
+        for (std::size_t k = 0; k < std::min(feet[0].points.size(), feet[1].points.size()); ++k)
+            rest.is_level &= std::abs(feet[0].points[k].above - feet[1].points[k].above) < 0.01 * leg;
+    rest.is_ground = rest.is_level && ground > -0.02 * leg && ground < 0.12 * leg;
+    if (!rest.is_ground)
+        for (Foot& foot : feet)
+            for (SolePoint& point : foot.points) point.above -= ground;
+    // The tip of the toes gives way, and dips a little as a foot rolls off: it counts as that much higher.
+    for (Foot& foot : feet)
+        if (foot.points.size() == 3) foot.points.back().above -= 0.015;
+    return rest;
+}
+
+void record(const Check& check, FeetMotion& motion) {
+    const Skeleton& skeleton = check.skeleton;
+    const auto hips = static_cast<std::size_t>(check.map[Bone::Hips].node);
+    std::vector<rig::Transform> pose(skeleton.size());
+    std::vector<Placement> placed(skeleton.size());
+    for (std::size_t i = 0; i < check.report.frames; ++i) {
+        sample(check.clip, skeleton, check.time_of(i), pose);
+        place(skeleton, pose, placed);
+        motion.hips.push_back(placed[hips].position);
+        for (Foot& foot : motion.feet) {
+            for (const SolePoint& point : foot.points) foot.positions.push_back(placed[point.node].position);
+            foot.ups.push_back(
+                rotated(conjugate(placed[static_cast<std::size_t>(foot.node)].rotation()), up));
+        }
+    }
+}
+
+void measure_heights(Foot& foot) {
+    const std::size_t frames = foot.ups.size();
+    foot.height.assign(frames, std::numeric_limits<double>::max());
+    foot.tilt.resize(frames);
+    for (std::size_t i = 0; i < frames; ++i) {
+        for (std::size_t k = 0; k < foot.points.size(); ++k)
+            foot.height[i] = std::min(foot.height[i], foot.at(k, i).y - foot.points[k].above);
+        foot.tilt[i] = angle_between(foot.flat, foot.ups[i]);
+    }
+}
+
+/// The median velocity of the lowest point of both feet, over the frames in which it is lowest. 0 for a
+/// figure that gets on.
+glm::dvec3 treadmill_of(const FeetMotion& motion, double rate) {
+    const std::size_t frames = motion.hips.size();
+    std::vector<double> lowest(frames, std::numeric_limits<double>::max());
+    std::vector<glm::dvec3> moves(frames, glm::dvec3(0.0));
+    for (std::size_t i = 1; i < frames; ++i)
+        for (const Foot& foot : motion.feet)
+            for (std::size_t k = 0; k < foot.points.size(); ++k) {
+                const double height = foot.at(k, i).y - foot.points[k].above;
+                if (height < lowest[i])
+                    lowest[i] = height, moves[i] = minus(foot.at(k, i), foot.at(k, i - 1));
+            }
+    std::vector<double> sorted(lowest.begin() + 1, lowest.end()), x, z;
+    const double usual = middle_of(sorted);
+    for (std::size_t i = 1; i < frames; ++i)
+        if (lowest[i] < usual + 0.02) x.push_back(moves[i].x * rate), z.push_back(moves[i].z * rate);
+    const glm::dvec3 velocity{middle_of(x), 0.0, middle_of(z)};
+    const double seconds = static_cast<double>(frames - 1) / rate;
+    const double got_on = level(minus(motion.hips.back(), motion.hips.front()));
+    if (level(velocity) < 0.25 || got_on > 0.35 * level(velocity) * seconds) return glm::dvec3(0.0);
+    return velocity;
+}
+
+void measure_speed(Foot& foot, const glm::dvec3& treadmill, double rate) {
+    const std::size_t frames = foot.ups.size();
+    foot.speed.assign(frames, 0.0);
+    foot.jolt.assign(frames, 0.0);
+    foot.still.assign(frames, false);
+    const auto slowest_between = [&](std::size_t from, std::size_t to) {
+        const double by_second = rate / static_cast<double>(to - from);
+        double slowest = std::numeric_limits<double>::max();
+        for (std::size_t k = 0; k < foot.points.size(); ++k)
+            slowest = std::min(
+                slowest, length(minus(times(minus(foot.at(k, to), foot.at(k, from)), by_second), treadmill)));
+        return slowest;
+    };
+    for (std::size_t i = 0; i < frames; ++i) {
+        const std::size_t from = i > 0 ? i - 1 : 0, to = i + 1 < frames ? i + 1 : i;
+        foot.speed[i] = slowest_between(from, to);
+        if (from + 2 == to) foot.jolt[i] = std::min(slowest_between(from, i), slowest_between(i, to));
+    }
+}
+
+/// Says which frames are still; whether there are some.
+bool find_still(std::vector<Foot>& feet, double below) {
+    bool any = false;
+    for (Foot& foot : feet) {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < foot.speed.size(); ++i) {
+            foot.still[i] = foot.speed[i] < below && foot.jolt[i] < 3.0 * below;
+            count += foot.still[i];
+        }
+        any |= count > 2 && 20 * count > foot.speed.size();
+    }
+    return any;
+}
+
+/// Whether feet that stand are turned as they are at rest.
+bool stands_as_it_rests(const std::vector<Foot>& feet) {
+    std::vector<double> tilts;
+    for (const Foot& foot : feet)
+        for (std::size_t i = 0; i < foot.still.size(); ++i)
+            if (foot.still[i]) tilts.push_back(foot.tilt[i]);
+    return !tilts.empty() && middle_of(tilts) < as_it_rests;
+}
+
+/// How far the points are above the ground, and which way is up, as feet have it that stand in this clip.
+void learn_soles(std::vector<Foot>& feet) {
+    double ground = std::numeric_limits<double>::max();
+    std::vector<double> heights;
+    for (Foot& foot : feet) {
+        glm::dvec3 sum(0.0);
+        for (std::size_t i = 0; i < foot.still.size(); ++i)
+            if (foot.still[i]) sum = plus(sum, foot.ups[i]);
+        if (const auto mean = direction_of(sum, 1e-9)) foot.flat = *mean;
+        for (std::size_t k = 0; k < foot.points.size(); ++k) {
+            heights.clear();
+            for (const Foot& each : feet)
+                for (std::size_t i = 0; i < each.still.size() && k < each.points.size(); ++i)
+                    if (each.still[i]) heights.push_back(each.at(k, i).y);
+            if (heights.empty()) return;
+            std::sort(heights.begin(), heights.end());
+            foot.points[k].above = densest(heights, 0.03);
+            ground = std::min(ground, foot.points[k].above);
+        }
+    }
+    for (Foot& foot : feet)
+        for (SolePoint& point : foot.points) point.above -= ground;
+}
+
+}  // namespace
+
+double densest(const std::vector<double>& sorted, double width) {
+    std::size_t best_first = 0, best_count = 0, last = 0;
+    for (std::size_t first = 0; first < sorted.size(); ++first) {
+        while (last < sorted.size() && sorted[last] - sorted[first] <= width) ++last;
+        if (last - first > best_count) best_count = last - first, best_first = first;
+    }
+    return sorted[best_first + best_count / 2];
+}
+
+FeetMotion feet_motion(const Check& check) {
+    FeetMotion motion;
+    const std::int32_t hips = check.map[Bone::Hips].node;
+    if (hips < 0 || !check.map.upright) return motion;
+    std::vector<Placement> placed(check.skeleton.size());
+    place(check.skeleton, rest_pose(check.skeleton), placed);
+    for (const Side& side : sides)
+        if (check.map[side.foot].node >= 0) motion.feet.push_back(foot_of(check, side, placed));
+    if (motion.feet.empty()) return motion;
+    const Rest rest = look_at_rest(motion.feet, placed[static_cast<std::size_t>(hips)].position.y);
+    record(check, motion);
+    motion.treadmill = treadmill_of(motion, check.report.rate);
+    for (Foot& foot : motion.feet) {
+        measure_speed(foot, motion.treadmill, check.report.rate);
+        measure_heights(foot);
+    }
+    motion.always_slides = !find_still(motion.feet, slow);
+    if (motion.always_slides) find_still(motion.feet, never_slow);
+    motion.knows_soles = rest.is_level && stands_as_it_rests(motion.feet);
+    motion.rests_on_ground = rest.is_ground && motion.knows_soles;
+    if (!motion.knows_soles) {
+        learn_soles(motion.feet);
+        for (Foot& foot : motion.feet) measure_heights(foot);
+    }
+    return motion;
+}
+
+}  // namespace tendril::humanoid::lint_detail

@@ -1,0 +1,204 @@
+// Joints that are elsewhere in one frame than before and after, and knees that snap.
+#include <algorithm>
+
+#include "humanoid/lint/lint.hpp"
+
+namespace tendril::humanoid::lint_detail {
+namespace {
+
+using namespace rig::detail;
+
+double apart(const glm::dvec3& a, const glm::dvec3& b) noexcept {
+    return length(minus(a, b));
+}
+glm::dvec3 middle(const glm::dvec3& a, const glm::dvec3& b) noexcept {
+    return times(plus(a, b), 0.5);
+}
+
+/// Moves with those at the ends repeated.
+class Moves {
+  public:
+    explicit Moves(const std::vector<glm::dvec3>& moves) : moves_(moves) {}
+    const glm::dvec3& operator[](std::ptrdiff_t i) const noexcept {
+        const auto last = static_cast<std::ptrdiff_t>(moves_.size()) - 1;
+        return moves_[static_cast<std::size_t>(std::clamp(i, std::ptrdiff_t{1}, last))];
+    }
+
+  private:
+    const std::vector<glm::dvec3>& moves_;
+};
+
+constexpr double times_the_change = 3.0;
+
+/// How far frames i to i + held - 1 stand apart from those before and after: 0 where the motion says
+/// otherwise. The move into them and the move out of them are each other's opposite, but for the motion.
+double spike(const Moves& moves, std::ptrdiff_t i, std::ptrdiff_t held, double minimum) {
+    const glm::dvec3 &before = moves[i - 1], &after = moves[i + held + 1];
+    const glm::dvec3 usual = middle(before, after);
+    const glm::dvec3 in = minus(moves[i], usual), out = minus(moves[i + held], usual);
+    const double far = 0.5 * apart(in, out);
+    if (far <= minimum || length(plus(in, out)) > 0.5 * far) return 0.0;
+    double change =
+        std::max({apart(before, after), apart(before, moves[i - 2]), apart(after, moves[i + held + 2])});
+    for (std::ptrdiff_t k = 1; k < held; ++k) change = std::max(change, apart(moves[i + k], usual));
+    return far > times_the_change * change ? far : 0.0;
+}
+
+/// How far the figure goes on from somewhere else, from frame i on.
+double step(const Moves& moves, std::ptrdiff_t i, double minimum) {
+    const glm::dvec3 &before = moves[i - 1], &after = moves[i + 1];
+    const double far = apart(moves[i], middle(before, after));
+    if (far <= minimum) return 0.0;
+    const double change =
+        std::max({apart(before, after), apart(before, moves[i - 2]), apart(after, moves[i + 2])});
+    return far > times_the_change * change ? far : 0.0;
+}
+
+/// Of channels with keys of their own at every frame or so; what is held from key to key on purpose is left.
+template <class T>
+bool is_judged(const Track<T>& track) {
+    return track.times.size() > 2 && track.interpolation != Interpolation::Step;
+}
+
+template <class T, class Member>
+void check_track(Check& check, const Channel& channel, const Track<T>& track, Member member, double minimum,
+                 bool turns) {
+    if (!is_judged(track)) return;
+    rig::Transform last, next;
+    std::vector<glm::dvec3> moves(check.report.frames, glm::dvec3(0.0));
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+        sample(channel, check.time_of(i), next);
+        if (i > 0) moves[i] = step_between(last.*member, next.*member);
+        last = next;
+    }
+    const auto node = static_cast<std::int32_t>(channel.node);
+    const bool is_knee =
+        turns && (node == check.map[Bone::LeftLowerLeg].node || node == check.map[Bone::RightLowerLeg].node);
+    if (is_knee) return;  // check_knees() judges them
+    for (const Outlier& each : outliers(moves, minimum)) {
+        const double amount = turns ? each.amount : 1000.0 * each.amount;
+        const bool comes_back = each.until < check.report.frames;
+        std::string text = comes_back ? "stands apart by " : "jumps by ";
+        text += shown(amount) + (turns ? " degrees" : " mm");
+        Finding& finding =
+            check.add(Fault::Jump, node, each.frame, each.frame, comes_back ? each.until - 1 : each.frame,
+                      amount, turns ? "deg" : "mm", text);
+        finding.has_cure = true;
+        finding.goes_on = !comes_back;
+    }
+}
+
+/// At fewer frames a second more happens within one: limits are those of 60.
+double slower(const Check& check) {
+    return (2.0 + 60.0 / check.report.rate) / 3.0;
+}
+
+struct Leg {
+    Bone upper, lower, foot;
+};
+constexpr Leg legs[]{{Bone::LeftUpperLeg, Bone::LeftLowerLeg, Bone::LeftFoot},
+                     {Bone::RightUpperLeg, Bone::RightLowerLeg, Bone::RightFoot}};
+
+/// Degrees by which the knee is bent; 0 where the leg is straight.
+double bend_of(const Check& check, const Leg& leg, const std::vector<Placement>& placed) {
+    const auto at = [&](Bone bone) {
+        return placed[static_cast<std::size_t>(check.map[bone].node)].position;
+    };
+    const glm::dvec3 thigh = minus(at(leg.lower), at(leg.upper)), shin = minus(at(leg.foot), at(leg.lower));
+    return arctangent(length(cross(thigh, shin)), dot(thigh, shin)) * degrees;
+}
+
+/// A leg that is pulled straight within a frame and then stays so, or leaves that way: its knee is faster the
+/// nearer it comes, and stops at once.
+void check_snaps(Check& check, std::int32_t node, const std::vector<double>& bends) {
+    const double minimum = check.settings.knee * slower(check);
+    const auto snap = [&](double from, double before, double straight, double after) {
+        const double last = from - before, now = before - straight, next = std::abs(straight - after);
+        return straight < 4.0 && now > minimum && now > 1.5 * std::abs(last) && last > -0.25 * now &&
+               next < 0.25 * now;
+    };
+    for (std::size_t i = 2; i + 2 < bends.size(); ++i) {
+        const bool in = snap(bends[i - 2], bends[i - 1], bends[i], bends[i + 1]);
+        const bool out = snap(bends[i + 2], bends[i + 1], bends[i], bends[i - 1]);
+        if (!in && !out) continue;
+        const double amount = std::abs(bends[in ? i - 1 : i + 1] - bends[i]);
+        check.add(Fault::KneePop, node, i, i, i, amount, "deg",
+                  "snaps " + std::string(in ? "straight" : "out of straight") + " by " + shown(amount) +
+                      " degrees");
+    }
+}
+
+}  // namespace
+
+glm::dvec3 step_between(const glm::dvec3& from, const glm::dvec3& to) noexcept {
+    return minus(to, from);
+}
+
+glm::dvec3 step_between(const glm::dquat& from, const glm::dquat& to) noexcept {
+    glm::dquat turn = math::compose(to, conjugate(from));
+    if (turn.w < 0.0) turn = -turn;
+    const glm::dvec3 axis{turn.x, turn.y, turn.z};
+    const double size = length(axis);
+    if (!(size > 1e-12)) return glm::dvec3(0.0);
+    return times(axis, 2.0 * arctangent(size, turn.w) * degrees / size);
+}
+
+std::vector<Outlier> outliers(const std::vector<glm::dvec3>& list, double minimum) {
+    std::vector<Outlier> found;
+    const auto count = static_cast<std::ptrdiff_t>(list.size());
+    if (count < 6) return found;
+    const Moves moves(list);
+    for (std::ptrdiff_t i = 1; i < count; ++i) {
+        // What stands apart for one, two or three frames comes first: it would be two steps.
+        double amount = 0.0;
+        std::ptrdiff_t until = count;
+        for (std::ptrdiff_t held = 1; held <= 3 && amount == 0.0 && i + held < count; ++held) {
+            amount = spike(moves, i, held, minimum);
+            if (amount > 0.0) until = i + held;
+        }
+        if (amount == 0.0) amount = step(moves, i, minimum);
+        if (amount == 0.0) continue;
+        found.push_back({static_cast<std::size_t>(i), static_cast<std::size_t>(until), amount});
+        if (until < count) i = until;
+    }
+    return found;
+}
+
+void check_jumps(Check& check) {
+    const double turn = check.settings.turn * slower(check);
+    const double shift = std::max(check.settings.shift * check.height, 1e-6);
+    for (const Channel& channel : check.clip.channels) {
+        check_track(check, channel, channel.rotation, &rig::Transform::rotation, turn, true);
+        check_track(check, channel, channel.translation, &rig::Transform::translation, shift, false);
+    }
+}
+
+void check_knees(Check& check) {
+    std::vector<rig::Transform> pose(check.skeleton.size());
+    std::vector<Placement> placed(check.skeleton.size());
+    const auto has = [&](Bone bone) { return check.map[bone].node >= 0; };
+    for (const Leg& leg : legs) {
+        if (!has(leg.upper) || !has(leg.lower) || !has(leg.foot)) continue;
+        std::vector<double> bends;
+        for (std::size_t i = 0; i < check.report.frames; ++i) {
+            sample(check.clip, check.skeleton, check.time_of(i), pose);
+            place(check.skeleton, pose, placed);
+            bends.push_back(bend_of(check, leg, placed));
+        }
+        std::vector<glm::dvec3> moves(bends.size(), glm::dvec3(0.0));
+        for (std::size_t i = 1; i < moves.size(); ++i) moves[i].x = bends[i] - bends[i - 1];
+        const std::int32_t node = check.map[leg.lower].node;
+        const std::vector<Outlier> pops = outliers(moves, check.settings.knee * slower(check));
+        for (const Outlier& each : pops) {
+            const bool comes_back = each.until < check.report.frames;
+            Finding& finding = check.add(Fault::KneePop, node, each.frame, each.frame,
+                                         comes_back ? each.until - 1 : each.frame, each.amount, "deg",
+                                         "pops by " + shown(each.amount) + " degrees");
+            finding.has_cure = true;
+            finding.goes_on = !comes_back;
+        }
+        if (pops.empty()) check_snaps(check, node, bends);
+    }
+}
+
+}  // namespace tendril::humanoid::lint_detail

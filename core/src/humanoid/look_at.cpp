@@ -1,0 +1,180 @@
+#include "tendril/humanoid/look_at.hpp"
+
+#include <cmath>
+
+#include "humanoid/view.hpp"
+#include "rig/checks.hpp"
+#include "tendril/rig/aim.hpp"
+
+namespace tendril::humanoid {
+namespace {
+
+using namespace rig::detail;
+using tendril::detail::refused;
+
+constexpr Bone column[]{Bone::Spine, Bone::Chest, Bone::UpperChest, Bone::Neck, Bone::Head};
+constexpr std::size_t neck = 3, head = 4;
+constexpr glm::dquat none{1.0, 0.0, 0.0, 0.0};
+
+/// A bone that turns: its place in the head's path, and which of the column it is.
+struct Turning {
+    std::size_t place = 0, bone = 0;
+};
+
+double limited(double angle, double most) noexcept {
+    return std::min(angle, most);
+}
+
+/// From one unit vector towards another by an angle at most. Of opposite ones about some axis.
+glm::dvec3 turned_toward(const glm::dvec3& from, const glm::dvec3& to, double most) noexcept {
+    const double angle = detail::angle_between(from, to);
+    if (angle <= most) return to;
+    return rotated(slerp(none, minimal_rotation(from, to), most / angle), from);
+}
+
+}  // namespace
+
+struct LookAt::Plan {
+    std::size_t nodes = 0;
+    detail::Head head{};
+    std::vector<Turning> bones{};  // from the spine up; the last one is the head
+    std::size_t spine_bones = 0;
+
+    double limit_of(std::size_t bone, const LookAtOptions& options) const noexcept {
+        if (bone == ::tendril::humanoid::head) return options.head_limit;
+        return bone == neck ? options.neck_limit : options.spine_limit / static_cast<double>(spine_bones);
+    }
+    double part_of(std::size_t bone, const LookAtOptions& options) const noexcept {
+        if (bone == ::tendril::humanoid::head) return 1.0;
+        return bone == neck ? options.neck_part : options.spine_part / static_cast<double>(spine_bones);
+    }
+
+    /// Where the path's node at `place` hangs.
+    Placement above(std::size_t place, const Placement& root, detail::Pose pose) const noexcept {
+        Placement at = root;
+        for (std::size_t i = 0; i < place; ++i)
+            at = at * placement(pose[static_cast<std::size_t>(head.path[i])]);
+        return at;
+    }
+
+    void turn(detail::Pose pose, const Placement& root, const glm::dvec3& point, double weight,
+              const LookAtOptions& options) const noexcept;
+};
+
+/// Each bone turns as if the head's gaze were fixed to it, by its part of what is left of the whole way.
+void LookAt::Plan::turn(detail::Pose pose, const Placement& root, const glm::dvec3& point, double weight,
+                        const LookAtOptions& options) const noexcept {
+    double left = 1.0;
+    for (const Turning& each : bones) {
+        const Placement hangs = above(each.place, root, pose);
+        const auto node = static_cast<std::size_t>(head.path[each.place]);
+        const glm::dquat rotation = (hangs * placement(pose[node])).rotation();
+        const Placement eyes = head.place_in(root, pose);
+        const glm::dvec3 looks = head.gaze(eyes);
+        const glm::dvec3 gaze = direction_of(minus(point, eyes.position), 1e-6).value_or(looks);
+        const double part = each.bone == ::tendril::humanoid::head
+                                ? 1.0
+                                : limited(part_of(each.bone, options) / std::max(left, 1e-9), 1.0);
+        left -= part_of(each.bone, options);
+
+        rig::AimOptions aim;
+        aim.primary.axis = rotated(conjugate(rotation), looks);
+        aim.primary.target = turned_toward(looks, gaze, part * detail::angle_between(looks, gaze));
+        aim.primary.kind = rig::AimTarget::Direction;
+        const glm::dquat aimed = rig::aim({.rotation = rotation}, aim).transform.rotation;
+        const glm::dquat whole = math::compose(aimed, conjugate(rotation));
+        const double angle = 2.0 * half_angle_between(none, whole);
+        const double most = limited(angle, limit_of(each.bone, options));
+        if (!(angle > 1e-12)) continue;
+        detail::turn(pose[node], hangs, slerp(none, whole, weight * most / angle));
+    }
+}
+
+Result check(const LookAtOptions& options) noexcept {
+    constexpr const char* operation = "look_at";
+    struct Range {
+        const char* name;
+        double LookAtOptions::*member;
+        double minimum, maximum;
+        const char* requirement;
+    };
+    constexpr Range ranges[]{
+        {"weight", &LookAtOptions::weight, 0.0, 1.0, "from 0 to 1"},
+        {"spine_part", &LookAtOptions::spine_part, 0.0, 1.0, "from 0 to 1"},
+        {"neck_part", &LookAtOptions::neck_part, 0.0, 1.0, "from 0 to 1"},
+        {"spine_limit", &LookAtOptions::spine_limit, 0.0, 3.15, "from 0 to 3.15 radians"},
+        {"neck_limit", &LookAtOptions::neck_limit, 0.0, 3.15, "from 0 to 3.15 radians"},
+        {"head_limit", &LookAtOptions::head_limit, 0.0, 3.15, "from 0 to 3.15 radians"},
+        {"view", &LookAtOptions::view, 0.0, 3.15, "from 0 to 3.15 radians"},
+        {"half_life", &LookAtOptions::half_life, 1e-6, 10.0, "from 1e-6 to 10 s"},
+        {"max_speed", &LookAtOptions::max_speed, 1e-6, 1e3, "from 1e-6 to 1e3 radians/s"}};
+    for (const Range& range : ranges) {
+        const double value = options.*range.member;
+        if (!(value >= range.minimum && value <= range.maximum))
+            return refused(operation, range.name, range.requirement, value);
+    }
+    if (options.spine_part + options.neck_part > 1.0)
+        return refused(operation, "neck_part", "with spine_part at most 1", options.neck_part);
+    if (const Result bad = rig::detail::check_vector(operation, "target", options.target); !bad) return bad;
+    const Expected<rig::Transform> root = rig::checked(options.root, operation, "root");
+    return root ? Result() : root.error();
+}
+
+LookAt::LookAt(std::unique_ptr<Plan> plan) noexcept : plan_(std::move(plan)) {}
+LookAt::~LookAt() = default;
+LookAt::LookAt(LookAt&&) noexcept = default;
+LookAt& LookAt::operator=(LookAt&&) noexcept = default;
+
+Expected<LookAt> LookAt::make(const Skeleton& skeleton, const BoneMap& map) {
+    const Expected<Soles> soles = find_soles(skeleton, map);
+    if (!soles) return soles.error();
+    if (!map.is_usable()) return refused("LookAt", "map", "usable", "one that is not");
+    for (std::size_t i = 0; i < bone_count; ++i)
+        if (is_needed(static_cast<Bone>(i)) && map.bones[i].node < 0)
+            return refused("LookAt", name(static_cast<Bone>(i)), "a node", map.bones[i].node);
+    auto plan = std::make_unique<Plan>();
+    plan->nodes = skeleton.size();
+    plan->head = detail::Head::make(skeleton, map, soles->forward);
+    const std::vector<std::int32_t>& path = plan->head.path;
+    for (std::size_t i = 0; i < std::size(column); ++i) {
+        const auto at = std::find(path.begin(), path.end(), map[column[i]].node);
+        if (map[column[i]].node < 0) continue;
+        const auto place = static_cast<std::size_t>(at - path.begin());
+        if (at == path.end() || (!plan->bones.empty() && place <= plan->bones.back().place))
+            return refused("LookAt", name(column[i]), "between the bones before it and the head",
+                           std::string_view(skeleton[static_cast<std::size_t>(map[column[i]].node)].name));
+        plan->bones.push_back({place, i});
+        plan->spine_bones += i < neck;
+    }
+    return LookAt(std::move(plan));
+}
+
+LookAtReport LookAt::step(std::span<rig::Transform> pose, const LookAtOptions& options, double dt,
+                          LookAtState& state) const noexcept {
+    const Plan& plan = *plan_;
+    if (pose.size() != plan.nodes || !check(options)) return {.valid = false};
+    const Placement root = placement(options.root);
+    const Placement at = plan.head.place_in(root, pose);
+    if (!detail::is_moderate(at)) return {.valid = false};
+
+    const glm::dvec3 looks = plan.head.gaze(at), way = minus(options.target, at.position);
+    const glm::dvec3 wanted = direction_of(way, 1e-6).value_or(looks);
+    const double seen = detail::step_view(state.in_view, state.view, detail::angle_between(looks, wanted),
+                                          options.view, options.half_life, dt);
+    const bool is_first = dot(state.gaze, state.gaze) < 0.5;
+    const double most = dt > 0.0 ? options.max_speed * std::min(dt, 1e3) : 0.0;
+    // Behind its back the eyes do not follow: what comes into view again is looked at from where the clip
+    // looks.
+    const glm::dvec3 from = seen > 0.0 ? state.gaze : looks;
+    state.gaze = is_first ? wanted : turned_toward(from, state.in_view ? wanted : from, most);
+
+    LookAtReport report{.weight = rig::detail::weight(options.weight) * seen, .in_view = state.in_view};
+    const glm::dvec3 point = plus(at.position, times(state.gaze, length(way)));
+    if (report.weight > 0.0) plan.turn(pose, root, point, report.weight, options);
+    const Placement now = plan.head.place_in(root, pose);
+    const auto to_target = direction_of(minus(options.target, now.position), 1e-6);
+    report.left = to_target ? detail::angle_between(plan.head.gaze(now), *to_target) : 0.0;
+    return report;
+}
+
+}  // namespace tendril::humanoid

@@ -1,0 +1,150 @@
+#include "humanoid/names.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+#include <vector>
+
+namespace tendril::humanoid::detail {
+namespace {
+
+bool is_upper(char c) {
+    return std::isupper(static_cast<unsigned char>(c)) != 0;
+}
+bool is_lower(char c) {
+    return std::islower(static_cast<unsigned char>(c)) != 0;
+}
+bool is_digit(char c) {
+    return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
+
+/// Words in small letters: separators, capitals and digits begin a new one. "LHipJoint_01": l hip joint 01
+std::vector<std::string> words_of(std::string_view name) {
+    if (const std::size_t colon = name.find_last_of(":|"); colon != name.npos && colon + 1 < name.size())
+        name.remove_prefix(colon + 1);
+    std::vector<std::string> words;
+    bool fresh = true;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        const char c = name[i], before = i > 0 ? name[i - 1] : ' ',
+                   after = i + 1 < name.size() ? name[i + 1] : ' ';
+        if (!std::isalnum(static_cast<unsigned char>(c))) {
+            fresh = true;
+            continue;
+        }
+        if (is_upper(c) && (is_lower(before) || (is_upper(before) && is_lower(after)))) fresh = true;
+        if (is_digit(c) != is_digit(before)) fresh = true;
+        if (fresh) words.emplace_back();
+        fresh = false;
+        words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+    return words;
+}
+
+template <std::size_t N>
+bool is_one_of(std::string_view word, const std::string_view (&list)[N]) {
+    return std::find(std::begin(list), std::end(list), word) != std::end(list);
+}
+
+/// Where one of these is in a name, the node is none of a body's bones.
+constexpr std::string_view not_bones[]{
+    "twist",  "roll",    "helper", "ik",       "pole",       "poletarget", "target",    "end",
+    "leaf",   "tip",     "nub",    "top",      "socket",     "attach",     "weapon",    "prop",
+    "hair",   "skirt",   "cloth",  "cape",     "tail",       "ear",        "eye",       "eyes",
+    "brow",   "jaw",     "mouth",  "lip",      "tongue",     "teeth",      "nose",      "cheek",
+    "face",   "breast",  "finger", "fingers",  "thumb",      "index",      "ring",      "pinky",
+    "little", "pinkie",  "mid",    "palm",     "metacarpal", "carpal",     "wing",      "muscle",
+    "share",  "stretch", "tweak",  "fk",       "ctrl",       "control",    "mch",       "site",
+    "camera", "light",   "holder", "effector", "goal",       "bend",       "ankleroll", "sec"};
+/// Words that say nothing.
+constexpr std::string_view fillers[]{"mixamorig", "bip",       "biped",  "def",  "org", "valve", "j",
+                                     "b",         "cc",        "base",   "bone", "bn",  "jnt",   "rig",
+                                     "armature",  "character", "c",      "m",    "jt",  "skel",  "sk",
+                                     "bones",     "human",     "center", "mid",  "g"};
+
+struct Word {
+    std::string_view text;
+    Part part;
+};
+/// What is left of a name, put together.
+constexpr Word dictionary[]{{"hips", Part::Hips},         {"hip", Part::Hips},
+                            {"pelvis", Part::Hips},       {"spine", Part::Spine},
+                            {"chest", Part::Spine},       {"upperchest", Part::Spine},
+                            {"lowerback", Part::Spine},   {"torso", Part::Spine},
+                            {"abdomen", Part::Spine},     {"waist", Part::Spine},
+                            {"ribcage", Part::Spine},     {"thorax", Part::Spine},
+                            {"back", Part::Spine},        {"upperback", Part::Spine},
+                            {"lowerspine", Part::Spine},  {"upperspine", Part::Spine},
+                            {"spineupper", Part::Spine},  {"spinelower", Part::Spine},
+                            {"ribs", Part::Spine},        {"neck", Part::Neck},
+                            {"head", Part::Head},         {"clavicle", Part::Shoulder},
+                            {"collar", Part::Shoulder},   {"collarbone", Part::Shoulder},
+                            {"clav", Part::Shoulder},     {"shoulder", Part::ShoulderArm},
+                            {"shldr", Part::UpperArm},    {"upperarm", Part::UpperArm},
+                            {"uparm", Part::UpperArm},    {"armupper", Part::UpperArm},
+                            {"bicep", Part::UpperArm},    {"humerus", Part::UpperArm},
+                            {"arm", Part::Arm},           {"lowerarm", Part::LowerArm},
+                            {"forearm", Part::LowerArm},  {"loarm", Part::LowerArm},
+                            {"armlower", Part::LowerArm}, {"elbow", Part::LowerArm},
+                            {"lowarm", Part::LowerArm},   {"hand", Part::Hand},
+                            {"wrist", Part::Hand},        {"thigh", Part::UpperLeg},
+                            {"upperleg", Part::UpperLeg}, {"upleg", Part::UpperLeg},
+                            {"legupper", Part::UpperLeg}, {"femur", Part::UpperLeg},
+                            {"leg", Part::Leg},           {"calf", Part::LowerLeg},
+                            {"shin", Part::LowerLeg},     {"lowerleg", Part::LowerLeg},
+                            {"loleg", Part::LowerLeg},    {"leglower", Part::LowerLeg},
+                            {"knee", Part::LowerLeg},     {"lowleg", Part::LowerLeg},
+                            {"foot", Part::Foot},         {"ankle", Part::Foot},
+                            {"toe", Part::Toes},          {"toes", Part::Toes},
+                            {"toebase", Part::Toes},      {"ball", Part::Toes}};
+
+Part part_of(std::string_view text) {
+    for (const Word& word : dictionary)
+        if (word.text == text) return word.part;
+    return Part::None;
+}
+
+Side side_of(std::string_view word) {
+    if (word == "l" || word == "left" || word == "lft" || word == "lf") return Side::Left;
+    if (word == "r" || word == "right" || word == "rgt" || word == "rt") return Side::Right;
+    return Side::None;
+}
+
+/// "leftarm", "lthigh", "handr": a side that no separator tells from the part.
+Side take_side(std::string& text) {
+    for (const std::string_view side : {"left", "right", "l", "r"}) {
+        const bool before = text.starts_with(side), after = text.ends_with(side);
+        if (before && part_of(std::string_view(text).substr(side.size())) != Part::None) {
+            text.erase(0, side.size());
+            return side_of(side);
+        }
+        if (after && part_of(std::string_view(text).substr(0, text.size() - side.size())) != Part::None) {
+            text.resize(text.size() - side.size());
+            return side_of(side);
+        }
+    }
+    return Side::None;
+}
+
+}  // namespace
+
+NameReading read_name(std::string_view name) {
+    NameReading reading;
+    std::string text;
+    for (const std::string& word : words_of(name)) {
+        if (is_digit(word.front())) continue;
+        if (is_one_of(word, not_bones)) return {};
+        if (const Side side = side_of(word); side != Side::None)
+            reading.side = side;
+        else if (!is_one_of(word, fillers))
+            text += word;
+    }
+    if (part_of(text) == Part::None && reading.side == Side::None) reading.side = take_side(text);
+    reading.part = part_of(text);
+    reading.is_plain = text == "hips";
+    const bool has_side = reading.side != Side::None;
+    if (text == "hip" && has_side) reading.part = Part::UpperLeg;  // but Rigify's pelvis.L is none
+    if (reading.part == Part::None || (reading.part >= Part::Shoulder) != has_side) return {};
+    return reading;
+}
+
+}  // namespace tendril::humanoid::detail

@@ -1,0 +1,67 @@
+#include "tendril/humanoid/t_pose.hpp"
+
+#include "humanoid/anatomy.hpp"
+#include "rig/math.hpp"
+
+namespace tendril::humanoid {
+
+using namespace rig::detail;
+
+Facing facing(const Skeleton& skeleton, const BoneMap& map) {
+    std::vector<Placement> placements(skeleton.size());
+    place(skeleton, rest_pose(skeleton), placements);
+    const auto way = [&](Bone from, Bone to) {
+        const std::int32_t a = map[from].node, b = map[to].node;
+        if (a < 0 || b < 0) return glm::dvec3(0.0);
+        return minus(placements[static_cast<std::size_t>(b)].position,
+                     placements[static_cast<std::size_t>(a)].position);
+    };
+    glm::dvec3 left =
+        plus(way(Bone::RightUpperLeg, Bone::LeftUpperLeg), way(Bone::RightUpperArm, Bone::LeftUpperArm));
+    left.y = 0.0;
+    Facing result;
+    if (const auto direction = direction_of(left, 1e-9)) {
+        result.left = *direction;
+        result.forward = cross(result.left, result.up);
+    }
+    return result;
+}
+
+std::vector<rig::Transform> t_pose(const Skeleton& skeleton, const BoneMap& map) {
+    std::vector<rig::Transform> pose = rest_pose(skeleton);
+    std::vector<Placement> placements(skeleton.size());
+    place(skeleton, pose, placements);
+    const Facing at = facing(skeleton, map);
+    std::vector<glm::dquat> turns(skeleton.size(),
+                                  glm::dquat(1.0, 0.0, 0.0, 0.0));  // from rest, of all above
+    for (const std::int32_t each : skeleton.order()) {
+        const auto node = static_cast<std::size_t>(each);
+        const std::int32_t parent = skeleton[node].parent;
+        const glm::dquat before =
+            parent < 0 ? glm::dquat(1.0, 0.0, 0.0, 0.0) : turns[static_cast<std::size_t>(parent)];
+        turns[node] = before;
+        if (const auto bone = detail::bone_of(map, each)) {
+            const auto child = detail::limb_child(*bone);
+            if (child && map[*child].node >= 0) {
+                const glm::dvec3 along =
+                    minus(placements[static_cast<std::size_t>(map[*child].node)].position,
+                          placements[node].position);
+                if (const auto direction = direction_of(rotated(before, along), 1e-9))
+                    turns[node] =
+                        math::compose(minimal_rotation(*direction, detail::t_direction(*bone, at)), before);
+            } else if (*bone == Bone::LeftFoot || *bone == Bone::RightFoot) {
+                turns[node] = {1.0, 0.0, 0.0, 0.0};
+            }
+        }
+        const glm::dquat rest = placements[node].rotation();
+        const glm::dquat above =
+            parent < 0 ? before
+                       : math::compose(before, placements[static_cast<std::size_t>(parent)].rotation());
+        if (turns[node] != before)
+            pose[node].rotation =
+                rig::normalised(math::compose(conjugate(above), math::compose(turns[node], rest)));
+    }
+    return pose;
+}
+
+}  // namespace tendril::humanoid

@@ -1,0 +1,31 @@
+#version 330 core
+// One corner of a triangle of a skin: linear blend skinning by four joints at the most.
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec2 uv;
+layout(location = 3) in vec4 tint;
+layout(location = 4) in ivec4 joints;
+layout(location = 5) in vec4 weights;
+
+uniform samplerBuffer matrices;  // three rows to a joint: from where the skin was bound to where the joint is now
+
+#include "surface.glsl"
+
+out vec3 facing;
+out vec2 picture_at;
+out vec4 own_colour;
+
+void main() {
+    vec4 rows[3] = vec4[3](vec4(0.0), vec4(0.0), vec4(0.0));
+    for (int i = 0; i < 4; ++i)
+        for (int row = 0; row < 3; ++row) rows[row] += weights[i] * texelFetch(matrices, 3 * joints[i] + row);
+    vec4 p = vec4(position, 1.0);
+    vec3 world = vec3(dot(rows[0], p), dot(rows[1], p), dot(rows[2], p));
+    vec3 turned = vec3(dot(rows[0].xyz, normal), dot(rows[1].xyz, normal), dot(rows[2].xyz, normal));
+    vec3 at = mat3(to_eye_space) * (world - eye);
+    gl_Position = on_screen(at);
+    facing = seen_normal(at, turned / max(length(turned), 1e-30));
+    picture_at = uv;
+    own_colour = tint;
+}

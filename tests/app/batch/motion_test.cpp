@@ -1,0 +1,149 @@
+// `tendril lint` and `tendril bake`: the real program with good files and bad ones.
+#include "app/document/json_complete.hpp"
+#include "app/io/character/export.hpp"
+#include "app/io/character/read.hpp"
+#include "app/io/character/stick_figure.hpp"
+#include "tests/app/support/program.hpp"
+
+namespace tendril::test {
+namespace {
+
+using app::Json;
+using Strings = std::vector<std::string>;
+
+class MotionProgram : public testing::Test {
+  protected:
+    Outcome run(const Strings& arguments) const {
+        return run_program(arguments, {{"DISPLAY", {}}, {"WAYLAND_DISPLAY", {}}});
+    }
+    std::string path(const char* name) const { return (folder_ / name).string(); }
+    /// The built-in figure and its walk.
+    std::string figure(const char* name, bool flipped = false) const {
+        const app::Character character = app::stick_figure();
+        humanoid::Clip clip = character.clips[0];
+        app::export_clip({character, {}, clip, clip, 60.0}, folder_ / name);
+        if (flipped) flip_a_key(name);
+        return path(name);
+    }
+    TempFolder folder_;
+
+  private:
+    /// The sign bits of the right knee's key of frame 12.
+    void flip_a_key(const char* name) const {
+        std::string bytes = read(folder_ / name);
+        const auto text = static_cast<std::size_t>(static_cast<unsigned char>(bytes[12])) +
+                          256u * static_cast<unsigned char>(bytes[13]);
+        const Json json = app::parse_json(bytes.substr(20, text));
+        std::size_t sampler = 0;
+        for (const Json& channel : json["animations"][0]["channels"])
+            if (json["nodes"][channel["target"]["node"].get<std::size_t>()]["name"] == "RightLowerLeg")
+                sampler = channel["sampler"].get<std::size_t>();
+        const Json& output = json["animations"][0]["samplers"][sampler]["output"];
+        const Json& accessor = json["accessors"][output.get<std::size_t>()];
+        const Json& view = json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+        const std::size_t at = 28 + text + view["byteOffset"].get<std::size_t>() + 12 * 16;
+        for (std::size_t i = 0; i < 4; ++i)
+            bytes[at + 4 * i + 3] = static_cast<char>(bytes[at + 4 * i + 3] ^ 0x80);
+        write(folder_ / name, bytes);
+    }
+};
+
+TEST_F(MotionProgram, lint_finds_nothing_in_a_clean_clip_and_says_so) {
+    for (const char* name : {"walk.glb", "walk.gltf", "walk.bvh"}) {
+        const Outcome outcome = run({"lint", figure(name)});
+        EXPECT_EQ(outcome.exit_code, 0) << name << ": " << outcome.out << outcome.err;
+        EXPECT_EQ(outcome.out, "0 findings in 1 clip\n");
+        EXPECT_EQ(outcome.err, "");
+    }
+}
+
+TEST_F(MotionProgram, lint_prints_what_it_finds_and_exits_with_1) {
+    const std::string file = figure("flipped.glb", true);
+    const Outcome lines = run({"lint", file});
+    EXPECT_EQ(lines.exit_code, 1);
+    EXPECT_NE(lines.out.find("walk: sign_flip, frame 12 of 67 at 60 fps, 0.200 s: RightLowerLeg"),
+              std::string::npos)
+        << lines.out;
+    EXPECT_NE(lines.out.find("1 finding in 1 clip\n"), std::string::npos) << lines.out;
+
+    const Outcome outcome = run({"lint", file, "--json"});
+    EXPECT_EQ(outcome.exit_code, 1);
+    const Json json = app::parse_json(outcome.out);
+    EXPECT_EQ(json["findings"], 1);
+    const Json& clip = json["clips"].at(0);
+    EXPECT_EQ(clip["name"], "walk");
+    EXPECT_EQ(clip["frame_rate"], 60.0);
+    EXPECT_EQ(clip["frames"], 67);
+    const Json& finding = clip["findings"].at(0);
+    EXPECT_EQ(finding["kind"], "sign_flip");
+    EXPECT_EQ(finding["frame"], 12);
+    EXPECT_NEAR(finding["time"].get<double>(), 0.2, 1e-6);
+    EXPECT_EQ(finding["unit"], "deg");
+    EXPECT_EQ(finding["cure"], true);
+}
+
+TEST_F(MotionProgram, bake_writes_the_clip_and_says_how_near_it_came) {
+    const std::string file = figure("walk.glb");
+    for (const char* ground : {"none", "flat", "slope", "stairs", "terrain"}) {
+        for (const char* name : {"out.glb", "out.gltf", "out.bvh"}) {
+            const Outcome outcome = run({"bake", file, "--ground", ground, "--out", path(name)});
+            EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+            EXPECT_NE(outcome.out.find("67 frames; worst joint "), std::string::npos) << outcome.out;
+            EXPECT_NE(outcome.out.find("; skating "), std::string::npos) << outcome.out;
+            const app::Character read = app::read_character(folder_ / name);
+            EXPECT_NEAR(read.clips.at(0).duration, 1.1, 1e-6);
+        }
+    }
+    // On stairs the figure goes up.
+    run({"bake", file, "--ground", "stairs", "--out", path("up.bvh")});
+    const app::Character up = app::read_character(folder_ / "up.bvh");
+    const auto& hips = up.clips.at(0).channels.at(0).translation.values;
+    EXPECT_GT(hips.back().y, hips.front().y + 0.2);
+}
+
+TEST_F(MotionProgram, bake_takes_a_clips_name_and_a_frame_rate_and_finds_a_place_beside_the_file) {
+    const std::string file = figure("walk.bvh");
+    EXPECT_EQ(run({"bake", file, "--clip", "motion", "--fps", "30"}).exit_code, 0);
+    EXPECT_NE(read(folder_ / "walk_baked.bvh").find("Frames: 34\n"), std::string::npos);
+    const Outcome unknown = run({"bake", file, "--clip", "run"});
+    EXPECT_EQ(unknown.exit_code, 2);
+    EXPECT_EQ(unknown.err, "tendril: walk.bvh: has no clip \"run\"; it has motion\n");
+}
+
+TEST_F(MotionProgram, what_cannot_be_read_or_written_ends_with_2) {
+    const std::string file = figure("walk.glb");
+    write(folder_ / "text.glb", "no character");
+    const std::vector<Strings> bad{{"lint"},
+                                   {"lint", path("nothing.glb")},
+                                   {"lint", path("text.glb")},
+                                   {"bake", path("nothing.glb")},
+                                   {"bake", file, "--ground", "lava"},
+                                   {"bake", file, "--fps", "0"},
+                                   {"bake", file, "--fps", "nan"},
+                                   {"bake", file, "--fps", "1001"},
+                                   {"bake", file, "--out", path("walk.fbx")},
+                                   {"bake", file, "--out", path("nowhere/walk.glb")}};
+    for (const Strings& arguments : bad) {
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exit_code, 2) << arguments.back() << ": " << outcome.out;
+        EXPECT_EQ(outcome.out, "") << arguments.back();
+        EXPECT_EQ(outcome.err.find("tendril: "), 0u) << outcome.err;
+    }
+    EXPECT_EQ(folder_.names(), (Strings{"text.glb", "walk.glb"}));
+}
+
+TEST_F(MotionProgram, a_skeleton_without_legs_is_linted_but_gets_no_ground) {
+    write(folder_ / "snake.bvh",
+          "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nJOINT b\n{\nOFFSET "
+          "0 1 0\n"
+          "CHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\n}\nMOTION\nFrames: 2\n"
+          "Frame Time: 0.1\n0 0 0 0 0 0\n10 0 0 5 0 0\n");
+    EXPECT_EQ(run({"lint", path("snake.bvh")}).exit_code, 0);
+    EXPECT_EQ(run({"bake", path("snake.bvh"), "--out", path("a.glb")}).exit_code, 0);
+    const Outcome outcome = run({"bake", path("snake.bvh"), "--ground", "flat", "--out", path("b.glb")});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.err.find("tendril: snake.bvh: "), 0u) << outcome.err;
+}
+
+}  // namespace
+}  // namespace tendril::test

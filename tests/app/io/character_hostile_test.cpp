@@ -1,0 +1,355 @@
+// Files that are broken, or want to break something: each is refused with words that begin with the file's
+// name and say where, or read as what it is; none takes long, or much memory.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+
+#include "app/io/character/read.hpp"
+#include "tests/app/support/temp_folder.hpp"
+
+namespace tendril::app {
+namespace {
+
+class HostileCharacter : public testing::Test {
+  protected:
+    /// What reading says; "" where it is read.
+    std::string refusal(const std::string& name, const std::string& bytes) {
+        test::write(folder_ / name, bytes);
+        try {
+            character_ = read_character(folder_ / name);
+            return {};
+        } catch (const std::runtime_error& error) {
+            const std::string words = error.what();
+            EXPECT_EQ(words.find(name), 0u) << words;
+            EXPECT_LT(words.size(), 600u) << words;
+            EXPECT_EQ(words.find('\n'), words.npos) << words;
+            return words;
+        }
+    }
+    void refuses(const std::string& name, const std::string& bytes, const std::string& says) {
+        const std::string words = refusal(name, bytes);
+        EXPECT_NE(words.find(says), words.npos) << "says \"" << words << "\", expected \"" << says << '"';
+        EXPECT_NE(words, "") << name << " was read";
+    }
+
+    test::TempFolder folder_;
+    Character character_;
+};
+
+std::string repeated(const std::string& text, std::size_t times) {
+    std::string all;
+    for (std::size_t i = 0; i < times; ++i) all += text;
+    return all;
+}
+template <class T>
+std::string raw(T value) {
+    std::string bytes(sizeof value, '\0');
+    std::copy_n(reinterpret_cast<const char*>(&value), sizeof value, bytes.data());
+    return bytes;
+}
+
+// ------------------------------------------------------------------------------------------------ any kind
+
+TEST_F(HostileCharacter, empty_and_other_files_are_refused_by_every_reader) {
+    for (const char* ending : {".glb", ".gltf", ".fbx", ".bvh"}) {
+        const std::string name = std::string("it") + ending;
+        refuses(name, "", "is empty");
+        EXPECT_NE(refusal(name, "Dear diary, today I renamed a letter.\n"), "");
+        EXPECT_NE(refusal(name, std::string(100000, '\0')), "");
+        EXPECT_NE(refusal(name, repeated("\xff\xfe\x01", 5000)), "");
+        EXPECT_NE(refusal(name, "glTF"), "");
+        EXPECT_NE(refusal(name, "Kaydara FBX Binary  "), "");
+        EXPECT_NE(refusal(name, "HIERARCHY"), "");
+        EXPECT_NE(refusal(name, "{}"), "");
+    }
+}
+
+// --------------------------------------------------------------------------------------------------- glTF
+
+const std::string asset = R"({"asset":{"version":"2.0"},)";
+
+/// Two joints, the second on the first; `more` may say more of them.
+std::string two_joints(const std::string& first, const std::string& second, const std::string& rest = "") {
+    return asset + R"("nodes":[{"children":[1])" + first + R"(},{"translation":[0,1,0])" + second +
+           R"(}],"skins":[{"joints":[0,1]}])" + rest + "}";
+}
+/// A clip that turns node 0; keys as a data URI of floats.
+std::string keys(const std::string& data, const std::string& times, const std::string& values,
+                 const std::string& path = "translation", const std::string& node = "0") {
+    return R"(,"buffers":[{"byteLength":)" + std::to_string(data.size() / 4 * 3) +
+           R"(,"uri":"data:application/octet-stream;base64,)" + data +
+           R"("}],"bufferViews":[{"buffer":0,"byteLength":12},{"buffer":0,"byteOffset":12,"byteLength":36}],)"
+           R"("accessors":[)" +
+           times + "," + values +
+           R"(],"animations":[{"samplers":[{"input":0,"output":1}],"channels":[{"sampler":0,"target":{"node":)" +
+           node + R"(,"path":")" + path + R"("}}]}])";
+}
+std::string base64(const std::vector<float>& numbers) {
+    constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string bytes, text;
+    for (const float each : numbers) bytes += raw(each);
+    for (std::size_t i = 0; i + 2 < bytes.size(); i += 3) {
+        std::uint32_t three = 0;
+        for (std::size_t k = 0; k < 3; ++k) three = (three << 8) | static_cast<unsigned char>(bytes[i + k]);
+        for (int shift = 18; shift >= 0; shift -= 6) text += digits[(three >> shift) & 63];
+    }
+    return text;
+}
+const std::string three_times = R"({"bufferView":0,"componentType":5126,"count":3,"type":"SCALAR"})";
+const std::string three_places = R"({"bufferView":1,"componentType":5126,"count":3,"type":"VEC3"})";
+std::string clip_of(std::vector<float> times, float place) {
+    times.resize(12, place);
+    return keys(base64(times), three_times, three_places);
+}
+
+TEST_F(HostileCharacter, a_gltf_that_is_well_is_read) {
+    EXPECT_EQ(refusal("well.gltf", two_joints("", "", clip_of({0.0f, 0.5f, 1.0f}, 2.0f))), "");
+    EXPECT_EQ(character_.skeleton.size(), 2u);
+    ASSERT_EQ(character_.clips.size(), 1u);
+    EXPECT_EQ(character_.clips[0].duration, 1.0);
+}
+
+TEST_F(HostileCharacter, gltf_clips_with_wrong_numbers_are_refused) {
+    refuses("back.gltf", two_joints("", "", clip_of({0.0f, 0.7f, 0.5f}, 2.0f)), "must be");
+    refuses("same.gltf", two_joints("", "", clip_of({0.0f, 0.5f, 0.5f}, 2.0f)), "must be over the time");
+    refuses("nan_time.gltf", two_joints("", "", clip_of({0.0f, NAN, 1.0f}, 2.0f)), "times[1]");
+    refuses("nan.gltf", two_joints("", "", clip_of({0.0f, 0.5f, 1.0f}, NAN)), "values[0]");
+    refuses("endless.gltf", two_joints("", "", clip_of({0.0f, 0.5f, 1.0f}, INFINITY)), "values[0]");
+    refuses("no_unit.gltf",
+            two_joints("", "",
+                       keys(base64({0.0f, 0.5f, 1.0f, 9.0f, 9.0f, 9.0f, 9.0f, 9.0f, 9.0f, 9.0f, 9.0f, 9.0f}),
+                            three_times, R"({"bufferView":1,"componentType":5126,"count":2,"type":"VEC4"})",
+                            "rotation")),
+            "3 times and 2 values");
+    const std::string fine = base64(std::vector<float>(12, 0.5f));
+    refuses("no_node.gltf", two_joints("", "", keys(fine, three_times, three_places, "translation", "77")),
+            "no node 77");
+    refuses("path.gltf", two_joints("", "", keys(fine, three_times, three_places, "colour")), "colour");
+    refuses("type.gltf", two_joints("", "", keys(fine, three_times, three_times)), "3 numbers a row");
+}
+
+TEST_F(HostileCharacter, gltf_accessors_that_claim_more_than_there_is_are_refused) {
+    const std::string fine = base64(std::vector<float>(12, 0.5f));
+    const auto times = [](const std::string& count) {
+        return R"({"bufferView":0,"componentType":5126,"count":)" + count + R"(,"type":"SCALAR"})";
+    };
+    for (const char* count : {"4", "1000000", "4294967296", "18446744073709551615"})
+        refuses("count.gltf", two_joints("", "", keys(fine, times(count), three_places)), "claims");
+    refuses(
+        "zeros.gltf",
+        two_joints("", "",
+                   keys(fine, R"({"componentType":5126,"count":40000000,"type":"SCALAR"})", three_places)),
+        "more than");
+    refuses("sparse.gltf",
+            two_joints("", "",
+                       keys(fine,
+                            R"({"componentType":5126,"count":3,"type":"SCALAR","sparse":{"count":3,)"
+                            R"("indices":{"bufferView":0,"componentType":5125},"values":{"bufferView":0}}})",
+                            three_places)),
+            "sparse index");
+}
+
+TEST_F(HostileCharacter, gltf_buffers_that_are_not_there_are_refused) {
+    const auto buffer = [](const std::string& text) {
+        return two_joints("", "", R"(,"buffers":[)" + text + "]");
+    };
+    refuses("gone.gltf", buffer(R"({"byteLength":48,"uri":"gone.bin"})"), "gone.bin");
+    refuses("four.gltf", buffer(R"({"byteLength":4294967295,"uri":"gone.bin"})"),
+            "buffers[0] claims 4294967295");
+    refuses("huge.gltf", buffer(R"({"byteLength":18446744073709551615,"uri":"gone.bin"})"), "buffers[0]");
+    refuses("none.gltf", buffer(R"({"byteLength":0,"uri":"data:application/octet-stream;base64,"})"),
+            "buffers[0]");
+    refuses("short.gltf", buffer(R"({"byteLength":64,"uri":"data:application/octet-stream;base64,AAAA"})"),
+            "decode");
+    refuses("folder.gltf", buffer(R"({"byteLength":64,"uri":"."})"), "not found");
+    refuses("zero.gltf", buffer(R"({"byteLength":64,"uri":"/dev/zero"})"), "not found");
+    refuses("shell.gltf", buffer(R"text({"byteLength":64,"uri":"$(touch broken)"})text"), "not found");
+    EXPECT_FALSE(std::filesystem::exists("broken"));
+}
+
+TEST_F(HostileCharacter, gltf_images_that_are_not_there_are_refused) {
+    const auto image = [](const std::string& text) {
+        return two_joints(
+            "", "",
+            R"(,"buffers":[{"byteLength":3,"uri":"data:application/octet-stream;base64,AAAA"}],)"
+            R"("bufferViews":[{"buffer":0,"byteLength":3},{"buffer":0,"byteLength":1000000},)"
+            R"({"buffer":0,"byteOffset":4000000000,"byteLength":1},{"buffer":9,"byteLength":1}],)"
+            R"("images":[)" +
+                text + "]");
+    };
+    refuses("skin.gltf", image(R"({"uri":"skin.png"})"), "images[0]: skin.png is missing");
+    for (const char* view : {"1", "2", "3", "4", "-1", "\"x\""})
+        refuses("view.gltf", image(std::string(R"({"mimeType":"image/png","bufferView":)") + view + "}"),
+                "image");
+    EXPECT_EQ(refusal("no_picture.gltf", image(R"({"mimeType":"image/png","bufferView":0})")), "")
+        << "a skeleton can be played without the colours of its skin";
+}
+
+TEST_F(HostileCharacter, gltf_nodes_that_make_no_tree_are_refused) {
+    refuses("circle.gltf", two_joints("", R"(,"children":[0])"), "node");
+    refuses("self.gltf", asset + R"("nodes":[{"children":[0]}],"skins":[{"joints":[0]}]})", "node");
+    refuses("two.gltf",
+            asset + R"("nodes":[{"children":[2]},{"children":[2]},{}],"skins":[{"joints":[0,1,2]}]})",
+            "a child of two nodes");
+    refuses("child.gltf", asset + R"("nodes":[{"children":[5]}],"skins":[{"joints":[0]}]})", "no node 5");
+    refuses("joint.gltf", asset + R"("nodes":[{}],"skins":[{"joints":[0,7]}]})", "no node 7");
+    refuses("none.gltf", asset + R"("nodes":[{}]})", "no skeleton");
+    refuses("flat.gltf", two_joints("", R"(,"scale":[1,0,1])"), "scale");
+    refuses("flat_matrix.gltf",
+            asset + R"("nodes":[{"matrix":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,1]}],"skins":[{"joints":[0]}]})",
+            "scale");
+    refuses("far.gltf", two_joints("", R"(,"scale":[1,1e300,1])"), "node_1");
+    refuses("number.gltf", two_joints("", R"(,"rotation":[0,0,1e999,1])"), "");
+}
+
+TEST_F(HostileCharacter, gltf_names_that_are_double_or_missing_are_made_unique) {
+    ASSERT_EQ(refusal("names.gltf", asset + R"("nodes":[{"name":"a","children":[1,2,3]},{"name":"a"},{},)"
+                                            R"({"name":"node_2"}],"skins":[{"joints":[0,1,2,3]}]})"),
+              "");
+    EXPECT_EQ(character_.skeleton[0].name, "a");
+    EXPECT_EQ(character_.skeleton[1].name, "a_2");
+    EXPECT_EQ(character_.skeleton[2].name, "node_2");
+    EXPECT_EQ(character_.skeleton[3].name, "node_2_2");
+}
+
+TEST_F(HostileCharacter, gltf_with_more_nodes_than_a_skeleton_has_is_refused_at_once) {
+    std::string nodes, joints;
+    for (int i = 0; i < 10000; ++i) {
+        nodes += R"({"name":"bone","children":[)" + std::to_string(i + 1) + "]},";
+        joints += std::to_string(i) + ",";
+    }
+    refuses("bones.gltf",
+            asset + R"("nodes":[)" + nodes + R"({}],"skins":[{"joints":[)" + joints + "10000]}]}",
+            "its skeleton has 10001 nodes");
+}
+
+TEST_F(HostileCharacter, gltf_json_that_nests_without_end_is_refused) {
+    refuses("deep.gltf", two_joints(R"(,"extras":)" + repeated("[", 100000) + repeated("]", 100000), ""),
+            "nested");
+    refuses("open.gltf", repeated("{\"a\":", 100000), "nested");
+    EXPECT_EQ(refusal("quoted.gltf", two_joints(R"(,"name":")" + repeated("[{", 1000) + "\"", "")), "");
+}
+
+TEST_F(HostileCharacter, a_glb_cut_off_anywhere_is_refused) {
+    std::string json = two_joints("", "", clip_of({0.0f, 0.5f, 1.0f}, 2.0f));
+    json += repeated(" ", (4 - json.size() % 4) % 4);
+    const std::string binary(16, '\1');
+    const auto glb = [&](std::uint32_t whole, std::uint32_t first, std::uint32_t second) {
+        return "glTF" + raw(std::uint32_t{2}) + raw(whole) + raw(first) + "JSON" + json + raw(second) +
+               std::string("BIN\0", 4) + binary;
+    };
+    const auto size = static_cast<std::uint32_t>(json.size());
+    const std::uint32_t whole = 12 + 8 + size + 8 + 16;
+    const std::string fine = glb(whole, size, 16);
+    ASSERT_EQ(refusal("fine.glb", fine), "");
+    for (std::size_t cut = 1; cut < fine.size(); cut += 7)
+        EXPECT_NE(refusal("cut.glb", fine.substr(0, cut)), "") << cut << " bytes";
+    refuses("chunk.glb", glb(whole, 0xffffffffu, 16), "JSON chunk claims 4294967295");
+    refuses("binary.glb", glb(whole, size, 24), "BIN chunk claims 24");
+    refuses("binary.glb", glb(whole, size, 0xfffffff0u), "BIN chunk claims");
+    refuses("header.glb", glb(whole + 4, size, 16), "cut off");
+}
+
+// ---------------------------------------------------------------------------------------------------- BVH
+
+const std::string hierarchy =
+    "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n"
+    "End Site\n{\nOFFSET 0 1.7 0\n}\n}\n";
+
+TEST_F(HostileCharacter, bvh_motion_that_is_not_there_is_refused_at_once) {
+    EXPECT_EQ(refusal("well.bvh", hierarchy + "MOTION\nFrames: 1\nFrame Time: 0.1\n1 2 3\n"), "");
+    EXPECT_EQ(character_.clips.size(), 1u);
+    EXPECT_EQ(refusal("still.bvh", hierarchy + "MOTION\nFrames: 0\nFrame Time: 0.1\n"), "");
+    EXPECT_TRUE(character_.clips.empty());
+    refuses("frames.bvh", hierarchy + "MOTION\nFrames: 1000000\nFrame Time: 0.1\n1 2 3\n", "claims 1000000");
+    refuses("more.bvh", hierarchy + "MOTION\nFrames: 99999999999\nFrame Time: 0.1\n1 2 3\n", "line 12");
+    refuses("minus.bvh", hierarchy + "MOTION\nFrames: -3\nFrame Time: 0.1\n", "frames");
+    refuses("nan.bvh", hierarchy + "MOTION\nFrames: 1\nFrame Time: 0.1\n1 nan 3\n", "line 14");
+    refuses("inf.bvh", hierarchy + "MOTION\nFrames: 1\nFrame Time: 0.1\n1 inf 3\n", "line 14");
+    refuses("time.bvh", hierarchy + "MOTION\nFrames: 2\nFrame Time: -0.1\n1 2 3\n1 2 3\n", "frame time");
+    refuses("few.bvh", hierarchy + "MOTION\nFrames: 2\nFrame Time: 0.1\n1 2 3\n1 2\n", "end of the file");
+    refuses("many.bvh", hierarchy + "MOTION\nFrames: 1\nFrame Time: 0.1\n1 2 3\n4\n", "end of the file");
+}
+
+TEST_F(HostileCharacter, bvh_joints_without_end_are_refused) {
+    const std::string joint = "JOINT a\n{\nOFFSET 0 1 0\n";
+    refuses("deep.bvh", "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\n" + repeated(joint, 10000), "4096 joints");
+    refuses("roots.bvh", "HIERARCHY\n" + repeated("ROOT a\n{\n}\n", 10000) + "MOTION\n", "4096 joints");
+    refuses("open.bvh", "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\n", "line 5");
+    refuses("channels.bvh", "HIERARCHY\nROOT a\n{\nCHANNELS 1000000000 Xrotation", "channels");
+}
+
+// ---------------------------------------------------------------------------------------------------- FBX
+
+std::string record(const std::string& name, std::uint32_t at, const std::string& inside,
+                   std::uint32_t properties = 0, std::uint32_t property_bytes = 0) {
+    const auto end = static_cast<std::uint32_t>(at + 13 + name.size() + inside.size());
+    return raw(end) + raw(properties) + raw(property_bytes) + static_cast<char>(name.size()) + name + inside;
+}
+std::string binary_fbx(const std::string& records) {
+    return "Kaydara FBX Binary  " + std::string("\0\x1a\0", 3) + raw(std::uint32_t{7400}) + records;
+}
+
+TEST_F(HostileCharacter, fbx_records_that_are_not_as_they_say_are_refused) {
+    refuses("past.fbx", binary_fbx(raw(std::uint32_t{4000}) + std::string(20, '\1')), "byte");
+    refuses("back.fbx", binary_fbx(raw(std::uint32_t{3}) + std::string(20, '\0')), "ends at byte 3");
+    const std::string array =
+        "d" + raw(std::uint32_t{0x1fffffff}) + raw(std::uint32_t{1}) + raw(std::uint32_t{4}) + "abcd";
+    refuses("array.fbx", binary_fbx(record("Vertices", 27, array, 1, 17)), "claims 536870911 numbers");
+    const std::string text = "S" + raw(std::uint32_t{0xfffffff0});
+    refuses("text.fbx", binary_fbx(record("A", 27, text, 1, 5)), "claims 4294967280 bytes");
+    refuses("kind.fbx", binary_fbx(record("A", 27, "Qx", 1, 2)), "unknown kind");
+    std::string nested;
+    const std::uint32_t size = 27 + 14 * 5000 + 13;
+    for (int i = 0; i < 5000; ++i)
+        nested += raw(size) + raw(std::uint32_t{0}) + raw(std::uint32_t{0}) + "\1a";
+    refuses("deep.fbx", binary_fbx(nested + std::string(13, '\0')), "records in each other");
+}
+
+const std::string fbx_text =
+    "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\n\tFBXHeaderVersion: 1003\n"
+    "\tFBXVersion: 7400\n}\n";
+std::string fbx_models(const std::vector<std::pair<int, int>>& connections, int models) {
+    std::string text = fbx_text + "Definitions:  {\n\tVersion: 100\n\tCount: 1\n}\nObjects:  {\n";
+    for (int i = 1; i <= models; ++i) {
+        text += "\tModel: " + std::to_string(i) + ", \"Model::bone";
+        text += std::to_string(i);
+        text += "\", \"LimbNode\" {\n\t\tVersion: 232\n\t}\n";
+    }
+    text += "}\nConnections:  {\n";
+    for (const auto& [child, parent] : connections) {
+        text += "\tC: \"OO\"," + std::to_string(child) + ",";
+        text += std::to_string(parent);
+        text += "\n";
+    }
+    return text + "}\n";
+}
+
+TEST_F(HostileCharacter, fbx_that_breaks_an_assertion_of_assimp_does_not_end_the_program) {
+    const std::string bytes = test::read(std::filesystem::path(TENDRIL_SOURCE_DIR) /
+                                         "tests/fuzz/corpus/fbx/curve_without_keys.fbx");
+    const std::string words = refusal("keys.fbx", bytes);  // where Assimp has no assertions it may be read
+    EXPECT_TRUE(words.empty() || words.find("does not hold") != words.npos) << words;
+}
+
+TEST_F(HostileCharacter, fbx_models_in_a_circle_or_without_end_are_refused) {
+    EXPECT_EQ(refusal("well.fbx", fbx_models({{1, 0}, {2, 1}}, 2)), "") << "limb nodes alone are a skeleton";
+    EXPECT_EQ(character_.skeleton.size(), 2u);
+    refuses("circle.fbx", fbx_models({{1, 0}, {2, 1}, {3, 4}, {4, 3}}, 4), "hangs on one that hangs on it");
+    refuses("self.fbx", fbx_models({{1, 0}, {2, 2}}, 2), "model bone2");
+    std::vector<std::pair<int, int>> chain, doubled;
+    for (int i = 1; i <= 5000; ++i) chain.push_back({i, i - 1});
+    refuses("chain.fbx", fbx_models(chain, 5000), "deep");
+    for (int i = 1; i <= 60; ++i) doubled.insert(doubled.end(), {{i, i - 1}, {i, i - 1}});
+    refuses("doubled.fbx", fbx_models(doubled, 60), "models");
+    refuses("braces.fbx", fbx_text + repeated("a: {\n", 100000), "records in each other");
+    refuses("open.fbx", fbx_text + "Objects:  {\n", "inside of a record");
+    refuses("closed.fbx", fbx_text + "}\n", "line 6: } without");
+    refuses("none.fbx", fbx_models({}, 0), "none.fbx");
+}
+
+}  // namespace
+}  // namespace tendril::app

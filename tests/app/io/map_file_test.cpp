@@ -1,0 +1,118 @@
+// Bone maps as files: good ones come back, bad ones are refused and say where.
+#include <gtest/gtest.h>
+
+#include "app/document/json_complete.hpp"
+#include "app/io/character/map_file.hpp"
+#include "app/io/character/stick_figure.hpp"
+#include "tests/app/support/temp_folder.hpp"
+#include "tests/core/random.hpp"
+
+namespace tendril::app {
+namespace {
+
+using humanoid::Bone;
+using humanoid::BoneMap;
+
+const humanoid::Skeleton& skeleton() {
+    static const Character figure = stick_figure();
+    return figure.skeleton;
+}
+std::string refusal(const std::string& text) {
+    try {
+        parse_map(text, "map.json");
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return {};
+}
+
+TEST(MapFile, comes_back_as_it_was) {
+    test::Random random(3);
+    for (int i = 0; i < 50; ++i) {
+        BoneMap map = humanoid::match_bones(skeleton());
+        for (humanoid::BoneMatch& each : map.bones)
+            if (random.chance(4)) each = {};
+        const SavedMap saved = saved_map(map, skeleton());
+        const SavedMap read = parse_map(map_text(saved), "map.json");
+        EXPECT_EQ(read, saved);
+        const BoneMap again = applied(read, skeleton());
+        for (std::size_t k = 0; k < humanoid::bone_count; ++k) {
+            EXPECT_EQ(again.bones[k].node, map.bones[k].node);
+            EXPECT_EQ(again.bones[k].confidence, map.bones[k].node < 0 ? 0.0 : 1.0);
+        }
+        humanoid::review(map, skeleton());
+        EXPECT_EQ(again.missing, map.missing);
+        EXPECT_EQ(again.rest, map.rest);
+    }
+}
+
+TEST(MapFile, a_name_that_the_character_does_not_have_is_told) {
+    SavedMap saved = saved_map(humanoid::match_bones(skeleton()), skeleton());
+    saved.bones[static_cast<std::size_t>(Bone::LeftHand)] = "hand_l";
+    try {
+        applied(saved, skeleton());
+        ADD_FAILURE();
+    } catch (const std::runtime_error& error) {
+        EXPECT_STREQ(error.what(), "LeftHand is node \"hand_l\", which the character does not have");
+    }
+}
+
+TEST(MapFile, what_is_no_map_is_refused_and_says_where) {
+    const auto with = [](const char* bones) {
+        return std::string(R"({"tendril": "bone map", "version": 1, "bones": )") + bones + "}";
+    };
+    EXPECT_EQ(refusal(with(R"({"Hips": "a"})")), "");
+    EXPECT_EQ(refusal(with(R"({"Tail": "a"})")), "map.json: bones.Tail: there is no such bone");
+    EXPECT_EQ(refusal(with(R"({"Hips": "a", "Head": "a"})")),
+              "map.json: bones.Head: its node is that of Hips");
+    EXPECT_NE(refusal(with(R"({"Hips": 3})")).find("map.json: bones.Hips"), std::string::npos);
+    EXPECT_NE(refusal(with("[]")).find("map.json: bones: expected an object"), std::string::npos);
+    for (const char* text :
+         {"", "{", "[]", "3", "{}", R"({"tendril": "scene"})", R"({"tendril": "bone map"})",
+          R"({"tendril": "bone map", "version": 2, "bones": {}})", R"({"tendril": "bone map", "version": 1})",
+          R"({"tendril": "bone map", "version": 1, "bones": {}, "nodes": 3})",
+          R"({"tendril": "bone map", "version": 1, "bones": {}, "nodes": [3]})"})
+        EXPECT_EQ(refusal(text).find("map.json: "), 0u) << text << ": " << refusal(text);
+    Json many = Json::array();
+    for (int i = 0; i < 5000; ++i) many.push_back("a");
+    EXPECT_NE(refusal(R"({"tendril": "bone map", "version": 1, "bones": {}, "nodes": )" + many.dump() + "}"),
+              "");
+}
+
+TEST(MapFile, random_bytes_and_cut_texts_are_refused_with_words) {
+    const std::string text = map_text(saved_map(humanoid::match_bones(skeleton()), skeleton()));
+    test::Random random(8);
+    for (int i = 0; i < 2000; ++i) {
+        std::string bad = text.substr(0, random.below(text.size()));
+        for (std::size_t k = random.below(6); k > 0 && !bad.empty(); --k) {
+            const std::size_t at = random.below(bad.size());
+            bad[at] = static_cast<char>(random.below(256));
+        }
+        const std::string why = refusal(bad);
+        EXPECT_TRUE(why.empty() || why.starts_with("map.json: ")) << why;
+    }
+}
+
+TEST(MapFile, is_kept_for_a_skeleton_of_the_same_names_and_no_other) {
+    const test::TempFolder folder;
+    EXPECT_FALSE(find_kept_map(folder.path(), skeleton()));
+    const SavedMap saved = saved_map(humanoid::match_bones(skeleton()), skeleton());
+    const auto path = kept_map(folder.path(), skeleton());
+    std::filesystem::create_directories(path.parent_path());
+    test::write(path, map_text(saved));
+    EXPECT_EQ(find_kept_map(folder.path(), skeleton()), saved);
+    std::vector<humanoid::Node> nodes = skeleton().nodes();
+    nodes.back().rest.translation *= 2.0;  // of another size, but of the same names
+    EXPECT_EQ(find_kept_map(folder.path(), *humanoid::Skeleton::make(nodes)), saved);
+    nodes.back().name = "other";
+    const humanoid::Skeleton other = *humanoid::Skeleton::make(nodes);
+    EXPECT_FALSE(find_kept_map(folder.path(), other));
+    // Even under its name.
+    test::write(kept_map(folder.path(), other), map_text(saved));
+    EXPECT_FALSE(find_kept_map(folder.path(), other));
+    test::write(path, "{");
+    EXPECT_FALSE(find_kept_map(folder.path(), skeleton()));
+}
+
+}  // namespace
+}  // namespace tendril::app

@@ -1,0 +1,190 @@
+// Clips: what a moment shows, and how it goes on.
+#include <fstream>
+
+#include "humanoid_support.hpp"
+#include "tests/app/support/temp_folder.hpp"
+
+namespace tendril::app {
+namespace {
+
+using HumanoidClips = HumanoidTest;
+
+constexpr double walk_seconds = 1.1, walk_metres = 1.1;
+
+TEST_F(HumanoidClips, ShowAMomentWithoutATick) {
+    run("humanoid.clip", {{"name", "walk"}, {"time", 0.5}});
+    const Json clip = state().at("clip");
+    EXPECT_EQ(clip.at("name"), "walk");
+    EXPECT_EQ(clip.at("time"), 0.5);
+    EXPECT_EQ(clip.at("duration"), walk_seconds);
+    EXPECT_NEAR(bone("Hips").z, 0.5, 1e-9);
+    EXPECT_FALSE(lab().moving(workspace));
+    run("humanoid.clip", {{"name", ""}});
+    EXPECT_TRUE(state().at("clip").is_null());
+    EXPECT_EQ(bone("Hips"), glm::dvec3(0, 1, 0));
+}
+
+TEST_F(HumanoidClips, PlayByTicks) {
+    run("humanoid.clip", {{"index", 0}, {"play", true}, {"speed", 0.5}});
+    EXPECT_TRUE(lab().moving(workspace));
+    tick(60);
+    EXPECT_NEAR(state().at("clip").at("time").get<double>(), 0.5, 1e-9);
+    workspace.clock.speed = 0.5f;
+    tick(60);
+    EXPECT_NEAR(state().at("clip").at("time").get<double>(), 0.75, 1e-9);
+    run("humanoid.clip", {{"play", false}});
+    EXPECT_FALSE(lab().moving(workspace));
+    EXPECT_NEAR(state().at("clip").at("time").get<double>(), 0.75, 1e-9) << "it stays where it is";
+}
+
+TEST_F(HumanoidClips, ThatLoopGoOnForwards) {
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}, {"loop", true}});
+    double last = bone("Hips").z;
+    for (int i = 0; i < 300; ++i) {
+        tick();
+        const double now = bone("Hips").z;
+        EXPECT_NEAR(now - last, 1.0 / 60.0, 1e-6) << i;  // the walk goes at 1 m/s, all the time
+        last = now;
+    }
+    EXPECT_NEAR(last, 5.0, 1e-6);
+    EXPECT_EQ(state().at("clip").at("rounds"), 4);
+    EXPECT_LE(state().at("clip").at("time").get<double>(), walk_seconds);
+}
+
+TEST_F(HumanoidClips, KeepFeetInOneAnothersStepsOverALoop) {
+    run("humanoid.clip", {{"name", "walk"}, {"time", walk_seconds}});
+    const glm::dvec3 ends = bone("LeftFoot");
+    EXPECT_EQ(state().at("clip").at("time"), walk_seconds) << "the last moment is the first round's";
+    run("humanoid.clip", {{"time", walk_seconds + 1e-9}});
+    EXPECT_EQ(state().at("clip").at("rounds"), 1);
+    EXPECT_LT(glm::distance(bone("LeftFoot"), ends), 1e-6);
+    run("humanoid.clip", {{"time", 100.5 * walk_seconds}});
+    EXPECT_NEAR(bone("Hips").z, 100.5 * walk_metres, 1e-6);
+}
+
+TEST_F(HumanoidClips, InPlaceStayWhereTheyBegin) {
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}, {"in_place", true}});
+    const glm::dvec3 begin = bone("Hips");
+    double lowest = begin.y, highest = begin.y;
+    for (int i = 0; i < 150; ++i) {
+        tick();
+        EXPECT_NEAR(bone("Hips").x, begin.x, 1e-12);
+        EXPECT_NEAR(bone("Hips").z, begin.z, 1e-12);
+        lowest = std::min(lowest, bone("Hips").y), highest = std::max(highest, bone("Hips").y);
+    }
+    EXPECT_GT(highest - lowest, 0.01) << "up and down it goes as it was";
+}
+
+TEST_F(HumanoidClips, ThatDoNotLoopStopAtTheirEnd) {
+    run("humanoid.clip", {{"name", "punch"}, {"play", true}, {"loop", false}});
+    tick(200);
+    EXPECT_EQ(state().at("clip").at("time"), state().at("clip").at("duration"));
+    EXPECT_FALSE(lab().moving(workspace));
+    run("humanoid.clip", {{"play", true}});
+    EXPECT_EQ(state().at("clip").at("time"), 0.0) << "played again, it begins anew";
+    run("humanoid.clip", {{"time", 99.0}});
+    EXPECT_EQ(state().at("clip").at("time"), state().at("clip").at("duration"));
+}
+
+TEST_F(HumanoidClips, ThatTurnGoOnAsTheyFace) {
+    // Half a metre ahead and a quarter turn to the left: after four rounds it is back.
+    const test::TempFolder folder;
+    const std::string path = (folder / "turn.bvh").string();
+    std::string text = bvh_figure();
+    const std::size_t last = text.rfind("0 0 50 0 0 0");
+    text.replace(last, 12, "0 0 50 0 0 90");
+    std::ofstream(path) << text;
+    run("humanoid.load", {{"path", path}});
+    run("humanoid.clip", {{"index", 0}});
+    const glm::dvec3 begin = bone("Hips");
+    run("humanoid.clip", {{"time", 0.5}});
+    EXPECT_LT(glm::distance(bone("Hips"), begin + glm::dvec3(0, 0, 0.5)), 1e-9);
+    run("humanoid.clip", {{"time", 1.0}});
+    EXPECT_LT(glm::distance(bone("Hips"), begin + glm::dvec3(0.5, 0, 0.5)), 1e-9);
+    run("humanoid.clip", {{"time", 2.0}});
+    EXPECT_LT(glm::distance(bone("Hips"), begin), 1e-9);
+}
+
+TEST_F(HumanoidClips, RefuseWhatIsNotThere) {
+    expect_refused("humanoid.clip", {{"name", "run"}}, {"no clip \"run\""});
+    expect_refused("humanoid.clip", {{"index", 2}}, {"index must be 0 to 1, got 2"});
+    expect_refused("humanoid.clip", {{"name", "walk"}, {"index", 0}}, {"either"});
+    expect_refused("humanoid.clip", {{"play", true}}, {"no clip is chosen"});
+    expect_refused("humanoid.clip", {{"time", 0.1}}, {"no clip is chosen"});
+    expect_refused("humanoid.clip", {{"name", "walk"}, {"time", -1}}, {"time must be"});
+    expect_refused("humanoid.clip", {{"name", "walk"}, {"speed", -1}}, {"speed must be"});
+    run("humanoid.clip", {{"play", false}});
+}
+
+TEST_F(HumanoidClips, AreTakenAlongByTheCamera) {
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+    const glm::vec3 before = workspace.camera.target;
+    tick(60);
+    EXPECT_NEAR(workspace.camera.target.z, before.z + 1.0f, 1e-3f);
+    EXPECT_EQ(workspace.camera.target.y, before.y);
+    run("humanoid.view", {{"follow", false}});
+    tick(60);
+    EXPECT_NEAR(workspace.camera.target.z, before.z + 1.0f, 1e-3f);
+    EXPECT_FALSE(part().view.follow);
+}
+
+TEST_F(HumanoidClips, GoOnFromAFileAsTheyWere) {
+    run("humanoid.clip",
+        {{"name", "walk"}, {"play", true}, {"speed", 1.5}, {"time", 2.7}, {"in_place", false}});
+    run("humanoid.select", {{"node", "Head"}});
+    run("humanoid.map", {{"bone", "UpperChest"}});
+    run("humanoid.map", {{"bone", "Chest"}, {"node", "UpperChest"}});
+    Workspace other = reopened();
+    EXPECT_EQ(lab().state(other), state());
+    for (int i = 0; i < 30; ++i) lab().step(other);
+    tick(30);
+    EXPECT_EQ(lab().state(other), state());
+}
+
+TEST_F(HumanoidClips, AFileThatIsWrongIsRefusedWithItsPlace) {
+    const Json good = save_scene(workspace);
+    const auto message = [&](auto change) -> std::string {
+        Json scene = good;
+        change(scene["labs"][humanoid_lab]);
+        Workspace other = make_blank_workspace(labs);
+        const Document before = other.document;
+        try {
+            load_scene(other, scene);
+        } catch (const std::runtime_error& error) {
+            EXPECT_TRUE(other.document == before);
+            return error.what();
+        }
+        ADD_FAILURE() << "was read: " << scene["labs"][humanoid_lab];
+        return {};
+    };
+    const auto says = [](const std::string& text, const char* what) {
+        EXPECT_NE(text.find(what), std::string::npos) << text;
+    };
+    says(message([](Json& lab) { lab["file"] = "gone.glb"; }), "labs.humanoid.file: gone.glb: there is no");
+    says(message([](Json& lab) { lab["file"] = 3; }), "labs.humanoid.file");
+    says(message([](Json& lab) { lab["bones"] = {{"Tail", "Hips"}}; }), "no bone \"Tail\"");
+    says(message([](Json& lab) { lab["bones"] = {{"Head", "Tail"}}; }), "labs.humanoid.bones.Head");
+    says(message([](Json& lab) { lab["bones"] = 3; }), "labs.humanoid.bones");
+    says(message([](Json& lab) { lab["clip"]["name"] = "run"; }), "no clip \"run\"");
+    says(message([](Json& lab) {
+             lab["clip"] = {{"name", "walk"}, {"time", 7}};
+         }),
+         "labs.humanoid.clip.time");
+    says(message([](Json& lab) { lab["clip"]["speed"] = "fast"; }), "labs.humanoid.clip.speed");
+    says(message([](Json& lab) { lab["t_pose"] = 1; }), "labs.humanoid.t_pose");
+}
+
+TEST_F(HumanoidClips, AFileThatMovedIsFoundByItsName) {
+    const test::TempFolder folder;
+    const std::string path = (folder / "figure.bvh").string();
+    std::ofstream(path) << bvh_figure();
+    run("humanoid.load", {{"path", path}});
+    Json scene = save_scene(workspace);
+    scene["labs"][humanoid_lab]["path"] = "/nowhere/figure.bvh";
+    Workspace other = make_blank_workspace(labs);
+    load_scene(other, scene);
+    EXPECT_EQ(lab().state(other), state());
+}
+
+}  // namespace
+}  // namespace tendril::app

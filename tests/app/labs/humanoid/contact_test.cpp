@@ -1,0 +1,70 @@
+// Self-collision in the Humanoid lab: hands that a clip or a target would bring into the body stay out of it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "humanoid_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+class HumanoidContacts : public HumanoidTest {
+  protected:
+    /// Of hands and lower arms in trunk and head, as they are drawn; metres.
+    double penetration() {
+        const auto capsules = humanoid::default_capsules(part().skeleton(), *part().map);
+        const auto& placed = shown_pose(workspace).placed;
+        double deepest = 0.0;
+        for (const auto& arm : capsules) {
+            using humanoid::Bone;
+            if (arm.bone != Bone::LeftHand && arm.bone != Bone::RightHand && arm.bone != Bone::LeftLowerArm &&
+                arm.bone != Bone::RightLowerArm)
+                continue;
+            for (const auto& other : capsules)
+                if (other.bone <= Bone::Head)
+                    deepest = std::max(deepest, -gap(place(arm, *part().map, placed),
+                                                     place(other, *part().map, placed)));
+        }
+        return deepest;
+    }
+};
+
+TEST_F(HumanoidContacts, APunchWhoseFistPassesTheWaistSlidesAroundIt) {
+    run("humanoid.hand_ik", {{"on", true}});
+    run("humanoid.target", {{"effector", "right_hand"}, {"to", {0.05, 1.12, 0.02}}});
+    run("humanoid.clip", {{"name", "punch"}, {"play", true}});
+    double without = 0.0, with = 0.0;
+    for (int i = 0; i < 72; ++i) {
+        tick();
+        without = std::max(without, penetration());
+    }
+    EXPECT_GT(without, 0.05);  // it does pass through
+    run("humanoid.self_collision", {{"on", true}});
+    for (int i = 0; i < 144; ++i) {
+        tick();
+        with = std::max(with, penetration());
+        ASSERT_LT(with, 5e-3) << i;
+    }
+    EXPECT_NEAR(state().at("body").at("penetration").get<double>(), 0.0, 5e-3);
+}
+
+TEST_F(HumanoidContacts, AHandDraggedIntoTheBodyStaysOutOfItWhereTheBodyIsHeld) {
+    run("humanoid.self_collision", {{"on", true}});
+    for (const char* held : {"hips", "head", "right_hand"}) run("humanoid.target", {{"effector", held}});
+    for (int i = 0; i <= 60; ++i) {
+        run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.1, 1.15, 0.5 - 0.01 * i}}});
+        ASSERT_LT(penetration(), 5e-3) << i;
+    }
+}
+
+TEST_F(HumanoidContacts, OffIsAsIfItHadNeverBeenOn) {
+    run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.3, 1.3, 0.4}}});
+    const Json before = state();
+    run("humanoid.self_collision", {{"on", true}});
+    run("humanoid.self_collision", {{"on", false}});
+    EXPECT_EQ(state(), before);
+}
+
+}  // namespace
+}  // namespace tendril::app

@@ -1,0 +1,229 @@
+// Grounds, and feet on them, by the lab's commands and its state.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "humanoid_support.hpp"
+#include "tests/app/support/temp_folder.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr double millimetre = 1e-3;
+
+class HumanoidFeet : public HumanoidTest {
+  protected:
+    Json foot(std::size_t side) const { return state().at("feet").at(side); }
+
+    /// A whole walk of four rounds: no foot that is planted sinks into `height`, floats over it or skates.
+    void expect_walks_on(double (*height)(double z)) {
+        run("humanoid.foot_ik", {{"on", true}});
+        run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+        std::array<std::optional<glm::dvec3>, 2> planted;
+        int steps = 0;
+        for (int i = 0; i < 264; ++i) {
+            tick();
+            for (std::size_t side = 0; side < 2; ++side) {
+                const Json now = foot(side);
+                const glm::dvec3 heel = vector(now.at("heel")), toe = vector(now.at("toe"));
+                const double over =
+                    std::min(heel.y - height(heel.z), toe.y - height(toe.z));  // the lower of the two
+                if (!now.at("planted").get<bool>()) {
+                    planted[side].reset();
+                    continue;
+                }
+                EXPECT_GT(over, -5.0 * millimetre) << "tick " << i << ", side " << side;
+                EXPECT_LT(over, 5.0 * millimetre) << "tick " << i << ", side " << side;
+                if (planted[side]) {
+                    const glm::dvec3 moved = toe - *planted[side];
+                    EXPECT_LT(std::hypot(moved.x, moved.z), 5.0 * millimetre) << "tick " << i;
+                } else {
+                    ++steps;
+                    planted[side] = toe;
+                }
+            }
+        }
+        EXPECT_GE(steps, 7);
+    }
+};
+
+TEST_F(HumanoidFeet, TouchTheGroundWithHeelAndToe) {
+    const Json feet = state().at("feet");
+    ASSERT_EQ(feet.size(), 2u);
+    EXPECT_EQ(feet[0].at("side"), "left");
+    EXPECT_EQ(feet[1].at("side"), "right");
+    for (const Json& each : feet) {
+        EXPECT_FALSE(each.at("planted").get<bool>());
+        EXPECT_NEAR(vector(each.at("heel")).y, 0.0, 1e-3);
+        EXPECT_NEAR(vector(each.at("toe")).y, 0.0, 1e-3);
+        EXPECT_GT(vector(each.at("toe")).z, vector(each.at("heel")).z);
+    }
+}
+
+TEST_F(HumanoidFeet, WithoutIkKeepToTheClip) {
+    run("humanoid.clip", {{"name", "walk"}, {"time", 0.4}});
+    const Json before = state().at("character");
+    run("humanoid.ground", {{"kind", "stairs"}});
+    EXPECT_EQ(state().at("character"), before);
+    run("humanoid.ground", {{"kind", "none"}});
+    run("humanoid.foot_ik", {{"on", true}});
+    EXPECT_EQ(state().at("character"), before) << "without a ground to the bit";
+    EXPECT_EQ(foot(0).at("left_alone"), "there is no ground");
+    run("humanoid.foot_ik", {{"on", false}});
+    EXPECT_EQ(state().at("character"), before);
+}
+
+TEST_F(HumanoidFeet, WalkOnFlatGround) {
+    run("humanoid.ground", {{"kind", "flat"}});
+    expect_walks_on([](double) { return 0.0; });
+}
+
+TEST_F(HumanoidFeet, WalkUpASlope) {
+    run("humanoid.ground", {{"kind", "slope"}, {"angle_deg", 20}});
+    expect_walks_on([](double z) { return std::max(0.0, z) * std::tan(glm::radians(20.0)); });
+}
+
+TEST_F(HumanoidFeet, WalkUpStairs) {
+    run("humanoid.ground", {{"kind", "stairs"}, {"step_height", 0.15}, {"step_depth", 0.4}});
+    EXPECT_EQ(state().at("ground"), (Json{{"kind", "stairs"}, {"step_height", 0.15}, {"step_depth", 0.4}}));
+    expect_walks_on([](double z) { return 0.15 * std::floor(std::max(0.0, z) / 0.4); });
+}
+
+TEST_F(HumanoidFeet, StandOnHills) {
+    run("humanoid.ground", {{"kind", "terrain"}});
+    run("humanoid.foot_ik", {{"on", true}});
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+    bool planted = false;
+    for (int i = 0; i < 200; ++i) {
+        tick();
+        planted = planted || foot(0).at("planted").get<bool>();
+    }
+    EXPECT_TRUE(planted);
+    EXPECT_TRUE(lab().moving(workspace));
+}
+
+/// Two triangles, 40 m wide, that rise by 0.2 m from z = -20 to z = 20, in a text glTF.
+std::string ramp() {
+    const float corners[]{-20, 0, -20, 20, 0, -20, -20, 0.2f, 20, 20, 0.2f, 20};
+    const std::uint16_t indices[]{0, 2, 1, 1, 2, 3};
+    std::string bytes(reinterpret_cast<const char*>(corners), sizeof corners);
+    bytes.append(reinterpret_cast<const char*>(indices), sizeof indices);
+    static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {  // of 60 bytes: no rest
+        std::uint32_t bits = 0;
+        for (std::size_t k = 0; k < 3; ++k) bits = bits << 8 | static_cast<unsigned char>(bytes[i + k]);
+        for (int k = 18; k >= 0; k -= 6) text += digits[bits >> k & 63];
+    }
+    return Json{{"asset", {{"version", "2.0"}}},
+                {"nodes", {{{"mesh", 0}, {"translation", {0, 0.1, 0}}}}},
+                {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}}}},
+                {"accessors",
+                 {{{"bufferView", 0}, {"componentType", 5126}, {"count", 4}, {"type", "VEC3"}},
+                  {{"bufferView", 1}, {"componentType", 5123}, {"count", 6}, {"type", "SCALAR"}}}},
+                {"bufferViews",
+                 {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 48}},
+                  {{"buffer", 0}, {"byteOffset", 48}, {"byteLength", 12}}}},
+                {"buffers", {{{"byteLength", 60}, {"uri", "data:application/octet-stream;base64," + text}}}}}
+        .dump();
+}
+
+TEST_F(HumanoidFeet, WalkOnAMeshFromAFile) {
+    const test::TempFolder folder;
+    const std::string path = (folder / "ramp.gltf").string();
+    std::ofstream(path) << ramp();
+    run("humanoid.ground", {{"kind", "mesh"}, {"path", path}});
+    EXPECT_EQ(state().at("ground"), (Json{{"kind", "mesh"}, {"path", path}}));
+    expect_walks_on([](double z) { return 0.1 + 0.2 * (z + 20.0) / 40.0; });
+    EXPECT_EQ(lab().state(reopened()), state());
+    run("humanoid.ground", {{"kind", "none"}});
+    expect_refused("humanoid.ground", {{"kind", "mesh"}, {"path", "nowhere.glb"}},
+                   {"nowhere.glb", "no such"});
+    expect_refused("humanoid.ground", {{"path", "a.obj"}}, {"a.obj", ".glb"});
+    run("humanoid.load");
+    expect_refused("humanoid.ground", {{"kind", "mesh"}}, {"path is missing"});
+}
+
+TEST_F(HumanoidFeet, InPlaceGoBackwardsWithTheGround) {
+    run("humanoid.ground", {{"kind", "flat"}});
+    run("humanoid.foot_ik", {{"on", true}});
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}, {"in_place", true}});
+    int planted = 0;
+    std::optional<double> last;
+    for (int i = 0; i < 200; ++i) {
+        tick();
+        const Json now = foot(0);
+        const double z = vector(now.at("toe")).z;
+        if (now.at("planted").get<bool>() && last) {
+            EXPECT_NEAR(z - *last, -1.0 / 60.0, 2.0 * millimetre) << i;
+            ++planted;
+        }
+        last = now.at("planted").get<bool>() ? std::optional(z) : std::nullopt;
+    }
+    EXPECT_GT(planted, 30);
+}
+
+TEST_F(HumanoidFeet, ComeToRestAndLetTheWindowIdle) {
+    run("humanoid.clip", {{"name", "walk"}, {"time", 0.3}});
+    run("humanoid.ground", {{"kind", "stairs"}});
+    run("humanoid.foot_ik", {{"on", true}});
+    EXPECT_TRUE(lab().moving(workspace));
+    tick(1000);
+    EXPECT_FALSE(lab().moving(workspace));
+    run("humanoid.ground", {{"step_height", 0.1}});
+    EXPECT_TRUE(lab().moving(workspace));
+}
+
+TEST_F(HumanoidFeet, AreSavedAsTheyStand) {
+    run("humanoid.ground", {{"kind", "stairs"}, {"step_height", 0.12}, {"step_depth", 0.35}});
+    run("humanoid.foot_ik", {{"on", true}, {"enter_speed", 0.25}, {"max_angle_deg", 30}});
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+    tick(50);
+    Workspace other = reopened();
+    EXPECT_EQ(lab().state(other), state());
+    for (int i = 0; i < 40; ++i) lab().step(other);
+    tick(40);
+    EXPECT_EQ(lab().state(other), state());
+}
+
+TEST_F(HumanoidFeet, RefuseWhatIsOutOfRange) {
+    expect_refused("humanoid.ground", {{"kind", "lava"}}, {"kind must be one of"});
+    expect_refused("humanoid.ground", {{"kind", "slope"}, {"angle_deg", 89}}, {"angle_deg must be"});
+    expect_refused("humanoid.ground", {{"step_depth", 0}}, {"step_depth must be"});
+    expect_refused("humanoid.foot_ik", {{"on", true}, {"enter_speed", 2}}, {"leave_speed must be at least"});
+    run("humanoid.map", {{"bone", "LeftFoot"}});
+    expect_refused("humanoid.foot_ik", {{"on", true}}, {"LeftFoot is missing"});
+    run("humanoid.foot_ik", {{"on", false}});
+    EXPECT_TRUE(state().at("feet").empty());
+}
+
+TEST_F(HumanoidFeet, OnTheGroundCarryABodyThatReaches) {
+    run("humanoid.ground", {{"kind", "slope"}, {"angle_deg", 15}});
+    run("humanoid.foot_ik", {{"on", true}});
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+    tick(60);
+    run("humanoid.clip", {{"play", false}});
+    tick(60);
+    const Json before = state().at("feet");
+    const glm::dvec3 hand = bone("LeftHand") + glm::dvec3(0.1, 0.3, 0.2);
+    run("humanoid.target", {{"effector", "left_hand"}, {"to", {hand.x, hand.y, hand.z}}});
+    EXPECT_LT(glm::distance(bone("LeftHand"), hand), 1e-3);
+    for (std::size_t side = 0; side < 2; ++side)
+        EXPECT_LT(glm::distance(vector(foot(side).at("toe")), vector(before[side].at("toe"))), 1e-3)
+            << "feet stay where the ground has them";
+}
+
+TEST_F(HumanoidFeet, ASavedWalkGoesOnAsItWould) {
+    run("humanoid.ground", {{"kind", "stairs"}, {"step_height", 0.15}, {"step_depth", 0.3}});
+    run("humanoid.foot_ik", {{"on", true}});
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+    for (int round = 0; round < 12; ++round) {
+        tick(11);
+        Workspace other = reopened();
+        EXPECT_TRUE(humanoid_part(other).ik_state == part().ik_state)
+            << "after " << 11 * (round + 1) << " ticks";
+    }
+}
+
+}  // namespace
+}  // namespace tendril::app

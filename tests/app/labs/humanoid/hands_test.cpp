@@ -1,0 +1,154 @@
+// Hand IK, look-at and self-collision, by the lab's commands and its state.
+#include <algorithm>
+#include <glm/gtc/quaternion.hpp>
+#include <tendril/humanoid/capsules.hpp>
+
+#include "app/labs/humanoid/shown_pose.hpp"
+#include "humanoid_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+class HumanoidHands : public HumanoidTest {
+  protected:
+    double weight(const char* hand) const {
+        return state().at("hand_ik").at(hand).at("weight").get<double>();
+    }
+};
+
+TEST_F(HumanoidHands, PunchAPostAndComeBack) {
+    const glm::dvec3 post(0.0, 1.4, 0.5);
+    run("humanoid.clip", {{"name", "punch"}, {"play", true}, {"loop", false}});
+    run("humanoid.target", {{"effector", "right_hand"}, {"to", {post.x, post.y, post.z}}});
+    run("humanoid.hand_ik",
+        {{"on", true}, {"hand", "right"}, {"begin", 0.3}, {"full", 0.55}, {"until", 0.62}, {"end", 0.85}});
+    Workspace clip = make_blank_workspace(labs);
+    run_in(clip, "humanoid.clip", {{"name", "punch"}, {"play", true}, {"loop", false}});
+    const auto in_clip = [&](const char* name) {
+        return vector(lab().state(clip).at("character").at("bones").at(name).at("position"));
+    };
+    double nearest = 1.0, last = 0.0;
+    for (int i = 0; i < 72; ++i) {
+        tick();
+        lab().step(clip);
+        const double seconds = state().at("clip").at("time").get<double>();
+        EXPECT_EQ(bone("LeftHand"), in_clip("LeftHand")) << "the other hand stays the clip's";
+        if (seconds < 0.29 || seconds > 0.86) {
+            EXPECT_EQ(bone("RightHand"), in_clip("RightHand")) << seconds;
+        }
+        nearest = std::min(nearest, glm::distance(bone("RightHand"), post));
+        EXPECT_LT(std::abs(weight("right") - last), 0.2) << seconds;
+        last = weight("right");
+    }
+    EXPECT_LT(nearest, 1e-3);
+    EXPECT_EQ(last, 0.0);
+}
+
+TEST_F(HumanoidHands, BlendByTheTargetsWeight) {
+    run("humanoid.clip", {{"name", "punch"}, {"time", 0.1}});
+    const glm::dvec3 clip = bone("LeftHand"), wanted = clip + glm::dvec3(0.1, 0.1, 0.05);
+    run("humanoid.target",
+        {{"effector", "left_hand"}, {"to", {wanted.x, wanted.y, wanted.z}}, {"weight", 0.5}});
+    run("humanoid.hand_ik", {{"on", true}});
+    EXPECT_LT(glm::distance(bone("LeftHand"), glm::mix(clip, wanted, 0.5)), 5e-3);
+    run("humanoid.target", {{"effector", "left_hand"}, {"weight", 1}});
+    EXPECT_LT(glm::distance(bone("LeftHand"), wanted), 1e-3);
+    run("humanoid.target", {{"effector", "left_hand"}, {"weight", 0.005}});
+    EXPECT_EQ(bone("LeftHand"), clip) << "under 0.01 it is off";
+    run("humanoid.hand_ik", {{"on", false}});
+    EXPECT_LT(glm::distance(bone("LeftHand"), wanted), 1e-3) << "the body reaches for it again";
+}
+
+TEST_F(HumanoidHands, LetGoOutsideOfTheConeOfView) {
+    run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.3, 1.4, -0.4}}});
+    run("humanoid.hand_ik", {{"on", true}, {"view_deg", 60}});
+    tick(100);
+    EXPECT_FALSE(state().at("hand_ik").at("left").at("in_view").get<bool>());
+    EXPECT_LT(weight("left"), 0.01);
+    run("humanoid.hand_ik", {{"view_deg", 180}});
+    tick(100);
+    EXPECT_GT(weight("left"), 0.99);
+}
+
+TEST_F(HumanoidHands, ComeFromAFileAsTheyWere) {
+    run("humanoid.clip", {{"name", "punch"}, {"play", true}});
+    run("humanoid.target", {{"effector", "right_hand"}, {"to", {0, 1.4, 0.5}}});
+    run("humanoid.hand_ik", {{"on", true}, {"hand", "right"}, {"curve", true}, {"view_deg", 50}});
+    run("humanoid.look_at", {{"on", true}, {"to", {1, 1.5, 1}}, {"weight", 0.7}});
+    run("humanoid.self_collision", {{"on", true}});
+    tick(33);
+    Workspace other = reopened();
+    EXPECT_EQ(lab().state(other), state());
+    for (int i = 0; i < 30; ++i) lab().step(other);
+    tick(30);
+    EXPECT_EQ(lab().state(other), state());
+}
+
+TEST_F(HumanoidHands, RefuseWhatDoesNotFit) {
+    expect_refused("humanoid.hand_ik", {{"begin", 0.6}, {"full", 0.5}}, {"must follow one another"});
+    expect_refused("humanoid.hand_ik", {{"hand", "third"}}, {"hand must be one of"});
+    expect_refused("humanoid.look_at", {{"on", true}, {"weight", 2}}, {"weight must be"});
+    run("humanoid.map", {{"bone", "LeftHand"}});
+    for (const char* command : {"humanoid.hand_ik", "humanoid.look_at", "humanoid.self_collision"}) {
+        expect_refused(command, {{"on", true}}, {"the body solve is off: LeftHand is missing"});
+        run(command, {{"on", false}});
+    }
+}
+
+using HumanoidLook = HumanoidTest;
+
+TEST_F(HumanoidLook, TurnsTheHeadToATarget) {
+    run("humanoid.look_at", {{"on", true}});
+    const glm::dvec3 ahead = vector(state().at("look_at").at("target"));
+    EXPECT_GT(ahead.z, 1.0) << "ahead of the head where nothing was given";
+    const glm::dvec3 target(1.2, 1.9, 1.2);
+    run("humanoid.look_at", {{"to", {target.x, target.y, target.z}}});
+    tick(120);
+    const glm::dvec3 forward = quaternion(bones().at("Head").at("rotation")) * glm::dvec3(0, 0, 1);
+    EXPECT_GT(glm::dot(forward, glm::normalize(target - bone("Head"))), std::cos(glm::radians(3.0)));
+    EXPECT_LT(state().at("look_at").at("left_deg").get<double>(), 3.0);
+    run("humanoid.look_at", {{"weight", 0}});
+    EXPECT_EQ(bone("Neck"), glm::dvec3(0, 1.5, 0));
+    run("humanoid.look_at", {{"on", false}});
+    EXPECT_EQ(quaternion(bones().at("Head").at("rotation")), glm::dquat(1, 0, 0, 0));
+}
+
+TEST_F(HumanoidLook, LeavesTheHandsOnTheirTargets) {
+    run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.5, 1.3, 0.3}}});
+    run("humanoid.look_at", {{"on", true}, {"to", {1.5, 1.4, 0.6}}});
+    tick(60);
+    EXPECT_LT(glm::distance(bone("LeftHand"), glm::dvec3(0.5, 1.3, 0.3)), 1e-3);
+}
+
+class HumanoidSelfCollision : public HumanoidTest {
+  protected:
+    /// Metres that the right hand is in the trunk.
+    double depth() {
+        const auto capsules = humanoid::default_capsules(part().skeleton(), *part().map);
+        const ShownPose& shown = shown_pose(workspace);
+        double deepest = 0.0;
+        for (const humanoid::BodyCapsule& hand : capsules) {
+            if (hand.bone != humanoid::Bone::RightHand) continue;
+            for (const humanoid::BodyCapsule& trunk : capsules)
+                if (trunk.bone <= humanoid::Bone::UpperChest)
+                    deepest =
+                        std::max(deepest, -humanoid::gap(humanoid::place(hand, *part().map, shown.placed),
+                                                         humanoid::place(trunk, *part().map, shown.placed)));
+        }
+        return deepest;
+    }
+};
+
+TEST_F(HumanoidSelfCollision, KeepsAHandOutOfTheTrunk) {
+    run("humanoid.target", {{"effector", "hips"}, {"to", {0, 1, 0}}});
+    run("humanoid.target", {{"effector", "right_hand"}, {"to", {-0.02, 1.15, 0.0}}});
+    EXPECT_GT(depth(), 0.03);
+    run("humanoid.self_collision", {{"on", true}});
+    EXPECT_LT(depth(), 0.005);
+    EXPECT_TRUE(state().at("body").at("self_collision").get<bool>());
+    run("humanoid.self_collision", {{"on", false}});
+    EXPECT_GT(depth(), 0.03);
+}
+
+}  // namespace
+}  // namespace tendril::app

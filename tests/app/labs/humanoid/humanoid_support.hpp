@@ -1,0 +1,58 @@
+// What the tests of the Humanoid lab share.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/labs/humanoid/humanoid_lab.hpp"
+#include "tests/app/labs/lab_support.hpp"
+
+namespace tendril::app {
+
+class HumanoidTest : public LabTest {
+  protected:
+    HumanoidTest() : LabTest(humanoid_lab) {}
+
+    const HumanoidPart& part() const { return humanoid_part(workspace); }
+    void tick(int count = 1) {
+        for (int i = 0; i < count; ++i)
+            if (lab().moving(workspace)) lab().step(workspace);
+    }
+
+    static glm::dvec3 vector(const Json& at) {
+        return {at[0].get<double>(), at[1].get<double>(), at[2].get<double>()};
+    }
+    static glm::dquat quaternion(const Json& q) {
+        return {q[3].get<double>(), q[0].get<double>(), q[1].get<double>(), q[2].get<double>()};
+    }
+    Json bones() const { return state().at("character").at("bones"); }
+    glm::dvec3 bone(const std::string& name) const { return vector(bones().at(name).at("position")); }
+    glm::dvec3 node(const std::string& name) const {
+        const Json nodes = state().at("character").at("nodes");
+        for (const Json& each : nodes)
+            if (each.at("name") == name) return vector(each.at("position"));
+        ADD_FAILURE() << "there is no node " << name;
+        return {};
+    }
+
+    Json saved() const { return save_scene(workspace).at("labs").at(humanoid_lab); }
+    /// As a file gives it back, in a workspace that has never seen it.
+    Workspace reopened() const {
+        Workspace other = make_blank_workspace(labs);
+        load_scene(other, save_scene(workspace));
+        return other;
+    }
+    /// Refused; the message says all of these.
+    void expect_refused(const char* command, const Json& arguments, const std::vector<std::string>& says) {
+        const std::string message = refused(command, arguments);
+        for (const std::string& each : says)
+            EXPECT_NE(message.find(each), std::string::npos) << message << "\n  does not say " << each;
+    }
+};
+
+/// A figure with A-pose arms, in centimetres, as a BVH: two frames in which it goes 50 cm towards +Z.
+/// `without`: this joint, and what hangs on it, is left out.
+std::string bvh_figure(const std::string& without = "");
+
+}  // namespace tendril::app

@@ -1,0 +1,107 @@
+// Large files are read beside the running program: what is there stays until they have come, and a script
+// does not wait for ticks.
+#include <chrono>
+#include <thread>
+
+#include "app/labs/humanoid/humanoid_commands.hpp"
+#include "app/labs/humanoid/humanoid_lab.hpp"
+#include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "tests/app/labs/humanoid/humanoid_support.hpp"
+#include "tests/app/support/temp_folder.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// A BVH of so many joints in a row, over 1 MB.
+std::string large_bvh(int joints, const std::string& last_number = "0") {
+    std::string text = "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n";
+    for (int i = 1; i < joints; ++i)
+        text +=
+            "JOINT a" + std::to_string(i) + "\n{\nOFFSET 0 0.1 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n";
+    for (int i = 0; i < joints; ++i) text += "}\n";
+    std::string row;
+    for (int i = 0; i < 3 * joints - 1; ++i) row += "0.25 ";
+    constexpr int frames = 6000;
+    text += "MOTION\nFrames: " + std::to_string(frames) + "\nFrame Time: 0.01\n";
+    for (int i = 0; i + 1 < frames; ++i) text += row + "0\n";
+    return text + row + last_number + "\n";
+}
+
+class HumanoidLoading : public testing::Test {
+  protected:
+    HumanoidLoading() {
+        lab_.add_commands(table_);
+        workspace_.document.set(humanoid_lab, lab_.blank());
+        workspace_.lab = humanoid_lab;
+        workspace_.clock.measured = true;  // as in a window
+    }
+    void load(const std::string& bytes) {
+        test::write(folder_ / "large.bvh", bytes);
+        table_.run(workspace_, "humanoid.load", {{"path", (folder_ / "large.bvh").string()}});
+    }
+    bool is_stick_figure() const { return humanoid_part(workspace_).loaded->file.empty(); }
+    /// Ticks, as the frame has them, until nothing is being read.
+    void wait() {
+        for (int i = 0; i < 2000 && lab_.working(workspace_); ++i) {
+            lab_.work(workspace_);
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        EXPECT_FALSE(lab_.working(workspace_));
+    }
+
+    test::TempFolder folder_;
+    HumanoidLab lab_;
+    CommandTable table_;
+    Workspace workspace_;
+};
+
+TEST_F(HumanoidLoading, the_character_comes_with_a_later_tick_and_undo_brings_back_the_one_before) {
+    load(large_bvh(20));
+    EXPECT_TRUE(lab_.working(workspace_));
+    EXPECT_TRUE(is_stick_figure()) << "the command does not wait";
+    EXPECT_FALSE(workspace_.history.can_undo());
+    wait();
+    EXPECT_EQ(humanoid_part(workspace_).skeleton().size(), 20u);
+    EXPECT_EQ(workspace_.history.undo_label(), "humanoid.load");
+    const auto before = workspace_.history.undo(workspace_.document);
+    ASSERT_TRUE(before);
+    EXPECT_TRUE(before->get<HumanoidPart>(humanoid_lab).loaded->file.empty());
+}
+
+TEST_F(HumanoidLoading, a_script_finds_it_done) {
+    load(large_bvh(20));
+    table_.find("humanoid.load")->finish(workspace_);
+    EXPECT_FALSE(lab_.working(workspace_));
+    EXPECT_EQ(humanoid_part(workspace_).skeleton().size(), 20u);
+    workspace_.clock.measured = false;  // without a window it does not even begin to wait
+    load(large_bvh(12));
+    EXPECT_EQ(humanoid_part(workspace_).skeleton().size(), 12u);
+}
+
+TEST_F(HumanoidLoading, one_that_is_cancelled_or_refused_leaves_what_is_there) {
+    load(large_bvh(20));
+    table_.run(workspace_, "humanoid.load.cancel", Json::object());
+    EXPECT_FALSE(lab_.working(workspace_));
+    load(large_bvh(20, "nan"));
+    wait();
+    EXPECT_TRUE(is_stick_figure());
+    ASSERT_FALSE(workspace_.ui.toasts.empty());
+    EXPECT_NE(workspace_.ui.toasts.back().text.find("large.bvh, line"), std::string::npos);
+    load(large_bvh(20, "nan"));
+    EXPECT_THROW(table_.find("humanoid.load")->finish(workspace_), Refused);
+    EXPECT_FALSE(workspace_.history.can_undo());
+}
+
+TEST_F(HumanoidLoading, the_last_of_several_is_the_one_that_comes) {
+    load(large_bvh(20));
+    load(large_bvh(14));
+    wait();
+    EXPECT_EQ(humanoid_part(workspace_).skeleton().size(), 14u);
+    load(large_bvh(20));
+    table_.run(workspace_, "humanoid.load", Json::object());  // the stick figure: at once, and it stays
+    wait();
+    EXPECT_TRUE(is_stick_figure());
+}
+
+}  // namespace
+}  // namespace tendril::app

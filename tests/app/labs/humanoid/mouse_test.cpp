@@ -1,0 +1,121 @@
+// The Humanoid lab under the mouse, in the running program: real events, through picking.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "app/labs/humanoid/humanoid_lab.hpp"
+#include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "humanoid_support.hpp"
+#include "tests/app/e2e/monkey.hpp"
+#include "tests/app/support/panel_text.hpp"
+#include "tests/app/support/temp_folder.hpp"
+
+namespace tendril::test {
+namespace {
+
+using namespace app;
+
+class HumanoidMouse : public testing::Test {
+  protected:
+    HumanoidMouse() {
+        app_.run({"lab.open", Json{{"name", humanoid_lab}}});
+        app_.run({"time.pause"});
+    }
+    void send(const Event& event) { app_.tick(&event); }
+    void click(glm::vec2 at) {
+        send(MouseMove{at});
+        send(MousePress{MouseButton::Left, true});
+        send(MousePress{MouseButton::Left, false});
+    }
+    glm::vec2 at(const std::string& name) { return handle(app_.state(), name); }
+    Json bones() { return app_.state().at("character").at("bones"); }
+
+    const std::unique_ptr<Window> window_ = open_offscreen({1280, 800});
+    App app_{*window_};
+};
+
+TEST_F(HumanoidMouse, SelectsTheNodeThatIsClicked) {
+    click(at("node.LeftHand"));
+    EXPECT_EQ(app_.state().at("selected"), "LeftHand");
+    click(at("node.Head"));
+    EXPECT_EQ(app_.state().at("selected"), "Head");
+    click({320, 120});
+    EXPECT_EQ(app_.state().at("selected"), "");
+}
+
+TEST_F(HumanoidMouse, MapsTheNodeThatIsClickedWhileABoneWaits) {
+    humanoid_runtime(app_.workspace()).panel.bone = humanoid::Bone::LeftHand;
+    click(at("node.LeftHand_End"));
+    EXPECT_EQ(bones().at("LeftHand").at("node"), "LeftHand_End");
+    EXPECT_FALSE(humanoid_runtime(app_.workspace()).panel.bone);
+    click(at("node.Head"));
+    EXPECT_EQ(bones().at("LeftHand").at("node"), "LeftHand_End") << "one click, one node";
+}
+
+TEST_F(HumanoidMouse, DragsAnEffectorToATarget) {
+    const glm::vec2 from = at("left_hand");
+    send(MouseMove{from});
+    send(MousePress{MouseButton::Left, true});
+    for (int i = 1; i <= 10; ++i) send(MouseMove{from + static_cast<float>(i) * glm::vec2(-8, -6)});
+    send(MousePress{MouseButton::Left, false});
+    const Json state = app_.state();
+    EXPECT_LT(glm::distance(handle(state, "left_hand"), from + glm::vec2(-80, -60)), 2.0f);
+    EXPECT_LT(glm::distance(handle(state, "node.LeftHand"), from + glm::vec2(-80, -60)), 2.0f) << "reached";
+    EXPECT_TRUE(state.at("body").at("targets").at("left_hand").at("rotation").is_null());
+    app_.run({"undo"});
+    EXPECT_TRUE(app_.state().at("body").at("targets").empty()) << "a drag is one step";
+    app_.run({"redo"});
+    const glm::vec2 ball = at("left_hand");
+    click(ball);
+    send(MousePress{MouseButton::Left, true});
+    send(MousePress{MouseButton::Left, false});
+    EXPECT_TRUE(app_.state().at("body").at("targets").empty()) << "a double click lets go";
+}
+
+TEST_F(HumanoidMouse, TurnsASelectedEffectorByItsGizmo) {
+    app_.run({"humanoid.select", Json{{"node", "Head"}}});
+    const glm::vec2 ring = at("head.rotate_z");
+    send(MouseMove{ring});
+    send(MousePress{MouseButton::Left, true});
+    for (int i = 1; i <= 10; ++i) send(MouseMove{ring + static_cast<float>(i) * glm::vec2(0, 6)});
+    send(MousePress{MouseButton::Left, false});
+    const Json target = app_.state().at("body").at("targets").at("head");
+    ASSERT_FALSE(target.at("rotation").is_null());
+    EXPECT_GT(std::abs(target.at("rotation")[2].get<double>()), 0.05);
+}
+
+TEST_F(HumanoidMouse, ReadsAFileThatIsDropped) {
+    const TempFolder folder;
+    const std::string path = (folder / "figure.bvh").string();
+    std::ofstream(path) << bvh_figure();
+    send(Drop{{path}});
+    EXPECT_EQ(app_.state().at("character").at("file"), path);
+    const Json state = app_.state();
+    for (const char* bone : {"node.Head", "node.LeftFoot", "node.RightHand"}) {
+        const glm::vec2 pixel = handle(state, bone);
+        EXPECT_GT(pixel.x, 300) << bone << " is in view";
+        EXPECT_LT(pixel.x, 980) << bone;
+        EXPECT_GT(pixel.y, 60) << bone;
+        EXPECT_LT(pixel.y, 700) << bone;
+    }
+}
+
+class HumanoidPanels : public HumanoidTest {
+  protected:
+    test::PanelReader reader_;
+};
+
+TEST_F(HumanoidPanels, SayWhatIsMissing) {
+    run("humanoid.map", {{"bone", "LeftHand"}});
+    run("humanoid.map", {{"bone", "RightHand"}});
+    const std::string text = reader_.panel(lab(), workspace);
+    EXPECT_NE(text.find("The body solve is off: LeftHand and RightHand are missing."), std::string::npos)
+        << text;
+    run("humanoid.select", {{"node", "LeftHand"}});
+    const std::string inspector = reader_.inspector(lab(), workspace);
+    for (const char* says : {"Not a whole body", "LeftHand", "none of the body", "LeftLowerArm"})
+        EXPECT_NE(inspector.find(says), std::string::npos) << says << " is not in:\n" << inspector;
+}
+
+}  // namespace
+}  // namespace tendril::test

@@ -1,0 +1,207 @@
+// Targets and limits: the body reaches for them, by the lab's commands and its state.
+#include <algorithm>
+#include <glm/gtc/quaternion.hpp>
+
+#include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "humanoid_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+class HumanoidTargets : public HumanoidTest {
+  protected:
+    void target(const char* effector, double x, double y, double z) {
+        run("humanoid.target", {{"effector", effector}, {"to", {x, y, z}}});
+    }
+    Json chain(const std::string& end) const {
+        const Json chains = state().at("chains");
+        for (const Json& each : chains)
+            if (each.at("end") == end) return each;
+        ADD_FAILURE() << "no chain ends at " << end;
+        return {};
+    }
+    double residual(const std::string& end) const { return chain(end).at("residual").get<double>(); }
+};
+
+TEST_F(HumanoidTargets, AreReachedWithoutATick) {
+    run("humanoid.clip", {{"name", "punch"}, {"time", 0.4}});
+    target("left_hand", 0.35, 1.5, 0.45);
+    target("right_hand", -0.4, 1.0, 0.3);
+    target("left_foot", 0.2, 0.3, 0.2);
+    target("head", 0.05, 1.48, 0.1);
+    target("hips", 0.02, 0.9, 0.0);
+    EXPECT_LT(glm::distance(bone("LeftHand"), glm::dvec3(0.35, 1.5, 0.45)), 1e-3);
+    EXPECT_LT(glm::distance(bone("RightHand"), glm::dvec3(-0.4, 1.0, 0.3)), 1e-3);
+    EXPECT_LT(glm::distance(bone("LeftFoot"), glm::dvec3(0.2, 0.3, 0.2)), 1e-3);
+    EXPECT_LT(glm::distance(bone("Head"), glm::dvec3(0.05, 1.48, 0.1)), 1e-3);
+    EXPECT_LT(glm::distance(bone("Hips"), glm::dvec3(0.02, 0.9, 0.0)), 1e-3);
+    for (const char* end : {"LeftHand", "RightHand", "LeftFoot", "Head", "Hips"})
+        EXPECT_LT(residual(end), 1e-3) << end;
+    EXPECT_EQ(residual("RightFoot"), 0.0);
+}
+
+TEST_F(HumanoidTargets, OutOfReachSayHowMuchIsLeft) {
+    run("humanoid.target", {{"effector", "right_foot"}, {"to", {-0.1, 0.09, 0.0}}});
+    target("left_hand", 3.0, 1.4, 0.0);
+    const double left = residual("LeftHand");
+    EXPECT_GT(left, 1.0);
+    EXPECT_NEAR(left, glm::distance(bone("LeftHand"), glm::dvec3(3.0, 1.4, 0.0)), 1e-9);
+}
+
+TEST_F(HumanoidTargets, ThatStandStillGiveAStillPose) {
+    run("humanoid.clip", {{"name", "walk"}, {"time", 0.3}});
+    target("left_hand", 0.4, 1.4, 0.6);
+    run("humanoid.foot_ik", {{"on", true}});
+    run("humanoid.ground", {{"kind", "flat"}});
+    tick(120);
+    const Json before = state().at("character").at("nodes");
+    run("humanoid.target", {{"effector", "left_hand"}});
+    tick(60);
+    const Json after = state().at("character").at("nodes");
+    for (std::size_t i = 0; i < before.size(); ++i)
+        EXPECT_LT(glm::distance(vector(before[i].at("position")), vector(after[i].at("position"))), 1e-5);
+}
+
+TEST_F(HumanoidTargets, LetGoGiveTheClipsPoseBackToTheBit) {
+    run("humanoid.clip", {{"name", "walk"}, {"time", 0.3}});
+    const Json before = state();
+    target("left_hand", 0.4, 1.5, 0.7);
+    target("head", 0.1, 1.4, 0.4);
+    EXPECT_NE(state(), before);
+    run("humanoid.target", {{"effector", "left_hand"}, {"weight", 0}});
+    run("humanoid.target", {{"effector", "head"}, {"weight", 0}});
+    EXPECT_EQ(state(), before);
+    for (int i = 0; i < 4; ++i) run("undo");
+    EXPECT_EQ(state(), before);
+}
+
+TEST_F(HumanoidTargets, TurnTheBoneThatHasARotation) {
+    run("humanoid.limits", {{"from", "none"}});
+    const glm::dquat wanted = glm::angleAxis(0.5, glm::normalize(glm::dvec3(0.2, 1.0, 0.3)));
+    run("humanoid.target", {{"effector", "right_hand"},
+                            {"to", {-0.5, 1.2, 0.3}},
+                            {"rotation", {wanted.x, wanted.y, wanted.z, wanted.w}}});
+    const glm::dquat is = quaternion(bones().at("RightHand").at("rotation"));
+    EXPECT_GT(std::abs(glm::dot(is, wanted)), std::cos(0.5 * glm::radians(1.0)));
+    run("humanoid.target", {{"effector", "right_hand"}, {"to", {-0.5, 1.25, 0.3}}});
+    EXPECT_FALSE(state().at("body").at("targets").at("right_hand").at("rotation").is_null()) << "is kept";
+}
+
+TEST_F(HumanoidTargets, WithoutAPlaceKeepTheEffectorWhereItIs) {
+    run("humanoid.clip", {{"name", "walk"}, {"time", 0.3}});
+    const glm::dvec3 hand = bone("LeftHand");
+    run("humanoid.target", {{"effector", "left_hand"}});
+    EXPECT_LT(glm::distance(bone("LeftHand"), hand), 1e-5);
+    run("humanoid.clip", {{"time", 0.5}});
+    EXPECT_LT(glm::distance(bone("LeftHand"), hand), 1e-3) << "the walk goes on, the hand stays";
+}
+
+TEST_F(HumanoidTargets, ShareByWeight) {
+    target("head", 0.0, 1.6, 1.2);
+    run("humanoid.target", {{"effector", "hips"}, {"to", {0, 1.0, -0.8}}, {"weight", 100}});
+    EXPECT_LT(residual("Hips"), residual("Head"));
+    run("humanoid.target", {{"effector", "hips"}, {"weight", 0.01}});
+    EXPECT_GT(residual("Hips"), residual("Head"));
+    EXPECT_EQ(state().at("body").at("targets").at("hips").at("weight"), 0.01);
+}
+
+TEST_F(HumanoidTargets, StopAtLimitsWhichSaySo) {
+    target("hips", 0.0, 1.0, 0.0);
+    target("head", 0.0, 1.6, 0.0);
+    target("left_hand", -0.2, 1.4, -0.5);  // behind the back, where no arm goes
+    const double limited = residual("LeftHand");
+    const Json active = chain("LeftHand").at("active_limits");
+    EXPECT_NE(std::ranges::find(active, Json("LeftUpperArm")), active.end()) << active;
+    EXPECT_GT(limited, 0.01);
+    run("humanoid.limits", {{"from", "none"}});
+    EXPECT_EQ(state().at("body").at("limits"), "none");
+    const Json free = state().at("chains");
+    for (const Json& each : free) EXPECT_TRUE(each.at("active_limits").empty());
+    EXPECT_LT(residual("LeftHand"), limited);
+    run("humanoid.limits", {{"from", "motion"}});
+    EXPECT_EQ(state().at("body").at("limits"), "motion");
+    EXPECT_GT(residual("LeftHand"), 0.01) << "the clips never go there";
+}
+
+TEST_F(HumanoidTargets, NeedABody) {
+    run("humanoid.map", {{"bone", "LeftHand"}});
+    expect_refused("humanoid.target", {{"effector", "right_hand"}, {"to", {0, 1, 0}}},
+                   {"the body solve is off: LeftHand is missing"});
+    run("humanoid.target", {{"effector", "right_hand"}, {"weight", 0}});
+    expect_refused("humanoid.target", {{"effector", "tail"}, {"to", {0, 1, 0}}},
+                   {"effector must be one of hips, head, left_hand"});
+    expect_refused("humanoid.target", {{"effector", "head"}, {"weight", -1}}, {"weight must be"});
+    expect_refused("humanoid.limits", {{"from", "dreams"}}, {"from must be one of"});
+}
+
+TEST_F(HumanoidTargets, AreLeftAloneWhileABoneIsMissing) {
+    target("left_hand", 0.4, 1.5, 0.4);
+    const Json reached = state();
+    run("humanoid.map", {{"bone", "RightFoot"}});
+    EXPECT_NEAR(bone("LeftHand").x, 0.72, 1e-12);
+    EXPECT_TRUE(state().at("chains").empty());
+    run("humanoid.map", {{"bone", "RightFoot"}, {"node", "RightFoot"}});
+    EXPECT_LT(residual("LeftHand"), 1e-3);
+}
+
+TEST_F(HumanoidTargets, AreSavedWithWhatTheBodyRemembers) {
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+    target("left_hand", 0.4, 1.5, 0.7);
+    run("humanoid.target",
+        {{"effector", "head"}, {"to", {0, 1.5, 0.3}}, {"rotation", {0, 0, 0, 1}}, {"weight", 0.5}});
+    run("humanoid.limits", {{"from", "motion"}});
+    tick(7);
+    Workspace other = reopened();
+    EXPECT_EQ(lab().state(other), state());
+    for (int i = 0; i < 20; ++i) lab().step(other);
+    tick(20);
+    EXPECT_EQ(lab().state(other), state());
+}
+
+TEST_F(HumanoidTargets, StandWhereARuntimeIsThrownAway) {
+    target("left_hand", 0.4, 1.5, 0.7);
+    const Json before = state();
+    workspace.runtimes.clear();
+    EXPECT_EQ(state(), before);
+}
+
+TEST_F(HumanoidTargets, AFileThatIsWrongIsRefusedWithItsPlace) {
+    target("left_hand", 0.4, 1.5, 0.7);
+    const Json good = save_scene(workspace);
+    const auto refusal = [&](auto change) -> std::string {
+        Json scene = good;
+        change(scene["labs"][humanoid_lab]["ik"]);
+        Workspace other = make_blank_workspace(labs);
+        try {
+            load_scene(other, scene);
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "was read";
+    };
+    const auto says = [](const std::string& text, const char* what) {
+        EXPECT_NE(text.find(what), std::string::npos) << text << " does not say " << what;
+    };
+    says(refusal([](Json& ik) { ik["targets"]["tail"] = 1; }), "no effector \"tail\"");
+    says(refusal([](Json& ik) {
+             ik["targets"]["head"] = {{"position", {0, 1}}};
+         }),
+         "labs.humanoid.ik.targets.head.position");
+    says(refusal([](Json& ik) { ik["targets"]["left_hand"]["rotation"] = {0, 0, 0, 0}; }), "length 1");
+    says(refusal([](Json& ik) { ik["limits"] = "dreams"; }), "unknown source of limits \"dreams\"");
+    says(refusal([](Json& ik) { ik["body"]["turns"][0] = {0, 0, 0}; }), "labs.humanoid.ik.body.turns");
+    says(refusal([](Json& ik) { ik["ground"]["kind"] = "lava"; }), "unknown kind of ground \"lava\"");
+    says(refusal([](Json& ik) { ik["foot_ik"]["on"] = 1; }), "labs.humanoid.ik.foot_ik.on");
+    // What the body remembers of another one is left alone.
+    Json scene = good;
+    scene["labs"][humanoid_lab]["ik"]["body"]["turns"].erase(0);
+    Workspace other = make_blank_workspace(labs);
+    load_scene(other, scene);
+    EXPECT_LT(
+        glm::distance(vector(lab().state(other).at("character").at("bones").at("LeftHand").at("position")),
+                      glm::dvec3(0.4, 1.5, 0.7)),
+        1e-3);
+}
+
+}  // namespace
+}  // namespace tendril::app

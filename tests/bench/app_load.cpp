@@ -1,0 +1,51 @@
+// What it takes to read a character: a long motion capture in BVH, and a skinned GLB. Counter: megabytes a
+// second.
+#include <benchmark/benchmark.h>
+
+#include <filesystem>
+#include <string>
+
+#include "app/io/character/bvh.hpp"
+#include "app/io/character/read.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// A minute at 120 frames a second of 60 joints, some 11 MB.
+std::string long_capture() {
+    constexpr int joints = 60, frames = 7200;
+    std::string text = "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n";
+    for (int i = 1; i < joints; ++i)
+        text +=
+            "JOINT a" + std::to_string(i) + "\n{\nOFFSET 0 3 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n";
+    for (int i = 0; i < joints; ++i) text += "}\n";
+    text += "MOTION\nFrames: " + std::to_string(frames) + "\nFrame Time: 0.0083333\n";
+    for (int frame = 0; frame < frames; ++frame) {
+        for (int i = 0; i < 3 * joints; ++i)
+            text += std::to_string(0.01 * ((frame * 7 + i * 13) % 9000) - 45.0) + ' ';
+        text += '\n';
+    }
+    return text;
+}
+
+void read_long_bvh(benchmark::State& state) {
+    const std::string text = long_capture();
+    for (auto _ : state) benchmark::DoNotOptimize(parse_bvh(text, "long.bvh"));
+    state.counters["MB/s"] =
+        benchmark::Counter(1e-6 * static_cast<double>(text.size()) * static_cast<double>(state.iterations()),
+                           benchmark::Counter::kIsRate);
+}
+BENCHMARK(read_long_bvh)->Unit(benchmark::kMillisecond);
+
+void read_skinned_glb(benchmark::State& state) {
+    const std::filesystem::path file =
+        std::filesystem::path(TENDRIL_SOURCE_DIR) / "tests/app/golden/body.glb";
+    for (auto _ : state) benchmark::DoNotOptimize(read_character(file));
+    state.counters["MB/s"] = benchmark::Counter(1e-6 * static_cast<double>(std::filesystem::file_size(file)) *
+                                                    static_cast<double>(state.iterations()),
+                                                benchmark::Counter::kIsRate);
+}
+BENCHMARK(read_skinned_glb)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace tendril::app

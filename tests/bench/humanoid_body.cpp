@@ -1,0 +1,141 @@
+// What a whole body that reaches costs a frame, by its bones, limits and what its five targets do.
+//
+//     tendril_bench_humanoid_body            the table and one line per claim
+//     tendril_bench_humanoid_body --check    the same, and exit code 1 when a claim does not hold
+//
+// Claims, each of the worst row in which the targets can be reached:
+//  - a frame takes under 50 microseconds without limits, under 100 within them, and under 200 where the
+//  body's
+//    capsules are kept apart as well.
+// Targets that jump anywhere in every frame, most of them out of reach, have a row and a claim of their own:
+// under 250 microseconds a frame.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "../core/humanoid_figure.hpp"
+#include "measure.hpp"
+#include "tendril/humanoid/body.hpp"
+
+namespace {
+
+using namespace tendril;
+using namespace tendril::bench;
+using namespace tendril::humanoid;
+
+constexpr Effector five[]{Effector::LeftHand, Effector::RightHand, Effector::Head, Effector::LeftFoot,
+                          Effector::RightFoot};
+
+/// The fifteen bones that a body needs; all 22; those and 38 fingers' nodes, which turn with the hands.
+enum class Figure { Fifteen, All, Sixty };
+constexpr const char* figure_names[]{"15 bones", "22 bones", "22 of 60 nodes"};
+
+Skeleton make(Figure figure) {
+    if (figure == Figure::Fifteen)
+        return test::make_figure({{"Chest", ""},
+                                  {"UpperChest", ""},
+                                  {"Neck", ""},
+                                  {"LeftShoulder", ""},
+                                  {"RightShoulder", ""},
+                                  {"LeftToes", ""},
+                                  {"RightToes", ""},
+                                  {"Head end", ""},
+                                  {"LeftHand end", ""},
+                                  {"RightHand end", ""},
+                                  {"LeftToes end", ""},
+                                  {"RightToes end", ""}});
+    Skeleton all = test::make_figure({});
+    if (figure == Figure::All) return all;
+    std::vector<Node> nodes = all.nodes();
+    for (int i = 0; nodes.size() < 60; ++i) {
+        std::string name = "finger ";
+        name += std::to_string(i);
+        nodes.push_back({name,
+                         static_cast<std::int32_t>(*all.find(i % 2 ? "LeftHand" : "RightHand")),
+                         {.translation = {0.02, 0.0, 0.01 * i}}});
+    }
+    return *Skeleton::make(std::move(nodes));
+}
+
+/// By nothing, by its limits, or by those and by capsules that are kept apart.
+enum class Held { Free, Limits, Apart };
+
+/// What the targets do.
+enum class Play { Still, Drag, Activated, Anywhere };
+constexpr const char* play_names[]{"still", "drag, 5 mm a frame", "set at once", "anywhere"};
+
+struct Subject {
+    Skeleton skeleton;
+    BoneMap map = match_bones(skeleton);
+    Body body;
+    std::vector<rig::Transform> rest = rest_pose(skeleton), pose = rest;
+    std::vector<std::vector<BodyTarget>> frames;
+    BodyState state;
+
+    Subject(Figure figure, Held held, Play play)
+        : skeleton(make(figure)),
+          body(*Body::make(
+              skeleton, map, held == Held::Free ? no_limits() : default_limits(skeleton, map),
+              held == Held::Apart ? default_capsules(skeleton, map) : std::vector<BodyCapsule>())) {
+        std::mt19937 engine(1);
+        std::uniform_real_distribution<double> any(-1.0, 1.0);
+        std::vector<Placement> placements(skeleton.size());
+        place(skeleton, rest, placements);
+        const glm::dvec3 usual[]{
+            {-0.35, -0.2, 0.35}, {0.3, -0.3, 0.3}, {0.0, -0.15, 0.1}, {0.05, 0.15, 0.1}, {-0.05, 0.05, -0.1}};
+        for (int frame = 0; frame < 240; ++frame) {
+            std::vector<BodyTarget> targets;
+            for (std::size_t k = 0; k < 5; ++k) {
+                const auto node = static_cast<std::size_t>(map[bone_of(five[k])].node);
+                const double x = any(engine), y = any(engine), z = any(engine);
+                glm::dvec3 off = usual[k];
+                if (play == Play::Drag) off *= 0.5 - 0.5 * std::cos(2.0 * 3.14159265358979 * frame / 240.0);
+                if (play == Play::Activated) off = usual[k] + 0.05 * glm::dvec3(x, y, z);
+                if (play == Play::Anywhere) off = 1.5 * glm::dvec3(x, y, z);
+                targets.push_back({five[k], placements[node].position + off});
+            }
+            frames.push_back(std::move(targets));
+        }
+    }
+    void run(Play play) {
+        for (const auto& targets : frames) {
+            if (play == Play::Activated) state = {};
+            pose = rest;
+            require(body.solve(pose, targets, state).error());
+        }
+    }
+};
+
+double microseconds(Figure figure, Held held, Play play) {
+    Subject subject(figure, held, play);
+    subject.run(play);
+    return race({[&] { subject.run(play); }}, 31)[0] * 1e6 / static_cast<double>(subject.frames.size());
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+    double worst[3]{}, anywhere = 0.0;
+    std::printf("us a frame%36s%12s%16s\n", "free", "limits", "and capsules");
+    for (const Figure figure : {Figure::Fifteen, Figure::All, Figure::Sixty}) {
+        for (const Play play : {Play::Still, Play::Drag, Play::Activated, Play::Anywhere}) {
+            std::printf("%-16s%-20s", figure_names[static_cast<int>(figure)],
+                        play_names[static_cast<int>(play)]);
+            for (const Held held : {Held::Free, Held::Limits, Held::Apart}) {
+                const double frame = microseconds(figure, held, play);
+                std::printf(held == Held::Apart ? "%16.1f" : held == Held::Free ? "%10.1f" : "%12.1f", frame);
+                double& most = play == Play::Anywhere ? anywhere : worst[static_cast<int>(held)];
+                most = std::max(most, frame);
+            }
+            std::printf("\n");
+        }
+    }
+    bool all = claim("50 us over a frame without limits", 50.0 / worst[0], 1.0);
+    all &= claim("100 us over a frame within limits", 100.0 / worst[1], 1.0);
+    all &= claim("200 us over a frame within limits, kept apart", 200.0 / worst[2], 1.0);
+    all &= claim("400 us over a frame with targets anywhere", 400.0 / anywhere, 1.0);
+    return all || !has_flag(count, arguments, "--check") ? 0 : 1;
+}

@@ -1,0 +1,400 @@
+// A whole body that reaches, on the figure of 1.8 m.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <tendril/humanoid/body.hpp>
+
+#include "humanoid_figure.hpp"
+
+namespace tendril::test {
+namespace {
+
+constexpr Effector five[]{Effector::LeftHand, Effector::RightHand, Effector::Head, Effector::LeftFoot,
+                          Effector::RightFoot};
+
+class Random {
+  public:
+    explicit Random(unsigned seed) : engine_(seed) {}
+    double from(double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(engine_);
+    }
+    glm::dvec3 vector(double size) {
+        const double x = from(-size, size), y = from(-size, size), z = from(-size, size);
+        return {x, y, z};
+    }
+    glm::dquat rotation() {
+        const glm::dvec3 axis = vector(1.0);
+        const double w = from(-1.0, 1.0);
+        return glm::normalize(glm::dquat(w, axis.x, axis.y, axis.z));
+    }
+
+  private:
+    std::mt19937 engine_;
+};
+
+class HumanoidBody : public testing::TestWithParam<bool> {
+  protected:
+    HumanoidBody() { place(skeleton, rest, placements); }
+    std::size_t node(Bone bone) const { return static_cast<std::size_t>(map[bone].node); }
+    std::vector<glm::dvec3> positions(const std::vector<rig::Transform>& pose) {
+        place(skeleton, pose, placements);
+        std::vector<glm::dvec3> result;
+        for (const Placement& each : placements) result.push_back(each.position);
+        return result;
+    }
+    /// Within the default limits; `amount` is about how far limbs turn, radians.
+    std::vector<rig::Transform> random_pose(Random& random, double amount) {
+        std::vector<rig::Transform> pose;
+        do {
+            pose = rest;
+            for (std::size_t i = 1; i < bone_count; ++i) {
+                const auto bone = static_cast<Bone>(i);
+                const bool trunk =
+                    bone <= Bone::Head || bone == Bone::LeftShoulder || bone == Bone::RightShoulder;
+                const double most = trunk ? 0.2 * amount : amount;
+                const ik::Limit& limit = joints.limit(bone);
+                if (limit.kind == ik::JointKind::Hinge) {
+                    pose[node(bone)].rotation =
+                        glm::angleAxis(random.from(0.0, 2.0 * most), glm::dvec3(limit.axis));
+                } else {
+                    const glm::dvec3 turn = random.vector(0.5 * most);
+                    pose[node(bone)].rotation = glm::normalize(glm::dquat(1.0, turn.x, turn.y, turn.z));
+                }
+            }
+        } while (worst_excess(pose) > 0.0);
+        return pose;
+    }
+    double worst_excess(const std::vector<rig::Transform>& pose) {
+        place(skeleton, pose, placements);
+        double worst = 0.0;
+        for (std::size_t i = 0; i < bone_count; ++i)
+            worst = std::max(worst, static_cast<double>(joints.excess(static_cast<Bone>(i), placements)));
+        return worst;
+    }
+    std::vector<BodyTarget> targets_of(const std::vector<rig::Transform>& pose) {
+        place(skeleton, pose, placements);
+        std::vector<BodyTarget> targets;
+        for (const Effector each : five) targets.push_back({each, placements[node(bone_of(each))].position});
+        return targets;
+    }
+    double worst_length_change(const std::vector<rig::Transform>& pose) {
+        const auto before = positions(rest), now = positions(pose);
+        double worst = 0.0;
+        for (std::size_t i = 0; i < skeleton.size(); ++i) {
+            if (skeleton[i].parent < 0) continue;
+            const auto parent = static_cast<std::size_t>(skeleton[i].parent);
+            worst = std::max(worst, std::abs(glm::distance(now[i], now[parent]) -
+                                             glm::distance(before[i], before[parent])));
+        }
+        return worst;
+    }
+
+    Skeleton skeleton = make_figure({});
+    BoneMap map = match_bones(skeleton);
+    BodyLimits limits = default_limits(skeleton, map);
+    BodyJoints joints = *BodyJoints::make(skeleton, map, limits);
+    Body body = *Body::make(skeleton, map, GetParam() ? limits : no_limits());
+    std::vector<rig::Transform> rest = rest_pose(skeleton);
+    std::vector<Placement> placements = std::vector<Placement>(skeleton.size());
+};
+
+double farthest(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, glm::distance(a[i], b[i]));
+    return most;
+}
+
+TEST_P(HumanoidBody, reaches_five_targets_within_a_millimetre) {
+    Random random(1);
+    for (int i = 0; i < 400; ++i) {
+        const auto targets = targets_of(random_pose(random, 0.5));
+        auto pose = rest;
+        BodyState state;
+        const auto report = body.solve(pose, targets, state);
+        ASSERT_TRUE(report) << report.message();
+        EXPECT_LT(report->residual, 1e-3) << i;
+        const auto at = positions(pose);
+        for (const BodyTarget& target : targets)
+            EXPECT_NEAR(glm::distance(at[node(bone_of(target.effector))], target.position),
+                        report->residuals[static_cast<std::size_t>(target.effector)], 1e-9);
+    }
+}
+
+TEST_P(HumanoidBody, is_finite_keeps_lengths_and_limits_for_any_targets) {
+    Random random(2);
+    const double sizes[]{0.3, 1.0, 5.0, 1e3, 1e9};
+    for (int i = 0; i < 10000; ++i) {
+        const auto start = positions(rest);
+        std::vector<BodyTarget> targets;
+        for (std::size_t k = 0; k < effector_count; ++k) {
+            const auto effector = static_cast<Effector>(k);
+            if (random.from(0.0, 1.0) < 0.3) continue;
+            const glm::dvec3 off = random.vector(sizes[i % 5] * 0.99);
+            targets.push_back({effector, start[node(bone_of(effector))] * (i % 5 == 4 ? 0.0 : 1.0) + off});
+            if (random.from(0.0, 1.0) < 0.3) targets.back().rotation = random.rotation();
+            if (random.from(0.0, 1.0) < 0.3) targets.back().weight = random.from(0.0, 5.0);
+        }
+        auto pose = rest;
+        BodyState state;
+        const auto report = body.solve(pose, targets, state);
+        ASSERT_TRUE(report) << report.message();
+        for (const glm::dvec3& each : positions(pose))
+            ASSERT_TRUE(std::isfinite(each.x + each.y + each.z)) << i;
+        // A place 1e9 m away is known to a tenth of a micrometre.
+        ASSERT_LT(worst_length_change(pose), sizes[i % 5] > 1e6 ? 1e-6 : 1e-12) << i;
+        if (GetParam()) {
+            ASSERT_LT(worst_excess(pose), 0.1 * 3.14159 / 180.0) << i;
+        }
+    }
+}
+
+TEST_P(HumanoidBody, a_slow_target_gives_a_slow_pose_and_a_still_one_a_still_pose) {
+    Random random(3);
+    for (const double step : {5e-3, 1e-3, 2e-4}) {
+        for (int i = 0; i < (step < 1e-3 ? 4 : 12); ++i) {
+            const auto from = targets_of(rest), to = targets_of(random_pose(random, 0.5));
+            double way = 0.0;
+            for (std::size_t k = 0; k < 5; ++k)
+                way = std::max(way, glm::distance(from[k].position, to[k].position));
+            const int frames = static_cast<int>(std::ceil(way / step));
+            BodyState state;
+            auto before = positions(rest);
+            for (int frame = 1; frame <= frames; ++frame) {
+                auto targets = to;
+                for (std::size_t k = 0; k < 5; ++k)
+                    targets[k].position =
+                        glm::mix(from[k].position, to[k].position, static_cast<double>(frame) / frames);
+                auto pose = rest;
+                ASSERT_TRUE(body.solve(pose, targets, state));
+                const auto now = positions(pose);
+                ASSERT_LT(farthest(before, now), 20.0 * way / frames) << step << ' ' << i << ' ' << frame;
+                before = now;
+            }
+            for (int frame = 0; frame < 3; ++frame) {
+                auto pose = rest;
+                ASSERT_TRUE(body.solve(pose, to, state));
+                const auto now = positions(pose);
+                ASSERT_LT(farthest(before, now), 1e-5);
+                before = now;
+            }
+        }
+    }
+}
+
+TEST_P(HumanoidBody, follows_targets_in_and_out_of_reach_without_a_leap) {
+    Random random(4);
+    for (int i = 0; i < 12; ++i) {
+        const std::size_t count = i % 3 == 0 ? 1 : i % 3 == 1 ? 2 : 5;
+        std::vector<glm::dvec3> size(count), speed(count);
+        for (std::size_t k = 0; k < count; ++k) size[k] = random.vector(1.0), speed[k] = random.vector(1.0);
+        const auto home = targets_of(rest);
+        BodyState state;
+        std::vector<BodyTarget> last;
+        auto before = positions(rest);
+        for (int frame = 0; frame < 1500; ++frame) {
+            std::vector<BodyTarget> targets(home.begin(), home.begin() + static_cast<std::ptrdiff_t>(count));
+            double moved = 0.0;
+            for (std::size_t k = 0; k < count; ++k) {
+                for (int axis = 0; axis < 3; ++axis)
+                    targets[k].position[axis] +=
+                        size[k][axis] * std::sin(0.004 * frame * (1.0 + speed[k][axis]));
+                if (!last.empty())
+                    moved = std::max(moved, glm::distance(targets[k].position, last[k].position));
+            }
+            auto pose = rest;
+            ASSERT_TRUE(body.solve(pose, targets, state));
+            const auto now = positions(pose);
+            if (!last.empty() && moved > 2e-4) {
+                ASSERT_LT(farthest(before, now), 20.0 * moved) << i << ' ' << frame;
+            }
+            before = now;
+            last = targets;
+        }
+    }
+}
+
+TEST_P(HumanoidBody, conflicting_targets_are_shared_by_weight_and_still) {
+    const std::vector<BodyTarget> targets{{Effector::LeftHand, {3.0, 1.3, 0.0}, {}, 1.0},
+                                          {Effector::RightHand, {-3.0, 1.3, 0.0}, {}, 3.0},
+                                          {Effector::LeftFoot, {0.1, 0.09, 0.0}, {}, 1e-3},
+                                          {Effector::RightFoot, {-0.1, 0.09, 0.0}, {}, 1e-3}};
+    BodyState state;
+    std::vector<glm::dvec3> before;
+    for (int frame = 0; frame < 60; ++frame) {
+        auto pose = rest;
+        const auto report = body.solve(pose, targets, state);
+        ASSERT_TRUE(report);
+        const auto now = positions(pose);
+        if (frame >= 40) {
+            EXPECT_LT(farthest(before, now), 1e-5) << frame;
+        }
+        before = now;
+        if (frame < 59) continue;
+        // A force balance: weight times residual is the same on both sides.
+        const double left = report->residuals[static_cast<std::size_t>(Effector::LeftHand)];
+        const double right = report->residuals[static_cast<std::size_t>(Effector::RightHand)];
+        EXPECT_NEAR(left / right, 3.0, 0.15);
+    }
+}
+
+TEST_P(HumanoidBody, targets_where_the_clip_has_the_effectors_change_nothing) {
+    Random random(5);
+    for (int i = 0; i < 50; ++i) {
+        const auto clip = random_pose(random, 1.0);
+        const auto targets = targets_of(clip);
+        auto pose = clip;
+        BodyState state;
+        ASSERT_TRUE(body.solve(pose, targets, state));
+        EXPECT_LT(farthest(positions(clip), positions(pose)), 1e-9);
+    }
+}
+
+TEST_P(HumanoidBody, without_a_target_the_pose_stays_to_the_bit) {
+    Random random(6);
+    const auto clip = random_pose(random, 1.0);
+    auto pose = clip;
+    BodyState state;
+    ASSERT_TRUE(body.solve(pose, std::vector<BodyTarget>{{Effector::LeftHand, {0.3, 1.2, 0.4}}}, state));
+    EXPECT_NE(pose, clip);
+    EXPECT_NE(state, BodyState{});
+    pose = clip;
+    ASSERT_TRUE(
+        body.solve(pose, std::vector<BodyTarget>{{Effector::LeftHand, {0.3, 1.2, 0.4}, {}, 0.0}}, state));
+    EXPECT_EQ(pose, clip);
+    EXPECT_EQ(state, BodyState{});
+}
+
+TEST_P(HumanoidBody, one_hand_reaches_by_its_arm_and_the_feet_stay) {
+    auto pose = rest;
+    BodyState state;
+    const auto report =
+        body.solve(pose, std::vector<BodyTarget>{{Effector::LeftHand, {0.35, 1.25, 0.35}}}, state);
+    ASSERT_TRUE(report);
+    EXPECT_LT(report->residual, 1e-3);
+    const auto before = positions(rest), now = positions(pose);
+    const auto moved = [&](Bone bone) { return glm::distance(before[node(bone)], now[node(bone)]); };
+    EXPECT_LT(moved(Bone::LeftFoot), 1e-3);
+    EXPECT_LT(moved(Bone::RightFoot), 1e-3);
+    EXPECT_LT(moved(Bone::Hips), 0.05);
+    EXPECT_LT(moved(Bone::Head), 0.08);
+    EXPECT_GT(moved(Bone::LeftLowerArm), 0.1);
+}
+
+TEST_P(HumanoidBody, hips_that_sink_bend_the_knees_forward) {
+    auto pose = rest;
+    BodyState state;
+    const auto report = body.solve(pose, std::vector<BodyTarget>{{Effector::Hips, {0.0, 0.75, 0.0}}}, state);
+    ASSERT_TRUE(report);
+    EXPECT_LT(report->residual, 1e-3);
+    const auto now = positions(pose);
+    for (const Bone knee : {Bone::LeftLowerLeg, Bone::RightLowerLeg}) EXPECT_GT(now[node(knee)].z, 0.2);
+}
+
+TEST_P(HumanoidBody, a_hand_takes_its_targets_rotation_and_shares_the_twist) {
+    const glm::dquat half = glm::angleAxis(1.2, glm::dvec3(1, 0, 0));  // about the forearm, as it rests
+    auto pose = rest;
+    BodyState state;
+    const auto at = positions(rest)[node(Bone::LeftHand)];
+    const std::vector<BodyTarget> targets{{Effector::LeftHand, at, half}};
+    for (int i = 0; i < 5; ++i) {
+        pose = rest;
+        ASSERT_TRUE(body.solve(pose, targets, state));
+        place(skeleton, pose, placements);
+        const auto angle_of = [&](Bone bone) {
+            const glm::dquat q = placements[node(bone)].rotation();
+            return 2.0 * std::acos(std::min(std::abs(q.w), 1.0));
+        };
+        EXPECT_NEAR(angle_of(Bone::LeftHand), 1.2, 1e-3) << i;
+        EXPECT_NEAR(angle_of(Bone::LeftLowerArm), 0.6, 1e-2) << i;
+    }
+}
+
+TEST_P(HumanoidBody, nodes_between_bones_and_above_them_turn_along) {
+    // The same figure below a root that is turned, moved and twice as large, with a node in the middle of a
+    // forearm.
+    std::vector<Node> nodes{
+        {"root", -1, {{1.0, 0.5, -2.0}, glm::angleAxis(0.7, glm::dvec3(0, 1, 0)), {2.0, 2.0, 2.0}}}};
+    for (const Node& each : skeleton.nodes()) {
+        nodes.push_back(each);
+        nodes.back().parent += 1;
+    }
+    const auto hand = node(Bone::LeftHand) + 1, forearm = node(Bone::LeftLowerArm) + 1;
+    nodes.push_back({"between", static_cast<std::int32_t>(forearm), {{0.1, 0.0, 0.0}}});
+    nodes[hand].parent = static_cast<std::int32_t>(nodes.size()) - 1;
+    nodes[hand].rest.translation -= glm::dvec3(0.1, 0.0, 0.0);
+    const Skeleton larger = *Skeleton::make(nodes);
+    const BoneMap mapped = match_bones(larger);
+    ASSERT_TRUE(mapped.is_usable());
+    Body other = *Body::make(larger, mapped, GetParam() ? default_limits(larger, mapped) : no_limits());
+    std::vector<Placement> at(larger.size());
+    auto pose = rest_pose(larger);
+    place(larger, pose, at);
+    const glm::dvec3 target = at[hand].position + at[0].axes * glm::dvec3(-0.3, -0.2, 0.3);
+    BodyState state;
+    const auto report = other.solve(pose, std::vector<BodyTarget>{{Effector::LeftHand, target}}, state);
+    ASSERT_TRUE(report);
+    place(larger, pose, at);
+    EXPECT_LT(glm::distance(at[hand].position, target), 2e-3);
+    EXPECT_LT(report->residual, 2e-3);
+}
+
+TEST_P(HumanoidBody, a_copy_of_the_state_goes_on_as_the_original) {
+    Random random(7);
+    const auto targets = targets_of(random_pose(random, 0.5));
+    BodyState state;
+    for (int i = 0; i < 5; ++i) {
+        auto pose = rest;
+        ASSERT_TRUE(body.solve(pose, targets, state));
+    }
+    const BodyState copy = state;
+    Body fresh = *Body::make(skeleton, map, GetParam() ? limits : no_limits());
+    auto next = targets;
+    next[0].position += glm::dvec3(0.05, 0.02, 0.0);
+    auto first = rest, second = rest;
+    BodyState other = copy;
+    ASSERT_TRUE(body.solve(first, next, state));
+    ASSERT_TRUE(fresh.solve(second, next, other));
+    EXPECT_EQ(first, second);
+    EXPECT_EQ(state, other);
+}
+
+TEST_P(HumanoidBody, what_it_cannot_use_is_refused_and_nothing_moves) {
+    auto pose = rest;
+    BodyState state;
+    const auto refused = [&](const std::vector<BodyTarget>& targets, const BodyOptions& options = {}) {
+        const auto report = body.solve(pose, targets, state, options);
+        EXPECT_EQ(pose, rest);
+        return std::string(report.message());
+    };
+    const double nan = std::nan("");
+    EXPECT_EQ(refused({{Effector::Head, {0.0, nan, 0.0}}}),
+              "Body::solve: targets.position.y must be finite and at most 1e9 in magnitude, got nan");
+    EXPECT_EQ(refused({{Effector::Head, {}, {}, -1.0}}),
+              "Body::solve: targets[0].weight must be from 0 to 1e3, got -1");
+    EXPECT_EQ(refused({{Effector::Head, {}}, {Effector::Head, {}}}),
+              "Body::solve: targets[1].effector must be one without another target, got head");
+    EXPECT_FALSE(refused({{Effector::Head, {}, glm::dquat(0.0, 0.0, 0.0, 0.0)}}).empty());
+    EXPECT_FALSE(refused({{Effector::Head, {}}}, {.max_iterations = 0}).empty());
+    EXPECT_FALSE(refused({{Effector::Head, {}}}, {.tolerance = nan}).empty());
+    EXPECT_FALSE(refused({{Effector::Head, {}}}, {.twist_share = 2.0}).empty());
+    state.deepest = nan;
+    state.turns.resize(body.bones().size(), glm::dquat(1.0, 0.0, 0.0, 0.0));
+    EXPECT_FALSE(refused({{Effector::Head, {}}}).empty());
+    state.deepest = 0.0, state.clip[2].z = nan;
+    EXPECT_FALSE(refused({{Effector::Head, {}}}).empty());
+    state.clip[2].z = 0.0;
+    state.turns.resize(3);
+    EXPECT_FALSE(refused({{Effector::Head, {}}}).empty());
+    BoneMap gap = map;
+    gap[Bone::LeftHand] = {};
+    review(gap, skeleton);
+    EXPECT_EQ(std::string(Body::make(skeleton, gap).message()), "Body: LeftHand must be mapped, got none");
+}
+
+INSTANTIATE_TEST_SUITE_P(Limits, HumanoidBody, testing::Bool(),
+                         [](const auto& each) { return each.param ? "default" : "none"; });
+
+}  // namespace
+}  // namespace tendril::test

@@ -1,0 +1,72 @@
+// A figure of 1.8 m in T-pose, arms along X, facing +Z, whose nodes are called as one likes.
+#pragma once
+
+#include <map>
+#include <string>
+#include <tendril/humanoid/bone_map.hpp>
+#include <vector>
+
+namespace tendril::test {
+
+using namespace humanoid;
+
+struct FigureNode {
+    const char* key;     // the bone's name, or another one for what is none of the body's
+    const char* parent;  // "" for the root
+    glm::dvec3 at;       // in the figure's space
+};
+
+inline const std::vector<FigureNode>& figure_nodes() {
+    static const std::vector<FigureNode> nodes{{"Hips", "", {0, 1.0, 0}},
+                                               {"Spine", "Hips", {0, 1.1, 0}},
+                                               {"Chest", "Spine", {0, 1.2, 0}},
+                                               {"UpperChest", "Chest", {0, 1.33, 0}},
+                                               {"Neck", "UpperChest", {0, 1.5, 0}},
+                                               {"Head", "Neck", {0, 1.6, 0}},
+                                               {"Head end", "Head", {0, 1.8, 0}},
+                                               {"LeftShoulder", "UpperChest", {0.05, 1.45, 0}},
+                                               {"LeftUpperArm", "LeftShoulder", {0.18, 1.45, 0}},
+                                               {"LeftLowerArm", "LeftUpperArm", {0.46, 1.45, 0}},
+                                               {"LeftHand", "LeftLowerArm", {0.72, 1.45, 0}},
+                                               {"LeftHand end", "LeftHand", {0.9, 1.45, 0}},
+                                               {"RightShoulder", "UpperChest", {-0.05, 1.45, 0}},
+                                               {"RightUpperArm", "RightShoulder", {-0.18, 1.45, 0}},
+                                               {"RightLowerArm", "RightUpperArm", {-0.46, 1.45, 0}},
+                                               {"RightHand", "RightLowerArm", {-0.72, 1.45, 0}},
+                                               {"RightHand end", "RightHand", {-0.9, 1.45, 0}},
+                                               {"LeftUpperLeg", "Hips", {0.1, 0.94, 0}},
+                                               {"LeftLowerLeg", "LeftUpperLeg", {0.1, 0.52, 0.01}},
+                                               {"LeftFoot", "LeftLowerLeg", {0.1, 0.09, 0}},
+                                               {"LeftToes", "LeftFoot", {0.1, 0.02, 0.15}},
+                                               {"LeftToes end", "LeftToes", {0.1, 0.02, 0.22}},
+                                               {"RightUpperLeg", "Hips", {-0.1, 0.94, 0}},
+                                               {"RightLowerLeg", "RightUpperLeg", {-0.1, 0.52, 0.01}},
+                                               {"RightFoot", "RightLowerLeg", {-0.1, 0.09, 0}},
+                                               {"RightToes", "RightFoot", {-0.1, 0.02, 0.15}},
+                                               {"RightToes end", "RightToes", {-0.1, 0.02, 0.22}}};
+    return nodes;
+}
+
+/// The figure with the nodes that `named` names, in `order` (places in figure_nodes()); one that it gives ""
+/// is left out, and what hangs on it hangs on its parent. `turn` is about Y.
+inline Skeleton make_figure(const std::map<std::string, std::string>& named, double turn = 0.0) {
+    std::vector<Node> nodes;
+    std::map<std::string, std::pair<std::int32_t, glm::dvec3>> placed{{"", {-1, glm::dvec3(0.0)}}};
+    const glm::dquat about_y = glm::angleAxis(turn, glm::dvec3(0, 1, 0));
+    for (const FigureNode& each : figure_nodes()) {
+        const auto name = named.find(each.key);
+        const auto parent = placed.at(each.parent);
+        if (name != named.end() && name->second.empty()) {
+            placed[each.key] = parent;
+            continue;
+        }
+        Node node{name == named.end() ? each.key : name->second, parent.first, {}};
+        const glm::dvec3 at = about_y * each.at;
+        node.rest.translation = at - parent.second;
+        placed[each.key] = {static_cast<std::int32_t>(nodes.size()), at};
+        nodes.push_back(node);
+    }
+    return *Skeleton::make(std::move(nodes));
+}
+
+}  // namespace tendril::test

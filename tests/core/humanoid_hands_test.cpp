@@ -1,0 +1,237 @@
+// Hands on their targets: where the arm reaches within a millimetre, at weight 0 nothing to the bit, and
+// nothing but their own arm.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <tendril/humanoid/hands.hpp>
+
+#include "humanoid_figure.hpp"
+#include "memory.hpp"
+
+namespace tendril::test {
+namespace {
+
+class HandIk : public ::testing::Test {
+  protected:
+    double number(double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); }
+    glm::dquat rotation() {
+        glm::dquat q;
+        for (int i = 0; i < 4; ++i) q[i] = number(-1.0, 1.0);
+        return rig::normalised(q);
+    }
+    /// Arms anyhow, the rest as it stands.
+    std::vector<rig::Transform> pose() {
+        std::vector<rig::Transform> made = rest_pose(skeleton);
+        for (const Bone bone : {Bone::LeftUpperArm, Bone::LeftLowerArm, Bone::LeftHand, Bone::RightUpperArm,
+                                Bone::RightLowerArm, Bone::RightHand, Bone::RightShoulder})
+            made[node(bone)].rotation = glm::angleAxis(number(-0.8, 0.8), rotation() * glm::dvec3(0, 0, 1));
+        return made;
+    }
+    std::size_t node(Bone bone) const { return static_cast<std::size_t>(map[bone].node); }
+    std::vector<Placement> placed(const std::vector<rig::Transform>& of) const {
+        std::vector<Placement> placements(skeleton.size());
+        place(skeleton, of, placements);
+        return placements;
+    }
+    glm::dvec3 at(const std::vector<rig::Transform>& of, Bone bone) const {
+        return placed(of)[node(bone)].position;
+    }
+    /// Within the reach of the left arm, in front.
+    glm::dvec3 near_left() {
+        for (;;) {
+            const glm::dvec3 from(number(-0.5, 0.5), number(-0.5, 0.5), number(-0.2, 0.5));
+            const double far = glm::length(from);
+            if (far > 0.1 && far < 0.53) return glm::dvec3(0.18, 1.45, 0.0) + from;
+        }
+    }
+
+    std::mt19937 random{11};
+    const Skeleton skeleton = make_figure({});
+    const BoneMap map = match_bones(skeleton);
+    const Hands hands = *Hands::make(skeleton, map);
+};
+
+TEST_F(HandIk, AtFullWeightTheHandIsOnItsTargetAndTurnedAsItIs) {
+    for (int round = 0; round < 1000; ++round) {
+        std::vector<rig::Transform> made = pose();
+        const std::vector<rig::Transform> before = made;
+        const glm::dvec3 target = near_left();
+        const glm::dquat turned = rotation();
+        HandsState state;
+        HandTargets targets;
+        targets[0] = {.position = target, .rotation = turned, .weight = 1.0};
+        const HandsReport report = hands.step(made, targets, 1.0 / 60, state, {.view = 3.15});
+        ASSERT_TRUE(report.valid);
+        EXPECT_EQ(report.hands[0].weight, 1.0);
+        EXPECT_LT(glm::distance(at(made, Bone::LeftHand), target), 0.002);
+        EXPECT_LT(report.hands[0].residual, 0.002);
+        EXPECT_NEAR(std::abs(glm::dot(placed(made)[node(Bone::LeftHand)].rotation(), turned)), 1.0, 1e-9);
+        for (std::size_t i = 0; i < made.size(); ++i)
+            if (!skeleton.is_below(i, node(Bone::LeftShoulder))) {
+                EXPECT_EQ(made[i], before[i]) << skeleton[i].name << " is none of the left arm";
+            }
+    }
+}
+
+TEST_F(HandIk, AtWeightZeroAndUnderTheHundredthThePoseIsTheClipsToTheBit) {
+    for (int round = 0; round < 100; ++round) {
+        std::vector<rig::Transform> made = pose();
+        const std::vector<rig::Transform> before = made;
+        HandsState state;
+        HandTargets targets;
+        for (HandTarget& target : targets)
+            target = {
+                .position = near_left(), .rotation = rotation(), .weight = round % 2 == 0 ? 0.0 : 0.0099};
+        EXPECT_EQ(hands.step(made, targets, 1.0 / 60, state).hands[0].weight, 0.0);
+        EXPECT_EQ(made, before);
+    }
+}
+
+TEST_F(HandIk, BetweenTheTwoItIsSmooth) {
+    for (int round = 0; round < 50; ++round) {
+        const bool straight = round % 5 == 0;
+        const std::vector<rig::Transform> clip = straight ? rest_pose(skeleton) : pose();
+        const glm::dvec3 target = near_left(), start = at(clip, Bone::LeftHand);
+        const glm::dquat turned = rotation();
+        HandsState state;
+        glm::dvec3 before = start, elbow = at(clip, Bone::LeftLowerArm);
+        double worst = 0.0;
+        constexpr int steps = 2000;
+        for (int i = 0; i <= steps; ++i) {
+            std::vector<rig::Transform> made = clip;
+            HandTargets targets;
+            targets[0] = {.position = target, .rotation = turned, .weight = static_cast<double>(i) / steps};
+            hands.step(made, targets, 1.0 / 60, state, {.view = 3.15});
+            const glm::dvec3 now = at(made, Bone::LeftHand), bent = at(made, Bone::LeftLowerArm);
+            worst = std::max(worst, glm::distance(now, before));
+            const glm::dvec3 shoulder = at(made, Bone::LeftUpperArm);
+            // Next to the shoulder itself an arm has no direction.
+            if (glm::distance(now, shoulder) > 0.1) {
+                EXPECT_LT(glm::distance(bent, elbow), 0.02) << i;
+            }
+            before = now;
+            elbow = bent;
+        }
+        EXPECT_LT(worst, 1.1 * glm::distance(start, target) / steps + 0.002);
+    }
+}
+
+TEST_F(HandIk, ThePunchGoesToThePostAndBack) {
+    const signal::Curve hook = *weight_curve(0.2, 0.5, 0.6, 0.9);
+    const glm::dvec3 post(-0.1, 1.4, 0.4);
+    HandsState state;
+    glm::dvec3 before{0.0};
+    for (int frame = 0; frame <= 66; ++frame) {
+        const double time = frame / 60.0, weight = signal::evaluate_keys(hook, time);
+        std::vector<rig::Transform> made = rest_pose(skeleton);
+        made[node(Bone::RightUpperArm)].rotation = glm::angleAxis(0.6 + 0.5 * time, glm::dvec3(0, 1, 0));
+        made[node(Bone::RightLowerArm)].rotation = glm::angleAxis(1.0, glm::dvec3(0, 1, 0));
+        const std::vector<rig::Transform> clip = made;
+        HandTargets targets;
+        targets[1] = {.position = post, .weight = weight};
+        hands.step(made, targets, 1.0 / 60, state);
+        const glm::dvec3 now = at(made, Bone::RightHand);
+        if (time <= 0.2 || time >= 0.9) {
+            EXPECT_EQ(made, clip);
+        }
+        if (time >= 0.5 && time <= 0.6) {
+            EXPECT_LT(glm::distance(now, post), 0.002);
+        }
+        if (frame > 0) {
+            EXPECT_LT(glm::distance(now, before), 0.06) << time;
+        }
+        EXPECT_EQ(made[node(Bone::LeftHand)], clip[node(Bone::LeftHand)]);
+        before = now;
+    }
+}
+
+TEST_F(HandIk, AShoulderHelpsAsFarAsItMay) {
+    const std::vector<rig::Transform> clip = rest_pose(skeleton);
+    HandTargets targets;
+    targets[0] = {.position = {0.05, 1.5, 0.57}, .weight = 1.0};  // 59 cm from the arm's root, which has 54
+    const auto residual = [&](double shoulder) {
+        HandsState state;
+        std::vector<rig::Transform> made = clip;
+        return hands.step(made, targets, 0.1, state, {.shoulder = shoulder}).hands[0].residual;
+    };
+    EXPECT_GT(residual(0.0), 0.04);
+    EXPECT_LT(residual(0.5), 0.002);
+    EXPECT_LT(residual(0.1), residual(0.0));
+    targets[0].position = {0.05, 1.5, 30.0};
+    EXPECT_GT(residual(0.5), 28.0) << "out of reach it points there";
+}
+
+TEST_F(HandIk, OutOfViewTheWeightEases) {
+    HandsState state;
+    HandTargets targets;
+    targets[0] = {.position = {0.3, 1.3, 0.35}, .weight = 1.0};
+    const HandsOptions options{.view = 1.2};
+    std::vector<double> weights;
+    const auto step = [&](int frames) {
+        for (int i = 0; i < frames; ++i) {
+            std::vector<rig::Transform> made = rest_pose(skeleton);
+            weights.push_back(hands.step(made, targets, 1.0 / 60, state, options).hands[0].weight);
+        }
+        return weights.back();
+    };
+    EXPECT_EQ(step(10), 1.0);
+    targets[0].position = {0.3, 1.3, -0.35};
+    EXPECT_GT(step(1), 0.9);
+    EXPECT_NEAR(step(5), 0.5, 0.1) << "half of it after 0.1 s";
+    EXPECT_EQ(step(60), 0.0);
+    EXPECT_FALSE(state.hands[0].in_view);
+    targets[0].position.z = 0.35;
+    EXPECT_EQ(step(90), 1.0);
+    for (std::size_t i = 1; i < weights.size(); ++i) EXPECT_LT(std::abs(weights[i] - weights[i - 1]), 0.13);
+}
+
+TEST_F(HandIk, RefusedIsRefusedAsAWhole) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    std::vector<rig::Transform> made = rest_pose(skeleton);
+    const std::vector<rig::Transform> before = made;
+    HandsState state;
+    HandTargets targets;
+    targets[0] = {.position = {0.3, 1.3, 0.3}, .weight = 1.0};
+    targets[1] = {.position = {nan, 1.3, 0.3}, .weight = 0.0};
+    EXPECT_FALSE(hands.step(made, targets, 0.1, state).valid);
+    targets[1] = {.rotation = glm::dquat(0, 0, 0, 0)};
+    EXPECT_FALSE(hands.step(made, targets, 0.1, state).valid);
+    targets[1] = {.weight = nan};
+    EXPECT_FALSE(hands.step(made, targets, 0.1, state, {.half_life = 0.0}).valid);
+    EXPECT_EQ(made, before);
+    EXPECT_EQ(state, HandsState());
+    EXPECT_TRUE(hands.step(made, targets, nan, state).valid) << "no weight and no time are fine";
+    made[node(Bone::LeftHand)].translation.x = nan;
+    EXPECT_FALSE(hands.step(made, targets, 0.1, state).valid);
+    EXPECT_STREQ(check(HandsOptions{.view = 9.0}).message(),
+                 "hands: view must be from 0 to 3.15 radians, got 9");
+    EXPECT_FALSE(weight_curve(0.5, 0.2, 0.6, 0.9));
+    EXPECT_FALSE(Hands::make(skeleton, BoneMap()));
+}
+
+TEST_F(HandIk, AnyPoseAndTargetGiveFinitePosesWithoutMemory) {
+    HandsState state;
+    for (int round = 0; round < 2000; ++round) {
+        std::vector<rig::Transform> made = rest_pose(skeleton);
+        for (rig::Transform& each : made) each.rotation = rotation();
+        HandTargets targets;
+        for (HandTarget& target : targets) {
+            const double far = std::pow(10.0, number(-3.0, 8.0));
+            target = {.position = rotation() * glm::dvec3(far, 0, 0), .weight = number(0.0, 1.0)};
+            if (round % 2 == 0) target.rotation = rotation();
+            if (round % 5 == 0) target.position = at(made, Bone::LeftUpperArm);
+        }
+        HandsReport report;
+        without_memory([&] { report = hands.step(made, targets, 1.0 / 60, state, {.view = 3.15}); });
+        ASSERT_TRUE(report.valid);
+        for (const rig::Transform& each : made) {
+            ASSERT_TRUE(std::isfinite(each.translation.x));
+            ASSERT_NEAR(glm::length(each.rotation), 1.0, 1e-9);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test

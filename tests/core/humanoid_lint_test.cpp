@@ -1,0 +1,243 @@
+// The lint of what needs no feet: keys, jumps and sizes, on skeletons of no particular creature.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <tendril/humanoid/lint.hpp>
+
+#include "random.hpp"
+
+namespace tendril::test {
+namespace {
+
+using namespace humanoid;
+
+/// A snake of five nodes, each half a metre from the one before.
+Skeleton snake() {
+    std::vector<Node> nodes;
+    for (int i = 0; i < 5; ++i) {
+        std::string name = "joint";
+        name += std::to_string(i);
+        nodes.push_back({name, i - 1, {.translation = {0.0, i > 0 ? 0.5 : 0.0, 0.0}}});
+    }
+    return *Skeleton::make(std::move(nodes));
+}
+
+/// It winds: every joint swings on a sine of its own, and the first one goes along.
+Clip winding(double rate, int frames, double phase = 0.0) {
+    Clip clip{.name = "wind", .duration = (frames - 1) / rate, .channels = {}};
+    for (std::size_t node = 0; node < 5; ++node) {
+        Channel channel{.node = node};
+        for (int i = 0; i < frames; ++i) {
+            const double time = std::min(i / rate, clip.duration);
+            const double half = 0.4 * std::sin(5.0 * time + 0.7 * static_cast<double>(node) + phase);
+            channel.rotation.times.push_back(time);
+            channel.rotation.values.push_back({std::cos(half), 0.0, 0.0, std::sin(half)});
+            if (node > 0) continue;
+            channel.translation.times.push_back(time);
+            channel.translation.values.push_back({0.3 * time, 0.0, 0.0});
+        }
+        clip.channels.push_back(std::move(channel));
+    }
+    return clip;
+}
+
+LintReport lint_of(const Clip& clip) {
+    const Skeleton skeleton = snake();
+    EXPECT_TRUE(check(clip, skeleton));
+    return lint(skeleton, match_bones(skeleton), clip);
+}
+Clip cured(const Clip& clip, const Finding& finding) {
+    const Skeleton skeleton = snake();
+    const Expected<Clip> mended = cure(skeleton, match_bones(skeleton), clip, finding);
+    EXPECT_TRUE(mended) << mended.message();
+    return mended ? *mended : clip;
+}
+std::string texts(const LintReport& report) {
+    std::string all;
+    for (const Finding& each : report.findings) all += each.text + '\n';
+    return all;
+}
+
+TEST(Lint, finds_nothing_in_a_clean_clip) {
+    for (const double rate : {24.0, 30.0, 60.0, 120.0}) {
+        for (int i = 0; i < 20; ++i) {
+            const LintReport report = lint_of(winding(rate, 50 + 7 * i, i));
+            EXPECT_TRUE(report.findings.empty()) << rate << ": " << texts(report);
+            EXPECT_EQ(report.rate, rate);
+            EXPECT_EQ(report.frames, static_cast<std::size_t>(50 + 7 * i));
+            EXPECT_FALSE(report.has_floor);
+        }
+    }
+}
+
+TEST(Lint, says_the_frame_rate_that_keys_have) {
+    EXPECT_EQ(frame_rate(winding(30.0, 40)), 30.0);
+    EXPECT_NEAR(frame_rate(winding(29.97, 400)), 29.97, 1e-9);
+    EXPECT_EQ(frame_rate({}), 60.0);
+    EXPECT_EQ(frame_rate(winding(2.0, 40)), 60.0);  // those are no frames
+    Clip rounded = winding(30.0, 100);              // as a file of three decimals has it
+    for (Channel& channel : rounded.channels)
+        for (double& time : channel.rotation.times) time = std::floor(time * 1000.0) / 1000.0;
+    EXPECT_NEAR(frame_rate(rounded), 30.0, 0.01);
+}
+
+TEST(Lint, finds_a_flipped_key_and_mends_it) {
+    Clip clip = winding(30.0, 60);
+    glm::dquat& key = clip.channels[2].rotation.values[17];
+    key = -key;
+    const LintReport report = lint_of(clip);
+    ASSERT_EQ(report.findings.size(), 1u) << texts(report);
+    const Finding& finding = report.findings[0];
+    EXPECT_EQ(finding.fault, Fault::SignFlip);
+    EXPECT_EQ(finding.node, 2);
+    EXPECT_EQ(finding.frame, 17u);
+    EXPECT_EQ(finding.last, 17u);
+    EXPECT_NEAR(finding.time, 17.0 / 30.0, 1e-9);
+    EXPECT_STREQ(finding.unit, "deg");
+    EXPECT_GT(finding.amount, 340.0);
+    EXPECT_LT(finding.amount, 360.0);
+    EXPECT_NE(finding.text.find("joint2"), std::string::npos) << finding.text;
+    ASSERT_TRUE(finding.has_cure);
+    EXPECT_EQ(cured(clip, finding), winding(30.0, 60));
+}
+
+TEST(Lint, a_stretch_of_flipped_keys_is_one_finding) {
+    Clip clip = winding(30.0, 60);
+    for (std::size_t i = 20; i < 31; ++i) clip.channels[3].rotation.values[i] *= -1.0;
+    const LintReport report = lint_of(clip);
+    ASSERT_EQ(report.findings.size(), 1u) << texts(report);
+    EXPECT_EQ(report.findings[0].first, 20u);
+    EXPECT_EQ(report.findings[0].last, 30u);
+    clip.channels[3].rotation.interpolation = Interpolation::Step;  // nothing is between its keys
+    EXPECT_TRUE(lint_of(clip).findings.empty());
+}
+
+TEST(Lint, mends_the_tangents_of_a_flipped_cubic_key_too) {
+    Clip clip{.name = "cubic", .duration = 2.0, .channels = {{.node = 1}}};
+    auto& track = clip.channels[0].rotation;
+    track.interpolation = Interpolation::Cubic;
+    for (int i = 0; i < 3; ++i) {
+        const double half = 0.3 * i, sign = i == 1 ? -1.0 : 1.0;
+        track.times.push_back(i);
+        const glm::dquat tangent(sign * -0.3 * std::sin(half), sign * 0.3 * std::cos(half), 0.0, 0.0);
+        track.values.push_back(tangent);
+        track.values.push_back({sign * std::cos(half), sign * std::sin(half), 0.0, 0.0});
+        track.values.push_back(tangent);
+    }
+    const LintReport report = lint_of(clip);
+    ASSERT_EQ(report.findings.size(), 1u) << texts(report);
+    const Clip whole = cured(clip, report.findings[0]);
+    const auto& mended = whole.channels[0].rotation.values;
+    EXPECT_GT(mended[4].w, 0.0);
+    EXPECT_GT(mended[3].x, 0.0);
+    EXPECT_GT(mended[5].x, 0.0);
+}
+
+TEST(Lint, finds_a_joint_that_stands_apart_for_a_frame) {
+    Random random(71);
+    for (int i = 0; i < 100; ++i) {
+        const double rate = i % 2 == 0 ? 30.0 : 60.0;
+        Clip clip = winding(rate, 80, i);
+        const std::size_t node = random.below(5), frame = 3 + random.below(74);
+        const double degrees = 40.0 + static_cast<double>(random.below(100));
+        const double half = degrees * 3.14159265358979 / 360.0;
+        auto& key = clip.channels[node].rotation.values[frame];
+        key = key * glm::dquat(std::cos(half), std::sin(half), 0.0, 0.0);
+        if (glm::dot(key, clip.channels[node].rotation.values[frame - 1]) < 0.0) key = -key;
+        const LintReport report = lint_of(clip);
+        ASSERT_EQ(report.findings.size(), 1u) << i << ": " << texts(report);
+        const Finding& finding = report.findings[0];
+        EXPECT_EQ(finding.fault, Fault::Jump);
+        EXPECT_EQ(finding.node, static_cast<std::int32_t>(node));
+        EXPECT_EQ(finding.frame, frame);
+        EXPECT_NEAR(finding.amount, degrees, 0.15 * degrees);
+        EXPECT_FALSE(finding.goes_on);
+        const Clip mended = cured(clip, finding);
+        EXPECT_TRUE(lint_of(mended).findings.empty()) << texts(lint_of(mended));
+        const glm::dquat was = winding(rate, 80, i).channels[node].rotation.values[frame];
+        EXPECT_GT(std::abs(glm::dot(mended.channels[node].rotation.values[frame], was)), 0.999);
+    }
+}
+
+TEST(Lint, finds_a_jump_after_which_the_motion_goes_on) {
+    Clip clip = winding(60.0, 120);
+    auto& values = clip.channels[0].translation.values;
+    for (std::size_t i = 50; i < values.size(); ++i) values[i] += glm::dvec3(0.0, 0.0, 0.25);
+    const LintReport report = lint_of(clip);
+    ASSERT_EQ(report.findings.size(), 1u) << texts(report);
+    const Finding& finding = report.findings[0];
+    EXPECT_EQ(finding.fault, Fault::Jump);
+    EXPECT_EQ(finding.node, 0);
+    EXPECT_EQ(finding.frame, 50u);
+    EXPECT_STREQ(finding.unit, "mm");
+    EXPECT_NEAR(finding.amount, 250.0, 1.0);
+    EXPECT_TRUE(finding.goes_on);
+    const Clip mended = cured(clip, finding);
+    EXPECT_TRUE(lint_of(mended).findings.empty()) << texts(lint_of(mended));
+    EXPECT_EQ(mended.channels[0].translation.values[20], values[20]);
+    EXPECT_EQ(mended.channels[0].translation.values[90], values[90]);
+}
+
+TEST(Lint, keys_that_are_held_on_purpose_do_not_jump) {
+    Clip clip = winding(60.0, 60);
+    auto& track = clip.channels[1].rotation;
+    track.interpolation = Interpolation::Step;
+    track.times = {0.0, 0.5};
+    track.values = {{1.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 0.0}};
+    EXPECT_TRUE(lint_of(clip).findings.empty());
+}
+
+TEST(Lint, finds_a_clip_of_another_size) {
+    Clip clip = winding(30.0, 30);
+    const Skeleton skeleton = snake();
+    for (std::size_t node = 1; node < 5; ++node) {
+        clip.channels[node].translation.times = {0.0};
+        clip.channels[node].translation.values = {skeleton[node].rest.translation};
+    }
+    EXPECT_TRUE(lint_of(clip).findings.empty());
+    std::vector<Node> nodes = skeleton.nodes();
+    nodes.push_back({"joint5", 4, {.translation = {0.0, 0.5, 0.0}}});
+    const Skeleton longer = *Skeleton::make(nodes);
+    clip.channels.push_back({.node = 5, .translation = {Interpolation::Linear, {0.0}, {{0.0, 0.5, 0.0}}}});
+    for (Channel& channel : clip.channels)
+        for (glm::dvec3& value : channel.translation.values) value *= 100.0;
+    const BoneMap map = match_bones(longer);
+    const LintReport report = lint(longer, map, clip);
+    ASSERT_FALSE(report.findings.empty());
+    EXPECT_EQ(report.findings[0].fault, Fault::Scale);
+    EXPECT_NEAR(report.findings[0].amount, 100.0, 1e-6);
+    const Expected<Clip> mended = cure(longer, map, clip, report.findings[0]);
+    ASSERT_TRUE(mended);
+    EXPECT_TRUE(lint(longer, map, *mended).findings.empty());
+}
+
+TEST(Lint, finds_a_scale_of_nothing_and_of_the_other_side) {
+    for (const double by : {0.0, -1.0}) {
+        Clip clip = winding(30.0, 30);
+        clip.channels[2].scale = {Interpolation::Linear, {0.0, 0.5}, {glm::dvec3(1.0), {1.0, by, 1.0}}};
+        const LintReport report = lint_of(clip);
+        ASSERT_EQ(report.findings.size(), 1u) << texts(report);
+        EXPECT_EQ(report.findings[0].fault, Fault::Scale);
+        EXPECT_EQ(report.findings[0].frame, 15u);
+        EXPECT_EQ(report.findings[0].amount, by);
+        EXPECT_FALSE(report.findings[0].has_cure);
+        const Skeleton skeleton = snake();
+        EXPECT_EQ(cure(skeleton, match_bones(skeleton), clip, report.findings[0]).code(),
+                  ErrorCode::InvalidArgument);
+    }
+}
+
+TEST(Lint, takes_clips_of_one_frame_and_of_none_and_very_long_ones) {
+    EXPECT_TRUE(lint_of({}).findings.empty());
+    EXPECT_TRUE(lint_of(winding(30.0, 1)).findings.empty());
+    EXPECT_TRUE(lint_of(winding(30.0, 2)).findings.empty());
+    Clip age{.name = "age", .duration = 1e9, .channels = {{.node = 1}}};
+    age.channels[0].rotation = {Interpolation::Linear, {0.0, 1e9}, {{1, 0, 0, 0}, {0, 1, 0, 0}}};
+    const LintReport report = lint_of(age);
+    EXPECT_EQ(report.frames, max_lint_frames);
+    EXPECT_TRUE(report.findings.empty());
+    EXPECT_EQ(lint(Skeleton(), BoneMap(), Clip()).frames, 1u);
+}
+
+}  // namespace
+}  // namespace tendril::test

@@ -1,0 +1,141 @@
+// The head looks where it is told to, within its bones' limits, and gives the clip back where it is not.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <tendril/humanoid/look_at.hpp>
+
+#include "humanoid_figure.hpp"
+#include "memory.hpp"
+
+namespace tendril::test {
+namespace {
+
+class HeadLook : public ::testing::Test {
+  protected:
+    double number(double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); }
+    std::size_t node(Bone bone) const { return static_cast<std::size_t>(map[bone].node); }
+    /// The angle that a bone was turned by against the rest pose.
+    double turned(const std::vector<rig::Transform>& made, Bone bone) const {
+        return 2.0 * std::acos(std::min(1.0, std::abs(made[node(bone)].rotation.w)));
+    }
+    /// Radians between the gaze and the target.
+    double left(const std::vector<rig::Transform>& made, const glm::dvec3& target) const {
+        std::vector<Placement> placements(skeleton.size());
+        place(skeleton, made, placements);
+        const Placement& head = placements[node(Bone::Head)];
+        const glm::dvec3 gaze = head.rotation() * glm::dvec3(0, 0, 1);
+        return std::acos(std::min(1.0, glm::dot(gaze, glm::normalize(target - head.position))));
+    }
+
+    std::mt19937 random{13};
+    const Skeleton skeleton = make_figure({});
+    const BoneMap map = match_bones(skeleton);
+    const LookAt look = *LookAt::make(skeleton, map);
+};
+
+TEST_F(HeadLook, IsOnTheTargetAndSpreadOverTheBones) {
+    for (int round = 0; round < 500; ++round) {
+        const double yaw = number(-1.0, 1.0), pitch = number(-0.5, 0.5);
+        const glm::dvec3 way(std::sin(yaw) * std::cos(pitch), std::sin(pitch),
+                             std::cos(yaw) * std::cos(pitch));
+        const glm::dvec3 target = glm::dvec3(0, 1.6, 0) + way * number(1.0, 10.0);
+        std::vector<rig::Transform> made = rest_pose(skeleton);
+        LookAtState state;
+        const LookAtReport report = look.step(made, {.target = target}, 1.0 / 60, state);
+        ASSERT_TRUE(report.valid);
+        EXPECT_LT(left(made, target), 1e-6);
+        EXPECT_LT(report.left, 1e-6);
+        if (std::abs(yaw) < 0.5) continue;
+        EXPECT_GT(turned(made, Bone::Spine), 0.02);
+        EXPECT_GT(turned(made, Bone::Neck), turned(made, Bone::Spine));
+        EXPECT_GT(turned(made, Bone::Head), turned(made, Bone::Neck));
+    }
+}
+
+TEST_F(HeadLook, StaysWithinItsLimits) {
+    for (int round = 0; round < 500; ++round) {
+        const glm::dvec3 target(number(-5, 5), number(-5, 5), number(-5, 5));
+        std::vector<rig::Transform> made = rest_pose(skeleton);
+        LookAtState state;
+        const LookAtOptions options{
+            .target = target, .spine_limit = 0.2, .neck_limit = 0.3, .head_limit = 0.4, .view = 3.15};
+        look.step(made, options, 1.0 / 60, state);
+        EXPECT_LE(turned(made, Bone::Spine) + turned(made, Bone::Chest) + turned(made, Bone::UpperChest),
+                  0.2 + 1e-6);
+        EXPECT_LE(turned(made, Bone::Neck), 0.3 + 1e-6);
+        EXPECT_LE(turned(made, Bone::Head), 0.4 + 1e-6);
+    }
+}
+
+TEST_F(HeadLook, WeightZeroIsTheClipToTheBitAndTheRestIsSmooth) {
+    const glm::dvec3 target(2.0, 1.2, 1.5);
+    const std::vector<rig::Transform> clip = rest_pose(skeleton);
+    double before = left(clip, target);
+    for (int i = 0; i <= 100; ++i) {
+        std::vector<rig::Transform> made = clip;
+        LookAtState state;
+        look.step(made, {.target = target, .weight = i / 100.0}, 1.0 / 60, state);
+        if (i == 0) {
+            EXPECT_EQ(made, clip);
+        }
+        const double now = left(made, target);
+        EXPECT_LT(std::abs(now - before), 0.02);
+        EXPECT_LE(now, before + 1e-9);
+        before = now;
+    }
+    EXPECT_LT(before, 1e-6);
+}
+
+TEST_F(HeadLook, ATargetThatGoesAroundNeverMakesTheHeadLeap) {
+    LookAtState state;
+    std::vector<rig::Transform> before;
+    double worst = 0.0;
+    bool was_lost = false;
+    for (int frame = 0; frame < 1200; ++frame) {
+        const double angle = frame / 60.0 * 2.0 * (frame < 900 ? 1.0 : -7.0);  // then it leaps about
+        std::vector<rig::Transform> made = rest_pose(skeleton);
+        const LookAtReport report =
+            look.step(made, {.target = {3.0 * std::sin(angle), 1.6, 3.0 * std::cos(angle)}}, 1.0 / 60, state);
+        was_lost |= report.weight == 0.0;
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            const double half = std::min(1.0, std::abs(glm::dot(before[i].rotation, made[i].rotation)));
+            worst = std::max(worst, 2.0 * std::acos(half));
+        }
+        before = made;
+    }
+    EXPECT_TRUE(was_lost) << "behind the back nothing is looked at";
+    EXPECT_LT(worst, 0.2);
+}
+
+TEST_F(HeadLook, RefusesWhatIsNoTargetAndNeedsNoMemory) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    std::vector<rig::Transform> made = rest_pose(skeleton);
+    const std::vector<rig::Transform> before = made;
+    LookAtState state;
+    EXPECT_FALSE(look.step(made, {.target = {0, nan, 0}}, 0.1, state).valid);
+    EXPECT_FALSE(look.step(made, {.spine_part = 0.8}, 0.1, state).valid);
+    EXPECT_STREQ(check(LookAtOptions{.weight = nan}).message(),
+                 "look_at: weight must be from 0 to 1, got nan");
+    EXPECT_EQ(made, before);
+    EXPECT_EQ(state, LookAtState());
+    EXPECT_FALSE(LookAt::make(skeleton, BoneMap()));
+    for (int round = 0; round < 1000; ++round) {
+        made = rest_pose(skeleton);
+        for (rig::Transform& each : made)
+            for (int i = 0; i < 4; ++i) each.rotation[i] = number(-1.0, 1.0);
+        for (rig::Transform& each : made) each.rotation = rig::normalised(each.rotation);
+        glm::dvec3 target;
+        for (int i = 0; i < 3; ++i) target[i] = number(-1.0, 1.0) * std::pow(10.0, number(-9.0, 8.0));
+        if (round % 7 == 0) target = glm::dvec3(0, 1.6, 0);
+        LookAtReport report;
+        without_memory([&] { report = look.step(made, {.target = target, .view = 3.15}, 1.0 / 60, state); });
+        ASSERT_TRUE(report.valid);
+        ASSERT_TRUE(std::isfinite(report.left));
+        for (const rig::Transform& each : made) ASSERT_NEAR(glm::length(each.rotation), 1.0, 1e-9);
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test

@@ -1,0 +1,185 @@
+// Skeletons in any order, where their nodes are, and clips as glTF defines them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/mat4x4.hpp>
+#include <limits>
+#include <random>
+#include <tendril/humanoid/clip.hpp>
+
+namespace tendril::test {
+namespace {
+
+using namespace humanoid;
+
+std::vector<Node> line(std::size_t count) {
+    std::vector<Node> nodes;
+    for (std::size_t i = 0; i < count; ++i) {
+        std::string name(1, 'n');
+        name += std::to_string(i);
+        nodes.push_back({name, static_cast<std::int32_t>(i) - 1, {}});
+    }
+    return nodes;
+}
+
+TEST(Skeleton, StandsInTheFilesOrderAndIsWorkedOutFromTheRootsDown) {
+    // 2 is the root; 0 hangs on 1, which hangs on 2.
+    const auto skeleton =
+        Skeleton::make({{"hand", 1, {}}, {"arm", 2, {}}, {"root", -1, {}}, {"other", -1, {}}});
+    ASSERT_TRUE(skeleton);
+    EXPECT_EQ(skeleton->order(), (std::vector<std::int32_t>{2, 1, 0, 3}));
+    EXPECT_EQ(skeleton->children(2).front(), 1);
+    EXPECT_TRUE(skeleton->is_below(0, 2));
+    EXPECT_FALSE(skeleton->is_below(2, 0));
+    EXPECT_EQ(skeleton->find("arm"), 1u);
+    EXPECT_FALSE(skeleton->find("leg"));
+}
+
+TEST(Skeleton, RefusesWhatIsNoTreeAndSaysWhere) {
+    const auto message = [](std::vector<Node> nodes) {
+        return std::string(Skeleton::make(std::move(nodes)).message());
+    };
+    EXPECT_EQ(message({{"a", 1, {}}, {"b", 0, {}}}),
+              "Skeleton: nodes[0].parent must be of a node that does not hang below it, got 1");
+    EXPECT_EQ(message({{"a", -1, {}}, {"a", 0, {}}}),
+              "Skeleton: nodes[1].name must be other than that of nodes[0], got a");
+    EXPECT_EQ(message({{"", -1, {}}}), "Skeleton: nodes[0].name must be not empty, got \"\"");
+    EXPECT_EQ(message({{"a", 1, {}}}), "Skeleton: nodes[0].parent must be -1 or the place of a node, got 1");
+    std::vector<Node> nodes = line(3);
+    nodes[1].rest.scale.y = 0.0;
+    EXPECT_EQ(message(nodes), "Skeleton: nodes[1].rest.scale.y must be other than 0, got 0");
+    nodes[1].rest.scale.y = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_NE(message(nodes), "");
+    EXPECT_NE(message(line(Skeleton::max_nodes + 1)), "");
+    EXPECT_EQ(message(line(Skeleton::max_nodes)), "");
+}
+
+glm::dmat4 matrix(const rig::Transform& t) {
+    return glm::translate(glm::dmat4(1.0), t.translation) * glm::mat4_cast(t.rotation) *
+           glm::scale(glm::dmat4(1.0), t.scale);
+}
+
+TEST(Skeleton, NodesAreWhereTheProductOfMatricesPutsThem) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> number(-2.0, 2.0);
+    for (int round = 0; round < 200; ++round) {
+        std::vector<Node> nodes = line(8);
+        for (Node& node : nodes) {
+            for (int i = 0; i < 3; ++i) {
+                node.rest.translation[i] = number(random);
+                node.rest.scale[i] = 0.3 + std::abs(number(random));
+            }
+            for (int i = 0; i < 4; ++i) node.rest.rotation[i] = number(random);
+        }
+        const Skeleton skeleton = *Skeleton::make(nodes);
+        std::vector<Placement> placements(skeleton.size());
+        place(skeleton, rest_pose(skeleton), placements);
+        glm::dmat4 product(1.0);
+        for (std::size_t i = 0; i < skeleton.size(); ++i) {
+            product = product * matrix(skeleton[i].rest);
+            EXPECT_LT(glm::distance(placements[i].position, glm::dvec3(product[3])),
+                      1e-9 * (1.0 + glm::length(glm::dvec3(product[3]))));
+            const glm::dvec3 point(0.3, -0.2, 0.9);
+            const glm::dvec3 there(product * glm::dvec4(point, 1.0));
+            EXPECT_LT(glm::distance(placements[i].apply(point), there), 1e-9 * (1.0 + glm::length(there)));
+            EXPECT_NEAR(glm::length(placements[i].rotation()), 1.0, 1e-12);
+        }
+    }
+}
+
+TEST(Placement, RotationIsThatOfATransformWhateverItsScale) {
+    std::mt19937 random(4);
+    std::normal_distribution<double> number;
+    for (int round = 0; round < 1000; ++round) {
+        rig::Transform t;
+        for (int i = 0; i < 4; ++i) t.rotation[i] = number(random);
+        t.rotation = rig::normalised(t.rotation);
+        for (int i = 0; i < 3; ++i) t.scale[i] = std::exp(number(random));
+        EXPECT_NEAR(std::abs(glm::dot(placement(t).rotation(), t.rotation)), 1.0, 1e-12);
+    }
+    for (const glm::dvec3 flat :
+         {glm::dvec3(0, 1, 1), glm::dvec3(1, 0, 1), glm::dvec3(1, 1, 0), glm::dvec3(0, 0, 0)}) {
+        rig::Transform t;
+        t.scale = flat;
+        const glm::dquat rotation = placement(t).rotation();
+        EXPECT_NEAR(glm::length(rotation), 1.0, 1e-12) << "a scale of 0 leaves a rotation";
+    }
+}
+
+Clip one_channel(Channel channel, double duration) {
+    return {.name = "c", .duration = duration, .channels = {std::move(channel)}};
+}
+rig::Transform at(const Clip& clip, double time) {
+    const Skeleton skeleton = *Skeleton::make(line(1));
+    EXPECT_TRUE(check(clip, skeleton)) << check(clip, skeleton).message();
+    std::vector<rig::Transform> pose(1);
+    sample(clip, skeleton, time, pose);
+    return pose[0];
+}
+
+TEST(Clip, StepLinearAndCubicAreAsGltfDefinesThem) {
+    Channel channel{.translation = {Interpolation::Step, {1.0, 2.0}, {{1, 0, 0}, {5, 0, 0}}}};
+    EXPECT_EQ(at(one_channel(channel, 2.0), 0.0).translation.x, 1.0) << "before the first key its value";
+    EXPECT_EQ(at(one_channel(channel, 2.0), 1.999).translation.x, 1.0);
+    EXPECT_EQ(at(one_channel(channel, 2.0), 2.0).translation.x, 5.0);
+    EXPECT_EQ(at(one_channel(channel, 2.0), 9.0).translation.x, 5.0);
+    channel.translation.interpolation = Interpolation::Linear;
+    EXPECT_DOUBLE_EQ(at(one_channel(channel, 2.0), 1.25).translation.x, 2.0);
+    // A cubic through x = t^3 from 1 to 3, its tangents 3 t^2: exact everywhere.
+    const auto cube = [](double t) { return glm::dvec3(t * t * t, 0, 0); };
+    const auto slope = [](double t) { return glm::dvec3(3 * t * t, 0, 0); };
+    channel.translation = {
+        Interpolation::Cubic, {1.0, 3.0}, {slope(1), cube(1), slope(1), slope(3), cube(3), slope(3)}};
+    for (double t = 1.0; t <= 3.0; t += 0.125)
+        EXPECT_NEAR(at(one_channel(channel, 3.0), t).translation.x, t * t * t, 1e-12);
+}
+
+TEST(Clip, RotationsGoTheShortWayAndStayUnits) {
+    const glm::dquat none(1, 0, 0, 0), turned = glm::angleAxis(1.2, glm::dvec3(0, 1, 0));
+    for (const glm::dquat& to : {turned, -turned}) {
+        const Channel channel{.rotation = {Interpolation::Linear, {0.0, 1.0}, {none, to}}};
+        const glm::dquat quarter = at(one_channel(channel, 1.0), 0.25).rotation;
+        EXPECT_NEAR(std::abs(glm::dot(quarter, glm::angleAxis(0.3, glm::dvec3(0, 1, 0)))), 1.0, 1e-12);
+    }
+    const glm::dquat zero(0, 0, 0, 0);
+    const Channel cubic{
+        .rotation = {Interpolation::Cubic, {0.0, 1.0}, {zero, none, zero, zero, turned, zero}}};
+    EXPECT_NEAR(glm::length(at(one_channel(cubic, 1.0), 0.4).rotation), 1.0, 1e-12);
+    EXPECT_NEAR(std::abs(glm::dot(at(one_channel(cubic, 1.0), 0.5).rotation,
+                                  glm::angleAxis(0.6, glm::dvec3(0, 1, 0)))),
+                1.0, 1e-12);
+}
+
+TEST(Clip, RefusesWhatDoesNotFitAndSaysWhere) {
+    const Skeleton skeleton = *Skeleton::make(line(2));
+    const auto message = [&](const Channel& channel, double duration = 5.0) {
+        return std::string(check(one_channel(channel, duration), skeleton).message());
+    };
+    const Track<glm::dvec3> good{Interpolation::Linear, {0.0, 1.0}, {{0, 0, 0}, {1, 0, 0}}};
+    EXPECT_EQ(message({.translation = good}), "");
+    EXPECT_EQ(message({.node = 2, .translation = good}),
+              "Clip c: channels[0].node must be the place of a node, got 2");
+    Track<glm::dvec3> bad = good;
+    bad.times[1] = 0.0;
+    EXPECT_EQ(message({.translation = bad}),
+              "Clip c: channels[0].translation.times[1] must be over the time before it, got 0");
+    bad.times[1] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(message({.translation = bad}),
+              "Clip c: channels[0].translation.times[1] must be from 0 to the duration, got nan");
+    bad = good;
+    bad.values[0].y = std::numeric_limits<double>::infinity();
+    EXPECT_NE(message({.scale = bad}).find("channels[0].scale.values[0]"), std::string::npos);
+    bad = good;
+    bad.values.pop_back();
+    EXPECT_NE(message({.translation = bad}).find("values"), std::string::npos);
+    EXPECT_NE(message({.rotation = {Interpolation::Linear, {0.0}, {{2, 0, 0, 0}}}}).find("unit quaternion"),
+              std::string::npos);
+    EXPECT_NE(message({.translation = good}, 0.5).find("duration"), std::string::npos);
+    Clip twice = one_channel({.translation = good}, 1.0);
+    twice.channels.push_back(twice.channels[0]);
+    EXPECT_EQ(check(twice, skeleton).code(), ErrorCode::InvalidArgument);
+}
+
+}  // namespace
+}  // namespace tendril::test

@@ -1,0 +1,67 @@
+#include "fnv.hpp"
+#include "humanoid_figure.hpp"
+#include "random.hpp"
+#include "session.hpp"
+#include "tendril/humanoid/body.hpp"
+#include "tendril/humanoid/feet.hpp"
+
+namespace tendril::test {
+namespace {
+
+/// Multiples of 2^-16 from -1 to 1, exact.
+glm::dvec3 some_vector(Random& random) {
+    const auto part = [&] { return (static_cast<double>(random.below(1u << 17)) - 65536.0) / 65536.0; };
+    const double x = part(), y = part(), z = part();
+    return {x, y, z};
+}
+
+void add(Fnv& hash, const std::vector<rig::Transform>& pose) {
+    for (const rig::Transform& each : pose) {
+        for (int axis = 0; axis < 3; ++axis) hash.add(each.translation[axis]);
+        for (const double part : {each.rotation.x, each.rotation.y, each.rotation.z, each.rotation.w})
+            hash.add(part);
+    }
+}
+
+}  // namespace
+
+std::uint64_t humanoid_hash() {
+    Fnv hash;
+    Random random(11);
+    const Skeleton skeleton = make_figure({});
+    const BoneMap map = match_bones(skeleton);
+    const auto rest = rest_pose(skeleton);
+    const auto capsules = default_capsules(skeleton, map);
+    Body free = *Body::make(skeleton, map),
+         held = *Body::make(skeleton, map, default_limits(skeleton, map), capsules);
+    const Feet feet = *Feet::make(skeleton, map);
+    const Ground stairs = *Ground::stairs(0.125, 0.25);
+    BodyState free_state, held_state;
+    FeetState feet_state;
+    for (int frame = 0; frame < 300; ++frame) {
+        std::vector<BodyTarget> targets;
+        for (std::size_t i = 0; i < effector_count; ++i)
+            if (random.chance(2))
+                targets.push_back(
+                    {static_cast<Effector>(i), glm::dvec3(0.0, 1.0, 0.0) + some_vector(random)});
+        auto pose = rest;
+        for (const Bone bone : {Bone::LeftUpperLeg, Bone::RightUpperLeg, Bone::LeftUpperArm, Bone::Chest}) {
+            const glm::dvec3 turn = 0.25 * some_vector(random);
+            pose[static_cast<std::size_t>(map[bone].node)].rotation =
+                rig::normalised(glm::dquat(1.0, turn.x, turn.y, turn.z));
+        }
+        pose[0].translation += glm::dvec3(0.0, 0.0, frame / 256.0);
+        auto walked = pose;
+        static_cast<void>(feet.step(walked, stairs, 1.0 / 64.0, feet_state));
+        add(hash, walked);
+        for (Body* body : {&free, &held}) {
+            auto solved = pose;
+            const auto report = body->solve(solved, targets, body == &free ? free_state : held_state);
+            hash.add(report ? report->residual : -1.0);
+            add(hash, solved);
+        }
+    }
+    return hash.value();
+}
+
+}  // namespace tendril::test

@@ -1,0 +1,10 @@
+// A glTF or GLB file is refused by a std::runtime_error that names it, or is a character that can be played.
+#include "app/io/character/gltf.hpp"
+#include "tests/fuzz/character.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace tendril;
+    const std::string_view text = fuzz::text_of(data, size);
+    fuzz::check_character([&] { return app::parse_gltf(text, "it", "/nowhere"); });
+    return 0;
+}

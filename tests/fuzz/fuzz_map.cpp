@@ -1,0 +1,25 @@
+// A bone map's file is refused by a std::runtime_error that names it, or reads back as what it was.
+#include <stdexcept>
+
+#include "app/io/character/map_file.hpp"
+#include "app/io/character/stick_figure.hpp"
+#include "tests/fuzz/check.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace tendril;
+    static const app::Character figure = app::stick_figure();
+    app::SavedMap map;
+    try {
+        map = app::parse_map(fuzz::text_of(data, size), "it");
+    } catch (const std::runtime_error& error) {
+        fuzz::check(std::string_view(error.what()).starts_with("it: "), "a refusal names the file");
+        return 0;
+    }
+    fuzz::check(app::parse_map(app::map_text(map), "it") == map, "what was read is written the same");
+    try {
+        app::applied(map, figure.skeleton);
+    } catch (const std::runtime_error&) {
+        // Names that the figure does not have.
+    }
+    return 0;
+}
