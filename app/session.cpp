@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "app/app.hpp"
-#include "app/document/command.hpp"
 #include "app/document/atomic_file.hpp"
+#include "app/document/command.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/document/text.hpp"
 #include "app/live_loop.hpp"

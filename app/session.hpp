@@ -28,8 +28,8 @@ struct SessionOptions {
 /// not be read, written, known or opened. What is wrong goes to stderr, in one line.
 int run_session(const SessionOptions& options);
 
-/// Lets SIGINT and SIGTERM end the session as Ctrl+Q does: cleanly, and with everything written. What it gives
-/// back becomes true then, for those who run something else than a session.
+/// Lets SIGINT and SIGTERM end the session as Ctrl+Q does: cleanly, and with everything written. What it
+/// gives back becomes true then, for those who run something else than a session.
 const std::atomic<bool>& end_session_on_signals();
 
 }  // namespace tendril::app

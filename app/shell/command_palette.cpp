@@ -212,9 +212,8 @@ void CommandPalette::explain(const Found& found) {
         text_elided(complaint_, room);
         ImGui::PopStyleColor();
     } else {
-        text_elided(
-            count_text(found.size(), "command") + ".  Up and Down choose, Enter runs, Escape closes.", room,
-            true);
+        text_elided(count_text(found.size(), "command") + ".  Up and Down choose, Enter runs, Escape closes.",
+                    room, true);
     }
 }
 

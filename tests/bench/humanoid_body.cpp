@@ -4,9 +4,9 @@
 //     tendril_bench_humanoid_body --check    the same, and exit code 1 when a claim does not hold
 //
 // Claims, each of the worst row in which the targets can be reached:
-//  - a frame takes under 50 microseconds without limits, under 100 within them, and under 200 where the
-//  body's
-//    capsules are kept apart as well.
+//  - a frame takes under 50 microseconds without limits, under 100 within them, and under 200 where
+//    the body's capsules are kept apart as well.
+//
 // Targets that jump anywhere in every frame, most of them out of reach, have a row and a claim of their own:
 // under 250 microseconds a frame.
 #include <algorithm>

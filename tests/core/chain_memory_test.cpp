@@ -16,7 +16,8 @@ void* operator new(std::size_t size) {
     }
     throw std::bad_alloc();
 }
-// What the standard library asks for with nothrow, as stable_sort does, is freed by the operator below as well.
+// What the standard library asks for with nothrow, as stable_sort does, is freed by the operator below as
+// well.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
     return tendril::test::memory_is_out ? nullptr : std::malloc(size == 0 ? 1 : size);
 }

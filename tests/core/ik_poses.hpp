@@ -1,4 +1,5 @@
-// What the tests of solvers share that takes no solver: lengths, poses, and the promise that every solve keeps.
+// What the tests of solvers share that takes no solver: lengths, poses, and the promise that every solve
+// keeps.
 #pragma once
 
 #include <algorithm>

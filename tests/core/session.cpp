@@ -4,9 +4,9 @@
 
 #include "fnv.hpp"
 #include "random.hpp"
+#include "rope_named.hpp"
 #include "tendril/chain/chain.hpp"
 #include "tendril/ik/solver.hpp"
-#include "rope_named.hpp"
 
 namespace tendril::test {
 namespace {

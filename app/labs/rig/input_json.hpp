@@ -1,8 +1,7 @@
 // Where units take values from, as JSON:
 //
 //     [0, 1, 2]                                                          a literal
-//     "head"                                                             an element: what of it the input
-//     takes
+//     "head"                                                             an element: the input takes its part
 //     {"element": "head", "of": "translation", "space": "global"}        part of an element's pose
 //     {"element": "dial", "of": "value"}                                 what a control is set to
 //     {"unit": "curve", "output": "result"}                              what a unit hands out

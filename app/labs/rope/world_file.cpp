@@ -191,11 +191,16 @@ const char* body_kind_name(rope::Body::Kind kind) {
 }
 
 Json save_settings(const rope::Settings& settings) {
-    return Json{{"substep", settings.substep},           {"iterations", settings.iterations},
-                {"solver", rope_solvers.name(settings.solver)}, {"damping", number(settings.damping)},
-                {"gravity", point(settings.gravity)},    {"gravity_scale", number(settings.gravity_scale)},
-                {"external", point(settings.external)},  {"compliance", number(settings.compliance)},
-                {"friction", number(settings.friction)}, {"longest_frame", number(settings.longest_frame)}};
+    return Json{{"substep", settings.substep},
+                {"iterations", settings.iterations},
+                {"solver", rope_solvers.name(settings.solver)},
+                {"damping", number(settings.damping)},
+                {"gravity", point(settings.gravity)},
+                {"gravity_scale", number(settings.gravity_scale)},
+                {"external", point(settings.external)},
+                {"compliance", number(settings.compliance)},
+                {"friction", number(settings.friction)},
+                {"longest_frame", number(settings.longest_frame)}};
 }
 
 Json save_shape(const rope::Shape& shape) {

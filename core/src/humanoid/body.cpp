@@ -161,7 +161,7 @@ Expected<Body> Body::make(const Skeleton& skeleton, const BoneMap& map, const Bo
          {Bone::LeftUpperArm, Bone::RightUpperArm, Bone::LeftUpperLeg, Bone::RightUpperLeg}) {
         const Bone lower = *detail::limb_child(upper), end = *detail::limb_child(lower);
         detail::BodyLimb limb{link_of(work->bones, upper), link_of(work->bones, lower),
-                          link_of(work->bones, end)};
+                              link_of(work->bones, end)};
         limb.axis = math::wide(usual[static_cast<std::size_t>(lower)].axis);
         if (work->joints.parent(lower) == upper && work->joints.parent(end) == lower)
             work->limbs.push_back(limb);

@@ -28,7 +28,7 @@ class BodySolve {
         glm::dvec3 position;
         double weight;
         const BodyTarget* target;  ///< null: a foot that stays
-        const BodyLimb* limb;          ///< null: the head, the hips
+        const BodyLimb* limb;      ///< null: the head, the hips
         glm::dvec3 left{0.0};      ///< metres to go, as the solve takes its limb to be
         glm::dvec3 stuck{0.0};     ///< of that, what the last step did not bring nearer
     };

@@ -71,11 +71,19 @@ class BlockSolver {
     // The second where either is no number, in every vector unit. Highway's own Max and Min leave that to the
     // machine; x86's are just that, and quicker.
 #if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
-    static V larger(V a, V b) { return hn::Max(a, b); }
-    static V smaller(V a, V b) { return hn::Min(a, b); }
+    static V larger(V a, V b) {
+        return hn::Max(a, b);
+    }
+    static V smaller(V a, V b) {
+        return hn::Min(a, b);
+    }
 #else
-    static V larger(V a, V b) { return hn::IfThenElse(hn::Gt(a, b), a, b); }
-    static V smaller(V a, V b) { return hn::IfThenElse(hn::Lt(a, b), a, b); }
+    static V larger(V a, V b) {
+        return hn::IfThenElse(hn::Gt(a, b), a, b);
+    }
+    static V smaller(V a, V b) {
+        return hn::IfThenElse(hn::Lt(a, b), a, b);
+    }
 #endif
     static V3 plus(const V3& a, const V3& b) {
         return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
@@ -83,7 +91,9 @@ class BlockSolver {
     static V3 minus(const V3& a, const V3& b) {
         return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
     }
-    static V3 times(V by, const V3& a) { return {hn::Mul(by, a.x), hn::Mul(by, a.y), hn::Mul(by, a.z)}; }
+    static V3 times(V by, const V3& a) {
+        return {hn::Mul(by, a.x), hn::Mul(by, a.y), hn::Mul(by, a.z)};
+    }
     static V dot(const V3& a, const V3& b) {
         return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
     }

@@ -1,6 +1,6 @@
 // The frame itself, run in this process on a window off screen.
-#include "app/document/refused.hpp"
 #include "app/app.hpp"
+#include "app/document/refused.hpp"
 
 #include <glm/geometric.hpp>
 

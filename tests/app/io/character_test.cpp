@@ -33,7 +33,8 @@ TEST(StickFigure, walks_and_punches) {
     EXPECT_EQ(figure.clips[0].name, "walk");
     EXPECT_EQ(figure.clips[1].name, "punch");
     for (const humanoid::Clip& clip : figure.clips)
-        EXPECT_TRUE(humanoid::check(clip, figure.skeleton)) << humanoid::check(clip, figure.skeleton).message();
+        EXPECT_TRUE(humanoid::check(clip, figure.skeleton))
+            << humanoid::check(clip, figure.skeleton).message();
     std::vector<rig::Transform> pose(figure.skeleton.size());
     humanoid::sample(figure.clips[0], figure.skeleton, figure.clips[0].duration, pose);
     EXPECT_NEAR(pose[*figure.skeleton.find("Hips")].translation.z, 1.1, 1e-9);

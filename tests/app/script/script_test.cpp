@@ -41,7 +41,8 @@ TEST(Script, has_lines_for_commands) {
     EXPECT_EQ(only<RunCommand>(R"({"command": "undo"})").arguments->dump(), "{}");
     // An argument may have the name of another line's form.
     EXPECT_EQ(
-        only<RunCommand>(R"({"key": 1, "command": "undo", "wait": 2, "recording": 3})").arguments->size(), 3u);
+        only<RunCommand>(R"({"key": 1, "command": "undo", "wait": 2, "recording": 3})").arguments->size(),
+        3u);
 }
 
 TEST(Script, has_lines_for_the_mouse) {

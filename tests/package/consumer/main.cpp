@@ -26,9 +26,10 @@ int main() {
     const std::vector<glm::vec3> targets(batch.size(), glm::vec3(1, 2, 1));
     std::vector<tendril::ik::ManyReport> reports(batch.size());
     tendril::ik::solve_many(batch, targets, reports);
-    const auto arrived = std::count_if(reports.begin(), reports.end(), [](const tendril::ik::ManyReport& report) {
-        return report.status == tendril::ik::Status::Converged;
-    });
+    const auto arrived =
+        std::count_if(reports.begin(), reports.end(), [](const tendril::ik::ManyReport& report) {
+            return report.status == tendril::ik::Status::Converged;
+        });
     std::printf("%d of %zu tips arrived\n", static_cast<int>(arrived), batch.size());
 
     // Springs one by one, by name and by the batch come to the same.

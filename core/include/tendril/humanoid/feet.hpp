@@ -9,22 +9,20 @@
 //     if (report.feet[0].planted) ...                             // the pose is the corrected one now
 //
 // What a step does, in this order:
-//  - The root rides the ground: hips and all on them are moved by the height of the ground around the hips
-//  (the
-//    mean over a disc), smoothed by a critically damped spring.
-//  - A foot is locked while it is in stance: its sole low over the clip's own floor, and slow. Its toe then
-//  stays
-//    where it is, seen from above. Locked or not, a ray from above the ankle down through heel and toe each
-//    finds the ground; the foot is turned by the mean of the two normals, and stands as high over the ground
-//    as the clip has it over its floor, counted from whichever of the two is supported (on level ground, the
-//    higher hit). What a lock moved it by eases out. A foot in the air also looks ahead, so that it is over
-//    the edge of a step before it is there.
-//  - The pelvis is lowered by what a leg is short of, by a critically damped spring, but never later than a
-//  foot
-//    needs that stands on the ground.
-//  - Legs are solved in closed form. Knees stay on the side where the clip has them, and go by the
-//  character's
-//    forward where they are straight. No leg becomes straighter than `straightest`.
+//
+//  1. The root rides the ground: hips and all that hangs on them move by the height of the ground around
+//     them (the mean over a disc), smoothed by a critically damped spring.
+//  2. A foot is locked while it is in stance: its sole low over the clip's own floor, and slow. Its toe
+//     then stays where it is, seen from above. Locked or not, a ray from above the ankle down through heel
+//     and toe each finds the ground; the foot is turned by the mean of the two normals, and stands as high
+//     over the ground as the clip has it over its floor, counted from whichever of the two is supported (on
+//     level ground, the higher hit). What a lock moved it by eases out. A foot in the air also looks ahead,
+//     so that it is over the edge of a step before it is there.
+//  3. The pelvis is lowered by what a leg is short of, by a critically damped spring, but never later than
+//     a foot needs that stands on the ground.
+//  4. Legs are solved in closed form. Knees stay on the side where the clip has them, and go by the
+//     character's forward where they are straight. No leg becomes straighter than `straightest`.
+//
 // Where the ground is too steep, too far or missing, or out of the leg's reach, the leg keeps the clip's
 // pose, and the report says why. Without any ground the pose comes back to the bit.
 //

@@ -23,8 +23,8 @@ class HumanoidContacts : public HumanoidTest {
                 continue;
             for (const auto& other : capsules)
                 if (other.bone <= Bone::Head)
-                    deepest = std::max(deepest, -gap(place(arm, *part().map, placed),
-                                                     place(other, *part().map, placed)));
+                    deepest = std::max(
+                        deepest, -gap(place(arm, *part().map, placed), place(other, *part().map, placed)));
         }
         return deepest;
     }
