@@ -22,9 +22,10 @@
 //     Axis       the figure lies on its side                                      hips          deg
 //
 // Feet and knees need a map with a leg; without one the rest is judged. Stances are found by the foot's own
-// speed and height, after K. Yamane, J. Hodgins, "Footskate cleanup for motion capture editing" (SCA 2002)
-// and L. Kovar et al. (ibid.); how far a standing foot slides is the motion of that point of its sole that
-// moves the least, so that rolling from heel to toe and turning on the ball are no sliding.
+// speed and height, after L. Kovar, J. Schreiner, M. Gleicher, "Footskate Cleanup for Motion Capture Editing"
+// (SCA 2002), whose cure is also this one's model: the leg is solved in closed form and the correction
+// blended out; how far a standing foot slides is the motion of that point of its sole that moves the least,
+// so that rolling from heel to toe and turning on the ball are no sliding.
 //
 // Cost: O(frames * nodes); some 20 us a frame of 60 nodes.
 #pragma once
@@ -94,6 +95,8 @@ LintReport lint(const Skeleton& skeleton, const BoneMap& map, const Clip& clip,
 
 /// The clip without that fault, and as it was otherwise:
 ///   SignFlip: all keys of the track on one hemisphere; it turns as before.
+///   Skating, Floating, Sinking: the foot stands where it stood midway, on the floor, and goes over into its
+///   motion within 0.15 s before and after; the hips are lowered where its leg is too short for that.
 ///   Jump, KneePop: keys that stand apart for a frame or two go between their neighbours; a step is spread
 ///   over a quarter of a second.
 ///   Scale of a clip: its translations take the skeleton's size. Axis of a clip: its roots are turned

@@ -1,12 +1,14 @@
 #include <algorithm>
 
-#include "humanoid/lint/lint.hpp"
+#include "humanoid/lint/cure_foot.hpp"
+#include "humanoid/lint/tracks.hpp"
 #include "math/checks.hpp"
 
 namespace tendril::humanoid {
 namespace {
 
 using namespace rig::detail;
+using lint_detail::value_at;
 
 constexpr double ease = 0.125;  // seconds before and after a step over which it is spread
 
@@ -32,18 +34,6 @@ glm::dquat moved(const glm::dquat& value, const glm::dquat& way) {
 }
 glm::dvec3 moved(const glm::dvec3& value, const glm::dvec3& way) {
     return plus(value, way);
-}
-
-/// What a node's track says at a time.
-glm::dquat value_at(const Channel& channel, double time, const Track<glm::dquat>&) {
-    rig::Transform local;
-    sample(channel, time, local);
-    return local.rotation;
-}
-glm::dvec3 value_at(const Channel& channel, double time, const Track<glm::dvec3>&) {
-    rig::Transform local;
-    sample(channel, time, local);
-    return local.translation;
 }
 
 /// Keys from `first` to `last` go along the way from what was before to what comes after.
@@ -135,8 +125,15 @@ Expected<Clip> cure(const Skeleton& skeleton, const BoneMap& map, const Clip& cl
         return tendril::detail::refused("cure", "finding", "one that has a cure", name(finding.fault));
     if (finding.node >= static_cast<std::int32_t>(skeleton.size()))
         return tendril::detail::refused("cure", "finding.node", "the place of a node", finding.node);
+    LintReport report = lint_detail::blank_report(clip, settings);
+    if (finding.first > finding.last || finding.last >= report.frames)
+        return tendril::detail::refused("cure", "finding", "one of this clip",
+                                        std::string_view(finding.text));
+    if (finding.fault == Fault::Skating || finding.fault == Fault::Floating ||
+        finding.fault == Fault::Sinking)
+        return lint_detail::cure_foot({skeleton, map, clip, settings, 0.0, report}, finding);
     Clip cured = clip;
-    const double rate = settings.rate > 0.0 ? settings.rate : frame_rate(clip);
+    const double rate = report.rate;
     const auto each_of = [&](std::initializer_list<std::int32_t> nodes, auto mend) {
         for (Channel& channel : cured.channels)
             for (const std::int32_t node : nodes)

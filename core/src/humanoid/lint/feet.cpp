@@ -19,26 +19,6 @@ double level(const glm::dvec3& v) noexcept {
     return std::sqrt(v.x * v.x + v.z * v.z);
 }
 
-/// The way of the point of the sole that moves the least between two frames. Between its points too: the
-/// motion of a stiff foot is linear in the point.
-glm::dvec3 smallest_move(const Foot& foot, std::size_t frame, const glm::dvec3& treadmill) {
-    glm::dvec3 best(1e9);
-    const auto take = [&](const glm::dvec3& a, const glm::dvec3& b) {
-        const glm::dvec3 way = minus(b, a);
-        const double along = way.x * way.x + way.z * way.z;
-        const double part = along > 0.0 ? std::clamp(-(a.x * way.x + a.z * way.z) / along, 0.0, 1.0) : 0.0;
-        const glm::dvec3 move = plus(a, times(way, part));
-        if (level(move) < level(best)) best = move;
-    };
-    for (std::size_t k = 0; k < foot.points.size(); ++k) {
-        const auto move = [&](std::size_t point) {
-            return minus(minus(foot.at(point, frame), foot.at(point, frame - 1)), treadmill);
-        };
-        take(move(k), move(k + 1 < foot.points.size() ? k + 1 : k));
-    }
-    return best;
-}
-
 struct Stretch {
     std::size_t first, last;
 };
@@ -158,12 +138,31 @@ void check_sinking(Check& check, const Foot& foot, double limit) {
     }
 }
 
-/// The floor that feet stand on. Where the figure rests on the ground it is that, if feet stand there in the
-/// clip for a fifth of the time in which they stand at all; or else where they stand most.
-std::optional<double> floor_of(const std::vector<Foot>& feet, bool rests_on_ground, double rate) {
+}  // namespace
+
+/// Between the points too: the motion of a stiff foot is linear in the point.
+glm::dvec3 smallest_move(const Foot& foot, std::size_t frame, const glm::dvec3& ground) {
+    glm::dvec3 best(1e9);
+    const auto take = [&](const glm::dvec3& a, const glm::dvec3& b) {
+        const glm::dvec3 way = minus(b, a);
+        const double along = way.x * way.x + way.z * way.z;
+        const double part = along > 0.0 ? std::clamp(-(a.x * way.x + a.z * way.z) / along, 0.0, 1.0) : 0.0;
+        const glm::dvec3 move = plus(a, times(way, part));
+        if (level(move) < level(best)) best = move;
+    };
+    for (std::size_t k = 0; k < foot.points.size(); ++k) {
+        const auto move = [&](std::size_t point) {
+            return minus(minus(foot.at(point, frame), foot.at(point, frame - 1)), ground);
+        };
+        take(move(k), move(k + 1 < foot.points.size() ? k + 1 : k));
+    }
+    return best;
+}
+
+std::optional<double> floor_of(const FeetMotion& motion, double rate) {
     constexpr double width = 0.03;
     std::vector<double> heights, at_rest;
-    for (const Foot& foot : feet) {
+    for (const Foot& foot : motion.feet) {
         for (std::size_t i = 0; i < foot.height.size(); ++i) {
             if (!foot.still[i]) continue;
             heights.push_back(foot.height[i]);
@@ -171,19 +170,17 @@ std::optional<double> floor_of(const std::vector<Foot>& feet, bool rests_on_grou
         }
     }
     if (static_cast<double>(heights.size()) < shortest_stance * rate) return std::nullopt;
-    const bool use_rest = rests_on_ground && 5 * at_rest.size() >= heights.size();
+    const bool use_rest = motion.rests_on_ground && 5 * at_rest.size() >= heights.size();
     std::vector<double>& used = use_rest ? at_rest : heights;
     std::sort(used.begin(), used.end());
     return use_rest ? used[used.size() / 2] : densest(used, width);
 }
 
-}  // namespace
-
 void check_feet(Check& check) {
     if (check.report.frames < 4) return;
     const FeetMotion motion = feet_motion(check);
     if (motion.feet.empty()) return;
-    const std::optional<double> floor = floor_of(motion.feet, motion.rests_on_ground, check.report.rate);
+    const std::optional<double> floor = floor_of(motion, check.report.rate);
     if (!floor) return;
     check.report.has_floor = true;
     check.report.floor = *floor;
@@ -196,6 +193,11 @@ void check_feet(Check& check) {
         check_skating(check, foot, motion.treadmill, slide);
         check_floating(check, foot, check.settings.floating + unknown);
         check_sinking(check, foot, check.settings.sinking + unknown);
+        if (!leg_of(check.skeleton, check.map, foot.node)) continue;
+        for (Finding& each : check.report.findings)
+            each.has_cure |=
+                each.node == foot.node && (each.fault == Fault::Skating || each.fault == Fault::Floating ||
+                                           each.fault == Fault::Sinking);
     }
 }
 

@@ -3,9 +3,12 @@
 
 #include <vector>
 
+#include "humanoid/limb.hpp"
 #include "humanoid/lint/lint.hpp"
 
 namespace tendril::humanoid::lint_detail {
+
+using detail::Limb;
 
 /// A point of the sole: a node of the foot, put down by as much as it is above the ground when the foot
 /// stands flat. It is not turned with the foot, so that what is not known of the sole adds nothing where the
@@ -42,6 +45,16 @@ struct FeetMotion {
     bool knows_soles = false;        ///< it stands as it rests: how it rests tells where the soles are
 };
 FeetMotion feet_motion(const Check& check);
+
+/// The floor that feet stand on: where the figure rests on the ground that, if feet stand there in the clip
+/// for a fifth of the time in which they stand at all; or else where they stand most. None where they hardly
+/// do.
+std::optional<double> floor_of(const FeetMotion& motion, double rate);
+/// How the point of the sole moves that moves the least between the frame before and this one, the ground's
+/// own way taken away.
+glm::dvec3 smallest_move(const Foot& foot, std::size_t frame, const glm::dvec3& ground);
+/// What ends in that foot; none where thigh or shin are missing.
+std::optional<Limb> leg_of(const Skeleton& skeleton, const BoneMap& map, std::int32_t foot);
 
 /// The middle of the densest `width` of sorted values, of which there is one.
 double densest(const std::vector<double>& sorted, double width);

@@ -32,6 +32,14 @@ Finding& Check::add(Fault fault, std::int32_t node, std::size_t frame, std::size
     return report.findings.back();
 }
 
+LintReport blank_report(const Clip& clip, const LintSettings& settings) {
+    LintReport report;
+    report.rate = settings.rate > 0.0 ? std::min(settings.rate, 1000.0) : frame_rate(clip);
+    const double frames = std::floor(clip.duration * report.rate + 1e-3) + 1.0;
+    report.frames = static_cast<std::size_t>(std::min(frames, static_cast<double>(max_lint_frames)));
+    return report;
+}
+
 namespace {
 
 /// From the lowest node at rest to the highest; of one that lies, its length.
@@ -85,10 +93,7 @@ double frame_rate(const Clip& clip) noexcept {
 
 LintReport lint(const Skeleton& skeleton, const BoneMap& map, const Clip& clip,
                 const LintSettings& settings) {
-    LintReport report;
-    report.rate = settings.rate > 0.0 ? std::min(settings.rate, 1000.0) : frame_rate(clip);
-    const double frames = std::floor(clip.duration * report.rate + 1e-3) + 1.0;
-    report.frames = static_cast<std::size_t>(std::min(frames, static_cast<double>(max_lint_frames)));
+    LintReport report = lint_detail::blank_report(clip, settings);
     lint_detail::Check check{skeleton, map, clip, settings, lint_detail::height_of(skeleton), report};
     check_signs(check);
     check_sizes(check);

@@ -32,6 +32,9 @@ struct Check {
                  double amount, const char* unit, const std::string& text);
 };
 
+/// Of a clip before anything was found in it.
+LintReport blank_report(const Clip& clip, const LintSettings& settings);
+
 void check_feet(Check& check);
 void check_knees(Check& check);
 void check_jumps(Check& check);

@@ -1,0 +1,226 @@
+// Feet that slide, float or sink in a clip, and the clip after the lint has mended them.
+#include <gtest/gtest.h>
+
+#include "tests/app/io/lint_support.hpp"
+#include "tests/core/random.hpp"
+
+namespace tendril::app::test {
+namespace {
+
+using tendril::test::Random;
+
+class LintCure : public ::testing::Test {
+  protected:
+    const Character figure = stick_figure();
+    const Skeleton& skeleton = figure.skeleton;
+    const BoneMap map = match_bones(skeleton);
+
+    Frames walk(double rate, double seconds = 3.3) const {
+        return {skeleton, figure.clips[0], rate, seconds};
+    }
+    LintReport run(const Clip& clip) const {
+        EXPECT_TRUE(check(clip, skeleton)) << check(clip, skeleton).message();
+        return lint(skeleton, map, clip);
+    }
+    static std::string texts(const LintReport& report) {
+        std::string all;
+        for (const Finding& each : report.findings) all += each.text + '\n';
+        return all;
+    }
+    static std::size_t frame(double seconds, double rate) {
+        return static_cast<std::size_t>(std::lround(seconds * rate));
+    }
+    /// Mends what is found until nothing is, as a person would who clicks on each.
+    Clip mended(Clip clip, int most) const {
+        for (int i = 0;; ++i) {
+            const LintReport report = run(clip);
+            if (report.findings.empty()) return clip;
+            EXPECT_LT(i, most) << texts(report);
+            if (i >= most) return clip;
+            EXPECT_TRUE(report.findings[0].has_cure) << texts(report);
+            const Expected<Clip> next = cure(skeleton, map, clip, report.findings[0]);
+            EXPECT_TRUE(next) << next.message();
+            if (!next) return clip;
+            clip = *next;
+        }
+    }
+    std::vector<Placement> placed_pose(const std::vector<rig::Transform>& pose) const {
+        std::vector<Placement> all(skeleton.size());
+        place(skeleton, pose, all);
+        return all;
+    }
+    std::vector<Placement> placed(const Clip& clip, double time) const {
+        std::vector<rig::Transform> pose(skeleton.size());
+        sample(clip, skeleton, time, pose);
+        return placed_pose(pose);
+    }
+    /// The furthest that a node is elsewhere in the other clip, metres.
+    double apart(const Clip& a, const Clip& b, const char* node, double from, double to) const {
+        double most = 0.0;
+        for (double time = from; time <= to; time += 1.0 / 240.0)
+            most = std::max(most, glm::distance(placed(a, time)[*skeleton.find(node)].position,
+                                                placed(b, time)[*skeleton.find(node)].position));
+        return most;
+    }
+};
+
+double ramp(double time, double first, double last) {
+    const double u = std::clamp((time - first) / (last - first), 0.0, 1.0);
+    return u * u * (3.0 - 2.0 * u);
+}
+
+TEST_F(LintCure, a_foot_that_slid_stands) {
+    // The left foot stands flat from 1.21 s to 1.49 s.
+    for (const double rate : {24.0, 30.0, 60.0, 120.0}) {
+        for (const glm::dvec3& way :
+             {glm::dvec3(0.06, 0, 0), glm::dvec3(0, 0, -0.1), glm::dvec3(0.04, 0, 0.04)}) {
+            Frames frames = walk(rate);
+            for (std::size_t k = 0; k < frames.poses.size(); ++k) {
+                const double time = static_cast<double>(k) / rate;
+                frames.move_foot(k, "Left", way * (ramp(time, 1.25, 1.45) - ramp(time, 1.6, 1.9)));
+            }
+            const Clip clip = frames.clip(), whole = mended(clip, 2);
+            const LintReport before = run(clip), after = run(whole);
+            EXPECT_GT(before.skating, 0.05);
+            EXPECT_LT(after.skating, 0.02) << rate;
+            for (const char* node : {"Head", "RightFoot", "LeftHand"})
+                EXPECT_LT(apart(clip, whole, node, 0.0, 3.3), 0.02) << node;
+            EXPECT_LT(apart(clip, whole, "LeftFoot", 0.0, 0.9), 1e-9);
+            EXPECT_LT(apart(clip, whole, "LeftFoot", 2.0, 3.3), 1e-9);
+        }
+    }
+}
+
+TEST_F(LintCure, feet_that_float_come_down_and_feet_that_sink_come_up) {
+    for (const double rate : {30.0, 60.0}) {
+        for (const double by : {-0.06, -0.035, 0.04, 0.06}) {
+            Frames frames = walk(rate);
+            for (std::size_t k = 0; k < frames.poses.size(); ++k) {
+                const double time = static_cast<double>(k) / rate;
+                frames.poses[k][0].translation.y += by * (ramp(time, 1.0, 1.25) - ramp(time, 1.75, 2.0));
+            }
+            const Clip clip = frames.clip();
+            ASSERT_FALSE(run(clip).findings.empty()) << by;
+            const Clip whole = mended(clip, 8);
+            EXPECT_LT(apart(clip, whole, "LeftFoot", 0.0, 0.8), 1e-9);
+            EXPECT_LT(apart(clip, whole, "Head", 0.0, 3.3), std::abs(by) + 0.03);
+        }
+    }
+}
+
+TEST_F(LintCure, a_foot_that_its_leg_cannot_reach_lowers_the_hips_and_leaves_the_other_where_it_is) {
+    const double rate = 60.0;
+    Frames frames(skeleton, figure.clips[0], rate, 0.0);
+    std::vector<rig::Transform> bent = rest_pose(skeleton);
+    for (const char* const side : {"Left", "Right"}) {
+        const auto bend = [&](const char* bone, double angle) {
+            bent[*skeleton.find(std::string(side) + bone)].rotation =
+                glm::angleAxis(angle, glm::dvec3(1, 0, 0));
+        };
+        bend("UpperLeg", -0.2), bend("LowerLeg", 0.4), bend("Foot", -0.2);
+    }
+    bent[0].translation.y -= placed_pose(bent)[*skeleton.find("LeftFoot")].position.y - 0.09;
+    frames.poses.assign(121, bent);
+    for (std::size_t k = 0; k < frames.poses.size(); ++k) {
+        const double time = static_cast<double>(k) / rate;
+        frames.poses[k][0].translation.y += 0.05 * (ramp(time, 0.5, 0.8) - ramp(time, 1.3, 1.6));
+    }
+    const Clip clip = frames.clip(), whole = mended(clip, 4);
+    const std::size_t left = *skeleton.find("LeftFoot"), right = *skeleton.find("RightFoot"),
+                      hips = *skeleton.find("Hips");
+    const auto at_rest = placed(clip, 0.0), then = placed(whole, 1.05);
+    EXPECT_NEAR(then[left].position.y, at_rest[left].position.y, 0.003);
+    EXPECT_NEAR(then[right].position.y, at_rest[right].position.y, 0.003);
+    EXPECT_LT(then[hips].position.y, at_rest[hips].position.y + 0.02);
+}
+
+TEST_F(LintCure, cubic_and_stepped_tracks_and_nodes_without_keys_are_mended_too) {
+    for (const Interpolation kind : {Interpolation::Cubic, Interpolation::Step}) {
+        Frames frames = walk(60.0, 2.2);
+        for (std::size_t k = 0; k < frames.poses.size(); ++k) {
+            const double time = static_cast<double>(k) / 60.0;
+            frames.move_foot(k, "Left",
+                             glm::dvec3(0.07, 0, 0) * (ramp(time, 1.25, 1.45) - ramp(time, 1.6, 1.9)));
+        }
+        Clip clip = frames.clip();
+        for (Channel& channel : clip.channels) {
+            Track<glm::dquat>& track = channel.rotation;
+            track.interpolation = kind;
+            if (kind != Interpolation::Cubic) continue;
+            const std::vector<glm::dquat> keys = track.values;
+            track.values.clear();
+            for (std::size_t i = 0; i < keys.size(); ++i) {
+                const std::size_t a = i > 0 ? i - 1 : 0, b = std::min(i + 1, keys.size() - 1);
+                const glm::dquat slope = (keys[b] - keys[a]) / (track.times[b] - track.times[a]);
+                track.values.insert(track.values.end(), {slope, keys[i], slope});
+            }
+        }
+        const Clip whole = mended(clip, 2);
+        EXPECT_LT(apart(clip, whole, "LeftFoot", 0.0, 0.9), 1e-9);
+        EXPECT_EQ(whole.channels[1].rotation.interpolation, kind);
+    }
+    // Hips that are never keyed, over feet that are.
+    Clip still{.name = "still", .duration = 2.0, .channels = {}};
+    Channel thigh{.node = *skeleton.find("LeftUpperLeg")}, shin{.node = *skeleton.find("LeftLowerLeg")};
+    for (int i = 0; i <= 60; ++i) {
+        const double time = std::min(i / 30.0, 2.0),
+                     half = 0.12 * (ramp(time, 0.5, 0.7) - ramp(time, 1.4, 1.6));
+        thigh.rotation.times.push_back(time), shin.rotation.times.push_back(time);
+        thigh.rotation.values.push_back({std::cos(2 * half), -std::sin(2 * half), 0, 0});
+        shin.rotation.values.push_back({std::cos(4 * half), std::sin(4 * half), 0, 0});
+    }
+    still.channels = {thigh, shin};
+    mended(still, 3);
+}
+
+TEST_F(LintCure, random_faults_leave_a_clip_without_feet_that_are_wrong) {
+    Random random(11);
+    for (int i = 0; i < 60; ++i) {
+        const double rate = i % 2 == 0 ? 30.0 : 60.0;
+        Frames frames = walk(rate);
+        const char* const side = random.chance(2) ? "Left" : "Right";
+        const double begin = 0.4 + 0.03 * static_cast<double>(random.below(60)),
+                     length = 0.1 + 0.01 * static_cast<double>(random.below(30));
+        const glm::vec3 point = random.point(0.07f);
+        const glm::dvec3 way(point.x, 0.6f * point.y, point.z);
+        for (std::size_t k = 0; k < frames.poses.size(); ++k) {
+            const double time = static_cast<double>(k) / rate;
+            frames.move_foot(k, side,
+                             way * (ramp(time, begin, begin + length) -
+                                    ramp(time, begin + length + 0.1, begin + 2.0 * length + 0.1)));
+        }
+        Clip clip = frames.clip();
+        for (int pass = 0; pass < 6; ++pass) {
+            const LintReport report = run(clip);
+            const auto wrong = std::find_if(report.findings.begin(), report.findings.end(),
+                                            [](const Finding& each) { return each.fault <= Fault::Sinking; });
+            if (wrong == report.findings.end()) break;
+            ASSERT_LT(pass, 5) << i << ": " << texts(report);
+            const Expected<Clip> next = cure(skeleton, map, clip, *wrong);
+            ASSERT_TRUE(next) << next.message();
+            clip = *next;
+        }
+        for (const Finding& each : run(clip).findings) ADD_FAILURE() << i << ": " << each.text;
+    }
+}
+
+TEST_F(LintCure, a_finding_of_another_clip_is_refused) {
+    Frames frames = walk(60.0);
+    for (std::size_t k = 74; k < 92; ++k) frames.move_foot(k, "Left", {0, -0.04, 0});
+    const LintReport report = run(frames.clip());
+    const auto sunk = std::find_if(report.findings.begin(), report.findings.end(),
+                                   [](const Finding& each) { return each.fault == Fault::Sinking; });
+    ASSERT_NE(sunk, report.findings.end()) << texts(report);
+    Finding finding = *sunk;
+    const Clip brief = walk(60.0, 0.5).clip();
+    const Expected<Clip> refused = cure(skeleton, map, brief, finding);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(std::string(refused.message()).find("cure: finding must be one of this clip, got LeftFoot"),
+              std::string::npos)
+        << refused.message();
+    finding.node = static_cast<std::int32_t>(*skeleton.find("Head"));
+    EXPECT_FALSE(cure(skeleton, map, frames.clip(), finding));
+}
+
+}  // namespace
+}  // namespace tendril::app::test
