@@ -27,7 +27,7 @@
 // twist on the way, and has to be told of limits in every pass.
 //
 // Cost: an iteration of 22 bones and 5 targets takes 2 to 3 microseconds; a target that moves by a millimetre
-// takes some 5 to 10. tests/bench/bench_humanoid_body.cpp measures it.
+// takes some 5 to 10. tests/bench/humanoid_body.cpp measures it.
 #pragma once
 
 #include <array>

@@ -27,7 +27,7 @@
 // blended out; how far a standing foot slides is the motion of that point of its sole that moves the least,
 // so that rolling from heel to toe and turning on the ball are no sliding.
 //
-// Cost: O(frames * nodes); some 20 us a frame of 60 nodes.
+// Cost: O(frames * nodes), half a microsecond to one for each; tests/bench/humanoid_lint.cpp measures it.
 #pragma once
 
 #include <cstdint>
