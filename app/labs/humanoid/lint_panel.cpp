@@ -13,11 +13,12 @@ namespace {
 
 using humanoid::Finding;
 
-constexpr std::size_t most_rows = 40;
+constexpr std::size_t most_rows = 20;
 
 const char* title(humanoid::Fault fault) {
-    constexpr const char* titles[] = {"skates",   "floats", "sinks", "knee pops", "sign flips",
-                                      "at limit", "jumps",  "scale", "axis"};
+    constexpr const char* titles[] = {"skates",    "floats",         "sinks",
+                                      "knee pops", "key flips sign", "beyond its limit",
+                                      "jumps",     "wrong size",     "lies on its side"};
     return titles[static_cast<std::size_t>(fault)];
 }
 
@@ -46,33 +47,34 @@ void cure(const HumanoidPanel& panel, const Finding& finding) {
     panel.emit("humanoid.cure", arguments);
 }
 
+/// What is wrong and by how much; below, where, and the button that mends it.
 void finding_row(const HumanoidPanel& panel, const Finding& finding, int id) {
     const float em = ImGui::GetFontSize(), line = ImGui::GetTextLineHeight();
     const ImVec2 at = ImGui::GetCursorPos();
     const float width = ImGui::GetContentRegionAvail().x;
-    const float mend = ImGui::CalcTextSize("Mend").x + 2.0f * ImGui::GetStyle().FramePadding.x;
-    const float button = mend + 0.4f * em;
+    const float mend =
+        finding.has_cure ? ImGui::CalcTextSize("Mend").x + 2.0f * ImGui::GetStyle().FramePadding.x : 0.0f;
     ImGui::PushID(id);
-    if (ImGui::Selectable("##finding", false, ImGuiSelectableFlags_AllowItemOverlap, {width - button, line}))
+    if (ImGui::Selectable("##finding", false, ImGuiSelectableFlags_AllowItemOverlap, {width, 2.2f * line}))
         go_to_finding(panel, finding);
     explain(finding.text.c_str());
-    if (finding.has_cure) {
-        ImGui::SetCursorPos({at.x + width - mend, at.y});
-        if (ImGui::SmallButton("Mend")) cure(panel, finding);
-    }
-    ImGui::PopID();
-    const std::string frame = "f " + std::to_string(finding.frame), value = amount(finding);
+    const ImVec2 after = ImGui::GetCursorPos();
+    const std::string value = amount(finding);
     ImGui::SetCursorPos(at);
-    ImGui::TextDisabled("%s", frame.c_str());
-    const float names = 3.6f * em,
-                numbers = width - button - ImGui::CalcTextSize(value.c_str()).x - 0.3f * em;
-    ImGui::SetCursorPos({at.x + names, at.y});
-    std::string what = node_of(panel, finding);
-    if (!what.empty()) what += ' ';
-    what += title(finding.fault);
-    ImGui::TextUnformatted(elided(what, std::max(numbers - names - 0.4f * em, em)).c_str());
-    ImGui::SetCursorPos({at.x + numbers, at.y});
+    ImGui::TextUnformatted(title(finding.fault));
+    ImGui::SetCursorPos({at.x + width - ImGui::CalcTextSize(value.c_str()).x, at.y});
     ImGui::TextUnformatted(value.c_str());
+    std::string where = "frame " + std::to_string(finding.frame);
+    if (finding.node >= 0) where += ", " + node_of(panel, finding);
+    ImGui::SetCursorPos({at.x, at.y + 1.1f * line});
+    ImGui::TextDisabled("%s", elided(where, width - mend - 0.4f * em).c_str());
+    if (finding.has_cure) {
+        ImGui::SetCursorPos({at.x + width - mend, at.y + 1.1f * line});
+        if (ImGui::SmallButton("Mend")) cure(panel, finding);
+        explain("Changes the keys around it; the motion stays as it is elsewhere. Undo takes it back.");
+    }
+    ImGui::SetCursorPos(after);
+    ImGui::PopID();
 }
 
 }  // namespace
