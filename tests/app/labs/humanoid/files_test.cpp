@@ -121,6 +121,18 @@ TEST_F(HumanoidFiles, FaultsAreFoundAndMendedAndTheCuresAreSaved) {
     EXPECT_EQ(report().findings.size(), 1u);
 }
 
+TEST_F(HumanoidFiles, AFootThatSlidesStandsAfterTheClick) {
+    run("humanoid.load", {{"path", TENDRIL_SOURCE_DIR "/tests/app/golden/faulty_walk.bvh"}});
+    run("humanoid.clip", {{"name", "motion"}});
+    ASSERT_EQ(report().findings.size(), 2u);
+    EXPECT_EQ(report().findings[0].fault, humanoid::Fault::Skating);
+    EXPECT_GT(report().skating, 0.05);
+    run("humanoid.cure", {{"kind", "skating"}, {"node", "LeftFoot"}, {"frame", 7}});
+    EXPECT_LT(report().skating, 0.02);
+    run("humanoid.cure", {{"kind", "knee_pop"}});
+    EXPECT_TRUE(report().findings.empty());
+}
+
 TEST_F(HumanoidFiles, CleanClipsHaveNoFindings) {
     for (const char* name : {"walk", "punch"}) {
         run("humanoid.clip", {{"name", name}});
