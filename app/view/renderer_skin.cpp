@@ -78,6 +78,12 @@ class SkinPass::Sent {
         send(Position, positions, GL_DYNAMIC_DRAW);
         send(Normal, normals, GL_DYNAMIC_DRAW);
     }
+    /// Sends weights again where others are wanted than last time.
+    void follow(const SkinDraw& draw) {
+        if (draw.weights == weights_) return;
+        weights_ = draw.weights;
+        send(Joints, weights_ ? *weights_ : draw.mesh->weights);
+    }
     /// Binds what draw() needs.
     void bind() const {
         glBindVertexArray(vertex_array_);
@@ -102,6 +108,7 @@ class SkinPass::Sent {
     std::array<GLuint, 5> buffers_{};
     std::vector<GLuint> pictures_{};
     std::vector<float> morph_weights_{};
+    std::shared_ptr<const std::vector<JointWeights>> weights_{};  // null: the mesh's own
 };
 
 SkinPass::SkinPass() {
@@ -149,6 +156,7 @@ int SkinPass::draw(const std::vector<SkinDraw>& skins, bool solid, const Camera&
             continue;
         Sent& mesh = sent(skin.mesh);
         mesh.morph(skin);
+        mesh.follow(skin);
         program_.use();
         set_surface_uniforms(program_, camera, frame);
         program_.set("picture", 0);

@@ -20,7 +20,7 @@ void apply_morphs(const SkinnedMesh& mesh, std::span<const float> weights, std::
 }
 
 glm::vec3 skinned(const SkinDraw& draw, std::size_t corner) {
-    const JointWeights& by = draw.mesh->weights[corner];
+    const JointWeights& by = (draw.weights ? *draw.weights : draw.mesh->weights)[corner];
     const glm::vec4 p(draw.mesh->positions[corner], 1.0f);
     glm::vec3 at(0.0f);
     for (std::size_t i = 0; i < 4; ++i) {

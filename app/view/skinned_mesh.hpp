@@ -68,6 +68,8 @@ struct SkinDraw {
     std::vector<float> morph_weights{};  ///< one a morph, or none: the morphs' own
     float opacity = 1.0f;                ///< 1: solid; less: what is inside shows through
     glm::vec3 tint{1.0f};                ///< multiplies every colour
+    /// Of the corners, one each; they may name matrices beyond those of the mesh's joints. Null: the mesh's.
+    std::shared_ptr<const std::vector<JointWeights>> weights{};
 };
 
 /// The corners with morphs blended in.

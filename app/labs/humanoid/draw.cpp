@@ -160,8 +160,14 @@ class Drawing {
         if (!clad_) return;
         const Skin& skin = part_.loaded->character.skin;
         const float opacity = part_.view.skin == SkinLook::Solid ? 1.0f : see_through;
-        SkinDraw& draw = list_.skins.emplace_back(SkinDraw{skin.mesh, skin_matrices(skin, shown_.placed)});
-        draw.opacity = opacity;
+        SkinDraw& draw = list_.skins.emplace_back(SkinDraw{.mesh = skin.mesh, .opacity = opacity});
+        if (part_.view.skinning == Skinning::TwistSpread) {
+            const TwistSpread& spread = humanoid_runtime(view_.workspace).twist(part_);
+            draw.weights = spread.weights();
+            draw.matrices = spread.matrices(skin, shown_.placed);
+        } else {
+            draw.matrices = skin_matrices(skin, shown_.placed);
+        }
         const Playback& playback = part_.playback;
         if (playback.clip) draw.morph_weights = morph_weights(skin, *playback.clip, playback.time);
     }

@@ -131,9 +131,10 @@ void read_cures(const JsonPlace& place, HumanoidPart& part) {
     });
 }
 
-SkinLook skin_look(const JsonPlace& place) {
+template <class Names>
+auto named_value(const Names& names, const JsonPlace& place) {
     try {
-        return skin_looks.value(place.text());
+        return names.value(place.text());
     } catch (const std::invalid_argument& error) {
         place.fail(error.what());
     }
@@ -154,7 +155,10 @@ Json HumanoidPart::save() const {
     json["ik"] = ik_json(*this);
     json["quiet_ticks"] = quiet_ticks;
     json["selected"] = selected;
-    json["view"] = {{"ghost", view.ghost}, {"follow", view.follow}, {"skin", skin_looks.name(view.skin)}};
+    json["view"] = {{"ghost", view.ghost},
+                    {"follow", view.follow},
+                    {"skin", skin_looks.name(view.skin)},
+                    {"skinning", skinnings.name(view.skinning)}};
     return json;
 }
 
@@ -177,7 +181,9 @@ std::shared_ptr<Part> HumanoidPart::load(const Json& json, const std::string& wh
         part->selected = name->text();
     if (const auto shown = place.optional("view")) {
         if (const auto ghost = shown->optional("ghost")) part->view.ghost = ghost->flag();
-        if (const auto skin = shown->optional("skin")) part->view.skin = skin_look(*skin);
+        if (const auto skin = shown->optional("skin")) part->view.skin = named_value(skin_looks, *skin);
+        if (const auto skinning = shown->optional("skinning"))
+            part->view.skinning = named_value(skinnings, *skinning);
         if (const auto follow = shown->optional("follow")) part->view.follow = follow->flag();
     }
     return part;

@@ -24,8 +24,15 @@ enum class SkinLook : std::uint8_t { None, Solid, Transparent };
 inline constexpr EnumNames<SkinLook, 3> skin_looks{
     "skin", {{"none", "none"}, {"solid", "solid"}, {"transparent", "transparent"}}};
 
+/// How a skin follows its joints: by linear blending, or with the twist of the arms spread along their bones.
+enum class Skinning : std::uint8_t { Linear, TwistSpread };
+
+inline constexpr EnumNames<Skinning, 2> skinnings{"skinning",
+                                                  {{"linear", "linear"}, {"twist_spread", "twist spread"}}};
+
 struct HumanoidView {
     SkinLook skin = SkinLook::Transparent;
+    Skinning skinning = Skinning::TwistSpread;
     bool ghost = true;   ///< of the pose before anything changed it
     bool follow = true;  ///< the camera goes along with a character that walks
     bool operator==(const HumanoidView&) const = default;

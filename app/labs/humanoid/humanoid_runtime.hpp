@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "app/document/runtime.hpp"
+#include "app/io/character/twist_spread.hpp"
 #include "app/labs/humanoid/clip_lint.hpp"
 #include "app/labs/humanoid/loading.hpp"
 #include "app/labs/humanoid/shown_pose.hpp"
@@ -15,6 +16,8 @@ namespace tendril::app {
 class HumanoidRuntime final : public Runtime {
   public:
     const ShownPose& shown(const Workspace& workspace);
+    /// Of the part's skin: kept until character or map are others.
+    const TwistSpread& twist(const HumanoidPart& part);
 
     Loading loading;  ///< a file that is being read
     Solvers solvers;
@@ -31,6 +34,9 @@ class HumanoidRuntime final : public Runtime {
   private:
     std::shared_ptr<const Part> part_;  ///< parts never change in place
     ShownPose shown_;
+    SharedCharacter twist_of_;
+    std::shared_ptr<const humanoid::BoneMap> twist_map_;
+    TwistSpread twist_;
 };
 
 inline HumanoidRuntime& humanoid_runtime(const Workspace& workspace) {

@@ -13,6 +13,7 @@ void select(HumanoidPart& part, const Arguments& given) {
 void set_view(HumanoidPart& part, const Arguments& given) {
     if (given.has("ghost")) part.view.ghost = given.boolean("ghost");
     if (given.has("skin")) part.view.skin = skin_looks.value(given.text("skin"));
+    if (given.has("skinning")) part.view.skinning = skinnings.value(given.text("skinning"));
     if (given.has("follow")) part.view.follow = given.boolean("follow");
 }
 
@@ -26,6 +27,7 @@ void add_humanoid_look_commands(CommandTable& table) {
         humanoid_lab, "humanoid.view",
         {switch_argument("ghost", "of the pose as it was before anything changed it"),
          choice_argument("skin", false, "how what the character wears is drawn", skin_looks.names()),
+         choice_argument("skinning", false, "how it follows twisted arms", skinnings.names()),
          switch_argument("follow", "the camera goes along with a walk")},
         "Sets how the character is shown; what is left out stays", set_view, Effect::Look));
 }

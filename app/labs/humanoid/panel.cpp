@@ -107,6 +107,16 @@ void look_rows(const HumanoidPanel& panel) {
         if (choice_field("skin", look, titles.data(), static_cast<int>(titles.size())))
             panel.emit("humanoid.view", {{"skin", skin_looks.name(static_cast<SkinLook>(look))}});
         explain("What the character wears: as it is, or so that its bones show through.");
+        int follows = static_cast<int>(view.skinning);
+        const auto ways = skinnings.titles();
+        if (choice_field("skinning", follows, ways.data(), static_cast<int>(ways.size())))
+            panel.emit("humanoid.view", {{"skinning", skinnings.name(static_cast<Skinning>(follows))}});
+        explain(
+            "How the skin follows twisted arms. Linear blending shrinks it to a thread at wrist and "
+            "shoulder; "
+            "twist spread turns it evenly along forearm and upper arm. Bones with twist nodes of their own "
+            "are "
+            "left to those.");
     }
     if (ImGui::Checkbox("Ghost", &view.ghost)) panel.emit("humanoid.view", {{"ghost", view.ghost}});
     explain("The pose as it was before anything changed it, in gray.");

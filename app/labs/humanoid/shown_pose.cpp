@@ -155,6 +155,14 @@ const ShownPose& HumanoidRuntime::shown(const Workspace& workspace) {
     return shown_;
 }
 
+const TwistSpread& HumanoidRuntime::twist(const HumanoidPart& part) {
+    if (twist_of_ != part.loaded || twist_map_ != part.map) {
+        twist_of_ = part.loaded, twist_map_ = part.map;
+        twist_ = TwistSpread(part.loaded->character.skin, part.skeleton(), *part.map);
+    }
+    return twist_;
+}
+
 const ShownPose& shown_pose(const Workspace& workspace) {
     return humanoid_runtime(workspace).shown(workspace);
 }

@@ -195,6 +195,7 @@ Json HumanoidLab::state(const Workspace& workspace) const {
                 {"feet", feet_state(part, shown)},
                 {"foot_ik", part.ik.foot_ik.on},
                 {"hand_ik", hands_state(part, shown)},
+                {"skinning", skinnings.name(part.view.skinning)},
                 {"look_at", look_state(part, shown)},
                 {"ground", ground_state(part.ik.ground)},
                 {"selected", part.selected}};

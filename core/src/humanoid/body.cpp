@@ -170,6 +170,7 @@ Expected<Body> Body::make(const Skeleton& skeleton, const BoneMap& map, const Bo
     for (const Node& node : skeleton.nodes()) work->parents.push_back(node.parent);
     work->placements.resize(skeleton.size());
     work->kept.resize(work->links.size());
+    work->twist = TwistNodes::find(skeleton, map);
     find_tips(*work, skeleton);
     if (const Result bad = work->add_volumes(rest_pose(skeleton), capsules); !bad) return bad;
     work->first.resize(work->links.size() + work->tips.size());
@@ -216,7 +217,10 @@ Expected<BodyReport> Body::solve(std::span<rig::Transform> pose, std::span<const
         state = BodyState{};
         return BodyReport{};
     }
-    return detail::BodySolve(*work_, targets, options).run(pose, state);
+    const TwistNodes::ArmTurns before = work_->twist.turns(pose);
+    const BodyReport report = detail::BodySolve(*work_, targets, options).run(pose, state);
+    work_->twist.follow(before, pose);
+    return report;
 }
 
 void Body::Work::place_needed(std::span<const rig::Transform> pose) noexcept {

@@ -8,6 +8,7 @@
 #include "humanoid/anatomy.hpp"
 #include "ik/limits/joint.hpp"
 #include "tendril/humanoid/body.hpp"
+#include "tendril/humanoid/twist.hpp"
 
 namespace tendril::humanoid {
 
@@ -92,6 +93,7 @@ struct Body::Work {
     std::vector<detail::Volume> volumes;
     std::vector<detail::Pair> pairs;
     std::array<int, effector_count> ends{};
+    TwistNodes twist;
 
     std::vector<Placement> placements;  ///< of all nodes; those that are needed are right
     std::vector<glm::dquat> kept;       ///< turns before a step

@@ -4,6 +4,7 @@
 
 #include "humanoid/view.hpp"
 #include "rig/checks.hpp"
+#include "tendril/humanoid/twist.hpp"
 
 namespace tendril::humanoid {
 namespace {
@@ -83,6 +84,7 @@ struct Hands::Plan {
     std::size_t hips = 0;  // place in the head's path
     glm::dquat hips_at_rest{1.0, 0.0, 0.0, 0.0};
     std::array<Arm, 2> arms{};
+    TwistNodes twist{};
 
     HandReport move(const Arm& arm, detail::Pose pose, const HandTarget& target, double weight,
                     const Placement& root, const HandsOptions& options) const noexcept {
@@ -187,6 +189,7 @@ Expected<Hands> Hands::make(const Skeleton& skeleton, const BoneMap& map) {
         if (has_shoulder) arm.shoulder = shoulder - limb->path.begin();
         arm.limb = std::move(*limb);
     }
+    plan->twist = TwistNodes::find(skeleton, map);
     return Hands(std::move(plan));
 }
 
@@ -202,6 +205,7 @@ HandsReport Hands::step(std::span<rig::Transform> pose, const HandTargets& targe
     if (!detail::is_moderate(head)) return {.valid = false};
 
     HandsReport report;
+    const TwistNodes::ArmTurns before = plan.twist.turns(pose);
     const glm::dvec3 gaze = plan.head.gaze(head);
     for (std::size_t i = 0; i < 2; ++i) {
         const HandTarget& target = targets[i];
@@ -214,6 +218,7 @@ HandsReport Hands::step(std::span<rig::Transform> pose, const HandTargets& targe
         report.hands[i] = plan.move(plan.arms[i], pose, target, part, root, options);
         report.hands[i].in_view = hand.in_view;
     }
+    plan.twist.follow(before, pose);
     return report;
 }
 

@@ -147,4 +147,11 @@ NameReading read_name(std::string_view name) {
     return reading;
 }
 
+bool is_twist_name(std::string_view name) {
+    const std::vector<std::string> words = words_of(name);
+    return std::any_of(words.begin(), words.end(), [](const std::string& word) {
+        return word == "roll" || word.ends_with("twist") || word.starts_with("twist");
+    });
+}
+
 }  // namespace tendril::humanoid::detail

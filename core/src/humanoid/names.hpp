@@ -38,4 +38,7 @@ struct NameReading {
 /// goes along: twist and roll bones, IK targets, end joints, fingers, faces, hair.
 NameReading read_name(std::string_view name);
 
+/// Of a node that is there to take a share of a limb's twist: "lowerarm_twist_01_l", "LeftForeArmRoll".
+bool is_twist_name(std::string_view name);
+
 }  // namespace tendril::humanoid::detail

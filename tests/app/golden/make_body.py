@@ -147,18 +147,22 @@ def main():
     nodes.append({"name": "Body", "mesh": 0, "skin": 0})
     wave = {"LeftUpperArm": ((0, 0, 1), 50), "LeftLowerArm": ((0, 0, 1), 75), "RightUpperArm": ((0, 0, 1), 65),
             "RightLowerArm": ((0, 1, 0), 40), "LeftUpperLeg": ((1, 0, 0), -25), "LeftLowerLeg": ((1, 0, 0), 35), "Chest": ((0, 1, 0), 12)}
+    twist = {"LeftHand": ((1, 0, 0), 170), "RightUpperArm": ((1, 0, 0), 170)}
     times = accessor([[0.0], [1.0]], "f", 5126, "SCALAR", min=[0], max=[1])
-    samplers, channels = [], []
-    for name, (axis, degrees) in wave.items():
-        output = accessor([quaternion(axis, 0), quaternion(axis, degrees)], "f", 5126, "VEC4")
-        channels.append({"sampler": len(samplers), "target": {"node": INDEX[name], "path": "rotation"}})
-        samplers.append({"input": times, "output": output})
+    animations = []
+    for clip, turns in (("wave", wave), ("twist", twist)):
+        samplers, channels = [], []
+        for name, (axis, degrees) in turns.items():
+            output = accessor([quaternion(axis, 0), quaternion(axis, degrees)], "f", 5126, "VEC4")
+            channels.append({"sampler": len(samplers), "target": {"node": INDEX[name], "path": "rotation"}})
+            samplers.append({"input": times, "output": output})
+        animations.append({"name": clip, "channels": channels, "samplers": samplers})
     text = json.dumps({
         "asset": {"version": "2.0", "generator": "Tendril, tests/app/golden/make_body.py"}, "scene": 0,
         "scenes": [{"nodes": [0, len(nodes) - 1]}], "nodes": nodes, "meshes": [{"primitives": primitives}],
         "materials": [{"pbrMetallicRoughness": {"baseColorFactor": c, "metallicFactor": 0}} for c in COLOURS],
         "skins": [{"joints": list(range(len(JOINTS))), "inverseBindMatrices": inverse, "skeleton": 0}],
-        "animations": [{"name": "wave", "channels": channels, "samplers": samplers}],
+        "animations": animations,
         "accessors": accessors, "bufferViews": views, "buffers": [{"byteLength": len(data)}]}, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)
     chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(data), b"BIN\0") + bytes(data)

@@ -107,6 +107,21 @@ TEST_P(SkinDrawing, TheShaderPutsCornersWhereSkinnedDoes) {
     EXPECT_LE(glm::distance(high, seen_high), 1.5f);
 }
 
+TEST_P(SkinDrawing, OtherWeightsTakeThePlaceOfTheMeshsOwn) {
+    const auto mesh = std::make_shared<const SkinnedMesh>(box());
+    DrawList list;
+    list.skins.push_back({mesh, {still, still, moved({0.0f, 1.0f, 0.0f})}});
+    EXPECT_GT(at(draw(list), {0.3f, -0.3f, 0.0f}).r, 100);
+    std::vector<JointWeights> up(mesh->positions.size(), {{2, 0, 0, 0}, {1.0f, 0.0f, 0.0f, 0.0f}});
+    list.skins[0].weights = std::make_shared<const std::vector<JointWeights>>(up);
+    const Image lifted = draw(list);
+    EXPECT_EQ(at(lifted, {0.3f, -0.3f, 0.0f}).r, 0);
+    EXPECT_GT(at(lifted, {0.3f, 1.3f, 0.0f}).r, 100);
+    EXPECT_EQ(skinned(list.skins[0], 0), mesh->positions[0] + glm::vec3(0.0f, 1.0f, 0.0f));
+    list.skins[0].weights = nullptr;
+    EXPECT_GT(at(draw(list), {0.3f, -0.3f, 0.0f}).r, 100) << "and back";
+}
+
 TEST_P(SkinDrawing, WhatIsInsideShowsThroughAndWallsDoNot) {
     DrawList list;
     list.sphere(glm::vec3(0.0f), 0.2f, Unit::Metres, {0.0f, 1.0f, 0.0f, 1.0f}).shade = Shade::Flat;

@@ -58,10 +58,12 @@ struct BodyTarget {
 };
 
 struct BodyOptions {
-    int max_iterations = 20;     ///< 1 to 1000
-    double tolerance = 2e-6;     ///< radians (and metres, of the hips): a step under it is the last. Over 0
-    bool feet_stay = true;       ///< feet without a target stay where the clip has them
-    double twist_share = 0.5;    ///< of a hand's twist, taken by the lower arm: 0 to 1
+    int max_iterations = 20;  ///< 1 to 1000
+    double tolerance = 2e-6;  ///< radians (and metres, of the hips): a step under it is the last. Over 0
+    bool feet_stay = true;    ///< feet without a target stay where the clip has them
+    /// Of a hand's twist, taken by the lower arm: 0 to 1. Twist nodes (twist.hpp) then spread it along the
+    /// arm.
+    double twist_share = 0.5;
     bool self_collision = true;  ///< the capsules that the body was made with are kept apart
 };
 

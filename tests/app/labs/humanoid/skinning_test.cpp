@@ -1,0 +1,88 @@
+// How a character's skin follows twisted arms: a way of showing, chosen, saved, and no part of what is
+// written.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "humanoid_support.hpp"
+#include "tests/app/support/temp_folder.hpp"
+
+namespace tendril::app {
+namespace {
+
+class HumanoidSkinning : public HumanoidTest {
+  protected:
+    HumanoidSkinning() {
+        run("humanoid.load", {{"path", TENDRIL_SOURCE_DIR "/tests/app/golden/body.glb"}});
+        run("humanoid.clip", {{"name", "twist"}, {"time", 1}});
+    }
+    SkinDraw drawn() const {
+        DrawList list;
+        const Camera camera(lab().first_view(), {{0.0f, 0.0f}, {800.0f, 600.0f}});
+        lab().draw({workspace, camera, palette(Theme::Dark)}, list);
+        EXPECT_EQ(list.skins.size(), 1u);
+        return list.skins.at(0);
+    }
+    /// The forearm's corners at its wrist: how far the nearest is from the arm's line, metres.
+    static float girth(const SkinDraw& draw) {
+        float least = 1.0f;
+        for (std::size_t i = 0; i < draw.mesh->positions.size(); ++i) {
+            const glm::vec3 at = draw.mesh->positions[i];
+            if (at.x < 0.66f || at.x > 0.75f || std::hypot(at.y - 1.42f, at.z) < 0.01f) continue;
+            const glm::vec3 now = skinned(draw, i);
+            least = std::min(least, std::hypot(now.y - 1.42f, now.z));
+        }
+        return least;
+    }
+};
+
+TEST_F(HumanoidSkinning, SpreadsTwistUnlessLinearBlendingIsWanted) {
+    EXPECT_EQ(state().at("skinning"), "twist_spread");
+    run("humanoid.clip", {{"time", 0}});
+    const float untwisted = girth(drawn());
+    run("humanoid.clip", {{"time", 1}});
+    const float spread = girth(drawn());
+    run("humanoid.view", {{"skinning", "linear"}});
+    EXPECT_EQ(state().at("skinning"), "linear");
+    EXPECT_EQ(drawn().weights, nullptr);
+    EXPECT_LT(girth(drawn()), 0.6f * untwisted);
+    EXPECT_GT(spread, 0.95f * untwisted);
+    const Workspace other = reopened();
+    EXPECT_EQ(save_scene(other), save_scene(workspace));
+    EXPECT_EQ(lab().state(other).at("skinning"), "linear");
+    run("humanoid.view", {{"skin", "solid"}});
+    EXPECT_EQ(state().at("skinning"), "linear");
+    expect_refused("humanoid.view", {{"skinning", "dual_quaternion"}}, {"skinning", "twist_spread"});
+    run("humanoid.view", {{"skinning", "twist_spread"}});
+    EXPECT_EQ(girth(drawn()), spread);
+}
+
+TEST_F(HumanoidSkinning, FollowsTheBoneMap) {
+    EXPECT_NE(drawn().weights, nullptr);
+    for (const char* bone : {"LeftHand", "RightHand", "LeftLowerArm", "RightLowerArm"})
+        run("humanoid.map", {{"bone", bone}, {"node", ""}});
+    EXPECT_EQ(drawn().weights, nullptr) << "there is no arm to spread along";
+    run("humanoid.load");
+    run("undo");
+    EXPECT_EQ(drawn().weights, nullptr);
+}
+
+TEST_F(HumanoidSkinning, IsNoPartOfAnExport) {
+    const test::TempFolder folder;
+    std::string written[2];
+    for (const int i : {0, 1}) {
+        run("humanoid.view", {{"skinning", i == 0 ? "linear" : "twist_spread"}});
+        const std::string path = (folder / "out.glb").string();
+        run("humanoid.export", {{"path", path}});
+        std::ifstream file(path, std::ios::binary);
+        written[i].assign(std::istreambuf_iterator<char>(file), {});
+    }
+    EXPECT_FALSE(written[0].empty());
+    EXPECT_TRUE(written[0] == written[1]);
+}
+
+}  // namespace
+}  // namespace tendril::app
