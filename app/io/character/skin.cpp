@@ -82,6 +82,20 @@ std::vector<AffineRows> skin_matrices(const Skin& skin, std::span<const humanoid
     return rows;
 }
 
+std::vector<humanoid::SkinPoint> skin_points(const Skin& skin, std::span<const humanoid::Placement> rest) {
+    std::vector<humanoid::SkinPoint> points;
+    if (!skin.mesh) return points;
+    const SkinDraw draw{skin.mesh, skin_matrices(skin, rest)};
+    points.reserve(skin.mesh->positions.size());
+    for (std::size_t i = 0; i < skin.mesh->positions.size(); ++i) {
+        const JointWeights& by = skin.mesh->weights[i];
+        const auto most = std::ranges::max_element(by.weights) - by.weights.begin();
+        points.push_back(
+            {glm::dvec3(skinned(draw, i)), skin.joints[by.joints[static_cast<std::size_t>(most)]].node});
+    }
+    return points;
+}
+
 std::vector<float> morph_weights(const Skin& skin, std::size_t clip, double time) {
     std::vector<float> weights;
     if (!skin.mesh) return weights;

@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <span>
+#include <tendril/humanoid/capsules.hpp>
 #include <tendril/humanoid/clip.hpp>
 #include <vector>
 
@@ -37,6 +38,8 @@ struct Skin {
 
 /// For SkinDraw::matrices. `placements` are of all nodes, as humanoid::place() gives them.
 std::vector<AffineRows> skin_matrices(const Skin& skin, std::span<const humanoid::Placement> placements);
+/// Every corner where that takes it, for humanoid::fitted_capsules(); `rest`: the placements at rest.
+std::vector<humanoid::SkinPoint> skin_points(const Skin& skin, std::span<const humanoid::Placement> rest);
 /// For SkinDraw::morph_weights; a clip without tracks leaves the morphs' own.
 std::vector<float> morph_weights(const Skin& skin, std::size_t clip, double time);
 

@@ -12,6 +12,13 @@ humanoid::BodyLimits limits_of(const HumanoidPart& part) {
     return humanoid::learned_limits(part.skeleton(), *part.map, part.loaded->clips(), defaults);
 }
 
+/// Fitted to what the character wears, as it rests.
+std::vector<humanoid::BodyCapsule> capsules_of(const HumanoidPart& part) {
+    const Skin& skin = part.loaded->character.skin;
+    if (!skin.mesh) return humanoid::default_capsules(part.skeleton(), *part.map);
+    return humanoid::fitted_capsules(part.skeleton(), *part.map, skin_points(skin, part.loaded->rest));
+}
+
 }  // namespace
 
 void Solvers::make(const HumanoidPart& part) {
@@ -26,7 +33,7 @@ void Solvers::make(const HumanoidPart& part) {
     floors_.clear();
     why_not_ = why_no_feet_ = why_unusable(*part.map);
     if (!why_not_.empty()) return;
-    if (part.ik.self_collision) capsules_ = humanoid::default_capsules(part.skeleton(), *part.map);
+    if (part.ik.self_collision) capsules_ = capsules_of(part);
     Expected<humanoid::Body> body =
         humanoid::Body::make(part.skeleton(), *part.map, limits_of(part), capsules_);
     if (body)

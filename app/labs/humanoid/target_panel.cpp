@@ -45,7 +45,10 @@ void target_rows(const HumanoidPanel& panel) {
     end_row();
     bool apart = ik.self_collision;
     if (ImGui::Checkbox("Self-collision", &apart)) panel.emit("humanoid.self_collision", {{"on", apart}});
-    explain("Hands and lower arms do not pass through the body; its outlines show what they keep out of.");
+    explain(
+        "Hands and lower arms do not pass through the body; its outlines show what they keep out of, fitted "
+        "to "
+        "the skin where the character has one.");
     int from = static_cast<int>(ik.limits);
     const auto titles = limits_from.titles();
     const char* why_not[]{nullptr, panel.part.loaded->clips().empty() ? "no clips" : nullptr, nullptr};

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
@@ -12,8 +13,8 @@ namespace {
 class HumanoidContacts : public HumanoidTest {
   protected:
     /// Of hands and lower arms in trunk and head, as they are drawn; metres.
-    double penetration() {
-        const auto capsules = humanoid::default_capsules(part().skeleton(), *part().map);
+    double penetration() { return penetration(humanoid::default_capsules(part().skeleton(), *part().map)); }
+    double penetration(const std::vector<humanoid::BodyCapsule>& capsules) {
         const auto& placed = shown_pose(workspace).placed;
         double deepest = 0.0;
         for (const auto& arm : capsules) {
@@ -55,6 +56,32 @@ TEST_F(HumanoidContacts, AHandDraggedIntoTheBodyStaysOutOfItWhereTheBodyIsHeld) 
     for (int i = 0; i <= 60; ++i) {
         run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.1, 1.15, 0.5 - 0.01 * i}}});
         ASSERT_LT(penetration(), 5e-3) << i;
+    }
+}
+
+TEST_F(HumanoidContacts, WhatACharacterWearsIsKeptApart) {
+    run("humanoid.load", {{"path", TENDRIL_SOURCE_DIR "/tests/app/golden/body.glb"}});
+    run("humanoid.self_collision", {{"on", true}});
+    const std::vector<humanoid::BodyCapsule> capsules = humanoid_runtime(workspace).solvers.capsules(part());
+    const auto usual = humanoid::default_capsules(part().skeleton(), *part().map);
+    ASSERT_EQ(capsules.size(), usual.size());
+    EXPECT_NE(capsules, usual);
+    const Json before = state().at("character").at("nodes");
+    run("humanoid.self_collision", {{"on", false}});
+    EXPECT_EQ(state().at("character").at("nodes"), before) << "nothing is pushed at rest";
+    run("humanoid.self_collision", {{"on", true}});
+    for (int i = 0; i <= 60; ++i) {
+        run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.1, 1.15, 0.5 - 0.01 * i}}});
+        ASSERT_LT(penetration(capsules), 5e-3) << i;
+    }
+    // A fist through the waist and back, as hand IK has it.
+    run("humanoid.target", {{"effector", "left_hand"}, {"weight", 0}});
+    run("humanoid.hand_ik", {{"on", true}});
+    for (int i = 0; i <= 120; ++i) {
+        const double part_of_way = 0.5 - 0.5 * std::cos(2.0 * 3.14159265 * i / 120.0);
+        run("humanoid.target", {{"effector", "right_hand"}, {"to", {-0.05, 1.12, 0.5 - 0.5 * part_of_way}}});
+        tick();
+        ASSERT_LT(penetration(capsules), 5e-3) << i;
     }
 }
 

@@ -1,0 +1,129 @@
+// Capsules fitted to a mesh.
+#include <algorithm>
+#include <cmath>
+
+#include "humanoid/anatomy.hpp"
+#include "rig/math.hpp"
+#include "tendril/humanoid/capsules.hpp"
+#include "tendril/magnitude.hpp"
+
+namespace tendril::humanoid {
+namespace {
+
+using namespace rig::detail;
+
+constexpr std::size_t fewest = 16;  // points
+constexpr double inside = 0.8;      // of them, within the radius
+/// Of the points, left out at each end of the line, and at each side of it where its middle is sought.
+constexpr double at_ends = 0.02, at_sides = 0.15;
+/// Of a default: how thin and thick a fit may be, and how far beside the bone.
+constexpr double thinnest = 0.4, thickest = 3.0, farthest_aside = 0.75;
+/// How far beside a default, in its radii, the line of a head or a hand may begin and end.
+constexpr double before = 2.0, beyond = 4.0;
+
+/// The value that `part` of them are under. Changes their order.
+double quantile(std::vector<double>& values, double part) {
+    const auto place = static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), values.begin() + place, values.end());
+    return values[static_cast<std::size_t>(place)];
+}
+
+struct Line {
+    glm::dvec3 from, direction;
+    double along(const glm::dvec3& point) const noexcept { return dot(minus(point, from), direction); }
+    double off(const glm::dvec3& point) const noexcept {
+        return length(across(minus(point, from), direction));
+    }
+};
+
+/// The middle of the points across the line, as far as it is not too far from it.
+Line centred(const Line& line, const Facing& facing, const std::vector<glm::dvec3>& points, double most) {
+    Line moved = line;
+    // A body is as wide on both sides, and arms are as thick above as below: across these.
+    const glm::dvec3 aside = direction_of(across(facing.left, line.direction), 0.5)
+                                 .value_or(direction_of(across(facing.up, line.direction), 1e-6)
+                                               .value_or(perpendicular(line.direction)));
+    std::vector<double> values(points.size());
+    for (const glm::dvec3& way : {aside, cross(line.direction, aside)}) {
+        std::transform(points.begin(), points.end(), values.begin(),
+                       [&](const glm::dvec3& point) { return dot(minus(point, line.from), way); });
+        const double middle = 0.5 * (quantile(values, at_sides) + quantile(values, 1.0 - at_sides));
+        moved.from = plus(moved.from, times(way, middle));
+    }
+    return length(minus(moved.from, line.from)) <= most ? moved : line;
+}
+
+std::optional<PlacedCapsule> fitted(const PlacedCapsule& usual, const Facing& facing, bool ends_free,
+                                    const std::vector<glm::dvec3>& points) {
+    const double bone = length(minus(usual.to, usual.from));
+    if (points.size() < fewest || !(bone > 1e-6) || !(usual.radius > 0.0)) return std::nullopt;
+    const Line line = centred({usual.from, times(minus(usual.to, usual.from), 1.0 / bone)}, facing, points,
+                              farthest_aside * usual.radius);
+    std::vector<double> places, offs;
+    for (const glm::dvec3& point : points) places.push_back(line.along(point));
+    double low = quantile(places, at_ends), high = quantile(places, 1.0 - at_ends);
+    if (ends_free)
+        low = std::max(low, -before * usual.radius), high = std::min(high, bone + beyond * usual.radius);
+    else
+        low = std::clamp(low, 0.0, 0.5 * bone), high = std::clamp(high, 0.5 * bone, bone);
+    for (const glm::dvec3& point : points)
+        if (const double place = line.along(point); place >= low && place <= high)
+            offs.push_back(line.off(point));
+    if (offs.size() < fewest) return std::nullopt;
+    const double radius = quantile(offs, inside);
+    if (!(radius >= thinnest * usual.radius && radius <= thickest * usual.radius)) return std::nullopt;
+    if (ends_free) {  // the balls at its ends reach as far as the points do
+        const double middle = 0.5 * (low + high);
+        low = std::min(low + radius, middle), high = std::max(high - radius, middle);
+    }
+    return PlacedCapsule{plus(line.from, times(line.direction, low)),
+                         plus(line.from, times(line.direction, high)), radius};
+}
+
+/// Of each node the bone that it is, or that it hangs on.
+std::vector<std::optional<Bone>> bones_of_nodes(const Skeleton& skeleton, const BoneMap& map) {
+    std::vector<std::optional<Bone>> bones(skeleton.size());
+    for (const std::int32_t each : skeleton.order()) {
+        const auto node = static_cast<std::size_t>(each);
+        bones[node] = detail::bone_of(map, each);
+        if (!bones[node] && skeleton[node].parent >= 0)
+            bones[node] = bones[static_cast<std::size_t>(skeleton[node].parent)];
+    }
+    return bones;
+}
+
+bool is_near(const glm::dvec3& point) noexcept {
+    constexpr double far = static_cast<double>(max_magnitude);
+    return std::abs(point.x) <= far && std::abs(point.y) <= far && std::abs(point.z) <= far;
+}
+
+}  // namespace
+
+std::vector<BodyCapsule> fitted_capsules(const Skeleton& skeleton, const BoneMap& map,
+                                         std::span<const SkinPoint> points) {
+    std::vector<BodyCapsule> capsules = default_capsules(skeleton, map);
+    const std::vector<std::optional<Bone>> bones = bones_of_nodes(skeleton, map);
+    std::array<std::vector<glm::dvec3>, bone_count> of_bone{};
+    for (const SkinPoint& point : points)
+        if (point.node < bones.size() && bones[point.node] && is_near(point.position))
+            of_bone[static_cast<std::size_t>(*bones[point.node])].push_back(point.position);
+    std::vector<Placement> rest(skeleton.size());
+    place(skeleton, rest_pose(skeleton), rest);
+    const Facing at_rest = facing(skeleton, map);
+    for (BodyCapsule& capsule : capsules) {
+        const Placement& at = rest[static_cast<std::size_t>(map[capsule.bone].node)];
+        if (!(std::abs(glm::determinant(at.axes)) > 1e-30)) continue;
+        const bool ends_free =
+            capsule.bone == Bone::Head || capsule.bone == Bone::LeftHand || capsule.bone == Bone::RightHand;
+        const auto fit = fitted(place(capsule, map, rest), at_rest, ends_free,
+                                of_bone[static_cast<std::size_t>(capsule.bone)]);
+        if (!fit) continue;
+        const glm::dmat3 back = glm::inverse(at.axes);
+        capsule.from = back * minus(fit->from, at.position);
+        capsule.to = back * minus(fit->to, at.position);
+        capsule.radius = fit->radius;
+    }
+    return capsules;
+}
+
+}  // namespace tendril::humanoid
