@@ -5,6 +5,8 @@ in vec3 facing;
 in vec3 front_colour;
 in vec3 back_colour;
 
+uniform float opacity;
+
 out vec4 colour;
 
 #include "light.glsl"
@@ -14,5 +16,5 @@ void main() {
     // Where flat triangles stand for a round surface, its normal looks away a little before they do.
     normal = normalize(vec3(normal.xy, max(normal.z, 0.0)) + vec3(0.0, 0.0, 1e-6));
     vec4 surface = vec4(gl_FrontFacing ? front_colour : back_colour, 1.0);
-    colour = vec4(min(lit(surface, normal), 1.0), 1.0);
+    colour = vec4(min(lit(surface, normal), 1.0), opacity);
 }

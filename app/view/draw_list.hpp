@@ -60,9 +60,12 @@ struct DrawList {
     std::vector<Label> labels;
     Mesh mesh{};
     std::vector<SkinDraw> skins{};  ///< drawn with the mesh, or over the scene's strokes where seen through
+    Mesh veil{};                    ///< of the scene, and seen through: all that is behind it shows
     Mesh overlay{};                 ///< over the scene, and under the strokes that are over it
 
-    void clear() { strokes.clear(), labels.clear(), mesh.clear(), skins.clear(), overlay.clear(); }
+    void clear() {
+        strokes.clear(), labels.clear(), mesh.clear(), skins.clear(), veil.clear(), overlay.clear();
+    }
 
     /// Each returns the stroke it appended, for the fields that are seldom set.
     Stroke& sphere(glm::vec3 centre, float radius, Unit unit, glm::vec4 colour);

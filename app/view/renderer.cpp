@@ -19,6 +19,8 @@ struct Renderer::Impl {
 
 namespace {
 
+constexpr float veil_opacity = 0.13f;  ///< of one layer; what is hollow has two
+
 /// The camera's viewport in framebuffer pixels, within the framebuffer.
 PixelRect pixel_rect(const Rect& viewport, const Frame& frame) {
     const glm::vec2 limit(frame.framebuffer_size);
@@ -79,6 +81,7 @@ void Renderer::draw(const DrawList& list, const Camera& camera, const Palette& p
         calls += impl_->skins.draw(list.skins, true, camera, frame);
         impl_->strokes.prepare(list, camera, frame);
         calls += impl_->strokes.draw(Layer::Scene);
+        calls += impl_->mesh.draw(list.veil, camera, frame, veil_opacity);
         calls += impl_->skins.draw(list.skins, false, camera, frame);
         if (!list.overlay.indices.empty()) {
             glClear(GL_DEPTH_BUFFER_BIT);

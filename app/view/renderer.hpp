@@ -1,5 +1,5 @@
-// Draws a DrawList with GL 3.3 core: background, ground grid, contact shadows, the mesh, skins, strokes.
-// Seven draw calls at the most, however much is in the list, and those of skins: one or two for each
+// Draws a DrawList with GL 3.3 core: background, ground grid, contact shadows, meshes, skins, strokes.
+// Eight draw calls at the most, however much is in the list, and those of skins: one or two for each
 // material. Edges are anti-aliased by coverage, without multisampling, so that a software rasteriser is fast
 // and every backend gives the same picture. (Where two solids run through each other, the line between them
 // is not.)

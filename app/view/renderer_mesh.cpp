@@ -26,16 +26,23 @@ void set_surface_uniforms(const Program& program, const Camera& camera, const Fr
     program.set("sky", glm::vec3(right.y, up.y, -forward.y));
 }
 
-int MeshPass::draw(const Mesh& mesh, const Camera& camera, const Frame& frame) {
+int MeshPass::draw(const Mesh& mesh, const Camera& camera, const Frame& frame, float opacity) {
     if (mesh.indices.empty()) return 0;
     program_.use();
     set_surface_uniforms(program_, camera, frame);
+    program_.set("opacity", opacity);
     glEnable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
+    glDepthMask(opacity < 1.0f ? GL_FALSE : GL_TRUE);
     glDepthFunc(GL_LEQUAL);
-    glDisable(GL_BLEND);
+    if (opacity < 1.0f)
+        glEnable(GL_BLEND);
+    else
+        glDisable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     triangles_.send(mesh.vertices, mesh.indices);
     triangles_.draw();
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
     return 1;
 }
 

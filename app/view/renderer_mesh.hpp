@@ -12,8 +12,8 @@ void set_surface_uniforms(const Program& program, const Camera& camera, const Fr
 class MeshPass {
   public:
     /// Draws into the bound framebuffer, the GL viewport being all of it. Returns the number of draw calls:
-    /// none where there are no triangles, else one.
-    int draw(const Mesh& mesh, const Camera& camera, const Frame& frame);
+    /// none where there are no triangles, else one. Below an opacity of 1 nothing is hidden by what is drawn.
+    int draw(const Mesh& mesh, const Camera& camera, const Frame& frame, float opacity = 1.0f);
 
   private:
     Program program_{"mesh.vert", "mesh.frag"};

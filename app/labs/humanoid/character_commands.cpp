@@ -70,13 +70,6 @@ void set_t_pose(HumanoidPart& part, const Arguments& given) {
     part.t_pose = on;
 }
 
-std::vector<std::string> bone_names() {
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < humanoid::bone_count; ++i)
-        names.emplace_back(humanoid::name(static_cast<humanoid::Bone>(i)));
-    return names;
-}
-
 }  // namespace
 
 void finish_loading(Workspace& workspace) {
@@ -95,6 +88,13 @@ void finish_loading(Workspace& workspace) {
     workspace.rewind.forget_from(workspace.clock.tick);
     ++workspace.edition;
     workspace.history.push(before.without(workspace.document), "humanoid.load", 0, from, workspace.place());
+}
+
+std::vector<std::string> bone_names() {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < humanoid::bone_count; ++i)
+        names.emplace_back(humanoid::name(static_cast<humanoid::Bone>(i)));
+    return names;
 }
 
 std::size_t node_named(const HumanoidPart& part, const std::string& name) {
@@ -121,7 +121,7 @@ void add_character_commands(CommandTable& table) {
         humanoid_lab, "humanoid.map",
         {choice_argument("bone", true, "which", bone_names()),
          text_argument("node", false, "of the skeleton, by name; none when left out")},
-        "Says which node of the character is a bone", map));
+        "Says which node of the character is a bone", map)));
     table.add({.name = "humanoid.scale",
                .arguments = {{.name = "metres",
                               .help = "of a unit of the file",

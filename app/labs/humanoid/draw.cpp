@@ -8,6 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "app/labs/humanoid/draw_ground.hpp"
+#include "app/labs/humanoid/draw_limits.hpp"
 #include "app/labs/humanoid/figure.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
@@ -47,6 +48,7 @@ class Drawing {
         if (humanoid_runtime(view_.workspace).solvers.body(part_) != nullptr)
             for (const humanoid::Effector each : all_effectors) effector(each);
         if (shown_.look) gaze();
+        draw_limits(view_, list_, part_, shown_);
         labels();
     }
 
@@ -308,6 +310,7 @@ std::vector<LegendRow> HumanoidLab::legend(const Workspace& workspace) const {
     if (humanoid_runtime(workspace).solvers.body(part) != nullptr) rows.push_back({"target", colours.target});
     if (shown.body && std::ranges::find(shown.body->at_limit, true) != shown.body->at_limit.end())
         rows.push_back({"at its limit", colours.limit});
+    for (LegendRow& row : limits_legend(workspace)) rows.push_back(std::move(row));
     const std::vector<bool> body = body_nodes(part);
     if (std::ranges::find(body, false) != body.end()) rows.push_back({"helper", colours.neutral});
     if (shown.feet && (shown.feet->feet[0].planted || shown.feet->feet[1].planted))

@@ -10,6 +10,9 @@ namespace tendril::app {
 /// The node of that name; throws std::invalid_argument where there is none.
 std::size_t node_named(const HumanoidPart& part, const std::string& name);
 
+/// For the choices of an argument.
+std::vector<std::string> bone_names();
+
 /// Waits for the file that is being read, if one is, and shows its character. Throws Refused.
 void finish_loading(Workspace& workspace);
 

@@ -131,8 +131,8 @@ void read_cures(const JsonPlace& place, HumanoidPart& part) {
     });
 }
 
-template <class Names>
-auto named_value(const Names& names, const JsonPlace& place) {
+template <class Enum, std::size_t count>
+Enum read_look(const JsonPlace& place, const EnumNames<Enum, count>& names) {
     try {
         return names.value(place.text());
     } catch (const std::invalid_argument& error) {
@@ -158,7 +158,8 @@ Json HumanoidPart::save() const {
     json["view"] = {{"ghost", view.ghost},
                     {"follow", view.follow},
                     {"skin", skin_looks.name(view.skin)},
-                    {"skinning", skinnings.name(view.skinning)}};
+                    {"skinning", skinnings.name(view.skinning)},
+                    {"limits", limits_shown.name(view.limits)}};
     return json;
 }
 
@@ -181,9 +182,11 @@ std::shared_ptr<Part> HumanoidPart::load(const Json& json, const std::string& wh
         part->selected = name->text();
     if (const auto shown = place.optional("view")) {
         if (const auto ghost = shown->optional("ghost")) part->view.ghost = ghost->flag();
-        if (const auto skin = shown->optional("skin")) part->view.skin = named_value(skin_looks, *skin);
+        if (const auto skin = shown->optional("skin")) part->view.skin = read_look(*skin, skin_looks);
         if (const auto skinning = shown->optional("skinning"))
-            part->view.skinning = named_value(skinnings, *skinning);
+            part->view.skinning = read_look(*skinning, skinnings);
+        if (const auto limits = shown->optional("limits"))
+            part->view.limits = read_look(*limits, limits_shown);
         if (const auto follow = shown->optional("follow")) part->view.follow = follow->flag();
     }
     return part;

@@ -30,11 +30,18 @@ enum class Skinning : std::uint8_t { Linear, TwistSpread };
 inline constexpr EnumNames<Skinning, 2> skinnings{"skinning",
                                                   {{"linear", "linear"}, {"twist_spread", "twist spread"}}};
 
+/// Of which joints the limits are drawn. Those that hold the body back now are drawn with either of the last.
+enum class LimitsShown : std::uint8_t { None, Selected, All };
+
+inline constexpr EnumNames<LimitsShown, 3> limits_shown{
+    "limits", {{"none", "none"}, {"selected", "of the selected joint"}, {"all", "of all joints"}}};
+
 struct HumanoidView {
     SkinLook skin = SkinLook::Transparent;
     Skinning skinning = Skinning::TwistSpread;
     bool ghost = true;   ///< of the pose before anything changed it
     bool follow = true;  ///< the camera goes along with a character that walks
+    LimitsShown limits = LimitsShown::Selected;
     bool operator==(const HumanoidView&) const = default;
 };
 

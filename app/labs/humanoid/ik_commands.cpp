@@ -6,6 +6,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
 #include "app/labs/humanoid/ik_command.hpp"
+#include "app/labs/humanoid/limit_ranges.hpp"
 #include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
@@ -33,12 +34,25 @@ void set_target(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     if (given.has("rotation") || given.has("weight")) part.ik_state.body = {};
 }
 
-void set_limits(const IkNow&, HumanoidPart& part, const Arguments& given) {
+void set_limits(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     const LimitsFrom from = limits_from.value(given.text("from"));
     if (from == LimitsFrom::Motion && part.loaded->clips().empty())
         throw std::invalid_argument("the character has no clips to learn limits from");
-    part.ik.limits = from;
     part.ik_state.body = {};
+    if (!given.has("bone")) {
+        part.ik.limits = from;
+        part.ik.joint_limits.clear();
+        return;
+    }
+    const std::string name = given.text("bone");
+    const humanoid::Bone bone = *humanoid::bone_named(name);
+    const LimitRanges& ranges = now.solvers.limits(part);
+    if (!part.node_of(bone)) throw std::invalid_argument("the character has no " + name);
+    if (ranges.adult(bone) == nullptr) throw std::invalid_argument("the " + name + " joint has no limits");
+    if (from == LimitsFrom::Motion && ranges.clips(bone) == nullptr)
+        throw std::invalid_argument("no clip turns the " + name + " joint");
+    part.ik.joint_limits.erase(bone);
+    if (from != part.ik.limits) part.ik.joint_limits[bone] = from;
 }
 
 void set_ground(const IkNow&, HumanoidPart& part, const Arguments& given) {
@@ -116,8 +130,11 @@ void add_ik_commands(CommandTable& table) {
                          largest_foot_angle)},
         "Brings the feet to the ground; what is left out stays", set_foot_ik));
     add_hand_commands(table);
-    table.add(ik_command("humanoid.limits", {choice_argument("from", true, "which", limits_from.names())},
-                         "Says where the limits of the joints come from", set_limits));
+    table.add(ik_command(
+        "humanoid.limits",
+        {choice_argument("from", true, "which", limits_from.names()),
+         choice_argument("bone", false, "of that joint alone; of all when left out", bone_names())},
+        "Says where the limits of the joints come from", set_limits));
 }
 
 }  // namespace tendril::app

@@ -278,10 +278,26 @@ LookAtSetting read_look_at(const JsonPlace& place) {
     return setting;
 }
 
+Json joint_limits_json(const IkSettings& ik) {
+    Json json = Json::object();
+    for (const auto& [bone, from] : ik.joint_limits) json[humanoid::name(bone)] = limits_from.name(from);
+    return json;
+}
+
+void read_joint_limits(const JsonPlace& place, IkSettings& ik) {
+    if (!place.json().is_object()) place.fail("expected an object of bones");
+    for (const auto& [name, value] : place.json().items()) {
+        const auto bone = humanoid::bone_named(name);
+        if (!bone) place.fail("there is no bone \"" + name + "\"");
+        ik.joint_limits[*bone] = read_name(place[name.c_str()], limits_from);
+    }
+}
+
 }  // namespace
 
 Json ik_json(const HumanoidPart& part) {
     Json json{{"targets", targets_json(part.ik)}, {"limits", limits_from.name(part.ik.limits)}};
+    if (!part.ik.joint_limits.empty()) json["joint_limits"] = joint_limits_json(part.ik);
     json["ground"] = ground_json(part.ik.ground);
     json["foot_ik"] = foot_ik_json(part.ik.foot_ik);
     json["self_collision"] = part.ik.self_collision;
@@ -297,6 +313,7 @@ Json ik_json(const HumanoidPart& part) {
 void read_ik(const JsonPlace& place, HumanoidPart& part) {
     if (const auto targets = place.optional("targets")) read_targets(*targets, part.ik);
     if (const auto limits = place.optional("limits")) part.ik.limits = read_name(*limits, limits_from);
+    if (const auto joints = place.optional("joint_limits")) read_joint_limits(*joints, part.ik);
     if (const auto ground = place.optional("ground")) part.ik.ground = read_ground(*ground);
     if (const auto foot_ik = place.optional("foot_ik")) part.ik.foot_ik = read_foot_ik(*foot_ik);
     if (const auto on = place.optional("self_collision")) part.ik.self_collision = on->flag();

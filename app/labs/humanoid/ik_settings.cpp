@@ -8,6 +8,11 @@ bool IkSettings::has_targets() const {
     return std::ranges::any_of(targets, [](const auto& target) { return target.has_value(); });
 }
 
+LimitsFrom IkSettings::limits_of(humanoid::Bone bone) const {
+    const auto own = joint_limits.find(bone);
+    return own == joint_limits.end() ? limits : own->second;
+}
+
 const TargetSetting* IkSettings::hand_target(std::size_t hand) const {
     const std::optional<TargetSetting>& wanted = target(both_hands[hand]);
     return hand_ik.on && wanted ? &*wanted : nullptr;

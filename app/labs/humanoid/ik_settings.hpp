@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <tendril/humanoid/body.hpp>
 #include <tendril/humanoid/feet.hpp>
@@ -68,6 +69,7 @@ struct LookAtSetting {
 struct IkSettings {
     std::array<std::optional<TargetSetting>, humanoid::effector_count> targets{};
     LimitsFrom limits = LimitsFrom::Defaults;
+    std::map<humanoid::Bone, LimitsFrom> joint_limits{};  ///< of those that go by another source
     bool self_collision = false;  ///< hands and lower arms do not pass through the body
     GroundSetting ground;
     FootIkSetting foot_ik;
@@ -82,6 +84,8 @@ struct IkSettings {
         return targets[static_cast<std::size_t>(effector)];
     }
     bool has_targets() const;
+    /// Where the limit of that joint comes from.
+    LimitsFrom limits_of(humanoid::Bone bone) const;
     /// Left 0, right 1; null where the hand has no target, or hand IK is off.
     const TargetSetting* hand_target(std::size_t hand) const;
 };

@@ -115,6 +115,7 @@ void HumanoidLab::inspector(const Workspace& workspace, Emit& emit) const {
     const HumanoidPanel panel = humanoid_panel(workspace, emit);
     verdict(panel);
     target_inspector(panel);
+    limit_inspector(panel);
     character_inspector(panel);
     node_inspector(panel);
 }

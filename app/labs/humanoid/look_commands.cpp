@@ -14,6 +14,7 @@ void set_view(HumanoidPart& part, const Arguments& given) {
     if (given.has("ghost")) part.view.ghost = given.boolean("ghost");
     if (given.has("skin")) part.view.skin = skin_looks.value(given.text("skin"));
     if (given.has("skinning")) part.view.skinning = skinnings.value(given.text("skinning"));
+    if (given.has("limits")) part.view.limits = limits_shown.value(given.text("limits"));
     if (given.has("follow")) part.view.follow = given.boolean("follow");
 }
 
@@ -28,6 +29,7 @@ void add_humanoid_look_commands(CommandTable& table) {
         {switch_argument("ghost", "of the pose as it was before anything changed it"),
          choice_argument("skin", false, "how what the character wears is drawn", skin_looks.names()),
          choice_argument("skinning", false, "how it follows twisted arms", skinnings.names()),
+         choice_argument("limits", false, "of which joints the limits are drawn", limits_shown.names()),
          switch_argument("follow", "the camera goes along with a walk")},
         "Sets how the character is shown; what is left out stays", set_view, Effect::Look));
 }

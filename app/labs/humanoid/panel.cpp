@@ -118,6 +118,12 @@ void look_rows(const HumanoidPanel& panel) {
             "are "
             "left to those.");
     }
+    int limits = static_cast<int>(view.limits);
+    constexpr const char* joints[]{"no joint", "selected joint",
+                                   "all joints"};  // in the order of LimitsShown
+    if (choice_field("limits of", limits, joints, 3))
+        panel.emit("humanoid.view", {{"limits", limits_shown.name(static_cast<LimitsShown>(limits))}});
+    explain("How far joints turn: an adult's range, and over it that of the clips.");
     if (ImGui::Checkbox("Ghost", &view.ghost)) panel.emit("humanoid.view", {{"ghost", view.ghost}});
     explain("The pose as it was before anything changed it, in gray.");
 }

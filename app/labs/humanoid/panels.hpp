@@ -24,8 +24,10 @@ void character_rows(const HumanoidPanel& panel);
 void bone_rows(const HumanoidPanel& panel);
 /// Which clip, and how it plays.
 void clip_rows(const HumanoidPanel& panel);
-/// The effectors with their targets, and where the limits of joints come from.
+/// The effectors with their targets.
 void target_rows(const HumanoidPanel& panel);
+/// Where the limits of joints come from.
+void limit_rows(const HumanoidPanel& panel);
 /// What it walks on, and how its feet take that.
 void ground_rows(const HumanoidPanel& panel);
 /// Hands that a clip moves, and what the head looks at.
@@ -43,6 +45,8 @@ void map_rows(const HumanoidPanel& panel);
 void target_inspector(const HumanoidPanel& panel);
 /// The selected node.
 void node_inspector(const HumanoidPanel& panel);
+/// How far the selected joint is turned, and may be.
+void limit_inspector(const HumanoidPanel& panel);
 /// The character in numbers.
 void character_inspector(const HumanoidPanel& panel);
 

@@ -1,16 +1,11 @@
 #include "app/labs/humanoid/solvers.hpp"
 
 #include "app/labs/humanoid/chains.hpp"
+#include "app/labs/humanoid/limit_ranges.hpp"
 
 namespace tendril::app {
-namespace {
 
-humanoid::BodyLimits limits_of(const HumanoidPart& part) {
-    if (part.ik.limits == LimitsFrom::None) return humanoid::no_limits();
-    const humanoid::BodyLimits defaults = humanoid::default_limits(part.skeleton(), *part.map);
-    if (part.ik.limits == LimitsFrom::Defaults) return defaults;
-    return humanoid::learned_limits(part.skeleton(), *part.map, part.loaded->clips(), defaults);
-}
+namespace {
 
 /// Fitted to what the character wears, as it rests.
 std::vector<humanoid::BodyCapsule> capsules_of(const HumanoidPart& part) {
@@ -21,8 +16,11 @@ std::vector<humanoid::BodyCapsule> capsules_of(const HumanoidPart& part) {
 
 }  // namespace
 
+Solvers::Solvers() = default;
+Solvers::~Solvers() = default;
+
 void Solvers::make(const HumanoidPart& part) {
-    const Made wanted{part.loaded, part.map, part.ik.limits, part.ik.self_collision};
+    const Made wanted{part.loaded, part.map, part.ik.limits, part.ik.joint_limits, part.ik.self_collision};
     if (made_ == wanted) return;
     made_ = wanted;
     body_.reset();
@@ -35,7 +33,7 @@ void Solvers::make(const HumanoidPart& part) {
     if (!why_not_.empty()) return;
     if (part.ik.self_collision) capsules_ = capsules_of(part);
     Expected<humanoid::Body> body =
-        humanoid::Body::make(part.skeleton(), *part.map, limits_of(part), capsules_);
+        humanoid::Body::make(part.skeleton(), *part.map, limits(part).in_force(part.ik), capsules_);
     if (body)
         body_ = std::move(body).value();
     else
@@ -90,6 +88,11 @@ std::optional<double> Solvers::floor(const HumanoidPart& part) {
 const std::vector<humanoid::BodyCapsule>& Solvers::capsules(const HumanoidPart& part) {
     make(part);
     return capsules_;
+}
+
+const LimitRanges& Solvers::limits(const HumanoidPart& part) {
+    if (!ranges_ || !ranges_->is_of(part)) ranges_ = std::make_unique<LimitRanges>(part.loaded, part.map);
+    return *ranges_;
 }
 
 const humanoid::Ground& Solvers::ground(const HumanoidPart& part) {

@@ -10,8 +10,15 @@
 
 namespace tendril::app {
 
+class LimitRanges;
+
 class Solvers {
   public:
+    Solvers();
+    ~Solvers();
+    Solvers(const Solvers&) = delete;
+    Solvers& operator=(const Solvers&) = delete;
+
     /// Null where there is none for this map; then why_no_body() says why.
     humanoid::Body* body(const HumanoidPart& part);
     /// "LeftHand and RightHand are missing"; empty where there is a body.
@@ -28,12 +35,15 @@ class Solvers {
     /// What self-collision keeps apart; empty where that is off.
     const std::vector<humanoid::BodyCapsule>& capsules(const HumanoidPart& part);
     const humanoid::Ground& ground(const HumanoidPart& part);
+    /// What the joints' limits are chosen from.
+    const LimitRanges& limits(const HumanoidPart& part);
 
   private:
     struct Made {
         SharedCharacter loaded;
         std::shared_ptr<const humanoid::BoneMap> map;
         LimitsFrom limits = LimitsFrom::Defaults;
+        std::map<humanoid::Bone, LimitsFrom> joint_limits{};
         bool self_collision = false;
         bool operator==(const Made&) const = default;
     };
@@ -49,6 +59,7 @@ class Solvers {
     std::map<std::size_t, double> floors_;  // by clip
     std::optional<GroundSetting> ground_of_;
     humanoid::Ground ground_;
+    std::unique_ptr<LimitRanges> ranges_;
 };
 
 }  // namespace tendril::app

@@ -5,6 +5,7 @@
 #include "app/labs/humanoid/chains.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "app/labs/humanoid/limit_ranges.hpp"
 
 namespace tendril::app {
 namespace {
@@ -104,14 +105,47 @@ Json targets_state(const HumanoidPart& part, const ShownPose& shown) {
     return targets;
 }
 
+float in_degrees(float radians) {
+    return glm::degrees(radians);
+}
+
+Json range_json(const ik::Limit* limit) {
+    if (limit == nullptr) return nullptr;
+    if (limit->kind == ik::JointKind::Hinge)
+        return {{"min_deg", in_degrees(limit->min)}, {"max_deg", in_degrees(limit->max)}};
+    return {{"up_deg", in_degrees(limit->up)},
+            {"down_deg", in_degrees(limit->down)},
+            {"left_deg", in_degrees(limit->left)},
+            {"right_deg", in_degrees(limit->right)},
+            {"twist_min_deg", in_degrees(limit->twist_min)},
+            {"twist_max_deg", in_degrees(limit->twist_max)}};
+}
+
+/// How the selected joint is turned, and may be; null without one.
+Json joint_state(const HumanoidPart& part, Solvers& solvers, const ShownPose& shown) {
+    const auto node = part.skeleton().find(part.selected);
+    const auto bone = node ? part.bone_of(*node) : std::nullopt;
+    const auto joint = bone ? joint_now(part, solvers, shown, *bone) : std::nullopt;
+    if (!joint) return nullptr;
+    return {{"bone", humanoid::name(*bone)},
+            {"limits", limits_from.name(joint->from)},
+            {"up_deg", in_degrees(joint->angles.up)},
+            {"left_deg", in_degrees(joint->angles.left)},
+            {"twist_deg", in_degrees(joint->angles.twist)},
+            {"excess_deg", in_degrees(joint->excess)},
+            {"held", joint->held},
+            {"adult", range_json(joint->adult)},
+            {"clips", range_json(joint->clips)}};
+}
+
 Json body_state(const Workspace& workspace, const ShownPose& shown) {
     const HumanoidPart& part = humanoid_part(workspace);
     Solvers& solvers = humanoid_runtime(workspace).solvers;
-    Json json{{"usable", solvers.body(part) != nullptr},
-              {"why_not", solvers.why_no_body(part)},
-              {"limits", limits_from.name(part.ik.limits)},
-              {"self_collision", part.ik.self_collision},
-              {"targets", targets_state(part, shown)}};
+    Json json{{"usable", solvers.body(part) != nullptr},    {"why_not", solvers.why_no_body(part)},
+              {"limits", limits_from.name(part.ik.limits)}, {"joint", joint_state(part, solvers, shown)},
+              {"self_collision", part.ik.self_collision},   {"targets", targets_state(part, shown)}};
+    for (const auto& [bone, from] : part.ik.joint_limits)
+        json["joint_limits"][humanoid::name(bone)] = limits_from.name(from);
     if (shown.body) json["iterations"] = shown.body->iterations;
     if (shown.body && part.ik.self_collision) json["penetration"] = shown.body->penetration;
     return json;

@@ -47,14 +47,9 @@ void target_rows(const HumanoidPanel& panel) {
     if (ImGui::Checkbox("Self-collision", &apart)) panel.emit("humanoid.self_collision", {{"on", apart}});
     explain(
         "Hands and lower arms do not pass through the body; its outlines show what they keep out of, fitted "
-        "to "
-        "the skin where the character has one.");
-    int from = static_cast<int>(ik.limits);
-    const auto titles = limits_from.titles();
-    const char* why_not[]{nullptr, panel.part.loaded->clips().empty() ? "no clips" : nullptr, nullptr};
-    if (choice_field("joint limits", from, titles.data(), static_cast<int>(titles.size()), why_not))
-        panel.emit("humanoid.limits", {{"from", limits_from.name(static_cast<LimitsFrom>(from))}});
-    explain(limits_from.help(ik.limits));
+        "to the "
+        "skin where the character has one.");
+    limit_rows(panel);
 }
 
 }  // namespace tendril::app

@@ -157,6 +157,24 @@ TEST_P(Meshes, HaveTwoSides) {
     }
 }
 
+TEST_P(Meshes, AVeilLetsThroughWhatIsBehindIt) {
+    const CameraPose pose{};
+    const glm::vec3 towards = -Camera(pose, viewport).forward();
+    const auto seen = [&](float veil_at, int veils) {
+        DrawList list;
+        square(list.mesh, {0, 0, 0}, towards, 0.5f, red, red);
+        for (int i = 0; i < veils; ++i) square(list.veil, veil_at * towards, towards, 0.5f, green, green);
+        return colour_at(draw(list, pose), pixel_of(pose, {}));
+    };
+    const glm::vec3 bare = seen(0.0f, 0);
+    EXPECT_EQ(seen(-0.2f, 1), bare) << "what is solid hides it";
+    const glm::vec3 one = seen(0.2f, 1), two = seen(0.2f, 2);
+    EXPECT_LT(one.r, bare.r - 0.05f);
+    EXPECT_GT(one.r, 0.6f * bare.r) << "and is seen through it";
+    EXPECT_GT(one.g, bare.g + 0.05f);
+    EXPECT_LT(two.r, one.r) << "veils do not hide each other";
+}
+
 TEST_P(Meshes, CallsDoNotGrowWithThem) {
     const CameraPose pose{.pitch = 0.3f};
     const Camera camera(pose, viewport);
