@@ -41,6 +41,8 @@ LiveLoop::LiveLoop(App& app, Window& window, const Options& options)
     for (const std::string& complaint : complaints)
         app_.workspace().toast("Settings: " + complaint, ToastKind::Refusal);
     kept_ = app_.workspace().settings;
+    app_.workspace().config = config_folder();
+    app_.workspace().keeps = true;
     app_.workspace().ui.recoverable = Autosave::left_behind(config_folder());
     autosave_.emplace(config_folder());
 }

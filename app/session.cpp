@@ -86,6 +86,8 @@ int run(const SessionOptions& options) {
     App app(*window, options.headless);
     // A recording brings its own settings; they are not this person's.
     const bool config = options.config && !options.headless && !script.start;
+    // Without a window it is read, and written only where a command says so.
+    if (options.config && !script.start) app.workspace().config = config_folder();
     LiveLoop live(app, *window, {.config = config, .ending = ending});
     open_scene(app, options);
     if (script.start) app.start_from(*script.start);

@@ -69,6 +69,8 @@ struct Workspace {
     std::uint64_t edition = 0;  ///< which of the changes that can be undone was the last; counted
     History history;
     Settings settings;
+    std::filesystem::path config;  ///< the folder of what is kept from session to session; empty: none
+    bool keeps = false;            ///< there, without being told: in a live window
     UiState ui;
     std::filesystem::path path;  ///< the scene's file, empty while it has none
     Document saved;              ///< as it was last saved or opened

@@ -5,6 +5,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "app/document/atomic_file.hpp"
 #include "app/document/json_complete.hpp"
 
 namespace tendril::app {
@@ -126,14 +127,35 @@ std::filesystem::path kept_map(const std::filesystem::path& folder, const Skelet
 std::optional<SavedMap> find_kept_map(const std::filesystem::path& folder, const Skeleton& skeleton) {
     const std::filesystem::path path = kept_map(folder, skeleton);
     std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
+    if (!std::filesystem::exists(path, error)) return std::nullopt;
+    const std::string name = path.filename().string();
+    // A pipe would never end.
+    if (!std::filesystem::is_regular_file(path, error)) throw std::runtime_error(name + ": is not a file");
+    SavedMap map = read_map(path);
+    if (map.nodes != names_of(skeleton))
+        throw std::runtime_error(name + ": nodes: they are not those of the character");
     try {
-        SavedMap map = read_map(path);
-        if (map.nodes == names_of(skeleton)) return map;
-    } catch (const std::runtime_error&) {
-        // Somebody has edited it: it is not offered.
+        applied(map, skeleton);
+    } catch (const std::runtime_error& why) {
+        throw std::runtime_error(name + ": bones: " + why.what());
     }
-    return std::nullopt;
+    return map;
+}
+
+void keep_map(const std::filesystem::path& folder, const SavedMap& map, const Skeleton& skeleton) {
+    const std::filesystem::path path = kept_map(folder, skeleton);
+    std::error_code error;
+    std::filesystem::create_directories(path.parent_path(), error);
+    if (error) throw std::runtime_error("cannot write " + path.string() + ": " + error.message());
+    write_file_atomically(path, map_text(map));
+}
+
+bool forget_kept_map(const std::filesystem::path& folder, const Skeleton& skeleton) {
+    const std::filesystem::path path = kept_map(folder, skeleton);
+    std::error_code error;
+    const bool was_there = std::filesystem::remove(path, error);
+    if (error) throw std::runtime_error("cannot remove " + path.string() + ": " + error.message());
+    return was_there;
 }
 
 }  // namespace tendril::app

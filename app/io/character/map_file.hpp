@@ -41,8 +41,13 @@ SavedMap read_map(const std::filesystem::path& path);
 
 /// Where the map of a skeleton of those names is kept in a folder, whether or not it is there now.
 std::filesystem::path kept_map(const std::filesystem::path& folder, const humanoid::Skeleton& skeleton);
-/// The map that is kept there for exactly those names; none also where the file cannot be read.
+/// The map that is kept there for exactly those names, and can be applied; nothing where there is none.
+/// Throws std::runtime_error, with the file's name, where the file is another's, or cannot be read.
 std::optional<SavedMap> find_kept_map(const std::filesystem::path& folder,
                                       const humanoid::Skeleton& skeleton);
+/// Keeps it there, in place of an older one. Throws std::runtime_error.
+void keep_map(const std::filesystem::path& folder, const SavedMap& map, const humanoid::Skeleton& skeleton);
+/// Whether there was one. Throws std::runtime_error where it cannot be removed.
+bool forget_kept_map(const std::filesystem::path& folder, const humanoid::Skeleton& skeleton);
 
 }  // namespace tendril::app

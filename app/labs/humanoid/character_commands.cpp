@@ -4,6 +4,7 @@
 
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "app/labs/humanoid/kept_maps.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/view/camera.hpp"
 
@@ -25,6 +26,8 @@ void show(Workspace& workspace, SharedCharacter character) {
     part.view = humanoid_part(workspace).view;
     workspace.document.edit<HumanoidPart>(humanoid_lab) = part;
     show_all(workspace, *part.loaded);
+    if (const std::string& why = humanoid_runtime(workspace).kept_maps.refused(workspace); !why.empty())
+        workspace.toast(why, ToastKind::Refusal);
 }
 
 void load(Workspace& workspace, const Arguments& given) {
@@ -117,7 +120,7 @@ void add_character_commands(CommandTable& table) {
                .apply = [](Workspace& workspace, const Arguments&) {
                    humanoid_runtime(workspace).loading.cancel();
                }});
-    table.add(part_command<HumanoidPart>(
+    table.add(keeping(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.map",
         {choice_argument("bone", true, "which", bone_names()),
          text_argument("node", false, "of the skeleton, by name; none when left out")},

@@ -10,6 +10,7 @@
 #include "app/labs/humanoid/clip_lint.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "app/labs/humanoid/kept_maps.hpp"
 #include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
@@ -28,17 +29,8 @@ void save_map(Workspace& workspace, const Arguments& given) {
     workspace.toast("Written: " + given.text("path"));
 }
 
-/// As if each bone were picked by hand: those that lose their node first.
 void load_map(HumanoidPart& part, const Arguments& given) {
-    const humanoid::BoneMap wanted = applied(read_map(given.text("path")), part.skeleton());
-    for (const bool picked : {false, true}) {
-        for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
-            const std::int32_t node = wanted.bones[i].node;
-            if (node == part.map->bones[i].node || (picked && node < 0)) continue;
-            set_bone(part, static_cast<humanoid::Bone>(i),
-                     picked ? std::optional(static_cast<std::size_t>(node)) : std::nullopt);
-        }
-    }
+    take_map(part, applied(read_map(given.text("path")), part.skeleton()));
 }
 
 /// The clip that is named, or chosen, or the first.
@@ -111,10 +103,11 @@ void add_humanoid_file_commands(CommandTable& table) {
                .help = "Writes which node is which bone",
                .effect = Effect::Look,
                .apply = save_map});
-    table.add(
+    table.add(keeping(
         part_command<HumanoidPart>(humanoid_lab, "humanoid.map.load",
                                    {text_argument("path", true, "a JSON file that humanoid.map.save wrote")},
-                                   "Takes a bone map that was saved", load_map));
+                                   "Takes a bone map that was saved", load_map)));
+    add_kept_map_commands(table);
     table.add({.name = "humanoid.export",
                .arguments = {text_argument("path", true, "a .gltf, .glb or .bvh file to write"),
                              text_argument("clip", false, "which one; the chosen one, or the first"),

@@ -16,6 +16,9 @@ std::vector<std::string> bone_names();
 /// Waits for the file that is being read, if one is, and shows its character. Throws Refused.
 void finish_loading(Workspace& workspace);
 
+/// The same command, which in a window keeps the bone map that it has corrected.
+Command keeping(Command command);
+
 /// "sign_flip"
 std::optional<humanoid::Fault> fault_named(const std::string& name);
 
@@ -25,5 +28,7 @@ void add_ik_commands(CommandTable& table);
 void add_humanoid_look_commands(CommandTable& table);
 /// Maps, exports, and cures.
 void add_humanoid_file_commands(CommandTable& table);
+/// Maps that are kept for node names.
+void add_kept_map_commands(CommandTable& table);
 
 }  // namespace tendril::app

@@ -7,6 +7,7 @@
 #include "app/document/runtime.hpp"
 #include "app/io/character/twist_spread.hpp"
 #include "app/labs/humanoid/clip_lint.hpp"
+#include "app/labs/humanoid/kept_maps.hpp"
 #include "app/labs/humanoid/loading.hpp"
 #include "app/labs/humanoid/shown_pose.hpp"
 #include "app/widgets/fields.hpp"
@@ -22,6 +23,7 @@ class HumanoidRuntime final : public Runtime {
     Loading loading;  ///< a file that is being read
     Solvers solvers;
     ClipLint lint;
+    KeptMaps kept_maps;
 
     /// The interface's own: it follows from nothing, and nothing follows from it.
     struct Panel {

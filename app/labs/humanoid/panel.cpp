@@ -33,6 +33,23 @@ void scale_row(const HumanoidPanel& panel) {
     explain("How long a unit of the file is. The character's height says whether it is right.");
 }
 
+void kept_map_rows(const HumanoidPanel& panel) {
+    KeptMaps& maps = panel.runtime.kept_maps;
+    if (const std::string& why = maps.refused(panel.workspace); !why.empty()) note(why + '.');
+    const SavedMap* const map = maps.offered(panel.workspace);
+    if (map == nullptr) return;
+    const std::vector<humanoid::Bone> bones = bones_that_differ(*map, panel.part);
+    std::string names;
+    for (const humanoid::Bone bone : bones)
+        names += (names.empty() ? "" : ", ") + std::string(humanoid::name(bone));
+    note("A bone map that you made for these node names has " + count_text(bones.size(), "bone") +
+         " otherwise: " + names + '.');
+    if (row_button("Use it", 2, true, "The bones become what you made them then"))
+        panel.emit("humanoid.map.use");
+    if (row_button("Forget it", 2, true, "It is not offered again")) panel.emit("humanoid.map.forget");
+    end_row();
+}
+
 }  // namespace
 
 HumanoidPanel humanoid_panel(const Workspace& workspace, Emit& emit) {
@@ -61,6 +78,7 @@ void character_rows(const HumanoidPanel& panel) {
     if (row_button("Stick figure", 1, !loaded.file.empty(), "The figure that is there without a file"))
         panel.emit("humanoid.load");
     end_row();
+    kept_map_rows(panel);
     scale_row(panel);
     reading("height", "%.2f m", loaded.height());
     rest_row(panel);

@@ -52,13 +52,29 @@ Json unmatched_state(const HumanoidPart& part) {
     return names;
 }
 
-Json character_state(const HumanoidPart& part, const ShownPose& shown) {
+/// What the map that is kept would change, or why it is left out; null where none is kept, or it is in use.
+Json kept_map_state(const Workspace& workspace) {
+    KeptMaps& maps = humanoid_runtime(workspace).kept_maps;
+    if (const std::string& why = maps.refused(workspace); !why.empty()) return {{"refused", why}};
+    const SavedMap* const map = maps.offered(workspace);
+    if (map == nullptr) return nullptr;
+    Json changes = Json::object();
+    for (const Bone bone : bones_that_differ(*map, humanoid_part(workspace))) {
+        const std::string& node = map->bones[static_cast<std::size_t>(bone)];
+        changes[humanoid::name(bone)] = node.empty() ? Json(nullptr) : Json(node);
+    }
+    return {{"changes", std::move(changes)}};
+}
+
+Json character_state(const Workspace& workspace, const ShownPose& shown) {
+    const HumanoidPart& part = humanoid_part(workspace);
     return Json{{"file", part.loaded->file},
                 {"scale", part.loaded->character.scale},
                 {"nodes", nodes_state(part, shown)},
                 {"bones", bones_state(part, shown)},
                 {"unmatched", unmatched_state(part)},
                 {"rest", humanoid::name(part.map->rest)},
+                {"kept_map", kept_map_state(workspace)},
                 {"t_pose", part.t_pose},
                 {"notes", part.loaded->character.notes}};
 }
@@ -221,7 +237,7 @@ Json HumanoidLab::state(const Workspace& workspace) const {
     const HumanoidPart& part = humanoid_part(workspace);
     const ShownPose& shown = shown_pose(workspace);
     return Json{{"lab", humanoid_lab},
-                {"character", character_state(part, shown)},
+                {"character", character_state(workspace, shown)},
                 {"body", body_state(workspace, shown)},
                 {"chains", chains_state(part, shown)},
                 {"clip", clip_state(part)},

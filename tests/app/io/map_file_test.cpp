@@ -98,8 +98,8 @@ TEST(MapFile, is_kept_for_a_skeleton_of_the_same_names_and_no_other) {
     EXPECT_FALSE(find_kept_map(folder.path(), skeleton()));
     const SavedMap saved = saved_map(humanoid::match_bones(skeleton()), skeleton());
     const auto path = kept_map(folder.path(), skeleton());
-    std::filesystem::create_directories(path.parent_path());
-    test::write(path, map_text(saved));
+    keep_map(folder.path(), saved, skeleton());
+    EXPECT_EQ(test::read(path), map_text(saved));
     EXPECT_EQ(find_kept_map(folder.path(), skeleton()), saved);
     std::vector<humanoid::Node> nodes = skeleton().nodes();
     nodes.back().rest.translation *= 2.0;  // of another size, but of the same names
@@ -107,11 +107,37 @@ TEST(MapFile, is_kept_for_a_skeleton_of_the_same_names_and_no_other) {
     nodes.back().name = "other";
     const humanoid::Skeleton other = *humanoid::Skeleton::make(nodes);
     EXPECT_FALSE(find_kept_map(folder.path(), other));
-    // Even under its name.
-    test::write(kept_map(folder.path(), other), map_text(saved));
-    EXPECT_FALSE(find_kept_map(folder.path(), other));
-    test::write(path, "{");
+    EXPECT_TRUE(forget_kept_map(folder.path(), skeleton()));
+    EXPECT_FALSE(forget_kept_map(folder.path(), skeleton()));
     EXPECT_FALSE(find_kept_map(folder.path(), skeleton()));
+}
+
+TEST(MapFile, that_is_kept_is_refused_with_its_name_where_it_cannot_be_the_characters) {
+    const test::TempFolder folder;
+    const SavedMap saved = saved_map(humanoid::match_bones(skeleton()), skeleton());
+    keep_map(folder.path(), saved, skeleton());
+    const auto path = kept_map(folder.path(), skeleton());
+    const auto why = [&](const std::string& text) {
+        test::write(path, text);
+        return test::message_of([&] { find_kept_map(folder.path(), skeleton()); });
+    };
+    SavedMap other = saved;
+    other.nodes.back() = "other";
+    EXPECT_TRUE(test::has(why(map_text(other)), "nodes: they are not those of the character"));
+    other = saved;
+    other.bones[0] = "nobody's";
+    EXPECT_TRUE(test::has(why(map_text(other)), "bones: Hips is node \"nobody's\""));
+    EXPECT_TRUE(test::has(why("{"), path.filename().string()));
+    EXPECT_TRUE(test::has(why(std::string(5000, '[')), path.filename().string()));
+    EXPECT_TRUE(test::has(why(""), path.filename().string()));
+    std::filesystem::remove(path);
+    std::filesystem::create_directories(path);
+    EXPECT_TRUE(
+        test::has(test::message_of([&] { find_kept_map(folder.path(), skeleton()); }), "is not a file"));
+    // Where the folder cannot be made.
+    test::write(folder / "file", "");
+    EXPECT_TRUE(
+        test::has(test::message_of([&] { keep_map(folder / "file", saved, skeleton()); }), "cannot write"));
 }
 
 }  // namespace
