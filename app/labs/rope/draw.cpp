@@ -4,14 +4,13 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "app/labs/kit/world_drawing.hpp"
 #include "app/labs/rope/rope_lab.hpp"
-#include "app/labs/rope/strain.hpp"
 #include "app/view/surfaces.hpp"
 
 namespace tendril::app {
 namespace {
 
-constexpr int strand_sides = 6;            ///< nobody sees more on a hair
 constexpr float plane_radius = 3.0f;       ///< metres of an endless plane that are shown
 constexpr double heavy_from = 4.0;         ///< times the lightest particle of a rope
 constexpr double weight_density = 2500.0;  ///< kg/m^3: of stone
@@ -29,11 +28,13 @@ class Drawing {
         colours_ = particle_colours(world_, view_.palette, part_.view.strain);
         if (!part_.view.strain) mark_selection();
         for (const rope::Body& body : world_.state().bodies) {
-            if (body.kind == rope::Body::Kind::Cloth) {
-                cloth(body);
-            } else {
-                strands(body);
-            }
+            const bool coloured = part_.view.strain || chosen(body);
+            if (body.kind != rope::Body::Kind::Cloth)
+                draw_strands(list_, view_.camera, body, positions_, colours_, part_.view.sides);
+            else
+                draw_cloth(list_, view_.camera, world_, body, positions_,
+                           coloured ? std::span<const glm::vec3>(colours_) : std::span<const glm::vec3>(),
+                           view_.palette);
         }
         weights();
         catchable_links();
@@ -101,28 +102,6 @@ class Drawing {
             if (!chosen(body)) continue;
             for (std::size_t i = body.first; i < body.first + body.count; ++i)
                 colours_[i] = glm::mix(colours_[i], view_.palette.selection, 0.35f);
-        }
-    }
-
-    void strands(const rope::Body& body) {
-        const int sides = body.kind == rope::Body::Kind::Hair ? strand_sides : part_.view.sides;
-        const std::span<const glm::vec3> points(positions_), colours(colours_);
-        for (std::size_t at = body.first; at < body.first + body.count; at += body.row) {
-            tube(list_, view_.camera, points.subspan(at, body.row), body.radius, sides,
-                 colours.subspan(at, body.row));
-        }
-    }
-
-    void cloth(const rope::Body& body) {
-        const int columns = static_cast<int>(body.row), rows = static_cast<int>(body.count / body.row);
-        const std::span<const glm::vec3> points(positions_), colours(colours_);
-        const std::vector<std::uint8_t> cells = whole_cells(world_, body);
-        const ClothGrid grid{columns, rows, points.subspan(body.first, body.count), cells};
-        if (part_.view.strain || chosen(body)) {
-            cloth_surface(list_, view_.camera, grid, view_.palette.head, view_.palette.neutral,
-                          colours.subspan(body.first, body.count));
-        } else {
-            cloth_surface(list_, view_.camera, grid, cloth_front(view_.palette), view_.palette.neutral);
         }
     }
 

@@ -4,11 +4,11 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/labs/kit/json_place.hpp"
+#include "app/labs/kit/world_file.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_names.hpp"
 #include "app/labs/rope/rope_part.hpp"
 #include "app/labs/rope/rope_time.hpp"
-#include "app/labs/rope/world_file.hpp"
 
 namespace tendril::app {
 namespace {

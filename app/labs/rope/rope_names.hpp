@@ -15,13 +15,4 @@ inline constexpr double shortest_jitter_frame = 0.001, longest_jitter_frame = 0.
 inline constexpr EnumNames<RopeTool, 3> rope_tools{
     "tool", {{"move", "Select"}, {"pin", "Pin or unpin"}, {"cut", "Cut"}}};
 
-inline constexpr EnumNames<rope::Solver, 3> rope_solvers{
-    "solver",
-    {{"relaxation", "Relaxation",
-      "One segment after the other. How far a rope stretches depends on iterations and substep, not on its "
-      "material."},
-     {"xpbd", "XPBD",
-      "As relaxation, but with compliance: enough iterations stretch it as a material stretches."},
-     {"direct", "Direct", "All segments of a rope at once: it does not stretch, and keeps its energy."}}};
-
 }  // namespace tendril::app

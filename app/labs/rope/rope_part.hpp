@@ -9,13 +9,11 @@
 
 #include "app/document/document.hpp"
 #include "app/document/workspace.hpp"
-#include "app/labs/rope/named_world.hpp"
+#include "app/labs/kit/named_world.hpp"
 
 namespace tendril::app {
 
 inline constexpr const char* rope_lab = "rope";
-inline constexpr std::size_t max_lab_particles = 100'000;  ///< more would make too large a scene file
-inline constexpr std::size_t max_lab_colliders = 1'000;
 /// Links times iterations, and what else is looked at in a substep: of a tick, what is over is dropped; a
 /// world of which one substep takes more is refused.
 inline constexpr std::uint64_t max_lab_work = 50'000'000;

@@ -1,8 +1,8 @@
 // What --state writes of the Rope lab.
 #include "app/document/json_complete.hpp"
+#include "app/labs/kit/world_file.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/rope/rope_names.hpp"
-#include "app/labs/rope/world_file.hpp"
 
 namespace tendril::app {
 namespace {

@@ -1,8 +1,8 @@
 // The whole of the lab: what it begins with, and how it is simulated.
+#include "app/labs/kit/world_file.hpp"
 #include "app/labs/rope/rope_commands.hpp"
 #include "app/labs/rope/rope_names.hpp"
 #include "app/labs/rope/scenes.hpp"
-#include "app/labs/rope/world_file.hpp"
 
 namespace tendril::app {
 namespace {

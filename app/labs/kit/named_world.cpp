@@ -1,4 +1,4 @@
-#include "app/labs/rope/named_world.hpp"
+#include "app/labs/kit/named_world.hpp"
 
 #include <algorithm>
 #include <stdexcept>

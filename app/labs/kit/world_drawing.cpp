@@ -1,4 +1,4 @@
-#include "app/labs/rope/strain.hpp"
+#include "app/labs/kit/world_drawing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +11,11 @@ namespace tendril::app {
 namespace {
 
 constexpr float min_strain = 1e-4f, full_strain = 0.1f;
+constexpr int strand_sides = 6;  // nobody sees more on a hair
+
+glm::vec3 cloth_front(const Palette& palette) {
+    return glm::mix(palette.accent, palette.joint, 0.35f);
+}
 
 }  // namespace
 
@@ -21,10 +26,6 @@ glm::vec3 strain_colour(float strain, const Palette& palette) {
     // From a gray that is lighter than both, in either theme.
     const glm::vec3 none = glm::mix(palette.ghost, glm::vec3(1.0f), 0.35f);
     return glm::mix(none, strain > 0.0f ? palette.limit : palette.head, std::min(share, 1.0f));
-}
-
-glm::vec3 cloth_front(const Palette& palette) {
-    return glm::mix(palette.accent, palette.joint, 0.35f);
 }
 
 std::vector<glm::vec3> particle_colours(const NamedWorld& world, const Palette& palette, bool by_strain) {
@@ -74,6 +75,27 @@ std::vector<std::uint8_t> whole_cells(const NamedWorld& world, const rope::Body&
         }
     }
     return cells;
+}
+
+void draw_strands(DrawList& list, const Camera& camera, const rope::Body& body,
+                  std::span<const glm::vec3> positions, std::span<const glm::vec3> colours, int sides) {
+    if (body.kind == rope::Body::Kind::Hair) sides = strand_sides;
+    for (std::size_t at = body.first; at < body.first + body.count; at += body.row)
+        tube(list, camera, positions.subspan(at, body.row), body.radius, sides,
+             colours.subspan(at, body.row));
+}
+
+void draw_cloth(DrawList& list, const Camera& camera, const NamedWorld& world, const rope::Body& body,
+                std::span<const glm::vec3> positions, std::span<const glm::vec3> colours,
+                const Palette& palette) {
+    const int columns = static_cast<int>(body.row), rows = static_cast<int>(body.count / body.row);
+    const std::vector<std::uint8_t> cells = whole_cells(world, body);
+    const ClothGrid grid{columns, rows, positions.subspan(body.first, body.count), cells};
+    if (colours.empty())
+        cloth_surface(list, camera, grid, cloth_front(palette), palette.neutral);
+    else
+        cloth_surface(list, camera, grid, palette.head, palette.neutral,
+                      colours.subspan(body.first, body.count));
 }
 
 }  // namespace tendril::app

@@ -1,4 +1,4 @@
-#include "app/labs/rope/world_file.hpp"
+#include "app/labs/kit/world_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,6 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/labs/kit/json_place.hpp"
-#include "app/labs/rope/rope_names.hpp"
-#include "app/labs/rope/rope_part.hpp"
 
 namespace tendril::app {
 namespace {

@@ -7,7 +7,21 @@
 #include <tendril/rope/world.hpp>
 #include <vector>
 
+#include "app/labs/kit/names.hpp"
+
 namespace tendril::app {
+
+inline constexpr std::size_t max_lab_particles = 100'000;  ///< more would make too large a scene file
+inline constexpr std::size_t max_lab_colliders = 1'000;
+
+inline constexpr EnumNames<rope::Solver, 3> rope_solvers{
+    "solver",
+    {{"relaxation", "Relaxation",
+      "One segment after the other. How far a rope stretches depends on iterations and substep, not on its "
+      "material."},
+     {"xpbd", "XPBD",
+      "As relaxation, but with compliance: enough iterations stretch it as a material stretches."},
+     {"direct", "Direct", "All segments of a rope at once: it does not stretch, and keeps its energy."}}};
 
 /// A value, as the library's world is; what time needs besides is in a rope::Workspace.
 class NamedWorld {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/document/json.hpp"
-#include "app/labs/rope/named_world.hpp"
+#include "app/labs/kit/named_world.hpp"
 
 namespace tendril::app {
 
