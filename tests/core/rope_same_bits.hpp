@@ -65,8 +65,9 @@ class StateBits {
         add(particle, goal, seconds, collider);
     }
     void put(const rope::Collider& collider) {
-        const auto& [id, shape, goal, seconds] = collider;
+        const auto& [id, shape, goal, seconds, half_goal] = collider;
         add(id, shape.index(), goal, seconds);
+        if (half_goal) add(*half_goal);
         std::visit([&](const auto& each) { put(each); }, shape);
     }
     void put(const rope::Sphere& sphere) {

@@ -112,8 +112,8 @@ std::string NamedWorld::cut(std::string_view rope, std::size_t segment) {
 std::size_t NamedWorld::particle(std::string_view body, std::size_t index) const {
     return require_value(world_.particle(id(body), index));
 }
-void NamedWorld::pin(std::size_t particle, const glm::vec3& at, double seconds) {
-    require_ok(world_.pin(particle, glm::dvec3(at), seconds));
+void NamedWorld::pin(std::size_t particle, const glm::dvec3& at, double seconds) {
+    require_ok(world_.pin(particle, at, seconds));
 }
 void NamedWorld::attach(std::size_t particle, std::string_view collider) {
     require_ok(world_.attach(particle, collider_id(collider)));
@@ -129,6 +129,9 @@ void NamedWorld::add_collider(const std::string& name, const rope::Shape& shape)
 }
 void NamedWorld::move_collider(std::string_view name, const glm::vec3& to, double seconds) {
     require_ok(world_.move_collider(collider_id(name), to, seconds));
+}
+void NamedWorld::move_capsule(std::string_view name, const rope::Capsule& to, double seconds) {
+    require_ok(world_.move_capsule(collider_id(name), to, seconds));
 }
 void NamedWorld::set_collider(std::string_view name, const rope::Shape& shape) {
     require_ok(world_.set_collider(collider_id(name), shape));

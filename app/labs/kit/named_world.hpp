@@ -58,12 +58,13 @@ class NamedWorld {
     /// Gives back the name of what is behind the cut: the rope's own with a number.
     std::string cut(std::string_view rope, std::size_t segment);
     std::size_t particle(std::string_view body, std::size_t index) const;
-    void pin(std::size_t particle, const glm::vec3& at, double seconds = 0.0);
+    void pin(std::size_t particle, const glm::dvec3& at, double seconds = 0.0);
     void attach(std::size_t particle, std::string_view collider);
     void unpin(std::size_t particle);
     bool pinned(std::size_t particle) const { return world_.pinned(particle); }
     void add_collider(const std::string& name, const rope::Shape& shape);
     void move_collider(std::string_view name, const glm::vec3& to, double seconds = 0.0);
+    void move_capsule(std::string_view name, const rope::Capsule& to, double seconds = 0.0);
     void set_collider(std::string_view name, const rope::Shape& shape);
     void remove_collider(std::string_view name);
 

@@ -145,6 +145,7 @@ Json save_collider(const rope::Collider& collider, const std::string& name) {
     for (const auto& [key, value] : shape.items()) json[key] = value;
     json["goal"] = dpoint(collider.goal);
     if (collider.seconds != 0.0) json["seconds"] = collider.seconds;
+    if (collider.half_goal) json["half_goal"] = dpoint(*collider.half_goal);
     return json;
 }
 
@@ -164,6 +165,7 @@ rope::Collider load_collider(const JsonPlace& place) {
     collider.shape = load_shape(place);
     collider.goal = place["goal"].dpoint();
     if (const auto seconds = place.optional("seconds")) collider.seconds = seconds->real(0.0, 1e9);
+    if (const auto half = place.optional("half_goal")) collider.half_goal = half->dpoint();
     return collider;
 }
 

@@ -1,6 +1,7 @@
 // How time passes: fixed substeps, in each of which colliders move first and then the islands are solved.
 #include <algorithm>
 #include <atomic>
+#include <glm/common.hpp>
 
 #include "math/tasks.hpp"
 #include "rope/contact_shape.hpp"
@@ -28,6 +29,29 @@ bool tear(State& state) {
     return std::erase_if(state.links, torn) > 0;
 }
 
+dvec3 half_of(const Capsule& capsule) {
+    return 0.5 * dvec3(capsule.b) - 0.5 * dvec3(capsule.a);
+}
+
+/// A capsule whose centre is there already gets the direction that it has there.
+void turn(Collider& collider, double part, Scratch::Moving& moving) {
+    auto& capsule = std::get<Capsule>(collider.shape);
+    const dvec3 was = half_of(capsule), middle(centre(collider.shape));
+    const dvec3 half = was + part * (*collider.half_goal - was);
+    const dvec3 low = moving.low, high = moving.high;
+    collider.shape =
+        detail::kept_in(Capsule{glm::vec3(middle - half), glm::vec3(middle + half), capsule.radius});
+    moving.turn = half_of(capsule) - was;
+    // Ends sweep on lines: what contains both places contains all between them.
+    detail::bounds(collider.shape, moving.by, moving.low, moving.high);
+    moving.low = glm::min(moving.low, low);
+    moving.high = glm::max(moving.high, high);
+    if (collider.seconds != 0.0) return;
+    // It is there; rounded, but there, and stays.
+    collider.half_goal.reset();
+    collider.goal = dvec3(centre(collider.shape));
+}
+
 void move_colliders(State& state, Scratch& scratch) {
     for (std::size_t i = 0; i < state.colliders.size(); ++i) {
         Collider& collider = state.colliders[i];
@@ -39,7 +63,9 @@ void move_colliders(State& state, Scratch& scratch) {
         moving.shape = &collider.shape;
         moving.by = dvec3(centre(collider.shape)) - from;
         moving.size = size(collider.shape);
+        moving.turn = dvec3(0.0);
         detail::bounds(collider.shape, moving.by, moving.low, moving.high);
+        if (collider.half_goal) turn(collider, part, moving);
     }
 }
 

@@ -149,6 +149,12 @@ Result check_colliders(const State& state) {
             return refused(op, Argument("colliders", i, "goal"), "finite", worst(collider.goal));
         if (!is_amount(collider.seconds))
             return refused(op, Argument("colliders", i, "seconds"), "0 or more", collider.seconds);
+        if (!collider.half_goal) continue;
+        if (!std::holds_alternative<Capsule>(collider.shape))
+            return refused(op, Argument("colliders", i, "half_goal"), "of capsules only",
+                           kind(collider.shape));
+        if (!is_offset(*collider.half_goal))
+            return refused(op, Argument("colliders", i, "half_goal"), "finite", worst(*collider.half_goal));
     }
     return check_handles(state.colliders, state.collider_slots, "colliders");
 }

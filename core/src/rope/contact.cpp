@@ -35,6 +35,15 @@ struct Bounds {
 
 }  // namespace
 
+dvec3 Scratch::Moving::by_at(const dvec3& at) const {
+    if (turn == dvec3(0.0)) return by;
+    const auto& capsule = std::get<Capsule>(*shape);
+    const dvec3 a(capsule.a), axis = dvec3(capsule.b) - a;
+    const double squared = detail::dot(axis, axis);
+    const double t = squared > 0.0 ? std::clamp(detail::dot(at - a, axis) / squared, 0.0, 1.0) : 0.5;
+    return by + (2.0 * t - 1.0) * turn;
+}
+
 void Substep::find_near() {
     local_.near.clear();
     for (const std::uint32_t body : Plan::part(plan_.bodies, island_.bodies)) scratch_.body_near[body] = 0;
@@ -78,7 +87,7 @@ Touch& Substep::touch(std::uint32_t i, std::uint32_t collider, const dvec3& norm
     Touch& touch = scratch_.touch[i];
     if (!touch.touching) {
         touch.touching = true;
-        touch.collider_displacement = scratch_.colliders[collider].by;
+        touch.collider_displacement = scratch_.colliders[collider].by_at(scratch_.place[i]);
         touch.normal = normal;
         local_.touched.push_back(i);
     }
@@ -125,7 +134,7 @@ void Substep::resolve_particle(std::uint32_t i, std::uint32_t number, double rad
     if (first) {
         // As the collider sees it, from where it came. Something fast is stopped on the side that it came
         // from.
-        const dvec3 from = state_.position[i] + collider.by, way = place - from;
+        const dvec3 from = state_.position[i] + collider.by_at(place), way = place - from;
         const double far = detail::length(way), step = 0.5 * collider.size + radius;
         if (far > step && surface.distance < far + radius) {
             const int samples = static_cast<int>(std::min(64.0, std::ceil(far / std::max(step, 1e-9))));

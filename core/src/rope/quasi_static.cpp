@@ -39,6 +39,7 @@ State frozen(const World& world) {
     for (Collider& collider : still.colliders) {
         collider.goal = glm::dvec3(centre(collider.shape));
         collider.seconds = 0.0;
+        collider.half_goal.reset();
     }
     for (Pin& pin : still.pins) {
         const Collider* holder = world.find(pin.collider);

@@ -35,7 +35,10 @@ struct Scratch {
         glm::dvec3 by{0.0};            ///< in the substep
         glm::dvec3 low{0.0}, high{0.0};
         double size = 0.0;
+        glm::dvec3 turn{0.0};  ///< of a capsule: by how much more than `by` its end b has moved, and a less
 
+        /// How far the shape has moved at the point of it that is nearest to `at`.
+        glm::dvec3 by_at(const glm::dvec3& at) const;
         /// Whether a ball is wholly beyond where the shape is or was in the substep.
         bool far_from(const glm::dvec3& at, double radius) const {
             return at.x + radius < low.x || at.y + radius < low.y || at.z + radius < low.z ||

@@ -223,6 +223,21 @@ Result World::move_collider(ColliderId collider, const glm::vec3& to, double sec
     if (const Result bad = check_time("move_collider", seconds); !bad) return bad;
     moving->goal = glm::dvec3(to);
     moving->seconds = seconds;
+    moving->half_goal.reset();
+    return {};
+}
+
+Result World::move_capsule(ColliderId capsule, const Capsule& to, double seconds) noexcept {
+    Collider* const moving = found(capsule);
+    if (moving == nullptr) return missing("move_capsule", "capsule", "collider", capsule.index);
+    auto* const shape = std::get_if<Capsule>(&moving->shape);
+    if (shape == nullptr) return refused("move_capsule", "capsule", "a capsule", kind(moving->shape));
+    if (const Result bad = check("move_capsule", to); !bad) return bad;
+    if (const Result bad = check_time("move_capsule", seconds); !bad) return bad;
+    shape->radius = to.radius;
+    moving->goal = glm::dvec3(centre(to));
+    moving->half_goal = 0.5 * glm::dvec3(to.b) - 0.5 * glm::dvec3(to.a);
+    moving->seconds = seconds;
     return {};
 }
 
@@ -233,6 +248,7 @@ Result World::set_collider(ColliderId collider, const Shape& shape) noexcept {
     there->shape = shape;
     there->goal = glm::dvec3(centre(shape));
     there->seconds = 0.0;
+    there->half_goal.reset();
     return {};
 }
 

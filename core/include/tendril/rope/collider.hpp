@@ -1,6 +1,7 @@
 // Bodies that ropes cannot enter.
 #pragma once
 
+#include <optional>
 #include <variant>
 
 #include "tendril/quat.hpp"
@@ -63,6 +64,8 @@ struct Collider {
     Shape shape;           ///< where it is now
     glm::dvec3 goal{0.0};  ///< where its centre is going
     double seconds = 0.0;  ///< of simulated time until it is there; 0: it stays
+    /// Of a capsule that turns on its way: half of what leads from `a` to `b` at its goal.
+    std::optional<glm::dvec3> half_goal{};
     bool operator==(const Collider&) const = default;
 };
 

@@ -101,6 +101,9 @@ class World {
     /// Moves a collider to `to` evenly in the next `seconds` of simulated time, 0: within the next substep;
     /// it pushes what it meets.
     Result move_collider(ColliderId collider, const glm::vec3& to, double seconds = 0.0) noexcept;
+    /// The same for both ends of a capsule, each along its own line, so that it turns. Its radius is that of
+    /// `to` at once.
+    Result move_capsule(ColliderId capsule, const Capsule& to, double seconds = 0.0) noexcept;
     Result set_collider(ColliderId collider, const Shape& shape) noexcept;  ///< there at once
     /// What is attached to it is unpinned.
     Result remove_collider(ColliderId collider) noexcept;
