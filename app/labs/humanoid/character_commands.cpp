@@ -5,6 +5,7 @@
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/kept_maps.hpp"
+#include "app/labs/humanoid/wearing.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/view/camera.hpp"
 
@@ -53,8 +54,10 @@ void rescale(Workspace& workspace, const Arguments& given) {
     if (metres == before.loaded->character.scale) return;
     if (before.loaded->file.empty())
         throw std::invalid_argument("the stick figure comes from no file, and is in metres");
+    const double was = before.loaded->character.scale;
     const SharedCharacter loaded = rescaled(*before.loaded, metres);
     workspace.document.edit<HumanoidPart>(humanoid_lab).loaded = loaded;
+    remake_attachments(workspace, metres / was);
     show_all(workspace, *loaded);
 }
 

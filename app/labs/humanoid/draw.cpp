@@ -7,6 +7,7 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "app/labs/humanoid/draw_attachments.hpp"
 #include "app/labs/humanoid/draw_ground.hpp"
 #include "app/labs/humanoid/draw_limits.hpp"
 #include "app/labs/humanoid/figure.hpp"
@@ -49,6 +50,7 @@ class Drawing {
             for (const humanoid::Effector each : all_effectors) effector(each);
         if (shown_.look) gaze();
         draw_limits(view_, list_, part_, shown_);
+        draw_attachments(view_, list_, part_.attachments);
         labels();
     }
 

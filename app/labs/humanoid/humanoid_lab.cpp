@@ -5,6 +5,7 @@
 #include "app/io/character/read.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "app/labs/humanoid/wearing.hpp"
 
 namespace tendril::app {
 namespace {
@@ -27,11 +28,14 @@ CameraPose HumanoidLab::first_view() const {
 }
 
 void HumanoidLab::add_commands(CommandTable& table) const {
-    add_character_commands(table);
-    add_clip_commands(table);
-    add_ik_commands(table);
-    add_humanoid_look_commands(table);
-    add_humanoid_file_commands(table);
+    CommandTable own;
+    add_character_commands(own);
+    add_clip_commands(own);
+    add_ik_commands(own);
+    add_attachment_commands(own);
+    add_humanoid_look_commands(own);
+    add_humanoid_file_commands(own);
+    for (Command command : own.all()) table.add(with_attachments(std::move(command)));
 }
 
 bool HumanoidLab::moving(const Workspace& workspace) const {
@@ -39,7 +43,9 @@ bool HumanoidLab::moving(const Workspace& workspace) const {
     constexpr int until_rest = 120;
     const bool springs = part.ik.foot_ik.on && part.ik.ground.kind != humanoid::GroundKind::None;
     const bool eases = part.ik.look_at.on || (part.ik.hand_ik.on && part.ik.has_targets());
-    return goes_on(part.playback, *part.loaded) || ((springs || eases) && part.quiet_ticks < until_rest);
+    const bool hangs = !part.attachments.list.empty();
+    return goes_on(part.playback, *part.loaded) ||
+           ((springs || eases || hangs) && part.quiet_ticks < until_rest);
 }
 
 void HumanoidLab::step(Workspace& workspace) const {
@@ -47,9 +53,12 @@ void HumanoidLab::step(Workspace& workspace) const {
     const glm::vec3 before = standing_at(workspace);
     HumanoidPart& part = workspace.document.edit<HumanoidPart>(humanoid_lab);
     const double seconds = tick_seconds * static_cast<double>(workspace.clock.speed);
-    part.quiet_ticks = goes_on(part.playback, *part.loaded) ? 0 : part.quiet_ticks + 1;
+    HumanoidRuntime& runtime = humanoid_runtime(workspace);
+    const bool quiet = !goes_on(part.playback, *part.loaded) && at_rest(part.attachments);
+    part.quiet_ticks = quiet ? part.quiet_ticks + 1 : 0;
     advance(part.playback, *part.loaded, seconds);
-    solve_pose(part, humanoid_runtime(workspace).solvers, seconds, part.ik_state);
+    const ShownPose shown = solve_pose(part, runtime.solvers, seconds, part.ik_state);
+    advance(part.attachments, wearer_of(part, runtime.solvers, shown), runtime.ropes, seconds);
     if (follows) workspace.camera.target += standing_at(workspace) - before;
     if (!modified) workspace.saved = workspace.document;  // that time passes is nothing that wants saving
 }
@@ -98,6 +107,12 @@ std::vector<TestScene> HumanoidLab::test_scenes() const {
               {"humanoid.target", {{"effector", "right_hand"}, {"to", glm::vec3(0.0f, 1.4f, 0.5f)}}},
               {"humanoid.hand_ik", {{"on", true}, {"hand", "right"}, {"curve", true}}},
               {"humanoid.look_at", {{"on", true}, {"to", glm::vec3(0.5f, 1.5f, 1.5f)}}}},
+             words},
+            {"cape",
+             {{"humanoid.attach", {{"bone", "UpperChest"}, {"kind", "cloth"}, {"segments", 8}}},
+              {"humanoid.attach", {{"bone", "Hips"}, {"kind", "rope"}, {"name", "tail"}}},
+              {"humanoid.ground", {{"kind", "flat"}}},
+              {"humanoid.clip", {{"name", "walk"}, {"play", true}}}},
              words}};
 }
 

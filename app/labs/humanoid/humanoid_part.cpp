@@ -42,13 +42,19 @@ std::size_t HumanoidPart::bytes() const {
         for (const humanoid::Channel& channel : clip.channels)
             keys +=
                 channel.translation.times.size() + channel.rotation.times.size() + channel.scale.times.size();
-    return sizeof(*this) + (skeleton().size() * a_node + keys * a_key) / sharing;
+    constexpr std::size_t a_particle = 80, a_pin = 80;
+    const rope::State& ropes = attachments.world->state();
+    const std::size_t hanging = ropes.position.size() * a_particle + ropes.pins.size() * a_pin +
+                                ropes.links.size() * sizeof(rope::Link) +
+                                ropes.colliders.size() * sizeof(rope::Collider);
+    return sizeof(*this) + (skeleton().size() * a_node + keys * a_key) / sharing + hanging;
 }
 
 bool HumanoidPart::operator==(const HumanoidPart& other) const {
     return loaded == other.loaded && (map == other.map || *map == *other.map) && playback == other.playback &&
            t_pose == other.t_pose && ik == other.ik && ik_state == other.ik_state &&
-           quiet_ticks == other.quiet_ticks && selected == other.selected && view == other.view;
+           attachments == other.attachments && quiet_ticks == other.quiet_ticks &&
+           selected == other.selected && view == other.view;
 }
 
 void set_bone(HumanoidPart& part, Bone bone, std::optional<std::size_t> node) {

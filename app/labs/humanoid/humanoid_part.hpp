@@ -8,6 +8,7 @@
 
 #include "app/document/document.hpp"
 #include "app/document/workspace.hpp"
+#include "app/labs/humanoid/attachments.hpp"
 #include "app/labs/humanoid/ik_settings.hpp"
 #include "app/labs/humanoid/playback.hpp"
 #include "app/labs/kit/names.hpp"
@@ -55,7 +56,8 @@ struct HumanoidPart final : Part {
     bool t_pose = false;  ///< the rest pose is shown as a T
     IkSettings ik;
     IkState ik_state;
-    int quiet_ticks = 0;   ///< since anything was set: springs come to rest meanwhile
+    Attachments attachments;
+    int quiet_ticks = 0;   ///< since anything was set or swung: springs come to rest meanwhile
     std::string selected;  ///< a node's name; empty: none
     HumanoidView view;
 
@@ -80,6 +82,10 @@ void set_bone(HumanoidPart& part, humanoid::Bone bone, std::optional<std::size_t
 Json ik_json(const HumanoidPart& part);
 /// Throws std::runtime_error that begins with the place of what is wrong.
 void read_ik(const class JsonPlace& place, HumanoidPart& part);
+
+Json attachments_json(const Attachments& attachments);
+/// Throws as read_ik() does.
+Attachments read_attachments(const class JsonPlace& place, const humanoid::Skeleton& skeleton);
 
 /// The lab's part of a workspace.
 inline const HumanoidPart& humanoid_part(const Workspace& workspace) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <tendril/rope/workspace.hpp>
 
 #include "app/document/runtime.hpp"
 #include "app/io/character/twist_spread.hpp"
@@ -24,11 +25,14 @@ class HumanoidRuntime final : public Runtime {
     Solvers solvers;
     ClipLint lint;
     KeptMaps kept_maps;
+    rope::Workspace ropes;
 
     /// The interface's own: it follows from nothing, and nothing follows from it.
     struct Panel {
         std::optional<humanoid::Bone> bone;   ///< the row for which a node is picked
-        SearchText node{}, clip{};            ///< what is looked for
+        SearchText node{}, clip{}, holder{};  ///< what is looked for
+        int attach_kind = 0;                  ///< of the attachment that Add makes
+        std::string attach_to = "Hips";       ///< bone or node that it hangs on
         bool past = false;                    ///< the strip shows the last ten seconds instead of the clip
         std::string export_to{}, map_file{};  ///< paths that are typed
     } panel;

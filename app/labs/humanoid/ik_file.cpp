@@ -1,23 +1,11 @@
 // IK in a scene file: what is set, and what is remembered from tick to tick.
 #include "app/document/json_complete.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
+#include "app/labs/humanoid/quaternion_json.hpp"
 #include "app/labs/kit/json_place.hpp"
 
 namespace tendril::app {
 namespace {
-
-Json quaternion(const glm::dquat& q) {
-    return Json::array({q.x, q.y, q.z, q.w});
-}
-
-glm::dquat read_quaternion(const JsonPlace& place) {
-    place.check_size(4, "numbers: x, y, z, w");
-    const auto at = [&](std::size_t i) { return place.element(i).real(-1.001, 1.001); };
-    const double x = at(0), y = at(1), z = at(2), w = at(3);
-    const double length = x * x + y * y + z * z + w * w;
-    if (length < 0.99 || length > 1.01) place.fail("expected a quaternion [x, y, z, w] of length 1");
-    return {w, x, y, z};
-}
 
 Json targets_json(const IkSettings& ik) {
     Json targets = Json::object();

@@ -28,6 +28,8 @@ void clip_rows(const HumanoidPanel& panel);
 void target_rows(const HumanoidPanel& panel);
 /// Where the limits of joints come from.
 void limit_rows(const HumanoidPanel& panel);
+/// What hangs on it, and the order in which a tick goes.
+void attachment_rows(const HumanoidPanel& panel);
 /// What it walks on, and how its feet take that.
 void ground_rows(const HumanoidPanel& panel);
 /// Hands that a clip moves, and what the head looks at.

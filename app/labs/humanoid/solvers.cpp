@@ -4,7 +4,6 @@
 #include "app/labs/humanoid/limit_ranges.hpp"
 
 namespace tendril::app {
-
 namespace {
 
 /// Fitted to what the character wears, as it rests.
@@ -25,13 +24,14 @@ void Solvers::make(const HumanoidPart& part) {
     made_ = wanted;
     body_.reset();
     capsules_.clear();
+    volume_.reset();
     feet_.reset();
     hands_.reset();
     look_at_.reset();
     floors_.clear();
     why_not_ = why_no_feet_ = why_unusable(*part.map);
     if (!why_not_.empty()) return;
-    if (part.ik.self_collision) capsules_ = capsules_of(part);
+    if (part.ik.self_collision) capsules_ = *(volume_ = capsules_of(part));
     Expected<humanoid::Body> body =
         humanoid::Body::make(part.skeleton(), *part.map, limits(part).in_force(part.ik), capsules_);
     if (body)
@@ -93,6 +93,12 @@ const std::vector<humanoid::BodyCapsule>& Solvers::capsules(const HumanoidPart& 
 const LimitRanges& Solvers::limits(const HumanoidPart& part) {
     if (!ranges_ || !ranges_->is_of(part)) ranges_ = std::make_unique<LimitRanges>(part.loaded, part.map);
     return *ranges_;
+}
+
+const std::vector<humanoid::BodyCapsule>& Solvers::volume(const HumanoidPart& part) {
+    make(part);
+    if (!volume_) volume_ = capsules_of(part);
+    return *volume_;
 }
 
 const humanoid::Ground& Solvers::ground(const HumanoidPart& part) {

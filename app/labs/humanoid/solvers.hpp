@@ -34,6 +34,8 @@ class Solvers {
     std::optional<double> floor(const HumanoidPart& part);
     /// What self-collision keeps apart; empty where that is off.
     const std::vector<humanoid::BodyCapsule>& capsules(const HumanoidPart& part);
+    /// The body's volume, of the bones that are mapped: what hangs on it lies on that.
+    const std::vector<humanoid::BodyCapsule>& volume(const HumanoidPart& part);
     const humanoid::Ground& ground(const HumanoidPart& part);
     /// What the joints' limits are chosen from.
     const LimitRanges& limits(const HumanoidPart& part);
@@ -52,6 +54,7 @@ class Solvers {
     Made made_{};
     std::optional<humanoid::Body> body_;
     std::vector<humanoid::BodyCapsule> capsules_;
+    std::optional<std::vector<humanoid::BodyCapsule>> volume_;
     std::optional<humanoid::Feet> feet_;
     std::optional<humanoid::Hands> hands_;
     std::optional<humanoid::LookAt> look_at_;

@@ -211,6 +211,26 @@ Json look_state(const HumanoidPart& part, const ShownPose& shown) {
     return json;
 }
 
+Json attachments_state(const HumanoidPart& part) {
+    const NamedWorld& world = *part.attachments.world;
+    Json list = Json::array();
+    for (const Attachment& each : part.attachments.list) {
+        const rope::Body& body = *world.find(each.name);
+        Json positions = Json::array();
+        for (std::size_t i = body.first; i < body.first + body.count; ++i)
+            positions.push_back(dpoint(world.state().position[i]));
+        const auto bone = part.bone_of(*part.skeleton().find(each.node));
+        list.push_back({{"name", each.name},
+                        {"kind", attachment_kinds.name(each.kind)},
+                        {"bone", bone ? Json(humanoid::name(*bone)) : Json(nullptr)},
+                        {"node", each.node},
+                        {"row", body.row},
+                        {"positions", std::move(positions)},
+                        {"length_error", world.length_error(body)}});
+    }
+    return list;
+}
+
 Json clip_state(const HumanoidPart& part) {
     const humanoid::Clip* clip = part.clip();
     if (clip == nullptr) return nullptr;
@@ -248,6 +268,8 @@ Json HumanoidLab::state(const Workspace& workspace) const {
                 {"skinning", skinnings.name(part.view.skinning)},
                 {"look_at", look_state(part, shown)},
                 {"ground", ground_state(part.ik.ground)},
+                {"attachments", attachments_state(part)},
+                {"order", {"clip", "IK", "rig", "ropes"}},
                 {"selected", part.selected}};
 }
 

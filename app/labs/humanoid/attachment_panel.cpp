@@ -1,0 +1,67 @@
+// The panel's rows of what hangs on the character.
+#include <imgui.h>
+
+#include "app/labs/humanoid/panels.hpp"
+#include "app/widgets/fields.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// The bone that a node is mapped as, or the node's own name.
+std::string holder_name(const HumanoidPart& part, const std::string& node) {
+    const auto found = part.skeleton().find(node);
+    const auto bone = found ? part.bone_of(*found) : std::nullopt;
+    return bone ? humanoid::name(*bone) : node;
+}
+
+void attachment_row(const HumanoidPanel& panel, const Attachment& each) {
+    ImGui::PushID(each.name.c_str());
+    reading(each.name.c_str(), "%s on %s", attachment_kinds.title(each.kind),
+            holder_name(panel.part, each.node).c_str());
+    if (row_button("Remove", 1, true, "Takes it off the character"))
+        panel.emit("humanoid.detach", {{"name", each.name}});
+    end_row();
+    ImGui::PopID();
+}
+
+/// Bones of the body first, then all other nodes.
+void holder_field(const HumanoidPanel& panel) {
+    auto& chosen = panel.runtime.panel.attach_to;
+    auto& typed = panel.runtime.panel.holder;
+    if (!begin_search("bone", &chosen, typed)) return;
+    for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
+        const std::string name = humanoid::name(static_cast<humanoid::Bone>(i));
+        if (panel.part.map->bones[i].node >= 0 && search_row(name, chosen == name, typed)) chosen = name;
+    }
+    for (std::size_t i = 0; i < panel.part.skeleton().size(); ++i) {
+        const std::string& name = panel.part.skeleton()[i].name;
+        if (!panel.part.bone_of(i) && search_row(name, chosen == name, typed)) chosen = name;
+    }
+    end_search();
+}
+
+}  // namespace
+
+void attachment_rows(const HumanoidPanel& panel) {
+    section("Attachments");
+    note("Each tick goes in this order: clip, IK, rig, ropes.");
+    explain(
+        "Feet, targets and hands are IK; look-at is the rig's Aim. Ropes, hair and cloth come last, and "
+        "lie on the body as it is then.");
+    for (const Attachment& each : panel.part.attachments.list) attachment_row(panel, each);
+    HumanoidRuntime::Panel& kept = panel.runtime.panel;
+    const auto titles = attachment_kinds.titles();
+    choice_field("kind", kept.attach_kind, titles.data(), static_cast<int>(titles.size()));
+    const auto kind = static_cast<AttachmentKind>(kept.attach_kind);
+    explain(attachment_kinds.help(kind));
+    holder_field(panel);
+    explain(
+        "What it hangs on. On Hips a rope is a tail, on Head hair is a ponytail, on Chest a cloth is a "
+        "cape.");
+    const bool room = panel.part.attachments.list.size() < most_attachments;
+    if (row_button("Add", 1, room, room ? "Hangs it on that bone" : "There are as many as there may be"))
+        panel.emit("humanoid.attach", {{"bone", kept.attach_to}, {"kind", attachment_kinds.name(kind)}});
+    end_row();
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,165 @@
+// What hangs on a character: where it is made, that it stays off the body, and how it comes to rest.
+#include "attach_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+TEST_F(HumanoidAttach, MakesATailAPonytailAndACape) {
+    dress();
+    const Json all = state().at("attachments");
+    ASSERT_EQ(all.size(), 3u);
+    EXPECT_EQ(all[0].at("name"), "cape");
+    EXPECT_EQ(all[0].at("kind"), "cloth");
+    EXPECT_EQ(all[0].at("bone"), "UpperChest");
+    EXPECT_EQ(all[2].at("positions").size(), 21u);
+    EXPECT_EQ(state().at("order"), Json({"clip", "IK", "rig", "ropes"}));
+    // The figure faces +Z, its left is +X.
+    EXPECT_EQ(particle("tail", 0), bone("Hips"));
+    EXPECT_LT(last("tail").z, -0.4) << "it leaves the body backwards";
+    EXPECT_LT(particle("ponytail", 0).z, -0.08);
+    EXPECT_GT(particle("ponytail", 0).y, 1.6);
+    const std::size_t row = body("cape").row;
+    EXPECT_GT(particle("cape", 0).x, 0.12) << "from the left shoulder";
+    EXPECT_LT(particle("cape", row - 1).x, -0.12) << "to the right one";
+    EXPECT_NEAR(particle("cape", 0).y, 1.45, 0.05);
+    EXPECT_NEAR(last("cape").y, 0.55, 0.05);
+    EXPECT_LT(particle_depth(), 1e-4);
+}
+
+TEST_F(HumanoidAttach, HangsBehindTheBodyAndComesToRest) {
+    dress();
+    EXPECT_TRUE(lab().moving(workspace));
+    int ticks = 0;
+    for (; ticks < 3000 && lab().moving(workspace); ++ticks) tick();
+    EXPECT_LT(ticks, 3000) << "it never comes to rest";
+    EXPECT_GT(ticks, 30);
+    EXPECT_LT(last("tail").y, 0.45) << "it hangs";
+    EXPECT_LT(last("tail").z, -0.05) << "behind the legs";
+    EXPECT_LT(last("ponytail").y, 1.5);
+    EXPECT_LT(last("cape").z, 0.0);
+    EXPECT_LT(particle_depth(), 1e-4);
+    run("humanoid.target", {{"effector", "head"}, {"to", {0.1, 1.5, 0.1}}});
+    EXPECT_TRUE(lab().moving(workspace)) << "what moves the body lets time pass again";
+}
+
+/// Over the walk and the punch, at their own speed and faster.
+TEST_F(HumanoidAttach, StaysOffTheBody) {
+    dress();
+    for (const auto& [clip, speed] :
+         {std::pair("walk", 1.0), {"punch", 1.0}, {"walk", 2.0}, {"punch", 2.0}}) {
+        run("humanoid.clip", {{"name", clip}, {"play", true}, {"loop", true}, {"speed", speed}, {"time", 0}});
+        double deepest = 0.0, deepest_link = 0.0, stretch = 0.0, error = 0.0;
+        for (int i = 0; i < 300; ++i) {
+            tick();
+            deepest = std::max(deepest, particle_depth());
+            deepest_link = std::max(deepest_link, link_depth());
+            for (const rope::Body& each : world().state().bodies)
+                stretch = std::max(stretch, static_cast<double>(each.stretch));
+            error = std::max(error, world().length_error());
+        }
+        const std::string which = std::string(clip) + " at " + std::to_string(speed);
+        RecordProperty(which, std::to_string(1e3 * deepest_link) + " mm, " + std::to_string(error));
+        EXPECT_LT(deepest, 1e-4) << which;
+        EXPECT_LT(deepest_link, 0.005) << which;
+        EXPECT_LT(stretch, speed > 1.0 ? 0.05 : 0.02) << which << ": as the solver left it";
+        EXPECT_LT(error, 0.08) << which << ": with what the body pushed aside";
+        // Nothing has slipped through: the cape is behind the trunk still.
+        const std::size_t row = body("cape").row, middle = row / 2;
+        for (std::size_t r = 0; r < 8; ++r)
+            EXPECT_LT(particle("cape", r * row + middle).z, bone("UpperChest").z) << which << ", row " << r;
+    }
+}
+
+TEST_F(HumanoidAttach, MovesWithItsBone) {
+    dress();
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+    const glm::dvec3 before = particle("ponytail", 0) - bone("Head");
+    tick(100);
+    const glm::dquat turn = quaternion(bones().at("Head").at("rotation"));
+    EXPECT_LT(glm::distance(particle("ponytail", 0), bone("Head") + turn * before), 1e-6);
+    EXPECT_GT(bone("Hips").z, 1.0);
+    EXPECT_GT(last("tail").z, bone("Hips").z - 0.8) << "the tail is no longer than it was";
+}
+
+TEST_F(HumanoidAttach, LiesOnTheGroundAsFarAsThatIsFlat) {
+    for (const auto& [kind, angle] : {std::pair("flat", 0.0), {"slope", 20.0}}) {
+        run("humanoid.load");
+        run("humanoid.ground", {{"kind", kind}, {"angle_deg", angle}});
+        run("humanoid.attach", {{"bone", "Hips"}, {"kind", "rope"}, {"name", "tail"}, {"length", 1.6}});
+        run("humanoid.foot_ik", {{"on", true}});
+        run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+        double lowest = 1.0;
+        for (int i = 0; i < 240; ++i) {
+            tick();
+            for (std::size_t k = 2; k < body("tail").count; ++k) {
+                const glm::dvec3 at = particle("tail", k);
+                const double ground = std::max(0.0, at.z) * std::tan(angle * 3.14159265358979 / 180.0);
+                lowest = std::min(lowest, at.y - ground);
+            }
+        }
+        EXPECT_GT(lowest, 0.010) << kind;
+        EXPECT_LT(lowest, 0.017) << kind << ": it touches the ground";
+    }
+}
+
+TEST_F(HumanoidAttach, SwingsWithAHandThatIsDraggedWhileTheClipIsPaused) {
+    run("humanoid.attach", {{"bone", "LeftHand"}, {"kind", "rope"}, {"name", "rope"}});
+    for (int i = 0; i < 400; ++i) tick();
+    const glm::dvec3 hung = last("rope");
+    for (int i = 1; i <= 20; ++i) {
+        run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.6, 1.45, 0.02 * i}}}, 7);
+        tick();
+        EXPECT_LT(glm::distance(particle("rope", 0), bone("LeftHand")), 0.1);
+    }
+    EXPECT_GT(last("rope").z, hung.z + 0.02);
+    EXPECT_LT(last("rope").z, particle("rope", 0).z - 0.02) << "its end trails";
+    for (int i = 0; i < 1500; ++i) tick();
+    EXPECT_NEAR(last("rope").z, particle("rope", 0).z, 0.03) << "and hangs straight in the end";
+    EXPECT_FALSE(lab().moving(workspace));
+}
+
+TEST_F(HumanoidAttach, TakesWhatIsGivenOfItsShape) {
+    run("humanoid.attach", {{"bone", "Head"},
+                            {"kind", "rope"},
+                            {"length", 0.5},
+                            {"segments", 5},
+                            {"thickness", 0.01},
+                            {"offset", {0, 0.3, 0}},
+                            {"direction", {2, 0, 0}}});
+    EXPECT_EQ(part().attachments.list[0].name, "rope");
+    EXPECT_EQ(body("rope").count, 6u);
+    EXPECT_FLOAT_EQ(body("rope").radius, 0.005f);
+    EXPECT_LT(glm::distance(particle("rope", 0), glm::dvec3(0, 1.9, 0)), 1e-6);
+    EXPECT_LT(glm::distance(last("rope"), glm::dvec3(0.5, 1.9, 0)), 1e-5);
+    run("humanoid.attach", {{"bone", "HeadTop_End"}, {"kind", "hair"}, {"strands", 3}, {"segments", 4}});
+    EXPECT_EQ(body("hair").count, 15u);
+    EXPECT_TRUE(state().at("attachments")[1].at("bone").is_null());
+    EXPECT_EQ(state().at("attachments")[1].at("node"), "HeadTop_End");
+    run("humanoid.attach", {{"bone", "Head"}, {"kind", "rope"}});
+    EXPECT_EQ(part().attachments.list[2].name, "rope 2");
+}
+
+TEST_F(HumanoidAttach, RefusesWhatDoesNotFit) {
+    expect_refused("humanoid.attach", {{"bone", "Wing"}, {"kind", "rope"}}, {"no bone and no node \"Wing\""});
+    expect_refused("humanoid.attach", {{"bone", "Head"}, {"kind", "chain"}}, {"kind must be one of"});
+    expect_refused("humanoid.attach", {{"bone", "Head"}, {"kind", "rope"}, {"direction", {0, 0, 0}}},
+                   {"direction must be longer than 0"});
+    expect_refused("humanoid.attach", {{"bone", "Head"}, {"kind", "rope"}, {"length", 0}},
+                   {"length must be"});
+    expect_refused("humanoid.attach",
+                   {{"bone", "Head"}, {"kind", "hair"}, {"strands", 200}, {"segments", 200}},
+                   {"40200 particles", "more than 4000"});
+    expect_refused("humanoid.detach", {{"name", "tail"}}, {"no attachment \"tail\""});
+    run("humanoid.attach", {{"bone", "Hips"}, {"kind", "rope"}, {"name", "tail"}});
+    expect_refused("humanoid.attach", {{"bone", "Hips"}, {"kind", "rope"}, {"name", "tail"}},
+                   {"name \"tail\" is another attachment's"});
+    for (std::size_t i = 1; i < most_attachments; ++i)
+        run("humanoid.attach", {{"bone", "Hips"}, {"kind", "rope"}, {"segments", 2}});
+    expect_refused("humanoid.attach", {{"bone", "Hips"}, {"kind", "rope"}}, {"there are 16 attachments"});
+    run("humanoid.map", {{"bone", "UpperChest"}});
+    run("humanoid.detach", {{"name", "tail"}});
+    run("humanoid.attach", {{"bone", "UpperChest"}, {"kind", "rope"}});  // the node of that name
+}
+
+}  // namespace
+}  // namespace tendril::app

@@ -1,0 +1,206 @@
+// Attachments are part of the document's values: undone, saved, replayed; and a character that jumps takes
+// them along.
+#include <fstream>
+#include <random>
+
+#include "app/labs/humanoid/attachment_motion.hpp"
+#include "attach_support.hpp"
+#include "tests/app/support/temp_folder.hpp"
+
+namespace tendril::app {
+namespace {
+
+TEST_F(HumanoidAttach, ComesFromAFileAsItWas) {
+    dress();
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+    tick(33);
+    Workspace other = reopened();
+    EXPECT_EQ(lab().state(other), state());
+    EXPECT_TRUE(humanoid_part(other).attachments == part().attachments);
+    for (int i = 0; i < 30; ++i) lab().step(other);
+    tick(30);
+    EXPECT_EQ(lab().state(other), state());
+}
+
+TEST_F(HumanoidAttach, ReplaysTheSame) {
+    Workspace other = make_blank_workspace(labs);
+    for (Workspace* each : {&workspace, &other}) {
+        run_in(*each, "humanoid.attach", {{"bone", "UpperChest"}, {"kind", "cloth"}});
+        run_in(*each, "humanoid.clip", {{"name", "punch"}, {"play", true}});
+        for (int i = 0; i < 40; ++i) lab().step(*each);
+        run_in(*each, "humanoid.clip", {{"time", 0.1}});
+        for (int i = 0; i < 40; ++i) lab().step(*each);
+    }
+    EXPECT_EQ(lab().state(other), state());
+}
+
+TEST_F(HumanoidAttach, IsUndoneAndRedone) {
+    dress();
+    const Attachments all = part().attachments;
+    run("humanoid.detach", {{"name", "ponytail"}});
+    EXPECT_EQ(state().at("attachments").size(), 2u);
+    EXPECT_EQ(world().state().bodies.size(), 2u);
+    run("undo");
+    EXPECT_TRUE(part().attachments == all);
+    run("redo");
+    EXPECT_EQ(state().at("attachments").size(), 2u);
+    for (int i = 0; i < 4; ++i) run("undo");
+    EXPECT_TRUE(part().attachments.list.empty());
+    EXPECT_EQ(world().size(), 0u);
+}
+
+TEST_F(HumanoidAttach, IsDroppedByALoad) {
+    dress();
+    run("humanoid.load");
+    EXPECT_TRUE(part().attachments == Attachments());
+    EXPECT_TRUE(state().at("attachments").empty());
+}
+
+TEST_F(HumanoidAttach, IsRefusedFromAFileThatWasBroken) {
+    dress();
+    const Json whole = save_scene(workspace);
+    const auto broken = [&](auto change) {
+        Json scene = whole;
+        change(scene["labs"]["humanoid"]["attachments"]);
+        Workspace other = make_blank_workspace(labs);
+        try {
+            load_scene(other, scene);
+        } catch (const std::exception& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    const auto says = [](const std::string& message, const char* text) {
+        EXPECT_NE(message.find(text), std::string::npos) << message;
+    };
+    says(broken([](Json& at) { at["list"][0]["node"] = "Wing"; }), "no node \"Wing\"");
+    says(broken([](Json& at) { at["list"][0]["name"] = "tail"; }), "another attachment has the name");
+    says(broken([](Json& at) { at["list"].erase(0); }), "one body for each");
+    says(broken([](Json& at) { at["list"][2]["pins"][0]["particle"] = 21; }), "attachments.list");
+    says(broken([](Json& at) { at["list"][2]["frame"]["turn"] = {0, 0, 0, 0}; }), "quaternion");
+    says(broken([](Json& at) { at["list"][2]["shape"]["length"] = -1; }), "length");
+    says(broken([](Json& at) { at["world"]["particles"].erase(0); }), "attachments.world");
+    says(broken([](Json&) {}), "accepted");
+}
+
+/// Scrubbed by hand, another clip chosen: everything is where it was as its bone sees it, and nothing flies.
+TEST_F(HumanoidAttach, IsCarriedAlongWhereTheCharacterJumps) {
+    dress();
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+    tick(90);
+    const auto seen = [&](std::size_t i) {
+        const glm::dquat turn = quaternion(bones().at("Hips").at("rotation"));
+        return glm::conjugate(turn) * (particle("tail", i) - bone("Hips"));
+    };
+    std::vector<glm::dvec3> before;
+    for (std::size_t i = 0; i < 21; ++i) before.push_back(seen(i));
+    for (const Json& jump : {Json{{"time", 60.3}}, Json{{"time", 0.2}}, Json{{"name", "punch"}},
+                             Json{{"name", ""}}, Json{{"name", "walk"}, {"time", 1000.0}}}) {
+        run("humanoid.clip", jump);
+        // The legs take their new pose and may push the tail aside.
+        for (std::size_t i = 0; i < 21; ++i)
+            EXPECT_LT(glm::distance(seen(i), before[i]), i < 6 ? 0.02 : 0.25) << jump << ", particle " << i;
+        EXPECT_LT(particle_depth(), 1e-3) << jump;
+        EXPECT_LT(fastest(), 8.0) << jump;
+        double error = 0.0;
+        for (int i = 0; i < 10; ++i) {
+            tick();
+            EXPECT_LT(fastest(), 12.0) << jump << ", tick " << i;
+            error = std::max(error, world().length_error());
+        }
+        EXPECT_LT(error, 0.06) << jump;
+        before.clear();
+        for (std::size_t i = 0; i < 21; ++i) before.push_back(seen(i));
+    }
+}
+
+TEST_F(HumanoidAttach, IsCarriedAlongWhileTheSimulationIsPaused) {
+    run("humanoid.attach", {{"bone", "LeftHand"}, {"kind", "rope"}, {"name", "rope"}});
+    run("time.pause");
+    const glm::dvec3 before = particle("rope", 0) - bone("LeftHand");
+    run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.5, 1.3, 0.3}}}, 3);
+    EXPECT_NEAR(glm::distance(particle("rope", 0), bone("LeftHand")), glm::length(before), 1e-6);
+    EXPECT_GT(particle("rope", 0).z, 0.2);
+}
+
+/// A clip that jumps, a kilometre and back, in the middle of it.
+TEST_F(HumanoidAttach, SurvivesAClipThatJumps) {
+    test::TempFolder folder;
+    std::string text = bvh_figure();
+    const std::string head = text.substr(0, text.find("MOTION"));
+    std::string motion = "MOTION\nFrames: 12\nFrame Time: 0.1\n";
+    const std::size_t channels = 3 + 3 * 17;
+    for (int frame = 0; frame < 12; ++frame) {
+        motion += frame % 4 < 2 ? "0 0 0" : frame < 6 ? "100000 0 0" : "0 5000 -300";
+        for (std::size_t i = 3; i < channels; ++i)
+            motion += i < 6 && frame % 3 == 1 ? " 170" : frame % 2 == 1 ? " 40" : " 0";
+        motion += "\n";
+    }
+    std::ofstream(folder.path() / "jump.bvh") << head << motion;
+    run("humanoid.load", {{"path", (folder.path() / "jump.bvh").string()}});
+    run("humanoid.attach", {{"bone", "Chest"}, {"kind", "cloth"}, {"name", "cape"}});
+    run("humanoid.attach", {{"bone", "Head"}, {"kind", "hair"}});
+    run("humanoid.attach", {{"bone", "LeftHand"}, {"kind", "rope"}});
+    run("humanoid.clip", {{"index", 0}, {"play", true}, {"loop", true}});
+    for (const double speed : {1.0, 10.0, 0.1}) {
+        run("humanoid.clip", {{"speed", speed}});
+        for (int i = 0; i < 60; ++i) {
+            tick();
+            ASSERT_TRUE(all_finite()) << speed << ", tick " << i;
+            ASSERT_LT(fastest(), 200.0) << speed << ", tick " << i;
+        }
+    }
+    run("humanoid.clip", {{"play", false}});
+    tick(300);
+    EXPECT_LT(fastest(), 0.5);
+    EXPECT_LT(world().length_error(), 0.05);
+    EXPECT_LT(glm::distance(particle("cape", 0), bone("Chest")), 1.0);
+}
+
+/// Nodes anywhere, of scale 0, mirrored, a million metres away.
+TEST(HumanoidAttachments, NeverBecomeNumbersThatAreNone) {
+    const HumanoidPart part;
+    const std::vector<humanoid::BodyCapsule> capsules =
+        humanoid::default_capsules(part.skeleton(), *part.map);
+    GroundSetting ground{.kind = humanoid::GroundKind::Slope};
+    std::vector<humanoid::Placement> placed = part.loaded->rest;
+    const Wearer wearer{*part.loaded, *part.map, capsules, placed, ground};
+    Attachments attachments;
+    for (const auto& [node, kind] : {std::pair("UpperChest", AttachmentKind::Cloth),
+                                     {"Head", AttachmentKind::Hair},
+                                     {"LeftHand", AttachmentKind::Rope}}) {
+        Attachment wanted;
+        wanted.node = node;
+        wanted.kind = kind;
+        wanted.shape = default_shape(wearer, kind, *part.skeleton().find(node));
+        add_attachment(attachments, wearer, wanted);
+    }
+    rope::Workspace workspace;
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> number(-1.0, 1.0);
+    for (int i = 0; i < 80; ++i) {
+        const double far = std::pow(10.0, 3.0 + 6.0 * number(random));
+        for (humanoid::Placement& each : placed) {
+            if (number(random) < 0.5) continue;
+            for (int axis = 0; axis < 3; ++axis) {
+                const bool none = number(random) > 0.7;
+                for (int k = 0; k < 3; ++k) each.axes[axis][k] = none ? 0.0 : number(random);
+            }
+            each.position = {far * number(random), number(random), number(random)};
+        }
+        if (i % 20 == 19) placed[0].position.x = std::numeric_limits<double>::quiet_NaN();
+        if (i % 3 == 0)
+            carry(attachments, wearer, workspace);
+        else
+            advance(attachments, wearer, workspace, i % 2 == 0 ? 1.0 / 60.0 : 1.0 / 1200.0);
+        for (const glm::dvec3& at : attachments.world->state().position)
+            for (int k = 0; k < 3; ++k) ASSERT_TRUE(std::isfinite(at[k])) << i;
+        placed[0].position.x = 0.0;
+    }
+    placed = part.loaded->rest;
+    for (int i = 0; i < 300; ++i) advance(attachments, wearer, workspace, 1.0 / 60.0);
+    EXPECT_LT(attachments.world->length_error(), 0.1) << "they find back";
+}
+
+}  // namespace
+}  // namespace tendril::app
