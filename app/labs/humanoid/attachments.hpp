@@ -1,4 +1,4 @@
-// What hangs on a character: ropes, locks of hair and cloth, one rope world for all of them. A value, kept in
+// What hangs on a character: ropes, hair and cloth, one rope world for all of them. A value, kept in
 // the document.
 //
 // An attachment is a body of that world. Its pins move with one node of the character, rigidly, from where

@@ -33,7 +33,7 @@ dvec3 half_of(const Capsule& capsule) {
     return 0.5 * dvec3(capsule.b) - 0.5 * dvec3(capsule.a);
 }
 
-/// A capsule whose centre is there already gets the direction that it has there.
+/// A capsule whose centre has moved gets the direction that it has there.
 void turn(Collider& collider, double part, Scratch::Moving& moving) {
     auto& capsule = std::get<Capsule>(collider.shape);
     const dvec3 was = half_of(capsule), middle(centre(collider.shape));
