@@ -107,7 +107,7 @@ void SessionLine::add_to(CLI::App& line) {
     line.add_option("--screenshot", options.screenshot, "Write the last picture")->option_text("PNG");
     line.add_option("--state", options.state, "Write the last state")->option_text("JSON");
     line.add_option("--record", options.record, "Write down what is done, as a script")->option_text("FILE");
-    line.add_flag("--no-config", no_config, "Neither read nor write settings");
+    line.add_flag("--no-config", no_config, "Neither read nor write settings and kept bone maps");
     line.add_flag("--list-labs", labs, "Print the labs");
     line.add_flag("--list-commands", commands, "Print every command with its arguments");
     line.add_flag("--list-shortcuts", shortcuts, "Print keys and mouse, as the README has them");

@@ -317,6 +317,7 @@ std::vector<LegendRow> HumanoidLab::legend(const Workspace& workspace) const {
     if (std::ranges::find(body, false) != body.end()) rows.push_back({"helper", colours.neutral});
     if (shown.feet && (shown.feet->feet[0].planted || shown.feet->feet[1].planted))
         rows.push_back({"planted", colours.tail});
+    if (!part.attachments.list.empty()) rows.push_back({"attached", attached_colour(colours)});
     if (part.view.ghost && !shown.before.empty()) rows.push_back({"before", colours.ghost});
     return rows;
 }

@@ -13,11 +13,11 @@ namespace {
 constexpr float min_strain = 1e-4f, full_strain = 0.1f;
 constexpr int strand_sides = 6;  // nobody sees more on a hair
 
+}  // namespace
+
 glm::vec3 cloth_front(const Palette& palette) {
     return glm::mix(palette.accent, palette.joint, 0.35f);
 }
-
-}  // namespace
 
 glm::vec3 strain_colour(float strain, const Palette& palette) {
     const float size = std::abs(strain);

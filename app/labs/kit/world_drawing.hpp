@@ -16,6 +16,8 @@ namespace tendril::app {
 /// %, full from 10 % on.
 glm::vec3 strain_colour(float strain, const Palette& palette);
 
+/// The side of a cloth that is seen from its front.
+glm::vec3 cloth_front(const Palette& palette);
 /// One for each particle of a world: what its body is, or how its links are strained.
 std::vector<glm::vec3> particle_colours(const NamedWorld& world, const Palette& palette, bool by_strain);
 
