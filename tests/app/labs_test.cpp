@@ -52,6 +52,12 @@ bool names(const std::string& literal, const LabNames& lab) {
            literal.starts_with("app/labs/" + lab.lab + "/");
 }
 
+/// "rope" is also what a body of a rope world is, and "rig" a step of what a character does in a tick.
+bool is_word_of_its_own(const std::string& path, const std::string& literal) {
+    const bool hangs = path.starts_with("app/labs/kit/") || path.starts_with("app/labs/humanoid/");
+    return (literal == "rope" && hangs) || (literal == "rig" && path == "app/labs/humanoid/state.cpp");
+}
+
 /// The table itself, the subcommands of the solvers, which are no part of any lab, and the reader of VRM
 /// files, which have a member of a lab's name.
 bool may_name(const std::string& path, const std::string& lab) {
@@ -69,7 +75,7 @@ TEST(LabsAreFolders, NothingOutsideALabNamesIt) {
         for (const std::string& literal : literals_in(read(entry.path()))) {
             ++looked_at;
             for (const LabNames& lab : labs) {
-                if (!names(literal, lab)) continue;
+                if (!names(literal, lab) || is_word_of_its_own(path, literal)) continue;
                 if (path.starts_with("app/labs/" + lab.lab + "/")) ++in_own_folder;
                 EXPECT_TRUE(may_name(path, lab.lab)) << path << " has \"" << literal << '"';
             }
