@@ -38,12 +38,6 @@ class HumanoidBody : public testing::TestWithParam<bool> {
   protected:
     HumanoidBody() { place(skeleton, rest, placements); }
     std::size_t node(Bone bone) const { return static_cast<std::size_t>(map[bone].node); }
-    std::vector<glm::dvec3> positions(const std::vector<rig::Transform>& pose) {
-        place(skeleton, pose, placements);
-        std::vector<glm::dvec3> result;
-        for (const Placement& each : placements) result.push_back(each.position);
-        return result;
-    }
     /// Within the default limits; `amount` is about how far limbs turn, radians.
     std::vector<rig::Transform> random_pose(Random& random, double amount) {
         std::vector<rig::Transform> pose;
@@ -80,7 +74,7 @@ class HumanoidBody : public testing::TestWithParam<bool> {
         return targets;
     }
     double worst_length_change(const std::vector<rig::Transform>& pose) {
-        const auto before = positions(rest), now = positions(pose);
+        const auto before = positions_of(skeleton, rest), now = positions_of(skeleton, pose);
         double worst = 0.0;
         for (std::size_t i = 0; i < skeleton.size(); ++i) {
             if (skeleton[i].parent < 0) continue;
@@ -115,7 +109,7 @@ TEST_P(HumanoidBody, reaches_five_targets_within_a_millimetre) {
         const auto report = body.solve(pose, targets, state);
         ASSERT_TRUE(report) << report.message();
         EXPECT_LT(report->residual, 1e-3) << i;
-        const auto at = positions(pose);
+        const auto at = positions_of(skeleton, pose);
         for (const BodyTarget& target : targets)
             EXPECT_NEAR(glm::distance(at[node(bone_of(target.effector))], target.position),
                         report->residuals[static_cast<std::size_t>(target.effector)], 1e-9);
@@ -126,7 +120,7 @@ TEST_P(HumanoidBody, is_finite_keeps_lengths_and_limits_for_any_targets) {
     Random random(2);
     const double sizes[]{0.3, 1.0, 5.0, 1e3, 1e9};
     for (int i = 0; i < 10000; ++i) {
-        const auto start = positions(rest);
+        const auto start = positions_of(skeleton, rest);
         std::vector<BodyTarget> targets;
         for (std::size_t k = 0; k < effector_count; ++k) {
             const auto effector = static_cast<Effector>(k);
@@ -140,7 +134,7 @@ TEST_P(HumanoidBody, is_finite_keeps_lengths_and_limits_for_any_targets) {
         BodyState state;
         const auto report = body.solve(pose, targets, state);
         ASSERT_TRUE(report) << report.message();
-        for (const glm::dvec3& each : positions(pose))
+        for (const glm::dvec3& each : positions_of(skeleton, pose))
             ASSERT_TRUE(std::isfinite(each.x + each.y + each.z)) << i;
         // A place 1e9 m away is known to a tenth of a micrometre.
         ASSERT_LT(worst_length_change(pose), sizes[i % 5] > 1e6 ? 1e-6 : 1e-12) << i;
@@ -160,7 +154,7 @@ TEST_P(HumanoidBody, a_slow_target_gives_a_slow_pose_and_a_still_one_a_still_pos
                 way = std::max(way, glm::distance(from[k].position, to[k].position));
             const int frames = static_cast<int>(std::ceil(way / step));
             BodyState state;
-            auto before = positions(rest);
+            auto before = positions_of(skeleton, rest);
             for (int frame = 1; frame <= frames; ++frame) {
                 auto targets = to;
                 for (std::size_t k = 0; k < 5; ++k)
@@ -168,14 +162,14 @@ TEST_P(HumanoidBody, a_slow_target_gives_a_slow_pose_and_a_still_one_a_still_pos
                         glm::mix(from[k].position, to[k].position, static_cast<double>(frame) / frames);
                 auto pose = rest;
                 ASSERT_TRUE(body.solve(pose, targets, state));
-                const auto now = positions(pose);
+                const auto now = positions_of(skeleton, pose);
                 ASSERT_LT(farthest(before, now), 20.0 * way / frames) << step << ' ' << i << ' ' << frame;
                 before = now;
             }
             for (int frame = 0; frame < 3; ++frame) {
                 auto pose = rest;
                 ASSERT_TRUE(body.solve(pose, to, state));
-                const auto now = positions(pose);
+                const auto now = positions_of(skeleton, pose);
                 ASSERT_LT(farthest(before, now), 1e-5);
                 before = now;
             }
@@ -192,7 +186,7 @@ TEST_P(HumanoidBody, follows_targets_in_and_out_of_reach_without_a_leap) {
         const auto home = targets_of(rest);
         BodyState state;
         std::vector<BodyTarget> last;
-        auto before = positions(rest);
+        auto before = positions_of(skeleton, rest);
         for (int frame = 0; frame < 1500; ++frame) {
             std::vector<BodyTarget> targets(home.begin(), home.begin() + static_cast<std::ptrdiff_t>(count));
             double moved = 0.0;
@@ -205,7 +199,7 @@ TEST_P(HumanoidBody, follows_targets_in_and_out_of_reach_without_a_leap) {
             }
             auto pose = rest;
             ASSERT_TRUE(body.solve(pose, targets, state));
-            const auto now = positions(pose);
+            const auto now = positions_of(skeleton, pose);
             if (!last.empty() && moved > 2e-4) {
                 ASSERT_LT(farthest(before, now), 20.0 * moved) << i << ' ' << frame;
             }
@@ -226,7 +220,7 @@ TEST_P(HumanoidBody, conflicting_targets_are_shared_by_weight_and_still) {
         auto pose = rest;
         const auto report = body.solve(pose, targets, state);
         ASSERT_TRUE(report);
-        const auto now = positions(pose);
+        const auto now = positions_of(skeleton, pose);
         if (frame >= 40) {
             EXPECT_LT(farthest(before, now), 1e-5) << frame;
         }
@@ -247,7 +241,7 @@ TEST_P(HumanoidBody, targets_where_the_clip_has_the_effectors_change_nothing) {
         auto pose = clip;
         BodyState state;
         ASSERT_TRUE(body.solve(pose, targets, state));
-        EXPECT_LT(farthest(positions(clip), positions(pose)), 1e-9);
+        EXPECT_LT(farthest(positions_of(skeleton, clip), positions_of(skeleton, pose)), 1e-9);
     }
 }
 
@@ -273,7 +267,7 @@ TEST_P(HumanoidBody, one_hand_reaches_by_its_arm_and_the_feet_stay) {
         body.solve(pose, std::vector<BodyTarget>{{Effector::LeftHand, {0.35, 1.25, 0.35}}}, state);
     ASSERT_TRUE(report);
     EXPECT_LT(report->residual, 1e-3);
-    const auto before = positions(rest), now = positions(pose);
+    const auto before = positions_of(skeleton, rest), now = positions_of(skeleton, pose);
     const auto moved = [&](Bone bone) { return glm::distance(before[node(bone)], now[node(bone)]); };
     EXPECT_LT(moved(Bone::LeftFoot), 1e-3);
     EXPECT_LT(moved(Bone::RightFoot), 1e-3);
@@ -288,7 +282,7 @@ TEST_P(HumanoidBody, hips_that_sink_bend_the_knees_forward) {
     const auto report = body.solve(pose, std::vector<BodyTarget>{{Effector::Hips, {0.0, 0.75, 0.0}}}, state);
     ASSERT_TRUE(report);
     EXPECT_LT(report->residual, 1e-3);
-    const auto now = positions(pose);
+    const auto now = positions_of(skeleton, pose);
     for (const Bone knee : {Bone::LeftLowerLeg, Bone::RightLowerLeg}) EXPECT_GT(now[node(knee)].z, 0.2);
 }
 
@@ -296,7 +290,7 @@ TEST_P(HumanoidBody, a_hand_takes_its_targets_rotation_and_shares_the_twist) {
     const glm::dquat half = glm::angleAxis(1.2, glm::dvec3(1, 0, 0));  // about the forearm, as it rests
     auto pose = rest;
     BodyState state;
-    const auto at = positions(rest)[node(Bone::LeftHand)];
+    const auto at = positions_of(skeleton, rest)[node(Bone::LeftHand)];
     const std::vector<BodyTarget> targets{{Effector::LeftHand, at, half}};
     for (int i = 0; i < 5; ++i) {
         pose = rest;

@@ -14,12 +14,6 @@ namespace {
 class HumanoidContact : public testing::TestWithParam<bool> {
   protected:
     std::size_t node(Bone bone) const { return static_cast<std::size_t>(map[bone].node); }
-    std::vector<glm::dvec3> positions(const std::vector<rig::Transform>& pose) {
-        place(skeleton, pose, placements);
-        std::vector<glm::dvec3> result;
-        for (const Placement& each : placements) result.push_back(each.position);
-        return result;
-    }
     /// Worked out anew, from the pose: hands and lower arms in trunk, head and legs, metres.
     double penetration(const std::vector<rig::Transform>& pose) {
         place(skeleton, pose, placements);
@@ -72,7 +66,7 @@ TEST_P(HumanoidContact, a_hand_dragged_through_the_body_slides_around_it) {
                 const auto report =
                     body.solve(pose, std::vector<BodyTarget>{{Effector::LeftHand, target}}, state);
                 ASSERT_TRUE(report) << report.message();
-                const auto now = positions(pose);
+                const auto now = positions_of(skeleton, pose);
                 ASSERT_LT(penetration(pose), 5e-3) << step << ' ' << frame;
                 EXPECT_LT(report->penetration, 5e-3);
                 if (frame >= 0 && frame <= frames) {
@@ -99,12 +93,12 @@ TEST_P(HumanoidContact, an_animation_that_passes_its_fist_through_the_waist_does
         pose[node(Bone::RightUpperArm)].rotation = glm::angleAxis(part * 1.2, glm::dvec3(0, 0, 1));
         pose[node(Bone::RightLowerArm)].rotation =
             glm::angleAxis(part * 1.4, glm::normalize(glm::dvec3(0, 0.3, 1)));
-        const auto clip = positions(pose);
+        const auto clip = positions_of(skeleton, pose);
         clip_deepest = std::max(clip_deepest, penetration(pose));
         const auto report = body.solve(pose, std::vector<BodyTarget>{}, state);
         ASSERT_TRUE(report) << report.message();
         deepest = std::max(deepest, penetration(pose));
-        const auto now = positions(pose);
+        const auto now = positions_of(skeleton, pose);
         if (frame > 0) {
             EXPECT_LT(farthest(before, now), 20.0 * farthest(clip_before, clip) + 1e-6) << frame;
         }
@@ -117,10 +111,10 @@ TEST_P(HumanoidContact, an_animation_that_passes_its_fist_through_the_waist_does
 TEST_P(HumanoidContact, what_is_clear_of_the_body_keeps_its_pose) {
     auto pose = rest;
     pose[node(Bone::LeftUpperArm)].rotation = glm::angleAxis(0.4, glm::dvec3(0, 0, 1));
-    const auto clip = positions(pose);
+    const auto clip = positions_of(skeleton, pose);
     BodyState state;
     ASSERT_TRUE(body.solve(pose, std::vector<BodyTarget>{}, state));
-    EXPECT_LT(farthest(clip, positions(pose)), 1e-9);
+    EXPECT_LT(farthest(clip, positions_of(skeleton, pose)), 1e-9);
 }
 
 TEST_P(HumanoidContact, any_targets_give_finite_poses_and_hardly_ever_a_hand_in_the_body) {
@@ -138,7 +132,8 @@ TEST_P(HumanoidContact, any_targets_give_finite_poses_and_hardly_ever_a_hand_in_
         auto pose = rest;
         BodyState state;
         ASSERT_TRUE(body.solve(pose, targets, state));
-        for (const glm::dvec3& each : positions(pose)) ASSERT_TRUE(std::isfinite(each.x + each.y + each.z));
+        for (const glm::dvec3& each : positions_of(skeleton, pose))
+            ASSERT_TRUE(std::isfinite(each.x + each.y + each.z));
         deep += penetration(pose) > 5e-3;
     }
     EXPECT_LE(deep, 20);

@@ -69,4 +69,14 @@ inline Skeleton make_figure(const std::map<std::string, std::string>& named, dou
     return *Skeleton::make(std::move(nodes));
 }
 
+/// Of all nodes, metres.
+inline std::vector<glm::dvec3> positions_of(const Skeleton& skeleton,
+                                            const std::vector<rig::Transform>& pose) {
+    std::vector<Placement> placements(skeleton.size());
+    place(skeleton, pose, placements);
+    std::vector<glm::dvec3> result;
+    for (const Placement& each : placements) result.push_back(each.position);
+    return result;
+}
+
 }  // namespace tendril::test

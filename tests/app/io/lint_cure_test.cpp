@@ -9,27 +9,8 @@ namespace {
 
 using tendril::test::Random;
 
-class LintCure : public ::testing::Test {
+class LintCure : public LintFigure {
   protected:
-    const Character figure = stick_figure();
-    const Skeleton& skeleton = figure.skeleton;
-    const BoneMap map = match_bones(skeleton);
-
-    Frames walk(double rate, double seconds = 3.3) const {
-        return {skeleton, figure.clips[0], rate, seconds};
-    }
-    LintReport run(const Clip& clip) const {
-        EXPECT_TRUE(check(clip, skeleton)) << check(clip, skeleton).message();
-        return lint(skeleton, map, clip);
-    }
-    static std::string texts(const LintReport& report) {
-        std::string all;
-        for (const Finding& each : report.findings) all += each.text + '\n';
-        return all;
-    }
-    static std::size_t frame(double seconds, double rate) {
-        return static_cast<std::size_t>(std::lround(seconds * rate));
-    }
     /// Mends what is found until nothing is, as a person would who clicks on each.
     Clip mended(Clip clip, int most) const {
         for (int i = 0;; ++i) {

@@ -1,6 +1,8 @@
 // Clips of the built-in figure with something wrong planted in them, and others with nothing wrong.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <functional>
 #include <glm/gtc/quaternion.hpp>
@@ -92,6 +94,26 @@ class Frames {
     const Skeleton& skeleton_;
     double rate_;
     std::string name_;
+};
+
+class LintFigure : public ::testing::Test {
+  protected:
+    const Character figure = stick_figure();
+    const Skeleton& skeleton = figure.skeleton;
+    const BoneMap map = match_bones(skeleton);
+
+    Frames walk(double rate = 60.0, double seconds = 3.3) const {
+        return {skeleton, figure.clips[0], rate, seconds};
+    }
+    LintReport run(const Clip& clip) const {
+        EXPECT_TRUE(check(clip, skeleton)) << check(clip, skeleton).message();
+        return lint(skeleton, map, clip);
+    }
+    static std::string texts(const LintReport& report) {
+        std::string all;
+        for (const Finding& each : report.findings) all += each.text + '\n';
+        return all;
+    }
 };
 
 }  // namespace tendril::app::test

@@ -12,24 +12,8 @@ namespace {
 
 using tendril::test::Random;
 
-class LintFigure : public ::testing::Test {
+class LintTest : public LintFigure {
   protected:
-    const Character figure = stick_figure();
-    const Skeleton& skeleton = figure.skeleton;
-    const BoneMap map = match_bones(skeleton);
-
-    Frames walk(double rate = 60.0, double seconds = 3.3) const {
-        return {skeleton, figure.clips[0], rate, seconds};
-    }
-    LintReport run(const Clip& clip) const {
-        EXPECT_TRUE(check(clip, skeleton)) << check(clip, skeleton).message();
-        return lint(skeleton, map, clip);
-    }
-    static std::string texts(const LintReport& report) {
-        std::string all;
-        for (const Finding& each : report.findings) all += each.text + '\n';
-        return all;
-    }
     std::int32_t node(const char* name) const { return static_cast<std::int32_t>(*skeleton.find(name)); }
     /// Everything that was found is of that kind and node, and it is found at all.
     void expect_only(const Clip& clip, Fault fault, const char* name, std::size_t first, std::size_t last,
@@ -54,7 +38,7 @@ double ramp(std::size_t frame, std::size_t first, std::size_t last) {
     return static_cast<double>(frame - first) / static_cast<double>(last - first);
 }
 
-TEST_F(LintFigure, finds_nothing_in_its_own_clips) {
+TEST_F(LintTest, finds_nothing_in_its_own_clips) {
     for (const Clip& clip : figure.clips) {
         const LintReport report = run(clip);
         EXPECT_TRUE(report.findings.empty()) << clip.name << ": " << texts(report);
@@ -63,7 +47,7 @@ TEST_F(LintFigure, finds_nothing_in_its_own_clips) {
     }
 }
 
-TEST_F(LintFigure, finds_nothing_in_variations_of_them) {
+TEST_F(LintTest, finds_nothing_in_variations_of_them) {
     Random random(10);
     constexpr double rates[]{24.0, 25.0, 30.0, 50.0, 60.0, 90.0, 120.0};
     for (int i = 0; i < 150; ++i) {
@@ -95,7 +79,7 @@ TEST_F(LintFigure, finds_nothing_in_variations_of_them) {
     }
 }
 
-TEST_F(LintFigure, finds_a_slid_foot) {
+TEST_F(LintTest, finds_a_slid_foot) {
     // The left foot stands flat from 0.11 s to 0.39 s of each 1.1 s.
     for (const double rate : {30.0, 60.0}) {
         const auto at = [&](double seconds) { return static_cast<std::size_t>(std::lround(seconds * rate)); };
@@ -111,7 +95,7 @@ TEST_F(LintFigure, finds_a_slid_foot) {
     }
 }
 
-TEST_F(LintFigure, finds_feet_that_are_slower_than_the_body) {
+TEST_F(LintTest, finds_feet_that_are_slower_than_the_body) {
     Frames frames = walk();
     for (std::size_t k = 0; k < frames.poses.size(); ++k) frames.poses[k][0].translation.z *= 1.25;
     const LintReport report = run(frames.clip());
@@ -119,7 +103,7 @@ TEST_F(LintFigure, finds_feet_that_are_slower_than_the_body) {
     for (const Finding& each : report.findings) EXPECT_EQ(each.fault, Fault::Skating) << each.text;
 }
 
-TEST_F(LintFigure, finds_a_sunk_foot) {
+TEST_F(LintTest, finds_a_sunk_foot) {
     for (const double depth : {0.03, 0.04}) {
         Frames frames = walk();
         for (std::size_t k = 74; k < 92; ++k)
@@ -134,7 +118,7 @@ TEST_F(LintFigure, finds_a_sunk_foot) {
     }
 }
 
-TEST_F(LintFigure, finds_hips_that_are_lowered_and_feet_that_float) {
+TEST_F(LintTest, finds_hips_that_are_lowered_and_feet_that_float) {
     for (const double by : {-0.06, -0.035, 0.04, 0.06}) {
         Frames frames = walk();
         for (std::size_t k = 60; k < 120; ++k)
@@ -151,7 +135,7 @@ TEST_F(LintFigure, finds_hips_that_are_lowered_and_feet_that_float) {
     }
 }
 
-TEST_F(LintFigure, finds_a_popped_knee_and_mends_it) {
+TEST_F(LintTest, finds_a_popped_knee_and_mends_it) {
     Random random(4);
     for (int i = 0; i < 60; ++i) {
         const double rate = i % 2 == 0 ? 30.0 : 60.0;
@@ -177,7 +161,7 @@ TEST_F(LintFigure, finds_a_popped_knee_and_mends_it) {
     }
 }
 
-TEST_F(LintFigure, finds_a_knee_that_snaps_straight) {
+TEST_F(LintTest, finds_a_knee_that_snaps_straight) {
     // The right foot goes where its leg cannot reach, as a careless foot IK has it.
     Frames frames = walk();
     for (std::size_t k = 40; k < 60; ++k) {
@@ -194,7 +178,7 @@ TEST_F(LintFigure, finds_a_knee_that_snaps_straight) {
     EXPECT_TRUE(found) << texts(report);
 }
 
-TEST_F(LintFigure, finds_a_flipped_key_and_a_jump) {
+TEST_F(LintTest, finds_a_flipped_key_and_a_jump) {
     Clip clip = walk().clip();
     auto& keys = clip.channels[static_cast<std::size_t>(node("LeftUpperArm"))].rotation.values;
     keys[30] = -keys[30];
@@ -210,7 +194,7 @@ TEST_F(LintFigure, finds_a_flipped_key_and_a_jump) {
     EXPECT_NEAR(jump->amount, 200.0, 5.0);
 }
 
-TEST_F(LintFigure, finds_a_knee_and_an_elbow_that_bend_the_wrong_way) {
+TEST_F(LintTest, finds_a_knee_and_an_elbow_that_bend_the_wrong_way) {
     for (const bool is_knee : {true, false}) {
         Frames frames = walk();
         const char* const name = is_knee ? "LeftLowerLeg" : "RightLowerArm";
@@ -231,7 +215,7 @@ TEST_F(LintFigure, finds_a_knee_and_an_elbow_that_bend_the_wrong_way) {
     }
 }
 
-TEST_F(LintFigure, judges_by_the_limits_that_it_is_given) {
+TEST_F(LintTest, judges_by_the_limits_that_it_is_given) {
     const Clip clip = walk().clip();
     const BodyLimits like = default_limits(skeleton, map);
     const BodyLimits learned = learned_limits(skeleton, map, std::span(&clip, 1), like);
@@ -244,7 +228,7 @@ TEST_F(LintFigure, judges_by_the_limits_that_it_is_given) {
     EXPECT_TRUE(lint(skeleton, map, figure.clips[1], {.limits = &none}).findings.empty());
 }
 
-TEST_F(LintFigure, finds_a_walk_that_lies_on_its_side) {
+TEST_F(LintTest, finds_a_walk_that_lies_on_its_side) {
     for (const glm::dvec3& axis : {glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, 1)}) {
         Clip clip = figure.clips[0];
         const glm::dquat turn = glm::angleAxis(glm::radians(90.0), axis);
@@ -261,7 +245,7 @@ TEST_F(LintFigure, finds_a_walk_that_lies_on_its_side) {
     }
 }
 
-TEST_F(LintFigure, finds_a_figure_that_rests_on_its_side_or_is_a_giant) {
+TEST_F(LintTest, finds_a_figure_that_rests_on_its_side_or_is_a_giant) {
     std::vector<Node> nodes = skeleton.nodes();
     nodes[0].rest.rotation = glm::angleAxis(glm::radians(90.0), glm::dvec3(1, 0, 0));
     const Skeleton lying = *Skeleton::make(nodes);
