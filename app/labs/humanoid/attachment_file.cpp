@@ -50,11 +50,7 @@ Attachment read_attachment(const JsonPlace& place, const humanoid::Skeleton& ske
     Attachment attachment{.name = place["name"].text(), .node = place["node"].text()};
     if (!skeleton.find(attachment.node))
         place["node"].fail("the character has no node \"" + attachment.node + "\"");
-    try {
-        attachment.kind = attachment_kinds.value(place["kind"].text());
-    } catch (const std::invalid_argument& error) {
-        place["kind"].fail(error.what());
-    }
+    attachment.kind = place["kind"].choice(attachment_kinds);
     const rope::Body* const body = world.find(attachment.name);
     if (body == nullptr) place["name"].fail("its world has no body \"" + attachment.name + "\"");
     attachment.shape = read_shape(place["shape"]);

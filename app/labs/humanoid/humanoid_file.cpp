@@ -131,15 +131,6 @@ void read_cures(const JsonPlace& place, HumanoidPart& part) {
     });
 }
 
-template <class Enum, std::size_t count>
-Enum read_look(const JsonPlace& place, const EnumNames<Enum, count>& names) {
-    try {
-        return names.value(place.text());
-    } catch (const std::invalid_argument& error) {
-        place.fail(error.what());
-    }
-}
-
 }  // namespace
 
 Json HumanoidPart::save() const {
@@ -185,11 +176,10 @@ std::shared_ptr<Part> HumanoidPart::load(const Json& json, const std::string& wh
         part->selected = name->text();
     if (const auto shown = place.optional("view")) {
         if (const auto ghost = shown->optional("ghost")) part->view.ghost = ghost->flag();
-        if (const auto skin = shown->optional("skin")) part->view.skin = read_look(*skin, skin_looks);
+        if (const auto skin = shown->optional("skin")) part->view.skin = skin->choice(skin_looks);
         if (const auto skinning = shown->optional("skinning"))
-            part->view.skinning = read_look(*skinning, skinnings);
-        if (const auto limits = shown->optional("limits"))
-            part->view.limits = read_look(*limits, limits_shown);
+            part->view.skinning = skinning->choice(skinnings);
+        if (const auto limits = shown->optional("limits")) part->view.limits = limits->choice(limits_shown);
         if (const auto follow = shown->optional("follow")) part->view.follow = follow->flag();
     }
     return part;

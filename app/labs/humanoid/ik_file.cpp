@@ -177,17 +177,9 @@ Json ground_json(const GroundSetting& ground) {
     return json;
 }
 
-template <class Enum, std::size_t count>
-Enum read_name(const JsonPlace& place, const EnumNames<Enum, count>& names) {
-    const std::string name = place.text();
-    for (const Enum each : names.values())
-        if (name == names.name(each)) return each;
-    place.fail(std::string("unknown ") + names.what + " \"" + name + "\"");
-}
-
 GroundSetting read_ground(const JsonPlace& place) {
     GroundSetting ground;
-    if (const auto kind = place.optional("kind")) ground.kind = read_name(*kind, ground_kinds);
+    if (const auto kind = place.optional("kind")) ground.kind = kind->choice(ground_kinds);
     if (const auto angle = place.optional("angle_deg"))
         ground.angle_deg = angle->real(-steepest_deg, steepest_deg);
     if (const auto height = place.optional("step_height"))
@@ -277,7 +269,7 @@ void read_joint_limits(const JsonPlace& place, IkSettings& ik) {
     for (const auto& [name, value] : place.json().items()) {
         const auto bone = humanoid::bone_named(name);
         if (!bone) place.fail("there is no bone \"" + name + "\"");
-        ik.joint_limits[*bone] = read_name(place[name.c_str()], limits_from);
+        ik.joint_limits[*bone] = place[name.c_str()].choice(limits_from);
     }
 }
 
@@ -300,7 +292,7 @@ Json ik_json(const HumanoidPart& part) {
 
 void read_ik(const JsonPlace& place, HumanoidPart& part) {
     if (const auto targets = place.optional("targets")) read_targets(*targets, part.ik);
-    if (const auto limits = place.optional("limits")) part.ik.limits = read_name(*limits, limits_from);
+    if (const auto limits = place.optional("limits")) part.ik.limits = limits->choice(limits_from);
     if (const auto joints = place.optional("joint_limits")) read_joint_limits(*joints, part.ik);
     if (const auto ground = place.optional("ground")) part.ik.ground = read_ground(*ground);
     if (const auto foot_ik = place.optional("foot_ik")) part.ik.foot_ik = read_foot_ik(*foot_ik);

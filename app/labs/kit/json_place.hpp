@@ -6,6 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -47,6 +48,14 @@ class JsonPlace {
     std::size_t index(std::size_t high) const { return static_cast<std::size_t>(count(high)); }
     bool flag() const { return json_bool(*json_, where_); }
     std::string text() const { return json_text(*json_, where_); }
+    /// The one of an enumeration that is named here: `names` are its EnumNames.
+    auto choice(const auto& names) const {
+        try {
+            return names.value(text());
+        } catch (const std::invalid_argument& error) {
+            fail(error.what());
+        }
+    }
     glm::vec3 point() const { return json_point(*json_, where_); }
     glm::dvec3 dpoint() const { return json_dpoint(*json_, where_); }
     glm::quat rotation() const;  ///< [x, y, z, w], of unit length within 1e-3

@@ -39,12 +39,7 @@ Json save_input(const SignalInput& input) {
 
 SignalInput load_input(const JsonPlace& place) {
     SignalInput input;
-    const JsonPlace kind = place["kind"];
-    try {
-        input.kind = input_kinds.value(kind.text());
-    } catch (const std::invalid_argument& error) {
-        kind.fail(error.what());
-    }
+    input.kind = place["kind"].choice(input_kinds);
     input.amplitude = place["amplitude"].real(-most_amplitude, most_amplitude);
     input.period = place["period"].real(shortest_input_period, longest_input_period);
     input.hand = place["hand"].real(-most_amplitude, most_amplitude);
@@ -56,7 +51,7 @@ SignalInput load_input(const JsonPlace& place) {
     }
     const bool missing = (input.kind == InputKind::Recorded && length_of(input.recording.get()) <= 0.0) ||
                          (input.kind == InputKind::Csv && length_of(input.file.get()) <= 0.0);
-    if (missing) kind.fail("there is nothing to play");
+    if (missing) place["kind"].fail("there is nothing to play");
     return input;
 }
 
@@ -145,12 +140,7 @@ std::shared_ptr<Part> SignalPart::load(const Json& json, const std::string& wher
         if (part->stages.empty()) chosen->fail("there is no filter");
         part->selected = chosen->index(part->stages.size() - 1);
     }
-    const JsonPlace plot_place = place["plot"];
-    try {
-        part->plot = signal_plots.value(plot_place.text());
-    } catch (const std::invalid_argument& error) {
-        plot_place.fail(error.what());
-    }
+    part->plot = place["plot"].choice(signal_plots);
     load_fits(*part, place["fit"]);
     return part;
 }
