@@ -42,8 +42,8 @@ void kept_map_rows(const HumanoidPanel& panel) {
     std::string names;
     for (const humanoid::Bone bone : bones)
         names += (names.empty() ? "" : ", ") + std::string(humanoid::name(bone));
-    note("A bone map that you made for these node names has " + count_text(bones.size(), "bone") +
-         " otherwise: " + names + '.');
+    note("A bone map that you made for these node names differs in " + count_text(bones.size(), "bone") +
+         ": " + names + '.');
     if (row_button("Use it", 2, true, "The bones become what you made them then"))
         panel.emit("humanoid.map.use");
     if (row_button("Forget it", 2, true, "It is not offered again")) panel.emit("humanoid.map.forget");
