@@ -7,12 +7,12 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "app/labs/humanoid/draw_attachments.hpp"
-#include "app/labs/humanoid/draw_ground.hpp"
-#include "app/labs/humanoid/draw_limits.hpp"
-#include "app/labs/humanoid/figure.hpp"
+#include "app/labs/humanoid/attachments/draw_attachments.hpp"
+#include "app/labs/humanoid/character/figure.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "app/labs/humanoid/ik/draw_ground.hpp"
+#include "app/labs/humanoid/limits/draw_limits.hpp"
 
 namespace tendril::app {
 namespace {

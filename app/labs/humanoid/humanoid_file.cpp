@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "app/document/json_complete.hpp"
-#include "app/labs/humanoid/clip_lint.hpp"
+#include "app/labs/humanoid/clip/clip_lint.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/kit/json_place.hpp"
 

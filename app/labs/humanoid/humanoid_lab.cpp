@@ -3,9 +3,9 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/io/character/read.hpp"
+#include "app/labs/humanoid/attachments/wearing.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
-#include "app/labs/humanoid/wearing.hpp"
 
 namespace tendril::app {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "app/document/document.hpp"
 #include "app/document/workspace.hpp"
-#include "app/labs/humanoid/attachments.hpp"
-#include "app/labs/humanoid/ik_settings.hpp"
-#include "app/labs/humanoid/playback.hpp"
+#include "app/labs/humanoid/attachments/attachments.hpp"
+#include "app/labs/humanoid/clip/playback.hpp"
+#include "app/labs/humanoid/ik/ik_settings.hpp"
 #include "app/labs/kit/names.hpp"
 
 namespace tendril::app {

@@ -7,10 +7,10 @@
 
 #include "app/document/runtime.hpp"
 #include "app/io/character/twist_spread.hpp"
-#include "app/labs/humanoid/clip_lint.hpp"
-#include "app/labs/humanoid/kept_maps.hpp"
-#include "app/labs/humanoid/loading.hpp"
-#include "app/labs/humanoid/shown_pose.hpp"
+#include "app/labs/humanoid/character/kept_maps.hpp"
+#include "app/labs/humanoid/character/loading.hpp"
+#include "app/labs/humanoid/clip/clip_lint.hpp"
+#include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "app/document/units.hpp"
-#include "app/labs/humanoid/chains.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
+#include "app/labs/humanoid/ik/chains.hpp"
 #include "app/labs/humanoid/panels.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
-#include "app/labs/humanoid/figure.hpp"
+#include "app/labs/humanoid/character/figure.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 

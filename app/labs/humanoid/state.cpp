@@ -2,10 +2,10 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/document/json_complete.hpp"
-#include "app/labs/humanoid/chains.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
-#include "app/labs/humanoid/limit_ranges.hpp"
+#include "app/labs/humanoid/ik/chains.hpp"
+#include "app/labs/humanoid/limits/limit_ranges.hpp"
 
 namespace tendril::app {
 namespace {

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <random>
 
-#include "app/labs/humanoid/attachment_motion.hpp"
+#include "app/labs/humanoid/attachments/attachment_motion.hpp"
 #include "attach_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
 

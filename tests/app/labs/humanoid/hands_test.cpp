@@ -3,7 +3,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <tendril/humanoid/capsules.hpp>
 
-#include "app/labs/humanoid/shown_pose.hpp"
+#include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "humanoid_support.hpp"
 
 namespace tendril::app {

@@ -1,9 +1,9 @@
 // Limits of joints: drawn as the solver has them, learned from clips, taken over for all joints or for one.
 #include <glm/gtc/quaternion.hpp>
 
-#include "app/labs/humanoid/draw_limits.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
-#include "app/labs/humanoid/limit_ranges.hpp"
+#include "app/labs/humanoid/limits/draw_limits.hpp"
+#include "app/labs/humanoid/limits/limit_ranges.hpp"
 #include "humanoid_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
 

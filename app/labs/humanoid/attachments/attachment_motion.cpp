@@ -1,0 +1,270 @@
+#include "app/labs/humanoid/attachments/attachment_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
+#include <tendril/magnitude.hpp>
+
+#include "app/document/workspace.hpp"
+
+namespace tendril::app {
+namespace {
+
+using glm::dvec3;
+
+constexpr double longest_substep = 1.0 / 240.0;
+/// In a tick: further than this part of the character's height, or turned by more, is a jump: 27 m/s of an
+/// adult.
+constexpr double longest_way = 0.25, largest_turn = glm::radians(100.0);
+constexpr double resting_speed = 5e-3;  ///< m/s
+
+struct NamedShape {
+    std::string name;
+    rope::Shape shape;
+};
+
+/// The edge of the world, and nothing that is no number.
+dvec3 kept_in(const dvec3& point) {
+    constexpr double edge = 0.5 * static_cast<double>(max_magnitude);
+    dvec3 kept(0.0);
+    for (int i = 0; i < 3; ++i)
+        if (std::isfinite(point[i])) kept[i] = std::clamp(point[i], -edge, edge);
+    return kept;
+}
+
+std::vector<NamedShape> colliders_of(const Wearer& wearer) {
+    std::vector<NamedShape> all;
+    for (const humanoid::BodyCapsule& each : wearer.capsules) {
+        const humanoid::PlacedCapsule at = humanoid::place(each, wearer.map, wearer.placed);
+        all.push_back(
+            {humanoid::name(each.bone), rope::Capsule{glm::vec3(kept_in(at.from)), glm::vec3(kept_in(at.to)),
+                                                      static_cast<float>(std::clamp(at.radius, 0.0, 1e6))}});
+    }
+    // A slope that rises is all that is below either of two planes; one that falls is no body that bulges.
+    const GroundSetting& ground = wearer.ground;
+    const bool rises = ground.kind == humanoid::GroundKind::Slope && ground.angle_deg >= 0.0;
+    if (ground.kind == humanoid::GroundKind::Flat || rises) all.push_back({"ground", rope::Plane{}});
+    if (rises) {
+        const double angle = glm::radians(ground.angle_deg);
+        all.push_back({"slope", rope::Plane{.normal = {0.0f, static_cast<float>(std::cos(angle)),
+                                                       static_cast<float>(-std::sin(angle))}}});
+    }
+    return all;
+}
+
+/// Whether the world has just these, in their order, if not in their places.
+bool has(const NamedWorld& world, const std::vector<NamedShape>& wanted) {
+    const std::vector<rope::Collider>& there = world.state().colliders;
+    if (there.size() != wanted.size()) return false;
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+        if (world.name(there[i]) != wanted[i].name || there[i].shape.index() != wanted[i].shape.index())
+            return false;
+    return true;
+}
+
+void place_colliders(NamedWorld& world, const std::vector<NamedShape>& wanted) {
+    if (has(world, wanted)) {
+        for (const NamedShape& each : wanted) world.set_collider(each.name, each.shape);
+        return;
+    }
+    while (!world.state().colliders.empty()) {
+        const std::string name = world.name(world.state().colliders.back());
+        world.remove_collider(name);
+    }
+    for (const NamedShape& each : wanted) world.add_collider(each.name, each.shape);
+}
+
+void move_colliders(NamedWorld& world, const std::vector<NamedShape>& wanted, double seconds) {
+    if (!has(world, wanted)) return place_colliders(world, wanted);
+    for (const NamedShape& each : wanted) {
+        if (const auto* capsule = std::get_if<rope::Capsule>(&each.shape))
+            world.move_capsule(each.name, *capsule, seconds);
+        else
+            world.set_collider(each.name, each.shape);
+    }
+}
+
+void move_pins(NamedWorld& world, const Attachment& attachment, const NodeFrame& to, double seconds) {
+    const std::size_t first = world.find(attachment.name)->first;
+    for (const AttachmentPin& pin : attachment.pins)
+        world.pin(first + pin.particle, kept_in(to.apply(pin.offset)), seconds);
+}
+
+/// How far two frames are from each other: metres, and radians.
+double way(const NodeFrame& a, const NodeFrame& b) {
+    return glm::distance(a.position, b.position);
+}
+double turned(const NodeFrame& a, const NodeFrame& b) {
+    const double along = std::abs(glm::dot(a.turn, b.turn));
+    return along < 1.0 ? 2.0 * std::acos(along) : 0.0;
+}
+
+NodeFrame frame_of(const Attachment& attachment, const Wearer& wearer) {
+    NodeFrame frame = wearer.frame(*wearer.loaded.skeleton().find(attachment.node));
+    frame.position = kept_in(frame.position);
+    if (!std::isfinite(glm::dot(frame.turn, frame.turn))) frame.turn = glm::dquat(1.0, 0.0, 0.0, 0.0);
+    return frame;
+}
+
+/// Whether a node or a part of the body has gone farther than one does in that time.
+bool has_jumped(const Attachments& attachments, const Wearer& wearer,
+                const std::vector<NamedShape>& colliders, double seconds) {
+    const double ticks = std::max(1.0, seconds / tick_seconds);
+    const double far = ticks * longest_way * std::clamp(wearer.loaded.height(), 0.1, 1e6);
+    for (const Attachment& each : attachments.list) {
+        const NodeFrame to = frame_of(each, wearer);
+        if (!(way(each.frame, to) <= far) || !(turned(each.frame, to) <= ticks * largest_turn)) return true;
+    }
+    if (!has(*attachments.world, colliders)) return false;
+    for (std::size_t i = 0; i < colliders.size(); ++i) {
+        const rope::Shape& before = attachments.world->state().colliders[i].shape;
+        // A hand is fast: it may go twice as far as what hangs on the trunk.
+        if (glm::distance(dvec3(rope::centre(before)), dvec3(rope::centre(colliders[i].shape))) > 2.0 * far)
+            return true;
+    }
+    return false;
+}
+
+/// Whether the world has everything where the wearer has it.
+bool in_place(const Attachments& attachments, const Wearer& wearer,
+              const std::vector<NamedShape>& colliders) {
+    constexpr double metres = 1e-4, radians = 1e-4;
+    for (const Attachment& each : attachments.list) {
+        const NodeFrame to = frame_of(each, wearer);
+        if (!(way(each.frame, to) < metres) || !(turned(each.frame, to) < radians)) return false;
+    }
+    if (!has(*attachments.world, colliders)) return false;
+    const auto near = [](const glm::vec3& a, const glm::vec3& b) { return glm::distance(a, b) < metres; };
+    for (std::size_t i = 0; i < colliders.size(); ++i) {
+        const rope::Shape& now = attachments.world->state().colliders[i].shape;
+        const auto* capsule = std::get_if<rope::Capsule>(&now);
+        if (capsule == nullptr ? !(now == colliders[i].shape)
+                               : !near(capsule->a, std::get<rope::Capsule>(colliders[i].shape).a) ||
+                                     !near(capsule->b, std::get<rope::Capsule>(colliders[i].shape).b))
+            return false;
+    }
+    return true;
+}
+
+/// The rigid motion from one frame to another.
+struct Carrier {
+    NodeFrame from, to;
+    glm::dquat turn;
+    Carrier(const NodeFrame& before, const NodeFrame& after)
+        : from(before), to(after), turn(glm::normalize(after.turn * glm::conjugate(before.turn))) {}
+    dvec3 point(const dvec3& at) const { return kept_in(to.position + turn * (at - from.position)); }
+    dvec3 way(const dvec3& by) const { return kept_in(turn * by); }
+};
+
+void carry_bodies(NamedWorld& world, const Attachments& attachments, const std::vector<Carrier>& carriers) {
+    rope::State state = world.state();
+    for (std::size_t k = 0; k < carriers.size(); ++k) {
+        const rope::Body& body = *world.find(attachments.list[k].name);
+        for (std::size_t i = body.first; i < body.first + body.count; ++i) {
+            state.position[i] = carriers[k].point(state.position[i]);
+            state.displacement[i] = carriers[k].way(state.displacement[i]);
+            state.earlier[i] = carriers[k].way(state.earlier[i]);
+        }
+    }
+    world.put(std::move(state));
+}
+
+/// The body takes its new pose while everything else stands still: what it meets is pushed aside.
+void push_aside(NamedWorld& world, const std::vector<NamedShape>& colliders, rope::Workspace& workspace) {
+    constexpr int substeps = 24;
+    const rope::State before = world.state();
+    rope::State still = before;
+    std::ranges::fill(still.displacement, dvec3(0.0));
+    std::ranges::fill(still.earlier, dvec3(0.0));
+    still.settings.damping = rope::max_rate;
+    still.settings.gravity = glm::vec3(0.0f);
+    still.settings.substep = longest_substep;
+    still.displaced_in = still.remainder = 0.0;
+    world.put(std::move(still));
+    move_colliders(world, colliders, substeps * longest_substep);
+    world.advance(substeps * longest_substep, workspace, substeps);
+    rope::State after = world.state();
+    after.settings = before.settings;
+    after.displacement = before.displacement;
+    after.earlier = before.earlier;
+    after.displaced_in = before.displaced_in;
+    after.remainder = 0.0;
+    world.put(std::move(after));
+    place_colliders(world, colliders);
+}
+
+/// What is caught in the body so that it is far too long hangs as it was made.
+void untangle(NamedWorld& world, const Attachments& attachments, const Wearer& wearer) {
+    constexpr double largest_error = 0.5;
+    for (const Attachment& each : attachments.list) {
+        const rope::Body body = *world.find(each.name);
+        if (world.length_error(body) < largest_error) continue;
+        const std::vector<dvec3> offsets = made_offsets(each, wearer);
+        rope::State state = world.state();
+        for (std::size_t i = 0; i < body.count && i < offsets.size(); ++i) {
+            state.position[body.first + i] = kept_in(each.frame.apply(offsets[i]));
+            state.displacement[body.first + i] = state.earlier[body.first + i] = dvec3(0.0);
+        }
+        world.put(std::move(state));
+    }
+}
+
+}  // namespace
+
+void carry(Attachments& attachments, const Wearer& wearer, rope::Workspace& workspace) {
+    if (attachments.list.empty()) return;
+    const std::vector<NamedShape> colliders = colliders_of(wearer);
+    if (in_place(attachments, wearer, colliders)) return;
+    std::vector<Carrier> carriers;
+    for (const Attachment& each : attachments.list) carriers.emplace_back(each.frame, frame_of(each, wearer));
+    auto world = std::make_shared<NamedWorld>(*attachments.world);
+    carry_bodies(*world, attachments, carriers);
+    for (std::size_t k = 0; k < carriers.size(); ++k) {
+        move_pins(*world, attachments.list[k], carriers[k].to, 0.0);
+        attachments.list[k].frame = carriers[k].to;
+    }
+    // The body goes along with the first of them, in the pose that it had, and then takes the new one.
+    if (has(*world, colliders)) {
+        for (const rope::Collider& each : attachments.world->state().colliders)
+            if (const auto* capsule = std::get_if<rope::Capsule>(&each.shape))
+                world->set_collider(
+                    world->name(each),
+                    rope::Capsule{glm::vec3(carriers.front().point(dvec3(capsule->a))),
+                                  glm::vec3(carriers.front().point(dvec3(capsule->b))), capsule->radius});
+    }
+    push_aside(*world, colliders, workspace);
+    untangle(*world, attachments, wearer);
+    attachments.world = std::move(world);
+}
+
+void advance(Attachments& attachments, const Wearer& wearer, rope::Workspace& workspace, double seconds) {
+    if (attachments.list.empty() || !(seconds > 0.0)) return;
+    const std::vector<NamedShape> colliders = colliders_of(wearer);
+    if (has_jumped(attachments, wearer, colliders, seconds)) carry(attachments, wearer, workspace);
+    auto world = std::make_shared<NamedWorld>(*attachments.world);
+    // Whole substeps, so that everything is where the character is when the tick ends.
+    const double substeps = std::ceil(seconds / longest_substep - 1e-6);
+    rope::Settings settings = world->settings();
+    settings.substep = std::clamp(seconds / substeps, rope::min_substep, longest_substep);
+    if (settings != world->settings()) world->set_settings(settings);
+    for (Attachment& each : attachments.list) {
+        each.frame = frame_of(each, wearer);
+        move_pins(*world, each, each.frame, seconds);
+    }
+    move_colliders(*world, colliders, seconds);
+    world->advance(seconds, workspace, static_cast<std::uint64_t>(substeps));
+    untangle(*world, attachments, wearer);
+    attachments.world = std::move(world);
+}
+
+bool at_rest(const Attachments& attachments) {
+    const rope::World& world = attachments.world->world();
+    for (std::size_t i = 0; i < world.size(); ++i)
+        if (glm::length(world.velocity(i)) > resting_speed) return false;
+    return true;
+}
+
+}  // namespace tendril::app

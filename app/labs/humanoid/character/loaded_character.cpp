@@ -1,0 +1,60 @@
+#include "app/labs/humanoid/character/loaded_character.hpp"
+
+#include <filesystem>
+#include <glm/common.hpp>
+#include <limits>
+
+#include "app/io/character/read.hpp"
+#include "app/io/character/stick_figure.hpp"
+#include "app/labs/kit/require.hpp"
+
+namespace tendril::app {
+namespace {
+
+void extend(LoadedCharacter& loaded, const glm::dvec3& to) {
+    loaded.low = glm::min(loaded.low, to);
+    loaded.high = glm::max(loaded.high, to);
+}
+
+SharedCharacter shared(std::string file, std::string path, Character character) {
+    auto loaded = std::make_shared<LoadedCharacter>();
+    loaded->file = std::move(file);
+    loaded->path = std::move(path);
+    loaded->character = std::move(character);
+    const humanoid::Skeleton& skeleton = loaded->skeleton();
+    loaded->matched = bone_map(loaded->character);
+    loaded->rest.resize(skeleton.size());
+    humanoid::place(skeleton, humanoid::rest_pose(skeleton), loaded->rest);
+    loaded->low = glm::dvec3(std::numeric_limits<double>::max());
+    loaded->high = -loaded->low;
+    for (const humanoid::Placement& each : loaded->rest) extend(*loaded, each.position);
+    if (const Skin& skin = loaded->character.skin; skin.mesh) {
+        const SkinDraw draw{skin.mesh, skin_matrices(skin, loaded->rest)};
+        for (std::size_t i = 0; i < skin.mesh->positions.size(); ++i)
+            extend(*loaded, glm::dvec3(skinned(draw, i)));
+    }
+    return loaded;
+}
+
+}  // namespace
+
+SharedCharacter load_character(const std::string& file, LoadProgress* progress) {
+    if (file.empty()) return shared({}, {}, stick_figure());
+    return shared(file, std::filesystem::absolute(file).lexically_normal().string(),
+                  read_character(file, progress));
+}
+
+SharedCharacter rescaled(const LoadedCharacter& character, double metres) {
+    Character copy = character.character;
+    std::vector<humanoid::Node> nodes = copy.skeleton.nodes();
+    normalise(nodes, copy.clips, 'y', metres / copy.scale);
+    copy.skeleton = require_value(humanoid::Skeleton::make(std::move(nodes)));
+    for (const humanoid::Clip& clip : copy.clips) require_ok(humanoid::check(clip, copy.skeleton));
+    scale_skin(copy.skin, metres / copy.scale);
+    copy.scale = metres;
+    auto loaded = std::make_shared<LoadedCharacter>(*shared(character.file, character.path, std::move(copy)));
+    loaded->cures = character.cures;
+    return loaded;
+}
+
+}  // namespace tendril::app

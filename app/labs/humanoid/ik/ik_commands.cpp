@@ -1,0 +1,140 @@
+// What IK does with the character: targets and limits.
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <stdexcept>
+
+#include "app/document/json_complete.hpp"
+#include "app/document/units.hpp"
+#include "app/labs/humanoid/ik/ik_command.hpp"
+#include "app/labs/humanoid/limits/limit_ranges.hpp"
+#include "app/labs/kit/arguments.hpp"
+
+namespace tendril::app {
+namespace {
+
+using humanoid::Effector;
+
+void set_target(const IkNow& now, HumanoidPart& part, const Arguments& given) {
+    const Effector effector = *humanoid::effector_named(given.text("effector"));
+    std::optional<TargetSetting>& target = part.ik.target(effector);
+    if (given.has("weight") && given.real("weight") <= 0.0) {
+        target.reset();
+        part.ik_state.body = {};
+        return;
+    }
+    require_body(now, part);
+    if (!target) {
+        const std::size_t node = *part.node_of(humanoid::bone_of(effector));
+        target = TargetSetting{.position = now.shown.placed[node].position};
+    }
+    if (given.has("to")) target->position = exact_point(given.json("to"));
+    if (given.has("rotation")) target->rotation = glm::dquat(given.rotation("rotation"));
+    if (given.has("weight")) target->weight = given.real("weight");
+    // A body goes no farther than its targets do: where they stay and something else is new, it begins anew.
+    if (given.has("rotation") || given.has("weight")) part.ik_state.body = {};
+}
+
+void set_limits(const IkNow& now, HumanoidPart& part, const Arguments& given) {
+    const LimitsFrom from = limits_from.value(given.text("from"));
+    if (from == LimitsFrom::Motion && part.loaded->clips().empty())
+        throw std::invalid_argument("the character has no clips to learn limits from");
+    part.ik_state.body = {};
+    if (!given.has("bone")) {
+        part.ik.limits = from;
+        part.ik.joint_limits.clear();
+        return;
+    }
+    const std::string name = given.text("bone");
+    const humanoid::Bone bone = *humanoid::bone_named(name);
+    const LimitRanges& ranges = now.solvers.limits(part);
+    if (!part.node_of(bone)) throw std::invalid_argument("the character has no " + name);
+    if (ranges.adult(bone) == nullptr) throw std::invalid_argument("the " + name + " joint has no limits");
+    if (from == LimitsFrom::Motion && ranges.clips(bone) == nullptr)
+        throw std::invalid_argument("no clip turns the " + name + " joint");
+    part.ik.joint_limits.erase(bone);
+    if (from != part.ik.limits) part.ik.joint_limits[bone] = from;
+}
+
+void set_ground(const IkNow&, HumanoidPart& part, const Arguments& given) {
+    GroundSetting& ground = part.ik.ground;
+    if (given.has("kind")) ground.kind = ground_kinds.value(given.text("kind"));
+    if (given.has("path")) ground.mesh = read_ground_mesh(given.text("path"));
+    if (ground.kind == humanoid::GroundKind::Mesh && !ground.mesh)
+        throw std::invalid_argument("path is missing: the file with the mesh");
+    if (given.has("angle_deg")) ground.angle_deg = given.real("angle_deg");
+    if (given.has("step_height")) ground.step_height = given.real("step_height");
+    if (given.has("step_depth")) ground.step_depth = given.real("step_depth");
+    make_ground(ground);
+    part.ik_state.feet = {};
+}
+
+/// From aside: what rises ahead of the character would hide it from the front.
+void look_from_aside(Workspace& workspace) {
+    if (workspace.lab == humanoid_lab && std::cos(workspace.camera.yaw) > 0.5f)
+        workspace.camera.yaw = glm::radians(62.0f);
+}
+
+void set_foot_ik(const IkNow& now, HumanoidPart& part, const Arguments& given) {
+    FootIkSetting& setting = part.ik.foot_ik;
+    if (given.has("on")) setting.on = given.boolean("on");
+    if (given.has("enter_speed")) setting.enter_speed = given.real("enter_speed");
+    if (given.has("leave_speed")) setting.leave_speed = given.real("leave_speed");
+    if (given.has("max_angle_deg")) setting.max_angle_deg = given.real("max_angle_deg");
+    if (setting.leave_speed < setting.enter_speed)
+        throw std::invalid_argument("leave_speed must be at least enter_speed, " +
+                                    fixed_text(setting.enter_speed, 2) + " m/s, got " +
+                                    fixed_text(setting.leave_speed, 2));
+    if (setting.on && now.solvers.feet(part) == nullptr)
+        throw std::invalid_argument("the feet are left alone: " + now.solvers.why_no_feet(part));
+}
+
+std::vector<std::string> effector_names() {
+    return names(all_effectors, [](Effector each) { return humanoid::name(each); });
+}
+
+}  // namespace
+
+void add_ik_commands(CommandTable& table) {
+    table.add(
+        ik_command("humanoid.target",
+                   {choice_argument("effector", true, "which", effector_names()),
+                    point_argument("to", false, "metres; where the effector is when left out"),
+                    {.name = "rotation",
+                     .type = ArgumentType::Rotation,
+                     .required = false,
+                     .help = "of the bone; free when it was never given"},
+                    number_argument("weight", "against other targets; 0 lets go", 0.0, heaviest_target)},
+                   "Gives an effector a target, or lets it go", set_target));
+    Command ground =
+        ik_command("humanoid.ground",
+                   {choice_argument("kind", false, "which", ground_kinds.names()),
+                    number_argument("angle_deg", "of the slope, degrees", -steepest_deg, steepest_deg),
+                    number_argument("step_height", "of the stairs, metres", -highest_step, highest_step),
+                    number_argument("step_depth", "of the stairs, metres", shortest_step, longest_step),
+                    text_argument("path", false, "of the mesh: a .gltf or .glb file")},
+                   "Sets what the character walks on; what is left out stays", set_ground);
+    ground.apply = [set = ground.apply](Workspace& workspace, const Arguments& given) {
+        set(workspace, given);
+        using humanoid::GroundKind;
+        const GroundKind kind = humanoid_part(workspace).ik.ground.kind;
+        if (given.has("kind") && (kind == GroundKind::Slope || kind == GroundKind::Stairs))
+            look_from_aside(workspace);
+    };
+    table.add(std::move(ground));
+    table.add(ik_command(
+        "humanoid.foot_ik",
+        {switch_argument("on", "or off"),
+         number_argument("enter_speed", "m/s: a low foot that is slower is planted", 0.0, fastest_foot),
+         number_argument("leave_speed", "m/s: one that is faster is let go", 0.0, fastest_foot),
+         number_argument("max_angle_deg", "by which the ground turns a foot, degrees", 0.0,
+                         largest_foot_angle)},
+        "Brings the feet to the ground; what is left out stays", set_foot_ik));
+    add_hand_commands(table);
+    table.add(ik_command(
+        "humanoid.limits",
+        {choice_argument("from", true, "which", limits_from.names()),
+         choice_argument("bone", false, "of that joint alone; of all when left out", bone_names())},
+        "Says where the limits of the joints come from", set_limits));
+}
+
+}  // namespace tendril::app

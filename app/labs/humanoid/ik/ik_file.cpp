@@ -1,0 +1,308 @@
+// IK in a scene file: what is set, and what is remembered from tick to tick.
+#include "app/document/json_complete.hpp"
+#include "app/labs/humanoid/humanoid_part.hpp"
+#include "app/labs/humanoid/ik/quaternion_json.hpp"
+#include "app/labs/kit/json_place.hpp"
+
+namespace tendril::app {
+namespace {
+
+Json targets_json(const IkSettings& ik) {
+    Json targets = Json::object();
+    for (const humanoid::Effector effector : all_effectors) {
+        const auto& target = ik.target(effector);
+        if (!target) continue;
+        Json& json = targets[humanoid::name(effector)];
+        json["position"] = dpoint(target->position);
+        if (target->rotation) json["rotation"] = quaternion(*target->rotation);
+        json["weight"] = target->weight;
+    }
+    return targets;
+}
+
+void read_targets(const JsonPlace& place, IkSettings& ik) {
+    if (!place.json().is_object()) place.fail("expected an object of effectors");
+    for (const auto& [name, value] : place.json().items()) {
+        const auto effector = humanoid::effector_named(name);
+        if (!effector) place.fail("there is no effector \"" + name + "\"");
+        const JsonPlace at = place[name.c_str()];
+        TargetSetting target;
+        target.position = at["position"].dpoint();
+        if (const auto rotation = at.optional("rotation")) target.rotation = read_quaternion(*rotation);
+        if (const auto weight = at.optional("weight")) target.weight = weight->real(1e-9, heaviest_target);
+        ik.target(*effector) = target;
+    }
+}
+
+Json body_json(const humanoid::BodyState& state) {
+    Json turns = Json::array();
+    for (const glm::dquat& turn : state.turns) turns.push_back(quaternion(turn));
+    Json left = Json::array(), clip = Json::array();
+    for (const glm::dvec3& each : state.left) left.push_back(dpoint(each));
+    for (const glm::dvec3& each : state.clip) clip.push_back(dpoint(each));
+    return Json{{"turns", std::move(turns)}, {"shift", dpoint(state.shift)}, {"clip", std::move(clip)},
+                {"deepest", state.deepest},  {"left", std::move(left)},      {"pace", state.pace}};
+}
+
+humanoid::BodyState read_body(const JsonPlace& place) {
+    humanoid::BodyState state;
+    place["turns"].for_each("turns", humanoid::bone_count,
+                            [&](const JsonPlace& each) { state.turns.push_back(read_quaternion(each)); });
+    state.shift = place["shift"].dpoint();
+    place["left"].check_size(state.left.size(), "points, one an effector");
+    place["clip"].check_size(state.clip.size(), "points, one an effector");
+    for (std::size_t i = 0; i < state.left.size(); ++i) {
+        state.left[i] = place["left"].element(i).dpoint();
+        state.clip[i] = place["clip"].element(i).dpoint();
+    }
+    state.deepest = place["deepest"].real(0.0, 1e9);
+    state.pace = place["pace"].real(0.0, 1e9);
+    return state;
+}
+
+/// Every number of a state, by name: for writing and for reading.
+void each_number(auto& spring, auto visit) requires requires {
+    spring.previous_target;
+}
+{
+    visit("value", spring.value);
+    visit("velocity", spring.velocity);
+    visit("previous", spring.previous_target);
+    visit("started", spring.started);
+}
+
+void each_number(auto& foot, auto visit) requires requires {
+    foot.lock_x;
+}
+{
+    visit("locked", foot.locked);
+    visit("speed_known", foot.speed_known);
+    visit("standing", foot.standing);
+    visit("heel", foot.heel);
+    visit("toe", foot.toe);
+    visit("velocity", foot.velocity);
+    visit("lock_x", foot.lock_x);
+    visit("lock_z", foot.lock_z);
+    visit("shift_x", foot.shift_x);
+    visit("shift_z", foot.shift_z);
+    visit("edges_known", foot.edges_known);
+    visit("offset_x", foot.offset_x);
+    visit("offset_z", foot.offset_z);
+    visit("lift", foot.lift);
+    visit("goal", foot.goal);
+    visit("ease", foot.ease);
+    visit("knee", foot.knee);
+    visit("planting", foot.planting);
+    visit("turn", foot.turn);
+    visit("alone", foot.alone);
+}
+
+void each_number(auto& feet, auto visit) requires requires {
+    feet.pelvis;
+}
+{
+    visit("started", feet.started);
+    visit("hips", feet.hips);
+    visit("base", feet.base);
+    visit("drop", feet.drop);
+    visit("root", feet.root);
+    visit("pelvis", feet.pelvis);
+    visit("left", feet.feet[0]);
+    visit("right", feet.feet[1]);
+}
+
+void each_number(auto& hand, auto visit) requires(
+    requires { hand.in_view; } && !requires { hand.gaze; }) {
+    visit("in_view", hand.in_view);
+    visit("view", hand.view);
+}
+
+void each_number(auto& hands, auto visit) requires requires {
+    hands.hands;
+}
+{
+    visit("left", hands.hands[0]);
+    visit("right", hands.hands[1]);
+}
+
+void each_number(auto& look, auto visit) requires requires {
+    look.gaze;
+}
+{
+    visit("in_view", look.in_view);
+    visit("view", look.view);
+    visit("gaze", look.gaze);
+}
+
+template <class T>
+Json written(const T& value) {
+    if constexpr (std::is_same_v<T, glm::dvec3>) {
+        return dpoint(value);
+    } else if constexpr (std::is_same_v<T, glm::dquat>) {
+        return quaternion(value);
+    } else if constexpr (std::is_enum_v<T>) {
+        return static_cast<int>(value);
+    } else if constexpr (std::is_arithmetic_v<T>) {
+        return value;
+    } else {
+        Json json = Json::object();
+        each_number(value, [&](const char* name, const auto& member) { json[name] = written(member); });
+        return json;
+    }
+}
+
+template <class T>
+void read_number(const JsonPlace& place, T& value) {
+    if constexpr (std::is_same_v<T, glm::dvec3>) {
+        value = place.dpoint();
+    } else if constexpr (std::is_same_v<T, glm::dquat>) {
+        value = read_quaternion(place);
+    } else if constexpr (std::is_same_v<T, bool>) {
+        value = place.flag();
+    } else if constexpr (std::is_same_v<T, humanoid::FootAlone>) {
+        value = static_cast<T>(place.integer(0, static_cast<int>(humanoid::FootAlone::CannotReach)));
+    } else if constexpr (std::is_arithmetic_v<T>) {
+        value = place.real();
+    } else {
+        each_number(value, [&](const char* name, auto& member) { read_number(place[name], member); });
+    }
+}
+
+Json ground_json(const GroundSetting& ground) {
+    Json json{{"kind", ground_kinds.name(ground.kind)},
+              {"angle_deg", ground.angle_deg},
+              {"step_height", ground.step_height},
+              {"step_depth", ground.step_depth}};
+    if (ground.mesh) json["path"] = ground.mesh->path;
+    return json;
+}
+
+GroundSetting read_ground(const JsonPlace& place) {
+    GroundSetting ground;
+    if (const auto kind = place.optional("kind")) ground.kind = kind->choice(ground_kinds);
+    if (const auto angle = place.optional("angle_deg"))
+        ground.angle_deg = angle->real(-steepest_deg, steepest_deg);
+    if (const auto height = place.optional("step_height"))
+        ground.step_height = height->real(-highest_step, highest_step);
+    if (const auto depth = place.optional("step_depth"))
+        ground.step_depth = depth->real(shortest_step, longest_step);
+    if (const auto path = place.optional("path")) {
+        try {
+            ground.mesh = read_ground_mesh(path->text());
+        } catch (const std::exception& error) {
+            path->fail(error.what());
+        }
+    }
+    if (ground.kind == humanoid::GroundKind::Mesh && !ground.mesh) place.fail("a mesh needs its path");
+    return ground;
+}
+
+Json foot_ik_json(const FootIkSetting& setting) {
+    return Json{{"on", setting.on},
+                {"enter_speed", setting.enter_speed},
+                {"leave_speed", setting.leave_speed},
+                {"max_angle_deg", setting.max_angle_deg}};
+}
+
+FootIkSetting read_foot_ik(const JsonPlace& place) {
+    FootIkSetting setting;
+    if (const auto on = place.optional("on")) setting.on = on->flag();
+    if (const auto enter = place.optional("enter_speed"))
+        setting.enter_speed = enter->real(0.0, fastest_foot);
+    if (const auto leave = place.optional("leave_speed"))
+        setting.leave_speed = leave->real(setting.enter_speed, fastest_foot);
+    if (const auto angle = place.optional("max_angle_deg"))
+        setting.max_angle_deg = angle->real(0.0, largest_foot_angle);
+    return setting;
+}
+
+Json hand_ik_json(const HandIkSetting& setting) {
+    Json json{{"on", setting.on}, {"view_deg", setting.view_deg}};
+    for (std::size_t hand = 0; hand < 2; ++hand)
+        if (const auto& curve = setting.curves[hand])
+            json[humanoid::name(both_hands[hand])] = {curve->begin, curve->full, curve->until, curve->end};
+    return json;
+}
+
+HandIkSetting read_hand_ik(const JsonPlace& place) {
+    HandIkSetting setting;
+    if (const auto on = place.optional("on")) setting.on = on->flag();
+    if (const auto view = place.optional("view_deg")) setting.view_deg = view->real(0.0, widest_view_deg);
+    for (std::size_t hand = 0; hand < 2; ++hand) {
+        const auto times = place.optional(humanoid::name(both_hands[hand]));
+        if (!times) continue;
+        times->check_size(4, "times, none before the one before it");
+        std::array<double, 4> seconds{};
+        for (std::size_t i = 0; i < 4; ++i)
+            seconds[i] = times->element(i).real(i == 0 ? 0.0 : seconds[i - 1], longest_curve);
+        setting.curves[hand] = HandCurve{seconds[0], seconds[1], seconds[2], seconds[3]};
+    }
+    return setting;
+}
+
+Json look_at_json(const LookAtSetting& setting) {
+    return Json{{"on", setting.on},
+                {"placed", setting.placed},
+                {"target", dpoint(setting.target)},
+                {"weight", setting.weight},
+                {"view_deg", setting.view_deg}};
+}
+
+LookAtSetting read_look_at(const JsonPlace& place) {
+    LookAtSetting setting;
+    if (const auto on = place.optional("on")) setting.on = on->flag();
+    if (const auto placed = place.optional("placed")) setting.placed = placed->flag();
+    if (const auto target = place.optional("target")) setting.target = target->dpoint();
+    if (const auto weight = place.optional("weight")) setting.weight = weight->real(0.0, 1.0);
+    if (const auto view = place.optional("view_deg")) setting.view_deg = view->real(0.0, widest_view_deg);
+    return setting;
+}
+
+Json joint_limits_json(const IkSettings& ik) {
+    Json json = Json::object();
+    for (const auto& [bone, from] : ik.joint_limits) json[humanoid::name(bone)] = limits_from.name(from);
+    return json;
+}
+
+void read_joint_limits(const JsonPlace& place, IkSettings& ik) {
+    if (!place.json().is_object()) place.fail("expected an object of bones");
+    for (const auto& [name, value] : place.json().items()) {
+        const auto bone = humanoid::bone_named(name);
+        if (!bone) place.fail("there is no bone \"" + name + "\"");
+        ik.joint_limits[*bone] = place[name.c_str()].choice(limits_from);
+    }
+}
+
+}  // namespace
+
+Json ik_json(const HumanoidPart& part) {
+    Json json{{"targets", targets_json(part.ik)}, {"limits", limits_from.name(part.ik.limits)}};
+    if (!part.ik.joint_limits.empty()) json["joint_limits"] = joint_limits_json(part.ik);
+    json["ground"] = ground_json(part.ik.ground);
+    json["foot_ik"] = foot_ik_json(part.ik.foot_ik);
+    json["self_collision"] = part.ik.self_collision;
+    json["hand_ik"] = hand_ik_json(part.ik.hand_ik);
+    json["look_at"] = look_at_json(part.ik.look_at);
+    if (!(part.ik_state.hands == humanoid::HandsState())) json["hands"] = written(part.ik_state.hands);
+    if (!(part.ik_state.look == humanoid::LookAtState())) json["look"] = written(part.ik_state.look);
+    if (!(part.ik_state.feet == humanoid::FeetState())) json["feet"] = written(part.ik_state.feet);
+    if (!(part.ik_state.body == humanoid::BodyState())) json["body"] = body_json(part.ik_state.body);
+    return json;
+}
+
+void read_ik(const JsonPlace& place, HumanoidPart& part) {
+    if (const auto targets = place.optional("targets")) read_targets(*targets, part.ik);
+    if (const auto limits = place.optional("limits")) part.ik.limits = limits->choice(limits_from);
+    if (const auto joints = place.optional("joint_limits")) read_joint_limits(*joints, part.ik);
+    if (const auto ground = place.optional("ground")) part.ik.ground = read_ground(*ground);
+    if (const auto foot_ik = place.optional("foot_ik")) part.ik.foot_ik = read_foot_ik(*foot_ik);
+    if (const auto on = place.optional("self_collision")) part.ik.self_collision = on->flag();
+    if (const auto hand_ik = place.optional("hand_ik")) part.ik.hand_ik = read_hand_ik(*hand_ik);
+    if (const auto look_at = place.optional("look_at")) part.ik.look_at = read_look_at(*look_at);
+    if (const auto hands = place.optional("hands")) read_number(*hands, part.ik_state.hands);
+    if (const auto look = place.optional("look")) read_number(*look, part.ik_state.look);
+    if (const auto feet = place.optional("feet")) read_number(*feet, part.ik_state.feet);
+    if (const auto body = place.optional("body")) part.ik_state.body = read_body(*body);
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,109 @@
+// What a person sets of a character's IK, and what IK remembers from tick to tick: values.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <tendril/humanoid/body.hpp>
+#include <tendril/humanoid/feet.hpp>
+#include <tendril/humanoid/hands.hpp>
+#include <tendril/humanoid/look_at.hpp>
+
+#include "app/labs/humanoid/ik/ground_setting.hpp"
+#include "app/labs/kit/names.hpp"
+
+namespace tendril::app {
+
+inline constexpr double heaviest_target = 1e3;
+
+/// Of one effector; metres, in the character's space.
+struct TargetSetting {
+    glm::dvec3 position{0.0};
+    std::optional<glm::dquat> rotation{};  ///< of the bone
+    double weight = 1.0;                   ///< over 0, to heaviest_target
+    bool operator==(const TargetSetting&) const = default;
+};
+
+enum class LimitsFrom : std::uint8_t { Defaults, Motion, None };
+inline constexpr EnumNames<LimitsFrom, 3> limits_from{
+    "source of limits",
+    {{"defaults", "of an adult", "Each joint turns as far as an adult's does."},
+     {"motion", "as in the clips", "Each joint turns as far as the character's clips turn it."},
+     {"none", "none", "Joints turn as far as they are asked to."}}};
+
+/// Feet that follow the ground. Speeds in m/s.
+struct FootIkSetting {
+    bool on = false;
+    double enter_speed = 0.3,
+           leave_speed = 1.0;     ///< a low foot slower than that is planted, and let go over this
+    double max_angle_deg = 35.0;  ///< by which the ground turns a foot at most
+    bool operator==(const FootIkSetting&) const = default;
+};
+inline constexpr double fastest_foot = 100.0, largest_foot_angle = 80.0;
+
+/// How much a hand goes to its target over the clip's time: 0 until `begin`, 1 from `full` to `until`, 0 from
+/// `end` on; seconds.
+struct HandCurve {
+    double begin = 0.3, full = 0.55, until = 0.62, end = 0.85;
+    bool operator==(const HandCurve&) const = default;
+};
+inline constexpr double longest_curve = 1e4, widest_view_deg = 180.0;
+
+/// Hands that the clip moves, blended to their targets by the arm alone. Half angles of the cone of view.
+struct HandIkSetting {
+    bool on = false;
+    double view_deg = 115.0;
+    std::array<std::optional<HandCurve>, 2> curves{};  ///< left, right; none: all of the clip
+    bool operator==(const HandIkSetting&) const = default;
+};
+
+struct LookAtSetting {
+    bool on = false;
+    bool placed = false;               ///< a place was given, or found
+    glm::dvec3 target{0.0, 1.6, 2.0};  ///< metres
+    double weight = 1.0;               ///< 0 to 1
+    double view_deg = 109.0;
+    bool operator==(const LookAtSetting&) const = default;
+};
+
+struct IkSettings {
+    std::array<std::optional<TargetSetting>, humanoid::effector_count> targets{};
+    LimitsFrom limits = LimitsFrom::Defaults;
+    std::map<humanoid::Bone, LimitsFrom> joint_limits{};  ///< of those that go by another source
+    bool self_collision = false;  ///< hands and lower arms do not pass through the body
+    GroundSetting ground;
+    FootIkSetting foot_ik;
+    HandIkSetting hand_ik;
+    LookAtSetting look_at;
+    bool operator==(const IkSettings&) const = default;
+
+    std::optional<TargetSetting>& target(humanoid::Effector effector) {
+        return targets[static_cast<std::size_t>(effector)];
+    }
+    const std::optional<TargetSetting>& target(humanoid::Effector effector) const {
+        return targets[static_cast<std::size_t>(effector)];
+    }
+    bool has_targets() const;
+    /// Where the limit of that joint comes from.
+    LimitsFrom limits_of(humanoid::Bone bone) const;
+    /// Left 0, right 1; null where the hand has no target, or hand IK is off.
+    const TargetSetting* hand_target(std::size_t hand) const;
+};
+
+struct IkState {
+    humanoid::BodyState body{};
+    humanoid::FeetState feet{};
+    humanoid::HandsState hands{};
+    humanoid::LookAtState look{};
+    bool operator==(const IkState&) const = default;
+};
+
+inline constexpr std::array<humanoid::Effector, humanoid::effector_count> all_effectors{
+    humanoid::Effector::Hips,      humanoid::Effector::Head,     humanoid::Effector::LeftHand,
+    humanoid::Effector::RightHand, humanoid::Effector::LeftFoot, humanoid::Effector::RightFoot};
+inline constexpr std::array<humanoid::Effector, 2> both_hands{humanoid::Effector::LeftHand,
+                                                              humanoid::Effector::RightHand};
+/// "left hand", as panels write it.
+std::string title(humanoid::Effector effector);
+
+}  // namespace tendril::app

@@ -1,0 +1,184 @@
+#include "app/labs/humanoid/ik/shown_pose.hpp"
+
+#include <algorithm>
+#include <glm/trigonometric.hpp>
+#include <stdexcept>
+
+#include "app/labs/humanoid/humanoid_runtime.hpp"
+
+namespace tendril::app {
+namespace {
+
+std::vector<humanoid::Placement> placed(const HumanoidPart& part, const std::vector<rig::Transform>& local) {
+    std::vector<humanoid::Placement> placements(local.size());
+    humanoid::place(part.skeleton(), local, placements);
+    return placements;
+}
+
+/// Whether it is one that hand IK moves.
+bool is_hand(const IkSettings& ik, humanoid::Effector effector) {
+    return ik.hand_ik.on && std::ranges::find(both_hands, effector) != both_hands.end();
+}
+
+std::vector<humanoid::BodyTarget> body_targets(const IkSettings& ik) {
+    std::vector<humanoid::BodyTarget> targets;
+    for (const humanoid::Effector effector : all_effectors)
+        if (const auto& target = ik.target(effector); target && !is_hand(ik, effector))
+            targets.push_back({effector, target->position, target->rotation, target->weight});
+    return targets;
+}
+
+/// Brings the feet to the ground.
+void stand(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state, ShownPose& shown) {
+    const humanoid::Feet* const feet = part.ik.foot_ik.on ? solvers.feet(part) : nullptr;
+    if (feet == nullptr) {
+        state.feet = {};
+        return;
+    }
+    const FootIkSetting& setting = part.ik.foot_ik;
+    humanoid::FeetOptions options{.floor = solvers.floor(part),
+                                  .enter_speed = setting.enter_speed,
+                                  .leave_speed = setting.leave_speed,
+                                  .max_turn = glm::radians(setting.max_angle_deg)};
+    if (part.playback.in_place)
+        options.root_velocity =
+            missing_velocity(part.playback, *part.loaded, part.node_of(humanoid::Bone::Hips));
+    const humanoid::FeetReport report =
+        feet->step(shown.local, solvers.ground(part), dt, state.feet, options);
+    if (report.valid) shown.feet = report;
+}
+
+/// What the body remembers may be another one's, from a file that was edited: then it begins anew.
+void reach(humanoid::Body& body, const std::vector<humanoid::BodyTarget>& targets, IkState& state,
+           ShownPose& shown) {
+    Expected<humanoid::BodyReport> report = body.solve(shown.local, targets, state.body);
+    if (!report && !(state.body == humanoid::BodyState())) {
+        state.body = {};
+        report = body.solve(shown.local, targets, state.body);
+    }
+    if (report)
+        shown.body = *report;
+    else
+        shown.refused = report.message();
+}
+
+/// Where targets hold the body, neck and head alone turn.
+void look(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state, ShownPose& shown) {
+    const LookAtSetting& setting = part.ik.look_at;
+    const humanoid::LookAt* const look_at = setting.on ? solvers.look_at(part) : nullptr;
+    if (look_at == nullptr) {
+        state.look = {};
+        return;
+    }
+    humanoid::LookAtOptions options{
+        .target = setting.target, .weight = setting.weight, .view = glm::radians(setting.view_deg)};
+    if (shown.body) options.spine_part = 0.0;
+    if (part.ik.target(humanoid::Effector::Head)) options.neck_part = 0.0;
+    const humanoid::LookAtReport report = look_at->step(shown.local, options, dt, state.look);
+    if (report.valid) shown.look = report;
+}
+
+double weight_at(const std::optional<HandCurve>& times, double seconds) {
+    if (!times) return 1.0;
+    const auto curve = humanoid::weight_curve(times->begin, times->full, times->until, times->end);
+    return curve ? signal::evaluate_keys(*curve, seconds) : 0.0;
+}
+
+void reach_by_hand(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state, ShownPose& shown) {
+    const HandIkSetting& setting = part.ik.hand_ik;
+    const humanoid::Hands* const hands = setting.on ? solvers.hands(part) : nullptr;
+    if (hands == nullptr) {
+        state.hands = {};
+        return;
+    }
+    humanoid::HandTargets targets{};
+    for (std::size_t hand = 0; hand < 2; ++hand) {
+        const TargetSetting* const target = part.ik.hand_target(hand);
+        if (target == nullptr) continue;
+        shown.hand_goes[hand] = true;
+        targets[hand] = {
+            .position = target->position,
+            .rotation = target->rotation,
+            .weight = std::min(target->weight, 1.0) * weight_at(setting.curves[hand], part.playback.time)};
+    }
+    const humanoid::HandsReport report =
+        hands->step(shown.local, targets, dt, state.hands, {.view = glm::radians(setting.view_deg)});
+    if (report.valid) shown.hands = report;
+}
+
+}  // namespace
+
+std::optional<double> ShownPose::residual(humanoid::Effector effector) const {
+    for (std::size_t hand = 0; hand < 2; ++hand)
+        if (both_hands[hand] == effector && hand_goes[hand])
+            return hands ? std::optional(hands->hands[hand].residual) : std::nullopt;
+    if (!body) return std::nullopt;
+    return body->residuals[static_cast<std::size_t>(effector)];
+}
+
+ShownPose solve_pose(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state) {
+    ShownPose shown;
+    shown.local = animated_pose(part.playback, *part.loaded, part.node_of(humanoid::Bone::Hips));
+    const std::vector<rig::Transform> before = shown.local;
+    if (!part.playback.clip && part.t_pose) shown.local = humanoid::t_pose(part.skeleton(), *part.map);
+    stand(part, solvers, dt, state, shown);
+    const std::vector<humanoid::BodyTarget> targets = body_targets(part.ik);
+    const bool moves = !targets.empty() || part.ik.self_collision;
+    humanoid::Body* const body = moves ? solvers.body(part) : nullptr;
+    if (body == nullptr) state.body = {};
+    if (body != nullptr && !targets.empty()) reach(*body, targets, state, shown);
+    look(part, solvers, dt, state, shown);
+    reach_by_hand(part, solvers, dt, state, shown);
+    // What the clip and its hands alone would bring into the body.
+    if (body != nullptr && targets.empty()) reach(*body, targets, state, shown);
+    shown.placed = placed(part, shown.local);
+    if (const humanoid::Feet* const feet = solvers.feet(part)) {
+        shown.soles = humanoid::sole_points(feet->soles(), shown.placed);
+        shown.has_soles = true;
+    }
+    if (shown.local != before) shown.before = placed(part, before);
+    return shown;
+}
+
+std::string why_alone(const HumanoidPart& part, const ShownPose& shown, std::size_t side) {
+    if (part.ik.ground.kind == humanoid::GroundKind::None) return "there is no ground";
+    return shown.feet ? humanoid::name(shown.feet->feet[side].alone) : "foot IK is off";
+}
+
+const ShownPose& HumanoidRuntime::shown(const Workspace& workspace) {
+    const std::shared_ptr<const Part>& part = workspace.document.parts().at(humanoid_lab);
+    if (part_ != part) {
+        part_ = part;
+        IkState state = humanoid_part(workspace).ik_state;
+        shown_ = solve_pose(humanoid_part(workspace), solvers, 0.0, state);
+    }
+    return shown_;
+}
+
+const TwistSpread& HumanoidRuntime::twist(const HumanoidPart& part) {
+    if (twist_of_ != part.loaded || twist_map_ != part.map) {
+        twist_of_ = part.loaded, twist_map_ = part.map;
+        twist_ = TwistSpread(part.loaded->character.skin, part.skeleton(), *part.map);
+    }
+    return twist_;
+}
+
+const ShownPose& shown_pose(const Workspace& workspace) {
+    return humanoid_runtime(workspace).shown(workspace);
+}
+
+void solve_now(Workspace& workspace) {
+    IkState state = humanoid_part(workspace).ik_state;
+    // A solve goes part of a long way: what comes after it is done at once.
+    constexpr int most_solves = 40;
+    for (int i = 0; i < most_solves; ++i) {
+        const ShownPose shown =
+            solve_pose(humanoid_part(workspace), humanoid_runtime(workspace).solvers, 0.0, state);
+        if (!shown.refused.empty()) throw std::invalid_argument(shown.refused);
+        if (!shown.body || (shown.body->settled && shown.body->iterations <= 1)) break;
+    }
+    if (!(state == humanoid_part(workspace).ik_state))
+        workspace.document.edit<HumanoidPart>(humanoid_lab).ik_state = std::move(state);
+}
+
+}  // namespace tendril::app

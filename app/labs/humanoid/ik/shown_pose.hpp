@@ -1,0 +1,42 @@
+// The one way from the lab's part to what is seen: the animation's pose, or the rest pose, and what changes
+// it, in that order. Picture, state and handles all ask here, and a tick goes the same way.
+#pragma once
+
+#include "app/labs/humanoid/ik/solvers.hpp"
+
+namespace tendril::app {
+
+struct ShownPose {
+    std::vector<rig::Transform> local;
+    std::vector<humanoid::Placement> placed;
+    /// Before anything changed it; empty where nothing does.
+    std::vector<humanoid::Placement> before;
+    std::optional<humanoid::BodyReport> body;     ///< where there is a target
+    std::optional<humanoid::HandsReport> hands;   ///< where hand IK is on
+    std::optional<humanoid::LookAtReport> look;   ///< where look-at is on
+    std::optional<humanoid::FeetReport> feet;     ///< where foot IK is on
+    std::array<humanoid::SolePoints, 2> soles{};  ///< left, right
+    bool has_soles = false;
+    std::array<bool, 2> hand_goes{};  ///< to its target by hand IK
+    std::string refused;              ///< why targets are left alone, in the library's words
+
+    /// What is left between an effector and its target, metres; nothing without one.
+    std::optional<double> residual(humanoid::Effector effector) const;
+    glm::vec3 point(std::size_t node) const { return glm::vec3(placed[node].position); }
+};
+
+/// `state` is what IK remembers; it becomes what it remembers then, `dt` seconds later. With 0 no time
+/// passes: the same part gives the same pose again.
+ShownPose solve_pose(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state);
+
+/// Why a foot keeps to the clip though foot IK is on, in words; empty where it does not. `side`: 0 left.
+std::string why_alone(const HumanoidPart& part, const ShownPose& shown, std::size_t side);
+
+/// The lab's part as it is shown now, worked out once for each of its values. The reference holds until the
+/// next call.
+const ShownPose& shown_pose(const Workspace& workspace);
+/// For commands that change what IK does: it remembers where it is now. Throws std::invalid_argument where
+/// the library refuses a target.
+void solve_now(Workspace& workspace);
+
+}  // namespace tendril::app

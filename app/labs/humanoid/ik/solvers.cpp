@@ -1,0 +1,112 @@
+#include "app/labs/humanoid/ik/solvers.hpp"
+
+#include "app/labs/humanoid/ik/chains.hpp"
+#include "app/labs/humanoid/limits/limit_ranges.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// Fitted to what the character wears, as it rests.
+std::vector<humanoid::BodyCapsule> capsules_of(const HumanoidPart& part) {
+    const Skin& skin = part.loaded->character.skin;
+    if (!skin.mesh) return humanoid::default_capsules(part.skeleton(), *part.map);
+    return humanoid::fitted_capsules(part.skeleton(), *part.map, skin_points(skin, part.loaded->rest));
+}
+
+}  // namespace
+
+Solvers::Solvers() = default;
+Solvers::~Solvers() = default;
+
+void Solvers::make(const HumanoidPart& part) {
+    const Made wanted{part.loaded, part.map, part.ik.limits, part.ik.joint_limits, part.ik.self_collision};
+    if (made_ == wanted) return;
+    made_ = wanted;
+    body_.reset();
+    capsules_.clear();
+    volume_.reset();
+    feet_.reset();
+    hands_.reset();
+    look_at_.reset();
+    floors_.clear();
+    why_not_ = why_no_feet_ = why_unusable(*part.map);
+    if (!why_not_.empty()) return;
+    if (part.ik.self_collision) capsules_ = *(volume_ = capsules_of(part));
+    Expected<humanoid::Body> body =
+        humanoid::Body::make(part.skeleton(), *part.map, limits(part).in_force(part.ik), capsules_);
+    if (body)
+        body_ = std::move(body).value();
+    else
+        why_not_ = body.message();
+    if (auto hands = humanoid::Hands::make(part.skeleton(), *part.map)) hands_ = std::move(hands).value();
+    if (auto look = humanoid::LookAt::make(part.skeleton(), *part.map)) look_at_ = std::move(look).value();
+    Expected<humanoid::Feet> feet = humanoid::Feet::make(part.skeleton(), *part.map);
+    if (feet)
+        feet_ = std::move(feet).value();
+    else
+        why_no_feet_ = feet.message();
+}
+
+humanoid::Body* Solvers::body(const HumanoidPart& part) {
+    make(part);
+    return body_ ? &*body_ : nullptr;
+}
+
+const std::string& Solvers::why_no_body(const HumanoidPart& part) {
+    make(part);
+    return why_not_;
+}
+
+const humanoid::Feet* Solvers::feet(const HumanoidPart& part) {
+    make(part);
+    return feet_ ? &*feet_ : nullptr;
+}
+
+const humanoid::Hands* Solvers::hands(const HumanoidPart& part) {
+    make(part);
+    return hands_ ? &*hands_ : nullptr;
+}
+
+const humanoid::LookAt* Solvers::look_at(const HumanoidPart& part) {
+    make(part);
+    return look_at_ ? &*look_at_ : nullptr;
+}
+
+const std::string& Solvers::why_no_feet(const HumanoidPart& part) {
+    make(part);
+    return why_no_feet_;
+}
+
+std::optional<double> Solvers::floor(const HumanoidPart& part) {
+    make(part);
+    if (!feet_ || !part.playback.clip) return std::nullopt;
+    const auto [found, added] = floors_.try_emplace(*part.playback.clip, 0.0);
+    if (added) found->second = humanoid::clip_floor(part.skeleton(), feet_->soles(), *part.clip());
+    return found->second;
+}
+
+const std::vector<humanoid::BodyCapsule>& Solvers::capsules(const HumanoidPart& part) {
+    make(part);
+    return capsules_;
+}
+
+const LimitRanges& Solvers::limits(const HumanoidPart& part) {
+    if (!ranges_ || !ranges_->is_of(part)) ranges_ = std::make_unique<LimitRanges>(part.loaded, part.map);
+    return *ranges_;
+}
+
+const std::vector<humanoid::BodyCapsule>& Solvers::volume(const HumanoidPart& part) {
+    make(part);
+    if (!volume_) volume_ = capsules_of(part);
+    return *volume_;
+}
+
+const humanoid::Ground& Solvers::ground(const HumanoidPart& part) {
+    if (ground_of_ != part.ik.ground) {
+        ground_ = make_ground(part.ik.ground);
+        ground_of_ = part.ik.ground;
+    }
+    return ground_;
+}
+
+}  // namespace tendril::app
