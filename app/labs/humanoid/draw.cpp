@@ -28,11 +28,16 @@ class Drawing {
           part_(humanoid_part(view.workspace)),
           shown_(shown_pose(view.workspace)),
           body_(body_nodes(part_)),
+          springs_(part_.skeleton().size()),
           selected_(part_.skeleton().find(part_.selected)),
           clad_(part_.loaded->character.skin.mesh && part_.view.skin != SkinLook::None),
           tapered_(bones_setting().chosen(view.workspace.settings) == 0),
           helpers_(helpers_setting().chosen(view.workspace.settings) == 0),
-          thickest_(static_cast<float>(0.014 * glm::distance(part_.loaded->low, part_.loaded->high))) {}
+          thickest_(static_cast<float>(0.014 * glm::distance(part_.loaded->low, part_.loaded->high))) {
+        for (const auto& chain : humanoid_runtime(view.workspace).solvers.springs(part_))
+            if (chain != nullptr)
+                for (const std::size_t each : chain->bones()) springs_[each] = true;
+    }
 
     void run() {
         const std::size_t middle = part_.node_of(humanoid::Bone::Hips).value_or(0);
@@ -42,7 +47,7 @@ class Drawing {
         volumes();
         if (part_.view.ghost && !shown_.before.empty()) ghost();
         for (std::size_t i = 0; i < part_.skeleton().size(); ++i) {
-            if (!body_[i] && !helpers_) continue;
+            if (!body_[i] && !springs_[i] && !helpers_) continue;
             bones_from(i);
             node(i);
         }
@@ -70,7 +75,11 @@ class Drawing {
     }
     glm::vec3 colour_of(std::size_t i) const {
         if (at_limit(i)) return marked(view_.palette.limit, i);
-        return marked(body_[i] ? view_.palette.joint : view_.palette.neutral, i);
+        return marked(kind_colour(i), i);
+    }
+    glm::vec3 kind_colour(std::size_t i) const {
+        if (springs_[i]) return attached_colour(view_.palette);
+        return body_[i] ? view_.palette.joint : view_.palette.neutral;
     }
 
     /// From a node to those that hang on it; its turning moves them.
@@ -79,7 +88,7 @@ class Drawing {
         bool ended = false;
         for (const std::int32_t each : part_.skeleton().children(i)) {
             const auto child = static_cast<std::size_t>(each);
-            if (!body_[child] && !helpers_) continue;
+            if (!body_[child] && !springs_[i] && !helpers_) continue;
             bone(i, shown_.point(i), shown_.point(child), body_[i] && body_[child]);
             ended = ended || body_[child];
         }
@@ -111,7 +120,8 @@ class Drawing {
     }
     void bone(std::size_t i, glm::vec3 from, glm::vec3 to, bool of_body) {
         if (glm::distance(from, to) < 1e-5f) return;
-        const glm::vec4 paint(marked(of_body ? view_.palette.joint : view_.palette.neutral, i), 1.0f);
+        of_body = of_body || springs_[i];
+        const glm::vec4 paint(marked(of_body ? kind_colour(i) : view_.palette.neutral, i), 1.0f);
         if (!of_body || !tapered_) {
             Stroke& stroke = list_.line(from, to, px(of_body ? 3.0f : 1.2f), paint);
             stroke.pick = node_pick(i);
@@ -129,7 +139,11 @@ class Drawing {
     }
     void node(std::size_t i) {
         const bool marks = selected_ == i || lit(i);
-        const float radius = (at_limit(i) ? 6.0f : body_[i] ? 4.0f : 2.0f) + (marks ? 1.5f : 0.0f);
+        const float radius = (at_limit(i)   ? 6.0f
+                              : body_[i]    ? 4.0f
+                              : springs_[i] ? 3.0f
+                                            : 2.0f) +
+                             (marks ? 1.5f : 0.0f);
         Stroke& ball = list_.sphere(shown_.point(i), px(radius), Unit::Pixels, glm::vec4(colour_of(i), 1.0f));
         ball.pick = node_pick(i);
         ball.rank = body_[i] ? 2 : 1;
@@ -227,10 +241,10 @@ class Drawing {
         const glm::vec4 paint = faded(view_.palette, view_.palette.ghost, 0.6f);
         const auto at = [&](std::size_t i) { return glm::vec3(shown_.before[i].position); };
         for (std::size_t i = 0; i < part_.skeleton().size(); ++i) {
-            if (!body_[i]) continue;
+            if (!body_[i] && !springs_[i]) continue;
             for (const std::int32_t each : part_.skeleton().children(i))
                 if (const auto child = static_cast<std::size_t>(each);
-                    body_[child] && glm::distance(at(i), at(child)) > 1e-5f)
+                    (body_[child] || springs_[i]) && glm::distance(at(i), at(child)) > 1e-5f)
                     list_.line(at(i), at(child), px(2.0f), paint);
         }
     }
@@ -271,7 +285,7 @@ class Drawing {
     DrawList& list_;
     const HumanoidPart& part_;
     const ShownPose& shown_;
-    std::vector<bool> body_;
+    std::vector<bool> body_, springs_;  // nodes: of the body, turned by a spring
     std::optional<std::size_t> selected_;
     bool clad_;  // in a skin that is drawn: bones stay inside of it
     bool tapered_, helpers_;
@@ -317,6 +331,7 @@ std::vector<LegendRow> HumanoidLab::legend(const Workspace& workspace) const {
     if (std::ranges::find(body, false) != body.end()) rows.push_back({"helper", colours.neutral});
     if (shown.feet && (shown.feet->feet[0].planted || shown.feet->feet[1].planted))
         rows.push_back({"planted", colours.tail});
+    if (!part.springs.empty()) rows.push_back({"on a spring", attached_colour(colours)});
     if (!part.attachments.list.empty()) rows.push_back({"attached", attached_colour(colours)});
     if (part.view.ghost && !shown.before.empty()) rows.push_back({"before", colours.ghost});
     return rows;

@@ -28,6 +28,8 @@ void add_ik_commands(CommandTable& table);
 void add_humanoid_look_commands(CommandTable& table);
 /// What hangs on the character.
 void add_attachment_commands(CommandTable& table);
+/// Springs on nodes of its own.
+void add_spring_commands(CommandTable& table);
 /// Maps, exports, and cures.
 void add_humanoid_file_commands(CommandTable& table);
 /// Maps that are kept for node names.

@@ -144,6 +144,7 @@ Json HumanoidPart::save() const {
     json["clip"] = save_playback(*this);
     json["t_pose"] = t_pose;
     json["ik"] = ik_json(*this);
+    if (!springs.empty()) json["springs"] = springs_json(*this);
     if (!attachments.list.empty()) json["attachments"] = attachments_json(attachments);
     json["quiet_ticks"] = quiet_ticks;
     json["selected"] = selected;
@@ -169,6 +170,7 @@ std::shared_ptr<Part> HumanoidPart::load(const Json& json, const std::string& wh
     if (const auto clip = place.optional("clip")) part->playback = read_playback(*clip, *part->loaded);
     if (const auto on = place.optional("t_pose")) part->t_pose = on->flag();
     if (const auto ik_place = place.optional("ik")) read_ik(*ik_place, *part);
+    if (const auto swinging = place.optional("springs")) read_springs(*swinging, *part);
     if (const auto hanging = place.optional("attachments"))
         part->attachments = read_attachments(*hanging, part->skeleton());
     if (const auto ticks = place.optional("quiet_ticks")) part->quiet_ticks = ticks->integer(0, 1'000'000);

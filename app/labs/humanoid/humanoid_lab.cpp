@@ -6,6 +6,7 @@
 #include "app/labs/humanoid/attachments/wearing.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "app/labs/humanoid/springs/swing.hpp"
 
 namespace tendril::app {
 namespace {
@@ -32,20 +33,22 @@ void HumanoidLab::add_commands(CommandTable& table) const {
     add_character_commands(own);
     add_clip_commands(own);
     add_ik_commands(own);
+    add_spring_commands(own);
     add_attachment_commands(own);
     add_humanoid_look_commands(own);
     add_humanoid_file_commands(own);
-    for (Command command : own.all()) table.add(with_attachments(std::move(command)));
+    for (Command command : own.all()) table.add(carrying(std::move(command)));
 }
 
 bool HumanoidLab::moving(const Workspace& workspace) const {
     const HumanoidPart& part = humanoid_part(workspace);
     constexpr int until_rest = 120;
-    const bool springs = part.ik.foot_ik.on && part.ik.ground.kind != humanoid::GroundKind::None;
+    const bool stands = part.ik.foot_ik.on && part.ik.ground.kind != humanoid::GroundKind::None;
     const bool eases = part.ik.look_at.on || (part.ik.hand_ik.on && part.ik.has_targets());
+    const bool swings = !part.springs.empty();
     const bool hangs = !part.attachments.list.empty();
     return goes_on(part.playback, *part.loaded) ||
-           ((springs || eases || hangs) && part.quiet_ticks < until_rest);
+           ((stands || eases || swings || hangs) && part.quiet_ticks < until_rest);
 }
 
 void HumanoidLab::step(Workspace& workspace) const {
@@ -54,7 +57,8 @@ void HumanoidLab::step(Workspace& workspace) const {
     HumanoidPart& part = workspace.document.edit<HumanoidPart>(humanoid_lab);
     const double seconds = tick_seconds * static_cast<double>(workspace.clock.speed);
     HumanoidRuntime& runtime = humanoid_runtime(workspace);
-    const bool quiet = !goes_on(part.playback, *part.loaded) && at_rest(part.attachments);
+    const bool quiet =
+        !goes_on(part.playback, *part.loaded) && at_rest(part.attachments) && at_rest(part.ik_state.springs);
     part.quiet_ticks = quiet ? part.quiet_ticks + 1 : 0;
     advance(part.playback, *part.loaded, seconds);
     const ShownPose shown = solve_pose(part, runtime.solvers, seconds, part.ik_state);

@@ -52,9 +52,9 @@ std::size_t HumanoidPart::bytes() const {
 
 bool HumanoidPart::operator==(const HumanoidPart& other) const {
     return loaded == other.loaded && (map == other.map || *map == *other.map) && playback == other.playback &&
-           t_pose == other.t_pose && ik == other.ik && ik_state == other.ik_state &&
-           attachments == other.attachments && quiet_ticks == other.quiet_ticks &&
-           selected == other.selected && view == other.view;
+           t_pose == other.t_pose && ik == other.ik && springs == other.springs &&
+           ik_state == other.ik_state && attachments == other.attachments &&
+           quiet_ticks == other.quiet_ticks && selected == other.selected && view == other.view;
 }
 
 void set_bone(HumanoidPart& part, Bone bone, std::optional<std::size_t> node) {

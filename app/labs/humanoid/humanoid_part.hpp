@@ -11,6 +11,7 @@
 #include "app/labs/humanoid/attachments/attachments.hpp"
 #include "app/labs/humanoid/clip/playback.hpp"
 #include "app/labs/humanoid/ik/ik_settings.hpp"
+#include "app/labs/humanoid/springs/springs.hpp"
 #include "app/labs/kit/names.hpp"
 
 namespace tendril::app {
@@ -55,6 +56,7 @@ struct HumanoidPart final : Part {
     Playback playback;
     bool t_pose = false;  ///< the rest pose is shown as a T
     IkSettings ik;
+    std::vector<SpringSetting> springs;
     IkState ik_state;
     Attachments attachments;
     int quiet_ticks = 0;   ///< since anything was set or swung: springs come to rest meanwhile

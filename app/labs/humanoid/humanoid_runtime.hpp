@@ -29,10 +29,10 @@ class HumanoidRuntime final : public Runtime {
 
     /// The interface's own: it follows from nothing, and nothing follows from it.
     struct Panel {
-        std::optional<humanoid::Bone> bone;   ///< the row for which a node is picked
-        SearchText node{}, clip{}, holder{};  ///< what is looked for
-        int attach_kind = 0;                  ///< of the attachment that Add makes
-        std::string attach_to = "Hips";       ///< bone or node that it hangs on
+        std::optional<humanoid::Bone> bone;             ///< the row for which a node is picked
+        SearchText node{}, clip{}, holder{}, spring{};  ///< what is looked for
+        int attach_kind = 0;                            ///< of the attachment that Add makes
+        std::string attach_to = "Hips";                 ///< bone or node that it hangs on
         bool past = false;                    ///< the strip shows the last ten seconds instead of the clip
         std::string export_to{}, map_file{};  ///< paths that are typed
     } panel;

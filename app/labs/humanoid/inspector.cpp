@@ -74,6 +74,7 @@ void node_inspector(const HumanoidPanel& panel) {
     if (!shown.before.empty())
         reading("from before", "%.1f mm",
                 1000.0 * glm::distance(shown.placed[*node].position, shown.before[*node].position));
+    spring_inspector(panel, *node);
 }
 
 void target_inspector(const HumanoidPanel& panel) {

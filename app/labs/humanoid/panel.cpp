@@ -154,6 +154,7 @@ void HumanoidLab::panel(const Workspace& workspace, Emit& emit) const {
     target_rows(panel);
     hand_rows(panel);
     ground_rows(panel);
+    spring_rows(panel);
     attachment_rows(panel);
     look_rows(panel);
     export_rows(panel);

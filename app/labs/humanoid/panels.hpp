@@ -28,6 +28,8 @@ void clip_rows(const HumanoidPanel& panel);
 void target_rows(const HumanoidPanel& panel);
 /// Where the limits of joints come from.
 void limit_rows(const HumanoidPanel& panel);
+/// Springs on its own ears, antennae, tail.
+void spring_rows(const HumanoidPanel& panel);
 /// What hangs on it, and the order in which a tick goes.
 void attachment_rows(const HumanoidPanel& panel);
 /// What it walks on, and how its feet take that.
@@ -47,6 +49,8 @@ void map_rows(const HumanoidPanel& panel);
 void target_inspector(const HumanoidPanel& panel);
 /// The selected node.
 void node_inspector(const HumanoidPanel& panel);
+/// The spring that turns the selected node, or could.
+void spring_inspector(const HumanoidPanel& panel, std::size_t node);
 /// How far the selected joint is turned, and may be.
 void limit_inspector(const HumanoidPanel& panel);
 /// The character in numbers.

@@ -231,6 +231,26 @@ Json attachments_state(const HumanoidPart& part) {
     return list;
 }
 
+Json springs_state(const Workspace& workspace, const ShownPose& shown) {
+    const HumanoidPart& part = humanoid_part(workspace);
+    const SpringChains& chains = humanoid_runtime(workspace).solvers.springs(part);
+    Json list = Json::array();
+    for (std::size_t i = 0; i < part.springs.size(); ++i) {
+        const SpringSetting& each = part.springs[i];
+        Json bones = Json::array();
+        if (chains[i] != nullptr)
+            for (const std::size_t node : chains[i]->bones()) bones.push_back(part.skeleton()[node].name);
+        list.push_back({{"node", each.node},
+                        {"bones", std::move(bones)},
+                        {"strength", each.strength},
+                        {"critical_damping", each.critical_damping},
+                        {"weight", each.weight},
+                        {"max_angle_deg", each.max_angle_deg},
+                        {"angle_deg", glm::degrees(shown.springs[i].angle)}});
+    }
+    return list;
+}
+
 Json clip_state(const HumanoidPart& part) {
     const humanoid::Clip* clip = part.clip();
     if (clip == nullptr) return nullptr;
@@ -268,6 +288,7 @@ Json HumanoidLab::state(const Workspace& workspace) const {
                 {"skinning", skinnings.name(part.view.skinning)},
                 {"look_at", look_state(part, shown)},
                 {"ground", ground_state(part.ik.ground)},
+                {"springs", springs_state(workspace, shown)},
                 {"attachments", attachments_state(part)},
                 {"order", {"clip", "IK", "rig", "ropes"}},
                 {"selected", part.selected}};

@@ -25,13 +25,6 @@ double limited(double angle, double most) noexcept {
     return std::min(angle, most);
 }
 
-/// From one unit vector towards another by an angle at most. Of opposite ones about some axis.
-glm::dvec3 turned_toward(const glm::dvec3& from, const glm::dvec3& to, double most) noexcept {
-    const double angle = detail::angle_between(from, to);
-    if (angle <= most) return to;
-    return rotated(slerp(none, minimal_rotation(from, to), most / angle), from);
-}
-
 }  // namespace
 
 struct LookAt::Plan {
@@ -79,7 +72,7 @@ void LookAt::Plan::turn(detail::Pose pose, const Placement& root, const glm::dve
 
         rig::AimOptions aim;
         aim.primary.axis = rotated(conjugate(rotation), looks);
-        aim.primary.target = turned_toward(looks, gaze, part * detail::angle_between(looks, gaze));
+        aim.primary.target = detail::turned_toward(looks, gaze, part * detail::angle_between(looks, gaze));
         aim.primary.kind = rig::AimTarget::Direction;
         const glm::dquat aimed = rig::aim({.rotation = rotation}, aim).transform.rotation;
         const glm::dquat whole = math::compose(aimed, conjugate(rotation));
@@ -166,7 +159,7 @@ LookAtReport LookAt::step(std::span<rig::Transform> pose, const LookAtOptions& o
     // Behind its back the eyes do not follow: what comes into view again is looked at from where the clip
     // looks.
     const glm::dvec3 from = seen > 0.0 ? state.gaze : looks;
-    state.gaze = is_first ? wanted : turned_toward(from, state.in_view ? wanted : from, most);
+    state.gaze = is_first ? wanted : detail::turned_toward(from, state.in_view ? wanted : from, most);
 
     LookAtReport report{.weight = rig::detail::weight(options.weight) * seen, .in_view = state.in_view};
     const glm::dvec3 point = plus(at.position, times(state.gaze, length(way)));

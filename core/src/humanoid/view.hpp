@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "humanoid/direction.hpp"
 #include "humanoid/limb.hpp"
 #include "tendril/humanoid/soles.hpp"
 #include "tendril/signal/spring.hpp"
@@ -38,11 +39,6 @@ struct Head {
 
 /// What is in view stays so until it is so much outside, radians: nothing flickers at the edge.
 inline constexpr double view_margin = 0.05;
-
-inline double angle_between(const glm::dvec3& a, const glm::dvec3& b) noexcept {
-    using namespace rig::detail;
-    return arctangent(length(cross(a, b)), dot(a, b));
-}
 
 /// Moves `view` on towards 1 where the target is in the cone, to 0 where it is not; at once on a first step.
 inline double step_view(bool& in_view, signal::SpringState<double>& view, double angle, double cone,

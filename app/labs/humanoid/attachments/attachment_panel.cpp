@@ -46,7 +46,8 @@ void attachment_rows(const HumanoidPanel& panel) {
     section("Attachments");
     note("Each tick goes in this order: clip, IK, rig, ropes.");
     explain(
-        "Feet, targets and hands are IK; look-at is the rig's Aim. Ropes, hair and cloth come last, and "
+        "Feet, targets and hands are IK; look-at, the rig's Aim, and springs follow. Ropes, hair and cloth "
+        "come last, and "
         "lie on the body as it is then.");
     for (const Attachment& each : panel.part.attachments.list) attachment_row(panel, each);
     HumanoidRuntime::Panel& kept = panel.runtime.panel;

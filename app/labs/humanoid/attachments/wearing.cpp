@@ -19,12 +19,14 @@ Wearer wearer_of(const HumanoidPart& part, Solvers& solvers, const ShownPose& sh
     return {*part.loaded, *part.map, solvers.volume(part), shown.placed, part.ik.ground};
 }
 
-Command with_attachments(Command command) {
+Command carrying(Command command) {
     if (command.effect != Effect::Edit) return command;
     const bool drags = command.name == "humanoid.target" || command.name == "humanoid.look_at";
     command.apply = [drags, apply = command.apply](Workspace& workspace, const Arguments& given) {
         apply(workspace, given);
-        if (!(drags && workspace.clock.playing)) carry_attachments(workspace);
+        if (drags && workspace.clock.playing) return;
+        carry_springs(workspace);
+        carry_attachments(workspace);
     };
     return command;
 }

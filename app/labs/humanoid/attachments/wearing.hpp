@@ -10,9 +10,9 @@ namespace tendril::app {
 /// As long as `shown` is there, and the part is not changed.
 Wearer wearer_of(const HumanoidPart& part, Solvers& solvers, const ShownPose& shown);
 
-/// The same command; whatever it does to the pose, what hangs on the character is carried along at once. What
-/// drags do while time passes is left to the next tick, which swings it.
-Command with_attachments(Command command);
+/// The same command; whatever it does to the pose, springs and what hangs on the character are carried along
+/// at once. What drags do while time passes is left to the next tick, which swings them.
+Command carrying(Command command);
 
 /// After the character became so many times as large.
 void remake_attachments(Workspace& workspace, double scale);

@@ -1,4 +1,4 @@
-// What a person sets of a character's IK, and what IK remembers from tick to tick: values.
+// What a person sets of a character's IK, and what it and the springs remember from tick to tick: values.
 #pragma once
 
 #include <array>
@@ -8,6 +8,8 @@
 #include <tendril/humanoid/feet.hpp>
 #include <tendril/humanoid/hands.hpp>
 #include <tendril/humanoid/look_at.hpp>
+#include <tendril/humanoid/spring_chain.hpp>
+#include <vector>
 
 #include "app/labs/humanoid/ik/ground_setting.hpp"
 #include "app/labs/kit/names.hpp"
@@ -95,6 +97,7 @@ struct IkState {
     humanoid::FeetState feet{};
     humanoid::HandsState hands{};
     humanoid::LookAtState look{};
+    std::vector<humanoid::SpringChainState> springs{};  ///< in the order of the part's
     bool operator==(const IkState&) const = default;
 };
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "app/labs/humanoid/springs/swing.hpp"
 
 namespace tendril::app {
 namespace {
@@ -116,10 +117,10 @@ std::optional<double> ShownPose::residual(humanoid::Effector effector) const {
     return body->residuals[static_cast<std::size_t>(effector)];
 }
 
-ShownPose solve_pose(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state) {
-    ShownPose shown;
-    shown.local = animated_pose(part.playback, *part.loaded, part.node_of(humanoid::Bone::Hips));
-    const std::vector<rig::Transform> before = shown.local;
+namespace {
+
+/// All between the clip and the springs.
+void solve(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state, ShownPose& shown) {
     if (!part.playback.clip && part.t_pose) shown.local = humanoid::t_pose(part.skeleton(), *part.map);
     stand(part, solvers, dt, state, shown);
     const std::vector<humanoid::BodyTarget> targets = body_targets(part.ik);
@@ -131,6 +132,19 @@ ShownPose solve_pose(const HumanoidPart& part, Solvers& solvers, double dt, IkSt
     reach_by_hand(part, solvers, dt, state, shown);
     // What the clip and its hands alone would bring into the body.
     if (body != nullptr && targets.empty()) reach(*body, targets, state, shown);
+}
+
+std::vector<rig::Transform> clip_pose(const HumanoidPart& part) {
+    return animated_pose(part.playback, *part.loaded, part.node_of(humanoid::Bone::Hips));
+}
+
+}  // namespace
+
+ShownPose solve_pose(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state) {
+    ShownPose shown;
+    const std::vector<rig::Transform> before = shown.local = clip_pose(part);
+    solve(part, solvers, dt, state, shown);
+    shown.springs = swing(part.springs, solvers.springs(part), dt, shown.local, state.springs);
     shown.placed = placed(part, shown.local);
     if (const humanoid::Feet* const feet = solvers.feet(part)) {
         shown.soles = humanoid::sole_points(feet->soles(), shown.placed);
@@ -138,6 +152,20 @@ ShownPose solve_pose(const HumanoidPart& part, Solvers& solvers, double dt, IkSt
     }
     if (shown.local != before) shown.before = placed(part, before);
     return shown;
+}
+
+void carry_springs(Workspace& workspace) {
+    const HumanoidPart& part = humanoid_part(workspace);
+    if (part.springs.empty()) return;
+    Solvers& solvers = humanoid_runtime(workspace).solvers;
+    IkState state = part.ik_state;
+    ShownPose shown;
+    shown.local = clip_pose(part);
+    solve(part, solvers, 0.0, state, shown);
+    state.springs = part.ik_state.springs;
+    carry(part.springs, solvers.springs(part), shown.local, state.springs);
+    if (state.springs == part.ik_state.springs) return;
+    workspace.document.edit<HumanoidPart>(humanoid_lab).ik_state.springs = std::move(state.springs);
 }
 
 std::string why_alone(const HumanoidPart& part, const ShownPose& shown, std::size_t side) {

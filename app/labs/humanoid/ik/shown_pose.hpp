@@ -15,6 +15,7 @@ struct ShownPose {
     std::optional<humanoid::HandsReport> hands;   ///< where hand IK is on
     std::optional<humanoid::LookAtReport> look;   ///< where look-at is on
     std::optional<humanoid::FeetReport> feet;     ///< where foot IK is on
+    std::vector<humanoid::SpringReport> springs;  ///< in the order of the part's
     std::array<humanoid::SolePoints, 2> soles{};  ///< left, right
     bool has_soles = false;
     std::array<bool, 2> hand_goes{};  ///< to its target by hand IK
@@ -28,6 +29,9 @@ struct ShownPose {
 /// `state` is what IK remembers; it becomes what it remembers then, `dt` seconds later. With 0 no time
 /// passes: the same part gives the same pose again.
 ShownPose solve_pose(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state);
+
+/// The pose was set, not reached in time: springs go along with it and swing on from there.
+void carry_springs(Workspace& workspace);
 
 /// Why a foot keeps to the clip though foot IK is on, in words; empty where it does not. `side`: 0 left.
 std::string why_alone(const HumanoidPart& part, const ShownPose& shown, std::size_t side);

@@ -1,5 +1,7 @@
 #include "app/labs/humanoid/ik/solvers.hpp"
 
+#include <algorithm>
+
 #include "app/labs/humanoid/ik/chains.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
 
@@ -28,6 +30,8 @@ void Solvers::make(const HumanoidPart& part) {
     feet_.reset();
     hands_.reset();
     look_at_.reset();
+    spring_nodes_.clear();
+    springs_.clear();
     floors_.clear();
     why_not_ = why_no_feet_ = why_unusable(*part.map);
     if (!why_not_.empty()) return;
@@ -70,6 +74,25 @@ const humanoid::Hands* Solvers::hands(const HumanoidPart& part) {
 const humanoid::LookAt* Solvers::look_at(const HumanoidPart& part) {
     make(part);
     return look_at_ ? &*look_at_ : nullptr;
+}
+
+const SpringChains& Solvers::springs(const HumanoidPart& part) {
+    make(part);
+    const auto same = [](const SpringSetting& setting, const std::string& node) {
+        return setting.node == node;
+    };
+    if (std::ranges::equal(part.springs, spring_nodes_, same)) return springs_;
+    spring_nodes_.clear();
+    springs_.clear();
+    for (const SpringSetting& each : part.springs) {
+        spring_nodes_.push_back(each.node);
+        springs_.emplace_back();
+        const auto node = part.skeleton().find(each.node);
+        if (!node) continue;
+        if (auto chain = humanoid::SpringChain::make(part.skeleton(), *part.map, *node))
+            springs_.back() = std::make_unique<humanoid::SpringChain>(std::move(chain).value());
+    }
+    return springs_;
 }
 
 const std::string& Solvers::why_no_feet(const HumanoidPart& part) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/labs/humanoid/humanoid_part.hpp"
+#include "app/labs/humanoid/springs/swing.hpp"
 
 namespace tendril::app {
 
@@ -28,6 +29,9 @@ class Solvers {
     /// Null where the map is not one of a body; then why_no_body() says why.
     const humanoid::Hands* hands(const HumanoidPart& part);
     const humanoid::LookAt* look_at(const HumanoidPart& part);
+    /// In the order of the part's springs: null where the bone map leaves no room for one, then
+    /// why_no_spring() of its node says why.
+    const SpringChains& springs(const HumanoidPart& part);
     /// Empty where there are feet.
     const std::string& why_no_feet(const HumanoidPart& part);
     /// How high the clip's own floor is, metres. Of the chosen clip; nothing for the rest pose.
@@ -58,6 +62,8 @@ class Solvers {
     std::optional<humanoid::Feet> feet_;
     std::optional<humanoid::Hands> hands_;
     std::optional<humanoid::LookAt> look_at_;
+    std::vector<std::string> spring_nodes_;
+    SpringChains springs_;
     std::string why_not_, why_no_feet_;
     std::map<std::size_t, double> floors_;  // by clip
     std::optional<GroundSetting> ground_of_;

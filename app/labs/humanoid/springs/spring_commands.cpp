@@ -1,0 +1,64 @@
+// Springs on the character's own nodes.
+#include <stdexcept>
+
+#include "app/labs/humanoid/humanoid_commands.hpp"
+#include "app/labs/kit/arguments.hpp"
+
+namespace tendril::app {
+namespace {
+
+void drop(HumanoidPart& part, std::size_t which) {
+    const auto at = static_cast<std::ptrdiff_t>(which);
+    part.springs.erase(part.springs.begin() + at);
+    if (which < part.ik_state.springs.size()) part.ik_state.springs.erase(part.ik_state.springs.begin() + at);
+}
+
+/// The spring from just that node on.
+std::optional<std::size_t> spring_from(const HumanoidPart& part, const std::string& node) {
+    for (std::size_t i = 0; i < part.springs.size(); ++i)
+        if (part.springs[i].node == node) return i;
+    return std::nullopt;
+}
+
+std::size_t added(HumanoidPart& part, std::size_t node) {
+    if (const std::string why = why_no_spring(part, node); !why.empty()) throw std::invalid_argument(why);
+    if (part.springs.size() >= most_springs)
+        throw std::invalid_argument("there are " + std::to_string(most_springs) + " springs already");
+    part.springs.push_back({.node = part.skeleton()[node].name});
+    part.ik_state.springs.resize(part.springs.size());
+    return part.springs.size() - 1;
+}
+
+void set_spring(HumanoidPart& part, const Arguments& given) {
+    const std::size_t node = node_named(part, given.text("node"));
+    std::optional<std::size_t> which = spring_from(part, given.text("node"));
+    if (given.has("on") && !given.boolean("on")) {
+        if (which) drop(part, *which);
+        return;
+    }
+    if (!which) which = added(part, node);
+    SpringSetting& spring = part.springs[*which];
+    if (given.has("strength")) spring.strength = given.real("strength");
+    if (given.has("critical_damping")) spring.critical_damping = given.real("critical_damping");
+    if (given.has("weight")) spring.weight = given.real("weight");
+    if (given.has("max_angle_deg")) spring.max_angle_deg = given.real("max_angle_deg");
+    part.quiet_ticks = 0;
+}
+
+}  // namespace
+
+void add_spring_commands(CommandTable& table) {
+    table.add(part_command<HumanoidPart>(
+        humanoid_lab, "humanoid.spring",
+        {text_argument("node", true, "by name: it and all that hangs on it, no bones of the body"),
+         switch_argument("on", "or off"),
+         number_argument("strength", "of the tip, Hz; the base is stiffer", softest_spring, stiffest_spring),
+         number_argument("critical_damping", "0 swings for ever, 1 does not swing past", 0.0,
+                         most_spring_damping),
+         number_argument("weight", "how much of the swing is shown", 0.0, 1.0),
+         number_argument("max_angle_deg", "by which a bone turns against the clip at most, degrees", 0.0,
+                         widest_swing_deg)},
+        "Lets ears, antennae or a tail trail behind by springs; what is left out stays", set_spring));
+}
+
+}  // namespace tendril::app

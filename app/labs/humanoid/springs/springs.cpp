@@ -1,0 +1,103 @@
+#include "app/labs/humanoid/springs/springs.hpp"
+
+#include <glm/trigonometric.hpp>
+
+#include "app/document/json_complete.hpp"
+#include "app/labs/humanoid/humanoid_part.hpp"
+#include "app/labs/kit/json_place.hpp"
+
+namespace tendril::app {
+namespace {
+
+Json mass_json(const humanoid::SpringMass& mass) {
+    return Json{{"position", dpoint(mass.position)},
+                {"velocity", dpoint(mass.velocity)},
+                {"goal", dpoint(mass.goal)},
+                {"started", mass.started},
+                {"paced", mass.paced}};
+}
+
+humanoid::SpringMass read_mass(const JsonPlace& place) {
+    return {.position = place["position"].dpoint(),
+            .velocity = place["velocity"].dpoint(),
+            .goal = place["goal"].dpoint(),
+            .started = place["started"].flag(),
+            .paced = place["paced"].flag()};
+}
+
+}  // namespace
+
+humanoid::SpringOptions SpringSetting::options() const {
+    return {.strength = strength,
+            .critical_damping = critical_damping,
+            .weight = weight,
+            .max_angle = glm::radians(max_angle_deg)};
+}
+
+std::optional<std::size_t> spring_on(const HumanoidPart& part, std::size_t node) {
+    for (std::size_t i = 0; i < part.springs.size(); ++i)
+        if (const auto root = part.skeleton().find(part.springs[i].node);
+            root && part.skeleton().is_below(node, *root))
+            return i;
+    return std::nullopt;
+}
+
+std::string why_no_spring(const HumanoidPart& part, std::size_t node) {
+    const std::string& name = part.skeleton()[node].name;
+    if (const auto there = spring_on(part, node))
+        return name + " swings already, by the spring from " + part.springs[*there].node + " on";
+    for (const SpringSetting& each : part.springs)
+        if (const auto root = part.skeleton().find(each.node); root && part.skeleton().is_below(*root, node))
+            return "there is a spring from " + each.node + " on, which hangs on " + name;
+    for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
+        const std::int32_t mapped = part.map->bones[i].node;
+        if (mapped >= 0 && part.skeleton().is_below(static_cast<std::size_t>(mapped), node))
+            return (static_cast<std::size_t>(mapped) == node ? name + " is the "
+                                                             : "on " + name + " hangs the ") +
+                   std::string(humanoid::name(static_cast<humanoid::Bone>(i))) +
+                   " of the body, which the clip and IK move";
+    }
+    return humanoid::SpringChain::make(part.skeleton(), *part.map, node).error().message();
+}
+
+Json springs_json(const HumanoidPart& part) {
+    Json list = Json::array();
+    for (std::size_t i = 0; i < part.springs.size(); ++i) {
+        const SpringSetting& each = part.springs[i];
+        Json masses = Json::array();
+        if (i < part.ik_state.springs.size())
+            for (const humanoid::SpringMass& mass : part.ik_state.springs[i].masses)
+                masses.push_back(mass_json(mass));
+        list.push_back({{"node", each.node},
+                        {"strength", each.strength},
+                        {"critical_damping", each.critical_damping},
+                        {"weight", each.weight},
+                        {"max_angle_deg", each.max_angle_deg},
+                        {"masses", std::move(masses)}});
+    }
+    return list;
+}
+
+void read_springs(const JsonPlace& place, HumanoidPart& part) {
+    place.for_each("springs", most_springs, [&](const JsonPlace& each) {
+        SpringSetting spring{.node = each["node"].text()};
+        const auto node = part.skeleton().find(spring.node);
+        if (!node) each["node"].fail("the character has no node \"" + spring.node + "\"");
+        if (const std::string why = why_no_spring(part, *node); !why.empty()) each["node"].fail(why);
+        if (const auto strength = each.optional("strength"))
+            spring.strength = strength->real(softest_spring, stiffest_spring);
+        if (const auto damping = each.optional("critical_damping"))
+            spring.critical_damping = damping->real(0.0, most_spring_damping);
+        if (const auto weight = each.optional("weight")) spring.weight = weight->real(0.0, 1.0);
+        if (const auto angle = each.optional("max_angle_deg"))
+            spring.max_angle_deg = angle->real(0.0, widest_swing_deg);
+        humanoid::SpringChainState state;
+        if (const auto masses = each.optional("masses"))
+            masses->for_each("masses", humanoid::Skeleton::max_nodes,
+                             [&](const JsonPlace& mass) { state.masses.push_back(read_mass(mass)); });
+        part.springs.push_back(std::move(spring));
+        part.ik_state.springs.push_back(std::move(state));
+    });
+}
+
+}  // namespace tendril::app

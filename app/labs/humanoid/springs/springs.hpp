@@ -1,0 +1,42 @@
+// Springs on the character's own nodes: what no bone of the body moves, ears, antennae, a tail, trails
+// behind.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <tendril/humanoid/spring_chain.hpp>
+#include <vector>
+
+#include "app/document/json.hpp"
+
+namespace tendril::app {
+
+struct HumanoidPart;
+class JsonPlace;
+
+inline constexpr std::size_t most_springs = 64;
+inline constexpr double softest_spring = 0.01, stiffest_spring = 100.0;  ///< Hz
+inline constexpr double most_spring_damping = 10.0, widest_swing_deg = 179.0;
+
+/// Of a node and all that hangs on it; as humanoid::SpringOptions has it.
+struct SpringSetting {
+    std::string node;  ///< by name
+    double strength = humanoid::SpringOptions().strength;
+    double critical_damping = humanoid::SpringOptions().critical_damping;
+    double weight = humanoid::SpringOptions().weight;
+    double max_angle_deg = 60.0;
+    bool operator==(const SpringSetting&) const = default;
+
+    humanoid::SpringOptions options() const;
+};
+
+/// The place in the part's list of the spring that turns the node; nothing where none does.
+std::optional<std::size_t> spring_on(const HumanoidPart& part, std::size_t node);
+/// Why there can be no spring from that node on, in words; empty where there can be one.
+std::string why_no_spring(const HumanoidPart& part, std::size_t node);
+
+Json springs_json(const HumanoidPart& part);
+/// Throws std::runtime_error that begins with the place of what is wrong.
+void read_springs(const JsonPlace& place, HumanoidPart& part);
+
+}  // namespace tendril::app

@@ -1,0 +1,260 @@
+#include "tendril/humanoid/spring_chain.hpp"
+
+#include <algorithm>
+
+#include "humanoid/anatomy.hpp"
+#include "humanoid/direction.hpp"
+#include "humanoid/limb.hpp"
+#include "rig/checks.hpp"
+#include "signal/stepped.hpp"
+
+namespace tendril::humanoid {
+namespace {
+
+using namespace rig::detail;
+using tendril::detail::refused;
+
+constexpr double shortest = 1e-9;
+constexpr auto no_place = static_cast<std::size_t>(-1);
+
+enum class Time : std::uint8_t { Passes, Stands, Jumps };
+
+/// A node of the chain. Its tip is where its children begin, in the middle of several.
+struct ChainNode {
+    std::size_t node = 0;
+    std::size_t above = no_place;     // place in the chain of what it hangs on; none of the first one
+    std::size_t mass = no_place;      // of its tip; none of a node without length
+    double length = 0.0;              // from the base to its tip, along the chain at rest
+    std::vector<std::size_t> ends{};  // its children
+    glm::dvec3 beyond{0.0};           // the tip of one that has none, in its own space
+};
+
+/// Moves the mass on by one step; its goal goes evenly from where it was to `goal`. Within `reach` of it.
+void spring(SpringMass& mass, const glm::dvec3& goal, double strength, double damping, double reach,
+            double dt) noexcept {
+    const glm::dvec3 pace = times(minus(goal, mass.goal), 1.0 / dt);
+    const glm::dvec3 velocity = mass.paced ? minus(mass.velocity, pace) : glm::dvec3(0.0);
+    // What is no number is not slow either.
+    const bool sound = length(pace) <= SpringChain::max_speed && length(velocity) <= SpringChain::max_speed &&
+                       signal::is_input(minus(mass.position, mass.goal));
+    if (!sound) {
+        mass = {.position = goal, .goal = goal, .started = true};
+        return;
+    }
+    signal::SpringState<glm::dvec3> offset{.value = minus(mass.position, mass.goal),
+                                           .velocity = velocity,
+                                           .previous_target = {},
+                                           .started = true};
+    signal::step({.strength = strength, .critical_damping = damping}, offset, glm::dvec3(0.0), dt);
+    const double away = length(offset.value);
+    if (away > reach) {
+        const glm::dvec3 out = times(offset.value, 1.0 / away);
+        offset.value = times(out, reach);
+        offset.velocity = minus(offset.velocity, times(out, std::max(0.0, dot(offset.velocity, out))));
+    }
+    mass = {plus(goal, offset.value), plus(offset.velocity, pace), goal, true, true};
+}
+
+/// How far a mass is from its goal. A drag in a pause, or a file, may have it anywhere.
+glm::dvec3 swing_of(const SpringMass& mass, double reach) noexcept {
+    const glm::dvec3 way = minus(mass.position, mass.goal);
+    if (!signal::is_input(way)) return glm::dvec3(0.0);
+    const double away = length(way);
+    return away > reach ? times(way, reach / away) : way;
+}
+
+}  // namespace
+
+struct SpringChain::Plan {
+    std::size_t nodes = 0;
+    std::vector<std::int32_t> path{};    // from what hangs on nothing to what the chain hangs on
+    std::vector<ChainNode> chain{};      // each after what it hangs on
+    std::vector<std::size_t> turning{};  // nodes: of each mass
+    double longest = 0.0;                // from the base to the farthest tip
+    // Scratch, of each of the chain: as the pose has it, and as it swings; by how much its tip does.
+    std::vector<Placement> before{}, after{};
+    std::vector<glm::dvec3> swing{};
+
+    glm::dvec3 tip(const ChainNode& each, std::span<const rig::Transform> pose) const noexcept {
+        if (each.ends.empty()) return each.beyond;
+        glm::dvec3 sum(0.0);
+        for (const std::size_t end : each.ends) sum = plus(sum, pose[end].translation);
+        return times(sum, 1.0 / static_cast<double>(each.ends.size()));
+    }
+    bool place_all(const Placement& base, std::span<const rig::Transform> pose) noexcept {
+        for (std::size_t i = 0; i < chain.size(); ++i) {
+            const Placement& hangs_on = i == 0 ? base : before[chain[i].above];
+            before[i] = hangs_on * placement(pose[chain[i].node]);
+            if (!detail::is_moderate(before[i])) return false;
+        }
+        return true;
+    }
+    void move(std::span<const rig::Transform> pose, const SpringOptions& options, Time time, double dt,
+              SpringChainState& state, SpringReport& report) const noexcept;
+    void turn(std::span<rig::Transform> pose, const Placement& base, const SpringOptions& options,
+              const SpringChainState& state, SpringReport& report) noexcept;
+    SpringReport run(std::span<rig::Transform> pose, const SpringOptions& options, Time time, double dt,
+                     SpringChainState& state) noexcept;
+};
+
+Result check(const SpringOptions& options) noexcept {
+    constexpr const char* operation = "SpringOptions";
+    struct Range {
+        const char* name;
+        double SpringOptions::*member;
+        double minimum, maximum;
+        const char* requirement;
+    };
+    constexpr Range ranges[]{
+        {"strength", &SpringOptions::strength, 0.01, 100.0, "from 0.01 to 100 Hz"},
+        {"critical_damping", &SpringOptions::critical_damping, 0.0, 10.0, "from 0 to 10"},
+        {"weight", &SpringOptions::weight, 0.0, 1.0, "from 0 to 1"},
+        {"max_angle", &SpringOptions::max_angle, 0.0, 3.14, "from 0 to 3.14 radians"}};
+    for (const Range& range : ranges) {
+        const double value = options.*range.member;
+        if (!(value >= range.minimum && value <= range.maximum))
+            return refused(operation, range.name, range.requirement, value);
+    }
+    const Expected<rig::Transform> root = rig::checked(options.root, operation, "root");
+    return root ? Result() : root.error();
+}
+
+Expected<SpringChain> SpringChain::make(const Skeleton& skeleton, const BoneMap& map, std::size_t root) {
+    constexpr const char* operation = "SpringChain";
+    if (root >= skeleton.size())
+        return tendril::detail::refused_index(operation, root, skeleton.size(), "the skeleton", "nodes");
+    const std::string_view named = skeleton[root].name;
+    if (skeleton[root].parent < 0) return refused(operation, "root", "a node that hangs on another", named);
+    auto plan = std::make_unique<Plan>();
+    plan->nodes = skeleton.size();
+    for (std::int32_t node = skeleton[root].parent; node >= 0;
+         node = skeleton[static_cast<std::size_t>(node)].parent)
+        plan->path.insert(plan->path.begin(), node);
+
+    const std::vector<rig::Transform> pose = rest_pose(skeleton);
+    std::vector<Placement> rest(skeleton.size());
+    place(skeleton, pose, rest);
+    std::vector<std::size_t> place_of(skeleton.size(), no_place);
+    for (const std::int32_t each : skeleton.order()) {
+        const auto node = static_cast<std::size_t>(each);
+        const auto parent = static_cast<std::size_t>(skeleton[node].parent);
+        if (node != root && (skeleton[node].parent < 0 || place_of[parent] == no_place)) continue;
+        if (const auto bone = detail::bone_of(map, each))
+            return refused(operation, "root", "a node with no bone of the body on it",
+                           std::string_view(std::string(named) + " with " + name(*bone)));
+        const ChainNode* const above = node == root ? nullptr : &plan->chain[place_of[parent]];
+        const std::span<const std::int32_t> children = skeleton.children(node);
+        const glm::dvec3 way = minus(rest[node].position, rest[parent].position);
+        // Where nothing hangs on it, it reaches as far again as what it hangs on reaches to it.
+        ChainNode added{.node = node,
+                        .above = above == nullptr ? no_place : place_of[parent],
+                        .ends = {children.begin(), children.end()},
+                        .beyond = detail::seen_from(rest[node], way)};
+        if (above != nullptr) added.length = above->length;
+        const double reach = length(minus(rest[node].apply(plan->tip(added, pose)), rest[node].position));
+        if (reach > shortest) {
+            added.mass = plan->turning.size();
+            added.length += reach;
+            plan->longest = std::max(plan->longest, added.length);
+            plan->turning.push_back(node);
+        }
+        place_of[node] = plan->chain.size();
+        plan->chain.push_back(std::move(added));
+    }
+    if (plan->turning.empty()) return refused(operation, "root", "a node with some length", named);
+    plan->before.resize(plan->chain.size());
+    plan->after.resize(plan->chain.size());
+    plan->swing.resize(plan->chain.size());
+    return SpringChain(std::move(plan));
+}
+
+SpringChain::SpringChain(std::unique_ptr<Plan> plan) noexcept : plan_(std::move(plan)) {}
+SpringChain::~SpringChain() = default;
+SpringChain::SpringChain(SpringChain&&) noexcept = default;
+SpringChain& SpringChain::operator=(SpringChain&&) noexcept = default;
+
+std::span<const std::size_t> SpringChain::bones() const noexcept {
+    return plan_->turning;
+}
+
+void SpringChain::Plan::move(std::span<const rig::Transform> pose, const SpringOptions& options, Time time,
+                             double dt, SpringChainState& state, SpringReport& report) const noexcept {
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+        const ChainNode& each = chain[i];
+        if (each.mass == no_place) continue;
+        SpringMass& mass = state.masses[each.mass];
+        const glm::dvec3 goal = before[i].apply(tip(each, pose));
+        if (time == Time::Jumps && mass.started) {
+            mass.position = plus(goal, minus(mass.position, mass.goal));
+            mass.goal = goal;
+            mass.paced = false;
+        }
+        if (time != Time::Passes) continue;
+        const glm::dvec3 was = mass.goal;
+        if (mass.started)
+            // Stiffer towards the base: what bends the chain bends it like a beam.
+            spring(mass, goal, std::min(options.strength * longest / each.length, signal::max_strength),
+                   options.critical_damping, each.length, signal::detail::bounded_dt(dt));
+        else
+            mass = {.position = goal, .goal = goal, .started = true};
+        if (!mass.paced) continue;
+        const glm::dvec3 pace = times(minus(goal, was), 1.0 / signal::detail::bounded_dt(dt));
+        report.speed = std::max(report.speed, length(minus(mass.velocity, pace)));
+    }
+}
+
+void SpringChain::Plan::turn(std::span<rig::Transform> pose, const Placement& base,
+                             const SpringOptions& options, const SpringChainState& state,
+                             SpringReport& report) noexcept {
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+        const ChainNode& each = chain[i];
+        const Placement& above = i == 0 ? base : after[each.above];
+        rig::Transform swung = pose[each.node];
+        after[i] = above * placement(swung);
+        const glm::dvec3 swing_above = i == 0 ? glm::dvec3(0.0) : swing[each.above];
+        swing[i] = swing_above;
+        if (each.mass == no_place || !state.masses[each.mass].started) continue;
+        swing[i] = swing_of(state.masses[each.mass], each.length);
+        const glm::dvec3 end = tip(each, pose);
+        const glm::dvec3 bone = minus(before[i].apply(end), before[i].position);
+        const auto rest = direction_of(bone, shortest);
+        const auto carried = direction_of(minus(after[i].apply(end), after[i].position), shortest);
+        if (!rest || !carried) continue;
+        const glm::dvec3 leads = plus(bone, minus(swing[i], swing_above));
+        const glm::dvec3 points = direction_of(leads, shortest).value_or(*rest);
+        const glm::dvec3 now = detail::turned_toward(*rest, points, options.max_angle);
+        report.angle = std::max(report.angle, detail::angle_between(*rest, now));
+        detail::turn(swung, above, minimal_rotation(*carried, now));
+        after[i] = above * placement(swung);
+        if (options.weight > 0.0)
+            pose[each.node].rotation = slerp(pose[each.node].rotation, swung.rotation, options.weight);
+    }
+}
+
+SpringReport SpringChain::Plan::run(std::span<rig::Transform> pose, const SpringOptions& options, Time time,
+                                    double dt, SpringChainState& state) noexcept {
+    if (pose.size() != nodes || !check(options)) return {.valid = false};
+    Placement base = placement(options.root);
+    for (const std::int32_t node : path) base = base * placement(pose[static_cast<std::size_t>(node)]);
+    if (!detail::is_moderate(base) || !place_all(base, pose)) return {.valid = false};
+    if (state.masses.size() != turning.size()) {
+        if (time != Time::Passes) return {};
+        state.masses.assign(turning.size(), {});
+    }
+    SpringReport report;
+    move(pose, options, time, dt, state, report);
+    turn(pose, base, options, state, report);
+    return report;
+}
+
+SpringReport SpringChain::step(std::span<rig::Transform> pose, const SpringOptions& options, double dt,
+                               SpringChainState& state) noexcept {
+    return plan_->run(pose, options, signal::is_step(dt) ? Time::Passes : Time::Stands, dt, state);
+}
+
+SpringReport SpringChain::carry(std::span<rig::Transform> pose, const SpringOptions& options,
+                                SpringChainState& state) noexcept {
+    return plan_->run(pose, options, Time::Jumps, 0.0, state);
+}
+
+}  // namespace tendril::humanoid
