@@ -4,6 +4,7 @@
 #include "session.hpp"
 #include "tendril/humanoid/body.hpp"
 #include "tendril/humanoid/feet.hpp"
+#include "tendril/humanoid/spring_chain.hpp"
 
 namespace tendril::test {
 namespace {
@@ -38,6 +39,9 @@ std::uint64_t humanoid_hash() {
     const Ground stairs = *Ground::stairs(0.125, 0.25);
     BodyState free_state, held_state;
     FeetState feet_state;
+    // Without a map the left arm is no bone of a body: it swings.
+    SpringChain arm = *SpringChain::make(skeleton, BoneMap(), *skeleton.find("LeftShoulder"));
+    SpringChainState arm_state;
     for (int frame = 0; frame < 300; ++frame) {
         std::vector<BodyTarget> targets;
         for (std::size_t i = 0; i < effector_count; ++i)
@@ -53,6 +57,8 @@ std::uint64_t humanoid_hash() {
         pose[0].translation += glm::dvec3(0.0, 0.0, frame / 256.0);
         auto walked = pose;
         static_cast<void>(feet.step(walked, stairs, 1.0 / 64.0, feet_state));
+        add(hash, walked);
+        arm.step(walked, {.critical_damping = 0.125}, 1.0 / 64.0, arm_state);
         add(hash, walked);
         for (Body* body : {&free, &held}) {
             auto solved = pose;

@@ -87,8 +87,8 @@ bool HumanoidLab::take_file(const std::string& path, Emit& emit) const {
 }
 
 std::vector<TestScene> HumanoidLab::test_scenes() const {
-    const std::vector<std::string> words{"left_hand", "right_foot", "walk",         "punch",
-                                         "Hips",      "LeftHand",   "LeftUpperArm", "Head"};
+    const std::vector<std::string> words{"left_hand", "right_foot",   "walk", "punch",      "Hips",
+                                         "LeftHand",  "LeftUpperArm", "Head", "HeadTop_End"};
     return {{"rest", {{"humanoid.load", {}}}, words},
             {"walking", {{"humanoid.clip", {{"name", "walk"}, {"play", true}}}}, words},
             {"punching",
@@ -115,6 +115,7 @@ std::vector<TestScene> HumanoidLab::test_scenes() const {
             {"cape",
              {{"humanoid.attach", {{"bone", "UpperChest"}, {"kind", "cloth"}, {"segments", 8}}},
               {"humanoid.attach", {{"bone", "Hips"}, {"kind", "rope"}, {"name", "tail"}}},
+              {"humanoid.spring", {{"node", "HeadTop_End"}}},
               {"humanoid.ground", {{"kind", "flat"}}},
               {"humanoid.clip", {{"name", "walk"}, {"play", true}}}},
              words}};

@@ -1,6 +1,7 @@
 #include "tendril/humanoid/spring_chain.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "humanoid/anatomy.hpp"
 #include "humanoid/direction.hpp"
@@ -28,6 +29,12 @@ struct ChainNode {
     std::vector<std::size_t> ends{};  // its children
     glm::dvec3 beyond{0.0};           // the tip of one that has none, in its own space
 };
+
+/// How far a beam that is held at one end bends under its own weight, against its tip: part 0 to 1 of the
+/// way.
+double beam(double part) noexcept {
+    return part * part * (6.0 - 4.0 * part + part * part) / 3.0;
+}
 
 /// Moves the mass on by one step; its goal goes evenly from where it was to `goal`. Within `reach` of it.
 void spring(SpringMass& mass, const glm::dvec3& goal, double strength, double damping, double reach,
@@ -80,6 +87,9 @@ struct SpringChain::Plan {
         glm::dvec3 sum(0.0);
         for (const std::size_t end : each.ends) sum = plus(sum, pose[end].translation);
         return times(sum, 1.0 / static_cast<double>(each.ends.size()));
+    }
+    double strength_of(const ChainNode& each, const SpringOptions& options) const noexcept {
+        return std::min(options.strength / std::sqrt(beam(each.length / longest)), signal::max_strength);
     }
     bool place_all(const Placement& base, std::span<const rig::Transform> pose) noexcept {
         for (std::size_t i = 0; i < chain.size(); ++i) {
@@ -192,9 +202,8 @@ void SpringChain::Plan::move(std::span<const rig::Transform> pose, const SpringO
         if (time != Time::Passes) continue;
         const glm::dvec3 was = mass.goal;
         if (mass.started)
-            // Stiffer towards the base: what bends the chain bends it like a beam.
-            spring(mass, goal, std::min(options.strength * longest / each.length, signal::max_strength),
-                   options.critical_damping, each.length, signal::detail::bounded_dt(dt));
+            spring(mass, goal, strength_of(each, options), options.critical_damping, each.length,
+                   signal::detail::bounded_dt(dt));
         else
             mass = {.position = goal, .goal = goal, .started = true};
         if (!mass.paced) continue;

@@ -44,11 +44,6 @@ std::optional<std::size_t> spring_on(const HumanoidPart& part, std::size_t node)
 
 std::string why_no_spring(const HumanoidPart& part, std::size_t node) {
     const std::string& name = part.skeleton()[node].name;
-    if (const auto there = spring_on(part, node))
-        return name + " swings already, by the spring from " + part.springs[*there].node + " on";
-    for (const SpringSetting& each : part.springs)
-        if (const auto root = part.skeleton().find(each.node); root && part.skeleton().is_below(*root, node))
-            return "there is a spring from " + each.node + " on, which hangs on " + name;
     for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
         const std::int32_t mapped = part.map->bones[i].node;
         if (mapped >= 0 && part.skeleton().is_below(static_cast<std::size_t>(mapped), node))
@@ -57,6 +52,11 @@ std::string why_no_spring(const HumanoidPart& part, std::size_t node) {
                    std::string(humanoid::name(static_cast<humanoid::Bone>(i))) +
                    " of the body, which the clip and IK move";
     }
+    if (const auto there = spring_on(part, node))
+        return name + " swings already, by the spring from " + part.springs[*there].node + " on";
+    for (const SpringSetting& each : part.springs)
+        if (const auto root = part.skeleton().find(each.node); root && part.skeleton().is_below(*root, node))
+            return "there is a spring from " + each.node + " on, which hangs on " + name;
     return humanoid::SpringChain::make(part.skeleton(), *part.map, node).error().message();
 }
 

@@ -1,0 +1,212 @@
+// Springs on a character's own nodes: they trail what it does, and are values of the document like all else.
+#include <cmath>
+#include <random>
+
+#include "app/io/character/read.hpp"
+#include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "humanoid_support.hpp"
+#include "tests/app/support/temp_folder.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// A dancer with two antennae of five joints and a tail of six.
+class HumanoidSprings : public HumanoidTest {
+  protected:
+    HumanoidSprings() {
+        run("humanoid.load", {{"path", TENDRIL_SOURCE_DIR "/tests/app/golden/antennae.bvh"}});
+    }
+
+    void put_on_springs() {
+        for (const char* node : {"antenna_l_1", "antenna_r_1", "tail_1"})
+            run("humanoid.spring", {{"node", node}});
+    }
+    void dance() { run("humanoid.clip", {{"index", 0}, {"play", true}}); }
+    /// How far a node is from where the clip has it, metres.
+    double aside(const std::string& name) const {
+        const ShownPose& shown = shown_pose(workspace);
+        const std::size_t node = *part().skeleton().find(name);
+        if (shown.before.empty()) return 0.0;
+        return glm::distance(shown.placed[node].position, shown.before[node].position);
+    }
+    double farthest(const std::string& name, int ticks) {
+        double far = 0.0;
+        for (int i = 0; i < ticks; ++i) {
+            tick();
+            far = std::max(far, aside(name));
+        }
+        return far;
+    }
+};
+
+TEST_F(HumanoidSprings, TrailWhatTheClipDoes) {
+    put_on_springs();
+    const Json springs = state().at("springs");
+    ASSERT_EQ(springs.size(), 3u);
+    EXPECT_EQ(springs[0].at("node"), "antenna_l_1");
+    EXPECT_EQ(springs[2].at("bones").size(), 7u) << "six joints and the end";
+    EXPECT_EQ(springs[2].at("strength"), 2.0);
+    EXPECT_EQ(aside("antenna_l_5"), 0.0);
+    dance();
+    EXPECT_LT(farthest("LeftHand", 120), 1e-12) << "the body is the clip's";
+    EXPECT_GT(farthest("antenna_l_5", 120), 0.02);
+    EXPECT_GT(aside("tail_6"), 0.0);
+    EXPECT_GT(farthest("antenna_l_5", 60), 1.5 * farthest("antenna_l_2", 60));
+    // Bones keep their lengths.
+    const ShownPose& shown = shown_pose(workspace);
+    for (const auto& [a, b] : {std::pair("antenna_l_2", "antenna_l_3"), {"tail_4", "tail_5"}}) {
+        const std::size_t from = *part().skeleton().find(a), to = *part().skeleton().find(b);
+        EXPECT_NEAR(glm::distance(shown.placed[from].position, shown.placed[to].position),
+                    glm::distance(shown.before[from].position, shown.before[to].position), 1e-12);
+    }
+}
+
+TEST_F(HumanoidSprings, ComeToRestAndGoWithOff) {
+    put_on_springs();
+    run("humanoid.clip", {{"index", 0}, {"play", true}, {"loop", false}});
+    int ticks = 0;
+    for (; ticks < 3000 && lab().moving(workspace); ++ticks) tick();
+    EXPECT_GT(ticks, 130) << "the clip takes two seconds";
+    EXPECT_LT(ticks, 1000) << "it never comes to rest";
+    EXPECT_LT(aside("antenna_l_5"), 1e-3);
+    run("humanoid.clip", {{"time", 0.4}, {"play", true}});
+    tick(10);
+    for (const char* node : {"antenna_l_1", "antenna_r_1", "tail_1"})
+        run("humanoid.spring", {{"node", node}, {"on", false}});
+    run("humanoid.spring", {{"node", "Head"}, {"on", false}});
+    EXPECT_TRUE(state().at("springs").empty());
+    EXPECT_TRUE(shown_pose(workspace).before.empty()) << "the clip's pose, to the bit";
+}
+
+TEST_F(HumanoidSprings, SwingWithADragAndAreCarriedByAJump) {
+    put_on_springs();
+    run("time.play");
+    tick(30);
+    run("humanoid.target", {{"effector", "hips"}, {"to", {0.3, 0.95, 0.0}}});
+    const double head = bone("Head").x;
+    EXPECT_GT(head, 0.15);
+    EXPECT_GT(farthest("tail_6", 60), 0.03) << "a drag swings it";
+    tick(600);
+    EXPECT_LT(aside("tail_6"), 0.4);
+    run("humanoid.target", {{"effector", "hips"}, {"weight", 0}});
+    for (int i = 0; i < 1000 && lab().moving(workspace); ++i) tick();
+    // A jump of the clip, and a drag in a pause.
+    run("time.pause");
+    const double still = aside("tail_6");
+    run("humanoid.target", {{"effector", "hips"}, {"to", {0.3, 0.95, 0.0}}});
+    const ShownPose& there = shown_pose(workspace);
+    for (const humanoid::SpringReport& each : there.springs) EXPECT_LT(each.angle, 0.02);
+    run("time.play");
+    for (int i = 0; i < 30; ++i) {
+        tick();
+        for (const humanoid::SpringReport& each : shown_pose(workspace).springs) ASSERT_LT(each.angle, 0.02);
+    }
+    EXPECT_LT(still, 0.02);
+}
+
+TEST_F(HumanoidSprings, AreSavedUndoneAndReplayedTheSame) {
+    put_on_springs();
+    run("humanoid.spring",
+        {{"node", "tail_1"}, {"strength", 1.1}, {"critical_damping", 0.2}, {"max_angle_deg", 50}});
+    run("humanoid.clip", {{"index", 0}, {"play", true}});
+    tick(50);
+    Workspace other = reopened();
+    EXPECT_EQ(lab().state(other), state());
+    EXPECT_TRUE(humanoid_part(other) == part() || humanoid_part(other).ik_state == part().ik_state);
+    for (int i = 0; i < 30; ++i) lab().step(other);
+    tick(30);
+    EXPECT_EQ(lab().state(other), state());
+    run("undo");
+    EXPECT_EQ(part().playback.clip, std::nullopt);
+    run("undo");
+    EXPECT_EQ(part().springs[2].strength, 2.0);
+    run("undo");
+    EXPECT_EQ(part().springs.size(), 2u);
+    run("redo");
+    EXPECT_EQ(part().springs.size(), 3u);
+    run("humanoid.load");
+    EXPECT_TRUE(part().springs.empty());
+}
+
+TEST_F(HumanoidSprings, RefuseWhatTheyCannotHold) {
+    run("humanoid.spring", {{"node", "antenna_l_2"}});
+    expect_refused("humanoid.spring", {{"node", "wing"}}, {"no node \"wing\""});
+    expect_refused("humanoid.spring", {{"node", "Head"}}, {"Head is the Head of the body"});
+    expect_refused("humanoid.spring", {{"node", "Hips"}}, {"Hips"});
+    expect_refused("humanoid.spring", {{"node", "antenna_l_3"}}, {"antenna_l_3", "antenna_l_2"});
+    expect_refused("humanoid.spring", {{"node", "antenna_l_1"}}, {"antenna_l_2", "hangs on antenna_l_1"});
+    expect_refused("humanoid.spring", {{"node", "tail_1"}, {"strength", 0}}, {"strength"});
+    expect_refused("humanoid.spring", {{"node", "tail_1"}, {"weight", 1.5}}, {"weight"});
+    EXPECT_EQ(part().springs.size(), 1u);
+    // A node of it that is made a bone of the body is the body's.
+    dance();
+    tick(20);
+    EXPECT_GT(aside("antenna_l_5"), 0.0);
+    run("humanoid.map", {{"bone", "LeftToes"}, {"node", "antenna_l_3"}});
+    tick(5);
+    EXPECT_EQ(aside("antenna_l_5"), 0.0);
+    EXPECT_TRUE(state().at("springs")[0].at("bones").empty());
+}
+
+TEST_F(HumanoidSprings, AreRefusedFromAFileThatWasBroken) {
+    put_on_springs();
+    dance();
+    tick(9);
+    const Json whole = save_scene(workspace);
+    const auto broken = [&](auto change) {
+        Json scene = whole;
+        change(scene["labs"]["humanoid"]["springs"]);
+        Workspace other = make_blank_workspace(labs);
+        try {
+            load_scene(other, scene);
+        } catch (const std::exception& error) {
+            return std::string(error.what());
+        }
+        for (int i = 0; i < 20; ++i) lab().step(other);
+        for (const humanoid::Placement& each : shown_pose(other).placed)
+            EXPECT_TRUE(std::isfinite(glm::dot(each.position, each.position)));
+        return std::string("accepted");
+    };
+    const auto says = [](const std::string& message, const char* text) {
+        EXPECT_NE(message.find(text), std::string::npos) << message;
+    };
+    says(broken([](Json& at) { at[0]["node"] = "wing"; }), "no node \"wing\"");
+    says(broken([](Json& at) { at[1]["node"] = "antenna_l_3"; }), "springs.1.node");
+    says(broken([](Json& at) { at[1]["strength"] = 1e9; }), "springs.1.strength");
+    says(broken([](Json& at) { at[1]["masses"][0].erase("goal"); }), "goal");
+    EXPECT_EQ(broken([](Json& at) { at[1]["masses"].erase(0); }), "accepted");
+    EXPECT_EQ(broken([](Json& at) { at[1]["masses"][1]["velocity"] = {1e9, -1e9, 0}; }), "accepted");
+    EXPECT_EQ(broken([](Json& at) { at[1]["masses"][1]["position"] = {1e9, -1e9, 0}; }), "accepted");
+}
+
+TEST_F(HumanoidSprings, AreBakedIntoAClip) {
+    const test::TempFolder folder;
+    put_on_springs();
+    run("humanoid.clip", {{"index", 0}});
+    const std::string file = (folder / "dance.bvh").string();
+    run("humanoid.export", {{"path", file}});
+    const Character read = read_character(file);
+    HumanoidPart shown = part();
+    shown.playback = {.clip = 0, .loop = false};
+    IkState state;
+    double swung = 0.0;
+    std::vector<rig::Transform> pose(read.skeleton.size());
+    std::vector<humanoid::Placement> placed(read.skeleton.size());
+    const std::size_t tip = *part().skeleton().find("antenna_r_5");
+    for (int frame = 0; frame < 100; ++frame) {
+        shown.playback.time = frame / 60.0;
+        const ShownPose seen =
+            solve_pose(shown, humanoid_runtime(workspace).solvers, frame == 0 ? 0.0 : 1.0 / 60.0, state);
+        sample(read.clips.at(0), read.skeleton, shown.playback.time, pose);
+        place(read.skeleton, pose, placed);
+        const auto there = read.skeleton.find("antenna_r_5");
+        ASSERT_TRUE(there);
+        EXPECT_LT(glm::distance(placed[*there].position, seen.placed[tip].position), 1e-4) << frame;
+        if (!seen.before.empty())
+            swung = std::max(swung, glm::distance(seen.before[tip].position, seen.placed[tip].position));
+    }
+    EXPECT_GT(swung, 0.02);
+}
+
+}  // namespace
+}  // namespace tendril::app
