@@ -14,6 +14,7 @@
 #include "app/shell/gizmo_view.hpp"
 #include "app/shell/labels_view.hpp"
 #include "app/shell/theme.hpp"
+#include "app/widgets/number_entry.hpp"
 
 namespace tendril::app {
 namespace {
@@ -129,6 +130,7 @@ void App::compose(const Event* event, Pass pass) {
     if (hint.empty())
         hint = "Right-drag turns the view, middle-drag shifts it, the wheel zooms. ? shows every key.";
     shell_.frame({workspace_, labs_, lab(), *commands_, shortcuts_, layout_, hint}, emit);
+    if (const std::string why = refused_entry(); !why.empty()) refuse(why);
     if (pass == Pass::Picture) emit.take();
     run_emitted(emit);
     if (in_tick) advance_time();

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cctype>
 #include <cmath>
 #include <cstdarg>
@@ -12,6 +11,7 @@
 #include <limits>
 
 #include "app/document/units.hpp"
+#include "app/widgets/number_entry.hpp"
 #include "app/widgets/text.hpp"
 
 namespace tendril::app {
@@ -47,39 +47,11 @@ std::string begin_row(const char* name) {
     return std::string("##") + name;
 }
 
-/// Whether a field's widget has a new value that counts, in `value`; `changed` is what the widget said. What
-/// is typed counts once the person is done, with Enter, Tab or a click elsewhere, and never after Escape:
-/// ImGui itself would pass on every keystroke, "0" on the way to "0.5".
-bool counts(const char* id, bool changed, double& value) {
-    ImGuiStorage& kept = *ImGui::GetStateStorage();
-    ImGui::PushID(id);
-    const ImGuiID pending = ImGui::GetID("pending"), halves[] = {ImGui::GetID("low"), ImGui::GetID("high")};
-    ImGui::PopID();
-    if (ImGui::IsItemActive() && ImGui::GetIO().WantTextInput) {
-        // Until the next frame: a field that vanishes meanwhile takes its text with it.
-        kept.SetInt(pending, changed ? ImGui::GetFrameCount() + 1 : 0);
-        const auto bits = std::bit_cast<std::array<int, 2>>(value);
-        for (std::size_t i = 0; i < 2; ++i) kept.SetInt(halves[i], bits[i]);
-        return false;
-    }
-    const bool was_typed = kept.GetInt(pending) == ImGui::GetFrameCount();
-    kept.SetInt(pending, 0);
-    if (was_typed && escape_pressed()) return false;
-    if (was_typed && !changed)
-        value = std::bit_cast<double>(std::array{kept.GetInt(halves[0]), kept.GetInt(halves[1])});
-    return changed || was_typed;
-}
-
-/// A drag ends at the range; what is typed beyond it is passed on, to be refused with the reason.
 bool drag_number(const char* id, float& value, float speed, float low, float high, const char* format) {
-    char text[64];
-    std::snprintf(text, sizeof text, format, static_cast<double>(value));
-    float shown = without_signed_zero(text) == text ? value : 0.0f;
-    const bool changed = ImGui::DragFloat(id, &shown, speed, low, high, format);
-    double number = shown;
-    if (!counts(id, changed, number)) return false;
+    const auto entered = number_entry(id, value, speed, low, high, format);
+    if (!entered) return false;
     constexpr float most = std::numeric_limits<float>::max();  // JSON has no infinity
-    const auto wanted = static_cast<float>(number);
+    const auto wanted = static_cast<float>(*entered);
     value = std::isfinite(wanted) ? wanted : std::copysign(most, wanted);
     return true;
 }
@@ -110,14 +82,10 @@ bool number_field(const char* name, float& value, float speed, float low, float 
 
 bool integer_field(const char* name, int& value, int low, int high) {
     const std::string id = begin_row(name);
-    // As a double: a whole number that no int holds would come out of ImGui as another one.
-    const double from = low, to = high;
-    double shown = value;
-    const bool changed =
-        ImGui::DragScalar(id.c_str(), ImGuiDataType_Double, &shown, 0.1f, &from, &to, "%.0f");
-    if (!counts(id.c_str(), changed, shown)) return false;
+    const auto entered = number_entry(id.c_str(), value, 0.1, low, high, "%.0f");
+    if (!entered) return false;
     using Limits = std::numeric_limits<int>;
-    value = static_cast<int>(std::clamp<double>(std::round(shown), Limits::min(), Limits::max()));
+    value = static_cast<int>(std::clamp<double>(std::round(*entered), Limits::min(), Limits::max()));
     return true;
 }
 
@@ -127,11 +95,7 @@ bool integer_slider(const char* name, int& value, int low, int high) {
     const float room =
         ImGui::CalcTextSize(std::to_string(high).c_str()).x + ImGui::GetStyle().ItemInnerSpacing.x;
     ImGui::SetNextItemWidth(-room);
-    int shown = value;
-    ImGui::SliderInt(id.c_str(), &shown, low, high, "");
-    double number = shown;
-    const bool changed = counts(id.c_str(), shown != value, number);
-    if (changed) value = static_cast<int>(number);
+    const bool changed = ImGui::SliderInt(id.c_str(), &value, low, high, "", ImGuiSliderFlags_NoInput);
     ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
     ImGui::Text("%d", value);
     return changed;

@@ -16,9 +16,8 @@ void section(const char* title);
 /// Dim text, wrapped.
 void note(const std::string& text);
 
-// A drag ends at the range. What is typed counts when the person is done (Enter, Tab, a click elsewhere;
-// Escape takes it back). Beyond the range it is passed on: the command that takes it refuses it, and says the
-// value and the range.
+// A drag ends at the range. What is typed counts when the person is done (number_entry.hpp). Beyond the range
+// it is passed on: the command that takes it refuses it, and says the value and the range.
 bool number_field(const char* name, float& value, float speed, float low, float high, const char* format);
 bool integer_field(const char* name, int& value, int low, int high);
 bool integer_slider(const char* name, int& value, int low, int high);

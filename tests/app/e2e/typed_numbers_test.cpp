@@ -6,12 +6,12 @@
 namespace tendril::test {
 namespace {
 
-/// Double-clicks every row of the Chain lab's solver options, from iterations to soft zone, and types.
+/// Clicks every row of the Chain lab's solver options, from iterations to soft zone, and types.
 ScriptText typed_into_every_row(const char* text) {
     ScriptText script;
     script.command("chain.mode", {{"mode", "reach"}});
     for (float y = 419.0f; y < 562.0f; y += 8.0f)
-        script.click({173.0f, y}).click({173.0f, y}).text(text).key("enter").wait(30);
+        script.click({173.0f, y}).wait(2).text(text).key("enter").wait(30);
     return script;
 }
 
@@ -55,7 +55,7 @@ TEST(TypedNumbers, InRangeAreTaken) {
 ScriptText typed_iterations(const std::string& text) {
     ScriptText script;
     script.command("chain.mode", {{"mode", "reach"}});
-    script.click(iterations_field).click(iterations_field);
+    script.click(iterations_field).wait(2);
     for (const char key : text) script.text(std::string(1, key).c_str());
     return script;
 }
@@ -108,6 +108,81 @@ TEST(TypedNumbers, EscapeTakesThemBack) {
     const Played played = play(typed_iterations("42").key("escape").wait(30));
     EXPECT_EQ(played.outcome.err, "");
     EXPECT_EQ(played.state.at("solve").at("iterations"), 100);
+}
+
+/// Not on the way there either: the chain stays as it is to the bit while somebody types.
+TEST(TypedNumbers, ChangeNothingBeforeEnter) {
+    const app::Json before = state_after(typed_iterations(""));
+    const app::Json typing = state_after(typed_iterations("3").wait(30));
+    EXPECT_EQ(typing.at("segments"), before.at("segments"));
+    EXPECT_EQ(typing.at("solve"), before.at("solve"));
+    const app::Json left = state_after(typed_iterations("3").key("escape").wait(30));
+    EXPECT_EQ(left.at("segments"), before.at("segments"));
+    EXPECT_EQ(left.at("solve"), before.at("solve"));
+    EXPECT_EQ(left.at("camera"), before.at("camera"));
+}
+
+TEST(TypedNumbers, AreWorkedOutWithTheirUnits) {
+    for (const auto& [text, iterations] : {std::pair("7*6", 42), {"1e2/4", 25}, {"(1+2)^2", 9}}) {
+        const Played played = play(typed_iterations(text).key("enter").wait(30));
+        EXPECT_EQ(played.state.at("solve").at("iterations"), iterations) << text;
+    }
+    ScriptText thirds = typed_into_every_row("1/3");
+    EXPECT_EQ(played_with_refusals(thirds).state.at("solve").at("snap_back"), 1.0f / 3.0f);
+}
+
+/// Enter leaves a person at the mistake; a click elsewhere puts back what was, and says why.
+TEST(TypedNumbers, ThatAreNoneAreRefusedInWords) {
+    const Played elsewhere =
+        played_with_refusals(typed_iterations("many").key("enter").click({700.0f, 400.0f}).wait(30));
+    EXPECT_TRUE(has(elsewhere.outcome.err, "\"many\" is not a number")) << elsewhere.outcome.err;
+    EXPECT_EQ(lines(elsewhere.outcome.err), 1u);
+    EXPECT_EQ(elsewhere.state.at("solve").at("iterations"), 100);
+    const Played mended = play(typed_iterations("4x")
+                                   .key("enter")
+                                   .key("backspace")
+                                   .key("backspace")
+                                   .text("17")
+                                   .key("enter")
+                                   .wait(30));
+    EXPECT_EQ(mended.outcome.err, "");
+    EXPECT_EQ(mended.state.at("solve").at("iterations"), 17);
+    const Played unit = played_with_refusals(typed_iterations("3 m").key("tab").wait(30));
+    EXPECT_TRUE(has(unit.outcome.err, "\"3 m\": this number has no unit")) << unit.outcome.err;
+}
+
+/// Neither the click into the field nor what is typed there turns the view.
+TEST(TypedNumbers, NeverReachTheCamera) {
+    const app::Json before = state_after(ScriptText().command("chain.mode", {{"mode", "reach"}}).wait(30));
+    ScriptText script = typed_iterations("");
+    for (const char* digit : {"1", "3", "7", "5"}) script.hold(digit).text(digit).release(digit);
+    const app::Json after = state_after(script.key("escape").wait(30));
+    EXPECT_EQ(after.at("camera"), before.at("camera"));
+    EXPECT_EQ(after.at("solve"), before.at("solve"));
+}
+
+TEST(TypedNumbers, TabGoesToTheNextField) {
+    const Played played =
+        played_with_refusals(typed_iterations("42").key("tab").wait(2).text("0.25").key("enter").wait(30));
+    EXPECT_EQ(played.outcome.err, "");
+    EXPECT_EQ(played.state.at("solve").at("iterations"), 42);
+    EXPECT_NE(played.state.at("solve"), state_after(typed_iterations("42").key("enter").wait(30)).at("solve"))
+        << "the field below has 0.25";
+}
+
+TEST(TypedNumbers, AreScrubbedFinerWithShift) {
+    const auto scrubbed = [](bool shift) {
+        ScriptText script;
+        script.command("chain.mode", {{"mode", "reach"}});
+        if (shift) script.hold("shift");
+        script.drag({iterations_field, iterations_field + glm::vec2(20.0f, 0.0f),
+                     iterations_field + glm::vec2(60.0f, 0.0f)});
+        if (shift) script.release("shift");
+        return state_after(script.wait(30)).at("solve").at("iterations").get<int>() - 100;
+    };
+    const int coarse = scrubbed(false), fine = scrubbed(true);
+    EXPECT_GE(coarse, 4);
+    EXPECT_LE(fine, coarse / 4);
 }
 
 /// 2^32 + 7 is 7 where a parser keeps the last 32 bits.

@@ -1,0 +1,121 @@
+#include "app/widgets/number_entry.hpp"
+
+#include <imgui.h>
+
+#include <array>
+#include <cstdio>
+#include <utility>
+
+#include "app/document/units.hpp"
+#include "app/widgets/expression.hpp"
+#include "app/widgets/text.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// The one number whose text is edited, in one of the program's interfaces.
+struct Editing {
+    const ImGuiContext* interface = nullptr;
+    ImGuiID id = 0;
+    int frame = 0;       ///< in which it was drawn last
+    bool begins = true;  ///< the text takes the keyboard
+    std::array<char, 128> text{}, before{};
+    int tabbed_in = -1;  ///< the frame in which Tab left a number: the next one is edited
+    std::string refused{};
+};
+
+Editing& editing() {
+    static Editing now;
+    if (now.interface != ImGui::GetCurrentContext()) now = {.interface = ImGui::GetCurrentContext()};
+    return now;
+}
+
+bool is_edited(ImGuiID id) {
+    // One that was not drawn in the frame before has vanished, and its text with it.
+    return editing().id == id && editing().frame >= ImGui::GetFrameCount() - 1;
+}
+
+void begin_editing(ImGuiID id, double value) {
+    Editing& now = editing();
+    now.id = id;
+    now.frame = ImGui::GetFrameCount();
+    now.begins = true;
+    now.tabbed_in = -1;
+    std::snprintf(now.text.data(), now.text.size(), "%.7g", value == 0.0 ? 0.0 : value);
+    now.before = now.text;
+}
+
+/// Below the field, over what is there: nothing moves away because of it.
+void say_below(const std::string& why) {
+    ImGui::SetNextWindowPos(
+        {ImGui::GetItemRectMin().x, ImGui::GetItemRectMax().y + ImGui::GetStyle().ItemInnerSpacing.y});
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(18.0f * ImGui::GetFontSize());
+    ImGui::TextUnformatted(why.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+std::optional<double> edited_text(const char* id, const std::string& unit) {
+    Editing& now = editing();
+    now.frame = ImGui::GetFrameCount();
+    if (std::exchange(now.begins, false)) ImGui::SetKeyboardFocusHere();
+    const auto is_empty = [&] { return now.text[0] == '\0'; };
+    const bool was_wrong = !is_empty() && !read_number(now.text.data(), unit).value;
+    const ImVec4 red{0.45f, 0.12f, 0.10f, 1.0f};
+    if (was_wrong) ImGui::PushStyleColor(ImGuiCol_FrameBg, red);
+    const std::string text_id = std::string(id) + " text";
+    const bool entered =
+        ImGui::InputText(text_id.c_str(), now.text.data(), now.text.size(),
+                         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    const bool left = ImGui::IsItemDeactivated();
+    if (was_wrong) ImGui::PopStyleColor();
+    const TypedNumber typed = read_number(now.text.data(), unit);
+    const bool wrong = !is_empty() && !typed.value;
+    if (!entered && !left) {
+        if (wrong && ImGui::IsItemActive()) say_below(typed.error);
+        return std::nullopt;
+    }
+    const bool tabbed = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Tab));
+    const bool same = now.text == now.before;
+    if (wrong && entered) {  // Enter leaves a person where the mistake is
+        now.begins = true;
+        return std::nullopt;
+    }
+    now.id = 0;
+    if (escape_pressed() || is_empty() || same) {
+        if (tabbed) now.tabbed_in = ImGui::GetFrameCount();
+        return std::nullopt;
+    }
+    if (tabbed) now.tabbed_in = ImGui::GetFrameCount();
+    if (wrong) now.refused = typed.error;
+    return typed.value;
+}
+
+}  // namespace
+
+std::optional<double> number_entry(const char* id, double value, double speed, double low, double high,
+                                   const char* format) {
+    const ImGuiID own = ImGui::GetID(id);
+    if (editing().tabbed_in == ImGui::GetFrameCount()) begin_editing(own, value);
+    if (is_edited(own)) return edited_text(id, unit_of(format));
+
+    char text[64];
+    std::snprintf(text, sizeof text, format, value);
+    double shown = without_signed_zero(text) == text ? value : 0.0;
+    const ImGuiIO& io = ImGui::GetIO();
+    // ImGui makes a drag ten times as coarse with Shift.
+    const auto pace = static_cast<float>(io.KeyShift ? 0.01 * speed : speed);
+    const bool changed = ImGui::DragScalar(id, ImGuiDataType_Double, &shown, pace, &low, &high, format,
+                                           ImGuiSliderFlags_NoInput);
+    const bool clicked = ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left) &&
+                         io.MouseDragMaxDistanceSqr[0] < io.MouseDragThreshold * io.MouseDragThreshold;
+    if (clicked && !changed) begin_editing(own, value);
+    return changed ? std::optional(shown) : std::nullopt;
+}
+
+std::string refused_entry() {
+    return std::exchange(editing().refused, {});
+}
+
+}  // namespace tendril::app
