@@ -47,7 +47,7 @@ bool HumanoidLab::moving(const Workspace& workspace) const {
     const bool eases = part.ik.look_at.on || (part.ik.hand_ik.on && part.ik.has_targets());
     const bool swings = !part.springs.empty();
     const bool hangs = !part.attachments.list.empty();
-    return goes_on(part.playback, *part.loaded) ||
+    return goes_on(part.playback, *part.loaded) || part.ik_state.release.left > 0.0 ||
            ((stands || eases || swings || hangs) && part.quiet_ticks < until_rest);
 }
 

@@ -84,6 +84,8 @@ Result check_state(const BodyState& state, std::size_t links) noexcept {
         if (const Result bad = check_vector("Body::solve", "state.clip", clip); !bad) return bad;
     if (const Result bad = check_number("Body::solve", "state.deepest", state.deepest); !bad) return bad;
     if (const Result bad = check_number("Body::solve", "state.pace", state.pace); !bad) return bad;
+    for (const double weight : state.weights)
+        if (const Result bad = check_number("Body::solve", "state.weights", weight); !bad) return bad;
     return check_vector("Body::solve", "state.shift", state.shift);
 }
 
@@ -211,6 +213,8 @@ Expected<BodyReport> Body::solve(std::span<rig::Transform> pose, std::span<const
         return refused("Body::solve", "options.tolerance", "over 0 and at most 1", options.tolerance);
     if (!(options.twist_share >= 0.0 && options.twist_share <= 1.0))
         return refused("Body::solve", "options.twist_share", "from 0 to 1", options.twist_share);
+    if (!(options.settle >= 0.0 && options.settle <= 1.0))
+        return refused("Body::solve", "options.settle", "from 0 to 1 m", options.settle);
     const bool touches = options.self_collision && !work_->pairs.empty();
     if (!touches && std::none_of(targets.begin(), targets.end(),
                                  [](const BodyTarget& each) { return each.weight > 0.0; })) {

@@ -92,9 +92,13 @@ BodyReport BodySolve::run(std::span<rig::Transform> pose, BodyState& state) noex
         }
     }
     state.left.fill(glm::dvec3(0.0));
+    state.weights.fill(0.0);
     state.clip = clip_;
     state.deepest = deepest();
-    for (std::size_t k = 0; k < count_; ++k) state.left[goals_[k].effector] = goals_[k].left;
+    for (std::size_t k = 0; k < count_; ++k) {
+        state.left[goals_[k].effector] = goals_[k].left;
+        if (goals_[k].target) state.weights[goals_[k].effector] = goals_[k].weight;
+    }
     state.turns.resize(work_.links.size());
     for (std::size_t i = 0; i < work_.links.size(); ++i)
         state.turns[i] = rig::normalised(math::compose(work_.links[i].turn, conjugate(work_.links[i].own)));
@@ -118,9 +122,19 @@ void BodySolve::slow_down(double part, double pace) noexcept {
 }
 
 double BodySolve::goals_moved(const BodyState& state) const noexcept {
-    double most = std::max(deepest() - state.deepest, 0.0);
-    for (std::size_t k = 0; k < count_; ++k)
-        most = std::max(most, length(minus(goals_[k].left, state.left[goals_[k].effector])));
+    double most = std::max(deepest() - state.deepest, options_.settle), far = 0.0, change = 0.0;
+    std::array<double, effector_count> weights{};
+    for (std::size_t k = 0; k < count_; ++k) {
+        const Goal& goal = goals_[k];
+        most = std::max(most, length(minus(goal.left, state.left[goal.effector])));
+        far = std::max(far, length(goal.left));
+        if (goal.target) weights[goal.effector] = goal.weight;
+    }
+    for (std::size_t e = 0; e < effector_count; ++e) {
+        const double before = state.weights[e], now = weights[e];
+        if (before > 0.0) change = std::max(change, std::abs(now - before) / std::max(now, before));
+    }
+    most = std::max(most, change * far);  // of targets that disagree, others come nearer now
     if (state.turns.empty()) return most;
     for (std::size_t e = 0; e < effector_count; ++e)
         most = std::max(most, length(minus(clip_[e], state.clip[e])));
@@ -154,15 +168,14 @@ void BodySolve::set_goals() noexcept {
     }
     for (const Effector foot : {Effector::LeftFoot, Effector::RightFoot}) {
         if (!options_.feet_stay || (seen >> static_cast<unsigned>(foot) & 1u)) continue;
-        const Link& link = work_.links[static_cast<std::size_t>(work_.ends[static_cast<std::size_t>(foot)])];
+        const Link& link = end_of(static_cast<std::size_t>(foot));
         add(foot, work_.placements[link.node].position, stay_weight, nullptr);
     }
 }
 
 void BodySolve::start(std::span<const rig::Transform> pose, const BodyState& state) noexcept {
     work_.take(pose);
-    for (std::size_t e = 0; e < effector_count; ++e)
-        clip_[e] = work_.placements[work_.links[static_cast<std::size_t>(work_.ends[e])].node].position;
+    for (std::size_t e = 0; e < effector_count; ++e) clip_[e] = work_.placements[end_of(e).node].position;
     set_goals();
     for (Link& link : work_.links) {
         link.turn = link.own;
@@ -214,8 +227,7 @@ double BodySolve::measure() noexcept {
     double cost = 0.0;
     for (std::size_t k = 0; k < count_; ++k) {
         Goal& goal = goals_[k];
-        goal.left =
-            minus(goal.position, work_.links[static_cast<std::size_t>(work_.ends[goal.effector])].position);
+        goal.left = minus(goal.position, end_of(goal.effector).position);
         if (goal.limb) {
             const double off = goal.limb->beyond(goal.limb->bend) - goal.limb->start;
             goal.left = plus(goal.left, times(goal.limb->along, off));
@@ -238,7 +250,7 @@ void BodySolve::turn_ends() noexcept {
 }
 
 void BodySolve::turn_end(const Goal& goal) noexcept {
-    Link& link = work_.links[static_cast<std::size_t>(work_.ends[goal.effector])];
+    Link& link = end_of(goal.effector);
     if (link.parent < 0) return;
     Link& before = work_.links[static_cast<std::size_t>(link.parent)];
     glm::dquat wanted = link.start;
@@ -262,7 +274,7 @@ void BodySolve::report(std::span<const rig::Transform> pose, BodyReport& report)
     for (std::size_t k = 0; k < count_; ++k) {
         const Goal& goal = goals_[k];
         if (!goal.target) continue;
-        const Link& link = work_.links[static_cast<std::size_t>(work_.ends[goal.effector])];
+        const Link& link = end_of(goal.effector);
         const double left = length(minus(goal.position, work_.placements[link.node].position));
         report.residuals[goal.effector] = left;
         report.residual = std::max(report.residual, left);

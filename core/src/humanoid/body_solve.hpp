@@ -61,7 +61,11 @@ class BodySolve {
     void start(std::span<const rig::Transform> pose, const BodyState& state) noexcept;
     /// Where the links are for their turns; half the weighed squares of what is left.
     double measure() noexcept;
-    /// How far the goals are from where the last solve took them to be, metres.
+    Link& end_of(std::size_t effector) const noexcept {
+        return work_.links[static_cast<std::size_t>(work_.ends[effector])];
+    }
+    /// How far the goals are from where the last solve took them to be, metres; what a change of weights may
+    /// move counts as such a way.
     double goals_moved(const BodyState& state) const noexcept;
     /// How far a joint has come in this solve, metres.
     double farthest() const noexcept;

@@ -31,7 +31,6 @@ void set_hand_ik(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     HandIkSetting& setting = part.ik.hand_ik;
     const bool on = given.has("on") ? given.boolean("on") : setting.on;
     if (on) require_body(now, part);
-    if (on != setting.on) part.ik_state.body = {};
     setting.on = on;
     if (given.has("view_deg")) setting.view_deg = given.real("view_deg");
     const std::string hand = given.has("hand") ? given.text("hand") : "both";

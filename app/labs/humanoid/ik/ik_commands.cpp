@@ -6,6 +6,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
 #include "app/labs/humanoid/ik/ik_command.hpp"
+#include "app/labs/humanoid/ik/release.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
 #include "app/labs/kit/arguments.hpp"
 
@@ -19,26 +20,24 @@ void set_target(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     std::optional<TargetSetting>& target = part.ik.target(effector);
     if (given.has("weight") && given.real("weight") <= 0.0) {
         target.reset();
-        part.ik_state.body = {};
         return;
     }
     require_body(now, part);
     if (!target) {
         const std::size_t node = *part.node_of(humanoid::bone_of(effector));
         target = TargetSetting{.position = now.shown.placed[node].position};
+        forget_on_the_way_to(part.ik_state.release, part.skeleton(), node);
     }
     if (given.has("to")) target->position = exact_point(given.json("to"));
     if (given.has("rotation")) target->rotation = glm::dquat(given.rotation("rotation"));
     if (given.has("weight")) target->weight = given.real("weight");
-    // A body goes no farther than its targets do: where they stay and something else is new, it begins anew.
-    if (given.has("rotation") || given.has("weight")) part.ik_state.body = {};
 }
 
 void set_limits(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     const LimitsFrom from = limits_from.value(given.text("from"));
     if (from == LimitsFrom::Motion && part.loaded->clips().empty())
         throw std::invalid_argument("the character has no clips to learn limits from");
-    part.ik_state.body = {};
+    part.ik_state.body = {};  // it goes no farther than its targets do: where limits are new, it begins anew
     if (!given.has("bone")) {
         part.ik.limits = from;
         part.ik.joint_limits.clear();

@@ -2,6 +2,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/ik/quaternion_json.hpp"
+#include "app/labs/humanoid/ik/release.hpp"
 #include "app/labs/kit/json_place.hpp"
 
 namespace tendril::app {
@@ -41,7 +42,8 @@ Json body_json(const humanoid::BodyState& state) {
     for (const glm::dvec3& each : state.left) left.push_back(dpoint(each));
     for (const glm::dvec3& each : state.clip) clip.push_back(dpoint(each));
     return Json{{"turns", std::move(turns)}, {"shift", dpoint(state.shift)}, {"clip", std::move(clip)},
-                {"deepest", state.deepest},  {"left", std::move(left)},      {"pace", state.pace}};
+                {"deepest", state.deepest},  {"left", std::move(left)},      {"weights", state.weights},
+                {"pace", state.pace}};
 }
 
 humanoid::BodyState read_body(const JsonPlace& place) {
@@ -54,6 +56,11 @@ humanoid::BodyState read_body(const JsonPlace& place) {
     for (std::size_t i = 0; i < state.left.size(); ++i) {
         state.left[i] = place["left"].element(i).dpoint();
         state.clip[i] = place["clip"].element(i).dpoint();
+    }
+    if (const auto weights = place.optional("weights")) {
+        weights->check_size(state.weights.size(), "numbers, one an effector");
+        for (std::size_t i = 0; i < state.weights.size(); ++i)
+            state.weights[i] = weights->element(i).real(0.0, heaviest_target);
     }
     state.deepest = place["deepest"].real(0.0, 1e9);
     state.pace = place["pace"].real(0.0, 1e9);
@@ -166,6 +173,24 @@ void read_number(const JsonPlace& place, T& value) {
     } else {
         each_number(value, [&](const char* name, auto& member) { read_number(place[name], member); });
     }
+}
+
+Json release_json(const Release& release, const humanoid::Skeleton& skeleton) {
+    Json turns = Json::object();
+    for (const auto& [node, turn] : release.turns) turns[skeleton[node].name] = quaternion(turn);
+    return Json{{"left", release.left}, {"shift", dpoint(release.shift)}, {"turns", std::move(turns)}};
+}
+
+Release read_release(const JsonPlace& place, const humanoid::Skeleton& skeleton) {
+    Release release{.left = place["left"].real(0.0, release_seconds), .shift = place["shift"].dpoint()};
+    const JsonPlace turns = place["turns"];
+    if (!turns.json().is_object()) turns.fail("expected an object of nodes");
+    for (const auto& [name, value] : turns.json().items()) {
+        const auto node = skeleton.find(name);
+        if (!node) turns.fail("there is no node \"" + name + "\"");
+        release.turns[*node] = read_quaternion(turns[name.c_str()]);
+    }
+    return release;
 }
 
 Json ground_json(const GroundSetting& ground) {
@@ -286,6 +311,8 @@ Json ik_json(const HumanoidPart& part) {
     if (!(part.ik_state.hands == humanoid::HandsState())) json["hands"] = written(part.ik_state.hands);
     if (!(part.ik_state.look == humanoid::LookAtState())) json["look"] = written(part.ik_state.look);
     if (!(part.ik_state.feet == humanoid::FeetState())) json["feet"] = written(part.ik_state.feet);
+    if (!(part.ik_state.release == Release()))
+        json["release"] = release_json(part.ik_state.release, part.skeleton());
     if (!(part.ik_state.body == humanoid::BodyState())) json["body"] = body_json(part.ik_state.body);
     return json;
 }
@@ -302,6 +329,8 @@ void read_ik(const JsonPlace& place, HumanoidPart& part) {
     if (const auto hands = place.optional("hands")) read_number(*hands, part.ik_state.hands);
     if (const auto look = place.optional("look")) read_number(*look, part.ik_state.look);
     if (const auto feet = place.optional("feet")) read_number(*feet, part.ik_state.feet);
+    if (const auto release = place.optional("release"))
+        part.ik_state.release = read_release(*release, part.skeleton());
     if (const auto body = place.optional("body")) part.ik_state.body = read_body(*body);
 }
 

@@ -92,12 +92,22 @@ struct IkSettings {
     const TargetSetting* hand_target(std::size_t hand) const;
 };
 
+/// What is left of a target that was let go: see release.hpp.
+struct Release {
+    double left = 0.0;  ///< seconds until it is over
+    /// Of nodes, over their own local rotations.
+    std::map<std::size_t, glm::dquat> turns{};
+    glm::dvec3 shift{0.0};  ///< of the hips, in their parent's space, metres
+    bool operator==(const Release&) const = default;
+};
+
 struct IkState {
     humanoid::BodyState body{};
     humanoid::FeetState feet{};
     humanoid::HandsState hands{};
     humanoid::LookAtState look{};
     std::vector<humanoid::SpringChainState> springs{};  ///< in the order of the part's
+    Release release{};
     bool operator==(const IkState&) const = default;
 };
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "app/labs/humanoid/ik/release.hpp"
 #include "app/labs/humanoid/springs/swing.hpp"
 
 namespace tendril::app {
@@ -50,12 +51,14 @@ void stand(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state
 }
 
 /// What the body remembers may be another one's, from a file that was edited: then it begins anew.
-void reach(humanoid::Body& body, const std::vector<humanoid::BodyTarget>& targets, IkState& state,
+void reach(humanoid::Body& body, const std::vector<humanoid::BodyTarget>& targets, double dt, IkState& state,
            ShownPose& shown) {
-    Expected<humanoid::BodyReport> report = body.solve(shown.local, targets, state.body);
+    const humanoid::BodyOptions options{.settle = state.release.left > 0.0 ? std::min(settle_speed * dt, 1.0)
+                                                                           : 0.0};
+    Expected<humanoid::BodyReport> report = body.solve(shown.local, targets, state.body, options);
     if (!report && !(state.body == humanoid::BodyState())) {
         state.body = {};
-        report = body.solve(shown.local, targets, state.body);
+        report = body.solve(shown.local, targets, state.body, options);
     }
     if (report)
         shown.body = *report;
@@ -127,11 +130,13 @@ void solve(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state
     const bool moves = !targets.empty() || part.ik.self_collision;
     humanoid::Body* const body = moves ? solvers.body(part) : nullptr;
     if (body == nullptr) state.body = {};
-    if (body != nullptr && !targets.empty()) reach(*body, targets, state, shown);
+    if (body != nullptr && !targets.empty()) reach(*body, targets, dt, state, shown);
     look(part, solvers, dt, state, shown);
     reach_by_hand(part, solvers, dt, state, shown);
     // What the clip and its hands alone would bring into the body.
-    if (body != nullptr && targets.empty()) reach(*body, targets, state, shown);
+    if (body != nullptr && targets.empty()) reach(*body, targets, dt, state, shown);
+    pass(state.release, dt);
+    apply(state.release, shown.local, part.node_of(humanoid::Bone::Hips));
 }
 
 std::vector<rig::Transform> clip_pose(const HumanoidPart& part) {
@@ -144,6 +149,7 @@ ShownPose solve_pose(const HumanoidPart& part, Solvers& solvers, double dt, IkSt
     ShownPose shown;
     const std::vector<rig::Transform> before = shown.local = clip_pose(part);
     solve(part, solvers, dt, state, shown);
+    shown.before_springs = shown.local;
     shown.springs = swing(part.springs, solvers.springs(part), dt, shown.local, state.springs);
     shown.placed = placed(part, shown.local);
     if (const humanoid::Feet* const feet = solvers.feet(part)) {

@@ -8,6 +8,7 @@ namespace tendril::app {
 
 struct ShownPose {
     std::vector<rig::Transform> local;
+    std::vector<rig::Transform> before_springs;
     std::vector<humanoid::Placement> placed;
     /// Before anything changed it; empty where nothing does.
     std::vector<humanoid::Placement> before;

@@ -65,6 +65,10 @@ struct BodyOptions {
     /// arm.
     double twist_share = 0.5;
     bool self_collision = true;  ///< the capsules that the body was made with are kept apart
+    /// Metres that the targets are taken to have moved by, if they moved less: as far as such a way allows, a
+    /// pose that could be nearer to the clip's comes nearer. For the frames after a target was let go, whose
+    /// pull the rest of the body would keep otherwise. 0 to 1.
+    double settle = 0.0;
 };
 
 /// Where the last solve ended, for the next one to start from. A value; empty: at the clip's pose.
@@ -76,6 +80,7 @@ struct BodyState {
     std::array<glm::dvec3, effector_count> clip{};  ///< where the clip had the effectors, metres
     double deepest = 0.0;                           ///< metres that capsules were in each other
     std::array<glm::dvec3, effector_count> left{};  ///< of the way to each target, metres
+    std::array<double, effector_count> weights{};   ///< of the targets, 0 of those without one
     double pace = 0.0;                              ///< metres that a joint might move in that solve
     bool operator==(const BodyState&) const = default;
 };

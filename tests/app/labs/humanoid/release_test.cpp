@@ -1,0 +1,240 @@
+// Targets that are let go, or get another weight or rotation: nothing leaps that they do not hold.
+#include <random>
+
+#include "app/labs/humanoid/humanoid_commands.hpp"
+#include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "humanoid_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+using Places = std::vector<glm::dvec3>;
+
+class HumanoidRelease : public HumanoidTest {
+  protected:
+    void begin_anew(bool walking) {
+        workspace = make_blank_workspace(labs);
+        if (!walking) return;
+        run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+        tick(static_cast<int>(any(10.0, 60.0)));
+    }
+    void target(const char* effector, const Json& to) {
+        run("humanoid.target", {{"effector", effector}, {"to", to}});
+    }
+    void let_go(const char* effector) { run("humanoid.target", {{"effector", effector}, {"weight", 0}}); }
+    /// Of the clip, `from` the hips.
+    Json near(const glm::dvec3& from, double size) {
+        const glm::dvec3 at = bone("Hips") + from;
+        const double x = any(-size, size), y = any(-size, size), z = any(-size, size);
+        return {at.x + x, at.y + y, at.z + z};
+    }
+    void reach_with_both_hands() {
+        target("left_hand", near({0.35, 0.3, 0.4}, 0.25));
+        target("right_hand", near({-0.35, 0.1, 0.5}, 0.45));
+        tick(10);
+    }
+    Places places() const {
+        Places all;
+        for (const humanoid::Placement& each : shown_pose(workspace).placed) all.push_back(each.position);
+        return all;
+    }
+    Places clip_places() const {
+        const ShownPose& shown = shown_pose(workspace);
+        Places all;
+        for (const humanoid::Placement& each : shown.before.empty() ? shown.placed : shown.before)
+            all.push_back(each.position);
+        return all;
+    }
+    double leap(const Places& before, const Places& now, const char* without = nullptr) const {
+        const std::size_t limb = without ? node_named(part(), without) : before.size();
+        double most = 0.0;
+        for (std::size_t i = 0; i < now.size(); ++i)
+            if (i != limb && !(without && part().skeleton().is_below(i, limb)))
+                most = std::max(most, glm::distance(before[i], now[i]));
+        return most;
+    }
+    double left(const char* effector) const {
+        return state().at("body").at("targets").at(effector).at("residual").get<double>();
+    }
+    double any(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
+
+    std::mt19937 engine{11};
+};
+
+TEST_F(HumanoidRelease, WithTimePausedMovesTheLimbThatWasLetGoAndNothingElse) {
+    for (int i = 0; i < 25; ++i) {
+        begin_anew(false);
+        if (i % 2) run("humanoid.clip", {{"name", "walk"}, {"time", any(0.0, 1.0)}});
+        reach_with_both_hands();
+        if (left("left_hand") > 1e-4 || left("right_hand") > 1e-4) continue;
+        const Places before = places();
+        let_go("right_hand");
+        EXPECT_FALSE(state().at("body").at("targets").contains("right_hand"));
+        EXPECT_LT(leap(before, places(), "RightUpperArm"), 5e-3) << i;
+        EXPECT_GT(leap(before, places()), 0.05) << "the arm is the clip's at once";
+        EXPECT_LT(left("left_hand"), 1e-3);
+    }
+}
+
+TEST_F(HumanoidRelease, LetsTheRestOfTheBodyComeBackWhileTimeRuns) {
+    target("left_hand", {0.3, 1.2, 0.4});
+    const glm::dvec3 alone = bone("Head");
+    target("right_hand", {-0.2, 0.8, 0.9});
+    let_go("right_hand");
+    EXPECT_GT(glm::distance(bone("Head"), alone), 0.2) << "still bent down";
+    Places before = places();
+    int ticks = 0;
+    for (; lab().moving(workspace) && ticks < 200; ++ticks) {
+        tick();
+        ASSERT_LT(leap(before, places()), 0.05) << ticks;
+        ASSERT_LT(left("left_hand"), 1e-3) << ticks;
+        before = places();
+    }
+    EXPECT_LT(ticks, 70) << "then nothing moves any more";
+    EXPECT_LT(glm::distance(bone("Head"), alone), 0.06);
+}
+
+TEST_F(HumanoidRelease, EasesBackIntoAClipThatPlays) {
+    for (int i = 0; i < 25; ++i) {
+        begin_anew(true);
+        reach_with_both_hands();
+        const bool both = i % 3 == 0;
+        const Places held = places();
+        if (both) let_go("left_hand");
+        let_go("right_hand");
+        EXPECT_LT(leap(held, places()), 1e-9) << "not in the moment itself";
+        const double way = leap(clip_places(), held);
+        Places before = held, clip = clip_places();
+        double walked = 0.0;
+        for (int k = 0; k < 70; ++k) {
+            tick();
+            const Places now = places(), now_clip = clip_places();
+            walked = leap(clip, now_clip);
+            ASSERT_LT(leap(before, now), walked + 0.16 * way + 0.01) << i << ' ' << k;
+            before = now, clip = now_clip;
+        }
+        EXPECT_EQ(part().ik_state.release, Release());
+        if (both) {
+            EXPECT_EQ(leap(places(), clip_places()), 0.0) << "the clip's to the bit";
+        } else {
+            EXPECT_LT(left("left_hand"), 0.4);
+        }
+    }
+}
+
+TEST_F(HumanoidRelease, OfOneHandKeepsTheOtherOneOnItsTargetMeanwhile) {
+    for (int i = 0; i < 10; ++i) {
+        begin_anew(true);
+        run("humanoid.clip", {{"speed", 0.1}});
+        reach_with_both_hands();
+        if (left("left_hand") > 1e-4 || left("right_hand") > 1e-4) continue;
+        const glm::dvec3 held = bone("LeftHand");
+        let_go("right_hand");
+        for (int k = 0; k < 20; ++k) {
+            tick();
+            EXPECT_LT(glm::distance(bone("LeftHand"), held), 2e-3) << i << ' ' << k;
+        }
+    }
+}
+
+TEST_F(HumanoidRelease, AWeightDraggedSlowlyMovesTheBodySlowly) {
+    for (const bool walking : {false, true}) {
+        for (int i = 0; i < 15; ++i) {
+            begin_anew(walking);
+            target("left_hand", near({0.9, 0.3, 0.4}, 0.5));
+            target("right_hand", near({-0.9, 0.1, 0.5}, 0.5));
+            for (int k = 1; k <= 100; ++k) {
+                const Places before = places();
+                const double weight = k <= 50 ? 1.0 - 0.01 * k : 0.01 * k;
+                run("humanoid.target", {{"effector", "right_hand"}, {"weight", weight}});
+                ASSERT_LT(leap(before, places()), 0.025) << i << ' ' << k;
+            }
+        }
+    }
+}
+
+TEST_F(HumanoidRelease, ARotationTurnsTheHandAlone) {
+    for (int i = 0; i < 10; ++i) {
+        begin_anew(i % 2 == 0);
+        reach_with_both_hands();
+        const Places before = places();
+        const double s = std::sin(any(-1.0, 1.0));
+        run("humanoid.target",
+            {{"effector", "right_hand"}, {"rotation", {0.0, s, 0.0, std::sqrt(1.0 - s * s)}}});
+        EXPECT_LT(leap(before, places(), "RightHand"), 2e-3) << i;
+    }
+}
+
+TEST_F(HumanoidRelease, OfAHandThatHandIkMovesEasesToo) {
+    begin_anew(true);
+    run("humanoid.hand_ik", {{"on", true}});
+    target("right_hand", near({-0.35, 0.1, 0.45}, 0.05));
+    tick(3);
+    Places before = places();
+    let_go("right_hand");
+    EXPECT_LT(leap(before, places()), 1e-9);
+    for (int k = 0; k < 70; ++k) {
+        before = places();
+        tick();
+        ASSERT_LT(leap(before, places()), 0.15) << k;
+    }
+    EXPECT_EQ(leap(places(), clip_places()), 0.0);
+}
+
+TEST_F(HumanoidRelease, ANewTargetOfTheSameHandIsReachedAtOnce) {
+    begin_anew(true);
+    reach_with_both_hands();
+    let_go("right_hand");
+    tick(2);
+    const glm::dvec3 wanted = bone("RightHand") + glm::dvec3(0.05, 0.05, 0.05);
+    target("right_hand", {wanted.x, wanted.y, wanted.z});
+    EXPECT_LT(glm::distance(bone("RightHand"), wanted), 1e-3);
+}
+
+TEST_F(HumanoidRelease, IsSavedUndoneAndGoesOnTheSame) {
+    begin_anew(true);
+    reach_with_both_hands();
+    const Json held = state();
+    let_go("right_hand");
+    let_go("left_hand");
+    tick(5);
+    EXPECT_NE(part().ik_state.release, Release());
+    Workspace other = reopened();
+    EXPECT_EQ(humanoid_part(other).ik_state.release, part().ik_state.release);
+    EXPECT_EQ(lab().state(other), state());
+    for (int i = 0; i < 30; ++i) lab().step(other);
+    tick(30);
+    EXPECT_EQ(lab().state(other), state());
+    run("undo");
+    run("undo");
+    EXPECT_EQ(state(), held);
+}
+
+TEST_F(HumanoidRelease, AFileWithAReleaseThatIsWrongIsRefusedWithItsPlace) {
+    begin_anew(true);
+    reach_with_both_hands();
+    let_go("right_hand");
+    const Json good = save_scene(workspace);
+    const auto refusal = [&](auto change) -> std::string {
+        Json scene = good;
+        change(scene["labs"][humanoid_lab]["ik"]["release"]);
+        Workspace other = make_blank_workspace(labs);
+        try {
+            load_scene(other, scene);
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "was read";
+    };
+    EXPECT_NE(refusal([](Json& release) { release["left"] = 1e9; }).find("ik.release.left"),
+              std::string::npos);
+    EXPECT_NE(refusal([](Json& release) {
+                  release["turns"]["tail"] = {0, 0, 0, 1};
+              }).find("no node \"tail\""),
+              std::string::npos);
+    EXPECT_NE(refusal([](Json& release) { release["turns"] = 3; }).find("ik.release.turns"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace tendril::app
