@@ -145,11 +145,12 @@ glm::dvec3 velocity_of(const FootState& foot, const FootClip& clip, const FootCo
     return {v.x * part, 0.0, v.z * part};
 }
 
-/// The step that a foot in the air comes to: the height that its sole must be over, where there is one.
-double look_ahead(const FootState& foot, const FootClip& clip, const glm::dvec3& toe_at,
-                  const Footing& footing, double from, const FootContext& context) noexcept {
+/// The step that heel or toe of a foot in the air comes to: the height that it must be over, where there is
+/// one. `hit_now` is what is below it now.
+double look_ahead(const FootState& foot, const FootClip& clip, const glm::dvec3& at,
+                  const std::optional<GroundHit>& hit_now, double from, const FootContext& context) noexcept {
     double highest = -1e300;
-    if (foot.locked || !(context.dt > 0.0) || context.fresh || !footing.toe) return highest;
+    if (foot.locked || !(context.dt > 0.0) || context.fresh || !hit_now) return highest;
     const glm::dvec3 velocity = velocity_of(foot, clip, context);
     const double speed = length(velocity);
     // What brakes comes to rest on this side of an edge, maybe.
@@ -159,9 +160,9 @@ double look_ahead(const FootState& foot, const FootClip& clip, const glm::dvec3&
         const double t = braking * seconds > speed ? speed / braking : seconds;
         const double part = t - (speed > 1e-9 ? 0.5 * braking * t * t / speed : 0.0);
         const double x = velocity.x * part, z = velocity.z * part;
-        const auto hit = context.ground.below({toe_at.x + x, from, toe_at.z + z});
+        const auto hit = context.ground.below({at.x + x, from, at.z + z});
         if (judge(hit, context) != FootAlone::No) continue;
-        if (hit->height > height_of_plane(*footing.toe, x, z) + step_over_plane)
+        if (hit->height > height_of_plane(*hit_now, x, z) + step_over_plane)
             highest = std::max(highest, hit->height);
     }
     return highest;
@@ -245,9 +246,11 @@ FootGoal find_goal(FootState& foot, const FootClip& clip, const FootContext& con
     if (footing.toe) support = std::max(support, footing.toe->height - turned.toe.y);
     goal.contact = support - clip.ankle.y;
     const double clearance = std::max(0.0, height_over_floor(clip, context)) * (1.0 - foot.planting);
-    const glm::dvec3 toe_at = plus(plus(clip.ankle, turned.slip), turned.toe);
-    const double over = look_ahead(foot, clip, toe_at, footing, from, context);
-    support = std::max(support, over - std::min(turned.heel.y, turned.toe.y));
+    const glm::dvec3 ankle = plus(clip.ankle, turned.slip);
+    const double over_toe = look_ahead(foot, clip, plus(ankle, turned.toe), footing.toe, from, context),
+                 over_heel = look_ahead(foot, clip, plus(ankle, turned.heel), footing.heel, from, context);
+    support = std::max(support, over_toe - std::min(turned.heel.y, turned.toe.y));
+    support = std::max(support, over_heel - turned.heel.y);
     goal.lift = clearance + support - clip.ankle.y;
     foot.velocity = velocity_of(foot, clip, context);
     return goal;

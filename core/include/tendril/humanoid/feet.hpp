@@ -16,8 +16,8 @@
 //     then stays where it is, seen from above. Locked or not, a ray from above the ankle down through heel
 //     and toe each finds the ground; the foot is turned by the mean of the two normals, and stands as high
 //     over the ground as the clip has it over its floor, counted from whichever of the two is supported (on
-//     level ground, the higher hit). What a lock moved it by eases out. A foot in the air also looks ahead,
-//     so that it is over the edge of a step before it is there.
+//     level ground, the higher hit). What a lock moved it by eases out. Heel and toe of a foot in the air
+//     also look ahead, so that each is over the edge of a step before it is there.
 //  3. The pelvis is lowered by what a leg is short of, by a critically damped spring, but never later than
 //     a foot needs that stands on the ground.
 //  4. Legs are solved in closed form. Knees stay on the side where the clip has them, and go by the
@@ -27,7 +27,9 @@
 // pose, and the report says why. Without any ground the pose comes back to the bit.
 //
 // Hips, and knees and feet in the air, are moved against the clip no faster than `max_speed`; where the
-// ground jumps, what it moves a foot by eases in.
+// ground jumps, what it moves a foot by eases in. So a foot that goes down stairs may be late: until its heel
+// is clear of the upper step it is kept over that, and what is left to go when the clip puts it down takes
+// as long as `max_speed` lets it, 5 frames for 0.16 m. It counts as planted once it is there.
 //
 // Sources: R. S. Johansen, "Automated Semi-Procedural Animation for Character Locomotion", 2009 (feet on
 // uneven ground); L. Kovar, J. Schreiner, M. Gleicher, "Footskate Cleanup for Motion Capture Editing", SCA
