@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <tendril/humanoid/soles.hpp>
+#include <tendril/humanoid/t_pose.hpp>
 
 #include "humanoid_walk.hpp"
 
@@ -39,6 +40,25 @@ TEST(Soles, TurnWithTheFigure) {
         expect_near(soles.forward, about_y * glm::dvec3(0, 0, 1));
         expect_near(at_rest(skeleton, soles)[0].toe, about_y * glm::dvec3(0.1, 0, 0.15));
     }
+}
+
+TEST(Soles, AreAheadWhereTheCharacterFaces) {
+    std::map<std::string, std::string> exchanged;
+    for (const FigureNode& each : figure_nodes()) {
+        const std::string key = each.key;
+        if (key.starts_with("Left")) exchanged[key] = "Right" + key.substr(4);
+        if (key.starts_with("Right")) exchanged[key] = "Left" + key.substr(5);
+    }
+    for (const double turn : {0.0, 0.7, -2.1, 3.1})
+        for (const auto& names : {std::map<std::string, std::string>(), exchanged}) {
+            const Skeleton skeleton = make_figure(names, turn);
+            const BoneMap map = match_bones(skeleton);
+            const glm::dvec3 feet = glm::angleAxis(turn, glm::dvec3(0, 1, 0)) * glm::dvec3(0, 0, 1);
+            expect_near(find_soles(skeleton, map)->forward, feet);
+            expect_near(facing(skeleton, map).forward, feet);
+            const double side = names.empty() ? 1.0 : -1.0;
+            expect_near(facing(skeleton, map).left, side * glm::cross(glm::dvec3(0, 1, 0), feet));
+        }
 }
 
 TEST(Soles, WithoutToesGoByTheLeg) {

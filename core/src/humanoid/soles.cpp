@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "humanoid/facing.hpp"
 #include "humanoid/limb.hpp"
 #include "math/checks.hpp"
 
@@ -44,9 +45,9 @@ class Finder {
                                size);
             soles.leg += 0.5 * size;
         }
-        const auto forward = find_forward(soles.leg);
-        if (!forward) return refused("find_soles", "the legs", "side by side", "both in one place");
-        soles.forward = *forward;
+        const auto facing = detail::find_facing(skeleton_, map_, at_);
+        if (!facing) return refused("find_soles", "the legs", "side by side", "both in one place");
+        soles.forward = facing->forward;
         soles.floor = find_floor(soles.leg);
         for (std::size_t i = 0; i < 2; ++i) soles.feet[i] = find_sole(legs[i], soles);
         return soles;
@@ -57,33 +58,8 @@ class Finder {
     const glm::dvec3& position(Bone bone) const { return at_[node(bone)].position; }
     double distance(Bone a, Bone b) const { return length(minus(position(a), position(b))); }
 
-    /// What hangs on a foot furthest from it, seen from above; the foot itself where nothing does.
-    std::size_t end_of_foot(Bone foot) const {
-        std::size_t end = node(foot);
-        double most = 0.0;
-        for (std::size_t i = 0; i < skeleton_.size(); ++i) {
-            if (!skeleton_.is_below(i, node(foot))) continue;
-            const double away = length(level(minus(at_[i].position, position(foot))));
-            if (away <= most) continue;
-            most = away;
-            end = i;
-        }
-        return end;
-    }
+    std::size_t end_of_foot(Bone foot) const { return detail::farthest_below(skeleton_, at_, node(foot)); }
     bool has(Bone bone) const { return map_[bone].node >= 0; }
-
-    /// By the way from the right to the left; the other way round where the feet point so.
-    std::optional<glm::dvec3> find_forward(double leg) const {
-        glm::dvec3 left = minus(position(Bone::LeftUpperLeg), position(Bone::RightUpperLeg));
-        if (has(Bone::LeftUpperArm) && has(Bone::RightUpperArm))
-            left = plus(left, minus(position(Bone::LeftUpperArm), position(Bone::RightUpperArm)));
-        const auto forward = direction_of(cross(level(left), glm::dvec3(0.0, 1.0, 0.0)), 1e-6);
-        if (!forward) return std::nullopt;
-        glm::dvec3 toes(0.0);
-        for (const auto& bones : legs)
-            toes = plus(toes, minus(at_[end_of_foot(bones[2])].position, position(bones[2])));
-        return times(*forward, dot(toes, *forward) < -0.1 * leg ? -1.0 : 1.0);
-    }
 
     double find_floor(double leg) const {
         double lowest = std::numeric_limits<double>::max(), lowest_ankle = lowest;

@@ -7,26 +7,6 @@ namespace tendril::humanoid {
 
 using namespace rig::detail;
 
-Facing facing(const Skeleton& skeleton, const BoneMap& map) {
-    std::vector<Placement> placements(skeleton.size());
-    place(skeleton, rest_pose(skeleton), placements);
-    const auto way = [&](Bone from, Bone to) {
-        const std::int32_t a = map[from].node, b = map[to].node;
-        if (a < 0 || b < 0) return glm::dvec3(0.0);
-        return minus(placements[static_cast<std::size_t>(b)].position,
-                     placements[static_cast<std::size_t>(a)].position);
-    };
-    glm::dvec3 left =
-        plus(way(Bone::RightUpperLeg, Bone::LeftUpperLeg), way(Bone::RightUpperArm, Bone::LeftUpperArm));
-    left.y = 0.0;
-    Facing result;
-    if (const auto direction = direction_of(left, 1e-9)) {
-        result.left = *direction;
-        result.forward = cross(result.left, result.up);
-    }
-    return result;
-}
-
 std::vector<rig::Transform> t_pose(const Skeleton& skeleton, const BoneMap& map) {
     std::vector<rig::Transform> pose = rest_pose(skeleton);
     std::vector<Placement> placements(skeleton.size());

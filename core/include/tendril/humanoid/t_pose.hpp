@@ -7,6 +7,8 @@
 namespace tendril::humanoid {
 
 /// The character's own directions at rest: unit vectors at right angles to each other, `up` along Y.
+/// `forward` follows from `left`; where the feet point backwards by that, because the map has the sides
+/// exchanged or the figure is a mirror image, it goes by the feet.
 struct Facing {
     glm::dvec3 left{1.0, 0.0, 0.0};  ///< from the right hip and shoulder to the left ones
     glm::dvec3 up{0.0, 1.0, 0.0};

@@ -15,10 +15,6 @@ constexpr double enter = 0.6, leave = 1.2, low = 0.03;    // m/s, m
 constexpr double lifted = 0.025, shortest_step = 0.1;     // m, s
 constexpr double landing = 0.05, shortest_stance = 0.15;  // s
 
-double level(const glm::dvec3& v) noexcept {
-    return std::sqrt(v.x * v.x + v.z * v.z);
-}
-
 struct Stretch {
     std::size_t first, last;
 };

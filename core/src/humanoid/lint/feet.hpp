@@ -1,6 +1,7 @@
 // Where the feet of a clip are, frame by frame. Not installed.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "humanoid/limb.hpp"
@@ -12,7 +13,8 @@ using detail::Limb;
 
 /// A point of the sole: a node of the foot, put down by as much as it is above the ground when the foot
 /// stands flat. It is not turned with the foot, so that what is not known of the sole adds nothing where the
-/// foot is tilted.
+/// foot is tilted. That is why these are not find_soles()'s heel and toe, which foot IK has to turn along:
+/// those are guessed from the rest pose, and a clip is not to be blamed for a guess.
 struct SolePoint {
     std::size_t node;
     double above;  ///< metres
@@ -56,6 +58,10 @@ glm::dvec3 smallest_move(const Foot& foot, std::size_t frame, const glm::dvec3& 
 /// What ends in that foot; none where thigh or shin are missing.
 std::optional<Limb> leg_of(const Skeleton& skeleton, const BoneMap& map, std::int32_t foot);
 
+/// Metres, seen from above.
+inline double level(const glm::dvec3& v) noexcept {
+    return std::sqrt(v.x * v.x + v.z * v.z);
+}
 /// The middle of the densest `width` of sorted values, of which there is one.
 double densest(const std::vector<double>& sorted, double width);
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "humanoid/facing.hpp"
 #include "humanoid/lint/feet.hpp"
 
 namespace tendril::humanoid::lint_detail {
@@ -23,23 +24,8 @@ double middle_of(std::vector<double>& values) {
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
 }
-double level(const glm::dvec3& v) noexcept {
-    return std::sqrt(v.x * v.x + v.z * v.z);
-}
 double angle_between(const glm::dvec3& a, const glm::dvec3& b) noexcept {
     return arctangent(length(cross(a, b)), dot(a, b)) * degrees;
-}
-
-/// The furthest node below `node` on the level: the tip of the toes.
-std::size_t tip_of(const Skeleton& skeleton, const std::vector<Placement>& rest, std::size_t node) {
-    std::size_t best = node;
-    double furthest = 0.0;
-    for (std::size_t i = 0; i < skeleton.size(); ++i) {
-        if (i == node || !skeleton.is_below(i, node)) continue;
-        const double far = level(minus(rest[i].position, rest[node].position));
-        if (far > furthest) furthest = far, best = i;
-    }
-    return best;
 }
 
 Foot foot_of(const Check& check, const Side& side, const std::vector<Placement>& rest) {
@@ -49,7 +35,8 @@ Foot foot_of(const Check& check, const Side& side, const std::vector<Placement>&
     foot.points.push_back({ankle, 0.0});
     const std::int32_t toes = check.map[side.toes].node;
     if (toes >= 0) foot.points.push_back({static_cast<std::size_t>(toes), 0.0});
-    const std::size_t tip = tip_of(check.skeleton, rest, toes >= 0 ? static_cast<std::size_t>(toes) : ankle);
+    const std::size_t tip =
+        detail::farthest_below(check.skeleton, rest, toes >= 0 ? static_cast<std::size_t>(toes) : ankle);
     if (tip != foot.points.back().node) foot.points.push_back({tip, 0.0});
     foot.flat = rotated(conjugate(rest[ankle].rotation()), up);
     for (SolePoint& point : foot.points) point.above = rest[point.node].position.y;
