@@ -65,6 +65,20 @@ TEST_F(HumanoidBodySwitch, a_hand_that_is_let_go_moves_nothing_but_its_arm) {
     EXPECT_GT(reached, 30);
 }
 
+TEST_F(HumanoidBodySwitch, the_trunk_stays_where_only_a_foot_is_held_and_settles_then) {
+    const BodyTarget foot{Effector::LeftFoot, {0.15, 0.3, 0.2}}, hand{Effector::RightHand, {-0.2, 0.8, 0.9}};
+    const auto before = settled({foot, hand});
+    auto now = solve({foot});
+    EXPECT_LT(farthest(before, now, Bone::RightUpperArm), 5e-3);
+    for (int frame = 0; frame < 90; ++frame) {
+        const auto next = solve({foot}, {.settle = 0.02});
+        EXPECT_LT(farthest(now, next, Bone::RightUpperArm), 0.05) << frame;
+        now = next;
+    }
+    state = {};
+    EXPECT_LT(farthest(now, settled({foot}), Bone::RightUpperArm), 0.05);
+}
+
 TEST_F(HumanoidBodySwitch, what_the_other_target_kept_away_is_reached_once_that_is_let_go) {
     const std::vector<BodyTarget> both{{Effector::LeftHand, {0.9, 1.3, 0.2}},
                                        {Effector::RightHand, {-1.2, 1.3, 0.2}}};

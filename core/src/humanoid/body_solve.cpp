@@ -1,6 +1,7 @@
 #include "humanoid/body_solve.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "humanoid/joint_turn.hpp"
@@ -191,13 +192,15 @@ void BodySolve::start(std::span<const rig::Transform> pose, const BodyState& sta
     for (std::size_t i = 0; i < work_.links.size(); ++i) {
         Link& link = work_.links[i];
         // A limb that nothing asks for keeps the clip's pose; one that a contact may have moved comes back to
-        // it.
+        // it, and the trunk does as far as targets move.
         if (state.turns.empty()) continue;
         const glm::dquat last = math::compose(state.turns[i], link.own);
         if ((link.effectors & wanted) != 0)
             link.turn = last;
         else if (touches_)
             link.turn = rig::blend(link.own, last, comes_back);
+        else if (std::popcount(link.effectors) > 1)
+            link.turn = last;
         clamp_turn(link);
     }
     for (std::size_t k = 0; k < count_; ++k) {

@@ -76,6 +76,14 @@ TEST_F(HumanoidRelease, WithTimePausedMovesTheLimbThatWasLetGoAndNothingElse) {
     }
 }
 
+TEST_F(HumanoidRelease, OfAHandLeavesTheTrunkWhereOnlyAFootIsHeld) {
+    target("left_foot", {0.15, 0.3, 0.2});
+    target("right_hand", {-0.2, 0.8, 0.9});
+    const Places before = places();
+    let_go("right_hand");
+    EXPECT_LT(leap(before, places(), "RightUpperArm"), 5e-3);
+}
+
 TEST_F(HumanoidRelease, LetsTheRestOfTheBodyComeBackWhileTimeRuns) {
     target("left_hand", {0.3, 1.2, 0.4});
     const glm::dvec3 alone = bone("Head");
