@@ -160,7 +160,7 @@ void App::take_event(const Event& event, Emit& emit) {
     } else if (const auto* drop = std::get_if<Drop>(&event)) {
         if (!drop->paths.empty()) take_file(drop->paths.front(), emit);
     } else if (std::holds_alternative<CloseRequest>(event)) {
-        emit("quit");
+        emit("quit", {{"unsaved", "ask"}});
     }
 }
 
@@ -257,6 +257,7 @@ void App::update_window() {
     window_.set_cursor(wanted_cursor(ui_, pointer_));
     std::string title = "Tendril";
     if (!workspace_.path.empty()) title = workspace_.path.filename().string() + " - " + title;
+    if (workspace_.modified()) title = "\u2022 " + title;
     if (title != title_) window_.set_title(title_ = title);
 }
 

@@ -43,7 +43,8 @@ LiveLoop::LiveLoop(App& app, Window& window, const Options& options)
     kept_ = app_.workspace().settings;
     app_.workspace().config = config_folder();
     app_.workspace().keeps = true;
-    app_.workspace().ui.recoverable = Autosave::left_behind(config_folder());
+    for (const std::filesystem::path& file : Autosave::left_behind(config_folder()))
+        app_.workspace().ui.recoverable.push_back({file, Autosave::title(file)});
     autosave_.emplace(config_folder());
 }
 
@@ -62,8 +63,9 @@ void LiveLoop::run(Player& player, std::optional<int> frames) {
         last = now;
         keep_house();
     }
-    // What a person lets go is let go, unless it has a name; what was ended from outside is kept.
-    if (autosave_) autosave_->end(app_.workspace(), options_.ending || !app_.workspace().path.empty());
+    // Who quits was asked what becomes of it; what was ended from outside is kept.
+    const bool keeps = options_.ending || (!app_.quit() && !app_.workspace().path.empty());
+    if (autosave_) autosave_->end(app_.workspace(), keeps);
 }
 
 double LiveLoop::patience(const Player& player) const {

@@ -1,11 +1,13 @@
 #include "app/document/autosave.hpp"
 
 #include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <ctime>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -120,6 +122,22 @@ std::vector<fs::path> Autosave::left_behind(const fs::path& folder) {
     std::vector<fs::path> files;
     for (auto& [time, path] : found) files.push_back(std::move(path));
     return files;
+}
+
+std::string Autosave::title(const fs::path& file) {
+    std::string name = "A scene without a name";
+    try {
+        const Json scene = read_json_file(file);
+        if (scene.is_object() && scene.contains("path"))
+            name = fs::path(json_text(scene["path"], "path")).filename().string();
+    } catch (const std::exception&) {
+        // What is wrong with it is said when it is opened.
+    }
+    struct stat written {};
+    char when[64] = "";
+    if (std::tm parts{}; ::stat(file.c_str(), &written) == 0 && ::localtime_r(&written.st_mtime, &parts))
+        std::strftime(when, sizeof when, ", %Y-%m-%d %H:%M", &parts);
+    return name + when;
 }
 
 void Autosave::recover(Workspace& workspace, const fs::path& file) {

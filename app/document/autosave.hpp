@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "app/document/workspace.hpp"
@@ -28,6 +29,8 @@ class Autosave {
 
     /// Files of programs that no longer run, the newest first.
     static std::vector<std::filesystem::path> left_behind(const std::filesystem::path& folder);
+    /// Such a file for people: the name of the scene that was being worked on, and when it was written.
+    static std::string title(const std::filesystem::path& file);
     /// Opens such a file: the workspace then has unsaved changes to the file that was being worked on (the
     /// member "path" beside the scene's own), or to none. Throws as load_scene_file does. The autosave itself
     /// stays.

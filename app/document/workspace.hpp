@@ -42,6 +42,12 @@ struct Toast {
     int ticks_left = 0;
 };
 
+/// What a crash left.
+struct Recoverable {
+    std::filesystem::path file;
+    std::string title;  ///< for people: "arm.json, 21.11.2026 14:03"
+};
+
 /// What the window shows for the moment.
 struct UiState {
     bool help = false;
@@ -49,9 +55,11 @@ struct UiState {
     bool settings = false;
     enum class FileDialog { None, Open, SaveAs } file_dialog = FileDialog::None;
     std::vector<Toast> toasts;
-    std::vector<std::filesystem::path> recoverable;  ///< what a crash left, until it is answered
-    glm::vec2 view_size{1000.0f, 700.0f};            ///< the 3D view, in window coordinates
-    std::optional<std::string> copied;               ///< text on its way to the clipboard
+    std::vector<Recoverable> recoverable;  ///< until it is answered
+    glm::vec2 view_size{1000.0f, 700.0f};  ///< the 3D view, in window coordinates
+    std::optional<std::string> copied;     ///< text on its way to the clipboard
+    bool asks_to_quit = false;             ///< what becomes of unsaved work
+    bool quits_when_saved = false;         ///< the dialog to save was opened for that
     bool quit = false;
 };
 

@@ -77,6 +77,7 @@ void add_scene_commands(CommandTable& table) {
                    if (path.empty()) throw Refused("path is missing; the scene has no file yet");
                    save_scene_file(w, path);
                    w.ui.file_dialog = UiState::FileDialog::None;
+                   w.ui.quit = w.ui.quit || w.ui.quits_when_saved;
                    w.toast("Saved " + path.filename().string());
                }});
 }
@@ -85,10 +86,14 @@ void add_scene_commands(CommandTable& table) {
 std::filesystem::path offered(const Workspace& workspace, const Arguments& given) {
     const auto& offers = workspace.ui.recoverable;
     const std::filesystem::path path = given.text("path");
-    if (std::find(offers.begin(), offers.end(), path) == offers.end()) {
+    if (std::ranges::find(offers, path, &Recoverable::file) == offers.end()) {
         throw Refused("there is nothing to recover at " + path.string());
     }
     return path;
+}
+
+void answered(Workspace& workspace, const std::filesystem::path& file) {
+    std::erase_if(workspace.ui.recoverable, [&](const Recoverable& each) { return each.file == file; });
 }
 
 void add_recovery_commands(CommandTable& table) {
@@ -101,7 +106,7 @@ void add_recovery_commands(CommandTable& table) {
                    const std::filesystem::path file = offered(w, a);
                    Autosave::recover(w, file);
                    Autosave::adopt(file);
-                   std::erase(w.ui.recoverable, file);
+                   answered(w, file);
                    w.toast("Recovered. It is not saved yet.");
                }});
     table.add({.name = "scene.discard",
@@ -111,7 +116,7 @@ void add_recovery_commands(CommandTable& table) {
                .apply = [](Workspace& w, const Arguments& a) {
                    const std::filesystem::path file = offered(w, a);
                    std::filesystem::remove(file);
-                   std::erase(w.ui.recoverable, file);
+                   answered(w, file);
                }});
     table.add({.name = "scene.recover_later",
                .arguments = {},
@@ -149,6 +154,7 @@ void add_dialog_commands(CommandTable& table) {
                .apply = [](Workspace& w, const Arguments&) {
                    w.ui.help = w.ui.palette = w.ui.settings = false;
                    w.ui.file_dialog = UiState::FileDialog::None;
+                   w.ui.asks_to_quit = w.ui.quits_when_saved = false;
                    w.ui.toasts.clear();
                }});
 }
@@ -288,11 +294,33 @@ void add_window_commands(CommandTable& table) {
          .help = "Size of text and widgets",
          .effect = Effect::Look,
          .apply = [](Workspace& w, const Arguments& a) { w.settings.text_scale = a.number("scale"); }});
+}
+
+void quit(Workspace& w, const Arguments& given) {
+    const std::string unsaved = given.has("unsaved") && w.modified() ? given.text("unsaved") : "discard";
+    w.ui.asks_to_quit = unsaved == "ask";
+    w.ui.quits_when_saved = false;
+    if (unsaved == "discard") {
+        w.ui.quit = true;
+    } else if (unsaved == "save" && w.path.empty()) {
+        w.ui.file_dialog = UiState::FileDialog::SaveAs;
+        w.ui.quits_when_saved = true;
+    } else if (unsaved == "save") {
+        save_scene_file(w, std::filesystem::path(w.path));
+        w.ui.quit = true;
+    }
+}
+
+void add_quit_command(CommandTable& table) {
     table.add({.name = "quit",
-               .arguments = {},
+               .arguments = {{.name = "unsaved",
+                              .type = ArgumentType::Text,
+                              .required = false,
+                              .help = "what becomes of unsaved work; discarded when left out",
+                              .choices = {"ask", "save", "discard"}}},
                .help = "Quits the program",
                .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments&) { w.ui.quit = true; }});
+               .apply = quit});
 }
 
 }  // namespace
@@ -304,6 +332,7 @@ void add_workspace_commands(CommandTable& table) {
     add_dialog_commands(table);
     add_time_commands(table);
     add_window_commands(table);
+    add_quit_command(table);
     table.add({.name = "lab.open",
                .arguments = {{.name = "name", .type = ArgumentType::Text, .help = "as --list-labs has it"}},
                .help = "Opens a lab",

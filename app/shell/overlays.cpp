@@ -144,21 +144,6 @@ void show_settings(const ShellFrame& frame, Emit& emit) {
     ImGui::End();
 }
 
-void show_recovery(const ShellFrame& frame, Emit& emit) {
-    const auto& offers = frame.workspace.ui.recoverable;
-    if (offers.empty()) return;
-    const float scale = frame.layout.scale;
-    if (!begin_sheet("Unsaved work", frame.screen(), {460.0f * scale, 165.0f * scale}))
-        emit("scene.recover_later");
-    note("Tendril ended before this work was saved:");
-    ImGui::TextWrapped("%s", offers.front().string().c_str());
-    ImGui::Spacing();
-    const ArgumentList path{{"path", offers.front().string()}};
-    if (row_button("Recover it", 2)) emit("scene.recover", path);
-    if (row_button("Delete it", 2)) emit("scene.discard", path);
-    ImGui::End();
-}
-
 void show_toasts(const ShellFrame& frame) {
     const float scale = frame.layout.scale;
     const Palette& colours = frame.colours();

@@ -275,6 +275,7 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
                    emit);
     file_dialog_.frame(workspace, frame.screen(), frame.layout.scale, emit);
     show_recovery(frame, emit);
+    show_quit(frame, emit);
     show_toasts(frame);
 }
 

@@ -29,7 +29,7 @@ std::vector<Shortcut> common_rows() {
         row("ctrl+o", "scene.open_dialog", {}, "Open...", "Scene"),
         row("ctrl+s", "scene.save_dialog", {{"ask", false}}, "Save", "Scene"),
         row("ctrl+shift+s", "scene.save_dialog", {{"ask", true}}, "Save as...", "Scene"),
-        row("ctrl+q", "quit", {}, "Quit", "Scene", shown, typing),
+        row("ctrl+q", "quit", {{"unsaved", "ask"}}, "Quit", "Scene", shown, typing),
         row("ctrl+z", "undo", {}, "Undo", "Edit", shown, false, again),
         row("ctrl+shift+z", "redo", {}, "Redo", "Edit", shown, false, again),
         row("ctrl+y", "redo", {}, "Redo", "Edit", hidden, false, again),
@@ -137,6 +137,8 @@ std::vector<MouseHelp> Shortcuts::mouse_help(std::string_view lab) const {
         {gestures_of(MouseAction::Pan), "shifts the view"},
         {"Wheel", "zooms to the cursor"},
         {"File dropped on the window", "opens it"},
+        {"Click on a number", "types another: 1/3, 2*pi, 30 cm"},
+        {"Drag of a number sideways", "changes it; with Shift finer"},
     };
     for (const LabHelp& each : mouse_)
         if (lab.empty() || each.lab == lab) list.insert(list.end(), each.rows.begin(), each.rows.end());

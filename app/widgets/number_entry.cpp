@@ -45,6 +45,11 @@ void begin_editing(ImGuiID id, double value) {
     now.before = now.text;
 }
 
+ImVec4 reddened(const ImVec4& colour) {
+    const auto mixed = [](float from, float to) { return from + 0.4f * (to - from); };
+    return {mixed(colour.x, 0.9f), mixed(colour.y, 0.15f), mixed(colour.z, 0.1f), 1.0f};
+}
+
 /// Below the field, over what is there: nothing moves away because of it.
 void say_below(const std::string& why) {
     ImGui::SetNextWindowPos(
@@ -62,13 +67,21 @@ std::optional<double> edited_text(const char* id, const std::string& unit) {
     if (std::exchange(now.begins, false)) ImGui::SetKeyboardFocusHere();
     const auto is_empty = [&] { return now.text[0] == '\0'; };
     const bool was_wrong = !is_empty() && !read_number(now.text.data(), unit).value;
-    const ImVec4 red{0.45f, 0.12f, 0.10f, 1.0f};
-    if (was_wrong) ImGui::PushStyleColor(ImGuiCol_FrameBg, red);
+    if (was_wrong)
+        ImGui::PushStyleColor(ImGuiCol_FrameBg, reddened(ImGui::GetStyleColorVec4(ImGuiCol_FrameBg)));
     const std::string text_id = std::string(id) + " text";
+    // ImGui itself would go to the next text with Tab, and a number is none until it is clicked.
+    bool tabbed = false;
+    const auto take_tab = [](ImGuiInputTextCallbackData* data) {
+        *static_cast<bool*>(data->UserData) = true;
+        return 0;
+    };
     const bool entered =
         ImGui::InputText(text_id.c_str(), now.text.data(), now.text.size(),
-                         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
-    const bool left = ImGui::IsItemDeactivated();
+                         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll |
+                             ImGuiInputTextFlags_CallbackCompletion,
+                         take_tab, &tabbed);
+    const bool left = tabbed || ImGui::IsItemDeactivated();
     if (was_wrong) ImGui::PopStyleColor();
     const TypedNumber typed = read_number(now.text.data(), unit);
     const bool wrong = !is_empty() && !typed.value;
@@ -76,18 +89,14 @@ std::optional<double> edited_text(const char* id, const std::string& unit) {
         if (wrong && ImGui::IsItemActive()) say_below(typed.error);
         return std::nullopt;
     }
-    const bool tabbed = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Tab));
     const bool same = now.text == now.before;
     if (wrong && entered) {  // Enter leaves a person where the mistake is
         now.begins = true;
         return std::nullopt;
     }
     now.id = 0;
-    if (escape_pressed() || is_empty() || same) {
-        if (tabbed) now.tabbed_in = ImGui::GetFrameCount();
-        return std::nullopt;
-    }
     if (tabbed) now.tabbed_in = ImGui::GetFrameCount();
+    if (escape_pressed() || is_empty() || same) return std::nullopt;
     if (wrong) now.refused = typed.error;
     return typed.value;
 }

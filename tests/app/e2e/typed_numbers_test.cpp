@@ -128,7 +128,7 @@ TEST(TypedNumbers, AreWorkedOutWithTheirUnits) {
         EXPECT_EQ(played.state.at("solve").at("iterations"), iterations) << text;
     }
     ScriptText thirds = typed_into_every_row("1/3");
-    EXPECT_EQ(played_with_refusals(thirds).state.at("solve").at("snap_back"), 1.0f / 3.0f);
+    EXPECT_EQ(played_with_refusals(thirds).state.at("solve").at("snap_back").get<float>(), 1.0f / 3.0f);
 }
 
 /// Enter leaves a person at the mistake; a click elsewhere puts back what was, and says why.

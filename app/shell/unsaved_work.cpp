@@ -1,0 +1,41 @@
+// What is asked about unsaved work: on the way out, and after a crash.
+#include <imgui.h>
+
+#include "app/shell/shell.hpp"
+#include "app/widgets/fields.hpp"
+
+namespace tendril::app {
+
+void show_recovery(const ShellFrame& frame, Emit& emit) {
+    const auto& offers = frame.workspace.ui.recoverable;
+    if (offers.empty()) return;
+    const float scale = frame.layout.scale;
+    if (!begin_sheet("Unsaved work", frame.screen(), {460.0f * scale, 165.0f * scale}))
+        emit("scene.recover_later");
+    note("Tendril ended before this work was saved:");
+    ImGui::TextWrapped("%s", offers.front().title.c_str());
+    explain(offers.front().file.string().c_str());
+    ImGui::Spacing();
+    const ArgumentList path{{"path", offers.front().file.string()}};
+    if (row_button("Recover it", 2)) emit("scene.recover", path);
+    if (row_button("Delete it", 2)) emit("scene.discard", path);
+    ImGui::End();
+}
+
+void show_quit(const ShellFrame& frame, Emit& emit) {
+    if (!frame.workspace.ui.asks_to_quit) return;
+    const float scale = frame.layout.scale;
+    if (!begin_sheet("Quit Tendril", frame.screen(), {460.0f * scale, 140.0f * scale})) emit("view.close");
+    const std::filesystem::path& path = frame.workspace.path;
+    ImGui::TextWrapped("%s has changes that are not saved.",
+                       path.empty() ? "The scene" : path.filename().string().c_str());
+    ImGui::Spacing();
+    const bool named = !path.empty();
+    if (row_button(named ? "Save" : "Save...", 3, true, "Saves the scene, then quits"))
+        emit("quit", {{"unsaved", "save"}});
+    if (row_button("Discard", 3, true, "Quits; the changes are lost")) emit("quit", {{"unsaved", "discard"}});
+    if (row_button("Cancel", 3, true, "Esc: goes on")) emit("view.close");
+    ImGui::End();
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,57 @@
+// Who quits with unsaved work is asked first, and what is then chosen happens.
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+std::size_t segments(const app::Json& state) {
+    return state.at("segments").size();
+}
+
+/// Ctrl+Q in a scene with or without a change; a segment more says that the program went on.
+app::Json after_ctrl_q(bool changed, const ScriptText& then = {}) {
+    ScriptText script;
+    if (changed) script.command("chain.add", {{"length", 0.5}});
+    script.key("ctrl+q").wait(2).lines(then).command("chain.add", {{"length", 0.25}});
+    return state_after(script);
+}
+
+TEST(UnsavedWork, IsAskedFor) {
+    const std::size_t at_first = segments(state_after(ScriptText()));
+    EXPECT_EQ(segments(after_ctrl_q(false)), at_first) << "nothing to save: it has quit";
+    EXPECT_EQ(segments(after_ctrl_q(true)), at_first + 2) << "it asks, and goes on meanwhile";
+    EXPECT_EQ(segments(after_ctrl_q(true, ScriptText().key("escape"))), at_first + 2);
+    EXPECT_EQ(segments(after_ctrl_q(true, ScriptText().command("quit", {{"unsaved", "discard"}}))),
+              at_first + 1);
+    EXPECT_EQ(segments(after_ctrl_q(true, ScriptText().command("quit"))), at_first + 1);
+}
+
+TEST(UnsavedWork, IsSavedOnTheWayOut) {
+    const TempFolder folder;
+    const std::string file = (folder / "arm.json").string();
+    ScriptText script;
+    script.command("scene.save", {{"path", file}}).command("chain.add", {{"length", 0.5}});
+    script.key("ctrl+q").command("quit", {{"unsaved", "save"}}).command("chain.add", {{"length", 0.25}});
+    const app::Json state = state_after(script);
+    EXPECT_EQ(segments(state), segments(state_after(ScriptText())) + 1);
+    EXPECT_EQ(app::parse_json(read(file)).at("labs").at("chain").at("segments").size(), segments(state));
+}
+
+/// A scene without a name is given one first; the dialog that asks for it can be cancelled.
+TEST(UnsavedWork, WithoutANameIsGivenOne) {
+    const TempFolder folder;
+    const std::string file = (folder / "new.json").string();
+    ScriptText begin;
+    begin.command("chain.add", {{"length", 0.5}}).command("quit", {{"unsaved", "save"}});
+    ScriptText saved = begin;
+    saved.command("scene.save", {{"path", file}}).command("chain.add", {{"length", 0.25}});
+    const std::size_t at_first = segments(state_after(ScriptText()));
+    EXPECT_EQ(segments(state_after(saved)), at_first + 1);
+    EXPECT_TRUE(std::filesystem::exists(file));
+    ScriptText cancelled = begin;
+    cancelled.key("escape").command("scene.save", {{"path", file}}).command("chain.add", {{"length", 0.25}});
+    EXPECT_EQ(segments(state_after(cancelled)), at_first + 2) << "saving later does not quit";
+}
+
+}  // namespace
+}  // namespace tendril::test
