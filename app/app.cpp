@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <glm/common.hpp>
 #include <tendril/version.hpp>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "app/shell/gizmo_view.hpp"
 #include "app/shell/labels_view.hpp"
 #include "app/shell/theme.hpp"
+#include "app/view/picture.hpp"
 #include "app/widgets/number_entry.hpp"
 
 namespace tendril::app {
@@ -204,6 +206,7 @@ void App::run_emitted(Emit& emit) {
     for (Emitted& command : emit.take()) {
         try {
             commands_->run(workspace_, command.name, command.arguments, command.continuous ? gesture_ : 0);
+            take_picture();
             if (command.continuous && pointer_.dragged() != no_pick) workspace_.settings.hint_seen = true;
         } catch (const Refused& refusal) {
             refuse(refusal.what());
@@ -211,10 +214,35 @@ void App::run_emitted(Emit& emit) {
     }
 }
 
+/// Without what the mouse is over, labels and panels. Lines are as thick against the whole as they are in the
+/// window.
+void App::take_picture() {
+    const auto wanted = std::exchange(workspace_.ui.picture, std::nullopt);
+    if (!wanted) return;
+    const glm::vec2 view = glm::max(layout_.view.size(), glm::vec2(1.0f));
+    const float ratio =
+        static_cast<float>(window_.framebuffer_size().x) / static_cast<float>(std::max(1, window_.size().x));
+    const glm::vec2 own =
+        glm::clamp(glm::round(view * ratio), glm::vec2(smallest_picture), glm::vec2(largest_picture));
+    const glm::vec2 size(wanted->size.x > 0 ? static_cast<float>(wanted->size.x) : own.x,
+                         wanted->size.y > 0 ? static_cast<float>(wanted->size.y) : own.y);
+    const Palette& colours = palette(workspace_.settings.theme);
+    const Camera camera(workspace_.camera, {{0.0f, 0.0f}, size});
+    DrawList list;
+    lab().draw({workspace_, camera, colours, no_pick, no_pick, layout_.scale * size.y / view.y}, list);
+    try {
+        write_png(wanted->path, draw_picture(renderer_, list, camera, colours, wanted->transparent));
+    } catch (const std::runtime_error& error) {
+        throw Refused(std::string("view.picture: ") + error.what());
+    }
+    workspace_.toast("Written: " + wanted->path.string());
+}
+
 void App::run(const RunCommand& command) {
     try {
         commands_->run(workspace_, command.name, command.arguments);
         if (const auto& finish = commands_->find(command.name)->finish) finish(workspace_);
+        take_picture();
         if (recorder_) recorder_->command(command.name, command.arguments, false);
     } catch (const Refused& refusal) {
         if (recorder_) recorder_->command(command.name, command.arguments, true);

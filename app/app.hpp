@@ -74,6 +74,8 @@ class App final : public Stage {
     void take_file(const std::string& path, Emit& emit);
     void refuse(const std::string& why);
     void run_emitted(Emit& emit);
+    /// Writes the picture that was asked for. Throws Refused where it cannot.
+    void take_picture();
     void advance_time();
     void step_lab();
     void update_window();

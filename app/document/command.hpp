@@ -50,7 +50,9 @@ class CommandTable {
 /// "chain.add length [position]", for lists and help.
 std::string usage(const Command& command);
 
-/// undo, redo, scene.*, camera.set, time.*, view.*: all that needs no lab.
+/// scene.*, view.picture, quit.
+void add_scene_commands(CommandTable& table);
+/// undo, redo, all of the above, camera.set, time.*, view.*: all that needs no lab.
 void add_workspace_commands(CommandTable& table);
 
 }  // namespace tendril::app

@@ -48,6 +48,15 @@ struct Recoverable {
     std::string title;  ///< for people: "arm.json, 21.11.2026 14:03"
 };
 
+inline constexpr int smallest_picture = 16, largest_picture = 8192;  ///< pixels, each way
+
+/// A picture of the view, on its way to a file.
+struct PictureRequest {
+    std::filesystem::path path;
+    glm::ivec2 size{0};  ///< pixels; 0: as large as the view
+    bool transparent = false;
+};
+
 /// What the window shows for the moment.
 struct UiState {
     bool help = false;
@@ -58,8 +67,9 @@ struct UiState {
     std::vector<Recoverable> recoverable;  ///< until it is answered
     glm::vec2 view_size{1000.0f, 700.0f};  ///< the 3D view, in window coordinates
     std::optional<std::string> copied;     ///< text on its way to the clipboard
-    bool asks_to_quit = false;             ///< what becomes of unsaved work
-    bool quits_when_saved = false;         ///< the dialog to save was opened for that
+    std::optional<PictureRequest> picture;
+    bool asks_to_quit = false;      ///< what becomes of unsaved work
+    bool quits_when_saved = false;  ///< the dialog to save was opened for that
     bool quit = false;
 };
 

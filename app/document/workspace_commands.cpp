@@ -1,8 +1,6 @@
 #include <algorithm>
 
-#include "app/document/autosave.hpp"
 #include "app/document/command.hpp"
-#include "app/document/scene_file.hpp"
 
 namespace tendril::app {
 namespace {
@@ -42,121 +40,6 @@ void add_history_commands(CommandTable& table) {
                .help = "Redoes what was undone",
                .effect = Effect::Replace,
                .apply = [](Workspace& w, const Arguments&) { step_through(w, false); }});
-}
-
-void add_scene_commands(CommandTable& table) {
-    table.add({.name = "scene.new",
-               .arguments = {},
-               .help = "Starts a new scene; undo restores the old one",
-               .effect = Effect::Edit,
-               .apply = [](Workspace& w, const Arguments&) {
-                   w.document = w.blank;
-                   w.saved = w.blank;
-                   w.path.clear();
-                   w.start_anew();
-                   w.camera = w.first_view_of(w.lab);
-               }});
-    table.add({.name = "scene.open",
-               .arguments = {{.name = "path", .type = ArgumentType::Text, .help = "the scene file"}},
-               .help = "Opens a scene file; undo restores the scene before it",
-               .effect = Effect::Edit,
-               .apply = [](Workspace& w, const Arguments& a) {
-                   load_scene_file(w, a.text("path"));
-                   w.ui.file_dialog = UiState::FileDialog::None;
-               }});
-    table.add({.name = "scene.save",
-               .arguments = {{.name = "path",
-                              .type = ArgumentType::Text,
-                              .required = false,
-                              .help = "file to save to; the scene's own when left out"}},
-               .help = "Saves the scene; a failure leaves the old file as it was",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments& a) {
-                   const std::filesystem::path path =
-                       a.has("path") ? std::filesystem::path(a.text("path")) : w.path;
-                   if (path.empty()) throw Refused("path is missing; the scene has no file yet");
-                   save_scene_file(w, path);
-                   w.ui.file_dialog = UiState::FileDialog::None;
-                   w.ui.quit = w.ui.quit || w.ui.quits_when_saved;
-                   w.toast("Saved " + path.filename().string());
-               }});
-}
-
-/// The path argument, if it is one of those that are offered.
-std::filesystem::path offered(const Workspace& workspace, const Arguments& given) {
-    const auto& offers = workspace.ui.recoverable;
-    const std::filesystem::path path = given.text("path");
-    if (std::ranges::find(offers, path, &Recoverable::file) == offers.end()) {
-        throw Refused("there is nothing to recover at " + path.string());
-    }
-    return path;
-}
-
-void answered(Workspace& workspace, const std::filesystem::path& file) {
-    std::erase_if(workspace.ui.recoverable, [&](const Recoverable& each) { return each.file == file; });
-}
-
-void add_recovery_commands(CommandTable& table) {
-    const Argument path{.name = "path", .type = ArgumentType::Text, .help = "an autosave that a crash left"};
-    table.add({.name = "scene.recover",
-               .arguments = {path},
-               .help = "Recovers unsaved work after a crash",
-               .effect = Effect::Edit,
-               .apply = [](Workspace& w, const Arguments& a) {
-                   const std::filesystem::path file = offered(w, a);
-                   Autosave::recover(w, file);
-                   Autosave::adopt(file);
-                   answered(w, file);
-                   w.toast("Recovered. It is not saved yet.");
-               }});
-    table.add({.name = "scene.discard",
-               .arguments = {path},
-               .help = "Deletes unsaved work that a crash left",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments& a) {
-                   const std::filesystem::path file = offered(w, a);
-                   std::filesystem::remove(file);
-                   answered(w, file);
-               }});
-    table.add({.name = "scene.recover_later",
-               .arguments = {},
-               .help = "Asks again about unsaved work at the next start",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments&) { w.ui.recoverable.clear(); }});
-}
-
-void add_dialog_commands(CommandTable& table) {
-    table.add(
-        {.name = "scene.open_dialog",
-         .arguments = {},
-         .help = "Shows a dialog to open a scene",
-         .effect = Effect::Look,
-         .apply = [](Workspace& w, const Arguments&) { w.ui.file_dialog = UiState::FileDialog::Open; }});
-    table.add({.name = "scene.save_dialog",
-               .arguments = {{.name = "ask",
-                              .type = ArgumentType::Boolean,
-                              .required = false,
-                              .help = "asks for a name even if the scene has one"}},
-               .help = "Saves the scene; asks for a name if it has no file yet",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments& a) {
-                   if (w.path.empty() || (a.has("ask") && a.boolean("ask"))) {
-                       w.ui.file_dialog = UiState::FileDialog::SaveAs;
-                   } else {
-                       save_scene_file(w, std::filesystem::path(w.path));
-                       w.toast("Saved " + w.path.filename().string());
-                   }
-               }});
-    table.add({.name = "view.close",
-               .arguments = {},
-               .help = "Closes the palette, help, settings or dialog",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments&) {
-                   w.ui.help = w.ui.palette = w.ui.settings = false;
-                   w.ui.file_dialog = UiState::FileDialog::None;
-                   w.ui.asks_to_quit = w.ui.quits_when_saved = false;
-                   w.ui.toasts.clear();
-               }});
 }
 
 /// Goes back (or forward again) to the moment that is remembered nearest. To go back over a change is a
@@ -258,6 +141,16 @@ void add_window_commands(CommandTable& table) {
     toggle("view.palette", "Finds a command by its name", [](Workspace& w) -> bool& { return w.ui.palette; });
     toggle("view.settings", "Shows the settings", [](Workspace& w) -> bool& { return w.ui.settings; });
 
+    table.add({.name = "view.close",
+               .arguments = {},
+               .help = "Closes the palette, help, settings or dialog",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments&) {
+                   w.ui.help = w.ui.palette = w.ui.settings = false;
+                   w.ui.file_dialog = UiState::FileDialog::None;
+                   w.ui.asks_to_quit = w.ui.quits_when_saved = false;
+                   w.ui.toasts.clear();
+               }});
     table.add(
         {.name = "view.panels",
          .arguments =
@@ -296,43 +189,13 @@ void add_window_commands(CommandTable& table) {
          .apply = [](Workspace& w, const Arguments& a) { w.settings.text_scale = a.number("scale"); }});
 }
 
-void quit(Workspace& w, const Arguments& given) {
-    const std::string unsaved = given.has("unsaved") && w.modified() ? given.text("unsaved") : "discard";
-    w.ui.asks_to_quit = unsaved == "ask";
-    w.ui.quits_when_saved = false;
-    if (unsaved == "discard") {
-        w.ui.quit = true;
-    } else if (unsaved == "save" && w.path.empty()) {
-        w.ui.file_dialog = UiState::FileDialog::SaveAs;
-        w.ui.quits_when_saved = true;
-    } else if (unsaved == "save") {
-        save_scene_file(w, std::filesystem::path(w.path));
-        w.ui.quit = true;
-    }
-}
-
-void add_quit_command(CommandTable& table) {
-    table.add({.name = "quit",
-               .arguments = {{.name = "unsaved",
-                              .type = ArgumentType::Text,
-                              .required = false,
-                              .help = "what becomes of unsaved work; discarded when left out",
-                              .choices = {"ask", "save", "discard"}}},
-               .help = "Quits the program",
-               .effect = Effect::Look,
-               .apply = quit});
-}
-
 }  // namespace
 
 void add_workspace_commands(CommandTable& table) {
     add_history_commands(table);
     add_scene_commands(table);
-    add_recovery_commands(table);
-    add_dialog_commands(table);
     add_time_commands(table);
     add_window_commands(table);
-    add_quit_command(table);
     table.add({.name = "lab.open",
                .arguments = {{.name = "name", .type = ArgumentType::Text, .help = "as --list-labs has it"}},
                .help = "Opens a lab",

@@ -29,6 +29,7 @@ std::vector<Shortcut> common_rows() {
         row("ctrl+o", "scene.open_dialog", {}, "Open...", "Scene"),
         row("ctrl+s", "scene.save_dialog", {{"ask", false}}, "Save", "Scene"),
         row("ctrl+shift+s", "scene.save_dialog", {{"ask", true}}, "Save as...", "Scene"),
+        row("ctrl+p", "view.picture", {}, "Picture of the view", "Scene"),
         row("ctrl+q", "quit", {{"unsaved", "ask"}}, "Quit", "Scene", shown, typing),
         row("ctrl+z", "undo", {}, "Undo", "Edit", shown, false, again),
         row("ctrl+shift+z", "redo", {}, "Redo", "Edit", shown, false, again),

@@ -1,0 +1,199 @@
+// Scenes and what becomes of them: new, opened, saved, recovered, a picture of one, and the way out.
+#include <algorithm>
+
+#include "app/document/autosave.hpp"
+#include "app/document/command.hpp"
+#include "app/document/refused.hpp"
+#include "app/document/scene_file.hpp"
+
+namespace tendril::app {
+namespace {
+
+void add_file_commands(CommandTable& table) {
+    table.add({.name = "scene.new",
+               .arguments = {},
+               .help = "Starts a new scene; undo restores the old one",
+               .effect = Effect::Edit,
+               .apply = [](Workspace& w, const Arguments&) {
+                   w.document = w.blank;
+                   w.saved = w.blank;
+                   w.path.clear();
+                   w.start_anew();
+                   w.camera = w.first_view_of(w.lab);
+               }});
+    table.add({.name = "scene.open",
+               .arguments = {{.name = "path", .type = ArgumentType::Text, .help = "the scene file"}},
+               .help = "Opens a scene file; undo restores the scene before it",
+               .effect = Effect::Edit,
+               .apply = [](Workspace& w, const Arguments& a) {
+                   load_scene_file(w, a.text("path"));
+                   w.ui.file_dialog = UiState::FileDialog::None;
+               }});
+    table.add({.name = "scene.save",
+               .arguments = {{.name = "path",
+                              .type = ArgumentType::Text,
+                              .required = false,
+                              .help = "file to save to; the scene's own when left out"}},
+               .help = "Saves the scene; a failure leaves the old file as it was",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments& a) {
+                   const std::filesystem::path path =
+                       a.has("path") ? std::filesystem::path(a.text("path")) : w.path;
+                   if (path.empty()) throw Refused("path is missing; the scene has no file yet");
+                   save_scene_file(w, path);
+                   w.ui.file_dialog = UiState::FileDialog::None;
+                   w.ui.quit = w.ui.quit || w.ui.quits_when_saved;
+                   w.toast("Saved " + path.filename().string());
+               }});
+}
+
+/// The path argument, if it is one of those that are offered.
+std::filesystem::path offered(const Workspace& workspace, const Arguments& given) {
+    const auto& offers = workspace.ui.recoverable;
+    const std::filesystem::path path = given.text("path");
+    if (std::ranges::find(offers, path, &Recoverable::file) == offers.end()) {
+        throw Refused("there is nothing to recover at " + path.string());
+    }
+    return path;
+}
+
+void answered(Workspace& workspace, const std::filesystem::path& file) {
+    std::erase_if(workspace.ui.recoverable, [&](const Recoverable& each) { return each.file == file; });
+}
+
+void add_recovery_commands(CommandTable& table) {
+    const Argument path{.name = "path", .type = ArgumentType::Text, .help = "an autosave that a crash left"};
+    table.add({.name = "scene.recover",
+               .arguments = {path},
+               .help = "Recovers unsaved work after a crash",
+               .effect = Effect::Edit,
+               .apply = [](Workspace& w, const Arguments& a) {
+                   const std::filesystem::path file = offered(w, a);
+                   Autosave::recover(w, file);
+                   Autosave::adopt(file);
+                   answered(w, file);
+                   w.toast("Recovered. It is not saved yet.");
+               }});
+    table.add({.name = "scene.discard",
+               .arguments = {path},
+               .help = "Deletes unsaved work that a crash left",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments& a) {
+                   const std::filesystem::path file = offered(w, a);
+                   std::filesystem::remove(file);
+                   answered(w, file);
+               }});
+    table.add({.name = "scene.recover_later",
+               .arguments = {},
+               .help = "Asks again about unsaved work at the next start",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments&) { w.ui.recoverable.clear(); }});
+}
+
+void add_dialog_commands(CommandTable& table) {
+    table.add(
+        {.name = "scene.open_dialog",
+         .arguments = {},
+         .help = "Shows a dialog to open a scene",
+         .effect = Effect::Look,
+         .apply = [](Workspace& w, const Arguments&) { w.ui.file_dialog = UiState::FileDialog::Open; }});
+    table.add({.name = "scene.save_dialog",
+               .arguments = {{.name = "ask",
+                              .type = ArgumentType::Boolean,
+                              .required = false,
+                              .help = "asks for a name even if the scene has one"}},
+               .help = "Saves the scene; asks for a name if it has no file yet",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments& a) {
+                   if (w.path.empty() || (a.has("ask") && a.boolean("ask"))) {
+                       w.ui.file_dialog = UiState::FileDialog::SaveAs;
+                   } else {
+                       save_scene_file(w, std::filesystem::path(w.path));
+                       w.toast("Saved " + w.path.filename().string());
+                   }
+               }});
+}
+
+/// A new file beside the scene's own, or where the program was started: "arm-1.png".
+std::filesystem::path picture_name(const Workspace& w) {
+    if (!w.keeps) throw Refused("path is missing");
+    const std::string stem = w.path.empty() ? "tendril" : w.path.stem().string();
+    for (int i = 1;; ++i) {
+        const std::filesystem::path path = w.path.parent_path() / (stem + "-" + std::to_string(i) + ".png");
+        std::error_code ignored;
+        if (!std::filesystem::exists(path, ignored)) return path;
+    }
+}
+
+void add_picture_command(CommandTable& table) {
+    const auto pixels = [](const char* name) {
+        return Argument{.name = name,
+                        .type = ArgumentType::Integer,
+                        .required = false,
+                        .help = "pixels; the view's when left out",
+                        .low = smallest_picture,
+                        .high = largest_picture};
+    };
+    table.add({.name = "view.picture",
+               .arguments = {{.name = "path",
+                              .type = ArgumentType::Text,
+                              .required = false,
+                              .help = "a PNG file; in a window a new one beside the scene when left out"},
+                             pixels("width"),
+                             pixels("height"),
+                             {.name = "transparent",
+                              .type = ArgumentType::Boolean,
+                              .required = false,
+                              .help = "with nothing behind the scene"}},
+               .help = "Writes a picture of the view, without labels and panels",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments& a) {
+                   PictureRequest wanted{a.has("path") ? std::filesystem::path(a.text("path"))
+                                                       : picture_name(w)};
+                   if (wanted.path.extension() != ".png")
+                       throw Refused("path must end in .png, got " + wanted.path.string());
+                   if (a.has("width")) wanted.size.x = a.integer("width");
+                   if (a.has("height")) wanted.size.y = a.integer("height");
+                   wanted.transparent = a.has("transparent") && a.boolean("transparent");
+                   w.ui.picture = std::move(wanted);
+               }});
+}
+
+void quit(Workspace& w, const Arguments& given) {
+    const std::string unsaved = given.has("unsaved") && w.modified() ? given.text("unsaved") : "discard";
+    w.ui.asks_to_quit = unsaved == "ask";
+    w.ui.quits_when_saved = false;
+    if (unsaved == "discard") {
+        w.ui.quit = true;
+    } else if (unsaved == "save" && w.path.empty()) {
+        w.ui.file_dialog = UiState::FileDialog::SaveAs;
+        w.ui.quits_when_saved = true;
+    } else if (unsaved == "save") {
+        save_scene_file(w, std::filesystem::path(w.path));
+        w.ui.quit = true;
+    }
+}
+
+void add_quit_command(CommandTable& table) {
+    table.add({.name = "quit",
+               .arguments = {{.name = "unsaved",
+                              .type = ArgumentType::Text,
+                              .required = false,
+                              .help = "what becomes of unsaved work; discarded when left out",
+                              .choices = {"ask", "save", "discard"}}},
+               .help = "Quits the program",
+               .effect = Effect::Look,
+               .apply = quit});
+}
+
+}  // namespace
+
+void add_scene_commands(CommandTable& table) {
+    add_file_commands(table);
+    add_recovery_commands(table);
+    add_dialog_commands(table);
+    add_picture_command(table);
+    add_quit_command(table);
+}
+
+}  // namespace tendril::app

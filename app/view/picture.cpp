@@ -1,0 +1,51 @@
+#include "app/view/picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/window/offscreen_window.hpp"
+
+namespace tendril::app {
+namespace {
+
+Image drawn(Renderer& renderer, const DrawList& list, const Camera& camera, const Palette& palette,
+            bool grid) {
+    const glm::ivec2 size(camera.viewport().size());
+    const OffscreenFramebuffer target(size);
+    renderer.draw(list, camera, palette,
+                  {.framebuffer = target.name(), .framebuffer_size = size, .grid = grid});
+    return read_framebuffer(target.name(), size);
+}
+
+Palette before(Palette palette, float gray) {
+    palette.background_top = palette.background_bottom = glm::vec3(gray);
+    return palette;
+}
+
+/// What is behind shows through to the part by which both pictures differ: a colour c of opacity a over black
+/// is a c, over white a c + 1 - a (A. R. Smith, J. F. Blinn, "Blue Screen Matting", SIGGRAPH 1996).
+Image matted(const Image& black, const Image& white) {
+    Image result{black.size, std::vector<std::uint8_t>(black.rgba.size())};
+    for (std::size_t i = 0; i < result.rgba.size(); i += 4) {
+        int through = 0;
+        for (std::size_t c = 0; c < 3; ++c)
+            through = std::max(through, static_cast<int>(white.rgba[i + c]) - black.rgba[i + c]);
+        const int opacity = 255 - through;
+        for (std::size_t c = 0; c < 3 && opacity > 0; ++c)
+            result.rgba[i + c] =
+                static_cast<std::uint8_t>(std::min(255L, std::lround(255.0 * black.rgba[i + c] / opacity)));
+        result.rgba[i + 3] = static_cast<std::uint8_t>(opacity);
+    }
+    return result;
+}
+
+}  // namespace
+
+Image draw_picture(Renderer& renderer, const DrawList& list, const Camera& camera, const Palette& palette,
+                   bool transparent) {
+    if (!transparent) return drawn(renderer, list, camera, palette, true);
+    return matted(drawn(renderer, list, camera, before(palette, 0.0f), false),
+                  drawn(renderer, list, camera, before(palette, 1.0f), false));
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,15 @@
+// The view as a picture of its own: of any size, with what lies behind it or without.
+#pragma once
+
+#include "app/io/image.hpp"
+#include "app/view/renderer.hpp"
+
+namespace tendril::app {
+
+/// Draws the list as `camera` sees it; its viewport is the whole picture. With `transparent` there is nothing
+/// behind the scene, and what is see-through or a shadow is so in the file. Needs a current context; throws
+/// std::runtime_error where the driver has no memory for it.
+Image draw_picture(Renderer& renderer, const DrawList& list, const Camera& camera, const Palette& palette,
+                   bool transparent);
+
+}  // namespace tendril::app

@@ -1,0 +1,83 @@
+// The view as a picture of its own: of the size that is asked for, and without what is behind it.
+#include <cstdlib>
+
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+app::Image picture(const app::Json& arguments, const char* lab = "chain") {
+    const TempFolder folder;
+    app::Json given = arguments;
+    given["path"] = (folder / "view.png").string();
+    ScriptText script;
+    script.command("lab.open", {{"name", lab}}).command("time.pause").command("view.picture", given);
+    play(script);
+    return app::read_png(folder / "view.png");
+}
+
+int alpha(const app::Image& image, int x, int y) {
+    return image.rgba[4 * static_cast<std::size_t>(y * image.size.x + x) + 3];
+}
+
+TEST(Picture, IsAsLargeAsAsked) {
+    const app::Image image = picture({{"width", 640}, {"height", 360}});
+    EXPECT_EQ(image.size, glm::ivec2(640, 360));
+    EXPECT_EQ(alpha(image, 0, 0), 255);
+    EXPECT_EQ(picture({{"width", 3000}, {"height", 200}}).size, glm::ivec2(3000, 200));
+    const app::Image as_seen = picture({});
+    EXPECT_LT(as_seen.size.x, 1280) << "without the panels";
+    EXPECT_GT(as_seen.size.x, 500);
+}
+
+/// Where nothing shines through, the colour is that of the picture with its background.
+TEST(Picture, IsTransparentWhereNothingIs) {
+    for (const char* lab : {"chain", "rope", "humanoid"}) {
+        const app::Json size{{"width", 600}, {"height", 400}};
+        app::Json clear = size;
+        clear["transparent"] = true;
+        const app::Image with = picture(size, lab), without = picture(clear, lab);
+        ASSERT_EQ(without.size, with.size);
+        EXPECT_EQ(alpha(without, 0, 0), 0);
+        EXPECT_EQ(alpha(without, 599, 399), 0);
+        int solid = 0, between = 0, empty = 0, off = 0;
+        for (std::size_t i = 0; i < with.rgba.size(); i += 4) {
+            const int opacity = without.rgba[i + 3];
+            (opacity == 255 ? solid : opacity == 0 ? empty : between) += 1;
+            for (std::size_t c = 0; c < 3 && opacity == 255; ++c)
+                off += std::abs(with.rgba[i + c] - without.rgba[i + c]) > 2;
+        }
+        EXPECT_GT(solid, 500) << lab;
+        EXPECT_GT(between, 100) << lab << ": edges and shadows";
+        EXPECT_GT(empty, 100'000) << lab;
+        EXPECT_LT(off, 10) << lab;
+    }
+}
+
+TEST(Picture, ChangesNothingElse) {
+    const TempFolder folder;
+    ScriptText plain, pictured;
+    plain.wait(5);
+    pictured.command("view.picture", {{"path", (folder / "a.png").string()}, {"width", 100}}).wait(400);
+    const Played before = play(plain, {.picture = true}), after = play(pictured, {.picture = true});
+    EXPECT_EQ(before.state.at("segments"), after.state.at("segments"));
+    EXPECT_EQ(before.state.at("camera"), after.state.at("camera"));
+    EXPECT_EQ(before.picture.rgba, after.picture.rgba);
+}
+
+TEST(Picture, IsRefusedInWords) {
+    const TempFolder folder;
+    const auto refusal = [&](const app::Json& arguments) {
+        ScriptText script;
+        script.command("view.picture", arguments);
+        write(folder / "script.jsonl", script.text());
+        return run_program({"--headless", "--script", (folder / "script.jsonl").string()}).err;
+    };
+    EXPECT_TRUE(has(refusal({{"path", "a.jpg"}}), "path must end in .png, got a.jpg"));
+    EXPECT_TRUE(has(refusal({{"path", "/nowhere/a.png"}}), "/nowhere/a.png"));
+    EXPECT_TRUE(has(refusal({{"path", "a.png"}, {"width", 100000}}), "width must be 16 to 8192, got 100000"));
+    EXPECT_TRUE(has(refusal(app::Json::object()), "path is missing")) << "without a window nothing is named";
+}
+
+}  // namespace
+}  // namespace tendril::test
