@@ -25,7 +25,7 @@ void show_recovery(const ShellFrame& frame, Emit& emit) {
 void show_quit(const ShellFrame& frame, Emit& emit) {
     if (!frame.workspace.ui.asks_to_quit) return;
     const float scale = frame.layout.scale;
-    if (!begin_sheet("Quit Tendril", frame.screen(), {460.0f * scale, 140.0f * scale})) emit("view.close");
+    if (!begin_sheet("Quit Tendril", frame.screen(), {460.0f * scale, 120.0f * scale})) emit("view.close");
     const std::filesystem::path& path = frame.workspace.path;
     ImGui::TextWrapped("%s has changes that are not saved.",
                        path.empty() ? "The scene" : path.filename().string().c_str());

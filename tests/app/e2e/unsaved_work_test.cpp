@@ -12,7 +12,7 @@ std::size_t segments(const app::Json& state) {
 app::Json after_ctrl_q(bool changed, const ScriptText& then = {}) {
     ScriptText script;
     if (changed) script.command("chain.add", {{"length", 0.5}});
-    script.key("ctrl+q").wait(2).lines(then).command("chain.add", {{"length", 0.25}});
+    script.key("ctrl+q").wait(2).lines(then).wait(2).command("chain.add", {{"length", 0.25}});
     return state_after(script);
 }
 
@@ -31,7 +31,10 @@ TEST(UnsavedWork, IsSavedOnTheWayOut) {
     const std::string file = (folder / "arm.json").string();
     ScriptText script;
     script.command("scene.save", {{"path", file}}).command("chain.add", {{"length", 0.5}});
-    script.key("ctrl+q").command("quit", {{"unsaved", "save"}}).command("chain.add", {{"length", 0.25}});
+    script.key("ctrl+q")
+        .command("quit", {{"unsaved", "save"}})
+        .wait(2)
+        .command("chain.add", {{"length", 0.25}});
     const app::Json state = state_after(script);
     EXPECT_EQ(segments(state), segments(state_after(ScriptText())) + 1);
     EXPECT_EQ(app::parse_json(read(file)).at("labs").at("chain").at("segments").size(), segments(state));
@@ -44,12 +47,16 @@ TEST(UnsavedWork, WithoutANameIsGivenOne) {
     ScriptText begin;
     begin.command("chain.add", {{"length", 0.5}}).command("quit", {{"unsaved", "save"}});
     ScriptText saved = begin;
-    saved.command("scene.save", {{"path", file}}).command("chain.add", {{"length", 0.25}});
+    saved.command("scene.save", {{"path", file}}).wait(2).command("chain.add", {{"length", 0.25}});
     const std::size_t at_first = segments(state_after(ScriptText()));
     EXPECT_EQ(segments(state_after(saved)), at_first + 1);
     EXPECT_TRUE(std::filesystem::exists(file));
     ScriptText cancelled = begin;
-    cancelled.key("escape").command("scene.save", {{"path", file}}).command("chain.add", {{"length", 0.25}});
+    cancelled.wait(2)
+        .key("escape")
+        .command("scene.save", {{"path", file}})
+        .wait(2)
+        .command("chain.add", {{"length", 0.25}});
     EXPECT_EQ(segments(state_after(cancelled)), at_first + 2) << "saving later does not quit";
 }
 

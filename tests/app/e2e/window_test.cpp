@@ -104,6 +104,12 @@ class RealWindow : public testing::Test {
         xdotool({"key", "--clearmodifiers", name});
         sleep(150);
     }
+    /// And says that what is not saved may go.
+    void quit_discarding() {
+        key("ctrl+q");
+        sleep(200);
+        click({640, 381});
+    }
     /// The state it left, once it has ended cleanly.
     Json ended() {
         const Outcome outcome = program_->wait(20.0);
@@ -134,7 +140,7 @@ TEST_F(RealWindow, the_target_is_dragged_and_another_mode_is_clicked) {
     xdotool({"mouseup", "1"});
     sleep(100);
     click({60, 104});  // Forward, in the panel
-    key("ctrl+q");
+    quit_discarding();
 
     const Json state = ended();
     EXPECT_EQ(state["mode"], "forward");
@@ -161,7 +167,7 @@ TEST_F(RealWindow, what_it_recorded_gives_the_same_off_screen) {
     xdotool({"click", "5"});
     key("b");
     sleep(300);
-    key("ctrl+q");
+    quit_discarding();
     const Json state = ended();
     EXPECT_EQ(state["segments"].size(), 9u);
     const Outcome replay = run_program({"--headless", "--script", (folder_ / "record.jsonl").string(),
