@@ -12,10 +12,10 @@
 #include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
+#include "app/io/picture.hpp"
 #include "app/shell/gizmo_view.hpp"
 #include "app/shell/labels_view.hpp"
 #include "app/shell/theme.hpp"
-#include "app/view/picture.hpp"
 #include "app/widgets/number_entry.hpp"
 
 namespace tendril::app {

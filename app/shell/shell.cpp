@@ -73,6 +73,9 @@ void menu(const ShellFrame& frame, Emit& emit) {
     ImGui::SetNextWindowPos({ImGui::GetItemRectMin().x, frame.layout.top.max.y + 2.0f});
     if (!ImGui::BeginPopup("menu popup")) return;
     close_popup_on_escape();
+    // Closer than rows of a panel: all of it in a window of 720 pixels.
+    const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(spacing.x, 0.65f * spacing.y));
     std::string_view open;
     for (const Shortcut& shortcut : frame.shortcuts.all()) {
         if (!shortcut.in_menu || !frame.works_here(shortcut)) continue;
@@ -89,6 +92,7 @@ void menu(const ShellFrame& frame, Emit& emit) {
             emit(shortcut.command, shortcut.arguments);
         }
     }
+    ImGui::PopStyleVar();
     ImGui::EndPopup();
 }
 

@@ -146,9 +146,9 @@ TypedNumber read_number(std::string_view text, std::string_view unit) {
     const Unit* const given = find_unit(name);
     const Unit* const wanted = find_unit(unit);
     if (given == nullptr) return {std::nullopt, quoted(trimmed(text)) + " is not a number"};
-    if (wanted == nullptr && unit.empty())
+    if (wanted == nullptr)
         return {std::nullopt, quoted(trimmed(text)) + ": this number has no unit"};
-    if (wanted == nullptr || wanted->kind != given->kind)
+    if (wanted->kind != given->kind)
         return {std::nullopt, quoted(trimmed(text)) + ": this number is in " + std::string(unit)};
     return {*value * given->size / wanted->size, {}};
 }

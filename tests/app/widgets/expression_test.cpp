@@ -62,6 +62,7 @@ TEST(Expression, SaysWhatIsWrong) {
     EXPECT_EQ(error_of("inf"), "\"inf\" is not a number");
     EXPECT_EQ(error_of("0/0"), "\"0/0\" has no value");
     EXPECT_EQ(error_of("3 m"), "\"3 m\": this number has no unit");
+    EXPECT_EQ(error_of("3 m", "of reach"), "\"3 m\": this number has no unit");
     EXPECT_EQ(error_of("3 s", "m"), "\"3 s\": this number is in m");
     EXPECT_EQ(error_of("3 parsec", "m"), "\"3 parsec\" is not a number");
     error_of("");

@@ -1,4 +1,4 @@
-#include "app/view/picture.hpp"
+#include "app/io/picture.hpp"
 
 #include <algorithm>
 #include <cmath>
