@@ -16,7 +16,6 @@
 #include "app/shell/gizmo_view.hpp"
 #include "app/shell/labels_view.hpp"
 #include "app/shell/theme.hpp"
-#include "app/widgets/number_entry.hpp"
 
 namespace tendril::app {
 namespace {
@@ -131,8 +130,11 @@ void App::compose(const Event* event, Pass pass) {
     if (const std::string by_part = gizmo_hint(lab(), workspace_, pointer_); !by_part.empty()) hint = by_part;
     if (hint.empty())
         hint = "Right-drag turns the view, middle-drag shifts it, the wheel zooms. ? shows every key.";
+    if (workspace_.ui.asks_to_quit && !workspace_.modified()) workspace_.ui.asks_to_quit = false;
     shell_.frame({workspace_, labs_, lab(), *commands_, shortcuts_, layout_, hint}, emit);
-    if (const std::string why = refused_entry(); !why.empty()) refuse(why);
+    if (const std::string why = std::exchange(ui_.numbers().refused, {}); !why.empty()) refuse(why);
+    // Each number that is typed is a change of its own, as each drag is.
+    if (std::exchange(ui_.numbers().entered, false)) ++gesture_;
     if (pass == Pass::Picture) emit.take();
     run_emitted(emit);
     if (in_tick) advance_time();
@@ -214,25 +216,32 @@ void App::run_emitted(Emit& emit) {
     }
 }
 
-/// Without what the mouse is over, labels and panels. Lines are as thick against the whole as they are in the
-/// window.
+/// Without what the mouse is over, labels and panels. Lines are as thick against what they show as they are
+/// in the window.
 void App::take_picture() {
     const auto wanted = std::exchange(workspace_.ui.picture, std::nullopt);
     if (!wanted) return;
-    const glm::vec2 view = glm::max(layout_.view.size(), glm::vec2(1.0f));
+    if (lab().canvas_share(workspace_) > 0.0f)
+        throw Refused(
+            "view.picture: this lab's picture is more than a view of a scene; --screenshot writes it");
     const float ratio =
         static_cast<float>(window_.framebuffer_size().x) / static_cast<float>(std::max(1, window_.size().x));
-    const glm::vec2 own =
-        glm::clamp(glm::round(view * ratio), glm::vec2(smallest_picture), glm::vec2(largest_picture));
+    const glm::vec2 own = glm::clamp(glm::round(layout_.view.size() * ratio), glm::vec2(smallest_picture),
+                                     glm::vec2(largest_picture));
     const glm::vec2 size(wanted->size.x > 0 ? static_cast<float>(wanted->size.x) : own.x,
                          wanted->size.y > 0 ? static_cast<float>(wanted->size.y) : own.y);
-    const Palette& colours = palette(workspace_.settings.theme);
-    const Camera camera(workspace_.camera, {{0.0f, 0.0f}, size});
-    DrawList list;
-    lab().draw({workspace_, camera, colours, no_pick, no_pick, layout_.scale * size.y / view.y}, list);
+    const Camera camera(workspace_.camera, {{0.0f, 0.0f}, size}), seen(workspace_.camera, layout_.view);
+    const glm::vec3 target = workspace_.camera.target;
+    const float scale = layout_.scale * seen.metres_per_pixel(target) / camera.metres_per_pixel(target);
+    const auto draw = [&](const Palette& colours) {
+        DrawList list;
+        lab().draw({workspace_, camera, colours, no_pick, no_pick, scale}, list);
+        return list;
+    };
     try {
-        write_png(wanted->path, draw_picture(renderer_, list, camera, colours, wanted->transparent));
-    } catch (const std::runtime_error& error) {
+        write_png(wanted->path, draw_picture(renderer_, draw, camera, palette(workspace_.settings.theme),
+                                             wanted->transparent));
+    } catch (const std::exception& error) {
         throw Refused(std::string("view.picture: ") + error.what());
     }
     workspace_.toast("Written: " + wanted->path.string());

@@ -41,8 +41,8 @@ void add_file_commands(CommandTable& table) {
                        a.has("path") ? std::filesystem::path(a.text("path")) : w.path;
                    if (path.empty()) throw Refused("path is missing; the scene has no file yet");
                    save_scene_file(w, path);
+                   w.ui.quit = w.ui.quit || w.ui.file_dialog == UiState::FileDialog::SaveAndQuit;
                    w.ui.file_dialog = UiState::FileDialog::None;
-                   w.ui.quit = w.ui.quit || w.ui.quits_when_saved;
                    w.toast("Saved " + path.filename().string());
                }});
 }
@@ -144,8 +144,8 @@ void add_picture_command(CommandTable& table) {
                              {.name = "transparent",
                               .type = ArgumentType::Boolean,
                               .required = false,
-                              .help = "with nothing behind the scene"}},
-               .help = "Writes a picture of the view, without labels and panels",
+                              .help = "with a transparent background"}},
+               .help = "Writes a picture of the scene in the view, without labels and panels",
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments& a) {
                    PictureRequest wanted{a.has("path") ? std::filesystem::path(a.text("path"))
@@ -161,17 +161,11 @@ void add_picture_command(CommandTable& table) {
 
 void quit(Workspace& w, const Arguments& given) {
     const std::string unsaved = given.has("unsaved") && w.modified() ? given.text("unsaved") : "discard";
+    if (unsaved == "save" && !w.path.empty()) save_scene_file(w, std::filesystem::path(w.path));
+    const bool needs_name = unsaved == "save" && w.path.empty();
     w.ui.asks_to_quit = unsaved == "ask";
-    w.ui.quits_when_saved = false;
-    if (unsaved == "discard") {
-        w.ui.quit = true;
-    } else if (unsaved == "save" && w.path.empty()) {
-        w.ui.file_dialog = UiState::FileDialog::SaveAs;
-        w.ui.quits_when_saved = true;
-    } else if (unsaved == "save") {
-        save_scene_file(w, std::filesystem::path(w.path));
-        w.ui.quit = true;
-    }
+    w.ui.quit = w.ui.quit || (!w.ui.asks_to_quit && !needs_name);
+    if (needs_name) w.ui.file_dialog = UiState::FileDialog::SaveAndQuit;
 }
 
 void add_quit_command(CommandTable& table) {

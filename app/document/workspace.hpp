@@ -45,7 +45,7 @@ struct Toast {
 /// What a crash left.
 struct Recoverable {
     std::filesystem::path file;
-    std::string title;  ///< for people: "arm.json, 21.11.2026 14:03"
+    std::string title;  ///< for people: "arm.json, 2026-11-21 14:03"
 };
 
 inline constexpr int smallest_picture = 16, largest_picture = 8192;  ///< pixels, each way
@@ -62,14 +62,13 @@ struct UiState {
     bool help = false;
     bool palette = false;
     bool settings = false;
-    enum class FileDialog { None, Open, SaveAs } file_dialog = FileDialog::None;
+    enum class FileDialog { None, Open, SaveAs, SaveAndQuit } file_dialog = FileDialog::None;
     std::vector<Toast> toasts;
     std::vector<Recoverable> recoverable;  ///< until it is answered
     glm::vec2 view_size{1000.0f, 700.0f};  ///< the 3D view, in window coordinates
     std::optional<std::string> copied;     ///< text on its way to the clipboard
     std::optional<PictureRequest> picture;
-    bool asks_to_quit = false;      ///< what becomes of unsaved work
-    bool quits_when_saved = false;  ///< the dialog to save was opened for that
+    bool asks_to_quit = false;  ///< what becomes of unsaved work
     bool quit = false;
 };
 

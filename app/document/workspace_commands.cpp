@@ -148,7 +148,7 @@ void add_window_commands(CommandTable& table) {
                .apply = [](Workspace& w, const Arguments&) {
                    w.ui.help = w.ui.palette = w.ui.settings = false;
                    w.ui.file_dialog = UiState::FileDialog::None;
-                   w.ui.asks_to_quit = w.ui.quits_when_saved = false;
+                   w.ui.asks_to_quit = false;
                    w.ui.toasts.clear();
                }});
     table.add(

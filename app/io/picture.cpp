@@ -8,11 +8,11 @@
 namespace tendril::app {
 namespace {
 
-Image drawn(Renderer& renderer, const DrawList& list, const Camera& camera, const Palette& palette,
+Image drawn(Renderer& renderer, const DrawScene& draw, const Camera& camera, const Palette& palette,
             bool grid) {
     const glm::ivec2 size(camera.viewport().size());
     const OffscreenFramebuffer target(size);
-    renderer.draw(list, camera, palette,
+    renderer.draw(draw(palette), camera, palette,
                   {.framebuffer = target.name(), .framebuffer_size = size, .grid = grid});
     return read_framebuffer(target.name(), size);
 }
@@ -41,11 +41,12 @@ Image matted(const Image& black, const Image& white) {
 
 }  // namespace
 
-Image draw_picture(Renderer& renderer, const DrawList& list, const Camera& camera, const Palette& palette,
+Image draw_picture(Renderer& renderer, const DrawScene& draw, const Camera& camera, const Palette& palette,
                    bool transparent) {
-    if (!transparent) return drawn(renderer, list, camera, palette, true);
-    return matted(drawn(renderer, list, camera, before(palette, 0.0f), false),
-                  drawn(renderer, list, camera, before(palette, 1.0f), false));
+    if (!transparent) return drawn(renderer, draw, camera, palette, true);
+    // What fades into its background fades into either of these.
+    return matted(drawn(renderer, draw, camera, before(palette, 0.0f), false),
+                  drawn(renderer, draw, camera, before(palette, 1.0f), false));
 }
 
 }  // namespace tendril::app

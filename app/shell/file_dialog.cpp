@@ -84,10 +84,10 @@ bool FileDialog::list() {
 void FileDialog::frame(const Workspace& workspace, glm::vec2 screen, float scale, Emit& emit) {
     const auto wanted = workspace.ui.file_dialog;
     const bool open = wanted != UiState::FileDialog::None;
-    const bool appearing = open && !was_open_;
-    was_open_ = open;
+    const bool appearing = open && shown_ != wanted;
+    shown_ = wanted;
     if (!open) return;
-    const bool saving = wanted == UiState::FileDialog::SaveAs;
+    const bool saving = wanted != UiState::FileDialog::Open;
     if (appearing) start(workspace, saving);
     const glm::vec2 size = glm::max(glm::vec2(520.0f, 420.0f) * scale, glm::vec2(0.5f, 0.6f) * screen);
     if (!begin_sheet(saving ? "Save scene as" : "Open scene", screen, size)) emit("view.close");

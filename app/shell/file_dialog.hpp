@@ -32,7 +32,7 @@ class FileDialog {
     std::vector<Entry> entries_;
     std::array<char, 1024> name_{};
     std::string complaint_;
-    bool was_open_ = false;
+    UiState::FileDialog shown_ = UiState::FileDialog::None;
 };
 
 }  // namespace tendril::app

@@ -38,6 +38,7 @@ Ui::Ui() {
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
+    io.UserData = &numbers_;
     io.LogFilename = nullptr;
     io.ConfigInputTextCursorBlink = false;
     io.ConfigWindowsMoveFromTitleBarOnly = true;

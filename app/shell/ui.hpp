@@ -6,6 +6,7 @@
 
 #include "app/document/settings.hpp"
 #include "app/shell/input.hpp"
+#include "app/widgets/number_entry.hpp"
 
 namespace tendril::app {
 
@@ -32,10 +33,13 @@ class Ui {
     /// Whether a panel, rather than the scene, is meant by the mouse (the keyboard).
     bool wants_mouse() const;
     bool wants_text() const;
+    /// What of a number that is being typed the program has to see to.
+    NumberEditing& numbers() { return numbers_; }
 
   private:
     void load_fonts(float scale, float pixel_ratio);
 
+    NumberEditing numbers_;
     float font_scale_ = 0.0f;
     float font_ratio_ = 0.0f;
     Theme theme_ = Theme::Dark;

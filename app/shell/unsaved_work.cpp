@@ -3,6 +3,7 @@
 
 #include "app/shell/shell.hpp"
 #include "app/widgets/fields.hpp"
+#include "app/widgets/text.hpp"
 
 namespace tendril::app {
 
@@ -13,7 +14,7 @@ void show_recovery(const ShellFrame& frame, Emit& emit) {
     if (!begin_sheet("Unsaved work", frame.screen(), {460.0f * scale, 165.0f * scale}))
         emit("scene.recover_later");
     note("Tendril ended before this work was saved:");
-    ImGui::TextWrapped("%s", offers.front().title.c_str());
+    text_elided(offers.front().title, ImGui::GetContentRegionAvail().x);
     explain(offers.front().file.string().c_str());
     ImGui::Spacing();
     const ArgumentList path{{"path", offers.front().file.string()}};
@@ -27,8 +28,10 @@ void show_quit(const ShellFrame& frame, Emit& emit) {
     const float scale = frame.layout.scale;
     if (!begin_sheet("Quit Tendril", frame.screen(), {460.0f * scale, 120.0f * scale})) emit("view.close");
     const std::filesystem::path& path = frame.workspace.path;
-    ImGui::TextWrapped("%s has changes that are not saved.",
-                       path.empty() ? "The scene" : path.filename().string().c_str());
+    const std::string rest = " has changes that are not saved.";
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(rest.c_str()).x;
+    ImGui::TextUnformatted(
+        (elided(path.empty() ? "The scene" : path.filename().string(), room) + rest).c_str());
     ImGui::Spacing();
     const bool named = !path.empty();
     if (row_button(named ? "Save" : "Save...", 3, true, "Saves the scene, then quits"))

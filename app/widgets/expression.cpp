@@ -102,9 +102,10 @@ class Reader {
         double value = 0.0;
         const auto [end, error] = std::from_chars(left_.data(), left_.data() + left_.size(), value);
         if (end == left_.data() || left_.starts_with("inf") || left_.starts_with("nan")) return std::nullopt;
-        // Too large, or too near to 0: which of both the exponent says.
-        if (error == std::errc::result_out_of_range)
-            value = std::string_view(left_.data(), end).find("e-") == std::string_view::npos ? HUGE_VAL : 0.0;
+        const std::string_view digits(left_.data(), static_cast<std::size_t>(end - left_.data()));
+        const bool tiny =
+            digits.find("e-") != std::string_view::npos || digits.find("E-") != std::string_view::npos;
+        if (error == std::errc::result_out_of_range) value = tiny ? 0.0 : HUGE_VAL;
         left_.remove_prefix(static_cast<std::size_t>(end - left_.data()));
         skip();
         return value;
@@ -146,8 +147,7 @@ TypedNumber read_number(std::string_view text, std::string_view unit) {
     const Unit* const given = find_unit(name);
     const Unit* const wanted = find_unit(unit);
     if (given == nullptr) return {std::nullopt, quoted(trimmed(text)) + " is not a number"};
-    if (wanted == nullptr)
-        return {std::nullopt, quoted(trimmed(text)) + ": this number has no unit"};
+    if (wanted == nullptr) return {std::nullopt, quoted(trimmed(text)) + ": this number has no unit"};
     if (wanted->kind != given->kind)
         return {std::nullopt, quoted(trimmed(text)) + ": this number is in " + std::string(unit)};
     return {*value * given->size / wanted->size, {}};

@@ -82,7 +82,7 @@ bool number_field(const char* name, float& value, float speed, float low, float 
 
 bool integer_field(const char* name, int& value, int low, int high) {
     const std::string id = begin_row(name);
-    const auto entered = number_entry(id.c_str(), value, 0.1, low, high, "%.0f");
+    const auto entered = number_entry(id.c_str(), value, 0.1, low, high, "%.0f", true);
     if (!entered) return false;
     using Limits = std::numeric_limits<int>;
     value = static_cast<int>(std::clamp<double>(std::round(*entered), Limits::min(), Limits::max()));

@@ -1,8 +1,9 @@
 #include "app/widgets/number_entry.hpp"
 
 #include <imgui.h>
+#include <imgui_internal.h>  // whether what comes next is disabled has no other way to be asked
 
-#include <array>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -13,21 +14,12 @@
 namespace tendril::app {
 namespace {
 
-/// The one number whose text is edited, in one of the program's interfaces.
-struct Editing {
-    const ImGuiContext* interface = nullptr;
-    ImGuiID id = 0;
-    int frame = 0;       ///< in which it was drawn last
-    bool begins = true;  ///< the text takes the keyboard
-    std::array<char, 128> text{}, before{};
-    int tabbed_in = -1;  ///< the frame in which Tab left a number: the next one is edited
-    std::string refused{};
-};
+NumberEditing& editing() {
+    return *static_cast<NumberEditing*>(ImGui::GetIO().UserData);
+}
 
-Editing& editing() {
-    static Editing now;
-    if (now.interface != ImGui::GetCurrentContext()) now = {.interface = ImGui::GetCurrentContext()};
-    return now;
+bool is_disabled() {
+    return (ImGui::GetCurrentContext()->CurrentItemFlags & ImGuiItemFlags_Disabled) != 0;
 }
 
 bool is_edited(ImGuiID id) {
@@ -36,7 +28,7 @@ bool is_edited(ImGuiID id) {
 }
 
 void begin_editing(ImGuiID id, double value) {
-    Editing& now = editing();
+    NumberEditing& now = editing();
     now.id = id;
     now.frame = ImGui::GetFrameCount();
     now.begins = true;
@@ -61,12 +53,19 @@ void say_below(const std::string& why) {
     ImGui::EndTooltip();
 }
 
-std::optional<double> edited_text(const char* id, const std::string& unit) {
-    Editing& now = editing();
+TypedNumber read(const char* text, const std::string& unit, bool whole) {
+    TypedNumber typed = read_number(text, unit);
+    if (whole && typed.value && std::isfinite(*typed.value) && *typed.value != std::round(*typed.value))
+        typed = {std::nullopt, '"' + std::string(text) + "\" is not a whole number"};
+    return typed;
+}
+
+std::optional<double> edited_text(const char* id, const std::string& unit, bool whole) {
+    NumberEditing& now = editing();
     now.frame = ImGui::GetFrameCount();
     if (std::exchange(now.begins, false)) ImGui::SetKeyboardFocusHere();
     const auto is_empty = [&] { return now.text[0] == '\0'; };
-    const bool was_wrong = !is_empty() && !read_number(now.text.data(), unit).value;
+    const bool was_wrong = !is_empty() && !read(now.text.data(), unit, whole).value;
     if (was_wrong)
         ImGui::PushStyleColor(ImGuiCol_FrameBg, reddened(ImGui::GetStyleColorVec4(ImGuiCol_FrameBg)));
     const std::string text_id = std::string(id) + " text";
@@ -83,7 +82,7 @@ std::optional<double> edited_text(const char* id, const std::string& unit) {
                          take_tab, &tabbed);
     const bool left = tabbed || ImGui::IsItemDeactivated();
     if (was_wrong) ImGui::PopStyleColor();
-    const TypedNumber typed = read_number(now.text.data(), unit);
+    const TypedNumber typed = read(now.text.data(), unit, whole);
     const bool wrong = !is_empty() && !typed.value;
     if (!entered && !left) {
         if (wrong && ImGui::IsItemActive()) say_below(typed.error);
@@ -98,16 +97,17 @@ std::optional<double> edited_text(const char* id, const std::string& unit) {
     if (tabbed) now.tabbed_in = ImGui::GetFrameCount();
     if (escape_pressed() || is_empty() || same) return std::nullopt;
     if (wrong) now.refused = typed.error;
+    now.entered = now.entered || typed.value;
     return typed.value;
 }
 
 }  // namespace
 
 std::optional<double> number_entry(const char* id, double value, double speed, double low, double high,
-                                   const char* format) {
+                                   const char* format, bool whole) {
     const ImGuiID own = ImGui::GetID(id);
-    if (editing().tabbed_in == ImGui::GetFrameCount()) begin_editing(own, value);
-    if (is_edited(own)) return edited_text(id, unit_of(format));
+    if (editing().tabbed_in == ImGui::GetFrameCount() && !is_disabled()) begin_editing(own, value);
+    if (is_edited(own)) return edited_text(id, unit_of(format), whole);
 
     char text[64];
     std::snprintf(text, sizeof text, format, value);
@@ -121,10 +121,6 @@ std::optional<double> number_entry(const char* id, double value, double speed, d
                          io.MouseDragMaxDistanceSqr[0] < io.MouseDragThreshold * io.MouseDragThreshold;
     if (clicked && !changed) begin_editing(own, value);
     return changed ? std::optional(shown) : std::nullopt;
-}
-
-std::string refused_entry() {
-    return std::exchange(editing().refused, {});
 }
 
 }  // namespace tendril::app

@@ -8,10 +8,19 @@ OffscreenFramebuffer::OffscreenFramebuffer(glm::ivec2 size) {
     glGenFramebuffers(1, &framebuffer_);
     glGenRenderbuffers(1, &colour_);
     glGenRenderbuffers(1, &depth_);
-    resize(size);
+    try {
+        resize(size);
+    } catch (...) {
+        free();
+        throw;
+    }
 }
 
 OffscreenFramebuffer::~OffscreenFramebuffer() {
+    free();
+}
+
+void OffscreenFramebuffer::free() {
     glDeleteFramebuffers(1, &framebuffer_);
     glDeleteRenderbuffers(1, &colour_);
     glDeleteRenderbuffers(1, &depth_);

@@ -23,6 +23,8 @@ class OffscreenFramebuffer {
     void resize(glm::ivec2 size);
 
   private:
+    void free();
+
     GLuint framebuffer_ = 0, colour_ = 0, depth_ = 0;
     glm::ivec2 size_{0};
 };

@@ -89,6 +89,18 @@ TEST_F(HumanoidLimits, both_sides_turn_alike) {
     }
 }
 
+/// A map that has the sides exchanged says nothing about where knees, thighs and the back go.
+TEST_F(HumanoidLimits, exchanged_sides_bend_the_same_way) {
+    BoneMap exchanged = map;
+    for (std::size_t i = 0; i < bone_count; ++i) exchanged.bones[i] = map[mirrored(static_cast<Bone>(i))];
+    review(exchanged, skeleton);
+    const BodyLimits usual = default_limits(skeleton, map), other = default_limits(skeleton, exchanged);
+    for (std::size_t i = 0; i < bone_count; ++i) {
+        const ik::Limit& a = usual[static_cast<std::size_t>(mirrored(static_cast<Bone>(i)))];
+        EXPECT_TRUE(a == other[i]) << name(static_cast<Bone>(i)) << " is the same node in both";
+    }
+}
+
 TEST_F(HumanoidLimits, joints_bend_the_way_they_do_in_people) {
     EXPECT_EQ(excess(Bone::LeftLowerArm, 100.0, {0, -1, 0}), 0.0f);  // the hand to the front
     EXPECT_NEAR(excess(Bone::LeftLowerArm, 20.0, {0, 1, 0}), 20.0f, 1e-2);

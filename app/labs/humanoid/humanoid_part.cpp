@@ -42,12 +42,15 @@ std::size_t HumanoidPart::bytes() const {
         for (const humanoid::Channel& channel : clip.channels)
             keys +=
                 channel.translation.times.size() + channel.rotation.times.size() + channel.scale.times.size();
-    constexpr std::size_t a_particle = 80, a_pin = 80;
+    constexpr std::size_t a_particle = 80, a_pin = 80, a_turn = 80;
     const rope::State& ropes = attachments.world->state();
     const std::size_t hanging = ropes.position.size() * a_particle + ropes.pins.size() * a_pin +
                                 ropes.links.size() * sizeof(rope::Link) +
                                 ropes.colliders.size() * sizeof(rope::Collider);
-    return sizeof(*this) + (skeleton().size() * a_node + keys * a_key) / sharing + hanging;
+    std::size_t swinging = ik_state.release.turns.size() * a_turn;
+    for (const humanoid::SpringChainState& each : ik_state.springs)
+        swinging += each.masses.size() * sizeof(humanoid::SpringMass);
+    return sizeof(*this) + swinging + (skeleton().size() * a_node + keys * a_key) / sharing + hanging;
 }
 
 bool HumanoidPart::operator==(const HumanoidPart& other) const {

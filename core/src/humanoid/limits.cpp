@@ -26,6 +26,7 @@ class Defaults {
     Defaults(const Skeleton& skeleton, const BoneMap& map)
         : map_(map),
           facing_(facing(skeleton, map)),
+          across_(cross(facing_.up, facing_.forward)),
           pose_(t_pose(skeleton, map)),
           rest_(skeleton.size()),
           t_(skeleton.size()) {
@@ -51,7 +52,7 @@ class Defaults {
         for (const Bone bone : bones) {
             ik::Limit& limit = limits[static_cast<std::size_t>(bone)];
             limit.kind = bone == Bone::Neck ? ik::JointKind::Pivot : ik::JointKind::BallAndSocket;
-            limit.axis = axis(facing_.left);  // up is forward, left is to the character's right
+            limit.axis = axis(across_);  // up is forward, left is to the character's right
             limit.up = radians(whole.forward / count), limit.down = radians(whole.back / count);
             limit.left = limit.right = radians(whole.out / count);
             limit.twist_max = radians(whole.twist / count), limit.twist_min = -limit.twist_max;
@@ -63,21 +64,22 @@ class Defaults {
             return limits[static_cast<std::size_t>(side(of_left))];
         };
         const glm::dvec3 out = left ? facing_.left : -facing_.left;
+        const bool lies_left = dot(out, across_) > 0.0;  // a map may have the sides exchanged
         // About this axis the arm goes up; about the one across it, the body's own up, the left arm goes
         // back.
         const glm::dvec3 raises = cross(out, facing_.up);
         at(Bone::LeftShoulder) =
-            ball(ik::JointKind::BallAndSocket, raises, {30.0, 10.0, 20.0, 25.0, 15.0}, left);
+            ball(ik::JointKind::BallAndSocket, raises, {30.0, 10.0, 20.0, 25.0, 15.0}, lies_left);
         at(Bone::LeftUpperArm) =
-            ball(ik::JointKind::BallAndSocket, raises, {95.0, 100.0, 50.0, 135.0, 90.0}, left);
+            ball(ik::JointKind::BallAndSocket, raises, {95.0, 100.0, 50.0, 135.0, 90.0}, lies_left);
         at(Bone::LeftLowerArm) = hinge(side(Bone::LeftLowerArm), cross(out, facing_.forward), 150.0);
-        at(Bone::LeftHand) = ball(ik::JointKind::Gliding, raises, {70.0, 80.0, 20.0, 35.0, 85.0}, left);
+        at(Bone::LeftHand) = ball(ik::JointKind::Gliding, raises, {70.0, 80.0, 20.0, 35.0, 85.0}, lies_left);
         // About this axis legs go forward and toes up; about the one across it, forward, they go to the left.
-        const glm::dvec3 lifts = -facing_.left;
+        const glm::dvec3 lifts = -across_;
         at(Bone::LeftUpperLeg) =
-            ball(ik::JointKind::BallAndSocket, lifts, {120.0, 30.0, 45.0, 30.0, 45.0}, left);
-        at(Bone::LeftLowerLeg) = hinge(side(Bone::LeftLowerLeg), facing_.left, 150.0);
-        at(Bone::LeftFoot) = ball(ik::JointKind::Gliding, lifts, {30.0, 50.0, 25.0, 25.0, 25.0}, left);
+            ball(ik::JointKind::BallAndSocket, lifts, {120.0, 30.0, 45.0, 30.0, 45.0}, lies_left);
+        at(Bone::LeftLowerLeg) = hinge(side(Bone::LeftLowerLeg), across_, 150.0);
+        at(Bone::LeftFoot) = ball(ik::JointKind::Gliding, lifts, {30.0, 50.0, 25.0, 25.0, 25.0}, lies_left);
         at(Bone::LeftToes) = ik::Limit::hinge(axis(lifts), radians(-40.0), radians(70.0));
     }
     /// `range`: up, down, left of a left limb, right of it, twist; a right limb has left and right the other
@@ -115,6 +117,7 @@ class Defaults {
 
     const BoneMap& map_;
     Facing facing_;
+    glm::dvec3 across_;  // to the left of where it faces, whatever the map calls left
     std::vector<rig::Transform> pose_;
     std::vector<Placement> rest_, t_;
 };

@@ -16,6 +16,7 @@ using namespace rig::detail;
 using tendril::detail::refused;
 
 constexpr double shortest = 1e-9;
+constexpr double unmoved = 1e-7;  // metres: what a pose that is worked out again may differ by
 constexpr auto no_place = static_cast<std::size_t>(-1);
 
 enum class Time : std::uint8_t { Passes, Stands, Jumps };
@@ -36,19 +37,19 @@ double beam(double part) noexcept {
     return part * part * (6.0 - 4.0 * part + part * part) / 3.0;
 }
 
-/// Moves the mass on by one step; its goal goes evenly from where it was to `goal`. Within `reach` of it.
-void spring(SpringMass& mass, const glm::dvec3& goal, double strength, double damping, double reach,
+/// Moves the mass on by one step; its target goes evenly from where it was to `target`. Within `reach` of it.
+void spring(SpringMass& mass, const glm::dvec3& target, double strength, double damping, double reach,
             double dt) noexcept {
-    const glm::dvec3 pace = times(minus(goal, mass.goal), 1.0 / dt);
-    const glm::dvec3 velocity = mass.paced ? minus(mass.velocity, pace) : glm::dvec3(0.0);
+    const glm::dvec3 pace = times(minus(target, mass.target), 1.0 / dt);
+    const glm::dvec3 velocity = mass.has_velocity ? minus(mass.velocity, pace) : glm::dvec3(0.0);
     // What is no number is not slow either.
     const bool sound = length(pace) <= SpringChain::max_speed && length(velocity) <= SpringChain::max_speed &&
-                       signal::is_input(minus(mass.position, mass.goal));
+                       signal::is_input(minus(mass.position, mass.target));
     if (!sound) {
-        mass = {.position = goal, .goal = goal, .started = true};
+        mass = {.position = target, .target = target, .started = true};
         return;
     }
-    signal::SpringState<glm::dvec3> offset{.value = minus(mass.position, mass.goal),
+    signal::SpringState<glm::dvec3> offset{.value = minus(mass.position, mass.target),
                                            .velocity = velocity,
                                            .previous_target = {},
                                            .started = true};
@@ -59,12 +60,12 @@ void spring(SpringMass& mass, const glm::dvec3& goal, double strength, double da
         offset.value = times(out, reach);
         offset.velocity = minus(offset.velocity, times(out, std::max(0.0, dot(offset.velocity, out))));
     }
-    mass = {plus(goal, offset.value), plus(offset.velocity, pace), goal, true, true};
+    mass = {plus(target, offset.value), plus(offset.velocity, pace), target, true, true};
 }
 
-/// How far a mass is from its goal. A drag in a pause, or a file, may have it anywhere.
+/// How far a mass is from its target. A drag in a pause, or a file, may have it anywhere.
 glm::dvec3 swing_of(const SpringMass& mass, double reach) noexcept {
-    const glm::dvec3 way = minus(mass.position, mass.goal);
+    const glm::dvec3 way = minus(mass.position, mass.target);
     if (!signal::is_input(way)) return glm::dvec3(0.0);
     const double away = length(way);
     return away > reach ? times(way, reach / away) : way;
@@ -78,6 +79,7 @@ struct SpringChain::Plan {
     std::vector<ChainNode> chain{};      // each after what it hangs on
     std::vector<std::size_t> turning{};  // nodes: of each mass
     double longest = 0.0;                // from the base to the farthest tip
+    double size = 1.0;  // scratch: how many times as large as at rest the character stands there
     // Scratch, of each of the chain: as the pose has it, and as it swings; by how much its tip does.
     std::vector<Placement> before{}, after{};
     std::vector<glm::dvec3> swing{};
@@ -193,21 +195,22 @@ void SpringChain::Plan::move(std::span<const rig::Transform> pose, const SpringO
         const ChainNode& each = chain[i];
         if (each.mass == no_place) continue;
         SpringMass& mass = state.masses[each.mass];
-        const glm::dvec3 goal = before[i].apply(tip(each, pose));
-        if (time == Time::Jumps && mass.started) {
-            mass.position = plus(goal, minus(mass.position, mass.goal));
-            mass.goal = goal;
-            mass.paced = false;
+        const glm::dvec3 target = before[i].apply(tip(each, pose));
+        const bool jumped = length(minus(target, mass.target)) > unmoved;
+        if (time == Time::Jumps && mass.started && jumped) {
+            mass.position = plus(target, minus(mass.position, mass.target));
+            mass.target = target;
+            mass.has_velocity = false;
         }
         if (time != Time::Passes) continue;
-        const glm::dvec3 was = mass.goal;
+        const glm::dvec3 was = mass.target;
         if (mass.started)
-            spring(mass, goal, strength_of(each, options), options.critical_damping, each.length,
+            spring(mass, target, strength_of(each, options), options.critical_damping, size * each.length,
                    signal::detail::bounded_dt(dt));
         else
-            mass = {.position = goal, .goal = goal, .started = true};
-        if (!mass.paced) continue;
-        const glm::dvec3 pace = times(minus(goal, was), 1.0 / signal::detail::bounded_dt(dt));
+            mass = {.position = target, .target = target, .started = true};
+        if (!mass.has_velocity) continue;
+        const glm::dvec3 pace = times(minus(target, was), 1.0 / signal::detail::bounded_dt(dt));
         report.speed = std::max(report.speed, length(minus(mass.velocity, pace)));
     }
 }
@@ -223,7 +226,7 @@ void SpringChain::Plan::turn(std::span<rig::Transform> pose, const Placement& ba
         const glm::dvec3 swing_above = i == 0 ? glm::dvec3(0.0) : swing[each.above];
         swing[i] = swing_above;
         if (each.mass == no_place || !state.masses[each.mass].started) continue;
-        swing[i] = swing_of(state.masses[each.mass], each.length);
+        swing[i] = swing_of(state.masses[each.mass], size * each.length);
         const glm::dvec3 end = tip(each, pose);
         const glm::dvec3 bone = minus(before[i].apply(end), before[i].position);
         const auto rest = direction_of(bone, shortest);
@@ -243,6 +246,8 @@ void SpringChain::Plan::turn(std::span<rig::Transform> pose, const Placement& ba
 SpringReport SpringChain::Plan::run(std::span<rig::Transform> pose, const SpringOptions& options, Time time,
                                     double dt, SpringChainState& state) noexcept {
     if (pose.size() != nodes || !check(options)) return {.valid = false};
+    const glm::dvec3& scale = options.root.scale;
+    size = std::max({std::abs(scale.x), std::abs(scale.y), std::abs(scale.z)});
     Placement base = placement(options.root);
     for (const std::int32_t node : path) base = base * placement(pose[static_cast<std::size_t>(node)]);
     if (!detail::is_moderate(base) || !place_all(base, pose)) return {.valid = false};
@@ -261,8 +266,8 @@ SpringReport SpringChain::step(std::span<rig::Transform> pose, const SpringOptio
     return plan_->run(pose, options, signal::is_step(dt) ? Time::Passes : Time::Stands, dt, state);
 }
 
-SpringReport SpringChain::carry(std::span<rig::Transform> pose, const SpringOptions& options,
-                                SpringChainState& state) noexcept {
+SpringReport SpringChain::teleport(std::span<rig::Transform> pose, const SpringOptions& options,
+                                   SpringChainState& state) noexcept {
     return plan_->run(pose, options, Time::Jumps, 0.0, state);
 }
 

@@ -77,6 +77,12 @@ TEST(Picture, IsRefusedInWords) {
     EXPECT_TRUE(has(refusal({{"path", "/nowhere/a.png"}}), "/nowhere/a.png"));
     EXPECT_TRUE(has(refusal({{"path", "a.png"}, {"width", 100000}}), "width must be 16 to 8192, got 100000"));
     EXPECT_TRUE(has(refusal(app::Json::object()), "path is missing")) << "without a window nothing is named";
+    ScriptText plots;
+    plots.command("lab.open", {{"name", "signal"}});
+    plots.command("view.picture", {{"path", (folder / "a.png").string()}});
+    write(folder / "script.jsonl", plots.text());
+    EXPECT_TRUE(has(run_program({"--headless", "--script", (folder / "script.jsonl").string()}).err,
+                    "more than a view of a scene"));
 }
 
 }  // namespace

@@ -147,6 +147,8 @@ TEST(TypedNumbers, ThatAreNoneAreRefusedInWords) {
                                    .wait(30));
     EXPECT_EQ(mended.outcome.err, "");
     EXPECT_EQ(mended.state.at("solve").at("iterations"), 17);
+    const Played part = played_with_refusals(typed_iterations("2.5").key("tab").wait(30));
+    EXPECT_TRUE(has(part.outcome.err, "\"2.5\" is not a whole number")) << part.outcome.err;
     const Played unit = played_with_refusals(typed_iterations("3 m").key("tab").wait(30));
     EXPECT_TRUE(has(unit.outcome.err, "\"3 m\": this number has no unit")) << unit.outcome.err;
 }
@@ -162,12 +164,28 @@ TEST(TypedNumbers, NeverReachTheCamera) {
 }
 
 TEST(TypedNumbers, TabGoesToTheNextField) {
-    const Played played =
-        played_with_refusals(typed_iterations("42").key("tab").wait(2).text("0.25").key("enter").wait(30));
-    EXPECT_EQ(played.outcome.err, "");
-    EXPECT_EQ(played.state.at("solve").at("iterations"), 42);
-    EXPECT_NE(played.state.at("solve"), state_after(typed_iterations("42").key("enter").wait(30)).at("solve"))
-        << "the field below has 0.25";
+    const ScriptText typed = typed_iterations("42").key("tab").wait(2).text("0.25").key("enter").wait(30);
+    const app::Json both = play(typed).state.at("solve");
+    EXPECT_EQ(both.at("iterations"), 42);
+    EXPECT_EQ(both.at("tolerance"), 0.25);
+    // Each is a change of its own.
+    const app::Json one = play(ScriptText(typed).key("ctrl+z").wait(5)).state.at("solve");
+    EXPECT_EQ(one.at("iterations"), 42);
+    EXPECT_NE(one.at("tolerance"), 0.25);
+    const app::Json none = play(ScriptText(typed).key("ctrl+z").key("ctrl+z").wait(5)).state.at("solve");
+    EXPECT_EQ(none.at("iterations"), 100);
+}
+
+/// FABRIK has no damping: the fields below the soft zone are grey.
+TEST(TypedNumbers, TabPassesByWhatCannotBeChanged) {
+    ScriptText script;
+    script.command("chain.mode", {{"mode", "reach"}});
+    const app::Json before = state_after(script).at("solve");
+    script.click({173.0f, 555.0f}).wait(2).text("0.1").key("tab").wait(2).text("0.5").key("enter").wait(30);
+    const app::Json after = state_after(script).at("solve");
+    EXPECT_EQ(after.at("soft_zone").get<float>(), 0.1f) << "it is the soft zone that was clicked";
+    for (const char* honoured : {"damping", "twist_deg", "restarts"})
+        if (before.contains(honoured)) EXPECT_EQ(after.at(honoured), before.at(honoured)) << honoured;
 }
 
 TEST(TypedNumbers, AreScrubbedFinerWithShift) {

@@ -60,5 +60,29 @@ TEST(UnsavedWork, WithoutANameIsGivenOne) {
     EXPECT_EQ(segments(state_after(cancelled)), at_first + 2) << "saving later does not quit";
 }
 
+/// What was asked for on the way out is forgotten with the dialog: a later save is a save.
+TEST(UnsavedWork, AfterAnotherSceneWasOpenedASaveOnlySaves) {
+    const TempFolder folder;
+    const std::string other = (folder / "other.json").string(), file = (folder / "new.json").string();
+    play(ScriptText().command("scene.save", {{"path", other}}));
+    ScriptText script;
+    script.command("chain.add", {{"length", 0.5}}).command("quit", {{"unsaved", "save"}}).wait(2);
+    script.command("scene.open", {{"path", other}}).command("chain.add", {{"length", 0.5}});
+    script.command("scene.save", {{"path", file}}).wait(2).command("chain.add", {{"length", 0.25}});
+    EXPECT_EQ(segments(state_after(script)), segments(state_after(ScriptText())) + 2);
+}
+
+/// What was asked is answered by saving.
+TEST(UnsavedWork, SavedMeanwhileIsAskedForNoMore) {
+    const TempFolder folder;
+    const std::string file = (folder / "arm.json").string();
+    ScriptText asked;
+    asked.command("chain.add", {{"length", 0.5}}).key("ctrl+q").wait(2);
+    asked.command("scene.save", {{"path", file}}).wait(400);
+    ScriptText plain;
+    plain.command("chain.add", {{"length", 0.5}}).command("scene.save", {{"path", file}}).wait(400);
+    EXPECT_EQ(play(asked, {.picture = true}).picture.rgba, play(plain, {.picture = true}).picture.rgba);
+}
+
 }  // namespace
 }  // namespace tendril::test

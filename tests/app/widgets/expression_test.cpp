@@ -35,6 +35,8 @@ TEST(Expression, IsWhatItSays) {
     EXPECT_EQ(value_of("1 - 2 - 3"), -4.0);
     EXPECT_EQ(value_of("1e999"), HUGE_VAL);
     EXPECT_EQ(value_of("1e-999"), 0.0);
+    EXPECT_EQ(value_of("1E-999"), 0.0);
+    EXPECT_EQ(value_of("1E999"), HUGE_VAL);
     EXPECT_EQ(value_of("1/0"), HUGE_VAL);
 }
 

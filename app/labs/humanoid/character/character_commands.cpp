@@ -56,7 +56,10 @@ void rescale(Workspace& workspace, const Arguments& given) {
         throw std::invalid_argument("the stick figure comes from no file, and is in metres");
     const double was = before.loaded->character.scale;
     const SharedCharacter loaded = rescaled(*before.loaded, metres);
-    workspace.document.edit<HumanoidPart>(humanoid_lab).loaded = loaded;
+    HumanoidPart& part = workspace.document.edit<HumanoidPart>(humanoid_lab);
+    part.loaded = loaded;
+    part.ik_state.springs.clear();  // what swings and what fades out was in the old metres
+    part.ik_state.release = {};
     remake_attachments(workspace, metres / was);
     show_all(workspace, *loaded);
 }

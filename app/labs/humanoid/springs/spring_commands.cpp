@@ -22,6 +22,8 @@ std::optional<std::size_t> spring_from(const HumanoidPart& part, const std::stri
 
 std::size_t added(HumanoidPart& part, std::size_t node) {
     if (const std::string why = why_no_spring(part, node); !why.empty()) throw std::invalid_argument(why);
+    if (const auto chain = humanoid::SpringChain::make(part.skeleton(), *part.map, node); !chain)
+        throw std::invalid_argument(chain.error().message());
     if (part.springs.size() >= most_springs)
         throw std::invalid_argument("there are " + std::to_string(most_springs) + " springs already");
     part.springs.push_back({.node = part.skeleton()[node].name});
@@ -31,6 +33,7 @@ std::size_t added(HumanoidPart& part, std::size_t node) {
 
 void set_spring(HumanoidPart& part, const Arguments& given) {
     const std::size_t node = node_named(part, given.text("node"));
+    const std::vector<SpringSetting> before = part.springs;
     std::optional<std::size_t> which = spring_from(part, given.text("node"));
     if (given.has("on") && !given.boolean("on")) {
         if (which) drop(part, *which);
@@ -42,7 +45,7 @@ void set_spring(HumanoidPart& part, const Arguments& given) {
     if (given.has("critical_damping")) spring.critical_damping = given.real("critical_damping");
     if (given.has("weight")) spring.weight = given.real("weight");
     if (given.has("max_angle_deg")) spring.max_angle_deg = given.real("max_angle_deg");
-    part.quiet_ticks = 0;
+    if (part.springs != before) part.quiet_ticks = 0;
 }
 
 }  // namespace

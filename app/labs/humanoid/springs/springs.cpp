@@ -9,20 +9,31 @@
 namespace tendril::app {
 namespace {
 
+/// Which other spring would turn the same nodes, in words; empty: none.
+std::string overlap(const HumanoidPart& part, std::size_t node) {
+    const std::string& name = part.skeleton()[node].name;
+    if (const auto there = spring_on(part, node))
+        return name + " swings already, by the spring from " + part.springs[*there].node + " on";
+    for (const SpringSetting& each : part.springs)
+        if (const auto root = part.skeleton().find(each.node); root && part.skeleton().is_below(*root, node))
+            return "there is a spring from " + each.node + " on, which hangs on " + name;
+    return {};
+}
+
 Json mass_json(const humanoid::SpringMass& mass) {
     return Json{{"position", dpoint(mass.position)},
                 {"velocity", dpoint(mass.velocity)},
-                {"goal", dpoint(mass.goal)},
+                {"target", dpoint(mass.target)},
                 {"started", mass.started},
-                {"paced", mass.paced}};
+                {"has_velocity", mass.has_velocity}};
 }
 
 humanoid::SpringMass read_mass(const JsonPlace& place) {
     return {.position = place["position"].dpoint(),
             .velocity = place["velocity"].dpoint(),
-            .goal = place["goal"].dpoint(),
+            .target = place["target"].dpoint(),
             .started = place["started"].flag(),
-            .paced = place["paced"].flag()};
+            .has_velocity = place["has_velocity"].flag()};
 }
 
 }  // namespace
@@ -52,12 +63,8 @@ std::string why_no_spring(const HumanoidPart& part, std::size_t node) {
                    std::string(humanoid::name(static_cast<humanoid::Bone>(i))) +
                    " of the body, which the clip and IK move";
     }
-    if (const auto there = spring_on(part, node))
-        return name + " swings already, by the spring from " + part.springs[*there].node + " on";
-    for (const SpringSetting& each : part.springs)
-        if (const auto root = part.skeleton().find(each.node); root && part.skeleton().is_below(*root, node))
-            return "there is a spring from " + each.node + " on, which hangs on " + name;
-    return humanoid::SpringChain::make(part.skeleton(), *part.map, node).error().message();
+    if (part.skeleton()[node].parent < 0) return name + " hangs on nothing";
+    return overlap(part, node);
 }
 
 Json springs_json(const HumanoidPart& part) {
@@ -83,7 +90,8 @@ void read_springs(const JsonPlace& place, HumanoidPart& part) {
         SpringSetting spring{.node = each["node"].text()};
         const auto node = part.skeleton().find(spring.node);
         if (!node) each["node"].fail("the character has no node \"" + spring.node + "\"");
-        if (const std::string why = why_no_spring(part, *node); !why.empty()) each["node"].fail(why);
+        // One whose nodes have become the body's since stays, and does nothing.
+        if (const std::string why = overlap(part, *node); !why.empty()) each["node"].fail(why);
         if (const auto strength = each.optional("strength"))
             spring.strength = strength->real(softest_spring, stiffest_spring);
         if (const auto damping = each.optional("critical_damping"))

@@ -24,7 +24,7 @@ struct SpringSetting {
     double strength = humanoid::SpringOptions().strength;
     double critical_damping = humanoid::SpringOptions().critical_damping;
     double weight = humanoid::SpringOptions().weight;
-    double max_angle_deg = 60.0;
+    double max_angle_deg = 60.0;  ///< as the library's
     bool operator==(const SpringSetting&) const = default;
 
     humanoid::SpringOptions options() const;
@@ -32,7 +32,8 @@ struct SpringSetting {
 
 /// The place in the part's list of the spring that turns the node; nothing where none does.
 std::optional<std::size_t> spring_on(const HumanoidPart& part, std::size_t node);
-/// Why there can be no spring from that node on, in words; empty where there can be one.
+/// Why there can be no spring from that node on, in words: another spring is in the way, or the node is the
+/// body's, or hangs on nothing; empty where there can be one, if it has some length.
 std::string why_no_spring(const HumanoidPart& part, std::size_t node);
 
 Json springs_json(const HumanoidPart& part);

@@ -65,9 +65,8 @@ struct BodyOptions {
     /// arm.
     double twist_share = 0.5;
     bool self_collision = true;  ///< the capsules that the body was made with are kept apart
-    /// Metres that the targets are taken to have moved by, if they moved less: as far as such a way allows, a
-    /// pose that could be nearer to the clip's comes nearer. For the frames after a target was let go, whose
-    /// pull the rest of the body would keep otherwise. 0 to 1.
+    /// Metres: lets the pose relax towards the clip as far as if the targets had moved by that much. For the
+    /// frames after a target was let go, whose pull the rest of the body would keep otherwise. 0 to 1.
     double settle = 0.0;
 };
 

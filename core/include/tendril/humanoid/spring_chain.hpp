@@ -28,13 +28,14 @@
 namespace tendril::humanoid {
 
 struct SpringOptions {
-    /// Hz: the frequency of the tip without damping; 0.01 to 100. Of what is part s of the way to it, that
-    /// divided by the root of s^2 (6 - 4 s + s^2) / 3.
+    /// Hz: the frequency of the tip without damping; 0.01 to 100. A joint a fraction s along the chain has
+    /// strength / sqrt(s^2 (6 - 4 s + s^2) / 3).
     double strength = 2.0;
     double critical_damping = 0.3;  ///< 0 swings for ever, 1 is the fastest that never overshoots; 0 to 10
     double weight = 1.0;            ///< 0 to 1: how much of its swing the chain shows
-    double max_angle = 1.0;         ///< radians, by which a bone turns against the pose at most; 0 to 3.14
-    rig::Transform root{};          ///< where the character stands, as FeetOptions::root
+    double max_angle =
+        1.0471975511965976;  ///< radians, by which a bone turns against the pose at most; 0 to 3.14
+    rig::Transform root{};   ///< where the character stands, as FeetOptions::root
     bool operator==(const SpringOptions&) const = default;
 };
 /// Names the member that is out of its range.
@@ -43,9 +44,9 @@ Result check(const SpringOptions& options) noexcept;
 /// Metres and m/s, in the space that `root` stands in.
 struct SpringMass {
     glm::dvec3 position{0.0}, velocity{0.0};
-    glm::dvec3 goal{0.0};  ///< where the pose had it
-    bool started = false;  ///< false: the next step puts it to its goal
-    bool paced = false;    ///< false: the next step gives it its goal's velocity
+    glm::dvec3 target{0.0};     ///< where the pose had it
+    bool started = false;       ///< false: the next step puts it to its target
+    bool has_velocity = false;  ///< false: the next step gives it its target's
     bool operator==(const SpringMass&) const = default;
 };
 struct SpringChainState {
@@ -57,7 +58,7 @@ struct SpringReport {
     /// False: a pose or options that are not finite or out of their ranges; nothing has changed.
     bool valid = true;
     double angle = 0.0;  ///< radians, between the pose and the bone that swings farthest, at weight 1
-    double speed = 0.0;  ///< m/s, of the fastest mass against its goal; 0 where no time passes
+    double speed = 0.0;  ///< m/s, of the fastest mass against its target; 0 where no time passes
 };
 
 /// Made once for a character. step() works in memory of its own: one object a thread.
@@ -82,9 +83,10 @@ class SpringChain {
     SpringReport step(std::span<rig::Transform> pose, const SpringOptions& options, double dt,
                       SpringChainState& state) noexcept;
     /// The character was put into another pose or place, in no time: the masses go along,
-    /// as far off their goals as they were, and swing on from there. Else as step().
-    SpringReport carry(std::span<rig::Transform> pose, const SpringOptions& options,
-                       SpringChainState& state) noexcept;
+    /// as far off their targets as they were, and swing on from there; one whose target has not moved
+    /// keeps its velocity. Else as step().
+    SpringReport teleport(std::span<rig::Transform> pose, const SpringOptions& options,
+                          SpringChainState& state) noexcept;
 
   private:
     struct Plan;

@@ -146,6 +146,52 @@ TEST_F(HumanoidSprings, RefuseWhatTheyCannotHold) {
     tick(5);
     EXPECT_EQ(aside("antenna_l_5"), 0.0);
     EXPECT_TRUE(state().at("springs")[0].at("bones").empty());
+    const Workspace other = reopened();
+    EXPECT_EQ(humanoid_part(other).springs, part().springs) << "what can be saved can be opened";
+    expect_refused("humanoid.spring", {{"node", "HeadTop"}}, {"HeadTop"});
+}
+
+/// Commands that leave the pose where it is do not disturb what swings, nor leave a step to undo.
+TEST_F(HumanoidSprings, SwingOnUnderCommands) {
+    put_on_springs();
+    dance();
+    tick(50);
+    const IkState before = part().ik_state;
+    run("humanoid.spring", {{"node", "Head"}, {"on", false}});
+    EXPECT_TRUE(part().ik_state == before);
+    run("undo");
+    EXPECT_EQ(part().playback.clip, std::nullopt) << "the clip was the last change";
+    run("redo");
+    Workspace other = reopened();
+    double angle = 0.0;
+    for (int i = 0; i < 40; ++i) {
+        run("humanoid.spring", {{"node", "tail_1"}, {"weight", i % 2 == 0 ? 0.9 : 1.0}});
+        tick();
+        lab().step(other);
+        ASSERT_TRUE(part().ik_state == humanoid_part(other).ik_state) << i;
+        angle = std::max(angle, shown_pose(workspace).springs[2].angle);
+    }
+    EXPECT_GT(angle, 0.02);
+}
+
+TEST_F(HumanoidSprings, ThatAreSlowComeToRestToo) {
+    run("humanoid.spring", {{"node", "tail_1"}, {"strength", 0.05}, {"critical_damping", 0.5}});
+    run("humanoid.clip", {{"index", 0}, {"play", true}, {"loop", false}});
+    for (int i = 0; i < 60 * 120 && lab().moving(workspace); ++i) lab().step(workspace);
+    EXPECT_FALSE(lab().moving(workspace));
+    EXPECT_LT(aside("tail_6"), 2e-3);
+}
+
+TEST_F(HumanoidSprings, AreNotThrownAboutByAnotherUnit) {
+    put_on_springs();
+    dance();
+    tick(50);
+    run("humanoid.scale", {{"metres", 0.0005}});
+    EXPECT_EQ(part().springs.size(), 3u);
+    for (int i = 0; i < 5; ++i) {
+        tick();
+        for (const humanoid::SpringReport& each : shown_pose(workspace).springs) EXPECT_LT(each.angle, 0.3);
+    }
 }
 
 TEST_F(HumanoidSprings, AreRefusedFromAFileThatWasBroken) {
@@ -173,7 +219,7 @@ TEST_F(HumanoidSprings, AreRefusedFromAFileThatWasBroken) {
     says(broken([](Json& at) { at[0]["node"] = "wing"; }), "no node \"wing\"");
     says(broken([](Json& at) { at[1]["node"] = "antenna_l_3"; }), "springs.1.node");
     says(broken([](Json& at) { at[1]["strength"] = 1e9; }), "springs.1.strength");
-    says(broken([](Json& at) { at[1]["masses"][0].erase("goal"); }), "goal");
+    says(broken([](Json& at) { at[1]["masses"][0].erase("target"); }), "target");
     EXPECT_EQ(broken([](Json& at) { at[1]["masses"].erase(0); }), "accepted");
     EXPECT_EQ(broken([](Json& at) { at[1]["masses"][1]["velocity"] = {1e9, -1e9, 0}; }), "accepted");
     EXPECT_EQ(broken([](Json& at) { at[1]["masses"][1]["position"] = {1e9, -1e9, 0}; }), "accepted");
