@@ -189,8 +189,9 @@ bool curve_editor(const char* id, signal::Curve& curve, glm::vec3 colour, float 
     ImGui::InvisibleButton(id, size, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
     ImGui::PushID(id);
     ImGuiStorage& kept = *ImGui::GetStateStorage();
-    int& active = *kept.GetIntRef(ImGui::GetID("active"), no_key);
-    int& grip = *kept.GetIntRef(ImGui::GetID("grip"), static_cast<int>(Grip::None));
+    // Values: what the storage has moves whenever something is added to it.
+    int active = kept.GetInt(ImGui::GetID("active"), no_key);
+    int grip = kept.GetInt(ImGui::GetID("grip"), static_cast<int>(Grip::None));
     const int count = static_cast<int>(curve.keys.size());
     if (active >= count) active = no_key;
     Editor editor(curve, colour, at, size);
@@ -222,6 +223,8 @@ bool curve_editor(const char* id, signal::Curve& curve, glm::vec3 colour, float 
     editor.draw(active, input);
     if (active != no_key && active + 1 < static_cast<int>(curve.keys.size()))
         changed |= piece_row(curve.keys[static_cast<std::size_t>(active)]);
+    kept.SetInt(ImGui::GetID("active"), active);
+    kept.SetInt(ImGui::GetID("grip"), grip);
     ImGui::PopID();
     return changed;
 }
