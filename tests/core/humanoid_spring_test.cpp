@@ -168,6 +168,11 @@ TEST(SpringChain, KeepsLengthsAndConeAndAllElse) {
         const std::vector<rig::Transform> pose = antenna.step({x, y, z}, options, 1.0 / 60);
         ASSERT_TRUE(antenna.report.valid);
         farthest = std::max(farthest, antenna.report.angle);
+        for (std::size_t k = 0; k < antenna.state.masses.size(); ++k) {
+            const SpringMass& mass = antenna.state.masses[k];
+            ASSERT_LE(glm::distance(mass.position, mass.target), 0.1 * static_cast<double>(k + 1) + 1e-9)
+                << "no farther than the chain is long up to there";
+        }
         const std::vector<rig::Transform> rest = rest_pose(antenna.skeleton);
         const std::vector<glm::dvec3> at = positions_of(antenna.skeleton, pose);
         for (std::size_t i = antenna.root; i + 1 < at.size(); ++i)
