@@ -3,6 +3,7 @@
 #include <initializer_list>
 
 #include "humanoid/feet.hpp"
+#include "humanoid/option_ranges.hpp"
 #include "rig/checks.hpp"
 
 namespace tendril::humanoid {
@@ -13,14 +14,8 @@ using tendril::detail::refused;
 constexpr Bone upper_legs[]{Bone::LeftUpperLeg, Bone::RightUpperLeg},
     lower_legs[]{Bone::LeftLowerLeg, Bone::RightLowerLeg};
 
-struct Range {
-    const char* name;
-    double FeetOptions::*member;
-    double minimum, maximum;
-    const char* requirement;
-};
 constexpr double small = 1e-6;
-constexpr Range ranges[]{
+constexpr detail::OptionRange<FeetOptions> ranges[]{
     {"weight", &FeetOptions::weight, 0.0, 1.0, "from 0 to 1"},
     {"enter_speed", &FeetOptions::enter_speed, 0.0, 1e3, "from 0 to 1e3 m/s"},
     {"leave_speed", &FeetOptions::leave_speed, 0.0, 1e3, "from 0 to 1e3 m/s"},
@@ -60,11 +55,7 @@ std::array<glm::dvec3, count> disc_of() noexcept {
 
 Result check(const FeetOptions& options) noexcept {
     constexpr const char* operation = "feet";
-    for (const Range& range : ranges) {
-        const double value = options.*range.member;
-        if (!(value >= range.minimum && value <= range.maximum))
-            return refused(operation, range.name, range.requirement, value);
-    }
+    if (const Result bad = detail::check_ranges<FeetOptions>(operation, options, ranges); !bad) return bad;
     if (options.leave_speed < options.enter_speed)
         return refused(operation, "leave_speed", "at least enter_speed", options.leave_speed);
     if (options.floor)

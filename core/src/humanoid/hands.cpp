@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "humanoid/option_ranges.hpp"
 #include "humanoid/view.hpp"
 #include "rig/checks.hpp"
 #include "tendril/humanoid/twist.hpp"
@@ -120,12 +121,11 @@ struct Hands::Plan {
 
 Result check(const HandsOptions& options) noexcept {
     constexpr const char* operation = "hands";
-    if (!(options.view >= 0.0 && options.view <= 3.15))
-        return refused(operation, "view", "from 0 to 3.15 radians", options.view);
-    if (!(options.half_life >= 1e-6 && options.half_life <= 10.0))
-        return refused(operation, "half_life", "from 1e-6 to 10 s", options.half_life);
-    if (!(options.shoulder >= 0.0 && options.shoulder <= 1.5))
-        return refused(operation, "shoulder", "from 0 to 1.5 radians", options.shoulder);
+    constexpr detail::OptionRange<HandsOptions> ranges[]{
+        {"view", &HandsOptions::view, 0.0, 3.15, "from 0 to 3.15 radians"},
+        {"half_life", &HandsOptions::half_life, 1e-6, 10.0, "from 1e-6 to 10 s"},
+        {"shoulder", &HandsOptions::shoulder, 0.0, 1.5, "from 0 to 1.5 radians"}};
+    if (const Result bad = detail::check_ranges<HandsOptions>(operation, options, ranges); !bad) return bad;
     const Expected<rig::Transform> root = rig::checked(options.root, operation, "root");
     return root ? Result() : root.error();
 }

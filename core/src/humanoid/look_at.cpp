@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "humanoid/option_ranges.hpp"
 #include "humanoid/view.hpp"
 #include "rig/checks.hpp"
 #include "tendril/rig/aim.hpp"
@@ -85,13 +86,7 @@ void LookAt::Plan::turn(detail::Pose pose, const Placement& root, const glm::dve
 
 Result check(const LookAtOptions& options) noexcept {
     constexpr const char* operation = "look_at";
-    struct Range {
-        const char* name;
-        double LookAtOptions::*member;
-        double minimum, maximum;
-        const char* requirement;
-    };
-    constexpr Range ranges[]{
+    constexpr detail::OptionRange<LookAtOptions> ranges[]{
         {"weight", &LookAtOptions::weight, 0.0, 1.0, "from 0 to 1"},
         {"spine_part", &LookAtOptions::spine_part, 0.0, 1.0, "from 0 to 1"},
         {"neck_part", &LookAtOptions::neck_part, 0.0, 1.0, "from 0 to 1"},
@@ -101,11 +96,7 @@ Result check(const LookAtOptions& options) noexcept {
         {"view", &LookAtOptions::view, 0.0, 3.15, "from 0 to 3.15 radians"},
         {"half_life", &LookAtOptions::half_life, 1e-6, 10.0, "from 1e-6 to 10 s"},
         {"max_speed", &LookAtOptions::max_speed, 1e-6, 1e3, "from 1e-6 to 1e3 radians/s"}};
-    for (const Range& range : ranges) {
-        const double value = options.*range.member;
-        if (!(value >= range.minimum && value <= range.maximum))
-            return refused(operation, range.name, range.requirement, value);
-    }
+    if (const Result bad = detail::check_ranges<LookAtOptions>(operation, options, ranges); !bad) return bad;
     if (options.spine_part + options.neck_part > 1.0)
         return refused(operation, "neck_part", "with spine_part at most 1", options.neck_part);
     if (const Result bad = rig::detail::check_vector(operation, "target", options.target); !bad) return bad;

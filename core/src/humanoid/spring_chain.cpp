@@ -6,6 +6,7 @@
 #include "humanoid/anatomy.hpp"
 #include "humanoid/direction.hpp"
 #include "humanoid/limb.hpp"
+#include "humanoid/option_ranges.hpp"
 #include "rig/checks.hpp"
 #include "signal/stepped.hpp"
 
@@ -111,22 +112,12 @@ struct SpringChain::Plan {
 
 Result check(const SpringOptions& options) noexcept {
     constexpr const char* operation = "SpringOptions";
-    struct Range {
-        const char* name;
-        double SpringOptions::*member;
-        double minimum, maximum;
-        const char* requirement;
-    };
-    constexpr Range ranges[]{
+    constexpr detail::OptionRange<SpringOptions> ranges[]{
         {"strength", &SpringOptions::strength, 0.01, 100.0, "from 0.01 to 100 Hz"},
         {"critical_damping", &SpringOptions::critical_damping, 0.0, 10.0, "from 0 to 10"},
         {"weight", &SpringOptions::weight, 0.0, 1.0, "from 0 to 1"},
         {"max_angle", &SpringOptions::max_angle, 0.0, 3.14, "from 0 to 3.14 radians"}};
-    for (const Range& range : ranges) {
-        const double value = options.*range.member;
-        if (!(value >= range.minimum && value <= range.maximum))
-            return refused(operation, range.name, range.requirement, value);
-    }
+    if (const Result bad = detail::check_ranges<SpringOptions>(operation, options, ranges); !bad) return bad;
     const Expected<rig::Transform> root = rig::checked(options.root, operation, "root");
     return root ? Result() : root.error();
 }
