@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/document/camera_pose.hpp"
+#include "app/document/card_progress.hpp"
 #include "app/document/document.hpp"
 #include "app/document/history.hpp"
 #include "app/document/rewind.hpp"
@@ -68,7 +69,8 @@ struct UiState {
     glm::vec2 view_size{1000.0f, 700.0f};  ///< the 3D view, in window coordinates
     std::optional<std::string> copied;     ///< text on its way to the clipboard
     std::optional<PictureRequest> picture;
-    bool asks_to_quit = false;  ///< what becomes of unsaved work
+    std::map<std::string, CardProgress> cards;  ///< of things to try, by lab
+    bool asks_to_quit = false;                  ///< what becomes of unsaved work
     bool quit = false;
 };
 
