@@ -12,6 +12,7 @@
 
 #include "app/document/units.hpp"
 #include "app/widgets/number_entry.hpp"
+#include "app/widgets/section_light.hpp"
 #include "app/widgets/text.hpp"
 
 namespace tendril::app {
@@ -60,6 +61,7 @@ bool drag_number(const char* id, float& value, float speed, float low, float hig
 
 void section(const char* title) {
     ImGui::Dummy({0.0f, 0.35f * ImGui::GetTextLineHeight()});
+    note_section(title);
     ImGui::TextUnformatted(title);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::GetWindowDrawList()->AddLine(at, {at.x + ImGui::GetContentRegionAvail().x, at.y},
