@@ -46,6 +46,7 @@ App::App(Window& window, bool complain, Labs labs)
       labs_(std::move(labs)),
       commands_(std::make_unique<CommandTable>(make_command_table(labs_))),
       shortcuts_(labs_),
+      cards_(labs_),
       workspace_(make_blank_workspace(labs_)) {
     ImGui::GetIO().SetClipboardTextFn = [](void* data, const char* text) {
         static_cast<Window*>(data)->set_clipboard(text);
@@ -131,7 +132,7 @@ void App::compose(const Event* event, Pass pass) {
     if (hint.empty())
         hint = "Right-drag turns the view, middle-drag shifts it, the wheel zooms. ? shows every key.";
     if (workspace_.ui.asks_to_quit && !workspace_.modified()) workspace_.ui.asks_to_quit = false;
-    shell_.frame({workspace_, labs_, lab(), *commands_, shortcuts_, layout_, hint}, emit);
+    shell_.frame({workspace_, labs_, lab(), *commands_, shortcuts_, layout_, hint, shown_card()}, emit);
     if (const std::string why = std::exchange(ui_.numbers().refused, {}); !why.empty()) refuse(why);
     // Each number that is typed is a change of its own, as each drag is.
     if (std::exchange(ui_.numbers().entered, false)) ++gesture_;
@@ -318,17 +319,8 @@ void App::write_state(const std::string& path) {
     write_file_atomically(path, state().dump(2) + "\n");
 }
 
-Json App::state() {
-    const Camera camera(workspace_.camera, layout_.view);
+Json App::told_state() const {
     Json state = lab().state(workspace_);
-    Json handles = Json::array();
-    for (const Handle& handle : lab().handles(workspace_)) {
-        const auto at = camera.project(handle.frame.position);
-        handles.push_back({{"name", handle.name}, {"pixel", at ? pixel(*at) : Json(nullptr)}});
-    }
-    for (const NamedGrip& grip : gizmo_grips(drawn_, lab(), workspace_, camera, layout_.scale))
-        handles.push_back({{"name", grip.name}, {"pixel", pixel(grip.pixel)}});
-    state["handles"] = std::move(handles);
     state["camera"] = save_camera(workspace_.camera);
     const Clock& clock = workspace_.clock;
     state["time"] = {{"playing", clock.playing},
@@ -350,14 +342,29 @@ Json App::state() {
     return state;
 }
 
+Json App::state() {
+    const Camera camera(workspace_.camera, layout_.view);
+    Json state = told_state();
+    Json handles = Json::array();
+    for (const Handle& handle : lab().handles(workspace_)) {
+        const auto at = camera.project(handle.frame.position);
+        handles.push_back({{"name", handle.name}, {"pixel", at ? pixel(*at) : Json(nullptr)}});
+    }
+    for (const NamedGrip& grip : gizmo_grips(drawn_, lab(), workspace_, camera, layout_.scale))
+        handles.push_back({{"name", grip.name}, {"pixel", pixel(grip.pixel)}});
+    state["handles"] = std::move(handles);
+    if (shown_card() != nullptr) state["card"] = card_state();
+    return state;
+}
+
 bool App::busy() const {
     return pointer_.busy() || ImGui::IsAnyItemActive();
 }
 
 bool App::restless() const {
     const bool moving = workspace_.clock.playing && lab().moving(workspace_);
-    return moving || workspace_.clock.replaying || lab().working(workspace_) || settling_ > 0 ||
-           !workspace_.ui.toasts.empty();
+    return moving || workspace_.clock.replaying || card_is_due() || lab().working(workspace_) ||
+           settling_ > 0 || !workspace_.ui.toasts.empty();
 }
 
 }  // namespace tendril::app

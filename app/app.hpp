@@ -14,6 +14,7 @@
 #include "app/labs/labs.hpp"
 #include "app/script/player.hpp"
 #include "app/script/recorder.hpp"
+#include "app/shell/card.hpp"
 #include "app/shell/pointer.hpp"
 #include "app/shell/shell.hpp"
 #include "app/shell/ui.hpp"
@@ -82,12 +83,21 @@ class App final : public Stage {
     void replay();
     void step_lab();
     void update_window();
+    /// The open lab's card, where it is shown.
+    const Card* shown_card() const;
+    void watch_shown_card();
+    /// Whether the next tick looks whether a step of it has happened.
+    bool card_is_due() const;
+    Json card_state() const;
+    /// What the lab says of itself, with camera and time.
+    Json told_state() const;
 
     Window& window_;
     bool complain_;
     Labs labs_;
     std::unique_ptr<const CommandTable> commands_;
     Shortcuts shortcuts_;
+    Cards cards_;
     Workspace workspace_;
     Renderer renderer_;
     Ui ui_;

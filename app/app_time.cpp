@@ -53,6 +53,7 @@ void App::advance_time() {
     }
     while (clock.steps_due > 0) step_lab();
     if (lab().working(workspace_)) lab().work(workspace_);
+    watch_shown_card();
     auto& toasts = workspace_.ui.toasts;
     for (Toast& toast : toasts) --toast.ticks_left;
     std::erase_if(toasts, [](const Toast& toast) { return toast.ticks_left <= 0; });

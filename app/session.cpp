@@ -11,6 +11,7 @@
 #include "app/document/scene_file.hpp"
 #include "app/document/text.hpp"
 #include "app/live_loop.hpp"
+#include "app/opening.hpp"
 
 namespace tendril::app {
 namespace {
@@ -61,6 +62,7 @@ void open_scene(App& app, const SessionOptions& options) {
         app.workspace().open_lab(options.lab);
         app.workspace().cameras.clear();  // a recording knows the camera of the open lab alone
     }
+    if (opens_alive(options)) open_alive(app);
     app.settle();
 }
 
@@ -89,6 +91,7 @@ int run(const SessionOptions& options) {
     // Without a window it is read, and written only where a command says so.
     if (options.config && !script.start) app.workspace().config = config_folder();
     LiveLoop live(app, *window, {.config = config, .ending = ending});
+    if (!options.headless && options.script.empty()) offer_cards(app);
     open_scene(app, options);
     if (script.start) app.start_from(*script.start);
     if (!options.record.empty()) app.start_recording();

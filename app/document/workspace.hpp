@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/document/camera_pose.hpp"
+#include "app/document/card_progress.hpp"
 #include "app/document/document.hpp"
 #include "app/document/history.hpp"
 #include "app/document/rewind.hpp"
@@ -70,7 +71,8 @@ struct UiState {
     std::optional<std::string> copied;     ///< text on its way to the clipboard
     std::optional<PictureRequest> picture;
     std::optional<Incident> incident;  ///< the one that is shown: what was before it over what came of it
-    bool asks_to_quit = false;         ///< what becomes of unsaved work
+    std::map<std::string, CardProgress> cards;  ///< of things to try, by lab
+    bool asks_to_quit = false;                  ///< what becomes of unsaved work
     bool quit = false;
 };
 

@@ -90,6 +90,10 @@ class Lab {
     /// What to try first: "Drag the orange ball." Empty: nothing is said.
     virtual const char* invitation() const { return ""; }
 
+    /// The scene that a window opens on where nothing else is asked for: commands, from the blank document.
+    /// One that makes a setting counts only where the person has not chosen yet.
+    virtual std::vector<CommandCall> opening() const { return {}; }
+
     // time
     /// Whether time changes anything here now; a lab at rest lets the window idle.
     virtual bool moving(const Workspace&) const { return false; }

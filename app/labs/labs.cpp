@@ -6,6 +6,7 @@
 
 #include "app/document/command.hpp"
 #include "app/labs/camera_commands.hpp"
+#include "app/labs/card_commands.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/rig/rig_lab.hpp"
@@ -47,6 +48,7 @@ CommandTable make_command_table(const Labs& labs) {
     CommandTable table;
     add_workspace_commands(table);
     add_camera_commands(table, labs);
+    add_card_commands(table);
     for (const auto& lab : labs.all()) {
         lab->add_commands(table);
         for (const LabSetting& setting : lab->settings()) table.add(setting_command(setting));

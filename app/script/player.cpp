@@ -23,11 +23,28 @@ void run_command(const ScriptLine& line, const RunCommand& command, Stage& stage
     }
 }
 
+/// Where the state says that the handle is.
+glm::vec2 pixel_of(const ScriptLine& line, const MoveToHandle& move, const Json& state) {
+    if (const Json* handles = find_in_state(state, "handles"); handles && handles->is_array()) {
+        for (const Json& each : *handles) {
+            if (each.at("name") != move.handle || !each.at("pixel").is_array()) continue;
+            const Json& at = each.at("pixel");
+            return glm::vec2(at[0].get<float>(), at[1].get<float>()) + move.offset;
+        }
+    }
+    throw ScriptFailure(at_line(line, "no handle " + json_summary(Json(move.handle)) + " is in view"));
+}
+
 }  // namespace
 
 bool Player::play(const ScriptLine& line, Stage& stage) {
     if (const auto* event = std::get_if<Event>(&line.action)) {
         stage.tick(event);
+        return true;
+    }
+    if (const auto* move = std::get_if<MoveToHandle>(&line.action)) {
+        const Event event = MouseMove{pixel_of(line, *move, stage.state())};
+        stage.tick(&event);
         return true;
     }
     if (const auto* wait = std::get_if<Wait>(&line.action)) {

@@ -1,6 +1,5 @@
 #include "app/script/script.hpp"
 
-#include <algorithm>
 #include <array>
 #include <initializer_list>
 #include <stdexcept>
@@ -13,13 +12,6 @@ namespace {
 
 [[noreturn]] void fail(const std::string& reason) {
     throw std::runtime_error(reason);
-}
-
-/// A line must have the first of these members, may have the others, and no more.
-void check_members(const Json& line, std::initializer_list<std::string_view> known) {
-    for (const auto& [key, value] : line.items())
-        if (std::find(known.begin(), known.end(), key) == known.end())
-            fail("unknown member " + json_summary(Json(key)));
 }
 
 std::string nonempty_text(const Json& line, const char* key) {
@@ -53,13 +45,22 @@ MouseButton mouse_button(const Json& line) {
     fail("button: expected \"left\", \"right\" or \"middle\", found " + json_summary(name));
 }
 
+glm::vec2 pixels(const Json& json, const std::string& where) {
+    if (!json.is_array() || json.size() != 2) fail(where + ": expected [x, y], found " + json_summary(json));
+    return {json_number(json[0], where), json_number(json[1], where)};
+}
+
 Action mouse_line(const Json& line) {
     const std::string what = json_text(line["mouse"], "mouse");
+    if (what == "move" && line.contains("to")) {
+        check_members(line, {"mouse", "to", "offset"});
+        MoveToHandle move{nonempty_text(line, "to")};
+        if (line.contains("offset")) move.offset = pixels(line["offset"], "offset");
+        return move;
+    }
     if (what == "move") {
         check_members(line, {"mouse", "at"});
-        const Json& at = json_member(line, "at", "");
-        if (!at.is_array() || at.size() != 2) fail("at: expected [x, y], found " + json_summary(at));
-        return Event(MouseMove{{json_number(at[0], "at"), json_number(at[1], "at")}});
+        return Event(MouseMove{pixels(json_member(line, "at", ""), "at")});
     }
     if (what == "down" || what == "up") {
         check_members(line, {"mouse", "button"});
@@ -128,36 +129,8 @@ Action state_line(const Json& line) {
     return WriteState{nonempty_text(line, "state")};
 }
 
-void check_comparable(const Json& value, bool points_too, const char* key) {
-    const bool list = points_too && value.is_array() && !value.empty();
-    if (!list) return void(json_number(value, key));
-    for (const Json& coordinate : value) json_number(coordinate, key);
-}
-
 Action expect_line(const Json& line) {
-    check_members(line, {"expect", "equals", "near", "within", "below", "above"});
-    using Measure = Expect::Measure;
-    constexpr std::array<std::pair<const char*, Measure>, 4> measures{{{"equals", Measure::Equals},
-                                                                       {"near", Measure::Near},
-                                                                       {"below", Measure::Below},
-                                                                       {"above", Measure::Above}}};
-    Expect expect;
-    expect.path = nonempty_text(line, "expect");
-    int given = 0;
-    for (const auto& [key, measure] : measures) {
-        if (!line.contains(key)) continue;
-        ++given;
-        expect.measure = measure;
-        expect.value = line[key];
-        if (measure != Measure::Equals) check_comparable(expect.value, measure == Measure::Near, key);
-    }
-    if (given != 1) fail("expected exactly one of \"equals\", \"near\", \"below\", \"above\"");
-    if (line.contains("within")) {
-        if (expect.measure != Measure::Near) fail("within: goes with \"near\" only");
-        json_number(line["within"], "within", 0.0f, 1e9f);
-        expect.within = line["within"].get<double>();
-    }
-    return expect;
+    return read_expectation(line);
 }
 
 RecordingStart recording_start(const Json& line) {

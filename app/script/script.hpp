@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/document/expectation.hpp"
 #include "app/document/json.hpp"
 #include "app/window/event.hpp"
 
@@ -20,6 +21,11 @@ struct RunCommand {
     SharedJson arguments{};
     bool expect_refusal = false;
 };
+/// The mouse goes to where a handle is seen, or so many pixels from there.
+struct MoveToHandle {
+    std::string handle;
+    glm::vec2 offset{0.0f};
+};
 struct Wait {
     int ticks = 0;
 };
@@ -29,18 +35,8 @@ struct TakeScreenshot {
 struct WriteState {
     std::string path;
 };
-/// A value of the state, by its path ("segments.3.length"), held against exactly one measure.
-/// Equals: the same value throughout, numbers as 32-bit floats. Near: a number, or a list of them (a point),
-/// whose distance is at most `within`. Below and Above: a number strictly so.
-struct Expect {
-    enum class Measure { Equals, Near, Below, Above } measure = Measure::Equals;
-    std::string path;
-    SharedJson value;
-    double within = 1e-4;  ///< for Near
-};
-
 /// Runs within the tick it takes; commands, screenshots, states and expectations take none.
-using Action = std::variant<Event, RunCommand, Wait, TakeScreenshot, WriteState, Expect>;
+using Action = std::variant<Event, MoveToHandle, RunCommand, Wait, TakeScreenshot, WriteState, Expect>;
 
 struct ScriptLine {
     int number = 0;  ///< in the file, from 1
@@ -72,12 +68,5 @@ struct Script {
 /// a wrong type, has a member too many, or names a command that the table does not have. Blank lines are
 /// skipped. A command's own arguments are checked when it runs.
 Script parse_script(std::string_view text, const CommandTable& commands);
-
-/// Finds "segments.3.length" in a state, a number being an index into a list; nothing where there is no such
-/// value.
-const Json* find_in_state(const Json& state, std::string_view path);
-
-/// Empty when the state is as expected; else what was found, in one line.
-std::string check_expectation(const Expect& expect, const Json& state);
 
 }  // namespace tendril::app

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/shell/card_view.hpp"
 #include "app/shell/theme.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/icons.hpp"
@@ -238,7 +239,10 @@ void Shell::side_panel(const ShellFrame& frame, bool left, Emit& emit) {
     ImVec4 bar = ImGui::GetStyleColorVec4(ImGuiCol_ScrollbarGrab);
     bar.w *= grab;
     ImGui::PushStyleColor(ImGuiCol_ScrollbarGrab, bar);
-    ImGui::BeginChild("content", {std::max(1.0f, rect.size().x - 5.0f * scale), 0.0f}, false,
+    const float width = std::max(1.0f, rect.size().x - 5.0f * scale);
+    const float card = left ? 0.0f : card_height(frame, {width, rect.size().y});
+    const float room = card > 0.0f ? std::max(1.0f, rect.size().y - card) : 0.0f;
+    ImGui::BeginChild("content", {width, room}, false,
                       ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoNavFocus |
                           ImGuiWindowFlags_AlwaysVerticalScrollbar);
     ImGui::PopStyleColor();
@@ -249,7 +253,14 @@ void Shell::side_panel(const ShellFrame& frame, bool left, Emit& emit) {
     } else {
         frame.lab.inspector(frame.workspace, emit);
     }
+    light_card_section(frame, left);
     ImGui::EndChild();
+    if (card > 0.0f) {
+        ImGui::SetCursorPos({5.0f * scale, room});
+        ImGui::BeginChild("card", {width, card}, false, ImGuiWindowFlags_NoScrollbar);
+        show_card(frame, {width, rect.size().y}, emit);
+        ImGui::EndChild();
+    }
     ImGui::End();
 }
 
@@ -272,6 +283,7 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
     }
     status_bar(frame);
     show_first_hint(frame);
+    show_card_halo(frame);
     show_legend(frame);
     if (workspace.ui.help) show_help(frame, emit);
     if (workspace.ui.settings) show_settings(frame, emit);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/labs/labs.hpp"
+#include "app/shell/card.hpp"
 #include "app/shell/command_palette.hpp"
 #include "app/shell/file_dialog.hpp"
 #include "app/shell/layout.hpp"
@@ -22,7 +23,8 @@ struct ShellFrame {
     const CommandTable& commands;
     const Shortcuts& shortcuts;
     const Layout& layout;
-    std::string hint;  ///< what the mouse would do where it is
+    std::string hint;            ///< what the mouse would do where it is
+    const Card* card = nullptr;  ///< of things to try, where one is shown
 
     glm::vec2 screen() const { return {layout.top.max.x, layout.status.max.y}; }
     const Palette& colours() const { return palette(workspace.settings.theme); }

@@ -47,6 +47,7 @@ std::vector<Shortcut> common_rows() {
         row(".", "time.step", {}, "One tick", "Time", shown, false, again),
         row("?", "view.help", {}, "Keys and mouse", last_section),
         row("f1", "view.help", {}, "Keys and mouse", last_section, hidden, typing),
+        row("f2", "view.card", {}, "Things to try", last_section, shown, typing),
         row("ctrl+k", "view.palette", {}, "Find a command", last_section, shown, typing),
         row("ctrl+,", "view.settings", {}, "Settings", last_section),
         row("escape", "view.close", {}, "Close or cancel", last_section, hidden, typing),

@@ -1,4 +1,5 @@
-// The files that travel inside the program: the shaders and the font. third_party/assets.cmake embeds them.
+// The files that travel inside the program: the shaders, the fonts and the labs' cards of things to try.
+// third_party/assets.cmake embeds them.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +11,9 @@ namespace tendril::app {
 /// The text of a file in shaders/, such as "stroke.vert". Throws std::out_of_range for a name it does not
 /// know.
 std::string_view shader_source(std::string_view name);
+
+/// The text of card.json in a lab's folder; empty where the lab has none.
+std::string_view card_source(std::string_view lab);
 
 /// Roboto, as TrueType.
 std::span<const std::byte> font_regular();

@@ -13,6 +13,7 @@
 #include "app/document/units.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/number_entry.hpp"
+#include "app/widgets/section_light.hpp"
 #include "app/widgets/text.hpp"
 
 namespace tendril::app {
@@ -72,12 +73,14 @@ void line_below() {
 
 void section(const char* title) {
     ImGui::Dummy({0.0f, 0.35f * ImGui::GetTextLineHeight()});
+    note_section(title);
     ImGui::TextUnformatted(title);
     line_below();
 }
 
 bool section_button(const char* title, bool open) {
     ImGui::Dummy({0.0f, 0.35f * ImGui::GetTextLineHeight()});
+    note_section(title);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float line = ImGui::GetTextLineHeight(), width = std::max(1.0f, ImGui::GetContentRegionAvail().x);
     const bool clicked = ImGui::InvisibleButton((std::string("section ") + title).c_str(), {width, line});

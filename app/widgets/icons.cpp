@@ -97,6 +97,14 @@ void draw_icon(ImDrawList* list, Icon icon, ImVec2 centre, float size, ImU32 col
             pen.line(-0.25f, -0.5f, 0.25f, 0.0f);
             pen.line(0.25f, 0.0f, -0.25f, 0.5f);
             break;
+        case Icon::Close:
+            pen.line(-0.5f, -0.5f, 0.5f, 0.5f);
+            pen.line(-0.5f, 0.5f, 0.5f, -0.5f);
+            break;
+        case Icon::Check:
+            pen.line(-0.7f, 0.05f, -0.2f, 0.55f);
+            pen.line(-0.2f, 0.55f, 0.75f, -0.5f);
+            break;
     }
 }
 

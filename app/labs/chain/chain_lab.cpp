@@ -9,6 +9,7 @@
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/incidents.hpp"
+#include "app/labs/chain/presets.hpp"
 #include "app/labs/chain/shown.hpp"
 #include "app/labs/kit/guarded_step.hpp"
 
@@ -233,7 +234,18 @@ std::vector<Shortcut> ChainLab::shortcuts() const {
 }
 
 std::vector<LabSetting> ChainLab::settings() const {
-    return {segment_style(), past_plot_setting(), ghost_setting()};
+    return {segment_style(), reach_sphere(), past_plot_setting(), ghost_setting()};
+}
+
+std::vector<CommandCall> ChainLab::opening() const {
+    return {{"chain.preset", {{"name", reaching_arm}}},
+            {"view.segments", {{"style", "bones"}}},
+            {"view.reach_sphere", {{"show", "on"}}},
+            {"camera.set",
+             {{"target", glm::vec3(0.85f, 1.05f, 0.2f)},
+              {"yaw_deg", -8.0f},
+              {"pitch_deg", 15.0f},
+              {"distance", 7.0f}}}};
 }
 
 std::vector<TestScene> ChainLab::test_scenes() const {

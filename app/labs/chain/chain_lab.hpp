@@ -46,6 +46,7 @@ class ChainLab final : public Lab {
     void timeline(const Workspace& workspace, Emit& emit) const override;
     std::vector<Shortcut> shortcuts() const override;
     std::vector<LabSetting> settings() const override;
+    std::vector<CommandCall> opening() const override;
     std::vector<TestScene> test_scenes() const override;
     std::string code(const Workspace& workspace) const override;
     Json state(const Workspace& workspace) const override;

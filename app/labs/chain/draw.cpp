@@ -34,6 +34,8 @@ class Drawing {
 
     void run() {
         list_.strokes.reserve(2 * part_.chain.size() + 16);
+        if (part_.mode == ChainMode::Reach && reach_sphere().chosen(view_.workspace.settings) == 1)
+            draw_reach_sphere(view_, chain_, list_);
         const bool racing = chain_.race != nullptr;
         if (racing) {
             draw_race(view_, chain_, list_);
@@ -63,33 +65,42 @@ class Drawing {
         const Palette& p = view_.palette;
         if (i == 0) return p.head;
         if (i + 1 == part_.chain.size()) return p.tail;
-        return p.joint;
+        return bones_ ? glm::mix(p.joint, p.neutral, 0.75f) : p.joint;
     }
 
     /// Metres, at the thick end of the bone that leads to joint i.
     float bone_radius(std::size_t i) const { return std::min(0.13f * length(i), 0.16f); }
 
-    /// Pixels. A bone shows by itself where its joint is, so the ball may be small, but not smaller than the
-    /// bone.
+    /// Pixels. A bone shows by itself where its joint is, so the ball may be small, but not much smaller than
+    /// the bone.
     float joint_radius(std::size_t i) const {
         if (!bones_) return ball_;
         const float bone =
             i + 1 < part_.chain.size() ? bone_radius(i + 1) / view_.camera.metres_per_pixel(at(i)) : 0.0f;
-        return std::max(0.75f * ball_, bone);
+        return std::max(0.75f * ball_, 0.8f * bone);
     }
 
     /// From joint i - 1 to joint i.
     void bone(std::size_t i) {
-        Stroke& stroke = [&]() -> Stroke& {
-            if (!bones_) {
-                const float width = std::clamp(0.45f * ball_, px(1.5f), px(3.0f));
-                return list_.line(at(i - 1), at(i), width, glm::vec4(view_.palette.neutral, 1.0f));
-            }
-            const float thick = bone_radius(i);
-            return list_.bone(at(i - 1), at(i), thick, 0.35f * thick, glm::vec4(view_.palette.joint, 1.0f));
-        }();
+        if (bones_) return tapered_bone(i);
+        const float width = std::clamp(0.45f * ball_, px(1.5f), px(3.0f));
+        Stroke& stroke = list_.line(at(i - 1), at(i), width, glm::vec4(view_.palette.neutral, 1.0f));
         stroke.shadow = true;
         stroke.pick = segment_pick(i);
+    }
+
+    /// Thickest a little way from where it starts, as animation programs draw bones: one sees which way it
+    /// leads. Its shadow is that of a thicker one, so that it is seen on the ground from a height too.
+    void tapered_bone(std::size_t i) {
+        constexpr float thickest = 0.17f, wide = 2.6f;
+        const glm::vec3 from = at(i - 1), to = at(i);
+        const float thick = bone_radius(i);
+        const glm::vec3 widest = glm::mix(from, to, thickest);
+        const glm::vec4 paint(view_.palette.joint, 1.0f);
+        list_.bone(from, widest, 0.4f * thick, thick, paint).pick = segment_pick(i);
+        list_.bone(widest, to, thick, 0.34f * thick, paint).pick = segment_pick(i);
+        list_.bone(widest, to, wide * thick, 0.6f * wide * thick, glm::vec4(paint.r, paint.g, paint.b, 0.0f))
+            .shadow = true;
     }
 
     void joint(std::size_t i) {

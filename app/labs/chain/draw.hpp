@@ -11,6 +11,8 @@ namespace tendril::app {
 
 /// Whether segments are drawn as lines and spheres, or as bones.
 LabSetting segment_style();
+/// Whether mode reach shows the sphere of what the chain can reach.
+LabSetting reach_sphere();
 
 /// What of the last ten seconds is plotted below the scene.
 enum class PastPlot { Nothing, Error, Swing, Twist };
@@ -21,6 +23,9 @@ PastPlot past_plot(const Settings& settings);
 void draw_limits(const View& view, const ShownChain& shown, DrawList& list);
 /// The pole, and the line that it turns the chain about.
 void draw_pole(const View& view, const ChainPart& part, DrawList& list);
+/// The sphere of what the chain can reach, as quiet outlines: as the eye sees it, and where it meets the
+/// ground.
+void draw_reach_sphere(const View& view, const ShownChain& shown, DrawList& list);
 /// What the step under the microscope does, over the poses that the iterations before it ended in.
 void draw_microscope(const View& view, const ShownChain& shown, DrawList& list);
 /// The chains that the solvers of a race ended in.

@@ -21,6 +21,7 @@ class LimitDrawing {
           part_(shown.part),
           list_(list),
           active_(shown_active_limit(shown)),
+          bones_(segment_style().chosen(view.workspace.settings) == 1),
           joints_(shown_joints(shown)),
           turns_(rotations_at(joints_, part_.reach.state.rotations, part_.chain.default_direction())) {}
 
@@ -52,6 +53,7 @@ class LimitDrawing {
                              .strength = lit ? 1.0f : 0.75f};
         const LimitPen pen(view_, list_, look);
         const ik::JointAngles angles = ik::measure(limit, rest, glm::conjugate(parent) * turns_[i]);
+        if (bones_ && shape.is_hinge()) pen.fill(shape);
         pen.outline(shape);
         pen.dot(shape, angles);
         pen.dial(shape, angles, 0.5f, 0.22f);
@@ -90,6 +92,7 @@ class LimitDrawing {
     const ChainPart& part_;
     DrawList& list_;
     const ik::ActiveLimit* active_;
+    bool bones_;
     std::vector<glm::vec3> joints_;
     std::vector<glm::quat> turns_;
 };

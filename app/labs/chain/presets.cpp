@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <random>
 #include <stdexcept>
 
+#include "app/labs/chain/chain_part.hpp"
 #include "app/labs/kit/require.hpp"
 
 namespace tendril::app {
@@ -65,6 +67,29 @@ Segments arm(std::size_t count) {
     });
 }
 
+/// Shoulder, elbow, wrist and the tip of a hand that is about to take something; longer counts add joints to
+/// the hand. It is bent in one upright plane, as its hinge is.
+Segments bent_arm(std::size_t count) {
+    const auto along = [](float length, float degrees) {
+        const float angle = glm::radians(degrees);
+        return length * glm::vec3(std::cos(angle), std::sin(angle), 0.0f);
+    };
+    return placed({0.0f, 0.55f, 0.0f}, count, [&](std::size_t i) {
+        switch (i) {
+            case 0:
+                return along(1.4f, 0.0f);
+            case 1:
+                return along(1.4f, 62.0f);
+            case 2:
+                return along(1.25f, -28.0f);
+            case 3:
+                return along(0.5f, -45.0f);
+            default:
+                return along(0.25f, -50.0f);
+        }
+    });
+}
+
 /// A wave on the ground.
 Segments snake(std::size_t count) {
     const float step = 9.0f / static_cast<float>(count);
@@ -98,20 +123,35 @@ Segments random_walk(std::size_t count, std::uint32_t seed) {
 }  // namespace
 
 const std::vector<Preset>& presets() {
-    static const std::vector<Preset> list{{"start", "Start", 8},        {"arm", "Arm", 7},
-                                          {"tentacle", "Tentacle", 24}, {"snake", "Snake", 40},
-                                          {"coil", "Coil", 120},        {"random", "Random", 16}};
+    static const std::vector<Preset> list{
+        {"start", "Start", 8},        {"arm", "Arm", 7},      {reaching_arm, "Reaching arm", 4},
+        {"tentacle", "Tentacle", 24}, {"snake", "Snake", 40}, {"coil", "Coil", 120},
+        {"random", "Random", 16}};
     return list;
 }
 
 Chain make_preset(const std::string& name, std::size_t count, std::uint32_t seed) {
     if (name == "start") return require_value(Chain::from_segments(start(count)));
+    if (name == reaching_arm) return require_value(Chain::from_segments(bent_arm(count)));
     if (name == "arm") return require_value(Chain::from_segments(arm(count)));
     if (name == "tentacle") return require_value(Chain::from_segments(tentacle(count)));
     if (name == "snake") return require_value(Chain::from_segments(snake(count)));
     if (name == "coil") return require_value(Chain::from_segments(coil(count)));
     if (name == "random") return require_value(Chain::from_segments(random_walk(count, seed)));
     throw std::invalid_argument("unknown preset \"" + name + "\"");
+}
+
+void make_it_reach(ChainPart& part, ChainRuntime& runtime) {
+    part.mode = ChainMode::Reach;
+    part.reach = {};
+    part.reach.pole = glm::vec3(0.3f, 2.5f, 0.7f);
+    constexpr std::size_t elbow = 1;
+    if (part.chain.size() > elbow + 1) {
+        ik::Limit hinge = ik::Limit::of(ik::JointKind::Hinge);
+        hinge.axis = {0.0f, 0.0f, -1.0f};
+        set_limit(part.reach, elbow, hinge, part.chain);
+    }
+    reach_for(part, {2.25f, 0.9f, 0.6f}, runtime);
 }
 
 }  // namespace tendril::app

@@ -103,7 +103,7 @@ void reset(ChainPart& part, const Arguments&) {
     part = first_chain();
 }
 
-void take_preset(ChainPart& part, const Arguments& given) {
+void take_preset(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     const std::string name = given.text("name");
     const Preset& preset = named(
         presets(), [](const Preset& p) { return p.name; }, name, "preset");
@@ -117,6 +117,7 @@ void take_preset(ChainPart& part, const Arguments& given) {
     part.motion.path = Motion::Path::Still;
     forget_limits(part.reach);
     shape_changed(part);
+    if (name == reaching_arm) make_it_reach(part, runtime);
 }
 
 }  // namespace
@@ -143,7 +144,9 @@ void add_shape_commands(CommandTable& table) {
                          names(presets(), [](const Preset& p) { return p.name; })),
          integer_argument("count", "segments", 1, static_cast<double>(max_segments)),
          {.name = "seed", .type = ArgumentType::Integer, .required = false, .help = "for random", .low = 0}},
-        "Makes a preset chain, the target on its tail", take_preset));
+        "Makes a preset chain, the target on its tail; reaching_arm comes with mode reach, limits and a pole "
+        "target",
+        take_preset));
 }
 
 }  // namespace tendril::app

@@ -71,6 +71,11 @@ class RealWindow : public testing::Test {
                 {"LSAN_OPTIONS", "detect_leaks=0"}};
     }
     void start(std::vector<std::string> more = {}) {
+        more.insert(more.end(), {"--lab", "chain"});
+        start_as_it_comes(more);
+    }
+    /// On the scene that it opens on by itself.
+    void start_as_it_comes(const std::vector<std::string>& more) {
         std::vector<std::string> arguments{"--size", "1280x720", "--state", state_path()};
         arguments.insert(arguments.end(), more.begin(), more.end());
         program_ = std::make_unique<Process>(program_command(arguments), environment());
@@ -185,6 +190,27 @@ TEST_F(RealWindow, the_picture_follows_its_size) {
     const Played off_screen = play(ScriptText().wait(1), {.more = {"--size", "1000x640"}});
     EXPECT_EQ(state["handles"], off_screen.state["handles"]);
     EXPECT_EQ(app::read_png(folder_ / "window.png").size, glm::ivec2(1000, 640));
+}
+
+TEST_F(RealWindow, opens_on_an_arm_that_reaches_and_has_nothing_to_save) {
+    start_as_it_comes({"--no-config"});
+    key("ctrl+q");
+    const Json state = ended();  // it did not ask
+    EXPECT_EQ(state["mode"], "reach");
+    EXPECT_EQ(state["solve"]["report"]["status"], "Converged");
+    EXPECT_EQ(state["card"]["done"], Json(std::vector<bool>(5, false)));
+}
+
+TEST_F(RealWindow, keeps_a_card_that_was_put_away) {
+    start_as_it_comes({});
+    key("F2");
+    sleep(300);
+    key("ctrl+q");
+    EXPECT_FALSE(ended().contains("card"));
+    EXPECT_EQ(app::parse_json(read(settings_path()))["card_chain"], "put_away");
+    start_as_it_comes({});
+    key("ctrl+q");
+    EXPECT_FALSE(ended().contains("card"));
 }
 
 TEST_F(RealWindow, its_close_button_ends_it_cleanly) {

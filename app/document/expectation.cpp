@@ -1,10 +1,14 @@
-// Expectations: finding a value of the state by its path, and holding it against a measure.
+#include "app/document/expectation.hpp"
+
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <utility>
 
 #include "app/document/json_complete.hpp"
-#include "app/script/script.hpp"
 
 namespace tendril::app {
 namespace {
@@ -86,7 +90,50 @@ std::string measure_text(const Expect& expect) {
     return value;
 }
 
+[[noreturn]] void fail(const std::string& reason) {
+    throw std::runtime_error(reason);
+}
+
+void check_comparable(const Json& value, bool points_too, const char* key) {
+    const bool list = points_too && value.is_array() && !value.empty();
+    if (!list) return void(json_number(value, key));
+    for (const Json& coordinate : value) json_number(coordinate, key);
+}
+
 }  // namespace
+
+void check_members(const Json& line, std::initializer_list<std::string_view> known) {
+    for (const auto& [key, value] : line.items())
+        if (std::find(known.begin(), known.end(), key) == known.end())
+            fail("unknown member " + json_summary(Json(key)));
+}
+
+Expect read_expectation(const Json& line) {
+    check_members(line, {"expect", "equals", "near", "within", "below", "above"});
+    using Measure = Expect::Measure;
+    constexpr std::array<std::pair<const char*, Measure>, 4> measures{{{"equals", Measure::Equals},
+                                                                       {"near", Measure::Near},
+                                                                       {"below", Measure::Below},
+                                                                       {"above", Measure::Above}}};
+    Expect expect;
+    expect.path = json_text(json_member(line, "expect", ""), "expect");
+    if (expect.path.empty()) fail("expect: expected a text, found \"\"");
+    int given = 0;
+    for (const auto& [key, measure] : measures) {
+        if (!line.contains(key)) continue;
+        ++given;
+        expect.measure = measure;
+        expect.value = line[key];
+        if (measure != Measure::Equals) check_comparable(expect.value, measure == Measure::Near, key);
+    }
+    if (given != 1) fail("expected exactly one of \"equals\", \"near\", \"below\", \"above\"");
+    if (line.contains("within")) {
+        if (expect.measure != Measure::Near) fail("within: goes with \"near\" only");
+        json_number(line["within"], "within", 0.0f, 1e9f);
+        expect.within = line["within"].get<double>();
+    }
+    return expect;
+}
 
 const Json* find_in_state(const Json& state, std::string_view path) {
     if (path.empty()) return &state;

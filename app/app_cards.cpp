@@ -1,0 +1,37 @@
+// The card of things to try that the open lab shows: which steps have happened by now.
+#include "app/app.hpp"
+#include "app/document/card_progress.hpp"
+#include "app/document/json_complete.hpp"
+#include "app/shell/card_watch.hpp"
+
+namespace tendril::app {
+
+const Card* App::shown_card() const {
+    const bool shown = workspace_.settings.right_open && card_shown(workspace_.settings, workspace_.lab);
+    return shown ? cards_.find(workspace_.lab) : nullptr;
+}
+
+void App::watch_shown_card() {
+    if (const Card* const card = shown_card())
+        watch_card(workspace_.ui.cards[workspace_.lab], *card, workspace_.document.parts().at(workspace_.lab),
+                   [this] { return told_state(); });
+}
+
+bool App::card_is_due() const {
+    if (shown_card() == nullptr) return false;
+    const auto progress = workspace_.ui.cards.find(workspace_.lab);
+    return progress == workspace_.ui.cards.end() ||
+           card_waits(progress->second, workspace_.document.parts().at(workspace_.lab));
+}
+
+/// Which steps have happened.
+Json App::card_state() const {
+    Json done = Json::array();
+    const auto progress = workspace_.ui.cards.find(workspace_.lab);
+    for (std::size_t i = 0; i < shown_card()->steps.size(); ++i)
+        done.push_back(progress != workspace_.ui.cards.end() && i < progress->second.done.size() &&
+                       progress->second.done[i]);
+    return {{"done", std::move(done)}};
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,43 @@
+#include "app/opening.hpp"
+
+#include <algorithm>
+
+#include "app/document/command.hpp"
+#include "app/document/json_complete.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// A setting of the lab's that the person has chosen already.
+bool is_chosen(const Lab& lab, const Settings& settings, const std::string& command) {
+    const std::vector<LabSetting> all = lab.settings();
+    return std::any_of(all.begin(), all.end(), [&](const LabSetting& each) {
+        return each.command == command && settings.choices.contains(each.key);
+    });
+}
+
+}  // namespace
+
+bool opens_alive(const SessionOptions& options) {
+    return !options.headless && options.scene.empty() && options.script.empty() && options.lab.empty();
+}
+
+void open_alive(App& app) {
+    Workspace& workspace = app.workspace();
+    const Lab& lab = *app.labs().find(workspace.lab);
+    for (const CommandCall& call : lab.opening()) {
+        if (is_chosen(lab, workspace.settings, call.name)) continue;
+        app.commands().run(workspace, call.name, to_json(call.arguments));
+    }
+    workspace.saved = workspace.document;
+    workspace.history.clear();
+    workspace.start_anew();
+}
+
+void offer_cards(App& app) {
+    Settings& settings = app.workspace().settings;
+    for (const auto& lab : app.labs().all())
+        if (!card_known(settings, lab->name())) show_card(settings, lab->name(), true);
+}
+
+}  // namespace tendril::app

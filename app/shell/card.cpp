@@ -1,0 +1,106 @@
+#include "app/shell/card.hpp"
+
+#include <stdexcept>
+
+#include "app/document/json_complete.hpp"
+#include "app/labs/kit/json_place.hpp"
+#include "app/view/assets.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr std::size_t most_steps = 9, most_lines = 200;
+
+std::string some_text(const JsonPlace& place) {
+    std::string text = place.text();
+    if (text.empty()) place.fail("expected a text, found \"\"");
+    return text;
+}
+
+void check_only(const JsonPlace& place, std::initializer_list<std::string_view> known) {
+    if (!place.json().is_object()) place.fail("expected an object, found " + json_summary(place.json()));
+    try {
+        check_members(place.json(), known);
+    } catch (const std::runtime_error& error) {
+        place.fail(error.what());
+    }
+}
+
+CardCondition read_condition(const JsonPlace& place) {
+    using Kind = CardCondition::Kind;
+    if (place.has("changed")) {
+        check_only(place, {"changed"});
+        return {.kind = Kind::Changed, .name = some_text(place["changed"])};
+    }
+    if (place.has("event")) {
+        check_only(place, {"event"});
+        return {.kind = Kind::Noted, .name = some_text(place["event"])};
+    }
+    if (!place.has("expect")) place.fail("expected one of \"expect\", \"changed\", \"event\"");
+    try {
+        return {.kind = Kind::Expected, .expect = read_expectation(place.json())};
+    } catch (const std::runtime_error& error) {
+        place.fail(error.what());
+    }
+}
+
+void read_place(const JsonPlace& place, CardStep& step) {
+    using Place = CardStep::Place;
+    check_only(place, {"handle", "panel", "inspector"});
+    if (place.json().size() != 1) place.fail("expected one of \"handle\", \"panel\", \"inspector\"");
+    step.place = place.has("handle") ? Place::Handle : place.has("panel") ? Place::Panel : Place::Inspector;
+    step.place_name = some_text(place[place.json().begin().key().c_str()]);
+}
+
+CardStep read_step(const JsonPlace& place) {
+    check_only(place, {"text", "place", "when", "script"});
+    CardStep step;
+    step.text = some_text(place["text"]);
+    read_place(place["place"], step);
+    place["when"].for_each("conditions", most_steps,
+                           [&](const JsonPlace& each) { step.when.push_back(read_condition(each)); });
+    if (step.when.empty()) place["when"].fail("expected a condition, found none");
+    place["script"].for_each("lines", most_lines,
+                             [&](const JsonPlace& each) { step.script.emplace_back(each.json()); });
+    if (step.script.empty()) place["script"].fail("expected a line, found none");
+    return step;
+}
+
+}  // namespace
+
+Card read_card(std::string_view text) {
+    const Json json = parse_json(text);
+    const JsonPlace top(json, "card");
+    check_only(top, {"title", "scene", "steps"});
+    Card card;
+    card.title = some_text(top["title"]);
+    top["scene"].for_each("commands", most_lines, [&](const JsonPlace& each) {
+        Json arguments = each.json();
+        std::string command = some_text(each["command"]);
+        arguments.erase("command");
+        card.scene.push_back({std::move(command), std::move(arguments)});
+    });
+    top["steps"].for_each("steps", most_steps,
+                          [&](const JsonPlace& each) { card.steps.push_back(read_step(each)); });
+    if (card.steps.empty()) top["steps"].fail("expected a step, found none");
+    return card;
+}
+
+Cards::Cards(const Labs& labs) {
+    for (const auto& lab : labs.all()) {
+        const std::string_view text = card_source(lab->name());
+        if (text.empty()) continue;
+        try {
+            cards_.emplace(lab->name(), read_card(text));
+        } catch (const std::runtime_error& error) {
+            throw std::runtime_error("card.json of lab " + lab->name() + ": " + error.what());
+        }
+    }
+}
+
+const Card* Cards::find(const std::string& lab) const {
+    const auto found = cards_.find(lab);
+    return found == cards_.end() ? nullptr : &found->second;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,67 @@
+// A lab's card of things to try: data of the lab's folder (card.json), read and checked once.
+//
+//     {"title": "Five things to try",
+//      "scene": [{"command": "chain.preset", "name": "arm"}],
+//      "steps": [{"text": "Drag the target out of reach.", "place": {"handle": "target"},
+//                 "when": [{"expect": "solve.report.status", "equals": "unreachable"}],
+//                 "script": [{"command": "chain.target", "to": [9, 1, 0]}]}]}
+//
+// A step has happened when all of its conditions hold at once. `scene` sets up what the card is about.
+// `script` is for the tests, which play every step.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/document/expectation.hpp"
+#include "app/labs/labs.hpp"
+
+namespace tendril::app {
+
+struct CardCondition {
+    enum class Kind {
+        Expected,  ///< the state is as expected: {"expect": PATH, ...} as in a script
+        Changed,   ///< a value is not what it was when the card was shown: {"changed": PATH}
+        Noted,     ///< something of that kind was noted: {"event": "flip"}
+    } kind = Kind::Expected;
+    Expect expect{};
+    std::string name{};  ///< the path, or the kind of event
+};
+
+struct CardStep {
+    std::string text;
+    enum class Place { Handle, Panel, Inspector } place = Place::Handle;
+    std::string place_name;  ///< of the handle, or of the section
+    std::vector<CardCondition> when;
+    std::vector<SharedJson> script;
+};
+
+struct Card {
+    struct Line {
+        std::string command;
+        SharedJson arguments;
+    };
+    std::string title;
+    std::vector<Line> scene;
+    std::vector<CardStep> steps;
+};
+
+/// Throws std::runtime_error that says where and what is wrong.
+Card read_card(std::string_view text);
+
+/// Of every lab that has one.
+class Cards {
+  public:
+    /// Throws std::runtime_error that names the lab.
+    explicit Cards(const Labs& labs);
+    /// Null where the lab has none.
+    const Card* find(const std::string& lab) const;
+
+  private:
+    std::map<std::string, Card> cards_;
+};
+
+}  // namespace tendril::app

@@ -1,0 +1,83 @@
+#include "app/shell/card_watch.hpp"
+
+#include <algorithm>
+
+#include "app/document/json_complete.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// The state of a large part takes long to write: one byte of it in so many waits a tick.
+constexpr std::size_t bytes_a_tick = 8192;
+constexpr std::uint64_t longest_wait = 60;
+
+/// What a path leads to, null where it leads to nothing.
+Json value_at(const Json& state, const std::string& path) {
+    const Json* const found = find_in_state(state, path);
+    return found == nullptr ? Json(nullptr) : *found;
+}
+
+bool has_event(const Json& state, const std::string& kind) {
+    const Json* const events = find_in_state(state, "events");
+    if (events == nullptr || !events->is_array()) return false;
+    return std::any_of(events->begin(), events->end(), [&](const Json& each) {
+        const Json* const own = find_in_state(each, "kind");
+        return own != nullptr && *own == kind;
+    });
+}
+
+bool holds(const CardCondition& condition, const CardProgress& progress, const Json& state) {
+    using Kind = CardCondition::Kind;
+    switch (condition.kind) {
+        case Kind::Expected:
+            return check_expectation(condition.expect, state).empty();
+        case Kind::Changed: {
+            const auto start = progress.start.find(condition.name);
+            return start != progress.start.end() && value_at(state, condition.name) != *start->second;
+        }
+        case Kind::Noted:
+            return has_event(state, condition.name);
+    }
+    return false;
+}
+
+void begin(CardProgress& progress, const Card& card, const Json& state) {
+    progress.done.assign(card.steps.size(), false);
+    for (const CardStep& step : card.steps)
+        for (const CardCondition& condition : step.when)
+            if (condition.kind == CardCondition::Kind::Changed)
+                progress.start[condition.name] = value_at(state, condition.name);
+}
+
+}  // namespace
+
+void watch_card(CardProgress& progress, const Card& card, const std::shared_ptr<const Part>& part,
+                const std::function<Json()>& state) {
+    if (progress.ticks_to_wait > 0) --progress.ticks_to_wait;
+    const bool fresh = progress.done.empty();
+    if (!fresh && (!card_waits(progress, part) || progress.ticks_to_wait > 0)) return;
+    const Json now = state();
+    if (fresh) begin(progress, card, now);
+    for (std::size_t i = 0; i < card.steps.size(); ++i) {
+        if (progress.done[i]) continue;
+        const auto& when = card.steps[i].when;
+        progress.done[i] = std::all_of(when.begin(), when.end(), [&](const CardCondition& condition) {
+            return holds(condition, progress, now);
+        });
+    }
+    progress.seen = part;
+    progress.ticks_to_wait = std::min<std::uint64_t>(1 + part->bytes() / bytes_a_tick, longest_wait);
+}
+
+bool card_waits(const CardProgress& progress, const std::shared_ptr<const Part>& part) {
+    const bool all = std::all_of(progress.done.begin(), progress.done.end(), [](bool done) { return done; });
+    return progress.seen != part && (!all || progress.done.empty());
+}
+
+std::size_t current_step(const CardProgress& progress, const Card& card) {
+    for (std::size_t i = 0; i < card.steps.size(); ++i)
+        if (i >= progress.done.size() || !progress.done[i]) return i;
+    return card.steps.size();
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,99 @@
+// What a window opens on where it was told nothing.
+#include "app/opening.hpp"
+
+#include "app/labs/chain/chain_lab.hpp"
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+using namespace app;
+
+TEST(Opening, is_for_a_window_that_was_told_nothing) {
+    const auto opens = [](auto ask) {
+        SessionOptions options;
+        ask(options);
+        return opens_alive(options);
+    };
+    EXPECT_TRUE(opens([](SessionOptions&) {}));
+    EXPECT_TRUE(opens([](SessionOptions& o) { o.config = false, o.record = "r.jsonl", o.frames = 5; }));
+    EXPECT_FALSE(opens([](SessionOptions& o) { o.scene = "arm.json"; }));
+    EXPECT_FALSE(opens([](SessionOptions& o) { o.lab = "chain"; }));
+    EXPECT_FALSE(opens([](SessionOptions& o) { o.headless = true; }));
+    EXPECT_FALSE(opens([](SessionOptions& o) { o.script = "s.jsonl"; }));
+}
+
+class OpenScene : public testing::Test {
+  protected:
+    std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
+    App app_{*window_};
+    Workspace& workspace() { return app_.workspace(); }
+};
+
+TEST_F(OpenScene, is_an_arm_with_its_hand_on_the_target) {
+    open_alive(app_);
+    app_.settle();
+    const Json state = app_.state();
+    EXPECT_EQ(state["mode"], "reach");
+    EXPECT_EQ(state["solve"]["report"]["status"], "Converged");
+    EXPECT_LT(glm::distance(point_of(state["tail"]), point_of(state["target"])), 0.005f);
+    EXPECT_EQ(state["solve"]["limits"][1]["kind"], "hinge");
+    EXPECT_TRUE(state["solve"]["pole"].is_array());
+    for (const char* name : {"target", "pole", "segment.0", "segment.1", "segment.2"}) handle(state, name);
+}
+
+TEST_F(OpenScene, leaves_nothing_to_save_or_undo) {
+    open_alive(app_);
+    app_.settle();
+    EXPECT_FALSE(workspace().modified());
+    EXPECT_FALSE(workspace().history.can_undo());
+    EXPECT_TRUE(workspace().path.empty());
+    app_.run({"quit", Json{{"unsaved", "ask"}}});
+    EXPECT_TRUE(app_.quit()) << "and it does not ask";
+}
+
+TEST_F(OpenScene, a_new_scene_is_what_it_always_was) {
+    const Json blank = workspace().document.parts().at(chain_lab)->save();
+    open_alive(app_);
+    app_.run({"scene.new"});
+    EXPECT_EQ(workspace().document.parts().at(chain_lab)->save(), blank);
+    open_alive(app_);
+    app_.run({"chain.reset"});
+    EXPECT_EQ(workspace().document.parts().at(chain_lab)->save(), blank);
+}
+
+TEST_F(OpenScene, leaves_what_a_person_chose) {
+    workspace().settings.choices["segments"] = "spheres";
+    open_alive(app_);
+    EXPECT_EQ(workspace().settings.choices["segments"], "spheres");
+    EXPECT_EQ(workspace().settings.choices["reach sphere"], "on") << "that was not chosen yet";
+}
+
+TEST_F(OpenScene, cards_are_offered_once) {
+    offer_cards(app_);
+    EXPECT_TRUE(card_shown(workspace().settings, chain_lab));
+    app_.run({"view.card", Json{{"open", false}}});
+    offer_cards(app_);
+    EXPECT_FALSE(card_shown(workspace().settings, chain_lab));
+}
+
+/// The circle is there when it is asked for, in Reach only.
+TEST_F(OpenScene, its_sphere_of_reach_is_a_setting) {
+    const auto strokes = [&] {
+        const Camera camera(workspace().camera, {{0.0f, 0.0f}, {800.0f, 600.0f}});
+        DrawList list;
+        app_.labs().find(chain_lab)->draw({workspace(), camera, palette(Theme::Dark)}, list);
+        return list.strokes.size();
+    };
+    open_alive(app_);
+    const std::size_t with = strokes();
+    app_.run({"view.reach_sphere", Json{{"show", "off"}}});
+    EXPECT_LT(strokes() + 100, with);
+    app_.run({"chain.mode", Json{{"mode", "backward"}}});
+    const std::size_t trailing = strokes();
+    app_.run({"view.reach_sphere", Json{{"show", "on"}}});
+    EXPECT_EQ(strokes(), trailing);
+}
+
+}  // namespace
+}  // namespace tendril::test
