@@ -1,6 +1,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "app/document/units.hpp"
 #include "app/labs/chain/panels.hpp"
@@ -87,8 +88,11 @@ void target_rows(const ChainPart& part, bool playing, Emit& emit) {
 
 void preset_rows(Emit& emit) {
     std::vector<PresetButton> buttons;
-    for (const Preset& preset : presets())
-        buttons.push_back({preset.name, preset.title, count_text(preset.count, "joint")});
+    for (const Preset& preset : presets()) {
+        const bool reaches = std::string_view(preset.name) == reaching_arm;
+        const std::string what = reaches ? ": an arm in mode reach, with a hinge and a pole target" : "";
+        buttons.push_back({preset.name, preset.title, count_text(preset.count, "joint") + what, preset.of});
+    }
     if (app::preset_rows(chain_lab, buttons, "Removes every joint", emit))
         emit("camera.frame", {{"what", "all"}});  // they differ in size
 }

@@ -123,10 +123,10 @@ Segments random_walk(std::size_t count, std::uint32_t seed) {
 }  // namespace
 
 const std::vector<Preset>& presets() {
-    static const std::vector<Preset> list{
-        {"start", "Start", 8},        {"arm", "Arm", 7},      {reaching_arm, "Reaching arm", 4},
-        {"tentacle", "Tentacle", 24}, {"snake", "Snake", 40}, {"coil", "Coil", 120},
-        {"random", "Random", 16}};
+    static const std::vector<Preset> list{{"start", "Start", 8, 4},        {"arm", "Arm", 7, 4},
+                                          {"snake", "Snake", 40, 4},       {"coil", "Coil", 120, 4},
+                                          {"tentacle", "Tentacle", 24, 3}, {"random", "Random", 16, 3},
+                                          {reaching_arm, "Reach", 4, 3}};
     return list;
 }
 
