@@ -108,7 +108,7 @@ void App::tick(const Event* event) {
 
 void App::compose(const Event* event, Pass pass) {
     const bool in_tick = pass == Pass::Tick;
-    layout_ = lay_out(size_, ui_scale(), workspace_.settings, lab().has_timeline(workspace_),
+    layout_ = lay_out(size_, ui_scale(), workspace_.settings, lab().timeline_height(workspace_),
                       lab().canvas_share(workspace_));
     workspace_.ui.view_size = layout_.view.size();
     Emit emit;
@@ -160,7 +160,7 @@ void App::take_event(const Event& event, Emit& emit) {
     } else if (const auto* resize = std::get_if<Resize>(&event)) {
         size_ = resize->size;
         if (window_.size() != size_) window_.resize(size_);
-        layout_ = lay_out(size_, ui_scale(), workspace_.settings, lab().has_timeline(workspace_),
+        layout_ = lay_out(size_, ui_scale(), workspace_.settings, lab().timeline_height(workspace_),
                           lab().canvas_share(workspace_));
     } else if (const auto* drop = std::get_if<Drop>(&event)) {
         if (!drop->paths.empty()) take_file(drop->paths.front(), emit);
@@ -208,7 +208,7 @@ void App::take_shortcut(Emit& emit) {
 void App::run_emitted(Emit& emit) {
     for (Emitted& command : emit.take()) {
         try {
-            commands_->run(workspace_, command.name, command.arguments, command.continuous ? gesture_ : 0);
+            run_command(command.name, command.arguments, command.continuous ? gesture_ : 0);
             take_picture();
             if (command.continuous && pointer_.dragged() != no_pick) workspace_.settings.hint_seen = true;
         } catch (const Refused& refusal) {
@@ -248,9 +248,25 @@ void App::take_picture() {
     workspace_.toast("Written: " + wanted->path.string());
 }
 
+/// What came of a change, and whether it was refused, is a matter for the last seconds too.
+void App::run_command(const std::string& name, const Json& arguments, Gesture gesture) {
+    const std::string open = workspace_.lab;
+    const std::shared_ptr<const Part> before = workspace_.document.parts().at(open);
+    try {
+        commands_->run(workspace_, name, arguments, gesture);
+    } catch (const UnknownCommand&) {
+        throw;
+    } catch (const Refused& refusal) {
+        if (commands_->find(name)->effect == Effect::Edit)
+            workspace_.rewind.note({.tick = workspace_.clock.tick, .cause = refusal.what()});
+        throw;
+    }
+    if (workspace_.lab == open && commands_->find(name)->effect == Effect::Edit) review(before);
+}
+
 void App::run(const RunCommand& command) {
     try {
-        commands_->run(workspace_, command.name, command.arguments);
+        run_command(command.name, command.arguments, 0);
         if (const auto& finish = commands_->find(command.name)->finish) finish(workspace_);
         take_picture();
         if (recorder_) recorder_->command(command.name, command.arguments, false);
@@ -264,28 +280,6 @@ void App::run(const RunCommand& command) {
     while (workspace_.clock.steps_due > 0) step_lab();
     for (int i = 0; i < 2; ++i)
         compose(nullptr, Pass::Settle);  // the next event finds what is now there, and ready
-}
-
-void App::step_lab() {
-    Clock& clock = workspace_.clock;
-    if (lab().moving(workspace_)) {
-        if (lab().rewinds()) workspace_.remember_moment();
-        lab().step(workspace_);
-    }
-    ++clock.tick;
-    clock.passed += static_cast<double>(clock.speed);
-    clock.steps_due = std::max(0, clock.steps_due - 1);
-}
-
-void App::advance_time() {
-    const Clock& clock = workspace_.clock;
-    if (clock.steps_due > 0 || (clock.playing && lab().moving(workspace_))) step_lab();
-    while (clock.steps_due > 0) step_lab();
-    if (lab().working(workspace_)) lab().work(workspace_);
-    watch_shown_card();
-    auto& toasts = workspace_.ui.toasts;
-    for (Toast& toast : toasts) --toast.ticks_left;
-    std::erase_if(toasts, [](const Toast& toast) { return toast.ticks_left <= 0; });
 }
 
 void App::update_window() {
@@ -333,6 +327,13 @@ Json App::told_state() const {
                      {"tick", clock.tick},
                      {"speed", number(clock.speed)},
                      {"seconds", lab().seconds(workspace_)}};
+    state["events"] = Json::array();
+    for (const Incident& incident : workspace_.rewind.incidents())
+        state["events"].push_back({{"tick", incident.tick},
+                                   {"joint", incident.joint},
+                                   {"kind", name(incident.kind)},
+                                   {"degrees", number(incident.degrees)},
+                                   {"cause", incident.cause}});
     if (!workspace_.rewind.empty()) {
         const std::uint64_t newest = std::max(workspace_.rewind.newest(), clock.tick);
         state["time"]["ticks_back"] = newest - clock.tick;
@@ -362,8 +363,8 @@ bool App::busy() const {
 
 bool App::restless() const {
     const bool moving = workspace_.clock.playing && lab().moving(workspace_);
-    return moving || card_is_due() || lab().working(workspace_) || settling_ > 0 ||
-           !workspace_.ui.toasts.empty();
+    return moving || workspace_.clock.replaying || card_is_due() || lab().working(workspace_) ||
+           settling_ > 0 || !workspace_.ui.toasts.empty();
 }
 
 }  // namespace tendril::app

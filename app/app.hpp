@@ -75,9 +75,12 @@ class App final : public Stage {
     void take_file(const std::string& path, Emit& emit);
     void refuse(const std::string& why);
     void run_emitted(Emit& emit);
+    void run_command(const std::string& name, const Json& arguments, Gesture gesture);
+    void review(const std::shared_ptr<const Part>& before);
     /// Writes the picture that was asked for. Throws Refused where it cannot.
     void take_picture();
     void advance_time();
+    void replay();
     void step_lab();
     void update_window();
     /// The open lab's card, where it is shown.

@@ -195,6 +195,7 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
 
     const Document before = workspace.document;  // parts are shared: a few pointers
     const Place from = workspace.place();
+    workspace.gesture_begins = !workspace.history.is_open(gesture);
     const bool modified = workspace.modified();
     try {
         command->apply(workspace, Arguments(arguments));
@@ -207,7 +208,12 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
     if (command->effect == Effect::Replace) return;
     if (command->effect == Effect::Edit) {
         workspace.rewind.forget_from(workspace.clock.tick);  // what came of it, as it was before, came not
+        if (const auto& part = before.parts().at(workspace.lab);
+            part != workspace.document.parts().at(workspace.lab))
+            workspace.rewind.begin_change(workspace.edition, part);
         ++workspace.edition;
+        workspace.ui.incident.reset();
+        workspace.clock.replaying = false;
         remember(workspace, before.without(workspace.document), *command, gesture, from);
     } else if (!modified) {
         workspace.saved = workspace.document;  // choosing something is nothing that wants saving

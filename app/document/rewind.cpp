@@ -7,9 +7,11 @@ namespace tendril::app {
 
 void Rewind::remember(std::uint64_t tick, std::uint64_t edition, std::shared_ptr<const Part> part) {
     forget_from(tick);
+    change_.reset();
     // Until now it was the newest, and kept as that alone.
     if (!moments_.empty() && moments_.back().tick % stride_ != 0) drop_last();
     while (!moments_.empty() && moments_.front().tick + most_ticks < tick) drop_oldest();
+    while (!incidents_.empty() && incidents_.front().tick + most_ticks < tick) incidents_.pop_front();
     const std::size_t size = part->bytes();
     moments_.push_back({tick, edition, std::move(part), size});
     bytes_ += size;
@@ -17,14 +19,34 @@ void Rewind::remember(std::uint64_t tick, std::uint64_t edition, std::shared_ptr
 }
 
 void Rewind::forget_from(std::uint64_t tick) {
+    // Where there is nothing to forget, nobody went back in time: what has just happened at this tick stays.
+    if (!moments_.empty() && newest() >= tick)
+        while (!incidents_.empty() && incidents_.back().tick >= tick) incidents_.pop_back();
     while (!moments_.empty() && moments_.back().tick >= tick) drop_last();
     if (moments_.empty()) stride_ = 1;
 }
 
 void Rewind::clear() {
     moments_.clear();
+    change_.reset();
+    incidents_.clear();
     bytes_ = 0;
     stride_ = 1;
+}
+
+void Rewind::begin_change(std::uint64_t edition, std::shared_ptr<const Part> part) {
+    if (!change_) change_ = {edition, std::move(part)};
+}
+
+void Rewind::remember_change(std::uint64_t tick) {
+    if (!change_) return;
+    Change change = std::move(*change_);
+    remember(tick, change.edition, std::move(change.part));
+}
+
+void Rewind::note(Incident incident) {
+    if (incidents_.size() == most_incidents) incidents_.pop_front();
+    incidents_.push_back(std::move(incident));
 }
 
 const Rewind::Moment& Rewind::at(std::uint64_t ticks_back) const {

@@ -1,19 +1,23 @@
-// The open lab's last ten seconds, to go back in time: its part at every tick, or, where they grow too large,
-// at every second, fourth, ... of them. They are none of the document's, and no file holds them.
+// The open lab's last ten seconds, to go back in time: its part at every tick in which it was simulated or
+// changed by hand, or, where they grow too large, at every second, fourth, ... of them; and what happened in
+// them. They are none of the document's, and no file holds them.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 
 #include "app/document/document.hpp"
+#include "app/document/incident.hpp"
 
 namespace tendril::app {
 
 class Rewind {
   public:
     static constexpr std::uint64_t most_ticks = 600;
+    static constexpr std::size_t most_incidents = 256;
 
     struct Moment {
         std::uint64_t tick = 0;
@@ -30,6 +34,16 @@ class Rewind {
     void forget_from(std::uint64_t tick);
     void clear();
 
+    /// The part as it was before it was changed by hand. The first change since the last moment counts.
+    void begin_change(std::uint64_t edition, std::shared_ptr<const Part> part);
+    bool changed() const { return change_.has_value(); }
+    /// Remembers what the change began from.
+    void remember_change(std::uint64_t tick);
+
+    /// The oldest goes where there are too many, or ten seconds have passed.
+    void note(Incident incident);
+    const std::deque<Incident>& incidents() const { return incidents_; }
+
     bool empty() const { return moments_.empty(); }
     /// Not of an empty one.
     std::uint64_t oldest() const { return moments_.front().tick; }
@@ -37,6 +51,8 @@ class Rewind {
     /// The moment nearest to so many ticks before the newest.
     const Moment& at(std::uint64_t ticks_back) const;
 
+    /// By tick.
+    const std::deque<Moment>& moments() const { return moments_; }
     std::size_t size() const { return moments_.size(); }
     std::size_t bytes() const { return bytes_; }
 
@@ -45,8 +61,15 @@ class Rewind {
     void drop_oldest();
     void thin();
 
+    struct Change {
+        std::uint64_t edition = 0;
+        std::shared_ptr<const Part> part;
+    };
+
     std::deque<Moment> moments_;  ///< by tick
-    std::uint64_t stride_ = 1;    ///< kept are the ticks that this divides, and the newest
+    std::optional<Change> change_;
+    std::deque<Incident> incidents_;  ///< by tick
+    std::uint64_t stride_ = 1;        ///< kept are the ticks that this divides, and the newest
     std::size_t max_bytes_, bytes_ = 0;
 };
 

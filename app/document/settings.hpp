@@ -28,6 +28,11 @@ struct Settings {
     bool operator==(const Settings&) const = default;
 };
 
+/// Under which name of `choices` it is kept whether a section of a panel is folded.
+inline std::string fold_key(const std::string& section) {
+    return "section " + section;
+}
+
 Json save_settings(const Settings& settings);
 /// A text under a name that is none of these is kept as a choice of some lab's; other unknown names are
 /// ignored, and a value that does not fit keeps its default, so that an old or edited file never stops the

@@ -18,13 +18,47 @@ void Workspace::open_lab(const std::string& name) {
     const auto seen = cameras.find(name);
     camera = seen != cameras.end() ? seen->second : first_view_of(name);
     rewind.clear();
+    ui.incident.reset();
 }
 
 void Workspace::start_anew() {
     clock.tick = 0;
     clock.passed = 0.0;
     rewind.clear();
+    ui.incident.reset();
     cameras.clear();
+}
+
+void Workspace::pass_change() {
+    if (!rewind.changed()) return;
+    rewind.remember_change(clock.tick);
+    ++clock.tick;
+}
+
+Workspace::BeforeAndAfter Workspace::around(const Incident& incident) const {
+    if (rewind.empty() || incident.tick < rewind.oldest() || incident.tick > rewind.newest()) return {};
+    const std::uint64_t back = rewind.newest() - incident.tick;
+    // What came of the newest moment is what there is now.
+    return {rewind.at(back).part, back > 0 ? rewind.at(back - 1).part : document.parts().at(lab)};
+}
+
+void Workspace::go_to_moment(std::uint64_t ticks_back) {
+    const bool was_modified = modified();
+    if (clock.tick > rewind.newest()) remember_moment();
+    const Rewind::Moment& newest = rewind.at(0);
+    const Rewind::Moment& moment = rewind.at(ticks_back);
+    clock.playing = false;
+    if (moment.tick == clock.tick) return;
+    if (edition == newest.edition && moment.edition != newest.edition) {
+        Document before;
+        before.set(lab, newest.part);
+        if (!history.leads_to(before)) history.push(before, "time.seek", 0, place(), place());
+    }
+    const bool over_a_change = edition != moment.edition;
+    clock.tick = moment.tick;
+    edition = moment.edition;
+    document.set(lab, document.parts().at(lab)->at_moment(moment.part));
+    if (!was_modified && !over_a_change) saved = document;
 }
 
 const CameraPose& Workspace::first_view_of(const std::string& name) const {

@@ -27,6 +27,7 @@ struct Clock {
     int steps_due = 0;       ///< ticks to take at once, though paused
     float speed = 1.0f;      ///< slow motion: seconds that pass in a lab in a second of time
     double passed = 0.0;     ///< ticks that have passed in the labs, by speed
+    bool replaying = false;  ///< the last seconds are shown again, at this speed
     bool measured = false;   ///< what simulating takes is measured: in a live window, where it does no harm
 
     /// Of a lab that moves by whole ticks: how many pass in the next one.
@@ -69,6 +70,7 @@ struct UiState {
     glm::vec2 view_size{1000.0f, 700.0f};  ///< the 3D view, in window coordinates
     std::optional<std::string> copied;     ///< text on its way to the clipboard
     std::optional<PictureRequest> picture;
+    std::optional<Incident> incident;  ///< the one that is shown: what was before it over what came of it
     std::map<std::string, CardProgress> cards;  ///< of things to try, by lab
     bool asks_to_quit = false;                  ///< what becomes of unsaved work
     bool quit = false;
@@ -87,6 +89,7 @@ struct Workspace {
     Rewind rewind;
     std::uint64_t edition = 0;  ///< which of the changes that can be undone was the last; counted
     History history;
+    bool gesture_begins = true;  ///< the command that runs is alone, or the first of its drag
     Settings settings;
     std::filesystem::path config;  ///< the folder of what is kept from session to session; empty: none
     bool keeps = false;            ///< there, without being told: in a live window
@@ -99,8 +102,18 @@ struct Workspace {
     const CameraPose& first_view_of(const std::string& name) const;
     /// Time and cameras as they are for a scene that has just begun.
     void start_anew();
-    /// For time.seek, before the open lab takes a tick.
+    /// Keeps the open lab's part as it is now, for time.seek.
     void remember_moment() { rewind.remember(clock.tick, edition, document.parts().at(lab)); }
+    /// A tick passes in which the open lab was changed by hand, and not simulated.
+    void pass_change();
+    /// Goes back (or forward again) to the moment that is remembered nearest, and pauses. To go back over a
+    /// change is a change itself: undoing it leads to where one came from.
+    void go_to_moment(std::uint64_t ticks_back);
+    /// The open lab's part just before an incident and just after it, as far as they are remembered.
+    struct BeforeAndAfter {
+        std::shared_ptr<const Part> before, after;
+    };
+    BeforeAndAfter around(const Incident& incident) const;
     Place place() const { return {lab, path, camera}; }
     bool modified() const { return document != saved; }
     void toast(std::string text, ToastKind kind = ToastKind::Info);

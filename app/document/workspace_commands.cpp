@@ -42,26 +42,38 @@ void add_history_commands(CommandTable& table) {
                .apply = [](Workspace& w, const Arguments&) { step_through(w, false); }});
 }
 
-/// Goes back (or forward again) to the moment that is remembered nearest. To go back over a change is a
-/// change itself: undoing it leads to where one came from.
 void seek(Workspace& w, const Arguments& given) {
     if (w.rewind.empty()) throw Refused("there is no earlier moment to go back to");
-    const bool modified = w.modified();
-    if (w.clock.tick > w.rewind.newest()) w.remember_moment();
-    const Rewind::Moment& newest = w.rewind.at(0);
-    const Rewind::Moment& moment = w.rewind.at(static_cast<std::uint64_t>(given.integer("ticks_back")));
-    w.clock.playing = false;
-    if (moment.tick == w.clock.tick) return;
-    if (w.edition == newest.edition && moment.edition != newest.edition) {
-        Document before;
-        before.set(w.lab, newest.part);
-        if (!w.history.leads_to(before)) w.history.push(before, "time.seek", 0, w.place(), w.place());
+    w.ui.incident.reset();
+    w.clock.replaying = false;
+    w.go_to_moment(static_cast<std::uint64_t>(given.integer("ticks_back")));
+}
+
+void replay(Workspace& w) {
+    w.pass_change();
+    if (w.rewind.empty()) throw Refused("there is no earlier moment to show again");
+    const std::uint64_t newest = std::max(w.rewind.newest(), w.clock.tick);
+    w.go_to_moment(w.clock.tick == newest ? newest - w.rewind.oldest() : newest - w.clock.tick);
+    w.ui.incident.reset();
+    w.clock.replaying = true;
+}
+
+/// To the moment after an incident, with the one before it drawn over it.
+void show_incident(Workspace& w, const Arguments& given) {
+    if (!given.has("number")) return w.ui.incident.reset();
+    w.pass_change();
+    const auto& incidents = w.rewind.incidents();
+    const auto number = static_cast<std::size_t>(given.integer("number"));
+    if (number >= incidents.size())
+        throw Refused("number must be less than " + std::to_string(incidents.size()) +
+                      ", which is how many incidents are remembered, got " + std::to_string(number));
+    const Incident incident = incidents[number];
+    if (!w.rewind.empty()) {
+        const std::uint64_t newest = std::max(w.rewind.newest(), w.clock.tick);
+        w.go_to_moment(newest - std::min(newest, incident.tick + 1));
     }
-    const bool over_a_change = w.edition != moment.edition;
-    w.clock.tick = moment.tick;
-    w.edition = moment.edition;
-    w.document.set(w.lab, w.document.parts().at(w.lab)->at_moment(moment.part));
-    if (!modified && !over_a_change) w.saved = w.document;
+    w.clock.replaying = false;
+    w.ui.incident = incident;
 }
 
 void add_time_commands(CommandTable& table) {
@@ -72,12 +84,17 @@ void add_time_commands(CommandTable& table) {
                    .effect = Effect::Look,
                    .apply = [change](Workspace& w, const Arguments&) { change(w); }});
     };
-    add("time.play", "Runs the simulation", [](Workspace& w) { w.clock.playing = true; });
-    add("time.pause", "Pauses the simulation", [](Workspace& w) { w.clock.playing = false; });
+    const auto run = [](Workspace& w, bool playing) {
+        w.clock.playing = playing;
+        w.clock.replaying = false;
+    };
+    add("time.play", "Runs the simulation", [run](Workspace& w) { run(w, true); });
+    add("time.pause", "Pauses the simulation, or what is shown again",
+        [run](Workspace& w) { run(w, false); });
     add("time.toggle", "Runs or pauses the simulation",
-        [](Workspace& w) { w.clock.playing = !w.clock.playing; });
-    add("time.step", "Pauses and advances by one tick of 1/60 s", [](Workspace& w) {
-        w.clock.playing = false;
+        [run](Workspace& w) { run(w, !w.clock.playing && !w.clock.replaying); });
+    add("time.step", "Pauses and advances by one tick of 1/60 s", [run](Workspace& w) {
+        run(w, false);
         ++w.clock.steps_due;
     });
     table.add({.name = "time.speed",
@@ -100,6 +117,20 @@ void add_time_commands(CommandTable& table) {
              "can be undone",
          .effect = Effect::Look,
          .apply = seek});
+    add("time.replay",
+        "Shows the last ten seconds again, from the moment that is shown or, at the last one, from the first",
+        replay);
+    table.add({.name = "time.incident",
+               .arguments = {{.name = "number",
+                              .type = ArgumentType::Integer,
+                              .required = false,
+                              .help = "which of the state's events, 0 is the oldest; none when left out",
+                              .low = 0,
+                              .high = Rewind::most_incidents - 1}},
+               .help = "Goes to a moment at which a joint jumped, and shows what was before it and what came "
+                       "of it",
+               .effect = Effect::Look,
+               .apply = show_incident});
 }
 
 /// A setting that is one of two: the one that is named, or the other one when none is.
@@ -181,6 +212,14 @@ void add_window_commands(CommandTable& table) {
     table.add(either("view.theme", "name", {"dark", "light"}, "Dark or light", &Settings::theme));
     table.add(either("view.labels", "show", {"hover", "always"}, "Shows labels on hover, or always",
                      &Settings::labels));
+    table.add({.name = "view.fold",
+               .arguments = {{.name = "section", .type = ArgumentType::Text, .help = "lab and title"},
+                             {.name = "folded", .type = ArgumentType::Boolean, .help = "to its title"}},
+               .help = "Folds a section of a panel, or unfolds it",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments& a) {
+                   w.settings.choices[fold_key(a.text("section"))] = a.boolean("folded") ? "folded" : "open";
+               }});
     table.add(
         {.name = "view.text_scale",
          .arguments = {{.name = "scale", .help = "1 is the system's own size", .low = 0.5, .high = 3.0}},

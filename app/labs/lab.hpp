@@ -106,13 +106,15 @@ class Lab {
     virtual double seconds(const Workspace& workspace) const {
         return static_cast<double>(workspace.clock.tick) * tick_seconds;
     }
-    /// Whether its last seconds are remembered, to go back in time.
-    virtual bool rewinds() const { return false; }
+    /// What a person may ask about that came of a change or a tick: a joint that jumped. Parts of this lab.
+    /// The ticks are filled in by who asks.
+    virtual std::vector<Incident> review(const Part& /*before*/, const Part& /*after*/) const { return {}; }
     /// Whether something long is being worked out, a share of it in every tick, paused or not.
     virtual bool working(const Workspace&) const { return false; }
     virtual void work(Workspace&) const {}
-    /// The strip of time below the scene; shown while has_timeline().
-    virtual bool has_timeline(const Workspace&) const { return false; }
+    /// The strip of time below the scene: how high it is, in pixels at scale 1. 0: there is none.
+    static constexpr float strip_height = 46.0f;
+    virtual float timeline_height(const Workspace&) const { return 0.0f; }
     virtual void timeline(const Workspace&, Emit&) const {}
 
     // a flat picture beside the scene: plots, for a lab that is mostly numbers over time

@@ -5,8 +5,8 @@
 
 namespace tendril::app {
 
-Layout lay_out(glm::vec2 window, float scale, const Settings& settings, bool has_timeline, float canvas) {
-    constexpr float bar = 44.0f, status = 28.0f, timeline = 46.0f, folded = 12.0f;
+Layout lay_out(glm::vec2 window, float scale, const Settings& settings, float timeline, float canvas) {
+    constexpr float bar = 44.0f, status = 28.0f, folded = 12.0f;
     constexpr float min_view = 0.34f;  // of the width: what the middle keeps, whatever the panels ask for
 
     const float most = std::max(0.0f, 0.5f * (1.0f - min_view) * window.x);
@@ -17,7 +17,9 @@ Layout lay_out(glm::vec2 window, float scale, const Settings& settings, bool has
     const float right = side(settings.right_open, settings.right_width);
     const float top = std::round(bar * scale);
     const float low = std::max(top, window.y - std::round(status * scale));
-    const float middle = has_timeline ? std::max(top, low - std::round(timeline * scale)) : low;
+    // The scene keeps half of the height, whatever is plotted below it.
+    const float strip = std::min(std::round(timeline * scale), std::max(0.0f, 0.5f * (low - top)));
+    const float middle = low - std::floor(strip);
 
     Layout layout;
     layout.scale = scale;

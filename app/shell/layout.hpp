@@ -13,10 +13,10 @@ struct Layout {
     float scale = 1.0f;
 };
 
-/// Everything in window coordinates. In a narrow window the panels give way before the middle does; of a
-/// folded panel a slim strip stays, to bring it back with. `canvas` is the part of the middle, from the left,
-/// that the lab's own picture takes from the 3D view: 0 to 1.
-Layout lay_out(glm::vec2 window, float scale, const Settings& settings, bool has_timeline,
-               float canvas = 0.0f);
+/// Everything in window coordinates. `timeline`: how high the strip of time is, at scale 1. In a narrow
+/// window the panels give way before the middle does; of a folded panel a slim strip stays, to bring it back
+/// with. `canvas` is the part of the middle, from the left, that the lab's own picture takes from the 3D
+/// view: 0 to 1.
+Layout lay_out(glm::vec2 window, float scale, const Settings& settings, float timeline, float canvas = 0.0f);
 
 }  // namespace tendril::app

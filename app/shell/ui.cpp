@@ -60,6 +60,7 @@ void Ui::load_fonts(float scale, float pixel_ratio) {
     add_font(font_regular(), base_text * pixels);
     add_font(font_medium(), base_text * pixels);
     add_font(font_regular(), 0.87f * base_text * pixels);
+    add_font(font_medium(), 1.4f * base_text * pixels);
     io.FontGlobalScale = 1.0f / pixel_ratio;
 #if IMGUI_VERSION_NUM < 19200
     ImGui_ImplOpenGL3_DestroyFontsTexture();

@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "app/document/units.hpp"
+#include "app/widgets/fonts.hpp"
 #include "app/widgets/number_entry.hpp"
 #include "app/widgets/section_light.hpp"
 #include "app/widgets/text.hpp"
@@ -59,14 +60,58 @@ bool drag_number(const char* id, float& value, float speed, float low, float hig
 
 }  // namespace
 
-void section(const char* title) {
-    ImGui::Dummy({0.0f, 0.35f * ImGui::GetTextLineHeight()});
-    note_section(title);
-    ImGui::TextUnformatted(title);
+namespace {
+
+void line_below() {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::GetWindowDrawList()->AddLine(at, {at.x + ImGui::GetContentRegionAvail().x, at.y},
                                         ImGui::GetColorU32(ImGuiCol_Separator));
     ImGui::Dummy({0.0f, 0.1f * ImGui::GetTextLineHeight()});
+}
+
+}  // namespace
+
+void section(const char* title) {
+    ImGui::Dummy({0.0f, 0.35f * ImGui::GetTextLineHeight()});
+    note_section(title);
+    ImGui::TextUnformatted(title);
+    line_below();
+}
+
+bool section_button(const char* title, bool open) {
+    ImGui::Dummy({0.0f, 0.35f * ImGui::GetTextLineHeight()});
+    note_section(title);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float line = ImGui::GetTextLineHeight(), width = std::max(1.0f, ImGui::GetContentRegionAvail().x);
+    const bool clicked = ImGui::InvisibleButton((std::string("section ") + title).c_str(), {width, line});
+    const ImU32 colour = ImGui::GetColorU32(ImGui::IsItemHovered() ? ImGuiCol_Text : ImGuiCol_TextDisabled);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip(open ? "Click folds this section" : "Click unfolds it");
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    list->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), title);
+    // At the right end, where it is in nobody's way.
+    const float half = 0.18f * line;
+    const ImVec2 mark{at.x + width - 2.0f * half, at.y + 0.5f * line};
+    const float stroke = std::max(1.0f, 0.1f * line);
+    const ImVec2 points[] = {
+        open ? ImVec2(mark.x - 1.4f * half, mark.y - 0.7f * half)
+             : ImVec2(mark.x - 0.7f * half, mark.y - 1.4f * half),
+        open ? ImVec2(mark.x, mark.y + 0.7f * half) : ImVec2(mark.x + 0.7f * half, mark.y),
+        open ? ImVec2(mark.x + 1.4f * half, mark.y - 0.7f * half)
+             : ImVec2(mark.x - 0.7f * half, mark.y + 1.4f * half)};
+    list->AddPolyline(points, 3, colour, ImDrawFlags_None, stroke);
+    line_below();
+    return clicked;
+}
+
+void verdict(const std::string& text, glm::vec3 colour) {
+    ImGui::Dummy({0.0f, 0.2f * ImGui::GetTextLineHeight()});
+    ImGui::PushFont(verdict_font());
+    ImGui::PushStyleColor(ImGuiCol_Text, {colour.r, colour.g, colour.b, 1.0f});
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted(text.c_str(), text.c_str() + text.size());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
 }
 
 void note(const std::string& text) {
@@ -75,6 +120,16 @@ void note(const std::string& text) {
     ImGui::TextUnformatted(text.c_str(), text.c_str() + text.size());
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
+}
+
+void note_of(const std::vector<std::string>& all, std::size_t shown) {
+    const float wrap = std::max(1.0f, ImGui::GetContentRegionAvail().x);
+    float highest = 0.0f;
+    for (const std::string& text : all)
+        highest = std::max(highest, ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap).y);
+    const float from = ImGui::GetCursorPosY();
+    note(all[shown]);
+    ImGui::SetCursorPosY(from + highest + ImGui::GetStyle().ItemSpacing.y);
 }
 
 bool number_field(const char* name, float& value, float speed, float low, float high, const char* format) {

@@ -8,13 +8,21 @@
 #include <glm/vec3.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tendril::app {
 
 /// A heading over a group of rows, with some air above it.
 void section(const char* title);
+/// One with a mark that says whether what follows is shown; true in a frame in which it is clicked.
+bool section_button(const char* title, bool open);
+/// What the panel is about, in one short line, or wrapped: the largest text of all.
+void verdict(const std::string& text, glm::vec3 colour);
 /// Dim text, wrapped.
 void note(const std::string& text);
+
+/// One of several texts, with room for the longest: what comes below keeps still when another is shown.
+void note_of(const std::vector<std::string>& all, std::size_t shown);
 
 // A drag ends at the range. What is typed counts when the person is done (number_entry.hpp). Beyond the range
 // it is passed on: the command that takes it refuses it, and says the value and the range.

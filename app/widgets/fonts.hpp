@@ -5,7 +5,7 @@
 
 namespace tendril::app {
 
-enum class Font { Text, Heading, Small };
+enum class Font { Text, Heading, Small, Verdict };
 
 inline ImFont* font(Font which) {
     return ImGui::GetIO().Fonts->Fonts[static_cast<int>(which)];
@@ -15,6 +15,10 @@ inline ImFont* small_font() {
 }
 inline ImFont* heading_font() {
     return font(Font::Heading);
+}
+
+inline ImFont* verdict_font() {
+    return font(Font::Verdict);
 }
 
 }  // namespace tendril::app

@@ -59,11 +59,6 @@ class Strip {
         list_->AddText({left, at_.y}, dim, text);
         free_from_ = left + wide + 6.0f * unit();
     }
-    /// What lies ahead of the head.
-    void ahead(float share) {
-        list_->AddLine({from_, base_}, {from_ + span_ * share, base_},
-                       ImGui::GetColorU32(ImGuiCol_CheckMark, 0.45f), 2.0f * unit());
-    }
     void head(float share) { played(0.0f, share, share); }
     /// From where it began to the head, which is there, and on to what is known.
     void played(float begin, float share, float known) {
@@ -81,6 +76,17 @@ class Strip {
     float hovered() const {
         if (!ImGui::IsItemHovered()) return -1.0f;
         return std::clamp((ImGui::GetIO().MousePos.x - from_) / span_, 0.0f, 1.0f);
+    }
+    void diamond(float share, const TimeMark& mark, bool hot) {
+        const float x = from_ + span_ * share, y = base_ - (mark.large ? 13.0f : 11.0f) * unit();
+        const float radius = ((mark.large ? 5.5f : 3.0f) + (hot ? 1.5f : 0.0f)) * unit();
+        const ImU32 colour = ImGui::GetColorU32({mark.colour.r, mark.colour.g, mark.colour.b, 1.0f});
+        list_->AddLine({x, y}, {x, base_}, colour, unit());
+        list_->AddQuadFilled({x, y - radius}, {x + radius, y}, {x, y + radius}, {x - radius, y}, colour);
+    }
+    /// Pixels from a place to where the mouse is.
+    float from_mouse(float share) const {
+        return std::abs(ImGui::GetIO().MousePos.x - (from_ + span_ * share));
     }
     void bar(float from, float to, const TimeBar& bar) {
         const float left = from_ + span_ * from, high = (2.0f + 8.0f * bar.height) * unit();
@@ -104,25 +110,23 @@ class Strip {
     float free_from_ = -1e9f;  ///< where the next text may begin
 };
 
-}  // namespace
-
-bool timeline(const char* id, int& tick, int ticks, double seconds, int known) {
-    Strip strip(id);
-    const int before = tick;
-    if (const float share = strip.dragged(); share >= 0.0f) {
-        tick = std::min(static_cast<int>(std::lround(share * static_cast<float>(ticks))), ticks - 1);
+/// The one under the mouse: a large one before others, then the nearest. -1 where there is none.
+int mark_under(const Strip& strip, const std::vector<TimeMark>& marks, float whole) {
+    const float close = 7.0f * Strip::unit();
+    int found = -1;
+    float best = 0.0f;
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+        const float away = strip.from_mouse(static_cast<float>(marks[i].at) / whole);
+        if (away > close) continue;
+        const float counts = away + (marks[i].large ? 0.0f : close);
+        if (found >= 0 && counts >= best) continue;
+        best = counts;
+        found = static_cast<int>(i);
     }
-    const double whole = ticks * seconds;
-    const double step =
-        mark_seconds(whole / static_cast<double>(strip.span()), 60.0 * static_cast<double>(Strip::unit()));
-    for (double t = 0.0; t <= whole + 1e-9; t += step) {
-        const std::string text = fixed_text(t, step < 1.0 ? 1 : 0) + " s";
-        strip.mark(static_cast<float>(t / whole), text.c_str());
-    }
-    if (known > tick) strip.ahead(static_cast<float>(known) / static_cast<float>(ticks));
-    strip.head(static_cast<float>(tick) / static_cast<float>(ticks));
-    return tick != before;
+    return found;
 }
+
+}  // namespace
 
 bool step_timeline(const char* id, int& step, const std::vector<int>& ends) {
     Strip strip(id);
@@ -150,7 +154,15 @@ TimeStripUse time_strip(const char* id, int& tick, const TimeStrip& content) {
     const auto share = [&](int at) { return static_cast<float>(at) / whole; };
     const auto tick_at = [&](float part) { return static_cast<int>(std::lround(part * whole)); };
     const int before = tick;
-    if (const float part = strip.dragged(); part >= 0.0f) tick = std::max(tick_at(part), content.start);
+    TimeStripUse use;
+    // A click on a mark is a click on that, and moves nothing.
+    const ImGuiID held = ImGui::GetID((std::string(id) + " mark").c_str());
+    ImGuiStorage& kept = *ImGui::GetStateStorage();
+    if (strip.hovered() >= 0.0f) use.on_mark = mark_under(strip, content.marks, whole);
+    use.mark_clicked = ImGui::IsItemActivated() && use.on_mark >= 0;
+    if (use.mark_clicked || !ImGui::IsItemActive()) kept.SetBool(held, use.mark_clicked);
+    if (const float part = strip.dragged(); part >= 0.0f && !kept.GetBool(held))
+        tick = std::max(tick_at(part), content.start);
     for (std::size_t i = 0; i < content.bars.size(); ++i) {
         const int at = content.bars_from + static_cast<int>(i);
         if (at >= 0 && at <= content.ticks)
@@ -165,8 +177,12 @@ TimeStripUse time_strip(const char* id, int& tick, const TimeStrip& content) {
     }
     strip.played(share(content.start), share(tick), share(std::max(tick, content.known)));
     if (content.start > 0) strip.flag(share(content.start));
+    for (std::size_t i = 0; i < content.marks.size(); ++i)
+        strip.diamond(share(content.marks[i].at), content.marks[i], use.on_mark == static_cast<int>(i));
     const float over = strip.hovered();
-    return {tick != before, over < 0.0f ? -1 : tick_at(over)};
+    use.moved = tick != before;
+    use.hovered = over < 0.0f ? -1 : tick_at(over);
+    return use;
 }
 
 }  // namespace tendril::app

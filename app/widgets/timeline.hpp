@@ -6,10 +6,6 @@
 
 namespace tendril::app {
 
-/// `tick` of `ticks`, each of `seconds`; up to `known` there is something to see. True in a frame in which a
-/// person moved the head.
-bool timeline(const char* id, int& tick, int ticks, double seconds, int known = 0);
-
 /// The steps of a solve: `ends[i]` is the last step of iteration i (of what comes before the first for i =
 /// 0). `step` is 0 to the last of them. True in a frame in which a person moved the head.
 bool step_timeline(const char* id, int& step, const std::vector<int>& ends);
@@ -18,6 +14,12 @@ bool step_timeline(const char* id, int& step, const std::vector<int>& ends);
 struct TimeBar {
     glm::vec3 colour{0.5f};
     float height = 0.0f;
+};
+/// Something that happened, at a place on a strip.
+struct TimeMark {
+    int at = 0;  ///< ticks from the left end
+    glm::vec3 colour{0.5f};
+    bool large = false;  ///< what one looks for
 };
 /// A stretch of time, with bars on it. All places are in ticks from the left end.
 struct TimeStrip {
@@ -28,10 +30,13 @@ struct TimeStrip {
     int known = 0;               ///< up to there there is something to see
     int bars_from = 0;
     std::vector<TimeBar> bars;  ///< one a tick
+    std::vector<TimeMark> marks{};
 };
 struct TimeStripUse {
     bool moved = false;  ///< in this frame a person moved the head
     int hovered = -1;    ///< the tick that the mouse is on; -1 where it is not
+    int on_mark = -1;    ///< the mark that the mouse is on, a large one before others; -1 where it is on none
+    bool mark_clicked = false;  ///< in this frame; the head stays where it is
 };
 TimeStripUse time_strip(const char* id, int& tick, const TimeStrip& strip);
 

@@ -8,6 +8,7 @@
 #include "app/labs/chain/colours.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
+#include "app/labs/chain/incidents.hpp"
 #include "app/labs/chain/presets.hpp"
 #include "app/labs/chain/shown.hpp"
 #include "app/labs/kit/guarded_step.hpp"
@@ -65,6 +66,7 @@ void ChainLab::step(Workspace& workspace) const {
     const int due = workspace.clock.whole_ticks();
     const auto stopped = guarded_step<ChainPart>(workspace, chain_lab, [&](ChainPart& part) {
         for (int tick = 0; tick < due; ++tick) {
+            part.study.gesture_begins = true;
             part.motion.ticks = (part.motion.ticks + 1) % ticks_per_round(part.motion);
             reach_for(part, motion_point(part.motion, part.motion.ticks), runtime);
             check_range(part);
@@ -74,6 +76,19 @@ void ChainLab::step(Workspace& workspace) const {
     if (!stopped) return;
     workspace.document.edit<ChainPart>(chain_lab).motion.path = Motion::Path::Still;
     workspace.toast(*stopped, ToastKind::Refusal);
+}
+
+/// The microscope that plays.
+bool ChainLab::working(const Workspace& workspace) const {
+    return chain_part(workspace).study.pace > 0.0f;
+}
+
+void ChainLab::work(Workspace& workspace) const {
+    const auto trace = shown_chain(workspace).trace;
+    const bool modified = workspace.modified();  // looking is nothing that wants saving
+    auto& part = workspace.document.edit<ChainPart>(chain_lab);
+    part.study.play(tick_seconds * static_cast<double>(workspace.clock.speed), trace ? trace->frames() : 0);
+    if (!modified) workspace.saved = workspace.document;
 }
 
 std::uint64_t ChainLab::tick_work(const Workspace& workspace) const {
@@ -188,6 +203,7 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
             {"selection", colours.selection, true}};
     if (shown.trace) rows.push_back({"this step", colours.accent, true});
     if (shown.trace) rows.push_back({"start, earlier iterations", colours.ghost});
+    if (workspace.ui.incident) rows.push_back({"before it happened", colours.ghost});
     if (part.mode != ChainMode::Reach) return rows;
     if (part.reach.pole) rows.push_back({"pole", pole_colour(colours)});
     if (!part.reach.limits.empty()) rows.push_back({"limit", colours.ghost, true});
@@ -218,7 +234,7 @@ std::vector<Shortcut> ChainLab::shortcuts() const {
 }
 
 std::vector<LabSetting> ChainLab::settings() const {
-    return {segment_style(), reach_sphere()};
+    return {segment_style(), reach_sphere(), past_plot_setting(), ghost_setting()};
 }
 
 std::vector<CommandCall> ChainLab::opening() const {
@@ -252,8 +268,8 @@ std::vector<TestScene> ChainLab::test_scenes() const {
     };
 }
 
-bool ChainLab::has_timeline(const Workspace& workspace) const {
-    return moving(workspace) || chain_part(workspace).study.kind == Study::Kind::Microscope;
+std::vector<Incident> ChainLab::review(const Part& before, const Part& after) const {
+    return chain_incidents(dynamic_cast<const ChainPart&>(before), dynamic_cast<const ChainPart&>(after));
 }
 
 }  // namespace tendril::app

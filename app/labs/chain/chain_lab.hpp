@@ -26,7 +26,10 @@ class ChainLab final : public Lab {
 
     bool moving(const Workspace& workspace) const override;
     void step(Workspace& workspace) const override;
+    bool working(const Workspace& workspace) const override;
+    void work(Workspace& workspace) const override;
     std::uint64_t tick_work(const Workspace& workspace) const override;
+    std::vector<Incident> review(const Part& before, const Part& after) const override;
     void draw(const View& view, DrawList& list) const override;
 
     std::vector<LegendRow> legend(const Workspace& workspace) const override;
@@ -39,7 +42,7 @@ class ChainLab final : public Lab {
     Bounds bounds(const Workspace& workspace, bool selection_only) const override;
     void panel(const Workspace& workspace, Emit& emit) const override;
     void inspector(const Workspace& workspace, Emit& emit) const override;
-    bool has_timeline(const Workspace& workspace) const override;
+    float timeline_height(const Workspace& workspace) const override;
     void timeline(const Workspace& workspace, Emit& emit) const override;
     std::vector<Shortcut> shortcuts() const override;
     std::vector<LabSetting> settings() const override;

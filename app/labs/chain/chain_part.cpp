@@ -22,7 +22,7 @@ bool operator==(const ChainPart& a, const ChainPart& b) {
     return a.mode == b.mode && a.index == b.index && a.iterations == b.iterations &&
            a.tolerance == b.tolerance && a.target == b.target && a.selected == b.selected &&
            a.motion == b.motion && a.chain == b.chain && a.reach == b.reach && a.result == b.result &&
-           a.study == b.study;
+           a.study == b.study && a.flips == b.flips;
 }
 
 void check_range(const ChainPart& part) {
@@ -79,6 +79,17 @@ void reach_for(ChainPart& part, glm::vec3 target, ChainRuntime& runtime) {
 void keep_step(ChainPart& part, ChainRuntime& runtime) {
     if (const auto trace = runtime.studied(part).trace)
         part.study.step = std::min(part.study.step, trace->frames());
+}
+
+/// With the joint selected that is selected now, and flips counted as they are now.
+std::shared_ptr<const Part> ChainPart::at_moment(std::shared_ptr<const Part> then) const {
+    const auto& earlier = dynamic_cast<const ChainPart&>(*then);
+    const auto selection = selected && *selected < earlier.chain.size() ? selected : std::nullopt;
+    if (selection == earlier.selected && flips == earlier.flips) return then;
+    auto part = std::make_shared<ChainPart>(earlier);
+    part->selected = selection;
+    part->flips = flips;
+    return part;
 }
 
 std::size_t ChainPart::bytes() const {

@@ -19,10 +19,21 @@ inline constexpr const char* chain_lab = "chain";
 inline constexpr std::size_t max_segments = 500'000;          ///< a scene of more would be too large a file
 inline constexpr std::size_t max_limited_segments = 100'000;  ///< of a chain with limits, for the same reason
 inline constexpr int max_iterations = 10'000;
+inline constexpr float fewest_flip_degrees = 1.0f, most_flip_degrees = 180.0f;
 inline constexpr float min_damping = 1e-4f, max_damping = 10.0f;
 
 /// How the chain follows its target: the library's four modes, and Reach, which pins the head and iterates.
 enum class ChainMode { Forward, Backward, Fixed, WithIndex, Reach };
+
+/// When a solve counts as a flip: a bone turned by more than `degrees`, while the target, as the root sees
+/// it, turned by less than a share of that, or moved by less than a share of the reach.
+struct FlipRule {
+    float degrees = 30.0f;      ///< fewest_flip_degrees to most_flip_degrees
+    float angle_share = 0.2f;   ///< 0 to 1
+    float reach_share = 0.02f;  ///< 0 to 1
+
+    bool operator==(const FlipRule&) const = default;
+};
 
 struct ChainPart final : Part {
     Chain chain;
@@ -36,11 +47,13 @@ struct ChainPart final : Part {
     ReachSettings reach;
     std::optional<ReachResult> result;  ///< of the last solve; none once the chain was moved otherwise
     Study study;
+    FlipRule flips;
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<ChainPart>(*this); }
     Json save() const override;
     std::shared_ptr<Part> load(const Json& json, const std::string& where) const override;
     void upgrade(Json& json, int version) const override;
+    std::shared_ptr<const Part> at_moment(std::shared_ptr<const Part> then) const override;
     std::size_t bytes() const override;
 };
 

@@ -15,6 +15,7 @@ Command chain_command(const char* name, std::vector<Argument> arguments, const c
             .apply = [change, effect](Workspace& workspace, const Arguments& given) {
                 ChainRuntime& runtime = workspace.runtimes.of<ChainRuntime>(chain_lab);
                 change_part<ChainPart>(workspace, chain_lab, [&](ChainPart& part, const ChainPart&) {
+                    part.study.gesture_begins = workspace.gesture_begins;
                     change(part, given, runtime);
                     // What is studied is always the solve that the chain shows.
                     if (part.study.open() && effect == Effect::Edit) reach_for(part, part.target, runtime);

@@ -48,6 +48,8 @@ class Drawing {
             draw_limits(view_, chain_, list_);
             draw_pole(view_, part_, list_);
         }
+        draw_ghosts(view_, part_, list_);
+        draw_incident(view_, part_, list_);
         path();
         target();
         labels();

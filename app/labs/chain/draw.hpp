@@ -14,6 +14,11 @@ LabSetting segment_style();
 /// Whether mode reach shows the sphere of what the chain can reach.
 LabSetting reach_sphere();
 
+/// What of the last ten seconds is plotted below the scene.
+enum class PastPlot { Nothing, Error, Swing, Twist };
+LabSetting past_plot_setting();
+PastPlot past_plot(const Settings& settings);
+
 /// The limits, from the numbers that the solver uses, and the angles that the joints have.
 void draw_limits(const View& view, const ShownChain& shown, DrawList& list);
 /// The pole, and the line that it turns the chain about.
@@ -25,6 +30,14 @@ void draw_reach_sphere(const View& view, const ShownChain& shown, DrawList& list
 void draw_microscope(const View& view, const ShownChain& shown, DrawList& list);
 /// The chains that the solvers of a race ended in.
 void draw_race(const View& view, const ShownChain& shown, DrawList& list);
+
+/// Under a chain that shows what came of an incident: how it stood before, and how the joint that jumped
+/// went.
+void draw_incident(const View& view, const ChainPart& part, DrawList& list);
+
+/// Whether the poses of the last ten seconds are shown, one for each half second.
+LabSetting ghost_setting();
+void draw_ghosts(const View& view, const ChainPart& part, DrawList& list);
 
 /// How far apart the lanes of a race are that is shown side by side, metres; 0 overlaid.
 glm::vec3 race_lane(const ShownChain& shown);

@@ -7,6 +7,7 @@
 
 #include "app/document/units.hpp"
 #include "app/labs/chain/panels.hpp"
+#include "app/labs/kit/folding.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/text.hpp"
@@ -122,7 +123,6 @@ void follow_selection(const ChainPart& part, float row_height) {
 }
 
 void joint_table(const ShownChain& shown, const Joints& joints, Emit& emit) {
-    section("Joints, in metres");
     ImGui::PushFont(small_font());
     const bool narrow = ImGui::GetContentRegionAvail().x < 16.0f * ImGui::GetFontSize();
     const ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY |
@@ -156,11 +156,12 @@ void ChainLab::inspector(const Workspace& workspace, Emit& emit) const {
     if (shown.trace) microscope_rows(shown, colours, emit);
     if (shown.race) race_rows(shown, colours, emit);
     const Joints joints = shown_joints(shown);
-    if (reaches) report_rows(shown, joints, colours);
+    report_rows(shown, joints, colours);
+    incident_rows(workspace, colours, emit);
     selection_rows(shown, joints, emit);
     if (reaches) limit_rows(shown.part, emit);
     chain_rows(shown, joints);
-    joint_table(shown, joints, emit);
+    if (folding_section(workspace, "Joints, in metres", emit, false)) joint_table(shown, joints, emit);
 }
 
 }  // namespace tendril::app

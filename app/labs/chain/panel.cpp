@@ -1,30 +1,48 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 #include "app/document/units.hpp"
+#include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/panels.hpp"
 #include "app/labs/chain/presets.hpp"
+#include "app/labs/kit/folding.hpp"
+#include "app/labs/kit/past_strip.hpp"
 #include "app/labs/kit/preset_rows.hpp"
 #include "app/widgets/fields.hpp"
+#include "app/widgets/icons.hpp"
 #include "app/widgets/timeline.hpp"
 
 namespace tendril::app {
 namespace {
 
 /// Length that the next added or inserted segment gets: a wish of the panel, no part of the document.
-float& next_length() {
-    return *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("next length"), 1.0f);
+float length_of_next() {
+    ImGuiStorage& kept = *ImGui::GetStateStorage();
+    const ImGuiID kept_as = ImGui::GetID("next length");
+    float length = kept.GetFloat(kept_as, 1.0f);
+    if (number_field("new bone", length, 0.01f, 0.0f, 1000.0f, "%.3f m")) kept.SetFloat(kept_as, length);
+    return length;
 }
 
-void mode_rows(const ChainPart& part, Emit& emit) {
-    section("Mode");
-    for (const ChainMode mode : chain_modes.values()) {
+/// As people ask for them: to reach first, then the four that trail.
+constexpr std::array modes_in_panel{ChainMode::Reach, ChainMode::Forward, ChainMode::Backward,
+                                    ChainMode::Fixed, ChainMode::WithIndex};
+
+void mode_rows(const ChainPart& part, const Palette& colours, Emit& emit) {
+    std::vector<std::string> helps;
+    std::size_t shown = 0;
+    for (const ChainMode mode : modes_in_panel) {
         if (option_button(chain_modes.title(mode), part.mode == mode))
             emit("chain.mode", {{"mode", chain_modes.name(mode)}});
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", chain_modes.help(mode));
+        draw_mode(mode, colours);
+        if (mode == part.mode) shown = helps.size();
+        helps.emplace_back(chain_modes.help(mode));
     }
-    note(chain_modes.help(part.mode));
+    note_of(helps, shown);
 
     const auto with = [&](const char* name, ArgumentValue value) {
         emit.continuously("chain.mode", {{"mode", chain_modes.name(part.mode)}, {name, std::move(value)}});
@@ -43,9 +61,7 @@ void mode_rows(const ChainPart& part, Emit& emit) {
 }
 
 void segment_rows(const ChainPart& part, Emit& emit) {
-    section("Joints");
-    number_field("new bone", next_length(), 0.01f, 0.0f, 1000.0f, "%.3f m");
-    const float length = next_length();
+    const float length = length_of_next();
     if (row_button("Add", 3, true, "Adds a joint at the end, with a bone of that length"))
         emit("chain.add", {{"length", length}});
     if (row_button("Insert", 3, part.selected.has_value(), "Inserts a joint before the selected one")) {
@@ -66,7 +82,6 @@ void segment_rows(const ChainPart& part, Emit& emit) {
 }
 
 void target_rows(const ChainPart& part, bool playing, Emit& emit) {
-    section("Target");
     glm::vec3 target = part.target;
     if (point_field("target", target, 0.01f)) emit.continuously("chain.target", {{"to", target}});
 
@@ -86,6 +101,22 @@ void target_rows(const ChainPart& part, bool playing, Emit& emit) {
         with("period", period);
 }
 
+/// What of the last ten seconds is plotted below the scene.
+void plot_choice(const Settings& settings, Emit& emit) {
+    const LabSetting setting = past_plot_setting();
+    std::vector<const char*> titles;
+    for (const LabSetting::Choice& choice : setting.choices) titles.push_back(choice.title.c_str());
+    int chosen = static_cast<int>(setting.chosen(settings));
+    if (choice_field("plot", chosen, titles.data(), static_cast<int>(titles.size())))
+        emit(setting.command, {{setting.argument, setting.choices[static_cast<std::size_t>(chosen)].name}});
+    explain(
+        "What of the last ten seconds is plotted below the scene; angles are those of the selected joint");
+    bool ghosts = ghost_setting().chosen(settings) == 1;
+    if (ImGui::Checkbox("Ghosts of the last ten seconds", &ghosts))
+        emit(ghost_setting().command, {{ghost_setting().argument, ghosts ? "past" : "nothing"}});
+    explain("Where the chain was, at every half second");
+}
+
 void preset_rows(Emit& emit) {
     std::vector<PresetButton> buttons;
     for (const Preset& preset : presets()) {
@@ -101,13 +132,19 @@ void preset_rows(Emit& emit) {
 
 void ChainLab::panel(const Workspace& workspace, Emit& emit) const {
     const ChainPart& part = chain_part(workspace);
-    mode_rows(part, emit);
-    if (part.mode == ChainMode::Reach) solver_rows(part, emit);
-    study_rows(part, emit);
-    segment_rows(part, emit);
-    target_rows(part, workspace.clock.playing, emit);
-    preset_rows(emit);
-    export_rows(emit);
+    const auto open = [&](const char* title) { return folding_section(workspace, title, emit); };
+    if (open("Presets")) preset_rows(emit);
+    if (open("Mode and solver")) {
+        mode_rows(part, palette(workspace.settings.theme), emit);
+        if (part.mode == ChainMode::Reach) solver_rows(part, emit);
+    }
+    if (open("Joints")) segment_rows(part, emit);
+    if (open("Target")) target_rows(part, workspace.clock.playing, emit);
+    if (open("Analyse")) {
+        study_rows(part, emit);
+        plot_choice(workspace.settings, emit);
+    }
+    if (open("Export")) export_rows(emit);
 }
 
 void ChainLab::timeline(const Workspace& workspace, Emit& emit) const {
@@ -115,16 +152,19 @@ void ChainLab::timeline(const Workspace& workspace, Emit& emit) const {
     const ChainPart& part = chain.part;
     if (chain.trace) {
         const Trace& trace = *chain.trace;
+        const bool plays = part.study.pace > 0.0f;
+        if (icon_button("play", plays ? Icon::Pause : Icon::Play,
+                        plays ? "Pauses" : "Goes through the steps by itself", true, plays))
+            emit(plays ? "microscope.pause" : "microscope.play");
+        ImGui::SameLine();
         int shown = static_cast<int>(part.study.step);
         if (step_timeline("solve", shown, iteration_ends(trace))) {
             emit.continuously("microscope.seek", {{"step", shown}});
         }
         return;
     }
-    int tick = static_cast<int>(part.motion.ticks);
-    if (app::timeline("round", tick, static_cast<int>(ticks_per_round(part.motion)), tick_seconds)) {
-        emit.continuously("chain.seek", {{"tick", tick}});
-    }
+    past_strip(workspace, emit);
+    past_plot_rows(workspace);
 }
 
 }  // namespace tendril::app

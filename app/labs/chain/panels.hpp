@@ -6,14 +6,20 @@
 
 namespace tendril::app {
 
+/// At the right of the item before: what a mode does, as a small picture.
+void draw_mode(ChainMode mode, const Palette& colours);
 /// The panel: what solves, and its options.
 void solver_rows(const ChainPart& part, Emit& emit);
 /// The panel: microscope and race.
 void study_rows(const ChainPart& part, Emit& emit);
 /// The panel: what to copy.
 void export_rows(Emit& emit);
-/// The inspector: how the last solve went, with the joints where they are shown.
+/// Below the strip of the last ten seconds: what of them is plotted.
+void past_plot_rows(const Workspace& workspace);
+/// The inspector: what became of the last move of the target, and how the last solve went.
 void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, const Palette& palette);
+/// The inspector: the last flips and what else happened; a click goes to it.
+void incident_rows(const Workspace& workspace, const Palette& palette, Emit& emit);
 /// The inspector: the limit of the selected joint.
 void limit_rows(const ChainPart& part, Emit& emit);
 /// The inspector: the step that the microscope shows.

@@ -7,6 +7,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/chain/panels.hpp"
+#include "app/labs/chain/verdict.hpp"
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {
@@ -42,24 +43,29 @@ std::vector<AngleRow> angle_rows(ik::JointKind kind) {
 }  // namespace
 
 void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, const Palette& palette) {
-    section("Reach");
     const ChainPart& part = shown.part;
-    reading("tip to target", "%.4f m", static_cast<double>(shown_residual(part, joints)));
     if (!shows_end(shown)) {
-        reading("status", "on its way");
+        verdict("On its way", palette.text);
+        reading("tip to target", "%.4f m", static_cast<double>(shown_residual(part, joints)));
         note("A step of the solve; its report comes with the last one.");
         return;
     }
+    const Verdict said = chain_verdict(part);
+    verdict(said.text, said.kind == Verdict::Kind::Bad ? palette.limit : palette.text);
+    if (part.mode != ChainMode::Reach) {
+        note(chain_modes.help(part.mode));
+        return;
+    }
     if (!part.result) {
-        note("Drag the target to solve for it.");
+        note("The tip then reaches for it.");
         return;
     }
     const ReachResult& result = *part.result;
-    reading("status", "%s", ik::name(result.report.status));
-    reading("iterations", "%d", result.report.iterations);
-    note(ran_text(result.method, result.report, !part.reach.limits.empty()) + ".");
-    note(status_help(result.report.status));
     if (result.active_limit) coloured_note(active_limit_text(*result.active_limit) + ".", palette.limit);
+    note(std::string(ik::name(result.report.status)) + ": " + status_help(result.report.status));
+    note(ran_text(result.method, result.report, !part.reach.limits.empty()) + ".");
+    reading("iterations", "%d", result.report.iterations);
+    reading("tip to target", "%.4f m", static_cast<double>(shown_residual(part, joints)));
 }
 
 void limit_rows(const ChainPart& part, Emit& emit) {

@@ -89,7 +89,6 @@ void pole_rows(const ChainPart& part, Emit& emit) {
 }  // namespace
 
 void solver_rows(const ChainPart& part, Emit& emit) {
-    section("Solver");
     std::array<const char*, ik::all_methods.size()> titles{};
     std::transform(ik::all_methods.begin(), ik::all_methods.end(), titles.begin(), solver_title);
     int method = static_cast<int>(part.reach.method);
@@ -99,8 +98,11 @@ void solver_rows(const ChainPart& part, Emit& emit) {
     if (choice_field("##solver", method, titles.data(), static_cast<int>(titles.size()), why_not.data())) {
         emit("chain.solver", {{"name", ik::name(ik::all_methods[static_cast<std::size_t>(method)])}});
     }
-    note(takes(part.reach.method, part.chain) ? solver_help(part.reach.method)
-                                              : why_not_taken(part.reach.method, part.chain) + ".");
+    std::vector<std::string> notes;
+    for (const ik::Method each : ik::all_methods) notes.emplace_back(solver_help(each));
+    notes.push_back(why_not_taken(part.reach.method, part.chain) + ".");
+    const bool taken = takes(part.reach.method, part.chain);
+    note_of(notes, taken ? static_cast<std::size_t>(part.reach.method) : notes.size() - 1);
     stop_rows(part.reach, part.chain.reach(), emit);
     option_rows(part.reach, emit);
     pole_rows(part, emit);

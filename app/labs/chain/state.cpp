@@ -3,6 +3,7 @@
 #include "app/io/solver_json.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/shown.hpp"
+#include "app/labs/chain/verdict.hpp"
 
 namespace tendril::app {
 namespace {
@@ -85,6 +86,7 @@ Json ChainLab::state(const Workspace& workspace) const {
               {"tail", end(true)},
               {"selected", part.selected ? Json(*part.selected) : Json(nullptr)},
               {"reach", number(part.chain.reach())},
+              {"verdict", chain_verdict(part).text},
               {"motion", motion_paths.name(part.motion.path)},
               {"segments", std::move(list)}};
     if (part.mode == ChainMode::Reach) json["solve"] = reach_state(part);

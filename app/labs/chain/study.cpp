@@ -1,6 +1,7 @@
 #include "app/labs/chain/study.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "app/document/json_complete.hpp"
@@ -38,6 +39,8 @@ void Study::begin(Kind as, std::optional<From> from, const Chain& chain, const R
 }
 
 void Study::note_start(const Chain& chain, const ReachSettings& settings) {
+    if (!gesture_begins && last_start.size() == chain.size()) return;
+    gesture_begins = false;
     last_start.clear();
     last_state = {};
     if (chain.size() > max_studied_segments) return;
@@ -50,6 +53,14 @@ void Study::close() {
     start.clear();
     start_state = {};
     step = 0;
+    pace = 0.0f;
+}
+
+void Study::play(double seconds, std::size_t last) {
+    const double before = passed;
+    passed += static_cast<double>(pace) * seconds;
+    step = std::min(last, step + static_cast<std::size_t>(std::floor(passed) - std::floor(before)));
+    if (step == last) pace = 0.0f;
 }
 
 void Study::rewind(Chain& chain, ReachSettings& settings) const {
@@ -80,7 +91,8 @@ std::size_t Study::bytes() const {
 
 bool Study::operator==(const Study& other) const {
     return kind == other.kind && start == other.start && start_state == other.start_state &&
-           step == other.step && racers == other.racers && side_by_side == other.side_by_side;
+           step == other.step && pace == other.pace && passed == other.passed && racers == other.racers &&
+           side_by_side == other.side_by_side;
 }
 
 Json save_study(const Study& study) {

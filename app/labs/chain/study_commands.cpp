@@ -44,6 +44,7 @@ void check_race(const ChainPart& part) {
 void seek(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     check_microscope(part);
     part.study.step = static_cast<std::size_t>(given.integer("step"));
+    part.study.pace = 0.0f;
     const std::size_t last = runtime.studied(part).trace->frames();
     if (part.study.step > last) {
         throw Refused("step must be 0 to " + std::to_string(last) + ", got " +
@@ -67,6 +68,20 @@ void step(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
         to += given.has("by") ? given.integer("by") : 1;
     }
     part.study.step = static_cast<std::size_t>(std::clamp(to, 0L, last));
+    part.study.pace = 0.0f;
+}
+
+/// At its last step it begins anew.
+void play(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
+    check_microscope(part);
+    Study& study = part.study;
+    study.pace = given.has("pace") ? given.number("pace") : default_pace;
+    study.passed = 0.0;
+    if (study.step >= runtime.studied(part).trace->frames()) study.step = 0;
+}
+void pause(ChainPart& part, const Arguments&) {
+    check_microscope(part);
+    part.study.pace = 0.0f;
 }
 
 void close_microscope(ChainPart& part, const Arguments&) {
@@ -111,6 +126,11 @@ void add_microscope_commands(CommandTable& table) {
          integer_argument("iterations", "iterations forward, or back when negative, to the end of one",
                           -max_iterations, max_iterations)},
         "Goes some steps forward or back", step, Effect::Look));
+    table.add(chain_command("microscope.play",
+                            {number_argument("pace", "steps a second; 8 when left out",
+                                             shortest_decimal(slowest_pace), shortest_decimal(fastest_pace))},
+                            "Goes through the steps by itself, to the last", play, Effect::Look));
+    table.add(chain_command("microscope.pause", {}, "Stops going through the steps", pause, Effect::Look));
     table.add(chain_command("microscope.close", {},
                             "Closes the microscope; the chain stays as the solve left it", close_microscope,
                             Effect::Look));

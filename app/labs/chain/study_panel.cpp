@@ -35,9 +35,7 @@ void start_buttons(const char* command, Emit& emit) {
 }
 
 /// Whether time is on the x axis: a wish of the panel, no part of the document.
-bool& against_time() {
-    return *ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("against time"), false);
-}
+constexpr const char* against_time = "against time";
 
 void small_right(const std::string& text) {
     ImGui::PushFont(small_font());
@@ -101,7 +99,6 @@ void race_plot(const Race& race, bool time, const Palette& palette) {
 }  // namespace
 
 void study_rows(const ChainPart& part, Emit& emit) {
-    section("Analyse");
     const bool solvable = part.chain.size() > 1 && part.chain.size() <= max_studied_segments;
     const char* why_not =
         part.chain.size() < 2 ? "Needs a chain of at least one bone" : "For chains of up to 512 joints";
@@ -118,13 +115,14 @@ void study_rows(const ChainPart& part, Emit& emit) {
                    : !solvable ? why_not
                                : "Several solvers, from the same start"))
         emit(racing ? "race.close" : "race.open");
+    end_row();
 }
 
 void export_rows(Emit& emit) {
-    section("Export");
     if (row_button("Copy as C++", 2, true, "This chain, mode and solver as a program against the library"))
         emit("chain.copy", {{"as", "cpp"}});
     if (row_button("Copy as JSON", 2, true, "The scene as text")) emit("chain.copy", {{"as", "json"}});
+    end_row();
 }
 
 void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
@@ -145,6 +143,9 @@ void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit
     if (row_button(">|", 4, step < trace.frames(), "On by an iteration"))
         emit("microscope.step", {{"iterations", 1}});
     end_row();
+    float pace = part.study.pace > 0.0f ? part.study.pace : default_pace;
+    if (number_field("play at", pace, 0.1f, slowest_pace, fastest_pace, "%.1f steps/s"))
+        emit.continuously("microscope.play", {{"pace", pace}});
     start_buttons("microscope.open", emit);
     end_row();
     const Curve curve{solver_title(trace.method), palette.accent, by_iteration(trace.residuals)};
@@ -162,7 +163,9 @@ void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit
 
 void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
     section("Race");
-    bool& time = against_time();
+    ImGuiStorage& kept = *ImGui::GetStateStorage();
+    const ImGuiID kept_as = ImGui::GetID(against_time);
+    bool time = kept.GetBool(kept_as);
     small_right(time ? "time" : "iterations");
     for (const ik::Method method : ik::all_methods) {
         if (takes(method, shown.part.chain)) {
@@ -172,7 +175,7 @@ void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
         }
     }
     race_plot(*shown.race, time, palette);
-    ImGui::Checkbox("Against time", &time);
+    if (ImGui::Checkbox("Against time", &time)) kept.SetBool(kept_as, time);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Measured here and now, the fastest of several runs");
     bool apart = shown.part.study.side_by_side;
     if (ImGui::Checkbox("Side by side", &apart)) {

@@ -17,10 +17,9 @@ class HumanoidLab final : public Lab {
 
     bool moving(const Workspace& workspace) const override;
     void step(Workspace& workspace) const override;
-    bool rewinds() const override { return true; }
     bool working(const Workspace& workspace) const override;
     void work(Workspace& workspace) const override;
-    bool has_timeline(const Workspace& workspace) const override;
+    float timeline_height(const Workspace&) const override { return strip_height; }
     void timeline(const Workspace& workspace, Emit& emit) const override;
 
     void draw(const View& view, DrawList& list) const override;

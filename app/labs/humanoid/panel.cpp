@@ -7,6 +7,7 @@
 #include "app/document/units.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/panels.hpp"
+#include "app/labs/kit/folding.hpp"
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {
@@ -58,7 +59,7 @@ HumanoidPanel humanoid_panel(const Workspace& workspace, Emit& emit) {
 }
 
 void character_rows(const HumanoidPanel& panel) {
-    section("Character");
+    if (!folding_section(panel.workspace, "Character", panel.emit)) return;
     const LoadedCharacter& loaded = *panel.part.loaded;
     std::string file = loaded.file;
     if (text_field("file", file, "type or drop one") && file != loaded.file) {
@@ -86,7 +87,7 @@ void character_rows(const HumanoidPanel& panel) {
 }
 
 void clip_rows(const HumanoidPanel& panel) {
-    section("Clip");
+    if (!folding_section(panel.workspace, "Clip", panel.emit)) return;
     const std::vector<humanoid::Clip>& clips = panel.part.loaded->clips();
     const Playback& playback = panel.part.playback;
     if (clips.empty()) return note("The character has no clips.");
@@ -114,7 +115,7 @@ void clip_rows(const HumanoidPanel& panel) {
 }
 
 void look_rows(const HumanoidPanel& panel) {
-    section("View");
+    if (!folding_section(panel.workspace, "View", panel.emit)) return;
     HumanoidView view = panel.part.view;
     if (ImGui::Checkbox("Camera follows", &view.follow))
         panel.emit("humanoid.view", {{"follow", view.follow}});

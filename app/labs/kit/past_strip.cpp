@@ -1,23 +1,97 @@
 #include "app/labs/kit/past_strip.hpp"
 
+#include <imgui.h>
+
 #include <algorithm>
 
+#include "app/document/units.hpp"
+#include "app/view/palette.hpp"
+#include "app/widgets/icons.hpp"
 #include "app/widgets/timeline.hpp"
 
 namespace tendril::app {
 
+std::string incident_title(const Incident& incident) {
+    const std::string joint = "Joint " + std::to_string(incident.joint);
+    switch (incident.kind) {
+        case Incident::Kind::Flip:
+            return joint + " flipped: a bone at it turned " +
+                   fixed_text(static_cast<double>(incident.degrees), 0) + " degrees in one tick";
+        case Incident::Kind::Limit:
+            return joint + " reached its limit";
+        case Incident::Kind::Restart:
+            return "The solver restarted";
+        case Incident::Kind::Status:
+            break;
+    }
+    return "The solve ended otherwise";
+}
+
+glm::vec3 incident_colour(const Incident& incident, const Palette& palette) {
+    switch (incident.kind) {
+        case Incident::Kind::Flip:
+        case Incident::Kind::Limit:
+            return palette.limit;
+        case Incident::Kind::Restart:
+            return palette.accent;
+        case Incident::Kind::Status:
+            break;
+    }
+    return palette.text_dim;
+}
+
+namespace {
+
+/// Plays what is remembered again, or stops it.
+void replay_button(const Workspace& workspace, Emit& emit) {
+    const bool runs = workspace.clock.replaying;
+    if (icon_button("replay", runs ? Icon::Pause : Icon::Play,
+                    runs ? "Pauses" : "Shows the last ten seconds again, at the speed of the clock",
+                    !workspace.rewind.empty(), runs))
+        emit(runs ? "time.pause" : "time.replay");
+    ImGui::SameLine();
+}
+
+void tell(const Incident& incident) {
+    // Above the strip, which it would hide.
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    ImGui::SetNextWindowPos({mouse.x, ImGui::GetItemRectMin().y - 0.5f * ImGui::GetTextLineHeight()},
+                            ImGuiCond_Always, {mouse.x / std::max(1.0f, ImGui::GetIO().DisplaySize.x), 1.0f});
+    ImGui::SetTooltip("%s:\n%s.\nClick shows what was before, and what came of it.",
+                      incident_title(incident).c_str(), incident.cause.c_str());
+}
+
+}  // namespace
+
 void past_strip(const Workspace& workspace, Emit& emit) {
     const Rewind& past = workspace.rewind;
-    if (past.empty()) return;
+    const Palette& colours = palette(workspace.settings.theme);
+    replay_button(workspace, emit);
     // The strip is ten seconds long from the beginning: what is not there yet is to its right.
-    const auto first = past.oldest();
-    const int ticks = static_cast<int>(Rewind::most_ticks) + 1;
-    const auto last = std::max(past.newest(), workspace.clock.tick);
-    const int newest = static_cast<int>(last - first);
-    const auto tick_now = std::clamp(workspace.clock.tick, first, last);
-    int now = static_cast<int>(tick_now - first);
-    if (timeline("past", now, ticks, tick_seconds, newest))
-        emit.continuously("time.seek", {{"ticks_back", std::max(0, newest - now)}});
+    const std::uint64_t now = workspace.clock.tick;
+    const std::uint64_t first = past.empty() ? now : past.oldest();
+    const std::uint64_t last = past.empty() ? now : std::max(past.newest(), now);
+    const auto place = [&](std::uint64_t tick) {
+        return static_cast<int>(std::clamp(tick, first, last) - first);
+    };
+    TimeStrip strip{.ticks = static_cast<int>(Rewind::most_ticks) + 1,
+                    .seconds = tick_seconds,
+                    .known = place(last),
+                    .bars = {}};
+    const auto& incidents = past.incidents();
+    for (const Incident& incident : incidents) {
+        strip.marks.push_back({.at = place(incident.tick + 1),
+                               .colour = incident_colour(incident, colours),
+                               .large = incident.kind == Incident::Kind::Flip});
+    }
+    int tick = place(now);
+    const TimeStripUse use = time_strip("past", tick, strip);
+    if (use.on_mark >= 0) tell(incidents[static_cast<std::size_t>(use.on_mark)]);
+    if (use.mark_clicked) {
+        emit("time.incident", {{"number", use.on_mark}});
+    } else if (use.moved && !past.empty()) {
+        emit.continuously("time.seek", {{"ticks_back", std::max(0, strip.known - tick)}});
+    }
 }
 
 }  // namespace tendril::app

@@ -1,12 +1,19 @@
-// The strip of the last ten seconds below the scene, for a lab that rewinds.
+// The strip of the last ten seconds below the scene, with a mark for all that happened in them.
 #pragma once
 
+#include <glm/vec3.hpp>
+#include <string>
+
 #include "app/document/workspace.hpp"
+#include "app/view/palette.hpp"
 #include "app/widgets/emit.hpp"
 
 namespace tendril::app {
 
-/// Nothing, where no moment is remembered.
 void past_strip(const Workspace& workspace, Emit& emit);
+
+/// "Joint 2 flipped: its bone turned 128 degrees in one tick"
+std::string incident_title(const Incident& incident);
+glm::vec3 incident_colour(const Incident& incident, const Palette& palette);
 
 }  // namespace tendril::app

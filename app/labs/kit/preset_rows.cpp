@@ -6,7 +6,6 @@ namespace tendril::app {
 
 bool preset_rows(const std::string& lab, const std::vector<PresetButton>& presets, const char* clears,
                  Emit& emit, int of) {
-    section("Presets");
     bool opened = false;
     for (const PresetButton& preset : presets) {
         const char* const tooltip = preset.tooltip.empty() ? nullptr : preset.tooltip.c_str();

@@ -176,7 +176,6 @@ void add_menu(const RigPanel& panel) {
 }  // namespace
 
 void element_tree(const RigPanel& panel) {
-    section("Elements");
     auto& filter = panel.runtime.panel.filter;
     const std::size_t count = panel.part.state.controls.size();
     constexpr std::size_t many = 12;  // fewer one overlooks at once

@@ -5,6 +5,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/document/units.hpp"
+#include "app/labs/kit/folding.hpp"
 #include "app/labs/kit/preset_rows.hpp"
 #include "app/labs/rig/clip.hpp"
 #include "app/labs/rig/panels.hpp"
@@ -80,7 +81,7 @@ void select_unit(const RigPanel& panel, const std::string& name) {
 void curve_rows(const RigPanel& panel) {
     const std::vector<rig::NamedCurve>& curves = panel.part.rig.definition().curves;
     if (curves.empty()) return;
-    section("Curves");
+    if (!folding_section(panel.workspace, "Curves", panel.emit)) return;
     for (std::size_t i = 0; i < std::min<std::size_t>(curves.size(), 100); ++i) {
         reading(curves[i].name.c_str(), "%s", fixed_text(panel.part.state.curves[i], 3).c_str());
         explain("A number that units write: a morph weight, a value of a material.");
@@ -89,7 +90,6 @@ void curve_rows(const RigPanel& panel) {
 }
 
 void solve_rows(const RigPanel& panel) {
-    section("Solve");
     if (row_button("Forward", 2, true, "Runs the units: from controls to bones. A tick does this too"))
         panel.emit("rig.solve", {{"direction", "forward"}});
     if (row_button("Backward", 2, true,
@@ -108,14 +108,15 @@ void solve_rows(const RigPanel& panel) {
 
 void RigLab::panel(const Workspace& workspace, Emit& emit) const {
     const RigPanel panel = rig_panel(workspace, emit);
-    preset_section(emit);
+    const auto open = [&](const char* title) { return folding_section(workspace, title, emit); };
+    if (open("Presets")) preset_section(emit);
     walk_rows(workspace, emit);
-    element_tree(panel);
-    unit_list(panel);
+    if (open("Elements")) element_tree(panel);
+    if (open("Units, in order")) unit_list(panel);
     curve_rows(panel);
-    solve_rows(panel);
+    if (open("Solve")) solve_rows(panel);
     time_rows(workspace, emit);
-    section("Export");
+    if (!open("Export")) return;
     if (row_button("Copy as C++", 1, true, "The rig as it is set, as a program against the library"))
         emit("rig.copy");
 }

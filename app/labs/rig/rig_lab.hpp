@@ -18,11 +18,10 @@ class RigLab final : public Lab {
     bool moving(const Workspace& workspace) const override;
     void step(Workspace& workspace) const override;
     std::uint64_t tick_work(const Workspace& workspace) const override;
-    bool rewinds() const override { return true; }
     double seconds(const Workspace& workspace) const override;
     bool working(const Workspace& workspace) const override;
     void work(Workspace& workspace) const override;
-    bool has_timeline(const Workspace& workspace) const override;
+    float timeline_height(const Workspace& workspace) const override;
     void timeline(const Workspace& workspace, Emit& emit) const override;
 
     void draw(const View& view, DrawList& list) const override;

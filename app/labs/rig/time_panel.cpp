@@ -1,4 +1,5 @@
 #include "app/labs/rig/time_panel.hpp"
+#include "app/labs/kit/folding.hpp"
 
 #include <imgui.h>
 
@@ -59,7 +60,6 @@ std::string clip_text(const RigPart& part) {
 }
 
 void clip_rows(const RigPart& part, Emit& emit) {
-    section("Clip");
     const bool running = part.clip_left && part.clip_left->running;
     const bool something = part.take.last > 0 || !part.walks.empty();
     if (row_button("Record", 3, something,
@@ -83,7 +83,6 @@ void clip_rows(const RigPart& part, Emit& emit) {
 
 void rate_rows(const RigPart& part, Emit& emit) {
     const bool something = part.take.last > 0 || !part.walks.empty();
-    section("Frame rates");
     const bool running = part.rates && part.rates->running;
     if (running) {
         if (row_button("Cancel##rates", 1)) emit("rig.rates.cancel");
@@ -111,7 +110,7 @@ void walk_rows(const Workspace& workspace, Emit& emit) {
     const RigPart& part = rig_part(workspace);
     const rig::Element* const control = walker(part);
     if (!control) return;
-    section("Walk");
+    if (!folding_section(workspace, "Walk", emit)) return;
     const auto walk = std::ranges::find(part.walks, control->name, &RigWalk::control);
     const bool walks = walk != part.walks.end();
     int path = static_cast<int>(walks ? walk->motion.path : Motion::Path::Still);
@@ -129,8 +128,8 @@ void walk_rows(const Workspace& workspace, Emit& emit) {
 
 void time_rows(const Workspace& workspace, Emit& emit) {
     const RigPart& part = rig_part(workspace);
-    clip_rows(part, emit);
-    rate_rows(part, emit);
+    if (folding_section(workspace, "Clip", emit)) clip_rows(part, emit);
+    if (folding_section(workspace, "Frame rates", emit)) rate_rows(part, emit);
 }
 
 }  // namespace tendril::app

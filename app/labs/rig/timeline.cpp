@@ -74,8 +74,8 @@ std::string told(const RigPart& part, std::uint64_t tick) {
 
 }  // namespace
 
-bool RigLab::has_timeline(const Workspace& workspace) const {
-    return !rig_part(workspace).state.controls.empty();
+float RigLab::timeline_height(const Workspace& workspace) const {
+    return rig_part(workspace).state.controls.empty() ? 0.0f : strip_height;
 }
 
 void RigLab::timeline(const Workspace& workspace, Emit& emit) const {

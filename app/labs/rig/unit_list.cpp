@@ -173,7 +173,6 @@ void warning_line(const RigPanel& panel, rig::Warning warning, float margin) {
 }
 
 void unit_list(const RigPanel& panel) {
-    section("Units, in order");
     const std::vector<UnitRow> rows = unit_rows(panel.part);
     const std::vector<double> times =
         panel.workspace.clock.measured ? panel.runtime.microseconds(panel.part.rig) : std::vector<double>();

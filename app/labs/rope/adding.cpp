@@ -130,7 +130,6 @@ class Adding {
 }  // namespace
 
 void adding_rows(const Workspace& workspace, Emit& emit) {
-    section("Add");
     ImGui::PushID("add");  // a scene and a button of this section may have the same title
     Adding adding(workspace, emit);
     adding.bodies();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "app/labs/kit/folding.hpp"
 #include "app/labs/kit/past_strip.hpp"
 #include "app/labs/kit/preset_rows.hpp"
 #include "app/labs/rope/panels.hpp"
@@ -22,7 +23,6 @@ void scene_rows(Emit& emit) {
 }
 
 void tool_rows(const RopePart& part, Emit& emit) {
-    section("Click action");
     for (const RopeTool tool : rope_tools.values()) {
         if (option_button(rope_tools.title(tool), part.tool == tool))
             emit("rope.tool", {{"name", rope_tools.name(tool)}});
@@ -39,7 +39,6 @@ void setting(const char* name, const char* key, float value, float speed, float 
 }
 
 void solver_rows(const RopePart& part, Emit& emit) {
-    section("Solver");
     const rope::Settings& now = part.world->settings();
     for (const rope::Solver solver : {rope::Solver::Direct, rope::Solver::Xpbd, rope::Solver::Relaxation}) {
         if (option_button(rope_solvers.title(solver), now.solver == solver))
@@ -57,7 +56,6 @@ void solver_rows(const RopePart& part, Emit& emit) {
 }
 
 void world_rows(const RopePart& part, Emit& emit) {
-    section("World");
     const rope::Settings& now = part.world->settings();
     setting("damping", "damping", now.damping, 0.01f, 0.0f, 100.0f, "%.2f /s", emit);
     setting("friction", "friction", now.friction, 0.01f, 0.0f, 10.0f, "%.2f", emit);
@@ -71,7 +69,6 @@ void world_rows(const RopePart& part, Emit& emit) {
 }
 
 void time_rows(const Workspace& workspace, Emit& emit) {
-    section("Time");
     const RopePart& part = rope_part(workspace);
     float percent = 100.0f * workspace.clock.speed;
     if (number_field("speed", percent, 0.5f, 5.0f, 200.0f, "%.0f %%"))
@@ -88,7 +85,6 @@ void time_rows(const Workspace& workspace, Emit& emit) {
 }
 
 void view_rows(const RopePart& part, Emit& emit) {
-    section("Show");
     bool strain = part.view.strain, particles = part.view.particles;
     if (ImGui::Checkbox("Strain as colour", &strain)) emit("rope.view", {{"strain", strain}});
     if (ImGui::Checkbox("Particles", &particles)) emit("rope.view", {{"particles", particles}});
@@ -101,13 +97,14 @@ void view_rows(const RopePart& part, Emit& emit) {
 
 void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
     const RopePart& part = rope_part(workspace);
-    scene_rows(emit);
-    tool_rows(part, emit);
-    adding_rows(workspace, emit);
-    solver_rows(part, emit);
-    world_rows(part, emit);
-    time_rows(workspace, emit);
-    view_rows(part, emit);
+    const auto open = [&](const char* title) { return folding_section(workspace, title, emit); };
+    if (open("Presets")) scene_rows(emit);
+    if (open("Click action")) tool_rows(part, emit);
+    if (open("Add")) adding_rows(workspace, emit);
+    if (open("Solver")) solver_rows(part, emit);
+    if (open("World")) world_rows(part, emit);
+    if (open("Time")) time_rows(workspace, emit);
+    if (open("Show")) view_rows(part, emit);
 }
 
 void RopeLab::inspector(const Workspace& workspace, Emit& emit) const {

@@ -45,7 +45,6 @@ class RopeLab final : public Lab {
     void step(Workspace& workspace) const override;
     std::uint64_t tick_work(const Workspace& workspace) const override;
     double seconds(const Workspace& workspace) const override { return rope_part(workspace).time; }
-    bool rewinds() const override { return true; }
 
     void draw(const View& view, DrawList& list) const override;
     std::vector<LegendRow> legend(const Workspace& workspace) const override;
@@ -60,7 +59,7 @@ class RopeLab final : public Lab {
     Bounds bounds(const Workspace& workspace, bool selection_only) const override;
     void panel(const Workspace& workspace, Emit& emit) const override;
     void inspector(const Workspace& workspace, Emit& emit) const override;
-    bool has_timeline(const Workspace& workspace) const override { return !workspace.rewind.empty(); }
+    float timeline_height(const Workspace&) const override { return strip_height; }
     void timeline(const Workspace& workspace, Emit& emit) const override;
     std::vector<Shortcut> shortcuts() const override;
     std::vector<MouseHelp> mouse_help() const override;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "app/labs/kit/folding.hpp"
 #include "app/labs/kit/preset_rows.hpp"
 #include "app/labs/signal/panels.hpp"
 #include "app/labs/signal/presets.hpp"
@@ -23,7 +24,6 @@ void preset_section(Emit& emit) {
 }
 
 void input_section(const SignalPart& part, Emit& emit) {
-    section("Input");
     const SignalInput& input = part.input;
     int chosen = static_cast<int>(input.kind);
     const auto titles = input_kinds.titles();
@@ -54,7 +54,6 @@ void input_section(const SignalPart& part, Emit& emit) {
 }
 
 void export_section(Emit& emit) {
-    section("Export");
     if (row_button("Copy as C++", 2, true, "The filters that are on, as a program against the library"))
         emit("signal.copy", {{"as", "cpp"}});
     if (row_button("Copy as CSV", 2, true, "Time, input and every stage of the last ten seconds"))
@@ -89,7 +88,6 @@ std::string kind_title(const signal::Filter& filter) {
 }
 
 void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit) {
-    section("Filters");
     for (std::size_t i = 0; i < part.stages.size(); ++i) {
         const SignalStage& stage = part.stages[i];
         ImGui::PushID(static_cast<int>(i));
@@ -126,11 +124,12 @@ void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit) {
 void SignalLab::panel(const Workspace& workspace, Emit& emit) const {
     const SignalPart& part = signal_part(workspace);
     const Palette& colours = palette(workspace.settings.theme);
-    preset_section(emit);
-    input_section(part, emit);
-    chain_rows(part, colours, emit);
+    const auto open = [&](const char* title) { return folding_section(workspace, title, emit); };
+    if (open("Presets")) preset_section(emit);
+    if (open("Input")) input_section(part, emit);
+    if (open("Filters")) chain_rows(part, colours, emit);
     parameter_rows(part, colours, emit);
-    export_section(emit);
+    if (open("Export")) export_section(emit);
 }
 
 }  // namespace tendril::app

@@ -24,8 +24,7 @@ class SignalLab final : public Lab {
     }
     void work(Workspace& workspace) const override;
 
-    bool rewinds() const override { return true; }
-    bool has_timeline(const Workspace& workspace) const override { return !workspace.rewind.empty(); }
+    float timeline_height(const Workspace&) const override { return strip_height; }
     void timeline(const Workspace& workspace, Emit& emit) const override;
 
     void draw(const View& view, DrawList& list) const override;

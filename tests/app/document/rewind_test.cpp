@@ -174,5 +174,47 @@ TEST_F(Seek, AnEditForgetsWhatCameAfterAndUndoNothing) {
     }
 }
 
+TEST(Rewind, IncidentsGoWithTheMomentsTheyBelongTo) {
+    Rewind rewind;
+    remember(rewind, 0, 10);
+    rewind.note({.tick = 11, .cause = "first"});
+    rewind.forget_from(11);  // another change in the same tick
+    rewind.note({.tick = 11, .cause = "second"});
+    remember(rewind, 11, 30);
+    ASSERT_EQ(rewind.incidents().size(), 2u);
+    EXPECT_EQ(rewind.incidents()[0].cause, "first");
+    remember(rewind, 12, 12);  // from there on it is another story
+    EXPECT_EQ(rewind.incidents().size(), 2u);
+    remember(rewind, 11, 11);
+    EXPECT_TRUE(rewind.incidents().empty());
+    rewind.note({.tick = 11, .cause = "third"});
+    remember(rewind, 12, 611);
+    EXPECT_EQ(rewind.incidents().size(), 1u);
+    remember(rewind, 612, 612);
+    EXPECT_TRUE(rewind.incidents().empty()) << "ten seconds have passed";
+    for (int i = 0; i < 1000; ++i) rewind.note({.tick = 612, .cause = std::to_string(i)});
+    EXPECT_EQ(rewind.incidents().size(), Rewind::most_incidents);
+    EXPECT_EQ(rewind.incidents().back().cause, "999");
+    rewind.clear();
+    EXPECT_TRUE(rewind.incidents().empty());
+}
+
+TEST(Rewind, AChangeByHandIsRememberedAsItBegan) {
+    Rewind rewind;
+    rewind.remember_change(0);
+    EXPECT_TRUE(rewind.empty()) << "nothing was changed";
+    rewind.begin_change(3, make_part("before"));
+    rewind.begin_change(4, make_part("between"));
+    ASSERT_TRUE(rewind.changed());
+    rewind.remember_change(7);
+    EXPECT_FALSE(rewind.changed());
+    EXPECT_EQ(title_at(rewind, 0), "before");
+    EXPECT_EQ(rewind.at(0).edition, 3u);
+    EXPECT_EQ(rewind.newest(), 7u);
+    rewind.begin_change(5, make_part("again"));
+    rewind.remember(8, 6, make_part("as it is"));
+    EXPECT_FALSE(rewind.changed()) << "the moment has it already";
+}
+
 }  // namespace
 }  // namespace tendril::app

@@ -168,7 +168,6 @@ TEST_F(SignalNumbers, OfTheShelfAreThoseOfTheChainWhereItHasTheKind) {
 }
 
 TEST_F(SignalNumbers, GoBackInTimeWithTheFiltersAsTheyAreSetNow) {
-    ASSERT_TRUE(lab().rewinds());
     for (int i = 0; i < 90; ++i) {
         workspace.remember_moment();
         lab().step(workspace);

@@ -88,7 +88,7 @@ TEST(LayoutOfTheWindow, PartsTileItWithoutOverlapAtEverySize) {
         settings.right_width = static_cast<float>(pick(180, 520));
         const float scale = static_cast<float>(pick(5, 30)) / 10.0f;
         const float canvas = static_cast<float>(pick(0, 9)) / 10.0f;
-        const Layout layout = lay_out(window, scale, settings, pick(0, 1) == 1, canvas);
+        const Layout layout = lay_out(window, scale, settings, static_cast<float>(pick(0, 300)), canvas);
         const float area = window.x * (window.y - layout.top.size().y - layout.status.size().y);
         float covered = 0.0f;
         for (const Rect& rect : {layout.left, layout.right, layout.canvas, layout.view, layout.timeline}) {

@@ -2,6 +2,7 @@
 #include <imgui.h>
 
 #include "app/labs/humanoid/panels.hpp"
+#include "app/labs/kit/folding.hpp"
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {
@@ -43,7 +44,7 @@ void holder_field(const HumanoidPanel& panel) {
 }  // namespace
 
 void attachment_rows(const HumanoidPanel& panel) {
-    section("Attachments");
+    if (!folding_section(panel.workspace, "Attachments", panel.emit)) return;
     note("Each tick goes in this order: clip, IK, rig, ropes.");
     explain(
         "Feet, targets and hands are IK; look-at, the rig's Aim, and springs follow. Ropes, hair and cloth "

@@ -5,6 +5,7 @@
 #include "app/document/units.hpp"
 #include "app/labs/humanoid/ik/chains.hpp"
 #include "app/labs/humanoid/panels.hpp"
+#include "app/labs/kit/folding.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/text.hpp"
 
@@ -113,7 +114,7 @@ void node_chooser(const HumanoidPanel& panel) {
 }  // namespace
 
 void bone_rows(const HumanoidPanel& panel) {
-    section("Bones");
+    if (!folding_section(panel.workspace, "Bones", panel.emit)) return;
     const std::string& why = panel.runtime.solvers.why_no_body(panel.part);
     if (!why.empty()) {
         ImGui::PushStyleColor(ImGuiCol_Text, colour_of(panel.colours.limit));

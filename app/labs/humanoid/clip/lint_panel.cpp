@@ -5,6 +5,7 @@
 
 #include "app/document/units.hpp"
 #include "app/labs/humanoid/panels.hpp"
+#include "app/labs/kit/folding.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/text.hpp"
 
@@ -80,7 +81,7 @@ void finding_row(const HumanoidPanel& panel, const Finding& finding, int id) {
 }  // namespace
 
 void lint_rows(const HumanoidPanel& panel) {
-    section("Motion lint");
+    if (!folding_section(panel.workspace, "Motion lint", panel.emit)) return;
     if (!panel.part.clip()) return note("Choose a clip to see what is wrong with it.");
     const humanoid::LintReport* report = panel.runtime.lint.report(panel.part);
     if (!report) {
@@ -99,7 +100,7 @@ void lint_rows(const HumanoidPanel& panel) {
 }
 
 void export_rows(const HumanoidPanel& panel) {
-    section("Export");
+    if (!folding_section(panel.workspace, "Export", panel.emit)) return;
     if (panel.part.loaded->clips().empty()) return note("The character has no clips.");
     std::string& path = panel.runtime.panel.export_to;
     text_field("write to", path, "walk.glb");

@@ -76,10 +76,6 @@ void clip_strip(const HumanoidPanel& panel) {
 
 }  // namespace
 
-bool HumanoidLab::has_timeline(const Workspace& workspace) const {
-    return humanoid_part(workspace).clip() != nullptr || !workspace.rewind.empty();
-}
-
 void HumanoidLab::timeline(const Workspace& workspace, Emit& emit) const {
     const HumanoidPanel panel = humanoid_panel(workspace, emit);
     if (panel.part.clip() == nullptr) return past_strip(workspace, emit);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "app/labs/humanoid/panels.hpp"
+#include "app/labs/kit/folding.hpp"
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {
@@ -46,7 +47,7 @@ void foot_row(const HumanoidPanel& panel, std::size_t side) {
 }  // namespace
 
 void ground_rows(const HumanoidPanel& panel) {
-    section("Ground and feet");
+    if (!folding_section(panel.workspace, "Ground and feet", panel.emit)) return;
     const IkSettings& ik = panel.part.ik;
     int kind = static_cast<int>(ik.ground.kind);
     const auto titles = ground_kinds.titles();

@@ -2,6 +2,7 @@
 #include <imgui.h>
 
 #include "app/labs/humanoid/panels.hpp"
+#include "app/labs/kit/folding.hpp"
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {
@@ -47,7 +48,7 @@ void hand_row(const HumanoidPanel& panel, std::size_t hand) {
 }  // namespace
 
 void hand_rows(const HumanoidPanel& panel) {
-    section("Hands and gaze");
+    if (!folding_section(panel.workspace, "Hands and gaze", panel.emit)) return;
     const IkSettings& ik = panel.part.ik;
     const bool body = panel.runtime.solvers.body(panel.part) != nullptr;
     bool hands = ik.hand_ik.on, look = ik.look_at.on;

@@ -2,6 +2,7 @@
 #include <imgui.h>
 
 #include "app/labs/humanoid/panels.hpp"
+#include "app/labs/kit/folding.hpp"
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {
@@ -32,7 +33,7 @@ void effector_row(const HumanoidPanel& panel, humanoid::Effector effector) {
 }  // namespace
 
 void target_rows(const HumanoidPanel& panel) {
-    section("Targets");
+    if (!folding_section(panel.workspace, "Targets", panel.emit)) return;
     const std::string& why = panel.runtime.solvers.why_no_body(panel.part);
     if (!why.empty()) return note("The body solve is off: " + why + ".");
     for (const humanoid::Effector effector : all_effectors) effector_row(panel, effector);

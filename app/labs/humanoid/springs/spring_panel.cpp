@@ -4,6 +4,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/labs/humanoid/panels.hpp"
+#include "app/labs/kit/folding.hpp"
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {
@@ -45,7 +46,7 @@ void add_row(const HumanoidPanel& panel) {
 }  // namespace
 
 void spring_rows(const HumanoidPanel& panel) {
-    section("Springs");
+    if (!folding_section(panel.workspace, "Springs", panel.emit)) return;
     if (panel.part.springs.empty())
         note("Ears, antennae and tails that the file has trail behind the head or the hips.");
     for (std::size_t i = 0; i < panel.part.springs.size(); ++i) spring_row(panel, i);

@@ -1,0 +1,62 @@
+// How a tick passes: the simulation, a change by hand, or the last seconds once more.
+#include <algorithm>
+#include <utility>
+
+#include "app/app.hpp"
+
+namespace tendril::app {
+
+/// Notes what the open lab has to say about its change.
+void App::review(const std::shared_ptr<const Part>& before) {
+    const auto& after = workspace_.document.parts().at(workspace_.lab);
+    if (before == after) return;
+    for (Incident& incident : lab().review(*before, *after)) {
+        incident.tick = workspace_.clock.tick;
+        workspace_.rewind.note(std::move(incident));
+    }
+}
+
+void App::step_lab() {
+    Clock& clock = workspace_.clock;
+    if (lab().moving(workspace_)) {
+        workspace_.remember_moment();
+        const auto before = workspace_.document.parts().at(workspace_.lab);
+        lab().step(workspace_);
+        review(before);
+    } else {
+        workspace_.rewind.remember_change(clock.tick);
+    }
+    ++clock.tick;
+    clock.passed += static_cast<double>(clock.speed);
+    clock.steps_due = std::max(0, clock.steps_due - 1);
+}
+
+/// On to the next moment that is remembered, by speed.
+void App::replay() {
+    Clock& clock = workspace_.clock;
+    const int by = clock.whole_ticks();
+    clock.passed += static_cast<double>(clock.speed);
+    const std::uint64_t newest = workspace_.rewind.newest();
+    const std::uint64_t to = std::min(newest, clock.tick + static_cast<std::uint64_t>(by));
+    workspace_.go_to_moment(newest - to);
+    if (to == newest) clock.replaying = false;
+}
+
+void App::advance_time() {
+    const Clock& clock = workspace_.clock;
+    if (clock.replaying) {
+        replay();
+    } else if (clock.steps_due > 0 || (clock.playing && lab().moving(workspace_))) {
+        step_lab();
+    } else {
+        workspace_.pass_change();
+    }
+    while (clock.steps_due > 0) step_lab();
+    if (lab().working(workspace_)) lab().work(workspace_);
+    watch_shown_card();
+    auto& toasts = workspace_.ui.toasts;
+    for (Toast& toast : toasts) --toast.ticks_left;
+    std::erase_if(toasts, [](const Toast& toast) { return toast.ticks_left <= 0; });
+}
+
+}  // namespace tendril::app

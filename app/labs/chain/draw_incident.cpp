@@ -1,0 +1,81 @@
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "app/document/units.hpp"
+#include "app/labs/chain/draw.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// The way that the end of a bone went which turned about its start, on the shorter way round.
+void draw_arc(const View& view, glm::vec3 from, glm::vec3 to, glm::vec3 about, DrawList& list) {
+    constexpr int sides = 24;
+    const glm::vec4 colour(view.palette.limit, 1.0f);
+    const float radius_from = glm::distance(from, about), radius_to = glm::distance(to, about);
+    glm::vec3 last = from;
+    for (int i = 1; i <= sides; ++i) {
+        const float t = static_cast<float>(i) / sides;
+        const glm::vec3 chord = glm::mix(from, to, t) - about;
+        const float length = glm::length(chord), radius = glm::mix(radius_from, radius_to, t);
+        // A half turn has no shorter way: it goes straight.
+        const glm::vec3 next = length > 0.05f * radius ? about + chord * (radius / length) : about + chord;
+        list.line(last, next, 2.0f * view.scale, colour).layer = Layer::Overlay;
+        last = next;
+    }
+}
+
+}  // namespace
+
+LabSetting ghost_setting() {
+    return {.key = "chain ghosts",
+            .command = "view.chain_ghosts",
+            .argument = "of",
+            .help = "Shows the poses of the last ten seconds of the Chain lab, one for each half second",
+            .choices = {{"nothing", "none"}, {"past", "every half second"}}};
+}
+
+void draw_ghosts(const View& view, const ChainPart& part, DrawList& list) {
+    if (ghost_setting().chosen(view.workspace.settings) == 0) return;
+    if (part.study.open() || part.chain.size() > max_studied_segments) return;
+    constexpr std::uint64_t apart = 30;  // ticks
+    const Rewind& past = view.workspace.rewind;
+    for (const Rewind::Moment& moment : past.moments()) {
+        if (moment.tick % apart != 0) continue;
+        const auto segments = dynamic_cast<const ChainPart&>(*moment.part).chain.segments();
+        const auto age =
+            static_cast<float>(past.newest() - moment.tick) / static_cast<float>(Rewind::most_ticks);
+        const glm::vec4 colour = faded(view.palette, view.palette.ghost, 0.75f - 0.55f * age);
+        for (std::size_t i = 1; i < segments.size(); ++i)
+            list.line(segments[i - 1].position, segments[i].position, 1.5f * view.scale, colour);
+    }
+}
+
+void draw_incident(const View& view, const ChainPart& part, DrawList& list) {
+    const auto& incident = view.workspace.ui.incident;
+    if (!incident) return;
+    const auto before = std::dynamic_pointer_cast<const ChainPart>(view.workspace.around(*incident).before);
+    if (!before || before->chain.size() != part.chain.size() || incident->joint >= part.chain.size()) return;
+    const auto was = before->chain.segments(), is = part.chain.segments();
+    const glm::vec4 ghost = faded(view.palette, view.palette.ghost, 0.9f);
+    for (std::size_t i = 1; i < was.size(); ++i)
+        list.line(was[i - 1].position, was[i].position, 2.5f * view.scale, ghost);
+    for (const Segment& joint : was) list.sphere(joint.position, 4.5f * view.scale, Unit::Pixels, ghost);
+    list.ring(before->target, 12.0f * view.scale, 1.5f * view.scale, ghost).layer = Layer::Overlay;
+    if (incident->kind != Incident::Kind::Flip) return;
+    const std::size_t joint = incident->joint;
+    // About that neighbour which moved less.
+    const auto moved = [&](std::size_t i) { return glm::distance(was[i].position, is[i].position); };
+    const bool last = joint + 1 == is.size();
+    const std::size_t about =
+        joint == 0 || (!last && moved(joint + 1) < moved(joint - 1)) ? joint + 1 : joint - 1;
+    draw_arc(view, was[joint].position, is[joint].position, is[about].position, list);
+    list.ring(is[joint].position, 14.0f * view.scale, 2.5f * view.scale, glm::vec4(view.palette.limit, 1.0f))
+        .layer = Layer::Overlay;
+    list.labels.push_back({.at = is[joint].position,
+                           .clearance = 18.0f * view.scale,
+                           .text = fixed_text(static_cast<double>(incident->degrees), 0) + " degrees",
+                           .colour = view.palette.text,
+                           .rank = 4});
+}
+
+}  // namespace tendril::app

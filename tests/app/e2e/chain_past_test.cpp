@@ -1,0 +1,142 @@
+// The last ten seconds of the Chain lab in the running program: drags, flips, and going back to them.
+#include <glm/geometric.hpp>
+
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+using app::Json;
+
+/// Two bones in Reach whose target then goes through the root, a hundredth of the reach in a tick.
+ScriptText through_the_root() {
+    ScriptText script;
+    script.command("chain.preset", {{"name", "start"}, {"count", 3}})
+        .command("chain.mode", {{"mode", "reach"}})
+        .command("chain.target", {{"to", {0.4, 0.004, 0}}})
+        .wait(1);
+    for (int i = 0; i < 40; ++i)
+        script.command("chain.target", {{"to", {0.4 - 0.02 * (i + 1), 0.004, 0}}}).wait(1);
+    return script;
+}
+
+std::vector<Json> flips_of(const Json& state) {
+    std::vector<Json> flips;
+    for (const Json& event : state.at("events"))
+        if (event.at("kind") == "flip") flips.push_back(event);
+    return flips;
+}
+
+TEST(ChainsPast, AFlipIsMarkedAtItsTickWithItsCause) {
+    const Json state = state_after(through_the_root());
+    const std::vector<Json> flips = flips_of(state);
+    ASSERT_EQ(flips.size(), 1u) << state["events"].dump(2);
+    EXPECT_EQ(flips[0]["cause"], "the target went through the root");
+    EXPECT_GT(flips[0]["degrees"].get<double>(), 30.0);
+    // The poses on both sides of it are the ones that differ so much.
+    const auto tick = flips[0]["tick"].get<int>(), now = state["time"]["tick"].get<int>();
+    const auto pose_at = [&](int at) {
+        return state_after(through_the_root().command("time.seek", {{"ticks_back", now - at}}));
+    };
+    EXPECT_EQ(flips[0]["joint"], 1) << "the elbow";
+    const auto bone = [&](const Json& at, std::size_t to) {
+        return glm::normalize(point_of(at["segments"][to]["position"]) -
+                              point_of(at["segments"][to - 1]["position"]));
+    };
+    const Json before = pose_at(tick), after = pose_at(tick + 1);
+    float turned = 0.0f;
+    for (const std::size_t to : {1u, 2u})
+        turned = std::max(turned, glm::degrees(std::acos(glm::dot(bone(before, to), bone(after, to)))));
+    EXPECT_NEAR(turned, flips[0]["degrees"].get<float>(), 0.1f);
+}
+
+TEST(ChainsPast, ADragIsRememberedTickByTickAndTakenBackBySeeking) {
+    const ScriptText reach = ScriptText().command("chain.mode", {{"mode", "reach"}});
+    const glm::vec2 at = handle(state_after(reach), "target");
+    ScriptText script = reach;
+    script.move(at).down();
+    for (int i = 1; i <= 20; ++i) script.move(at - glm::vec2(6.0f * static_cast<float>(i), 0.0f));
+    ScriptText half = script;
+    script.up();
+    const Json end = state_after(script);
+    EXPECT_EQ(end["time"]["remembered"], 20) << "one for each move of the mouse";
+    script.command("time.seek", {{"ticks_back", 20}});
+    const Json begin = state_after(script);
+    EXPECT_EQ(begin["segments"], state_after(reach)["segments"]);
+    EXPECT_EQ(begin["target"], state_after(reach)["target"]);
+    // It can be undone, and it is shown again up to its end, at any speed.
+    EXPECT_EQ(state_after(ScriptText(script).command("undo"))["segments"], end["segments"]);
+    ScriptText again = script;
+    again.command("time.speed", {{"factor", 0.5}}).command("time.replay").wait(20);
+    EXPECT_EQ(state_after(again)["time"]["ticks_back"], 10);
+    const Json whole = state_after(again.wait(20));
+    EXPECT_EQ(whole["time"]["ticks_back"], 0);
+    EXPECT_EQ(whole["segments"], end["segments"]);
+    EXPECT_EQ(whole["target"], end["target"]);
+}
+
+TEST(ChainsPast, AnIncidentIsGoneToByItsNumber) {
+    const Json state = state_after(through_the_root());
+    int number = 0;
+    while (state["events"].at(static_cast<std::size_t>(number))["kind"] != "flip") ++number;
+    const ScriptText script = through_the_root().command("time.incident", {{"number", number}});
+    const Json there = state_after(script);
+    const int newest = state["time"]["tick"].get<int>();
+    EXPECT_EQ(there["time"]["ticks_back"],
+              newest - state["events"][static_cast<std::size_t>(number)]["tick"].get<int>() - 1);
+    EXPECT_EQ(there["events"], state["events"]) << "looking back forgets nothing";
+    // What is done there takes the place of what came after it.
+    const Json other = state_after(ScriptText(script).command("chain.target", {{"to", {1, 1, 0}}}).wait(1));
+    EXPECT_EQ(flips_of(other).size(), 1u);
+    const ScriptText before = through_the_root().command("time.seek", {{"ticks_back", 30}});
+    EXPECT_EQ(
+        flips_of(state_after(ScriptText(before).command("chain.target", {{"to", {1, 1, 0}}}).wait(1))).size(),
+        0u)
+        << "it never came to the flip";
+    EXPECT_EQ(play(ScriptText().command("time.incident", {{"number", 0}}, true)).outcome.exit_code, 0);
+}
+
+TEST(ChainsPast, ARefusedNumberIsAMarkAndNoFlip) {
+    const Json state = state_after(ScriptText()
+                                       .command("chain.mode", {{"mode", "reach"}})
+                                       .command("chain.target", {{"to", {1e30, 0, 0}}}, true)
+                                       .wait(1));
+    ASSERT_EQ(state["events"].size(), 1u);
+    EXPECT_EQ(state["events"][0]["kind"], "status");
+    EXPECT_NE(state["events"][0]["cause"].get<std::string>().find("1e+30"), std::string::npos)
+        << state["events"][0]["cause"];
+}
+
+TEST(ChainsPast, AnAnalysisBeginsWhereTheLastDragBegan) {
+    const ScriptText reach = ScriptText().command("chain.mode", {{"mode", "reach"}});
+    const Json start = state_after(reach);
+    const glm::vec2 at = handle(start, "target");
+    ScriptText script = reach;
+    script.move(at).down();
+    for (int i = 1; i <= 12; ++i) script.move(at + glm::vec2(-25.0f * static_cast<float>(i), -8.0f));
+    script.up().command("microscope.open").command("microscope.seek", {{"step", 0}});
+    const Json positions = state_after(script)["microscope"]["positions"];
+    ASSERT_EQ(positions.size(), start["segments"].size());
+    for (std::size_t i = 0; i < positions.size(); ++i)
+        EXPECT_EQ(positions[i], start["segments"][i]["position"]) << i;
+}
+
+TEST(ChainsPast, ARecordingOfItAllEndsInTheSameState) {
+    const TempFolder folder;
+    const std::string recording = (folder / "r.jsonl").string(), state = (folder / "s.json").string();
+    ScriptText script = through_the_root();
+    script.command("time.seek", {{"ticks_back", 12}})
+        .command("time.replay")
+        .wait(5)
+        .command("time.incident", {{"number", 0}})
+        .wait(2)
+        .command("chain.target", {{"to", {1, 1, 0}}})
+        .wait(3)
+        .command("undo");
+    const Json recorded = play(script, {.more = {"--record", recording}}).state;
+    ASSERT_TRUE(succeeded(run_program({"--headless", "--script", recording, "--state", state})));
+    EXPECT_EQ(app::parse_json(read(state)), recorded);
+}
+
+}  // namespace
+}  // namespace tendril::test

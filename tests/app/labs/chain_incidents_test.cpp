@@ -1,0 +1,269 @@
+// Why did the arm flip? Gestures with a planted cause, and smooth ones.
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <random>
+
+#include "app/document/command.hpp"
+#include "tests/app/labs/chain_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+using Path = std::vector<glm::vec3>;
+
+/// In degrees.
+float angle_between(glm::vec3 a, glm::vec3 b) {
+    return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
+}
+
+/// The bone that turned the furthest between two poses, by this test's own count.
+struct Turn {
+    std::size_t joint = 0;
+    float degrees = 0.0f;
+};
+Turn furthest_turn(const std::vector<glm::vec3>& was, const std::vector<glm::vec3>& is) {
+    Turn furthest;
+    for (std::size_t i = 1; i < was.size(); ++i) {
+        const float degrees = angle_between(was[i] - was[i - 1], is[i] - is[i - 1]);
+        if (degrees > furthest.degrees) furthest = {i, degrees};
+    }
+    return furthest;
+}
+
+class ChainIncidents : public ChainTest {
+  protected:
+    std::mt19937 random{7};
+    float uniform(float low, float high) {
+        return low + (high - low) * static_cast<float>(random() >> 8) / 16777216.0f;
+    }
+    glm::vec3 direction() {
+        for (;;) {
+            const float x = uniform(-1, 1), y = uniform(-1, 1), z = uniform(-1, 1);
+            const float length = glm::length(glm::vec3(x, y, z));
+            if (length > 0.1f && length < 1.0f) return glm::vec3(x, y, z) / length;
+        }
+    }
+    glm::vec3 across(glm::vec3 line) { return glm::normalize(glm::cross(line, direction())); }
+
+    /// A chain of so many bones from the origin, each at an angle to the one before, in mode reach.
+    void chain(const std::vector<float>& lengths, glm::vec3 first, glm::vec3 axis, float bend) {
+        run("chain.clear");
+        glm::vec3 at(0.0f);
+        run("chain.add", {{"length", 0}, {"position", Json::array({0, 0, 0})}});
+        for (std::size_t i = 0; i < lengths.size(); ++i) {
+            at += lengths[i] * (glm::angleAxis(bend * static_cast<float>(i), axis) * first);
+            run("chain.add", {{"length", lengths[i]}, {"position", Json::array({at.x, at.y, at.z})}});
+        }
+        run("chain.mode", {{"mode", "reach"}});
+    }
+    std::vector<glm::vec3> pose() const { return positions(part().chain); }
+    void target(glm::vec3 to) { run("chain.target", {{"to", Json::array({to.x, to.y, to.z})}}); }
+
+    struct Gesture {
+        int flips = 0, marked = 0;
+        std::string problem;
+    };
+    /// Moves the target along a path. Whatever turns so that the rule counts it has to be marked in that very
+    /// step, with its joint and with this cause; and nothing else.
+    Gesture drag(const Path& path, const std::string& cause) {
+        for (int settled = 0; settled < 3; ++settled) target(path.front());
+        Gesture gesture;
+        const float reach = part().chain.reach();
+        for (std::size_t i = 1; i < path.size(); ++i) {
+            const auto before = workspace.document.parts().at(chain_lab);
+            const std::vector<glm::vec3> was = pose();
+            target(path[i]);
+            const Turn turn = furthest_turn(was, pose());
+            const bool still = angle_between(path[i - 1], path[i]) < 0.2f * turn.degrees ||
+                               glm::distance(path[i - 1], path[i]) < 0.02f * reach;
+            const bool flipped = turn.degrees > 30.0f && still;
+            gesture.flips += flipped;
+            const Incident* mark = nullptr;
+            const std::vector<Incident> all =
+                lab().review(*before, *workspace.document.parts().at(chain_lab));
+            for (const Incident& each : all)
+                if (each.kind == Incident::Kind::Flip) mark = &each;
+            gesture.marked += mark != nullptr;
+            const std::string where = "step " + std::to_string(i) + ": ";
+            if (flipped != (mark != nullptr)) {
+                gesture.problem = where + (mark ? "marked, but none" : "not marked");
+            } else if (mark &&
+                       (std::abs(mark->degrees - turn.degrees) > 0.1f || !jumped(was, mark->joint, turn))) {
+                gesture.problem = where + "joint " + std::to_string(mark->joint) + " instead of " +
+                                  std::to_string(turn.joint);
+            } else if (mark && mark->cause != cause) {
+                gesture.problem = where + "\"" + mark->cause + "\" instead of \"" + cause + "\"";
+            }
+            if (!gesture.problem.empty()) break;
+        }
+        return gesture;
+    }
+    /// Whether the joint is an end of a bone that turned as far as any, and moved as far as its other end.
+    bool jumped(const std::vector<glm::vec3>& was, std::size_t joint, const Turn& turn) const {
+        const std::vector<glm::vec3> is = pose();
+        const auto moved = [&](std::size_t i) { return glm::distance(was[i], is[i]); };
+        for (std::size_t end : {joint, joint + 1}) {
+            if (end == 0 || end >= is.size()) continue;
+            const std::size_t other = end == joint ? joint - 1 : joint + 1;
+            const float degrees = angle_between(was[end] - was[end - 1], is[end] - is[end - 1]);
+            if (degrees > turn.degrees - 0.1f && moved(joint) > moved(other) - 1e-5f) return true;
+        }
+        return false;
+    }
+    /// Gestures until `count` of them have flipped.
+    template <class Make>
+    void expect_planted(int count, const std::string& cause, Make make) {
+        int flipped = 0, tried = 0;
+        for (; flipped < count && tried < 3 * count; ++tried) {
+            const Gesture gesture = drag(make(), cause);
+            ASSERT_EQ(gesture.problem, "") << cause << ", gesture " << tried;
+            flipped += gesture.flips > 0;
+        }
+        EXPECT_EQ(flipped, count) << cause << ": of " << tried;
+    }
+};
+
+/// From `from` to `to` about an axis, at a radius.
+Path arc(glm::vec3 centre, glm::vec3 axis, float radius, float from, float to, float step) {
+    Path path;
+    for (float angle = from; angle < to; angle += step)
+        path.push_back(radius * (glm::angleAxis(angle, axis) * centre));
+    return path;
+}
+
+TEST_F(ChainIncidents, TargetThroughTheRoot) {
+    expect_planted(40, "the target went through the root", [&] {
+        const glm::vec3 line = direction();
+        const float length = uniform(0.5f, 1.5f);
+        chain({length, length}, line, across(line), 0.8f);
+        const glm::vec3 off = uniform(0.0f, 0.004f) * length * direction();
+        Path path;
+        for (float x = 1.0f; x > -1.0f; x -= 0.03f) path.push_back(x * length * line + off);
+        return path;
+    });
+}
+
+TEST_F(ChainIncidents, TargetsLinePassedThePole) {
+    expect_planted(40, "the target's line passed the pole", [&] {
+        const glm::vec3 line = direction(), axis = across(line);
+        chain({uniform(0.7f, 1.3f), uniform(0.7f, 1.3f), uniform(0.7f, 1.3f)}, line, axis, 0.6f);
+        const float reach = part().chain.reach();
+        const glm::vec3 pole = uniform(0.5f, 1.2f) * reach * line;
+        run("chain.pole", {{"to", Json::array({pole.x, pole.y, pole.z})}});
+        return arc(random() % 2 == 0 ? line : -line, axis, 0.7f * reach, -0.5f, 0.5f, 0.03f);
+    });
+}
+
+TEST_F(ChainIncidents, StraightChain) {
+    expect_planted(40, "the chain was straight (collinear)", [&] {
+        const glm::vec3 line = direction();
+        chain({uniform(0.7f, 1.3f), uniform(0.7f, 1.3f), uniform(0.7f, 1.3f)}, line, across(line), 0.0f);
+        const float reach = part().chain.reach();
+        return Path{0.9999f * reach * line, uniform(0.5f, 0.7f) * reach * line};
+    });
+}
+
+TEST_F(ChainIncidents, RestartFromAnotherPose) {
+    expect_planted(40, "the solver restarted from another pose", [&] {
+        chain({uniform(0.7f, 1.3f), uniform(0.7f, 1.3f), uniform(0.7f, 1.3f)}, {1, 0, 0}, {0, 0, 1}, 0.0f);
+        run("chain.solver", {{"name", "fabrik"}, {"restarts", 8}});
+        for (int i = 0; i < 3; ++i)
+            run("chain.limit", {{"index", i},
+                                {"kind", "hinge"},
+                                {"axis", i % 2 == 0 ? Json::array({0, 1, 0}) : Json::array({0, 0, 1})},
+                                {"min_deg", -uniform(30, 70)},
+                                {"max_deg", uniform(30, 70)}});
+        const float reach = part().chain.reach();
+        const glm::vec3 from = -0.5f * reach * direction(), along = across(from);
+        Path path;
+        for (int i = 0; i < 60; ++i) path.push_back(from + 0.01f * static_cast<float>(i) * reach * along);
+        return path;
+    });
+}
+
+TEST_F(ChainIncidents, LimitThatSwitchedSides) {
+    expect_planted(40, "a limit switched sides", [&] {
+        const bool two = random() % 2 == 0;
+        chain(two ? std::vector{uniform(0.7f, 1.3f), uniform(0.7f, 1.3f)} : std::vector{uniform(0.7f, 1.3f)},
+              {1, 0, 0}, {0, 0, 1}, 0.0f);
+        run("chain.solver", {{"name", "ccd"}});
+        run("chain.limit", {{"index", 0},
+                            {"kind", "hinge"},
+                            {"axis", Json::array({0, 0, 1})},
+                            {"min_deg", -uniform(115, 150)},
+                            {"max_deg", uniform(115, 150)}});
+        if (two)
+            run("chain.limit", {{"index", 1},
+                                {"kind", "hinge"},
+                                {"axis", Json::array({0, 0, 1})},
+                                {"min_deg", -17},
+                                {"max_deg", 17}});
+        return arc({1, 0, 0}, {0, 0, 1}, 0.97f * part().chain.reach(), 1.5f, 4.8f, 0.04f);
+    });
+}
+
+TEST_F(ChainIncidents, SmoothGesturesHaveNone) {
+    for (int gesture = 0; gesture < 200; ++gesture) {
+        const glm::vec3 line = direction();
+        std::vector<float> lengths(2 + random() % 5);
+        for (float& length : lengths) length = uniform(0.5f, 1.5f);
+        chain(lengths, line, across(line), uniform(0.3f, 0.8f));
+        const float reach = part().chain.reach(), turned = uniform(0.4f, 2.6f);
+        const float near = uniform(0.55f, 0.85f), far = uniform(0.55f, 0.85f);
+        const glm::vec3 from = direction(), axis = across(from);
+        Path path;
+        for (int i = 0; i <= 100; ++i) {
+            const float t = static_cast<float>(i) / 100.0f;
+            path.push_back(reach * glm::mix(near, far, t) * (glm::angleAxis(turned * t, axis) * from));
+        }
+        const Gesture drawn = drag(path, "none");
+        ASSERT_EQ(drawn.problem, "") << gesture;
+        ASSERT_EQ(drawn.flips, 0) << gesture << ": the plan is not smooth";
+        ASSERT_EQ(drawn.marked, 0) << gesture;
+    }
+}
+
+TEST_F(ChainIncidents, TheRuleIsSettableAndSaved) {
+    chain({1, 1, 1}, {1, 0, 0}, {0, 0, 1}, 0.0f);
+    const auto flips = [&](float to) {
+        target({2.999f, 0, 0});
+        const auto before = workspace.document.parts().at(chain_lab);
+        target({to, 0, 0});
+        const auto all = lab().review(*before, *workspace.document.parts().at(chain_lab));
+        return std::count_if(all.begin(), all.end(),
+                             [](const Incident& each) { return each.kind == Incident::Kind::Flip; });
+    };
+    EXPECT_EQ(flips(1.8f), 1);
+    run("chain.flips", {{"degrees", 170}});
+    EXPECT_EQ(flips(1.8f), 0);
+    run("chain.flips", {{"degrees", 5}, {"reach_share", 0}, {"angle_share", 0}});
+    EXPECT_EQ(flips(1.8f), 0) << "the target has moved by more than nothing";
+    run("chain.flips", {{"angle_share", 0.4}});
+    EXPECT_EQ(flips(1.8f), 1);
+    const FlipRule rule = part().flips;
+    const Json scene = save_scene(workspace);
+    run("chain.flips", {{"degrees", 30}});
+    load_scene(workspace, scene);
+    EXPECT_EQ(part().flips, rule);
+    EXPECT_NE(refused("chain.flips", {{"degrees", 0}}).find("degrees"), std::string::npos);
+}
+
+TEST_F(ChainIncidents, NothingIsMarkedForWhatIsNoMoveOfTheTarget) {
+    chain({1, 1, 1}, {0, 1, 0}, {0, 0, 1}, 0.5f);
+    target({1.5f, 1.5f, 0});
+    const auto none = [&](const char* name, const Json& arguments) {
+        const auto before = workspace.document.parts().at(chain_lab);
+        run(name, arguments);
+        return lab().review(*before, *workspace.document.parts().at(chain_lab)).empty();
+    };
+    EXPECT_TRUE(none("chain.limit", {{"index", 1}, {"kind", "hinge"}, {"min_deg", -5}, {"max_deg", 5}}));
+    EXPECT_TRUE(none("chain.solver", {{"name", "ccd"}}));
+    EXPECT_TRUE(none("chain.pull", {{"index", 1}, {"to", {-1, 0, 0}}}));
+    EXPECT_TRUE(none("chain.set_length", {{"index", 2}, {"length", 0.2}}));
+    EXPECT_TRUE(none("chain.preset", {{"name", "coil"}}));
+    EXPECT_TRUE(none("chain.mode", {{"mode", "backward"}}));
+    EXPECT_TRUE(none("chain.target", {{"to", {-3, 0, 0}}}));
+}
+
+}  // namespace
+}  // namespace tendril::app
