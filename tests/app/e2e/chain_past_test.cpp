@@ -1,5 +1,6 @@
 // The last ten seconds of the Chain lab in the running program: drags, flips, and going back to them.
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "tests/app/support/play.hpp"
 
