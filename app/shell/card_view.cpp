@@ -17,7 +17,7 @@ namespace tendril::app {
 namespace {
 
 constexpr float most_of_panel = 0.5f;
-/// To list the handles of a larger part takes too long to do it every frame.
+/// The handles of a larger part are not searched for the one that lights up.
 constexpr std::size_t most_bytes = 1u << 20;
 
 enum class Fold { Steps, Current, Title };
@@ -118,6 +118,23 @@ void footer(const Card& card, const Measure& m, Emit& emit) {
         ImGui::SetTooltip("Sets up the scene that this card is about; undo restores yours");
 }
 
+/// By its pick, if that is known, since to list all handles takes long where there are many.
+std::optional<Handle> handle_named(const ShellFrame& frame, const std::string& name, PickId& known) {
+    const Workspace& workspace = frame.workspace;
+    if (known != no_pick) {
+        auto handle = frame.lab.handle(workspace, known);
+        if (handle && handle->name == name) return handle;
+    }
+    known = no_pick;
+    if (workspace.document.parts().at(workspace.lab)->bytes() > most_bytes) return std::nullopt;
+    for (Handle& each : frame.lab.handles(workspace)) {
+        if (each.name != name) continue;
+        known = each.pick;
+        return std::move(each);
+    }
+    return std::nullopt;
+}
+
 /// The current step of the card that is shown, null where there is none to do.
 const CardStep* step_to_do(const ShellFrame& frame) {
     if (frame.card == nullptr) return nullptr;
@@ -164,15 +181,12 @@ void light_card_section(const ShellFrame& frame, bool left) {
         light_section(step->place_name.c_str());
 }
 
-void show_card_halo(const ShellFrame& frame) {
+void show_card_halo(const ShellFrame& frame, PickId& known) {
     const CardStep* const step = step_to_do(frame);
-    const Workspace& workspace = frame.workspace;
     if (step == nullptr || step->place != CardStep::Place::Handle) return;
-    if (workspace.document.parts().at(workspace.lab)->bytes() > most_bytes) return;
-    const std::vector<Handle> handles = frame.lab.handles(workspace);
-    const auto found = std::find_if(handles.begin(), handles.end(),
-                                    [&](const Handle& each) { return each.name == step->place_name; });
-    if (found == handles.end()) return;
+    const std::optional<Handle> found = handle_named(frame, step->place_name, known);
+    if (!found) return;
+    const Workspace& workspace = frame.workspace;
     const Rect& view = frame.layout.view;
     const auto at = Camera(workspace.camera, view).project(found->frame.position);
     if (!at || !view.contains(*at)) return;

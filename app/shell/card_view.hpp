@@ -14,7 +14,8 @@ float card_height(const ShellFrame& frame, glm::vec2 panel);
 void show_card(const ShellFrame& frame, glm::vec2 panel, Emit& emit);
 /// Lights up the section of the side panel that is being filled, if the current step is done there.
 void light_card_section(const ShellFrame& frame, bool left);
-/// A ring around the handle with which the current step is done, in the view.
-void show_card_halo(const ShellFrame& frame);
+/// A ring around the handle with which the current step is done, in the view. `known` is that handle's pick,
+/// from frame to frame.
+void show_card_halo(const ShellFrame& frame, PickId& known);
 
 }  // namespace tendril::app

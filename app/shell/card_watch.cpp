@@ -11,18 +11,29 @@ namespace {
 constexpr std::size_t bytes_a_tick = 8192;
 constexpr std::uint64_t longest_wait = 60;
 
+constexpr const char* events_path = "events";
+
 /// What a path leads to, null where it leads to nothing.
 Json value_at(const Json& state, const std::string& path) {
     const Json* const found = find_in_state(state, path);
     return found == nullptr ? Json(nullptr) : *found;
 }
 
-bool has_event(const Json& state, const std::string& kind) {
-    const Json* const events = find_in_state(state, "events");
-    if (events == nullptr || !events->is_array()) return false;
-    return std::any_of(events->begin(), events->end(), [&](const Json& each) {
-        const Json* const own = find_in_state(each, "kind");
-        return own != nullptr && *own == kind;
+/// Of the newest event that the state knows, -1 where it knows none.
+double newest_event(const Json& state) {
+    double newest = -1.0;
+    for (const Json& each : value_at(state, "events"))
+        newest = std::max(newest, value_at(each, "tick").get<double>());
+    return newest;
+}
+
+/// Whether something of the kind was noted since the card was shown.
+bool has_event(const CardProgress& progress, const Json& state, const std::string& kind) {
+    const Json now = value_at(state, "time.tick"), events = value_at(state, "events");
+    double last = progress.start.at(events_path)->get<double>();
+    if (now.is_number() && now.get<double>() < last) last = -1.0;  // time began anew
+    return std::any_of(events.begin(), events.end(), [&](const Json& each) {
+        return value_at(each, "kind") == kind && value_at(each, "tick").get<double>() > last;
     });
 }
 
@@ -36,13 +47,14 @@ bool holds(const CardCondition& condition, const CardProgress& progress, const J
             return start != progress.start.end() && value_at(state, condition.name) != *start->second;
         }
         case Kind::Noted:
-            return has_event(state, condition.name);
+            return has_event(progress, state, condition.name);
     }
     return false;
 }
 
 void begin(CardProgress& progress, const Card& card, const Json& state) {
     progress.done.assign(card.steps.size(), false);
+    progress.start[events_path] = Json(newest_event(state));
     for (const CardStep& step : card.steps)
         for (const CardCondition& condition : step.when)
             if (condition.kind == CardCondition::Kind::Changed)

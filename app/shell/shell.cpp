@@ -284,7 +284,7 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
     }
     status_bar(frame);
     show_first_hint(frame);
-    show_card_halo(frame);
+    show_card_halo(frame, lit_);
     show_legend(frame);
     show_axis_gizmo(frame, emit);
     if (workspace.ui.help) show_help(frame, emit);

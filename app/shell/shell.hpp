@@ -41,6 +41,7 @@ class Shell {
     void side_panel(const ShellFrame& frame, bool left, Emit& emit);
 
     float overflow_[2] = {0.0f, 0.0f};  ///< how far each side panel can scroll
+    PickId lit_ = no_pick;              ///< of the handle that lights up; see show_card_halo()
     CommandPalette palette_;
     FileDialog file_dialog_;
 };

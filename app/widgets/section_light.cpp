@@ -32,9 +32,13 @@ void note_section(const char* title) {
     storage->SetFloat(key_of(title, 'y'), ImGui::GetCursorPosY());
 }
 
+bool has_section(const char* title) {
+    return ImGui::GetStateStorage()->GetInt(key_of(title, 'f'), -1) == ImGui::GetFrameCount();
+}
+
 void light_section(const char* title) {
+    if (!has_section(title)) return;
     ImGuiStorage* const storage = ImGui::GetStateStorage();
-    if (storage->GetInt(key_of(title, 'f'), -1) != ImGui::GetFrameCount()) return;
     const float line = ImGui::GetTextLineHeight(), air = 0.25f * line;
     const ImVec2 window = ImGui::GetWindowPos();
     const float top = window.y - ImGui::GetScrollY() + storage->GetFloat(key_of(title, 'y'), 0.0f);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 #include "app/document/units.hpp"
 #include "app/labs/chain/draw.hpp"
@@ -118,8 +119,11 @@ void plot_choice(const Settings& settings, Emit& emit) {
 
 void preset_rows(Emit& emit) {
     std::vector<PresetButton> buttons;
-    for (const Preset& preset : presets())
-        buttons.push_back({preset.name, preset.title, count_text(preset.count, "joint")});
+    for (const Preset& preset : presets()) {
+        const bool reaches = std::string_view(preset.name) == reaching_arm;
+        const std::string what = reaches ? ": an arm in mode reach, with a hinge and a pole target" : "";
+        buttons.push_back({preset.name, preset.title, count_text(preset.count, "joint") + what, preset.of});
+    }
     if (app::preset_rows(chain_lab, buttons, "Removes every joint", emit))
         emit("camera.frame", {{"what", "all"}});  // they differ in size
 }

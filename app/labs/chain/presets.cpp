@@ -123,10 +123,10 @@ Segments random_walk(std::size_t count, std::uint32_t seed) {
 }  // namespace
 
 const std::vector<Preset>& presets() {
-    static const std::vector<Preset> list{
-        {"start", "Start", 8},        {"arm", "Arm", 7},      {reaching_arm, "Reaching arm", 4},
-        {"tentacle", "Tentacle", 24}, {"snake", "Snake", 40}, {"coil", "Coil", 120},
-        {"random", "Random", 16}};
+    static const std::vector<Preset> list{{"start", "Start", 8, 4},        {"arm", "Arm", 7, 4},
+                                          {"snake", "Snake", 40, 4},       {"coil", "Coil", 120, 4},
+                                          {"tentacle", "Tentacle", 24, 3}, {"random", "Random", 16, 3},
+                                          {reaching_arm, "Reach", 4, 3}};
     return list;
 }
 
@@ -144,14 +144,16 @@ Chain make_preset(const std::string& name, std::size_t count, std::uint32_t seed
 void make_it_reach(ChainPart& part, ChainRuntime& runtime) {
     part.mode = ChainMode::Reach;
     part.reach = {};
-    part.reach.pole = glm::vec3(0.3f, 2.5f, 0.7f);
+    // Seen as the program opens, target, pole target and shoulder are about as far away: a drag in the plane of
+    // the view leads from one to the other.
+    part.reach.pole = glm::vec3(0.3f, 2.5f, -0.5f);
     constexpr std::size_t elbow = 1;
     if (part.chain.size() > elbow + 1) {
         ik::Limit hinge = ik::Limit::of(ik::JointKind::Hinge);
         hinge.axis = {0.0f, 0.0f, -1.0f};
         set_limit(part.reach, elbow, hinge, part.chain);
     }
-    reach_for(part, {2.25f, 0.9f, 0.6f}, runtime);
+    reach_for(part, {2.25f, 0.9f, 0.2f}, runtime);
 }
 
 }  // namespace tendril::app

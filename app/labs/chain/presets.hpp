@@ -15,6 +15,7 @@ struct Preset {
     const char* name;
     const char* title;
     std::size_t count;  ///< segments unless told otherwise
+    int of;             ///< buttons to its row of the panel
 };
 
 /// The preset that is more than a chain; also the scene that the program opens on.

@@ -1,5 +1,7 @@
 #include "app/labs/kit/preset_rows.hpp"
 
+#include <utility>
+
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {
@@ -7,9 +9,12 @@ namespace tendril::app {
 bool preset_rows(const std::string& lab, const std::vector<PresetButton>& presets, const char* clears,
                  Emit& emit, int of) {
     bool opened = false;
+    int in_row = 0;
     for (const PresetButton& preset : presets) {
         const char* const tooltip = preset.tooltip.empty() ? nullptr : preset.tooltip.c_str();
-        if (!row_button(preset.title.c_str(), preset.of > 0 ? preset.of : of, true, tooltip)) continue;
+        const int wanted = preset.of > 0 ? preset.of : of;
+        if (std::exchange(in_row, wanted) != wanted) end_row();  // they are of another width
+        if (!row_button(preset.title.c_str(), wanted, true, tooltip)) continue;
         emit(lab + ".preset", {{"name", preset.name}});
         opened = true;
     }
