@@ -133,7 +133,10 @@ void App::compose(const Event* event, Pass pass) {
         hint = view_hint(mouse_preset(workspace_.settings)) + " ? shows every key.";
     if (workspace_.ui.asks_to_quit && !workspace_.modified()) workspace_.ui.asks_to_quit = false;
     shell_.frame({workspace_, labs_, lab(), *commands_, shortcuts_, layout_, hint, shown_card()}, emit);
-    if (const std::string why = std::exchange(ui_.numbers().refused, {}); !why.empty()) refuse(why);
+    if (const std::string why = std::exchange(ui_.numbers().refused, {}); !why.empty()) {
+        refuse(why);
+        note_refusal(why);
+    }
     // Each number that is typed is a change of its own, as each drag is.
     if (std::exchange(ui_.numbers().entered, false)) ++gesture_;
     if (pass == Pass::Picture) emit.take();
@@ -214,6 +217,8 @@ void App::run_emitted(Emit& emit) {
             if (command.continuous && pointer_.dragged() != no_pick) workspace_.settings.hint_seen = true;
         } catch (const Refused& refusal) {
             refuse(refusal.what());
+            const Command* const known = commands_->find(command.name);
+            if (known != nullptr && known->effect == Effect::Edit) note_refusal(refusal.what());
         }
     }
 }
@@ -249,25 +254,18 @@ void App::take_picture() {
     workspace_.toast("Written: " + wanted->path.string());
 }
 
-/// What came of a change, and whether it was refused, is a matter for the last seconds too.
+/// What came of a change is a matter for the last seconds too.
 void App::run_command(const std::string& name, const Json& arguments, Gesture gesture) {
     const std::string open = workspace_.lab;
     const std::shared_ptr<const Part> before = workspace_.document.parts().at(open);
-    try {
-        commands_->run(workspace_, name, arguments, gesture);
-    } catch (const UnknownCommand&) {
-        throw;
-    } catch (const Refused& refusal) {
-        if (commands_->find(name)->effect == Effect::Edit)
-            workspace_.rewind.note({.tick = workspace_.clock.tick, .cause = refusal.what()});
-        throw;
-    }
+    commands_->run(workspace_, name, arguments, gesture);
     if (workspace_.lab == open && commands_->find(name)->effect == Effect::Edit) review(before);
 }
 
 void App::run(const RunCommand& command) {
     try {
         run_command(command.name, command.arguments, 0);
+        workspace_.pass_change();
         if (const auto& finish = commands_->find(command.name)->finish) finish(workspace_);
         take_picture();
         if (recorder_) recorder_->command(command.name, command.arguments, false);
@@ -336,8 +334,9 @@ Json App::told_state() const {
                                    {"degrees", number(incident.degrees)},
                                    {"cause", incident.cause}});
     if (!workspace_.rewind.empty()) {
-        const std::uint64_t newest = std::max(workspace_.rewind.newest(), clock.tick);
-        state["time"]["ticks_back"] = newest - clock.tick;
+        const std::uint64_t newest = std::max(workspace_.rewind.newest(), workspace_.moment);
+        state["time"]["moment"] = workspace_.moment;  // as events count
+        state["time"]["ticks_back"] = newest - workspace_.moment;
         state["time"]["remembered"] = newest - workspace_.rewind.oldest();
     }
     return state;

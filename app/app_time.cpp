@@ -11,9 +11,14 @@ void App::review(const std::shared_ptr<const Part>& before) {
     const auto& after = workspace_.document.parts().at(workspace_.lab);
     if (before == after) return;
     for (Incident& incident : lab().review(*before, *after)) {
-        incident.tick = workspace_.clock.tick;
+        incident.tick = workspace_.moment;
         workspace_.rewind.note(std::move(incident));
     }
+}
+
+/// Of what a hand did: a script knows what it asked for.
+void App::note_refusal(const std::string& why) {
+    workspace_.rewind.note({.tick = workspace_.moment, .cause = "refused: " + why});
 }
 
 void App::step_lab() {
@@ -24,9 +29,10 @@ void App::step_lab() {
         lab().step(workspace_);
         review(before);
     } else {
-        workspace_.rewind.remember_change(clock.tick);
+        workspace_.rewind.remember_change(workspace_.moment, clock.tick);
     }
     ++clock.tick;
+    ++workspace_.moment;
     clock.passed += static_cast<double>(clock.speed);
     clock.steps_due = std::max(0, clock.steps_due - 1);
 }
@@ -37,7 +43,7 @@ void App::replay() {
     const int by = clock.whole_ticks();
     clock.passed += static_cast<double>(clock.speed);
     const std::uint64_t newest = workspace_.rewind.newest();
-    const std::uint64_t to = std::min(newest, clock.tick + static_cast<std::uint64_t>(by));
+    const std::uint64_t to = std::min(newest, workspace_.moment + static_cast<std::uint64_t>(by));
     workspace_.go_to_moment(newest - to);
     if (to == newest) clock.replaying = false;
 }

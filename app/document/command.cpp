@@ -207,7 +207,7 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
     if (workspace.document == before && workspace.path == from.path) return;
     if (command->effect == Effect::Replace) return;
     if (command->effect == Effect::Edit) {
-        workspace.rewind.forget_from(workspace.clock.tick);  // what came of it, as it was before, came not
+        workspace.rewind.forget_from(workspace.moment);  // what came of it, as it was before, came not
         if (const auto& part = before.parts().at(workspace.lab);
             part != workspace.document.parts().at(workspace.lab))
             workspace.rewind.begin_change(workspace.edition, part);

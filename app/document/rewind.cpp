@@ -5,7 +5,8 @@
 
 namespace tendril::app {
 
-void Rewind::remember(std::uint64_t tick, std::uint64_t edition, std::shared_ptr<const Part> part) {
+void Rewind::remember(std::uint64_t tick, std::uint64_t edition, std::shared_ptr<const Part> part,
+                      std::uint64_t clock) {
     forget_from(tick);
     change_.reset();
     // Until now it was the newest, and kept as that alone.
@@ -13,7 +14,7 @@ void Rewind::remember(std::uint64_t tick, std::uint64_t edition, std::shared_ptr
     while (!moments_.empty() && moments_.front().tick + most_ticks < tick) drop_oldest();
     while (!incidents_.empty() && incidents_.front().tick + most_ticks < tick) incidents_.pop_front();
     const std::size_t size = part->bytes();
-    moments_.push_back({tick, edition, std::move(part), size});
+    moments_.push_back({tick, edition, clock, std::move(part), size});
     bytes_ += size;
     thin();
 }
@@ -38,10 +39,10 @@ void Rewind::begin_change(std::uint64_t edition, std::shared_ptr<const Part> par
     if (!change_) change_ = {edition, std::move(part)};
 }
 
-void Rewind::remember_change(std::uint64_t tick) {
+void Rewind::remember_change(std::uint64_t tick, std::uint64_t clock) {
     if (!change_) return;
     Change change = std::move(*change_);
-    remember(tick, change.edition, std::move(change.part));
+    remember(tick, change.edition, std::move(change.part), clock);
 }
 
 void Rewind::note(Incident incident) {

@@ -20,8 +20,9 @@ class Rewind {
     static constexpr std::size_t most_incidents = 256;
 
     struct Moment {
-        std::uint64_t tick = 0;
+        std::uint64_t tick = 0;     ///< counts the moments
         std::uint64_t edition = 0;  ///< the workspace's then
+        std::uint64_t clock = 0;    ///< ticks that were simulated until then
         std::shared_ptr<const Part> part;
         std::size_t bytes = 0;
     };
@@ -30,7 +31,8 @@ class Rewind {
 
     /// The part as it is at a tick. What was remembered of that tick and of later ones is forgotten: time
     /// goes on from here.
-    void remember(std::uint64_t tick, std::uint64_t edition, std::shared_ptr<const Part> part);
+    void remember(std::uint64_t tick, std::uint64_t edition, std::shared_ptr<const Part> part,
+                  std::uint64_t clock = 0);
     void forget_from(std::uint64_t tick);
     void clear();
 
@@ -38,7 +40,7 @@ class Rewind {
     void begin_change(std::uint64_t edition, std::shared_ptr<const Part> part);
     bool changed() const { return change_.has_value(); }
     /// Remembers what the change began from.
-    void remember_change(std::uint64_t tick);
+    void remember_change(std::uint64_t tick, std::uint64_t clock = 0);
 
     /// The oldest goes where there are too many, or ten seconds have passed.
     void note(Incident incident);

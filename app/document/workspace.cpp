@@ -23,6 +23,7 @@ void Workspace::open_lab(const std::string& name) {
 
 void Workspace::start_anew() {
     clock.tick = 0;
+    moment = 0;
     clock.passed = 0.0;
     rewind.clear();
     ui.incident.reset();
@@ -31,8 +32,8 @@ void Workspace::start_anew() {
 
 void Workspace::pass_change() {
     if (!rewind.changed()) return;
-    rewind.remember_change(clock.tick);
-    ++clock.tick;
+    rewind.remember_change(moment, clock.tick);
+    ++moment;
 }
 
 Workspace::BeforeAndAfter Workspace::around(const Incident& incident) const {
@@ -44,20 +45,21 @@ Workspace::BeforeAndAfter Workspace::around(const Incident& incident) const {
 
 void Workspace::go_to_moment(std::uint64_t ticks_back) {
     const bool was_modified = modified();
-    if (clock.tick > rewind.newest()) remember_moment();
+    if (moment > rewind.newest()) remember_moment();
     const Rewind::Moment& newest = rewind.at(0);
-    const Rewind::Moment& moment = rewind.at(ticks_back);
+    const Rewind::Moment& then = rewind.at(ticks_back);
     clock.playing = false;
-    if (moment.tick == clock.tick) return;
-    if (edition == newest.edition && moment.edition != newest.edition) {
+    if (then.tick == moment) return;
+    if (edition == newest.edition && then.edition != newest.edition) {
         Document before;
         before.set(lab, newest.part);
         if (!history.leads_to(before)) history.push(before, "time.seek", 0, place(), place());
     }
-    const bool over_a_change = edition != moment.edition;
-    clock.tick = moment.tick;
-    edition = moment.edition;
-    document.set(lab, document.parts().at(lab)->at_moment(moment.part));
+    const bool over_a_change = edition != then.edition;
+    moment = then.tick;
+    clock.tick = then.clock;
+    edition = then.edition;
+    document.set(lab, document.parts().at(lab)->at_moment(then.part));
     if (!was_modified && !over_a_change) saved = document;
 }
 

@@ -87,6 +87,7 @@ struct Workspace {
     std::map<std::string, CameraPose> cameras;  ///< of the labs that were open before
     Clock clock;
     Rewind rewind;
+    std::uint64_t moment = 0;   ///< counts what rewind remembers: ticks that were simulated, and changes by hand
     std::uint64_t edition = 0;  ///< which of the changes that can be undone was the last; counted
     History history;
     bool gesture_begins = true;  ///< the command that runs is alone, or the first of its drag
@@ -103,8 +104,8 @@ struct Workspace {
     /// Time and cameras as they are for a scene that has just begun.
     void start_anew();
     /// Keeps the open lab's part as it is now, for time.seek.
-    void remember_moment() { rewind.remember(clock.tick, edition, document.parts().at(lab)); }
-    /// A tick passes in which the open lab was changed by hand, and not simulated.
+    void remember_moment() { rewind.remember(moment, edition, document.parts().at(lab), clock.tick); }
+    /// The open lab was changed by hand, and no tick was simulated: a moment passes all the same.
     void pass_change();
     /// Goes back (or forward again) to the moment that is remembered nearest, and pauses. To go back over a
     /// change is a change itself: undoing it leads to where one came from.

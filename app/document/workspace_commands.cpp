@@ -21,10 +21,11 @@ void step_through(Workspace& workspace, bool back) {
     if (place.camera) workspace.camera = *place.camera;
     Rewind& rewind = workspace.rewind;
     if (!rewind.empty() && rewind.at(0).part == workspace.document.parts().at(workspace.lab)) {
-        workspace.clock.tick = rewind.newest();  // to where one went back in time from
+        workspace.moment = rewind.newest();  // to where one went back in time from
+        workspace.clock.tick = rewind.at(0).clock;
         workspace.edition = rewind.at(0).edition;
     } else {
-        rewind.forget_from(workspace.clock.tick);
+        rewind.forget_from(workspace.moment);
         ++workspace.edition;
     }
 }
@@ -52,8 +53,8 @@ void seek(Workspace& w, const Arguments& given) {
 void replay(Workspace& w) {
     w.pass_change();
     if (w.rewind.empty()) throw Refused("there is no earlier moment to show again");
-    const std::uint64_t newest = std::max(w.rewind.newest(), w.clock.tick);
-    w.go_to_moment(w.clock.tick == newest ? newest - w.rewind.oldest() : newest - w.clock.tick);
+    const std::uint64_t newest = std::max(w.rewind.newest(), w.moment);
+    w.go_to_moment(w.moment == newest ? newest - w.rewind.oldest() : newest - w.moment);
     w.ui.incident.reset();
     w.clock.replaying = true;
 }
@@ -69,7 +70,7 @@ void show_incident(Workspace& w, const Arguments& given) {
                       ", which is how many incidents are remembered, got " + std::to_string(number));
     const Incident incident = incidents[number];
     if (!w.rewind.empty()) {
-        const std::uint64_t newest = std::max(w.rewind.newest(), w.clock.tick);
+        const std::uint64_t newest = std::max(w.rewind.newest(), w.moment);
         w.go_to_moment(newest - std::min(newest, incident.tick + 1));
     }
     w.clock.replaying = false;

@@ -87,7 +87,10 @@ bool section_button(const char* title, bool open) {
     const ImU32 colour = ImGui::GetColorU32(ImGui::IsItemHovered() ? ImGuiCol_Text : ImGuiCol_TextDisabled);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip(open ? "Click folds this section" : "Click unfolds it");
     ImDrawList* list = ImGui::GetWindowDrawList();
-    list->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), title);
+    const ImVec2 below = ImGui::GetCursorScreenPos();
+    ImGui::SetCursorScreenPos(at);
+    ImGui::TextUnformatted(title);
+    ImGui::SetCursorScreenPos(below);
     // At the right end, where it is in nobody's way.
     const float half = 0.18f * line;
     const ImVec2 mark{at.x + width - 2.0f * half, at.y + 0.5f * line};

@@ -13,7 +13,7 @@ constexpr std::size_t most_rows = 5;
 
 /// "1.4 s ago"
 std::string age_text(const Workspace& workspace, const Incident& incident) {
-    const std::uint64_t after = incident.tick + 1, now = workspace.clock.tick;
+    const std::uint64_t after = incident.tick + 1, now = workspace.moment;
     if (after == now) return "just now";
     const double seconds = static_cast<double>(after > now ? after - now : now - after) * tick_seconds;
     char text[32];

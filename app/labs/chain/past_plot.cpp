@@ -82,7 +82,7 @@ void past_plot_rows(const Workspace& workspace) {
     const Rewind& past = workspace.rewind;
     // An angle is that of the joint that is selected, or else of the one after the root: an arm's elbow.
     const std::size_t joint = now.selected.value_or(1);
-    const std::uint64_t first = past.empty() ? workspace.clock.tick : past.oldest();
+    const std::uint64_t first = past.empty() ? workspace.moment : past.oldest();
     const auto seconds = [&](std::uint64_t tick) {
         return static_cast<float>(static_cast<double>(tick - first) * tick_seconds);
     };
@@ -93,7 +93,7 @@ void past_plot_rows(const Workspace& workspace) {
     };
     for (const Rewind::Moment& moment : past.moments())
         add(moment.tick, dynamic_cast<const ChainPart&>(*moment.part));
-    if (past.empty() || workspace.clock.tick > past.newest()) add(workspace.clock.tick, now);
+    if (past.empty() || workspace.moment > past.newest()) add(workspace.moment, now);
     if (curve.points.empty()) {
         note(what == PastPlot::Twist ? "Twist is known within limits only: give a joint one."
                                      : "Select a joint with a bone after it.");
@@ -116,7 +116,7 @@ void past_plot_rows(const Workspace& workspace) {
           .min_x = 10.0f,
           .low_y = 0.0f,
           .high_y = angle ? 10.0f : 0.01f * std::max(now.chain.reach(), 1e-3f),
-          .at_x = seconds(std::max(workspace.clock.tick, first))},
+          .at_x = seconds(std::max(workspace.moment, first))},
          ImGui::GetContentRegionAvail().y / ImGui::GetTextLineHeight() - 0.2f);
 }
 

@@ -68,7 +68,7 @@ void past_strip(const Workspace& workspace, Emit& emit) {
     const Palette& colours = palette(workspace.settings.theme);
     replay_button(workspace, emit);
     // The strip is ten seconds long from the beginning: what is not there yet is to its right.
-    const std::uint64_t now = workspace.clock.tick;
+    const std::uint64_t now = workspace.moment;
     const std::uint64_t first = past.empty() ? now : past.oldest();
     const std::uint64_t last = past.empty() ? now : std::max(past.newest(), now);
     const auto place = [&](std::uint64_t tick) {

@@ -7,7 +7,7 @@ namespace tendril::test {
 namespace {
 
 using app::Json;
-const glm::vec2 elsewhere(640, 660);  ///< in the view, with nothing under it
+const glm::vec2 elsewhere(640, 600);  ///< in the view, with nothing under it
 
 /// Where everything is before the first event.
 const Json& start() {

@@ -172,6 +172,7 @@ TEST_F(SignalNumbers, GoBackInTimeWithTheFiltersAsTheyAreSetNow) {
         workspace.remember_moment();
         lab().step(workspace);
         ++workspace.clock.tick;
+        ++workspace.moment;
     }
     const Json before = state();
     run("signal.filter.set", {{"at", 0}, {"strength", 4}});

@@ -94,7 +94,7 @@ void finish_loading(Workspace& workspace) {
     const Document before = workspace.document;
     const Place from = workspace.place();
     show(workspace, std::move(character));
-    workspace.rewind.forget_from(workspace.clock.tick);
+    workspace.rewind.forget_from(workspace.moment);
     ++workspace.edition;
     workspace.history.push(before.without(workspace.document), "humanoid.load", 0, from, workspace.place());
 }
