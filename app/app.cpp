@@ -130,7 +130,7 @@ void App::compose(const Event* event, Pass pass) {
     }
     if (const std::string by_part = gizmo_hint(lab(), workspace_, pointer_); !by_part.empty()) hint = by_part;
     if (hint.empty())
-        hint = "Right-drag turns the view, middle-drag shifts it, the wheel zooms. ? shows every key.";
+        hint = view_hint(mouse_preset(workspace_.settings)) + " ? shows every key.";
     if (workspace_.ui.asks_to_quit && !workspace_.modified()) workspace_.ui.asks_to_quit = false;
     shell_.frame({workspace_, labs_, lab(), *commands_, shortcuts_, layout_, hint, shown_card()}, emit);
     if (const std::string why = std::exchange(ui_.numbers().refused, {}); !why.empty()) refuse(why);
@@ -146,6 +146,7 @@ void App::compose(const Event* event, Pass pass) {
                     pointer_.dragged(), layout_.scale};
     lab().draw(view, drawn_);
     show_gizmo(drawn_, lab(), view, pointer_);
+    show_constraint(drawn_, view, pointer_, input_);
     show_labels(drawn_, camera, palette(workspace_.settings.theme), layout_.scale);
     ui_.end();
 }

@@ -1,6 +1,7 @@
 #include "app/labs/camera_commands.hpp"
 
 #include <glm/common.hpp>
+#include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "app/document/command.hpp"
@@ -24,7 +25,25 @@ Argument angle(const char* name, double low, double high) {
     return {.name = name, .required = false, .help = "degrees", .low = low, .high = high};
 }
 
+/// As one looks from one of six sides.
+void look_from(Workspace& workspace, const std::string& name) {
+    CameraPose& pose = workspace.camera;
+    const bool side = name == "side" || name == "left", high = name == "top" || name == "bottom";
+    pose = turned_to(pose, side ? FixedView::Side : high ? FixedView::Top : FixedView::Front);
+    if (name == "left") pose.yaw = -pose.yaw;
+    if (name == "bottom") pose.pitch = -pose.pitch;
+    if (name == "back") pose.yaw = glm::pi<float>();
+}
+
 }  // namespace
+
+LabSetting mouse_setting() {
+    return {.key = "mouse",
+            .command = "view.mouse",
+            .argument = "like",
+            .help = "Turns and shifts the view with the mouse as this program does",
+            .choices = {{"tendril", "Tendril"}, {"blender", "Blender"}, {"maya", "Maya, Unreal"}}};
+}
 
 void add_camera_commands(CommandTable& table, const Labs& labs) {
     table.add({.name = "camera.set",
@@ -63,15 +82,11 @@ void add_camera_commands(CommandTable& table, const Labs& labs) {
                .arguments = {{.name = "name",
                               .type = ArgumentType::Text,
                               .help = "where from",
-                              .choices = {"front", "side", "top"}}},
-               .help = "Looks from the front, the side or the top",
+                              .choices = {"front", "side", "top", "back", "left", "bottom"}}},
+               .help = "Looks from the front, the side (right), the top, or from opposite one of them",
                .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments& a) {
-                   const std::string name = a.text("name");
-                   w.camera = turned_to(w.camera, name == "front"  ? FixedView::Front
-                                                  : name == "side" ? FixedView::Side
-                                                                   : FixedView::Top);
-               }});
+               .apply = [](Workspace& w, const Arguments& a) { look_from(w, a.text("name")); }});
+    table.add(setting_command(mouse_setting()));
     table.add(
         {.name = "camera.orthographic",
          .arguments = {},

@@ -5,6 +5,9 @@
 
 namespace tendril::app {
 
+/// Whose way of turning and shifting the view with the mouse is followed.
+LabSetting mouse_setting();
+
 /// `labs` must outlive the table.
 void add_camera_commands(CommandTable& table, const Labs& labs);
 

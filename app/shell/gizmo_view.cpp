@@ -63,4 +63,21 @@ std::vector<NamedGrip> gizmo_grips(const DrawList& drawn, const Lab& lab, const 
     return grips;
 }
 
+void show_constraint(DrawList& list, const View& view, const Pointer& pointer, const Input& input) {
+    if (pointer.dragged() == no_pick || pointer.drags_gizmo()) return;
+    const std::string bound = pointer.constraint(input);
+    if (bound.empty()) return;
+    const glm::vec3 at = pointer.caught_position();
+    // Beyond the edges of the view.
+    const float far = 20.0f * view.camera.depth(at);
+    const auto line = [&](glm::vec3 axis, glm::vec3 colour) {
+        list.line(at - far * axis, at + far * axis, 1.5f * view.scale, glm::vec4(colour, 0.9f)).layer =
+            Layer::Overlay;
+    };
+    const bool ground = bound == "in the ground plane";
+    if (ground || bound == "along X") line({1, 0, 0}, view.palette.axis_x);
+    if (bound == "along Y") line({0, 1, 0}, view.palette.axis_y);
+    if (ground || bound == "along Z") line({0, 0, 1}, view.palette.axis_z);
+}
+
 }  // namespace tendril::app

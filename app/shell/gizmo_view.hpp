@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/labs/lab.hpp"
+#include "app/shell/input.hpp"
 
 namespace tendril::app {
 
@@ -21,5 +22,8 @@ struct NamedGrip {
 /// Of the gizmo in this picture; those that are wholly hidden by other parts are left out.
 std::vector<NamedGrip> gizmo_grips(const DrawList& drawn, const Lab& lab, const Workspace& workspace,
                                    const Camera& camera, float scale);
+
+/// The axis, or the plane of the ground, that a held key binds the drag to, through where it began.
+void show_constraint(DrawList& list, const View& view, const Pointer& pointer, const Input& input);
 
 }  // namespace tendril::app

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/labs/camera_commands.hpp"
 #include "app/shell/shell.hpp"
 #include "app/shell/theme.hpp"
 #include "app/widgets/fields.hpp"
@@ -90,7 +91,8 @@ void show_help(const ShellFrame& frame, Emit& emit) {
     if (ImGui::BeginTable("columns", two ? 2 : 1, ImGuiTableFlags_NoPadOuterX)) {
         ImGui::TableNextColumn();
         key_table("Mouse", mouse, [&] {
-            for (const auto& help : frame.shortcuts.mouse_help(frame.workspace.lab))
+            for (const auto& help :
+                 frame.shortcuts.mouse_help(frame.workspace.lab, mouse_preset(frame.workspace.settings)))
                 key_row(help.gesture, help.effect);
         });
         key_table("Time", mouse, [&] {
@@ -106,24 +108,25 @@ void show_help(const ShellFrame& frame, Emit& emit) {
     ImGui::End();
 }
 
-/// What the labs leave to choose.
+/// What the mouse and the labs leave to choose.
 static void lab_settings(const ShellFrame& frame, Emit& emit) {
-    for (const auto& lab : frame.labs.all()) {
-        for (const LabSetting& setting : lab->settings()) {
-            std::vector<const char*> titles;
-            for (const LabSetting::Choice& choice : setting.choices) titles.push_back(choice.title.c_str());
-            int chosen = static_cast<int>(setting.chosen(frame.workspace.settings));
-            if (choice_field(setting.key.c_str(), chosen, titles.data(), static_cast<int>(titles.size())))
-                emit(setting.command,
-                     {{setting.argument, setting.choices[static_cast<std::size_t>(chosen)].name}});
-        }
+    std::vector<LabSetting> settings{mouse_setting()};
+    for (const auto& lab : frame.labs.all())
+        for (LabSetting& setting : lab->settings()) settings.push_back(std::move(setting));
+    for (const LabSetting& setting : settings) {
+        std::vector<const char*> titles;
+        for (const LabSetting::Choice& choice : setting.choices) titles.push_back(choice.title.c_str());
+        int chosen = static_cast<int>(setting.chosen(frame.workspace.settings));
+        if (choice_field(setting.key.c_str(), chosen, titles.data(), static_cast<int>(titles.size())))
+            emit(setting.command,
+                 {{setting.argument, setting.choices[static_cast<std::size_t>(chosen)].name}});
     }
 }
 
 void show_settings(const ShellFrame& frame, Emit& emit) {
     const Settings& settings = frame.workspace.settings;
     const float scale = frame.layout.scale;
-    if (!begin_sheet("Settings", frame.screen(), {380.0f * scale, 236.0f * scale})) {
+    if (!begin_sheet("Settings", frame.screen(), {400.0f * scale, 400.0f * scale})) {
         emit("view.settings", {{"open", false}});
     }
     static constexpr const char* themes[] = {"dark", "light"};
@@ -185,7 +188,8 @@ void show_first_hint(const ShellFrame& frame) {
         return ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
     };
     const std::string first = frame.lab.invitation();
-    std::string text = first + " Right-drag turns the view. ? shows every key.";
+    std::string text =
+        first + " " + orbit_hint(mouse_preset(frame.workspace.settings)) + " ? shows every key.";
     if (size_of(text).y > 0.3f * view.size().y) text = first;  // large letters in a small view
     const ImVec2 at{view.centre().x - 0.5f * size_of(text).x, view.min.y + 22.0f * frame.layout.scale};
     ImGui::GetBackgroundDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at,

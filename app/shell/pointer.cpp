@@ -12,6 +12,7 @@ namespace {
 constexpr float drag_threshold = 4.0f;  ///< pixels; less is a click
 constexpr float slack = 4.0f;           ///< pixels beyond a handle's edge that still catch it
 constexpr int double_click_ticks = 20;
+constexpr float pixels_per_notch = 20.0f;  ///< of a drag that zooms
 
 /// The axis of the first axis key held.
 std::optional<glm::vec3> held_axis(const Input& input) {
@@ -84,8 +85,11 @@ void Pointer::press(const MousePress& press, const Input& input, const Scene& sc
     button_ = press.button;
     caught_at_ = input.mouse();
     caught_ = no_pick;
-    if (const auto action = mouse_action(press.button, input.shift(), input.alt())) {
-        doing_ = *action == MouseAction::Orbit ? Doing::Orbit : Doing::Pan;
+    const HeldKeys held{.shift = input.shift(), .ctrl = input.ctrl(), .alt = input.alt()};
+    if (const auto action = mouse_action(mouse_preset(scene.workspace.settings), press.button, held)) {
+        doing_ = *action == MouseAction::Orbit ? Doing::Orbit
+                 : *action == MouseAction::Pan ? Doing::Pan
+                                               : Doing::Zoom;
         return;
     }
     if (press.button != MouseButton::Left) return;
@@ -142,9 +146,13 @@ void Pointer::move(const Input& input, const Scene& scene, Emit& emit) {
         case Doing::Pan:
             emit_camera(emit, scene.workspace.camera, panned(scene.camera, by));
             break;
+        case Doing::Zoom:
+            emit_camera(emit, scene.workspace.camera,
+                        zoomed(scene.camera, caught_at_, -by.y / pixels_per_notch));
+            break;
         case Doing::Press:
             if (glm::distance(input.mouse(), caught_at_) < drag_threshold * scene.scale) break;
-            doing_ = draggable_ ? Doing::Drag : Doing::Stray;
+            doing_ = draggable_ ? Doing::Drag : caught_ == no_pick ? Doing::Orbit : Doing::Stray;
             if (doing_ == Doing::Drag) drag(input, scene, emit);
             break;
         case Doing::Drag:
@@ -198,7 +206,8 @@ std::string Pointer::constraint(const Input& input) const {
 }
 
 Cursor Pointer::cursor() const {
-    if (doing_ == Doing::Drag || doing_ == Doing::Orbit || doing_ == Doing::Pan) return Cursor::Grab;
+    if (doing_ == Doing::Drag || doing_ == Doing::Orbit || doing_ == Doing::Pan || doing_ == Doing::Zoom)
+        return Cursor::Grab;
     return hovered_ != no_pick ? Cursor::Hand : Cursor::Arrow;
 }
 

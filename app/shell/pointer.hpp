@@ -43,10 +43,12 @@ class Pointer {
     bool busy() const { return doing_ != Doing::Nothing; }
     /// The axis or plane that a held key binds the drag to; empty for the view plane.
     std::string constraint(const Input& input) const;
+    /// Where the handle was when it was caught.
+    glm::vec3 caught_position() const { return caught_frame_.position; }
     Cursor cursor() const;
 
   private:
-    enum class Doing { Nothing, Press, Stray, Drag, Orbit, Pan };  ///< Stray: a drag that caught nothing
+    enum class Doing { Nothing, Press, Stray, Drag, Orbit, Pan, Zoom };  ///< Stray: a drag of what stays
 
     void press(const MousePress& press, const Input& input, const Scene& scene);
     void let_go(const Input& input, const Scene& scene, Emit& emit);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/shell/axis_gizmo.hpp"
 #include "app/shell/card_view.hpp"
 #include "app/shell/theme.hpp"
 #include "app/widgets/fonts.hpp"
@@ -285,6 +286,7 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
     show_first_hint(frame);
     show_card_halo(frame, lit_);
     show_legend(frame);
+    show_axis_gizmo(frame, emit);
     if (workspace.ui.help) show_help(frame, emit);
     if (workspace.ui.settings) show_settings(frame, emit);
     palette_.frame(workspace.ui.palette, frame.commands, frame.shortcuts, frame.screen(), frame.layout.scale,

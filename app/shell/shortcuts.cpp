@@ -54,36 +54,6 @@ std::vector<Shortcut> common_rows() {
     };
 }
 
-struct MouseBinding {
-    MouseButton button;
-    bool shift, alt;
-    MouseAction action;
-};
-
-constexpr MouseBinding mouse_bindings[] = {
-    {MouseButton::Right, false, false, MouseAction::Orbit},
-    {MouseButton::Left, false, true, MouseAction::Orbit},
-    {MouseButton::Middle, false, false, MouseAction::Pan},
-    {MouseButton::Right, true, false, MouseAction::Pan},
-};
-
-std::string gesture_name(const MouseBinding& binding) {
-    const char* button = binding.button == MouseButton::Left    ? "left drag"
-                         : binding.button == MouseButton::Right ? "right drag"
-                                                                : "middle drag";
-    std::string name = std::string(binding.shift ? "Shift+" : "") + (binding.alt ? "Alt+" : "") + button;
-    name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
-    return name;
-}
-
-std::string gestures_of(MouseAction action) {
-    std::string text;
-    for (const auto& binding : mouse_bindings) {
-        if (binding.action == action) text += (text.empty() ? "" : ", ") + gesture_name(binding);
-    }
-    return text;
-}
-
 }  // namespace
 
 Shortcuts::Shortcuts(const Labs& labs) : rows_(common_rows()) {
@@ -129,15 +99,17 @@ std::string Shortcuts::all_keys_for(const Shortcut& wanted) const {
     return keys;
 }
 
-std::vector<MouseHelp> Shortcuts::mouse_help(std::string_view lab) const {
+std::vector<MouseHelp> Shortcuts::mouse_help(std::string_view lab, MousePreset preset) const {
+    const std::string zoom = gestures_of(preset, MouseAction::Zoom);
     std::vector<MouseHelp> list{
         {"Left drag on a handle", "moves it, in the plane of the view"},
         {"X, Y or Z held", "moves it along that axis"},
         {"Shift held", "moves it in the ground plane"},
         {"Left click", "selects"},
-        {gestures_of(MouseAction::Orbit), "turns the view"},
-        {gestures_of(MouseAction::Pan), "shifts the view"},
-        {"Wheel", "zooms to the cursor"},
+        {"Left drag on nothing, " + gestures_of(preset, MouseAction::Orbit), "turns the view"},
+        {gestures_of(preset, MouseAction::Pan), "shifts the view"},
+        {"Wheel" + (zoom.empty() ? zoom : ", " + zoom), "zooms to the cursor"},
+        {"Click on an axis in the corner", "looks from there"},
         {"File dropped on the window", "opens it"},
         {"Click on a number", "types another: 1/3, 2*pi, 30 cm"},
         {"Drag of a number sideways", "changes it; with Shift finer"},
@@ -158,13 +130,6 @@ std::string Shortcuts::markdown() const {
     text += "\n| mouse | what it does |\n| --- | --- |\n";
     for (const MouseHelp& help : mouse_help()) text += "| " + help.gesture + " | " + help.effect + " |\n";
     return text;
-}
-
-std::optional<MouseAction> mouse_action(MouseButton button, bool shift, bool alt) {
-    for (const auto& binding : mouse_bindings) {
-        if (binding.button == button && binding.shift == shift && binding.alt == alt) return binding.action;
-    }
-    return std::nullopt;
 }
 
 }  // namespace tendril::app

@@ -9,6 +9,7 @@
 
 #include "app/labs/kit/shortcut.hpp"
 #include "app/labs/labs.hpp"
+#include "app/shell/mouse_preset.hpp"
 #include "app/window/event.hpp"
 
 namespace tendril::app {
@@ -28,7 +29,8 @@ class Shortcuts {
     /// "Ctrl+Shift+Z, Ctrl+Y": every key that does the same.
     std::string all_keys_for(const Shortcut& wanted) const;
     /// What the mouse does everywhere, then what it does in the lab of that name, or with none in any.
-    std::vector<MouseHelp> mouse_help(std::string_view lab = {}) const;
+    std::vector<MouseHelp> mouse_help(std::string_view lab = {},
+                                      MousePreset preset = MousePreset::Tendril) const;
     /// Both lists as Markdown tables, as they stand in the README.
     std::string markdown() const;
 
@@ -42,10 +44,5 @@ class Shortcuts {
     std::vector<Shortcut> rows_;
     std::vector<LabHelp> mouse_;
 };
-
-enum class MouseAction { Orbit, Pan };
-
-/// What a drag of the mouse through the empty view, or over anything, does.
-std::optional<MouseAction> mouse_action(MouseButton button, bool shift, bool alt);
 
 }  // namespace tendril::app

@@ -21,18 +21,20 @@ ScriptText through_the_root() {
     return script;
 }
 
+/// But for the first: there the straight chain bends.
 std::vector<Json> flips_of(const Json& state) {
     std::vector<Json> flips;
     for (const Json& event : state.at("events"))
-        if (event.at("kind") == "flip") flips.push_back(event);
+        if (event.at("kind") == "flip" && event.at("tick") != 0) flips.push_back(event);
     return flips;
 }
 
 TEST(ChainsPast, AFlipIsMarkedAtItsTickWithItsCause) {
     const Json state = state_after(through_the_root());
     const std::vector<Json> flips = flips_of(state);
-    ASSERT_EQ(flips.size(), 1u) << state["events"].dump(2);
-    EXPECT_EQ(flips[0]["cause"], "the target went through the root");
+    ASSERT_GE(flips.size(), 1u) << state["events"].dump(2);
+    for (const Json& flip : flips) EXPECT_EQ(flip["cause"], "the target went through the root");
+    EXPECT_EQ(state["events"][0]["cause"], "the chain was straight (collinear)");
     EXPECT_GT(flips[0]["degrees"].get<double>(), 30.0);
     // The poses on both sides of it are the ones that differ so much.
     const auto tick = flips[0]["tick"].get<int>(), now = state["time"]["tick"].get<int>();
@@ -60,7 +62,7 @@ TEST(ChainsPast, ADragIsRememberedTickByTickAndTakenBackBySeeking) {
     ScriptText half = script;
     script.up();
     const Json end = state_after(script);
-    EXPECT_EQ(end["time"]["remembered"], 20) << "one for each move of the mouse";
+    EXPECT_EQ(end["time"]["remembered"], 21) << "one for the mode, and one for each move of the mouse";
     script.command("time.seek", {{"ticks_back", 20}});
     const Json begin = state_after(script);
     EXPECT_EQ(begin["segments"], state_after(reach)["segments"]);
@@ -79,7 +81,7 @@ TEST(ChainsPast, ADragIsRememberedTickByTickAndTakenBackBySeeking) {
 TEST(ChainsPast, AnIncidentIsGoneToByItsNumber) {
     const Json state = state_after(through_the_root());
     int number = 0;
-    while (state["events"].at(static_cast<std::size_t>(number))["kind"] != "flip") ++number;
+    while (state["events"].at(static_cast<std::size_t>(number)) != flips_of(state).front()) ++number;
     const ScriptText script = through_the_root().command("time.incident", {{"number", number}});
     const Json there = state_after(script);
     const int newest = state["time"]["tick"].get<int>();
@@ -88,7 +90,8 @@ TEST(ChainsPast, AnIncidentIsGoneToByItsNumber) {
     EXPECT_EQ(there["events"], state["events"]) << "looking back forgets nothing";
     // What is done there takes the place of what came after it.
     const Json other = state_after(ScriptText(script).command("chain.target", {{"to", {1, 1, 0}}}).wait(1));
-    EXPECT_EQ(flips_of(other).size(), 1u);
+    EXPECT_EQ(flips_of(other).size(), 1u) << "those that came after it are forgotten";
+    ASSERT_GT(flips_of(state).size(), 1u);
     const ScriptText before = through_the_root().command("time.seek", {{"ticks_back", 30}});
     EXPECT_EQ(
         flips_of(state_after(ScriptText(before).command("chain.target", {{"to", {1, 1, 0}}}).wait(1))).size(),

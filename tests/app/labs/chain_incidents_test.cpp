@@ -136,9 +136,9 @@ TEST_F(ChainIncidents, TargetThroughTheRoot) {
         const glm::vec3 line = direction();
         const float length = uniform(0.5f, 1.5f);
         chain({length, length}, line, across(line), 0.8f);
-        const glm::vec3 off = uniform(0.0f, 0.004f) * length * direction();
+        const glm::vec3 off = uniform(0.0f, 0.01f) * length * direction();
         Path path;
-        for (float x = 1.0f; x > -1.0f; x -= 0.03f) path.push_back(x * length * line + off);
+        for (float x = 1.0f; x > -1.0f; x -= 0.02f) path.push_back(x * length * line + off);
         return path;
     });
 }

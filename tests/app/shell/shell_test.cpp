@@ -68,12 +68,28 @@ TEST(Shortcuts, OfALabStandBehindTheOthersOfTheirSection) {
 }
 
 TEST(Shortcuts, TheMouseTurnsAndShiftsTheView) {
-    EXPECT_EQ(mouse_action(MouseButton::Right, false, false), MouseAction::Orbit);
-    EXPECT_EQ(mouse_action(MouseButton::Left, false, true), MouseAction::Orbit);
-    EXPECT_EQ(mouse_action(MouseButton::Middle, false, false), MouseAction::Pan);
-    EXPECT_EQ(mouse_action(MouseButton::Right, true, false), MouseAction::Pan);
-    EXPECT_EQ(mouse_action(MouseButton::Left, false, false), std::nullopt);
-    EXPECT_EQ(mouse_action(MouseButton::Left, true, false), std::nullopt);  // a drag in the ground plane
+    const auto does = [](MousePreset preset, MouseButton button, HeldKeys held = {}) {
+        return mouse_action(preset, button, held);
+    };
+    constexpr auto left = MouseButton::Left, middle = MouseButton::Middle, right = MouseButton::Right;
+    constexpr auto own = MousePreset::Tendril, blender = MousePreset::Blender, maya = MousePreset::Maya;
+    EXPECT_EQ(does(own, right), MouseAction::Orbit);
+    EXPECT_EQ(does(own, left, {.alt = true}), MouseAction::Orbit);
+    EXPECT_EQ(does(own, middle), MouseAction::Pan);
+    EXPECT_EQ(does(own, right, {.shift = true}), MouseAction::Pan);
+    EXPECT_EQ(does(blender, middle), MouseAction::Orbit);
+    EXPECT_EQ(does(blender, middle, {.shift = true}), MouseAction::Pan);
+    EXPECT_EQ(does(blender, middle, {.ctrl = true}), MouseAction::Zoom);
+    EXPECT_EQ(does(blender, right), std::nullopt);
+    EXPECT_EQ(does(maya, left, {.alt = true}), MouseAction::Orbit);
+    EXPECT_EQ(does(maya, middle, {.alt = true}), MouseAction::Pan);
+    EXPECT_EQ(does(maya, right, {.alt = true}), MouseAction::Zoom);
+    for (const MousePreset preset : {own, blender, maya}) {
+        EXPECT_EQ(does(preset, left), std::nullopt) << "it is for handles";
+        EXPECT_EQ(does(preset, left, {.shift = true}), std::nullopt) << "a drag in the ground plane";
+        EXPECT_NE(view_hint(preset).find(" turns the view"), std::string::npos);
+    }
+    EXPECT_EQ(view_hint(own), "Right-drag turns the view, middle-drag shifts it, the wheel zooms.");
 }
 
 TEST(LayoutOfTheWindow, PartsTileItWithoutOverlapAtEverySize) {

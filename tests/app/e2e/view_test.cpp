@@ -1,0 +1,72 @@
+// Looking around with the mouse, in the running program.
+#include <glm/geometric.hpp>
+
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+using app::Json;
+
+/// In the view, with nothing under it.
+const glm::vec2 nothing(620, 560);
+
+ScriptText preset(const char* name) {
+    return ScriptText().command("view.mouse", {{"like", name}});
+}
+
+TEST(View, ALeftDragOnNothingTurnsItAndAClickDoesNot) {
+    const Json start = state_after(ScriptText().wait(1));
+    const Json turned = state_after(ScriptText().move(nothing).down().move(nothing + glm::vec2(40, 0)).up());
+    EXPECT_NE(turned["camera"]["yaw_deg"], start["camera"]["yaw_deg"]);
+    EXPECT_EQ(turned["segments"], start["segments"]);
+    const Json clicked = state_after(ScriptText().move(nothing).down().up());
+    EXPECT_EQ(clicked["camera"], start["camera"]);
+    // On a handle it is a drag of that.
+    const glm::vec2 target = handle(start, "target");
+    const Json dragged = state_after(ScriptText().drag({target, target + glm::vec2(-40, -40)}));
+    EXPECT_EQ(dragged["camera"], start["camera"]);
+}
+
+TEST(View, ButtonsFollowThePreset) {
+    const auto turns = [](const char* name, const char* button) {
+        const Json before = state_after(preset(name));
+        const Json after =
+            state_after(preset(name).move(nothing).down(button).move(nothing + glm::vec2(40, 10)).up(button));
+        return after["camera"]["yaw_deg"] != before["camera"]["yaw_deg"];
+    };
+    EXPECT_TRUE(turns("tendril", "right"));
+    EXPECT_FALSE(turns("tendril", "middle"));
+    EXPECT_TRUE(turns("blender", "middle"));
+    EXPECT_FALSE(turns("blender", "right"));
+    EXPECT_FALSE(turns("maya", "right"));
+    const Json near = state_after(ScriptText(preset("maya"))
+                                      .hold("alt")
+                                      .move(nothing)
+                                      .down("right")
+                                      .move(nothing - glm::vec2(0, 60))
+                                      .up("right"));
+    EXPECT_LT(near["camera"]["distance"].get<double>(),
+              state_after(preset("maya"))["camera"]["distance"].get<double>());
+}
+
+TEST(View, TheAxesInTheCornerAreClickedForASide) {
+    // From the front +X points to the right, and +Y up: their ends are where a click looks along them.
+    const ScriptText front = ScriptText().command("camera.view", {{"name", "front"}});
+    const auto size = glm::vec2(1280, 720);
+    const float right = size.x - 272.0f, top = 44.0f, reach = 27.0f, radius = 8.5f;
+    const glm::vec2 centre(right - reach - 2.0f * radius, top + reach + 2.0f * radius);
+    const auto click = [&](glm::vec2 at) {
+        return state_after(ScriptText(front).move(centre + at).down().up().wait(2))["camera"];
+    };
+    EXPECT_NEAR(click({reach, 0})["yaw_deg"].get<double>(), 90.0, 1e-3) << "from the right";
+    EXPECT_NEAR(click({-reach, 0})["yaw_deg"].get<double>(), -90.0, 1e-3) << "from the left";
+    EXPECT_NEAR(click({0, -reach})["pitch_deg"].get<double>(), 90.0, 1e-3) << "from the top";
+    EXPECT_NEAR(click({0, reach})["pitch_deg"].get<double>(), -90.0, 1e-3) << "from below";
+    EXPECT_EQ(click({0.5f * reach, 0.5f * reach}), state_after(front)["camera"]) << "beside them";
+    const Json back = state_after(ScriptText().command("camera.view", {{"name", "back"}}))["camera"];
+    EXPECT_NEAR(std::abs(back["yaw_deg"].get<double>()), 180.0, 1e-3);
+}
+
+}  // namespace
+}  // namespace tendril::test
