@@ -74,10 +74,13 @@ void title_row(const Card& card, const CardProgress& progress, const ShellFrame&
     const float taken = ImGui::CalcTextSize(text.c_str()).x + button + 1.5f * m.gap;
     ImGui::AlignTextToFramePadding();
     ImGui::PushFont(heading_font());
-    ImGui::TextUnformatted(elided(card.title, right - m.padding - taken).c_str());
+    const bool both = ImGui::CalcTextSize(card.title.c_str()).x <= right - m.padding - taken;
+    ImGui::TextUnformatted(elided(card.title, right - m.padding - (both ? taken : button)).c_str());
     ImGui::PopFont();
-    ImGui::SameLine(right - taken);
-    ImGui::TextDisabled("%s", text.c_str());
+    if (both) {
+        ImGui::SameLine(right - taken);
+        ImGui::TextDisabled("%s", text.c_str());
+    }
     ImGui::SameLine(right - button + 0.2f * button);
     const std::string keys = frame.shortcuts.keys_for("view.card");
     const std::string tip = "Put this card away. " + keys + ", or Help in the menu, brings it back";

@@ -144,8 +144,8 @@ Chain make_preset(const std::string& name, std::size_t count, std::uint32_t seed
 void make_it_reach(ChainPart& part, ChainRuntime& runtime) {
     part.mode = ChainMode::Reach;
     part.reach = {};
-    // Seen as the program opens, target, pole target and shoulder are about as far away: a drag in the plane of
-    // the view leads from one to the other.
+    // Seen as the program opens, target, pole target and shoulder are about as far away: a drag in the plane
+    // of the view leads from one to the other.
     part.reach.pole = glm::vec3(0.3f, 2.5f, -0.5f);
     constexpr std::size_t elbow = 1;
     if (part.chain.size() > elbow + 1) {
