@@ -102,12 +102,39 @@ float button_width(const std::string& title) {
     return ImGui::CalcTextSize(title.c_str()).x + 2.0f * ImGui::GetStyle().FramePadding.x;
 }
 
+/// The labs as a list behind the name of the one that is open.
+void tab_list(const ShellFrame& frame, Emit& emit) {
+    ImGui::SameLine();
+    const std::string title = frame.lab.title() + " ...";
+    ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_Header));
+    if (ImGui::Button((title + "###labs").c_str())) ImGui::OpenPopup("labs");
+    ImGui::PopStyleColor();
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("The other labs");
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    ImGui::SetNextWindowPos({low.x, frame.layout.top.max.y + 2.0f});
+    if (ImGui::BeginPopup("labs")) {
+        close_popup_on_escape();
+        for (const auto& lab : frame.labs.all())
+            if (ImGui::MenuItem(lab->title().c_str(), nullptr, lab->name() == frame.workspace.lab))
+                emit("lab.open", {{"name", lab->name()}});
+        ImGui::EndPopup();
+    }
+    // What comes next stands beside the button, not beside the last row of its list.
+    ImGui::SetCursorScreenPos(low);
+    ImGui::Dummy({high.x - low.x, high.y - low.y});
+}
+
 /// The program's name, where there is room for it, and the labs.
 void tabs(const ShellFrame& frame, float room, Emit& emit) {
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     ImGui::PushFont(heading_font());
     float needed = gap + ImGui::CalcTextSize("Tendril").x;
+    const float name = needed;
     for (const auto& lab : frame.labs.all()) needed += 2.0f * gap + button_width(lab->title());
+    if (needed - name > room) {
+        ImGui::PopFont();
+        return tab_list(frame, emit);
+    }
     if (needed <= room) {
         ImGui::SameLine();
         ImGui::AlignTextToFramePadding();

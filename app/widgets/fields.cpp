@@ -309,7 +309,13 @@ bool row_button(const char* title, int of, bool enabled, const char* tooltip) {
     // Fewer to a row where they would be smaller than this; four or more are marks rather than words.
     const float min_width = (of > 3 ? 2.2f : 4.5f) * ImGui::GetFontSize();
     of = std::clamp(static_cast<int>((whole + gap) / (min_width + gap)), 1, of);
-    const float width = (whole - gap * static_cast<float>(of - 1)) / static_cast<float>(of);
+    const auto share = [&] { return (whole - gap * static_cast<float>(of - 1)) / static_cast<float>(of); };
+    const float needed = ImGui::CalcTextSize(title).x + ImGui::GetStyle().FramePadding.x;
+    while (of > 1 && share() < needed) --of;  // its words come first
+    const float width = share();
+    const bool begun = ImGui::GetCursorPosX() > ImGui::GetWindowContentRegionMin().x + 1.0f;
+    if (begun && ImGui::GetCursorPosX() + width > ImGui::GetWindowContentRegionMax().x + 1.0f)
+        ImGui::NewLine();
     const std::string shown = elided(title, width - ImGui::GetStyle().FramePadding.x);
     ImGui::BeginDisabled(!enabled);
     const bool pressed = ImGui::Button((shown + "###" + title).c_str(), {width, 0.0f});
