@@ -7,7 +7,7 @@
 namespace tendril::app {
 
 const Card* App::shown_card() const {
-    const bool shown = workspace_.settings.right_open && card_shown(workspace_.settings, workspace_.lab);
+    const bool shown = layout_.right_open && card_shown(workspace_.settings, workspace_.lab);
     return shown ? cards_.find(workspace_.lab) : nullptr;
 }
 

@@ -13,8 +13,11 @@ Layout lay_out(glm::vec2 window, float scale, const Settings& settings, float ti
     const auto side = [&](bool open, float width) {
         return std::round(std::min((open ? width : folded) * scale, most));
     };
+    constexpr float narrow = 900.0f;  // below it there is room for one of them
+    const bool one_panel = window.x < narrow;
+    const bool right_open = settings.right_open && !(one_panel && settings.left_open);
     const float left = side(settings.left_open, settings.left_width);
-    const float right = side(settings.right_open, settings.right_width);
+    const float right = side(right_open, settings.right_width);
     const float top = std::round(bar * scale);
     const float low = std::max(top, window.y - std::round(status * scale));
     // The scene keeps half of the height, whatever is plotted below it.
@@ -23,6 +26,9 @@ Layout lay_out(glm::vec2 window, float scale, const Settings& settings, float ti
 
     Layout layout;
     layout.scale = scale;
+    layout.left_open = settings.left_open;
+    layout.right_open = right_open;
+    layout.one_panel = one_panel;
     layout.top = {{0.0f, 0.0f}, {window.x, top}};
     layout.status = {{0.0f, low}, {window.x, window.y}};
     layout.left = {{0.0f, top}, {left, low}};

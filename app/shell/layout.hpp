@@ -11,6 +11,8 @@ namespace tendril::app {
 struct Layout {
     Rect top, left, right, timeline, status, canvas, view;
     float scale = 1.0f;
+    bool left_open = true, right_open = true;
+    bool one_panel = false;  ///< there is room for one side panel only
 };
 
 /// Everything in window coordinates. `timeline`: how high the strip of time is, at scale 1. In a narrow

@@ -191,7 +191,7 @@ void show_first_hint(const ShellFrame& frame) {
     std::string text =
         first + " " + orbit_hint(mouse_preset(frame.workspace.settings)) + " ? shows every key.";
     if (size_of(text).y > 0.15f * view.size().y) text = first;  // large letters in a small view
-    if (size_of(text).y > 0.15f * view.size().y) return;  // the picture comes first
+    if (size_of(text).y > 0.15f * view.size().y) return;        // the picture comes first
     const ImVec2 at{view.centre().x - 0.5f * size_of(text).x, view.min.y + 22.0f * frame.layout.scale};
     ImGui::GetBackgroundDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at,
                                             imgui_u32(colours.text, 0.85f), text.c_str(), nullptr, wrap);

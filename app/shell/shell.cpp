@@ -66,7 +66,11 @@ void folded_strip(const ShellFrame& frame, const Rect& rect, bool left, Emit& em
     draw_icon(list, left ? Icon::ChevronRight : Icon::ChevronLeft, {rect.centre().x, rect.centre().y},
               std::min(0.8f * rect.size().x, 14.0f * frame.layout.scale),
               ImGui::GetColorU32(hovered ? ImGuiCol_Text : ImGuiCol_TextDisabled));
-    if (pressed) emit("view.panels", {{left ? "left" : "right", true}});
+    if (pressed && frame.layout.one_panel) {
+        emit("view.panels", {{left ? "left" : "right", true}, {left ? "right" : "left", false}});
+    } else if (pressed) {
+        emit("view.panels", {{left ? "left" : "right", true}});
+    }
     ImGui::End();
 }
 
@@ -250,8 +254,7 @@ void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 p
 void Shell::side_panel(const ShellFrame& frame, bool left, Emit& emit) {
     const Rect& rect = left ? frame.layout.left : frame.layout.right;
     if (rect.size().x < 1.0f) return;
-    const Settings& settings = frame.workspace.settings;
-    if (!(left ? settings.left_open : settings.right_open)) {
+    if (!(left ? frame.layout.left_open : frame.layout.right_open)) {
         folded_strip(frame, rect, left, emit);
         return;
     }

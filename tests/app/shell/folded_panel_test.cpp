@@ -15,5 +15,16 @@ TEST(FoldedPanel, LeavesAStripToBringItBackWith) {
     EXPECT_EQ(layout.view.size().x, 1280.0f - 48.0f);
 }
 
+TEST(FoldedPanel, OneFoldsByItselfWhereThereIsNoRoomForTwo) {
+    Settings settings;
+    EXPECT_TRUE(lay_out({900, 640}, 1.0f, settings, 0.0f).right_open);
+    const Layout narrow = lay_out({899, 640}, 1.0f, settings, 0.0f);
+    EXPECT_TRUE(narrow.left_open);
+    EXPECT_FALSE(narrow.right_open);
+    EXPECT_EQ(narrow.right.size().x, 12.0f) << "the strip that brings it back";
+    settings.left_open = false;
+    EXPECT_TRUE(lay_out({899, 640}, 1.0f, settings, 0.0f).right_open);
+}
+
 }  // namespace
 }  // namespace tendril::app
