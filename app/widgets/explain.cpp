@@ -63,8 +63,9 @@ void explain(const char* text) {
     // Whoever drags or types looks at what comes of it.
     if (ImGui::IsMouseDown(ImGuiMouseButton_Left) || numbers.id != 0) return;
     std::string whole = text;
+    if (whole.empty()) return;
     if (of_row && row.has_range) {
-        if (!whole.empty() && whole.back() != '.') whole += '.';
+        if (whole.back() != '.') whole += '.';
         whole += range_text(row);
     }
     ImGui::BeginTooltip();

@@ -7,6 +7,9 @@
 #include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/labs/labs.hpp"
+#include "app/labs/rig/adding.hpp"
+#include "app/labs/rig/presets.hpp"
+#include "app/labs/rig/unit_inputs.hpp"
 #include "app/shell/layout.hpp"
 #include "app/shell/shell.hpp"
 #include "tests/app/support/tooltips.hpp"
@@ -128,22 +131,25 @@ std::vector<Shown> full_signals() {
     return all;
 }
 
+std::vector<CommandCall> bones_and_a_control() {
+    const SharedJson above(Json{{"translation", {0.0, 0.3, 0.0}}});
+    return {call("rig.clear"), call("rig.element.add", {{"name", "a"}}),
+            call("rig.element.add", {{"name", "b"}, {"parent", "a"}, {"local", above}}),
+            call("rig.element.add", {{"name", "c"}, {"parent", "b"}, {"local", above}}),
+            call("rig.element.add", {{"name", "look"}, {"kind", "control"}, {"control", "position"}})};
+}
+
 std::vector<Shown> full_rigs() {
     std::vector<Shown> all;
-    const CommandCall bones[] = {
-        call("rig.clear"), call("rig.element.add", {{"name", "a"}}),
-        call("rig.element.add", {{"name", "b"}, {"parent", "a"}}),
-        call("rig.element.add", {{"name", "c"}, {"parent", "b"}}),
-        call("rig.element.add", {{"name", "look"}, {"kind", "control"}, {"control", "position"}})};
     for (const char* kind : {"bool", "float", "vector2d", "position", "rotation", "transform"}) {
-        Shown shown{std::string("control ") + kind, {std::begin(bones), std::end(bones)}};
+        Shown shown{std::string("control ") + kind, bones_and_a_control()};
         shown.commands.push_back(
             call("rig.element.add", {{"name", "it"}, {"kind", "control"}, {"control", kind}}));
         shown.commands.push_back(call("rig.select", {{"element", "it"}}));
         all.push_back(std::move(shown));
     }
     for (const char* element : {"a", "c"}) {
-        Shown shown{std::string("bone ") + element, {std::begin(bones), std::end(bones)}};
+        Shown shown{std::string("bone ") + element, bones_and_a_control()};
         shown.commands.push_back(call("rig.select", {{"element", element}}));
         all.push_back(std::move(shown));
     }
@@ -159,6 +165,10 @@ std::vector<Shown> full_humanoids() {
                    {walk, call("humanoid.spring", {{"node", "HeadTop_End"}}),
                     call("humanoid.select", {{"node", "HeadTop_End"}})},
                    20});
+    const std::string golden = std::string(TENDRIL_SOURCE_DIR) + "/tests/app/golden/";
+    all.push_back({"a file with a skin", {call("humanoid.load", {{"path", golden + "body.glb"}})}});
+    all.push_back({"a clip with faults", {call("humanoid.load", {{"path", golden + "faulty_walk.bvh"}}),
+                                          call("humanoid.clip", {{"index", 0}})}});
     for (const char* ground : {"flat", "slope", "stairs", "terrain"})
         all.push_back({ground,
                        {walk, call("humanoid.ground", {{"kind", ground}}),
@@ -186,14 +196,19 @@ std::vector<Shown> all_scenes(const Lab& lab, const CommandTable& table) {
     return all;
 }
 
-class Tooltips : public testing::TestWithParam<const char*> {
+class TooltipTest : public testing::Test {
   protected:
+    explicit TooltipTest(const char* lab) : name_(lab) {}
+
     void run(Workspace& workspace, const std::vector<CommandCall>& commands) {
-        for (const CommandCall& each : commands) table_.run(workspace, each.name, to_json(each.arguments));
+        for (const CommandCall& each : commands) {
+            table_.run(workspace, each.name, to_json(each.arguments));
+            if (const auto& finish = table_.find(each.name)->finish) finish(workspace);
+        }
     }
     Workspace opened(const Shown& shown) {
         Workspace workspace = make_blank_workspace(labs_);
-        workspace.open_lab(GetParam());
+        workspace.open_lab(name_);
         table_.run(workspace, "view.fold", {{"section", "chain: Joints, in metres"}, {"folded", false}});
         run(workspace, shown.commands);
         workspace.clock.playing = true;
@@ -203,12 +218,12 @@ class Tooltips : public testing::TestWithParam<const char*> {
         }
         return workspace;
     }
-    const Lab& lab() const { return *labs_.find(GetParam()); }
+    const Lab& lab() const { return *labs_.find(name_); }
     void require(const test::TooltipSearch& found, const std::string& where) {
         items_.insert(found.items.begin(), found.items.end());
         for (const auto& [id, text] : found.lacking)
             if (told_.insert(id).second)
-                ADD_FAILURE() << GetParam() << ", " << where << ": no tooltip at \"" << text << '"';
+                ADD_FAILURE() << name_ << ", " << where << ": no tooltip at \"" << text << '"';
     }
     void search_panels(const Workspace& workspace, const std::string& scene) {
         for (const bool left : {true, false}) {
@@ -221,11 +236,17 @@ class Tooltips : public testing::TestWithParam<const char*> {
         }
     }
 
+    std::string name_;
     Labs labs_;
     CommandTable table_ = make_command_table(labs_);
     test::TooltipFinder finder_;
     std::set<std::string> seen_;  ///< texts of panels that were searched
     std::set<unsigned> items_, told_;
+};
+
+class Tooltips : public TooltipTest, public testing::WithParamInterface<const char*> {
+  protected:
+    Tooltips() : TooltipTest(GetParam()) {}
 };
 
 TEST_P(Tooltips, StandAtEverythingInThePanels) {
@@ -239,6 +260,107 @@ TEST_P(Tooltips, StandAtEverythingInThePanels) {
 
 INSTANTIATE_TEST_SUITE_P(Labs, Tooltips, testing::Values("chain", "rope", "signal", "rig", "humanoid"),
                          [](const auto& lab) { return std::string(lab.param); });
+
+/// The window around the panels, as it is with a lab open.
+class ShellTooltips : public TooltipTest, public testing::WithParamInterface<const char*> {
+  protected:
+    ShellTooltips() : TooltipTest(GetParam()) {}
+    /// Of the part of the window that `of` picks from its layout.
+    template <class Of>
+    void search_part(const Workspace& workspace, const std::string& name, Of of) {
+        const glm::vec2 size = finder_.window_size();
+        const Layout layout = lay_out(size, 1.0f, workspace.settings, lab().timeline_height(workspace),
+                                      lab().canvas_share(workspace));
+        Shell shell;
+        const auto draw = [&] {
+            Emit emit;
+            shell.frame({workspace, labs_, lab(), table_, shortcuts_, layout, "", nullptr}, emit);
+        };
+        const auto found = finder_.search_window(of(layout, size), draw);
+        EXPECT_FALSE(found.items.empty()) << name;
+        require(found, name);
+    }
+
+    Shortcuts shortcuts_{labs_};
+};
+
+TEST_P(ShellTooltips, StandAtTheTopBarAndAtTheEdgesOfThePanels) {
+    Workspace workspace = opened({"as it opens", lab().opening()});
+    search_part(workspace, "top bar", [](const Layout& layout, glm::vec2) { return layout.top; });
+    const auto left = [](const Layout& layout, glm::vec2) {
+        const Rect& all = layout.left;
+        return Rect{{all.max.x - 6.0f, all.min.y}, all.max};
+    };
+    const auto right = [](const Layout& layout, glm::vec2) {
+        const Rect& all = layout.right;
+        return Rect{{all.min.x - 2.0f, all.min.y}, {all.min.x + 5.0f, all.max.y}};
+    };
+    for (const bool open : {true, false}) {
+        table_.run(workspace, "view.panels", {{"left", open}, {"right", open}});
+        search_part(workspace, "left edge", left);
+        search_part(workspace, "right edge", right);
+    }
+}
+
+TEST_P(ShellTooltips, StandAtTheStripOfTime) {
+    for (const Shown& shown : all_scenes(lab(), table_)) {
+        const Workspace workspace = opened(shown);
+        if (lab().timeline_height(workspace) <= 0.0f) continue;
+        const auto strip = [&](Emit& emit) { lab().timeline(workspace, emit); };
+        const std::string text = finder_.text_of([&] {
+            Emit emit;
+            strip(emit);
+        });
+        if (!seen_.insert(text).second) continue;
+        search_part(workspace, shown.name + ", strip of time",
+                    [](const Layout& layout, glm::vec2) { return layout.timeline; });
+    }
+}
+
+TEST_P(ShellTooltips, StandAtTheSettings) {
+    Workspace workspace = opened({"as it opens", lab().opening()});
+    table_.run(workspace, "view.settings", {{"open", true}});
+    search_part(workspace, "settings", [](const Layout&, glm::vec2 size) {
+        const glm::vec2 half{200.0f};
+        return Rect{0.5f * size - half, 0.5f * size + half};
+    });
+}
+
+INSTANTIATE_TEST_SUITE_P(Labs, ShellTooltips,
+                         testing::Values("chain", "rope", "signal", "rig", "humanoid"),
+                         [](const auto& lab) { return std::string(lab.param); });
+
+class RigTooltips : public TooltipTest {
+  protected:
+    RigTooltips() : TooltipTest(rig_lab) {}
+    void select_each_unit(Workspace& workspace, const std::string& scene) {
+        std::vector<std::string> units;
+        for (const UnitRow& row : unit_rows(rig_part(workspace))) units.push_back(row.unit->name);
+        for (const std::string& unit : units) {
+            table_.run(workspace, "rig.select", {{"element", ""}, {"unit", unit}});
+            search_panels(workspace, scene + ", unit " + unit);
+        }
+    }
+};
+
+TEST_F(RigTooltips, StandAtEveryInputOfTheUnitsOfThePresets) {
+    for (const RigPreset& preset : rig_presets()) {
+        Workspace workspace = opened({preset.name, {call("rig.preset", {{"name", preset.name}})}});
+        select_each_unit(workspace, preset.name);
+    }
+}
+
+TEST_F(RigTooltips, StandAtEveryInputOfEachKindOfUnit) {
+    Workspace workspace = opened({"bones", bones_and_a_control()});
+    table_.run(workspace, "rig.curve.add", {{"name", "curve"}});
+    table_.run(workspace, "rig.select", {{"element", "c"}});
+    for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i) {
+        const UnitOffer offer = offered_unit(rig_part(workspace), i);
+        ASSERT_TRUE(offer.unit) << rig::operation_name(i) << " needs " << offer.needs;
+        table_.run(workspace, "rig.unit.add", **offer.unit);
+    }
+    select_each_unit(workspace, "every kind");
+}
 
 }  // namespace
 }  // namespace tendril::app

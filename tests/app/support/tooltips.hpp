@@ -68,7 +68,7 @@ class TooltipFinder {
     template <class Frame>
     TooltipSearch search(const app::Rect& part, const Frame& frame) {
         // Nothing that can be clicked is lower than this, or narrower.
-        constexpr glm::vec2 step{14.0f, 6.0f};
+        constexpr glm::vec2 step{14.0f, 8.0f};
         TooltipSearch found;
         std::vector<Silent> silent;
         for (float y = part.min.y + 4.0f; y < part.max.y; y += step.y) {
