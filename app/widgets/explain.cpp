@@ -1,4 +1,5 @@
-// What a row of a panel means, while the mouse rests on it: its text, and the range and the unit of its field.
+// What a row of a panel means, while the mouse rests on it: its text, and the range and the unit of its
+// field.
 #include <imgui.h>
 #include <imgui_internal.h>  // GetItemID() is not public in every version
 
@@ -27,6 +28,7 @@ std::string plain_number(double value) {
 /// " m", "°": as it stands behind a number.
 std::string behind(std::string unit) {
     unit = unit.substr(0, unit.find(','));  // "°/s, no limit"
+    if (unit == "deg") unit = "degrees";
     return unit.empty() || unit.starts_with("\xC2\xB0") ? unit : ' ' + unit;
 }
 
@@ -37,7 +39,8 @@ std::string range_text(const RowAbove& row) {
     if (low && high) return ' ' + plain_number(row.low) + " to " + plain_number(row.high) + unit + '.';
     if (low) return ' ' + plain_number(row.low) + unit + " or more.";
     if (high) return ' ' + plain_number(row.high) + unit + " or less.";
-    return unit.empty() ? "" : " In" + (unit[0] == ' ' ? unit : " degrees" + unit.substr(2)) + '.';
+    if (unit.empty()) return {};
+    return unit == " m" ? " In metres." : " In " + unit.substr(unit.find_first_not_of(' ')) + '.';
 }
 
 /// Whether the last item is a field of that row, or stands in it behind the field.

@@ -60,8 +60,8 @@ void reading(const char* name, const char* format, ...)
 #endif
     ;
 
-/// What the row above means, while the mouse rests on it. A number's unit and range follow by themselves. After
-/// point_field() or vector_field() it is about all three.
+/// What the row above means, while the mouse rests on it. A number's unit and range follow by themselves.
+/// After point_field() or vector_field() it is about all three.
 void explain(const char* text);
 
 /// A button as wide as its share of the row: `of` buttons to a row, or fewer where they would be too small. A

@@ -88,14 +88,15 @@ void segment_rows(const ChainPart& part, Emit& emit) {
 void target_rows(const ChainPart& part, bool playing, Emit& emit) {
     glm::vec3 target = part.target;
     if (point_field("target", target, 0.01f)) emit.continuously("chain.target", {{"to", target}});
-    explain("Where the target is. Its orange ball in the picture drags it too.");
+    explain("Where the target is. It can be dragged in the picture too.");
 
     const auto titles = motion_paths.titles();
     int path = static_cast<int>(part.motion.path);
     if (choice_field("moves", path, titles.data(), static_cast<int>(titles.size()))) {
         emit("chain.motion", {{"path", motion_paths.name(static_cast<Motion::Path>(path))}});
     }
-    explain("A path that the target follows while the simulation runs. It shows how a solver follows motion.");
+    explain(
+        "A path that the target follows while the simulation runs. It shows how a solver follows motion.");
     if (part.motion.path == Motion::Path::Still) return;
     if (!playing) note("The simulation is paused. Space runs it.");
     const auto with = [&](const char* name, float value) {

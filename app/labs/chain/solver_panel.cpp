@@ -45,15 +45,15 @@ void stop_rows(const ReachSettings& reach, float length, Emit& emit) {
 
 void option_rows(const ReachSettings& reach, Emit& emit) {
     const auto number_row = [&](ik::Option option, const char* title, const char* name, float value,
-                                float speed, float low, float high, const char* format,
-                                const char* help) {
+                                float speed, float low, float high, const char* format, const char* help) {
         option_row(reach, option, help, [&] {
             if (number_field(title, value, speed, low, high, format)) with(emit, name, value);
         });
     };
-    number_row(ik::Option::SnapBack, "rest blend", "snap_back", reach.snap_back, 0.005f, 0.0f, 1.0f, "%.2f",
-               "Snap-back: before a solve each joint is blended this far towards its rest direction. Raise it "
-               "where a chain stays crumpled.");
+    number_row(
+        ik::Option::SnapBack, "rest blend", "snap_back", reach.snap_back, 0.005f, 0.0f, 1.0f, "%.2f",
+        "Snap-back: before a solve each joint is blended this far towards its rest direction. More keeps the "
+        "chain nearer to its rest pose.");
     number_row(ik::Option::SoftZone, "soft zone", "soft_zone", reach.soft_zone, 0.002f, 0.0f, 1.0f,
                "%.3f of reach",
                "The zone before full reach in which the chain eases off instead of snapping straight.");
@@ -62,14 +62,14 @@ void option_rows(const ReachSettings& reach, Emit& emit) {
                "Damping of the two damped solvers. More is calmer near a singularity, and slower.");
     number_row(ik::Option::Twist, "twist", "twist_deg", reach.twist_deg, 0.5f, -180.0f, 180.0f, "%.0f deg",
                "Turns the bend of the two bones about the line from root to tip.");
-    option_row(reach, ik::Option::Restarts,
-               "Within joint limits: from how many other poses the solver restarts where it ends short of the "
-               "target. More reach it more often; the chain may jump.",
-               [&] {
-                   int restarts = reach.restarts.value_or(default_restarts);
-                   if (integer_field("restarts", restarts, 0, max_restarts))
-                       with(emit, "restarts", restarts);
-               });
+    option_row(
+        reach, ik::Option::Restarts,
+        "Within joint limits: from how many other poses the solver restarts where it ends short of the "
+        "target. More reach it more often; the chain may jump.",
+        [&] {
+            int restarts = reach.restarts.value_or(default_restarts);
+            if (integer_field("restarts", restarts, 0, max_restarts)) with(emit, "restarts", restarts);
+        });
     ImGui::BeginDisabled(!ik::honours(reach.method, ik::Option::Restarts, !reach.limits.empty()));
     if (row_button("Default restarts", 1, reach.restarts.has_value(),
                    "8, but none while the target is dragged"))
@@ -94,16 +94,16 @@ void pole_rows(const ChainPart& part, Emit& emit) {
     glm::vec3 pole = *part.reach.pole;
     if (point_field("pole", pole, 0.01f)) emit.continuously("chain.pole", {{"to", pole}});
     explain("Where the pole target is: what the elbow or knee points at.");
-    option_row(part.reach, ik::Option::PoleTurn,
-               "How the chain turns to its pole target: all joints at once, which is smooth, or each between "
-               "its neighbours.",
-               [&] {
-                   const auto titles = pole_turns.titles();
-                   int turn = static_cast<int>(part.reach.pole_turn);
-                   if (choice_field("turns", turn, titles.data(), static_cast<int>(titles.size())))
-                       emit("chain.solver",
-                            {{"pole_turn", pole_turns.name(static_cast<ik::PoleTurn>(turn))}});
-               });
+    option_row(
+        part.reach, ik::Option::PoleTurn,
+        "How the chain turns to its pole target: all joints at once, which is smooth, or each between "
+        "its neighbours.",
+        [&] {
+            const auto titles = pole_turns.titles();
+            int turn = static_cast<int>(part.reach.pole_turn);
+            if (choice_field("turns", turn, titles.data(), static_cast<int>(titles.size())))
+                emit("chain.solver", {{"pole_turn", pole_turns.name(static_cast<ik::PoleTurn>(turn))}});
+        });
 }
 
 }  // namespace

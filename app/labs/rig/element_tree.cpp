@@ -145,7 +145,8 @@ void marks_legend(const Palette& colours) {
 }
 
 void add_menu(const RigPanel& panel) {
-    if (row_button("Add", 2, true, "A bone, a null or a control, below the selected element")) ImGui::OpenPopup("add element");
+    if (row_button("Add", 2, true, "A bone, a null or a control, below the selected element"))
+        ImGui::OpenPopup("add element");
     if (ImGui::BeginPopup("add element")) {
         close_popup_on_escape();
         const auto add = [&](const char* title, const char* kind, const char* control) {

@@ -13,11 +13,14 @@ constexpr Help helps[] = {
     {"", "primary/weight", "How far the axis is brought to its target. 1 is all the way."},
     {"", "secondary/weight", "How far the item is rolled towards the second target. 1 is all the way."},
     {"", "primary/axis", "The axis of the item, in its own space, that points at the target."},
-    {"", "secondary/axis", "The axis of the item that points as nearly at the second target as the first allows."},
+    {"", "secondary/axis",
+     "The axis of the item that points as nearly at the second target as the first allows."},
     {"", "primary/target", "What the axis points at: a point in the scene, or a direction."},
-    {"", "secondary/target", "What the item is rolled towards: a point in the scene, or a direction. Often it says "
-                             "where up is."},
-    {"", "secondary", "A second axis with its target, which decides the roll about the first. None: it is not rolled."},
+    {"", "secondary/target",
+     "What the item is rolled towards: a point in the scene, or a direction. Often it says "
+     "where up is."},
+    {"", "secondary",
+     "A second axis with its target, which decides the roll about the first. None: it is not rolled."},
     {"", "kind", "Whether the target is a point in the scene or a direction."},
     {"", "max_speed", "How many degrees the item turns in a second at most. 0 is no limit."},
     {"parent_constraint", "parents/weight",
@@ -30,9 +33,11 @@ constexpr Help helps[] = {
     {"", "old_parent", "The element to which the child was fastened at rest."},
     {"", "new_parent", "The element to which the child is fastened now."},
     {"", "maintain_offset",
-     "On, only what the parents have moved since they were added passes on. Off, the item goes to its parents."},
-    {"", "filter", "Which axes of translation, rotation and scale pass; the others stay as they are. In the space of "
-                   "the item's parent."},
+     "On, only what the parents have moved since they were added passes on. Off, the item goes to its "
+     "parents."},
+    {"", "filter",
+     "Which axes of translation, rotation and scale pass; the others stay as they are. In the space of "
+     "the item's parent."},
     {"", "offset", "What is added to the item's transform, in the item's own space."},
     {"", "propagate", "On, all elements below the item go with it. Off, they stay where they are."},
     {"", "space", "Global: in the scene. Local: within the item's parent."},
@@ -42,7 +47,8 @@ constexpr Help helps[] = {
     {"", "from", "The direction that is turned. Its length does not matter."},
     {"", "to", "The direction that it is turned to. Its length does not matter."},
     {"", "location", "A point in the transform's own space. The result is that point in the scene."},
-    {"", "direction", "A direction in the transform's own space. The result is turned with it, and as long as before."},
+    {"", "direction",
+     "A direction in the transform's own space. The result is turned with it, and as long as before."},
     {"", "roots", "Where the for-each begins: its units run on each element from here down."},
     {"", "include_parent", "On, the units run on the root itself too. Off, only on what is below it."},
     {"", "recursive", "On, the units run on all that is below the root. Off, on its children alone."},
@@ -63,7 +69,8 @@ constexpr Help helps[] = {
      "How soon swinging stops: 0 swings for ever, 1 is the fastest that does not overshoot."},
     {"", "force", "A push on what the spring moves: shifts where it comes to rest. None: there is none."},
     {"", "target_velocity_amount",
-     "How much of the target's velocity the spring goes by, from 0 to 1: at 1 it follows steady motion without lag."},
+     "How much of the target's velocity the spring goes by, from 0 to 1: at 1 it follows steady motion "
+     "without lag."},
     {"set_curve", "curve", "The named curve that is written: a morph weight, or a value of a material."},
     {"set_curve", "value", "What is written into the curve."},
     {"evaluate_curve", "value", "Where the curve is read."},
@@ -109,7 +116,8 @@ constexpr struct {
 
 const char* input_help(std::string_view operation, std::string_view path) {
     for (const Help& help : helps)
-        if (names(path, help.input) && (*help.operation == '\0' || operation == help.operation)) return help.text;
+        if (names(path, help.input) && (*help.operation == '\0' || operation == help.operation))
+            return help.text;
     return "";
 }
 

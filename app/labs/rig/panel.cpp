@@ -19,7 +19,8 @@ namespace tendril::app {
 namespace {
 
 const char* preset_help(const std::string& name) {
-    if (name == "aim") return "A head looks at one control; another, which goes with the first, says where up is";
+    if (name == "aim")
+        return "A head looks at one control; another, which goes with the first, says where up is";
     if (name == "fk") return "A tentacle of controls, turned by one dial, and the bones that follow them";
     if (name == "loop") return "Five arms that one dial curls, by a for-each";
     if (name == "morph") return "A blob whose shape and colour follow controls through curves";

@@ -120,7 +120,8 @@ void live_lines(const RigPanel& panel, const UnitRow& row) {
 }
 
 void add_menu(const RigPanel& panel) {
-    if (row_button("Add a unit", 1, true, "A list of every kind of unit; the new one runs last")) ImGui::OpenPopup("add unit");
+    if (row_button("Add a unit", 1, true, "A list of every kind of unit; the new one runs last"))
+        ImGui::OpenPopup("add unit");
     if (!ImGui::BeginPopup("add unit")) return;
     close_popup_on_escape();
     for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i) {

@@ -105,7 +105,7 @@ void collider_rows(const RopePart& part, const rope::Collider& collider, Emit& e
     reading("kind", "%s", rope::kind(collider.shape));
     glm::vec3 at = rope::centre(collider.shape);
     if (point_field("at", at, 0.01f)) emit.continuously("rope.collider.move", {{"name", name}, {"to", at}});
-    explain("Where the collider is. Its orange ball in the picture drags it too.");
+    explain("Where the collider is. It can be dragged in the picture too.");
     shape_rows(collider, name, emit);
     const auto found = std::find_if(part.swings.begin(), part.swings.end(),
                                     [&](const Swing& swing) { return swing.collider == name; });

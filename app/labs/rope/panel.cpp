@@ -18,10 +18,14 @@ namespace tendril::app {
 namespace {
 
 const char* scene_help(std::string_view name) {
-    if (name == "drape") return "Two hands bring a rope down over a ball and a bar; shorter ones fall beside it";
-    if (name == "bridge") return "A deck of ropes and two hand ropes between four posts, and a ball that rolls over it";
-    if (name == "pendulum") return "Pendulums of different lengths: they make waves, fall apart and find together again";
-    if (name == "well") return "A rope over the drum of a well, with a bucket at one end and a hand at the other";
+    if (name == "drape")
+        return "Two hands bring a rope down over a ball and a bar; shorter ones fall beside it";
+    if (name == "bridge")
+        return "A deck of ropes and two hand ropes between four posts, and a ball that rolls over it";
+    if (name == "pendulum")
+        return "Pendulums of different lengths: they make waves, fall apart and find together again";
+    if (name == "well")
+        return "A rope over the drum of a well, with a bucket at one end and a hand at the other";
     if (name == "cloth") return "A cloth falls over a ball";
     if (name == "hair") return "Hair on a head that turns to and fro, over shoulders that do not";
     return "";
@@ -29,7 +33,8 @@ const char* scene_help(std::string_view name) {
 
 void scene_rows(Emit& emit) {
     std::vector<PresetButton> buttons;
-    for (const RopeSceneEntry& scene : rope_scenes()) buttons.push_back({scene.name, scene.title, scene_help(scene.name)});
+    for (const RopeSceneEntry& scene : rope_scenes())
+        buttons.push_back({scene.name, scene.title, scene_help(scene.name)});
     preset_rows(rope_lab, buttons, "Removes every rope and collider", emit);
 }
 
@@ -92,7 +97,8 @@ void world_rows(const RopePart& part, Emit& emit) {
     setting("damping", "damping", now.damping, 0.01f, 0.0f, 100.0f, "%.2f /s",
             "How fast motion dies away. Raise it where ropes swing for too long.", emit);
     setting("friction", "friction", now.friction, 0.01f, 0.0f, 10.0f, "%.2f",
-            "Coulomb's coefficient between ropes and colliders. At 0 ropes slide off; more holds them.", emit);
+            "Coulomb's coefficient between ropes and colliders. At 0 ropes slide off; more holds them.",
+            emit);
     glm::vec3 gravity = now.gravity, wind = now.external;
     constexpr const char* unit = "%.2f m/s\xC2\xB2";
     constexpr float most = rope::max_acceleration;
@@ -114,7 +120,8 @@ void time_rows(const Workspace& workspace, Emit& emit) {
     if (number_field("longest frame", longest, 1.0f, 1.0f, 1000.0f, "%.0f ms"))
         emit.continuously("rope.settings", {{"longest_frame", longest / 1000.0f}});
     explain(
-        "How much time a frame simulates at most; what is over is dropped. So a frame that took long does not "
+        "How much time a frame simulates at most; what is over is dropped. So a frame that took long does "
+        "not "
         "make the next one take longer.");
     float dial = 100.0f * part.jitter.dial;
     if (number_field("frame-time jitter", dial, 0.5f, 0.0f, 100.0f, "%.0f %%"))
@@ -134,7 +141,7 @@ void view_rows(const RopePart& part, Emit& emit) {
     int sides = part.view.sides;
     if (integer_slider("sides", sides, fewest_sides, most_sides))
         emit.continuously("rope.view", {{"sides", sides}});
-    explain("Of a rope's cross-section in the picture. More look rounder and take longer to draw.");
+    explain("How many sides ropes have in the picture. More look rounder and take longer to draw.");
 }
 
 }  // namespace

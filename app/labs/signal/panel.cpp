@@ -43,7 +43,7 @@ void input_section(const SignalPart& part, Emit& emit) {
         explain("How far the input goes to each side of 0.");
         if (number_field("period", period, 0.02f, 0.1f, 60.0f, "%.2f s"))
             emit.continuously("signal.input", {{"period", period}});
-        explain(input.kind == InputKind::Noise ? "How long a swing of the slow drift takes."
+        explain(input.kind == InputKind::Noise ? "The slow drift heads for a new value four times in this time."
                                                : "How long it takes until the input begins anew.");
     }
     if (input.kind == InputKind::Hand) {
@@ -68,7 +68,8 @@ void export_section(Emit& emit) {
 
 /// Adding is one button and a list: fourteen buttons would be a wall.
 void add_button(Emit& emit) {
-    if (row_button("Add a filter", 1, true, "A list of every kind; the new one comes last")) ImGui::OpenPopup("add filter");
+    if (row_button("Add a filter", 1, true, "A list of every kind; the new one comes last"))
+        ImGui::OpenPopup("add filter");
     if (!ImGui::BeginPopup("add filter")) return;
     close_popup_on_escape();
     for (const signal::Kind& kind : signal::kinds())

@@ -11,10 +11,12 @@ struct Help {
 
 constexpr Help helps[] = {
     {"interp_to", "speed",
-     "How fast the output follows: a frame goes this times its seconds of the way that is left, so the result "
+     "How fast the output follows: a frame goes this times its seconds of the way that is left, so the "
+     "result "
      "depends on the frame rate. At 0 or less the output jumps to the input."},
     {"interp_to_exact", "speed",
-     "How fast the distance to the input shrinks: more follows faster, at any frame rate alike. At 0 or less the "
+     "How fast the distance to the input shrinks: more follows faster, at any frame rate alike. At 0 or less "
+     "the "
      "output jumps to the input."},
     {"scale_bias_clamp", "map_range", "First step: maps the in range to the out range, beyond its ends too."},
     {"scale_bias_clamp", "in_range", "An end of the range that is mapped. Only with map range."},
@@ -28,15 +30,19 @@ constexpr Help helps[] = {
     {"scale_bias_clamp", "speed_increasing", "How fast it eases while the value rises. Only with interp."},
     {"scale_bias_clamp", "speed_decreasing", "How fast it eases while the value falls. Only with interp."},
     {"spring_semi_implicit", "strength",
-     "How often a second the spring would swing without damping. More follows faster; too much for the frame rate "
+     "How often a second the spring would swing without damping. More follows faster; too much for the frame "
+     "rate "
      "and the output swings ever wider."},
     {"", "strength",
-     "How often a second the spring would swing without damping. More follows faster. At 0 there is no spring."},
+     "How often a second the spring would swing without damping. More follows faster. At 0 there is no "
+     "spring."},
     {"", "critical_damping",
-     "How soon swinging stops: 0 swings for ever, 1 is the fastest that does not overshoot, more is sluggish."},
+     "How soon swinging stops: 0 swings for ever, 1 is the fastest that does not overshoot, more is "
+     "sluggish."},
     {"", "force", "A constant acceleration of the output: shifts where it comes to rest."},
     {"", "target_velocity_amount",
-     "How much of the input's velocity the spring goes by: at 1 it follows steady motion without lag, and jumps "
+     "How much of the input's velocity the spring goes by: at 1 it follows steady motion without lag, and "
+     "jumps "
      "overshoot."},
     {"exponential_decay", "halflife",
      "How long it takes until half of the distance to the input is left. More is smoother and lags more."},
@@ -52,13 +58,15 @@ constexpr Help helps[] = {
      "By how much the cutoff rises with the input's speed. Raise it until fast motion no longer lags."},
     {"one_euro", "derivative_cutoff",
      "The cutoff of the low pass on the speed itself. Lower it where noise is taken for speed."},
-    {"moving_average", "window", "The output is the mean of the input over this time. More is smoother and lags more."},
+    {"moving_average", "window",
+     "The output is the mean of the input over this time. More is smoother and lags more."},
     {"dead_zone", "width", "Inputs as near to 0 as this give 0; others are brought nearer to 0 by it."},
     {"hysteresis", "low", "At this input and below the output turns to 0. Not over high."},
     {"hysteresis", "high", "From this input on the output turns to 1. Between both it stays as it was."},
     {"inertialize", "halflife", "How long it takes until half of a jump is left."},
     {"inertialize", "threshold",
-     "A change of the input by more than this in one step counts as a jump, which is smoothed; all else passes."},
+     "A change of the input by more than this in one step counts as a jump, which is smoothed; all else "
+     "passes."},
     {"curve", "source_min", "The input that is at the left end of the curve."},
     {"curve", "source_max", "The input that is at the right end of the curve."},
     {"curve", "target_min", "The output where the curve is at 0."},

@@ -38,8 +38,8 @@ void number_row(const signal::Filter& filter, const signal::Parameter& parameter
     const float speed =
         parameter.logarithmic ? std::max(0.01f * std::abs(value), 1e-4f) : 0.005f * (high - low);
     // What is beyond the useful range can be typed.
-    const bool changed = number_field(title.c_str(), value, speed, std::min(low, value), std::max(high, value),
-                                      format_of(parameter).c_str());
+    const bool changed = number_field(title.c_str(), value, speed, std::min(low, value),
+                                      std::max(high, value), format_of(parameter).c_str());
     explain(parameter_help(signal::kind(filter), parameter.name));
     if (!changed) return;
     ArgumentValue argument(value);
@@ -72,7 +72,8 @@ void spring_rows(const signal::Spring<>& spring, std::size_t at, Emit& emit) {
         explain("The same spring by the time of one swing without damping. Sets strength.");
         changed |= number_field("bounce", bounce, 0.005f, -0.9f, 1.0f, "%.3f");
         explain(
-            "How much the spring overshoots: 0 does not, 1 swings for ever, less than 0 is sluggish. Sets the "
+            "How much the spring overshoots: 0 does not, 1 swings for ever, less than 0 is sluggish. Sets "
+            "the "
             "damping.");
         if (changed) set(signal::of_duration(static_cast<double>(duration), static_cast<double>(bounce)));
     }

@@ -85,9 +85,9 @@ std::vector<Shown> full_ropes() {
                                                        {"down", glm::vec3(0, -1, 0)},
                                                        {"pins", "corners"}}));
         if (std::string(name) == "hair")
-            commands.push_back(call(
-                "rope.hair.add",
-                {{"name", "it"}, {"strands", 3}, {"length", 0.5f}, {"centre", glm::vec3(0, 1, 0)}}));
+            commands.push_back(
+                call("rope.hair.add",
+                     {{"name", "it"}, {"strands", 3}, {"length", 0.5f}, {"centre", glm::vec3(0, 1, 0)}}));
         for (const int particle : {0, 1}) {
             std::vector<CommandCall> selected = commands;
             selected.push_back(call("rope.select", {{"rope", "it"}, {"particle", particle}}));
@@ -124,8 +124,8 @@ std::vector<Shown> full_signals() {
                         call("signal.select", {{"at", 0}})}});
     for (const char* input : {"hand", "square", "sine", "noise"})
         all.push_back({input, {call("signal.input", {{"kind", input}})}});
-    const CommandCall draw = call(
-        "signal.fit.draw", {{"from", -1.0}, {"from_value", 0.0}, {"to", -1.0}, {"to_value", 0.0}});
+    const CommandCall draw =
+        call("signal.fit.draw", {{"from", -1.0}, {"from_value", 0.0}, {"to", -1.0}, {"to_value", 0.0}});
     all.push_back({"a response", {call("signal.input", {{"kind", "square"}}), draw}});
     all.push_back({"fitting", {call("signal.input", {{"kind", "square"}}), draw, call("signal.fit")}});
     return all;
@@ -167,19 +167,20 @@ std::vector<Shown> full_humanoids() {
                    20});
     const std::string golden = std::string(TENDRIL_SOURCE_DIR) + "/tests/app/golden/";
     all.push_back({"a file with a skin", {call("humanoid.load", {{"path", golden + "body.glb"}})}});
-    all.push_back({"a clip with faults", {call("humanoid.load", {{"path", golden + "faulty_walk.bvh"}}),
-                                          call("humanoid.clip", {{"index", 0}})}});
+    all.push_back({"a clip with faults",
+                   {call("humanoid.load", {{"path", golden + "faulty_walk.bvh"}}),
+                    call("humanoid.clip", {{"index", 0}})}});
     for (const char* ground : {"flat", "slope", "stairs", "terrain"})
-        all.push_back({ground,
-                       {walk, call("humanoid.ground", {{"kind", ground}}),
-                        call("humanoid.foot_ik", {{"on", true}})}});
-    all.push_back({"hands",
-                   {walk,
-                    call("humanoid.target", {{"effector", "left_hand"}, {"to", glm::vec3(0.4f, 1.5f, 0.7f)}}),
-                    call("humanoid.target", {{"effector", "right_hand"}, {"to", glm::vec3(0, 1.4f, 0.5f)}}),
-                    call("humanoid.hand_ik", {{"on", true}, {"hand", "left"}, {"curve", true}}),
-                    call("humanoid.hand_ik", {{"on", true}, {"hand", "right"}, {"curve", true}}),
-                    call("humanoid.look_at", {{"on", true}, {"to", glm::vec3(0.5f, 1.5f, 1.5f)}})}});
+        all.push_back(
+            {ground,
+             {walk, call("humanoid.ground", {{"kind", ground}}), call("humanoid.foot_ik", {{"on", true}})}});
+    all.push_back(
+        {"hands",
+         {walk, call("humanoid.target", {{"effector", "left_hand"}, {"to", glm::vec3(0.4f, 1.5f, 0.7f)}}),
+          call("humanoid.target", {{"effector", "right_hand"}, {"to", glm::vec3(0, 1.4f, 0.5f)}}),
+          call("humanoid.hand_ik", {{"on", true}, {"hand", "left"}, {"curve", true}}),
+          call("humanoid.hand_ik", {{"on", true}, {"hand", "right"}, {"curve", true}}),
+          call("humanoid.look_at", {{"on", true}, {"to", glm::vec3(0.5f, 1.5f, 1.5f)}})}});
     return all;
 }
 
@@ -225,15 +226,21 @@ class TooltipTest : public testing::Test {
             if (told_.insert(id).second)
                 ADD_FAILURE() << name_ << ", " << where << ": no tooltip at \"" << text << '"';
     }
+    /// Where that was not searched yet.
+    template <class Draw>
+    void search(const std::string& name, const Draw& draw) {
+        const auto drawn = [&] {
+            Emit emit;
+            draw(emit);
+        };
+        if (seen_.insert(finder_.text_of(drawn)).second) require(finder_.search_panel(drawn), name);
+    }
+    void search_inspector(const Workspace& workspace, const std::string& scene) {
+        search(scene + ", inspector", [&](Emit& emit) { lab().inspector(workspace, emit); });
+    }
     void search_panels(const Workspace& workspace, const std::string& scene) {
-        for (const bool left : {true, false}) {
-            const auto draw = [&] {
-                Emit emit;
-                left ? lab().panel(workspace, emit) : lab().inspector(workspace, emit);
-            };
-            if (!seen_.insert(finder_.text_of(draw)).second) continue;
-            require(finder_.search_panel(draw), scene + (left ? ", panel" : ", inspector"));
-        }
+        search(scene + ", panel", [&](Emit& emit) { lab().panel(workspace, emit); });
+        search_inspector(workspace, scene);
     }
 
     std::string name_;
@@ -306,10 +313,9 @@ TEST_P(ShellTooltips, StandAtTheStripOfTime) {
     for (const Shown& shown : all_scenes(lab(), table_)) {
         const Workspace workspace = opened(shown);
         if (lab().timeline_height(workspace) <= 0.0f) continue;
-        const auto strip = [&](Emit& emit) { lab().timeline(workspace, emit); };
         const std::string text = finder_.text_of([&] {
             Emit emit;
-            strip(emit);
+            lab().timeline(workspace, emit);
         });
         if (!seen_.insert(text).second) continue;
         search_part(workspace, shown.name + ", strip of time",
@@ -326,8 +332,7 @@ TEST_P(ShellTooltips, StandAtTheSettings) {
     });
 }
 
-INSTANTIATE_TEST_SUITE_P(Labs, ShellTooltips,
-                         testing::Values("chain", "rope", "signal", "rig", "humanoid"),
+INSTANTIATE_TEST_SUITE_P(Labs, ShellTooltips, testing::Values("chain", "rope", "signal", "rig", "humanoid"),
                          [](const auto& lab) { return std::string(lab.param); });
 
 class RigTooltips : public TooltipTest {
@@ -338,7 +343,7 @@ class RigTooltips : public TooltipTest {
         for (const UnitRow& row : unit_rows(rig_part(workspace))) units.push_back(row.unit->name);
         for (const std::string& unit : units) {
             table_.run(workspace, "rig.select", {{"element", ""}, {"unit", unit}});
-            search_panels(workspace, scene + ", unit " + unit);
+            search_inspector(workspace, scene + ", unit " + unit);
         }
     }
 };

@@ -1,5 +1,5 @@
-// Finds what a person can click, drag or type into, and whether it has a tooltip: by moving the mouse over all
-// of it.
+// Finds what a person can click, drag or type into, and whether it has a tooltip: by moving the mouse over
+// all of it.
 #pragma once
 
 #include <glm/vec2.hpp>
