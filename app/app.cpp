@@ -83,6 +83,10 @@ void App::settle() {
 }
 
 void App::start_recording() {
+    // Who plays it has no past to go back to.
+    workspace_.rewind.clear();
+    workspace_.moment = 0;
+    workspace_.ui.incident.reset();
     recorder_.emplace(RecordingStart{.version = version_string,
                                      .size = size_,
                                      .lab = workspace_.lab,
@@ -129,8 +133,7 @@ void App::compose(const Event* event, Pass pass) {
         hint = "Moving " + bound + ".";
     }
     if (const std::string by_part = gizmo_hint(lab(), workspace_, pointer_); !by_part.empty()) hint = by_part;
-    if (hint.empty())
-        hint = view_hint(mouse_preset(workspace_.settings)) + " ? shows every key.";
+    if (hint.empty()) hint = view_hint(mouse_preset(workspace_.settings)) + " ? shows every key.";
     if (workspace_.ui.asks_to_quit && !workspace_.modified()) workspace_.ui.asks_to_quit = false;
     shell_.frame({workspace_, labs_, lab(), *commands_, shortcuts_, layout_, hint, shown_card()}, emit);
     if (const std::string why = std::exchange(ui_.numbers().refused, {}); !why.empty()) {
@@ -217,8 +220,8 @@ void App::run_emitted(Emit& emit) {
             if (command.continuous && pointer_.dragged() != no_pick) workspace_.settings.hint_seen = true;
         } catch (const Refused& refusal) {
             refuse(refusal.what());
-            const Command* const known = commands_->find(command.name);
-            if (known != nullptr && known->effect == Effect::Edit) note_refusal(refusal.what());
+            // Of a file that is no scene the lab has nothing to show.
+            if (command.name.starts_with(workspace_.lab + ".")) note_refusal(refusal.what());
         }
     }
 }
@@ -333,7 +336,9 @@ Json App::told_state() const {
                                    {"kind", name(incident.kind)},
                                    {"degrees", number(incident.degrees)},
                                    {"cause", incident.cause}});
-    if (!workspace_.rewind.empty()) {
+    // Of changes by hand alone there is something to say once one looks back at them.
+    const bool looks_back = !workspace_.rewind.empty() && workspace_.moment < workspace_.rewind.newest();
+    if (looks_back || (!workspace_.rewind.empty() && clock.tick > 0)) {
         const std::uint64_t newest = std::max(workspace_.rewind.newest(), workspace_.moment);
         state["time"]["moment"] = workspace_.moment;  // as events count
         state["time"]["ticks_back"] = newest - workspace_.moment;

@@ -154,6 +154,9 @@ void Pointer::move(const Input& input, const Scene& scene, Emit& emit) {
             if (glm::distance(input.mouse(), caught_at_) < drag_threshold * scene.scale) break;
             doing_ = draggable_ ? Doing::Drag : caught_ == no_pick ? Doing::Orbit : Doing::Stray;
             if (doing_ == Doing::Drag) drag(input, scene, emit);
+            if (doing_ == Doing::Orbit)
+                emit_camera(emit, scene.workspace.camera,
+                            orbited(scene.workspace.camera, input.mouse() - caught_at_));
             break;
         case Doing::Drag:
             drag(input, scene, emit);

@@ -78,8 +78,8 @@ class Strip {
         return std::clamp((ImGui::GetIO().MousePos.x - from_) / span_, 0.0f, 1.0f);
     }
     void diamond(float share, const TimeMark& mark, bool hot) {
-        const float x = from_ + span_ * share, y = base_ - (mark.large ? 13.0f : 11.0f) * unit();
-        const float radius = ((mark.large ? 5.5f : 3.0f) + (hot ? 1.5f : 0.0f)) * unit();
+        const float x = from_ + span_ * share, y = base_ - 7.0f * unit();
+        const float radius = ((mark.large ? 4.8f : 2.8f) + (hot ? 1.2f : 0.0f)) * unit();
         const ImU32 colour = ImGui::GetColorU32({mark.colour.r, mark.colour.g, mark.colour.b, 1.0f});
         list_->AddLine({x, y}, {x, base_}, colour, unit());
         list_->AddQuadFilled({x, y - radius}, {x + radius, y}, {x, y + radius}, {x - radius, y}, colour);

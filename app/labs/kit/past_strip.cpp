@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "app/document/units.hpp"
 #include "app/view/palette.hpp"
@@ -24,7 +25,10 @@ std::string incident_title(const Incident& incident) {
         case Incident::Kind::Status:
             break;
     }
-    return "The solve ended otherwise";
+    // "Stretched: ...", "refused: ..."
+    std::string title = incident.cause.substr(0, incident.cause.find(':'));
+    if (!title.empty()) title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
+    return title;
 }
 
 glm::vec3 incident_colour(const Incident& incident, const Palette& palette) {

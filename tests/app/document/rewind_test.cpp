@@ -91,6 +91,7 @@ struct Seek : testing::Test {
         for (int i = 0; i < ticks; ++i) {
             workspace.remember_moment();
             ++workspace.clock.tick;
+            ++workspace.moment;
             workspace.document.edit<TestPart>("arm").title = std::to_string(workspace.clock.tick);
         }
     }

@@ -1,4 +1,5 @@
 // A recording, played, gives the same state and the same picture, byte for byte.
+#include "tests/app/support/panel_places.hpp"
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {
@@ -79,7 +80,7 @@ TEST_F(Recording, holds_drags_and_commands) {
 
 // Everything of the window that is no scene: panels, palette, help, keys, wheel over a list, resizing.
 TEST_F(Recording, holds_the_use_of_panels) {
-    const glm::vec2 forward_radio(60, 104), target = handle(start(), "target");
+    const glm::vec2 forward_radio = chain_panel::forward, target = handle(start(), "target");
     ScriptText script;
     script.click(forward_radio).wait(2);
     script.key("ctrl+k").text("chain.add length=0.75").key("enter").wait(2);
@@ -87,9 +88,9 @@ TEST_F(Recording, holds_the_use_of_panels) {
     script.key("ctrl+k").text("theme").key("enter").wait(1);
     script.move({130, 500}).wheel(-3).wheel(1);
     script.move({1140, 400}).wheel(-2);
-    script.drag({{640, 660}, {580, 600}, {500, 620}}, "right").drag({{640, 660}, {580, 600}}, "middle");
+    script.drag({{640, 600}, {580, 560}, {500, 580}}, "right").drag({{640, 600}, {580, 560}}, "middle");
     script.hold("shift")
-        .move({640, 640})
+        .move({640, 600})
         .release("shift")
         .key("l")
         .key("b")
@@ -106,7 +107,7 @@ TEST_F(Recording, holds_the_use_of_panels) {
 
 TEST_F(Recording, holds_text_typed_into_a_field) {
     // A double click on the target's height opens the field.
-    const glm::vec2 field(173, 569);
+    const glm::vec2 field = chain_panel::target_y;
     ScriptText script;
     script.click(field).click(field).wait(1).key("ctrl+a").text("1.25").key("enter").wait(3);
     const Json state = state_of(record_and_replay(script));

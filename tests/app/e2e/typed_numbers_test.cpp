@@ -1,21 +1,22 @@
 // Numbers that are typed into a panel: what is out of range is refused with its value and the range.
 #include <algorithm>
 
+#include "tests/app/support/panel_places.hpp"
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {
 namespace {
 
+constexpr glm::vec2 iterations_field = chain_panel::iterations;
+
 /// Clicks every row of the Chain lab's solver options, from iterations to soft zone, and types.
 ScriptText typed_into_every_row(const char* text) {
     ScriptText script;
     script.command("chain.mode", {{"mode", "reach"}});
-    for (float y = 419.0f; y < 562.0f; y += 8.0f)
-        script.click({173.0f, y}).wait(2).text(text).key("enter").wait(30);
+    for (float y = iterations_field.y - 8.0f; y < chain_panel::soft_zone.y + 8.0f; y += 8.0f)
+        script.click({iterations_field.x, y}).wait(2).text(text).key("enter").wait(30);
     return script;
 }
-
-constexpr glm::vec2 iterations_field{173.0f, 427.0f};
 
 /// Plays it; refusals of what is typed into a panel end no script.
 Played played_with_refusals(const ScriptText& script) {
@@ -181,7 +182,14 @@ TEST(TypedNumbers, TabPassesByWhatCannotBeChanged) {
     ScriptText script;
     script.command("chain.mode", {{"mode", "reach"}});
     const app::Json before = state_after(script).at("solve");
-    script.click({173.0f, 555.0f}).wait(2).text("0.1").key("tab").wait(2).text("0.5").key("enter").wait(30);
+    script.click(chain_panel::soft_zone)
+        .wait(2)
+        .text("0.1")
+        .key("tab")
+        .wait(2)
+        .text("0.5")
+        .key("enter")
+        .wait(30);
     const app::Json after = state_after(script).at("solve");
     EXPECT_EQ(after.at("soft_zone").get<float>(), 0.1f) << "it is the soft zone that was clicked";
     for (const char* honoured : {"damping", "twist_deg", "restarts"})

@@ -1,6 +1,7 @@
 // Looking around with the mouse, in the running program.
 #include <glm/geometric.hpp>
 
+#include "tests/app/support/panel_places.hpp"
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {
@@ -48,6 +49,18 @@ TEST(View, ButtonsFollowThePreset) {
                                       .up("right"));
     EXPECT_LT(near["camera"]["distance"].get<double>(),
               state_after(preset("maya"))["camera"]["distance"].get<double>());
+}
+
+TEST(Panels, AddStaysUnderThePointer) {
+    const std::size_t before = state_after(ScriptText().wait(1))["segments"].size();
+    for (const char* mode : {"forward", "backward", "fixed"}) {
+        // Fixed has two rows more above it; each mode's own place is where its first click lands.
+        ScriptText script = ScriptText().command("chain.mode", {{"mode", mode}}).wait(2);
+        const glm::vec2 at = chain_panel::add + glm::vec2(0.0f, std::string(mode) == "fixed" ? 64.0f : 0.0f);
+        script.move(at).wait(2);
+        for (int i = 0; i < 3; ++i) script.down().up().wait(25);
+        EXPECT_EQ(state_after(script)["segments"].size(), before + 3) << mode;
+    }
 }
 
 TEST(View, TheAxesInTheCornerAreClickedForASide) {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <thread>
 
+#include "tests/app/support/panel_places.hpp"
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {
@@ -144,7 +145,7 @@ TEST_F(RealWindow, the_target_is_dragged_and_another_mode_is_clicked) {
     for (int i = 1; i <= 8; ++i) move(glm::mix(target, to, static_cast<float>(i) / 8.0f));
     xdotool({"mouseup", "1"});
     sleep(100);
-    click({60, 104});  // Forward, in the panel
+    click(chain_panel::forward);  // Forward, in the panel
     quit_discarding();
 
     const Json state = ended();

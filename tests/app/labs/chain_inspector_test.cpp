@@ -68,6 +68,7 @@ TEST_F(ChainInspector, shows_the_step_that_is_under_the_microscope) {
 
 TEST_F(ChainInspector, shows_the_table_of_the_step) {
     reach_with(2);
+    run("view.fold", {{"section", "chain: Joints, in metres"}, {"folded", false}});
     run("chain.solver", {{"name", "fabrik_plain"}});
     run("chain.target", {{"to", {0.5, 1.25, 0}}});
     run("microscope.open", {{"start", "straight"}});
