@@ -43,8 +43,9 @@ void input_section(const SignalPart& part, Emit& emit) {
         explain("How far the input goes to each side of 0.");
         if (number_field("period", period, 0.02f, 0.1f, 60.0f, "%.2f s"))
             emit.continuously("signal.input", {{"period", period}});
-        explain(input.kind == InputKind::Noise ? "The slow drift heads for a new value four times in this time."
-                                               : "How long it takes until the input begins anew.");
+        explain(input.kind == InputKind::Noise
+                    ? "The slow drift heads for a new value four times in this time."
+                    : "How long it takes until the input begins anew.");
     }
     if (input.kind == InputKind::Hand) {
         float hand = static_cast<float>(input.hand);
