@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <map>
 
 namespace tendril::test {
@@ -74,7 +75,10 @@ void TooltipFinder::begin_text() {
 
 std::string TooltipFinder::end_text() {
     ImGui::LogFinish();
-    std::string text = ImGui::GetClipboardText();
+    return ImGui::GetClipboardText();
+}
+
+std::string TooltipFinder::without_numbers(std::string text) {
     text.erase(std::remove_if(text.begin(), text.end(),
                               [](unsigned char c) { return std::isdigit(c) || c == '-' || c == '.'; }),
                text.end());
@@ -95,7 +99,7 @@ void TooltipFinder::look(glm::vec2 at, TooltipSearch& found, std::vector<Silent>
         silent.end());
 }
 
-std::string TooltipFinder::text_at(float y) {
+std::string TooltipFinder::text_at(glm::vec2 at) {
     struct Letter {
         ImWchar letter;
         float end;
@@ -106,7 +110,8 @@ std::string TooltipFinder::text_at(float y) {
         const ImVector<ImDrawVert>& corners = data->CmdLists[list]->VtxBuffer;
         for (int i = 0; i + 2 < corners.Size; ++i) {
             const float middle = 0.5f * (corners[i].pos.y + corners[i + 2].pos.y);
-            if (middle < y - 5.0f || middle > y + 20.0f) continue;
+            if (middle < at.y - 5.0f || middle > at.y + 20.0f) continue;
+            if (std::abs(corners[i].pos.x - at.x) > 250.0f) continue;  // in another panel
             if (const ImWchar letter = letter_of(corners[i], corners[i + 2]); letter != 0)
                 letters[corners[i].pos.x] = {letter, corners[i + 2].pos.x};
         }
@@ -118,7 +123,7 @@ std::string TooltipFinder::text_at(float y) {
         text += letter.letter < 128 ? static_cast<char>(letter.letter) : '?';
         end = letter.end;
     }
-    return text.empty() ? "(no text, " + std::to_string(static_cast<int>(y)) + " pixels down)" : text;
+    return text.empty() ? "(no text, " + std::to_string(static_cast<int>(at.y)) + " pixels down)" : text;
 }
 
 }  // namespace tendril::test

@@ -50,15 +50,23 @@ class TooltipFinder {
         return search(part, frame);
     }
     glm::vec2 window_size() const;
-    /// The text that `draw` writes into a panel, without its numbers: what looks alike is searched once.
+    /// The text that `draw` writes into a panel, and with the mouse on something its tooltip.
+    template <class Draw>
+    std::string read(const Draw& draw, glm::vec2 mouse = nowhere) {
+        std::string text;
+        for (int i = 0; i < 2; ++i) {  // what the mouse is on is known a frame later
+            begin_panel(mouse);
+            begin_text();
+            draw();
+            text = end_text();
+            end_panel();
+        }
+        return text;
+    }
+    /// The same without numbers: what looks alike is searched once.
     template <class Draw>
     std::string text_of(const Draw& draw) {
-        begin_panel(nowhere);
-        begin_text();
-        draw();
-        std::string text = end_text();
-        end_panel();
-        return text;
+        return without_numbers(read(draw));
     }
 
   private:
@@ -92,15 +100,16 @@ class TooltipFinder {
     void fit_panel();
     static void begin_text();
     static std::string end_text();
+    static std::string without_numbers(std::string text);
     /// What the mouse is on in the frame that has ended.
     static void look(glm::vec2 at, TooltipSearch& found, std::vector<Silent>& silent);
     template <class Frame>
     static void name(TooltipSearch& found, const std::vector<Silent>& silent, const Frame& frame) {
         if (!silent.empty()) frame();
-        for (const Silent& each : silent) found.lacking[each.id] = text_at(each.at.y);
+        for (const Silent& each : silent) found.lacking[each.id] = text_at(each.at);
     }
-    /// What stands in the picture where an item begins at that height.
-    static std::string text_at(float y);
+    /// What stands in the picture about where an item begins.
+    static std::string text_at(glm::vec2 at);
 
     std::unique_ptr<app::Window> window_ = app::open_offscreen({1280, 800});
     app::Ui ui_;
