@@ -120,6 +120,7 @@ static void lab_settings(const ShellFrame& frame, Emit& emit) {
         if (choice_field(setting.key.c_str(), chosen, titles.data(), static_cast<int>(titles.size())))
             emit(setting.command,
                  {{setting.argument, setting.choices[static_cast<std::size_t>(chosen)].name}});
+        explain(setting.help.c_str());
     }
 }
 
@@ -133,17 +134,20 @@ void show_settings(const ShellFrame& frame, Emit& emit) {
     static constexpr const char* labels[] = {"on hover", "always"};
     int theme = settings.theme == Theme::Light, label = settings.labels == LabelMode::Always;
     if (choice_field("theme", theme, themes, 2)) emit("view.theme", {{"name", themes[theme]}});
+    explain("The colours of the program: light text on a dark ground, or the other way round.");
     lab_settings(frame, emit);
     if (choice_field("labels", label, labels, 2))
         emit("view.labels", {{"show", label == 1 ? "always" : "hover"}});
+    explain("When the names of things stand in the picture: under the mouse only, or always.");
     // Steps, not a slider: a slider would move under the mouse as the text grows.
     reading("text size", "%.0f %%", static_cast<double>(settings.text_scale) * 100.0);
-    const auto step = [&](const char* title, float by) {
+    explain("The size of all text and of all that is clicked. 50 to 300 %.");
+    const auto step = [&](const char* title, float by, const char* help) {
         const float scaled = std::clamp(settings.text_scale + by, 0.5f, 3.0f);
-        if (row_button(title, 2)) emit("view.text_scale", {{"scale", scaled}});
+        if (row_button(title, 2, true, help)) emit("view.text_scale", {{"scale", scaled}});
     };
-    step("Smaller", -0.1f);
-    step("Larger", 0.1f);
+    step("Smaller", -0.1f, "Makes all text smaller by a tenth of its usual size");
+    step("Larger", 0.1f, "Makes all text larger by a tenth of its usual size");
     ImGui::End();
 }
 

@@ -36,6 +36,8 @@ void panel_edge(const Rect& rect, bool left, float scale, Emit& emit) {
     ImGui::InvisibleButton("edge", {grip, std::max(1.0f, rect.size().y)});
     const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
     if (lit) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    if (lit && !ImGui::IsItemActive())
+        ImGui::SetTooltip("Drag makes the panel wider or narrower; very narrow, it folds away");
     ImGui::GetWindowDrawList()->AddLine({left ? x - 1.0f : x, rect.min.y}, {left ? x - 1.0f : x, rect.max.y},
                                         ImGui::GetColorU32(lit ? ImGuiCol_SeparatorActive : ImGuiCol_Border));
     if (ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 1.0f)) {
@@ -152,6 +154,9 @@ void tabs(const ShellFrame& frame, float room, Emit& emit) {
                               ImGui::GetStyleColorVec4(open ? ImGuiCol_Header : ImGuiCol_ChildBg));
         if (ImGui::Button(lab->title().c_str())) emit("lab.open", {{"name", lab->name()}});
         ImGui::PopStyleColor();
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip(open ? "The %s lab is open" : "Opens the %s lab; this one stays as it is",
+                              lab->title().c_str());
     }
 }
 

@@ -171,12 +171,25 @@ Editor::View view_of_drag(Editor::View view) {
     return view;
 }
 
+const char* piece_help(signal::Piece piece) {
+    switch (piece) {
+        case signal::Piece::Constant:
+            return "The curve keeps the key's value until the next key.";
+        case signal::Piece::Linear:
+            return "The curve goes straight to the next key.";
+        case signal::Piece::Cubic:
+            break;
+    }
+    return "The curve goes smoothly to the next key, by the slopes of both.";
+}
+
 /// How the active key's piece goes on.
 bool piece_row(signal::CurveKey& key) {
     bool changed = false;
     for (const signal::Piece piece : {signal::Piece::Constant, signal::Piece::Linear, signal::Piece::Cubic}) {
         if (piece != signal::Piece::Constant) ImGui::SameLine();
         if (ImGui::RadioButton(signal::name(piece), key.piece == piece)) key.piece = piece, changed = true;
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", piece_help(piece));
     }
     return changed;
 }
@@ -220,6 +233,10 @@ bool curve_editor(const char* id, signal::Curve& curve, glm::vec3 colour, float 
         editor.drag({active, static_cast<Grip>(grip)}, mouse);
         changed = true;
     }
+    if (ImGui::IsItemHovered() && !ImGui::IsItemActive())
+        ImGui::SetTooltip(
+            "Drag a key, or the slope at either side of the one that was clicked.\n"
+            "Double-click adds a key, right-click removes it.");
     editor.draw(active, input);
     if (active != no_key && active + 1 < static_cast<int>(curve.keys.size()))
         changed |= piece_row(curve.keys[static_cast<std::size_t>(active)]);

@@ -27,13 +27,27 @@ bool narrow() {
            9.0f * ImGui::GetFontSize();
 }
 
+RowAbove& row_above() {
+    return static_cast<NumberEditing*>(ImGui::GetIO().UserData)->row;
+}
+
+void note_row(ImVec2 from, ImVec2 field) {
+    RowAbove& row = row_above();
+    row.frame = ImGui::GetFrameCount();
+    row.from = {from.x, from.y};
+    row.field = {field.x, field.y};
+    row.has_range = false;
+}
+
 /// Writes the row's name and leaves the cursor where its field goes, beside it or, if need be, below; gives
 /// the field's id.
 std::string begin_row(const char* name) {
     const float from = ImGui::GetWindowContentRegionMin().x;
     const float field = name_share * ImGui::GetWindowContentRegionMax().x;
+    const ImVec2 begin = ImGui::GetCursorScreenPos();
     if (name[0] == '#') {  // an id, and no name to be read
         ImGui::SetNextItemWidth(-1.0f);
+        note_row(begin, begin);
         return name;
     }
     const float until = ImGui::GetCursorPosX() - from + ImGui::CalcTextSize(name).x;
@@ -46,6 +60,7 @@ std::string begin_row(const char* name) {
         ImGui::SameLine(from + field);
     }
     ImGui::SetNextItemWidth(-1.0f);
+    note_row(begin, ImGui::GetCursorScreenPos());
     return std::string("##") + name;
 }
 
@@ -156,6 +171,10 @@ bool integer_slider(const char* name, int& value, int low, int high) {
         ImGui::CalcTextSize(std::to_string(high).c_str()).x + ImGui::GetStyle().ItemInnerSpacing.x;
     ImGui::SetNextItemWidth(-room);
     const bool changed = ImGui::SliderInt(id.c_str(), &value, low, high, "", ImGuiSliderFlags_NoInput);
+    row_above().has_range = true;
+    row_above().low = low;
+    row_above().high = high;
+    row_above().format = {"%d"};
     ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
     ImGui::Text("%d", value);
     return changed;
@@ -173,12 +192,14 @@ bool text_field(const char* name, std::string& value, const char* hint) {
 }
 
 bool point_field(const char* name, glm::vec3& value, float speed, float most, const char* format) {
+    const ImVec2 from = ImGui::GetCursorScreenPos();
     bool changed = false;
     for (int i = 0; i < 3; ++i) {
         const std::string row = std::string(name) + " " + "xyz"[i];
         const std::string id = begin_row(row.c_str());
         changed |= drag_number(id.c_str(), value[i], speed, -most, most, format);
     }
+    row_above().from = {from.x, from.y};  // all three are one row to whoever explains it
     return changed;
 }
 
@@ -186,14 +207,17 @@ bool vector_field(const char* name, glm::vec3& value, float speed, glm::vec3 low
                   const char* format) {
     const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
     const float width = (ImGui::GetContentRegionAvail().x - 2.0f * gap) / 3.0f;
+    const ImVec2 from = ImGui::GetCursorScreenPos();
     text_elided(name, ImGui::GetContentRegionAvail().x, true);
     bool changed = false;
     for (int i = 0; i < 3; ++i) {
         const std::string id = std::string("##") + name + ' ' + "xyz"[i];
         if (i > 0) ImGui::SameLine(0.0f, gap);
         ImGui::SetNextItemWidth(width);
+        note_row(from, ImGui::GetCursorScreenPos());
         changed |= drag_number(id.c_str(), value[i], speed, low[i], high[i], format);
     }
+    if (low != glm::vec3(low.x) || high != glm::vec3(high.x)) row_above().has_range = false;
     return changed;
 }
 
@@ -264,12 +288,25 @@ void end_search() {
     ImGui::EndCombo();
 }
 
-bool option_button(const char* title, bool chosen) {
+/// What a button does, wrapped, though it may be disabled.
+static void tooltip_of_button(const std::string& text) {
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(22.0f * ImGui::GetFontSize());
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+bool option_button(const char* title, bool chosen, const char* tooltip) {
     const float room =
         ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemInnerSpacing.x;
     const std::string shown = elided(title, room);
     const bool pressed = ImGui::RadioButton((shown + "###" + title).c_str(), chosen);
-    if (shown != title && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", title);
+    const std::string whole = shown != title ? title : "";
+    const std::string more = tooltip != nullptr ? tooltip : "";
+    const std::string text = whole + (whole.empty() || more.empty() ? "" : ": ") + more;
+    if (!text.empty()) tooltip_of_button(text);
     return pressed;
 }
 
@@ -292,17 +329,6 @@ void reading(const char* name, const char* format, ...) {
     text_flush_right(shown);
 }
 
-void explain(const char* text) {
-    const float left = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMin().x;
-    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-    if (!ImGui::IsWindowHovered() || !ImGui::IsMouseHoveringRect({left, low.y}, high)) return;
-    ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(22.0f * ImGui::GetFontSize());
-    ImGui::TextUnformatted(text);
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
-}
-
 bool row_button(const char* title, int of, bool enabled, const char* tooltip) {
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float whole = ImGui::GetWindowContentRegionMax().x - ImGui::GetWindowContentRegionMin().x;
@@ -320,8 +346,7 @@ bool row_button(const char* title, int of, bool enabled, const char* tooltip) {
     ImGui::BeginDisabled(!enabled);
     const bool pressed = ImGui::Button((shown + "###" + title).c_str(), {width, 0.0f});
     ImGui::EndDisabled();
-    if (tooltip != nullptr && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-        ImGui::SetTooltip("%s", tooltip);
+    if (tooltip != nullptr) tooltip_of_button(tooltip);
     ImGui::SameLine();  // the next one beside it, unless the row is full
     if (ImGui::GetCursorPosX() + width > ImGui::GetWindowContentRegionMax().x + 1.0f) ImGui::NewLine();
     return pressed;

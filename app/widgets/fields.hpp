@@ -51,7 +51,7 @@ void end_search();
 bool contains_text(std::string_view text, std::string_view part);
 
 /// One of several that exclude each other.
-bool option_button(const char* title, bool chosen);
+bool option_button(const char* title, bool chosen, const char* tooltip = nullptr);
 
 /// A row that is only read.
 void reading(const char* name, const char* format, ...)
@@ -60,10 +60,12 @@ void reading(const char* name, const char* format, ...)
 #endif
     ;
 
-/// What the row above means, while the mouse rests on it.
+/// What the row above means, while the mouse rests on it. A number's unit and range follow by themselves.
+/// After point_field() or vector_field() it is about all three.
 void explain(const char* text);
 
-/// A button as wide as its share of the row: `of` buttons to a row, or fewer where they would be too small.
+/// A button as wide as its share of the row: `of` buttons to a row, or fewer where they would be too small. A
+/// long tooltip is wrapped.
 bool row_button(const char* title, int of, bool enabled = true, const char* tooltip = nullptr);
 
 /// What comes next begins below, though the row of buttons is not full.

@@ -22,6 +22,14 @@ bool is_disabled() {
     return (ImGui::GetCurrentContext()->CurrentItemFlags & ImGuiItemFlags_Disabled) != 0;
 }
 
+void note_range(double low, double high, const char* format) {
+    RowAbove& row = editing().row;
+    row.has_range = true;
+    row.low = low;
+    row.high = high;
+    std::snprintf(row.format.data(), row.format.size(), "%s", format);
+}
+
 bool is_edited(ImGuiID id) {
     // One that was not drawn in the frame before has vanished, and its text with it.
     return editing().id == id && editing().frame >= ImGui::GetFrameCount() - 1;
@@ -106,6 +114,7 @@ std::optional<double> edited_text(const char* id, const std::string& unit, bool 
 std::optional<double> number_entry(const char* id, double value, double speed, double low, double high,
                                    const char* format, bool whole) {
     const ImGuiID own = ImGui::GetID(id);
+    note_range(low, high, format);
     if (editing().tabbed_in == ImGui::GetFrameCount() && !is_disabled()) begin_editing(own, value);
     if (is_edited(own)) return edited_text(id, unit_of(format), whole);
 

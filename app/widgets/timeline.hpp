@@ -40,4 +40,7 @@ struct TimeStripUse {
 };
 TimeStripUse time_strip(const char* id, int& tick, const TimeStrip& strip);
 
+/// A tooltip above the strip that was written last, which it would hide below the mouse.
+void tell_strip(const char* text);
+
 }  // namespace tendril::app

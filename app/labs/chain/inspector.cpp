@@ -41,10 +41,13 @@ void selection_rows(const ShownChain& shown, const Joints& joints, Emit& emit) {
     if (shown.trace) return selected_in_step(shown, joints, i);
     glm::vec3 to = at;
     if (point_field("at", to, 0.01f)) emit.continuously("chain.pull", {{"index", i}, {"to", to}});
+    explain("Where the joint is. A change pulls it there, and the chain follows.");
     float length = part.chain.length(i);
     if (number_field(i == 0 ? "length" : "bone length", length, 0.01f, 0.0f, 1000.0f, "%.3f m")) {
         emit.continuously("chain.set_length", {{"index", i}, {"length", length}});
     }
+    explain(i == 0 ? "The length of the bone that leads here once a joint is inserted before this one."
+                   : "The length of the bone that leads to this joint.");
     if (i == 0) note("No bone leads to this joint: its length counts once a joint is inserted before it.");
     reading("to the target", "%.3f m", static_cast<double>(glm::distance(at, part.target)));
 }
@@ -73,6 +76,10 @@ void joint_row(const ShownChain& shown, const Joints& joints, std::size_t i, Emi
     if (ImGui::Selectable(id, shown.part.selected == i, ImGuiSelectableFlags_SpanAllColumns)) {
         emit("chain.select", {{"index", i}});
     }
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip(i == 0 ? "Click selects the first joint"
+                                 : "Click selects this joint. bone: the length of the bone that leads to it; "
+                                   "error: how far that is from what it should be");
     for (int axis = 0; axis < 3; ++axis) {
         ImGui::TableNextColumn();
         text_flush_right(fixed_text(static_cast<double>(segment.position[axis]), 2));

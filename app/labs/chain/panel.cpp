@@ -24,6 +24,7 @@ float length_of_next() {
     const ImGuiID kept_as = ImGui::GetID("next length");
     float length = kept.GetFloat(kept_as, 1.0f);
     if (number_field("new bone", length, 0.01f, 0.0f, 1000.0f, "%.3f m")) kept.SetFloat(kept_as, length);
+    explain("The length of the bone that Add or Insert makes next.");
     return length;
 }
 
@@ -35,9 +36,8 @@ void mode_rows(const ChainPart& part, const Palette& colours, Emit& emit) {
     std::vector<std::string> helps;
     std::size_t shown = 0;
     for (const ChainMode mode : modes_in_panel) {
-        if (option_button(chain_modes.title(mode), part.mode == mode))
+        if (option_button(chain_modes.title(mode), part.mode == mode, chain_modes.help(mode)))
             emit("chain.mode", {{"mode", chain_modes.name(mode)}});
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", chain_modes.help(mode));
         draw_mode(mode, colours);
         if (mode == part.mode) shown = helps.size();
         helps.emplace_back(chain_modes.help(mode));
@@ -50,13 +50,16 @@ void mode_rows(const ChainPart& part, const Palette& colours, Emit& emit) {
     if (part.mode == ChainMode::WithIndex && !part.chain.empty()) {
         int index = static_cast<int>(part.index);
         if (integer_slider("index", index, 0, static_cast<int>(part.chain.size()) - 1)) with("index", index);
+        explain("The joint that goes to the target; the joints on both sides of it trail.");
     }
     if (part.mode == ChainMode::Fixed) {
         int iterations = iterations_of(part, part.mode);
         if (integer_field("iterations", iterations, 1, max_iterations)) with("iterations", iterations);
+        explain("The maximum of passes in a solve. More come nearer to the target and cost more.");
         float tolerance = part.tolerance;
         if (number_field("tolerance", tolerance, 0.0005f, 0.0f, 10.0f, "%.4f m"))
             with("tolerance", tolerance);
+        explain("How far from the target the solver may stop. Less is exact and takes more iterations.");
     }
 }
 
@@ -76,6 +79,7 @@ void segment_rows(const ChainPart& part, Emit& emit) {
         if (number_field(name.c_str(), selected, 0.01f, 0.0f, 1000.0f, "%.3f m")) {
             emit.continuously("chain.set_length", {{"index", *part.selected}, {"length", selected}});
         }
+        explain("The length of the bone that leads to the selected joint.");
     } else {
         note(part.chain.empty() ? "Add a joint, or take a preset." : "Click a joint to select it.");
     }
@@ -84,12 +88,15 @@ void segment_rows(const ChainPart& part, Emit& emit) {
 void target_rows(const ChainPart& part, bool playing, Emit& emit) {
     glm::vec3 target = part.target;
     if (point_field("target", target, 0.01f)) emit.continuously("chain.target", {{"to", target}});
+    explain("Where the target is. It can be dragged in the picture too.");
 
     const auto titles = motion_paths.titles();
     int path = static_cast<int>(part.motion.path);
     if (choice_field("moves", path, titles.data(), static_cast<int>(titles.size()))) {
         emit("chain.motion", {{"path", motion_paths.name(static_cast<Motion::Path>(path))}});
     }
+    explain(
+        "A path that the target follows while the simulation runs. It shows how a solver follows motion.");
     if (part.motion.path == Motion::Path::Still) return;
     if (!playing) note("The simulation is paused. Space runs it.");
     const auto with = [&](const char* name, float value) {
@@ -97,8 +104,10 @@ void target_rows(const ChainPart& part, bool playing, Emit& emit) {
     };
     float radius = part.motion.radius, period = part.motion.period;
     if (number_field("radius", radius, 0.01f, 0.0f, 1000.0f, "%.2f m")) with("radius", radius);
+    explain("How far the path goes to each side of its middle.");
     if (number_field("period", period, 0.02f, shortest_period, longest_period, "%.2f s"))
         with("period", period);
+    explain("How long one round takes. Shorter is faster.");
 }
 
 /// What of the last ten seconds is plotted below the scene.
@@ -161,6 +170,8 @@ void ChainLab::timeline(const Workspace& workspace, Emit& emit) const {
         if (step_timeline("solve", shown, iteration_ends(trace))) {
             emit.continuously("microscope.seek", {{"step", shown}});
         }
+        if (ImGui::IsItemHovered() && !ImGui::IsItemActive())
+            tell_strip("The steps of the solve. Drag shows the chain after one of them.");
         return;
     }
     past_strip(workspace, emit);

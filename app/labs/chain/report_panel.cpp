@@ -24,20 +24,22 @@ void coloured_note(const std::string& text, glm::vec3 colour) {
 struct AngleRow {
     const char* title;
     const char* key;
+    const char* help;
     float low;  ///< degrees; the highest is 180
 };
 
 std::vector<AngleRow> angle_rows(ik::JointKind kind) {
     if (kind == ik::JointKind::Free) return {};
     if (kind == ik::JointKind::Hinge)
-        return {{"minimum", "min_deg", -180.0f}, {"maximum", "max_deg", -180.0f}};
-    std::vector<AngleRow> rows{{"up", "up_deg", 0.0f},
-                               {"down", "down_deg", 0.0f},
-                               {"left", "left_deg", 0.0f},
-                               {"right", "right_deg", 0.0f}};
-    rows.push_back({"twist from", "twist_min_deg", -180.0f});
-    rows.push_back({"twist to", "twist_max_deg", -180.0f});
-    return rows;
+        return {{"minimum", "min_deg", "The smallest angle about the axis; 0 is straight.", -180.0f},
+                {"maximum", "max_deg", "The largest angle about the axis; 0 is straight.", -180.0f}};
+    constexpr const char* cone = "How far the bone may turn this way from straight: a side of its cone.";
+    return {{"up", "up_deg", cone, 0.0f},
+            {"down", "down_deg", cone, 0.0f},
+            {"left", "left_deg", cone, 0.0f},
+            {"right", "right_deg", cone, 0.0f},
+            {"twist from", "twist_min_deg", "How far the bone may turn about itself, one way.", -180.0f},
+            {"twist to", "twist_max_deg", "How far the bone may turn about itself, the other way.", -180.0f}};
 }
 
 }  // namespace
@@ -80,6 +82,9 @@ void limit_rows(const ChainPart& part, Emit& emit) {
         emit("chain.limit",
              {{"index", joint}, {"kind", ik::name(all_joint_kinds[static_cast<std::size_t>(kind)])}});
     }
+    explain(
+        "How the bone after this joint may turn: a hinge about one axis, the others within a cone and about "
+        "the bone. Each begins with the angles that people usually have.");
     if (limit.kind == ik::JointKind::Free) {
         note("Turns freely.");
         return;
@@ -91,6 +96,7 @@ void limit_rows(const ChainPart& part, Emit& emit) {
         if (number_field(row.title, angle, 0.5f, row.low, 180.0f, "%.1f deg")) {
             emit.continuously("chain.limit", {{"index", joint}, {row.key, angle}});
         }
+        explain(row.help);
     }
     static constexpr const char* axes[] = {"X", "Y", "Z", "another"};
     int axis = 3;
@@ -104,6 +110,7 @@ void limit_rows(const ChainPart& part, Emit& emit) {
         unit[axis] = 1.0f;
         emit("chain.limit", {{"index", joint}, {"axis", unit}});
     }
+    explain("About which axis a turn is called up; a hinge turns about it alone.");
     note(
         "Axis of upward rotation, in world axes with the chain straight. A straight chain has all angles 0.");
 }

@@ -49,6 +49,7 @@ void racer_row(const ShownChain& shown, ik::Method method, bool time, const Pale
     colour_mark(solver_colour(palette, method));
     if (ImGui::Checkbox(solver_title(method), &on))
         emit("race.solver", {{"name", ik::name(method)}, {"on", on}});
+    explain((std::string("Whether it runs in the race. ") + solver_help(method)).c_str());
     const auto& racers = shown.race->racers;
     const auto racer =
         std::find_if(racers.begin(), racers.end(), [&](const Racer& r) { return r.method == method; });
@@ -70,6 +71,7 @@ void missing_racer_row(ik::Method method, const Palette& palette) {
     ImGui::BeginDisabled();
     ImGui::Checkbox(solver_title(method), &off);
     ImGui::EndDisabled();
+    explain((std::string("It cannot run on this chain: it ") + needs_two_bones + ".").c_str());
     small_right(needs_two_bones);
 }
 
@@ -146,6 +148,7 @@ void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit
     float pace = part.study.pace > 0.0f ? part.study.pace : default_pace;
     if (number_field("play at", pace, 0.1f, slowest_pace, fastest_pace, "%.1f steps/s"))
         emit.continuously("microscope.play", {{"pace", pace}});
+    explain("How fast the steps follow each other while they play.");
     start_buttons("microscope.open", emit);
     end_row();
     const Curve curve{solver_title(trace.method), palette.accent, by_iteration(trace.residuals)};
@@ -182,6 +185,7 @@ void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
         emit("race.side_by_side", {{"on", apart}});
         emit("camera.frame", {{"what", "all"}});
     }
+    explain("Draws the chain of each solver in a place of its own, instead of one over the other.");
     start_buttons("race.open", emit);
     end_row();
     if (row_button("Copy numbers as CSV", 1, true, "Every solver's residual at each iteration"))

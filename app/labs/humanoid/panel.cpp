@@ -103,9 +103,11 @@ void clip_rows(const HumanoidPanel& panel) {
         }
         end_search();
     }
+    explain("Which motion of the file is shown. Type a part of its name to find one.");
     float percent = static_cast<float>(100.0 * playback.speed);
     if (number_field("speed", percent, 0.5f, 0.0f, 1000.0f, "%.0f %%"))
         panel.emit.continuously("humanoid.clip", {{"speed", static_cast<double>(percent) / 100.0}});
+    explain("How fast the clip plays. 100 % is as it was recorded.");
     bool loop = playback.loop, in_place = playback.in_place;
     if (ImGui::Checkbox("Loop", &loop)) panel.emit("humanoid.clip", {{"loop", loop}});
     explain("A walk goes on from where its last round ended. Else it stops at its end.");

@@ -57,12 +57,9 @@ void replay_button(const Workspace& workspace, Emit& emit) {
 }
 
 void tell(const Incident& incident) {
-    // Above the strip, which it would hide.
-    const ImVec2 mouse = ImGui::GetIO().MousePos;
-    ImGui::SetNextWindowPos({mouse.x, ImGui::GetItemRectMin().y - 0.5f * ImGui::GetTextLineHeight()},
-                            ImGuiCond_Always, {mouse.x / std::max(1.0f, ImGui::GetIO().DisplaySize.x), 1.0f});
-    ImGui::SetTooltip("%s:\n%s.\nClick shows what was before, and what came of it.",
-                      incident_title(incident).c_str(), incident.cause.c_str());
+    tell_strip((incident_title(incident) + ":\n" + incident.cause +
+                ".\nClick shows what was before, and what came of it.")
+                   .c_str());
 }
 
 }  // namespace
@@ -90,7 +87,10 @@ void past_strip(const Workspace& workspace, Emit& emit) {
     }
     int tick = place(now);
     const TimeStripUse use = time_strip("past", tick, strip);
-    if (use.on_mark >= 0) tell(incidents[static_cast<std::size_t>(use.on_mark)]);
+    if (use.on_mark >= 0)
+        tell(incidents[static_cast<std::size_t>(use.on_mark)]);
+    else if (use.hovered >= 0 && !ImGui::IsItemActive())
+        tell_strip("The last ten seconds. Drag goes back to how it was then.");
     if (use.mark_clicked) {
         emit("time.incident", {{"number", use.on_mark}});
     } else if (use.moved && !past.empty()) {

@@ -145,7 +145,8 @@ void marks_legend(const Palette& colours) {
 }
 
 void add_menu(const RigPanel& panel) {
-    if (row_button("Add", 2)) ImGui::OpenPopup("add element");
+    if (row_button("Add", 2, true, "A bone, a null or a control, below the selected element"))
+        ImGui::OpenPopup("add element");
     if (ImGui::BeginPopup("add element")) {
         close_popup_on_escape();
         const auto add = [&](const char* title, const char* kind, const char* control) {
@@ -182,6 +183,7 @@ void element_tree(const RigPanel& panel) {
     if (count > many) {
         ImGui::SetNextItemWidth(-1.0f);
         ImGui::InputTextWithHint("##filter", "Filter by name", filter.data(), filter.size());
+        explain("Lists only the elements that have this in their names.");
     } else {
         filter[0] = '\0';
     }

@@ -46,11 +46,13 @@ class ControlFields {
             case rig::ControlKind::Bool: {
                 bool on = std::get<bool>(value);
                 if (ImGui::Checkbox("on", &on)) panel_.edit("rig.control.set", arguments(on));
+                explain("The value of this control: on or off, for the units that read it.");
                 break;
             }
             case rig::ControlKind::Float: {
                 float shown = static_cast<float>(std::get<double>(value));
                 if (number_field("value", shown, 0.005f, low().x, high().x, "%.3f")) set(number(shown));
+                explain("The value of this control, for the units that read it.");
                 break;
             }
             case rig::ControlKind::Vector2d:
@@ -61,6 +63,7 @@ class ControlFields {
                 glm::vec3 edited = shown;
                 if (vector_field("position, m", edited, 0.01f, low(), high(), "%.3f"))
                     set(dpoint(edited_vector(at, shown, edited)));
+                explain("Where the control is, in metres along each axis.");
                 break;
             }
             case rig::ControlKind::Rotation: {
@@ -99,7 +102,9 @@ class ControlFields {
             float shown = static_cast<float>(value[i]);
             const std::string name =
                 std::string("along ") + "xyz"[control_.axes[static_cast<std::size_t>(i)]];
-            if (!number_field(name.c_str(), shown, 0.005f, low()[i], high()[i], "%.3f m")) continue;
+            const bool changed = number_field(name.c_str(), shown, 0.005f, low()[i], high()[i], "%.3f m");
+            explain("The value of this control along that axis.");
+            if (!changed) continue;
             Json both{value.x, value.y};
             both[static_cast<std::size_t>(i)] = number(shown);
             set(std::move(both));
@@ -152,7 +157,9 @@ bool rotation_field(const RigPanel& panel, const char* name, glm::dquat& rotatio
     const glm::dvec3 degrees = same ? kept.degrees : euler_degrees(rotation);
     const glm::vec3 shown(degrees);
     glm::vec3 edited = shown;
-    if (!vector_field(name, edited, 0.5f, glm::vec3(-360.0f), glm::vec3(360.0f), "%.1f")) return false;
+    const bool changed = vector_field(name, edited, 0.5f, glm::vec3(-360.0f), glm::vec3(360.0f), "%.1f");
+    explain("The rotation about X, then Y, then Z, in degrees.");
+    if (!changed) return false;
     kept.degrees = edited_vector(degrees, shown, edited);
     rotation = kept.rotation = from_euler_degrees(kept.degrees);
     return true;
@@ -165,11 +172,13 @@ std::optional<SharedJson> transform_fields(const RigPanel& panel, const rig::Tra
     glm::vec3 edited = at;
     if (vector_field("translation, m", edited, 0.01f, low, high, "%.3f"))
         changed["translation"] = dpoint(edited_vector(transform.translation, at, edited));
+    explain("How far it is moved along X, Y and Z, in metres.");
     glm::dquat rotation = transform.rotation;
     if (rotation_field(panel, "rotation, degrees", rotation)) changed["rotation"] = rotation_json(rotation);
     edited = by;
     if (vector_field("scale", edited, 0.01f, glm::vec3(-most), glm::vec3(most), "%.3f"))
         changed["scale"] = dpoint(edited_vector(transform.scale, by, edited));
+    explain("By how much it is larger along X, Y and Z. 1 leaves its size; 0 is not allowed.");
     if (changed.empty()) return std::nullopt;
     return SharedJson(std::move(changed));
 }

@@ -18,11 +18,21 @@
 namespace tendril::app {
 namespace {
 
+const char* preset_help(const std::string& name) {
+    if (name == "aim")
+        return "A head looks at one control; another, which goes with the first, says where up is";
+    if (name == "fk") return "A tentacle of controls, turned by one dial, and the bones that follow them";
+    if (name == "loop") return "Five arms that one dial curls, by a for-each";
+    if (name == "morph") return "A blob whose shape and colour follow controls through curves";
+    if (name == "secondary") return "Two antennae that trail a head by springs";
+    return "";
+}
+
 void preset_section(Emit& emit) {
     std::vector<PresetButton> buttons;
     for (const RigPreset& preset : rig_presets()) {
         const bool short_title = preset.title.size() < 6;  // three of these fit side by side
-        buttons.push_back({preset.name, preset.title, {}, short_title ? 3 : 1});
+        buttons.push_back({preset.name, preset.title, preset_help(preset.name), short_title ? 3 : 1});
     }
     preset_rows(rig_lab, buttons, "Removes every element, curve and unit", emit);
 }

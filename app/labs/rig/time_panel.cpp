@@ -36,11 +36,14 @@ void walk_fields(const RigWalk& walk, bool turns, Emit& emit) {
     };
     float radius = walk.motion.radius, period = walk.motion.period;
     if (number_field("radius", radius, 0.01f, 0.0f, 10.0f, "%.2f m")) set("radius", radius);
+    explain("How far the path goes to each side of its middle.");
     if (number_field("period", period, 0.02f, shortest_period, 60.0f, "%.2f s")) set("period", period);
+    explain("How long one round takes.");
     if (!turns) return;
     bool turn = walk.turn;
     if (ImGui::Checkbox("Looks along the path", &turn))
         emit("rig.motion", {{"name", walk.control}, {"path", path}, {"turn", turn}});
+    explain("The control turns with the path. Off, it keeps the rotation that it has.");
 }
 
 std::string clip_text(const RigPart& part) {
@@ -85,7 +88,7 @@ void rate_rows(const RigPart& part, Emit& emit) {
     const bool something = part.take.last > 0 || !part.walks.empty();
     const bool running = part.rates && part.rates->running;
     if (running) {
-        if (row_button("Cancel##rates", 1)) emit("rig.rates.cancel");
+        if (row_button("Cancel##rates", 1, true, "Stops the comparison")) emit("rig.rates.cancel");
     } else if (row_button(
                    "Compare frame rates", 1, something,
                    something ? "Runs the take at 15, 30, 60, 144 Hz and at uneven frames" : "Play first")) {

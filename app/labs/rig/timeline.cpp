@@ -96,11 +96,7 @@ void RigLab::timeline(const Workspace& workspace, Emit& emit) const {
     const TimeStripUse use = time_strip("take", tick, strip);
     if (use.moved) emit.continuously("rig.time", {{"tick", window.first + static_cast<std::uint64_t>(tick)}});
     if (use.hovered < 0) return;
-    // Above the strip, which it would hide.
-    const ImVec2 mouse = ImGui::GetIO().MousePos;
-    ImGui::SetNextWindowPos({mouse.x, ImGui::GetItemRectMin().y - 0.5f * ImGui::GetTextLineHeight()},
-                            ImGuiCond_Always, {mouse.x / std::max(1.0f, ImGui::GetIO().DisplaySize.x), 1.0f});
-    ImGui::SetTooltip("%s", told(part, window.first + static_cast<std::uint64_t>(use.hovered)).c_str());
+    tell_strip(told(part, window.first + static_cast<std::uint64_t>(use.hovered)).c_str());
 }
 
 }  // namespace tendril::app

@@ -7,6 +7,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
 #include "app/labs/kit/curve_json.hpp"
+#include "app/labs/rig/input_help.hpp"
 #include "app/labs/rig/input_offers.hpp"
 #include "app/labs/rig/panels.hpp"
 #include "app/labs/rig/value_json.hpp"
@@ -47,6 +48,10 @@ class Fields {
         panel_.edit("rig.unit.set", list);
     }
 
+    std::string help() const {
+        return input_help(rig::operation_name(row_.unit->operation.index()), input_->path);
+    }
+
     /// Where it comes from, and what it is now below that.
     void source_row() const {
         chooser(input_->title, &input_->from);
@@ -60,7 +65,8 @@ class Fields {
         const bool open = begin_search(title.c_str(), shown, typed);
         if (!open && ImGui::IsItemHovered()) {
             if (shown != nullptr)
-                ImGui::SetTooltip("%s: %s. Click for what else it may be", title.c_str(), shown->c_str());
+                ImGui::SetTooltip("%s: %s. Click for what else it may be\n%s", title.c_str(), shown->c_str(),
+                                  help().c_str());
             else
                 ImGui::SetTooltip("%s: takes it from an element or a unit", title.c_str());
         }
@@ -81,6 +87,7 @@ class Fields {
         if (choice_field(input_->title.c_str(), chosen, choice.names.data(),
                          static_cast<int>(choice.names.size())))
             set(choice.names[static_cast<std::size_t>(chosen)]);
+        explain(help().c_str());
     }
     /// A box for each axis.
     void field(const InputFilter& filter) const {
@@ -95,6 +102,7 @@ class Fields {
                                 (5.5f + 3.2f * static_cast<float>(i)) * ImGui::GetFontSize());
                 const std::string label = std::string(1, "xyz"[i]) + "##" + name;
                 changed |= ImGui::Checkbox(label.c_str(), &on[static_cast<std::size_t>(i)]);
+                explain(help().c_str());
             }
         };
         axes("translation", passes.translation);
@@ -108,7 +116,9 @@ class Fields {
     void field(const InputRange& range) const {
         float low = static_cast<float>(range.low), high = static_cast<float>(range.high);
         const bool first = number_field((input_->title + " low").c_str(), low, 0.01f, -most, most, "%.3f");
+        explain(help().c_str());
         const bool second = number_field((input_->title + " high").c_str(), high, 0.01f, -most, most, "%.3f");
+        explain(help().c_str());
         if (first) set({number(low), range.high});
         if (second) set({range.low, number(high)});
     }
@@ -132,20 +142,23 @@ class Fields {
         at = width != 0.0 ? (at - edited.source_min) / width : 0.0;
         if (curve_editor("curve", edited, panel_.colours.accent, 11.0f, at)) set(curve_json(edited));
         note("Drag a key. Double-click adds one, right-click removes it.");
-        const auto end = [&](const char* name, double& value) {
+        const auto end = [&](const char* name, double& value, const char* what) {
             float shown = static_cast<float>(value);
-            if (!number_field(name, shown, 0.01f, -most, most, "%.3f")) return;
+            const bool changed = number_field(name, shown, 0.01f, -most, most, "%.3f");
+            explain(what);
+            if (!changed) return;
             value = static_cast<double>(shown);
             set(curve_json(edited));
         };
-        end("from low", edited.source_min);
-        end("from high", edited.source_max);
-        end("to low", edited.target_min);
-        end("to high", edited.target_max);
+        end("from low", edited.source_min, "The value that is at the left end of the curve.");
+        end("from high", edited.source_max, "The value that is at the right end of the curve.");
+        end("to low", edited.target_min, "The result where the curve is at 0.");
+        end("to high", edited.target_max, "The result where the curve is at 1.");
     }
 
     void literal_field(bool on) const {
         if (ImGui::Checkbox(input_->title.c_str(), &on)) set(on);
+        explain(help().c_str());
     }
     void literal_field(double value) const {
         float shown = static_cast<float>(value);
@@ -158,12 +171,14 @@ class Fields {
                          weight || *input_->unit != '\0' ? 0.0f : -most, weight ? 1.0f : most,
                          format.c_str()))
             set(number(shown));
+        explain(help().c_str());
     }
     void literal_field(const glm::dvec3& value) const {
         const glm::vec3 shown(value);
         glm::vec3 edited = shown;
         if (vector_field(input_->title.c_str(), edited, 0.01f, glm::vec3(-most), glm::vec3(most), "%.3f"))
             set(dpoint(edited_vector(value, shown, edited)));
+        explain((help() + (*input_->unit != '\0' ? std::string(" In ") + input_->unit + '.' : "")).c_str());
     }
     void literal_field(const glm::dquat& value) const {
         glm::dquat rotation = value;

@@ -8,6 +8,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
 #include "app/labs/rig/adding.hpp"
+#include "app/labs/rig/input_help.hpp"
 #include "app/labs/rig/panels.hpp"
 #include "app/labs/rig/value_text.hpp"
 #include "app/widgets/fields.hpp"
@@ -43,7 +44,9 @@ void title_row(const RigPanel& panel, const UnitRow& row, const std::vector<doub
     const bool selected = panel.part.selected.unit == unit.name;
     if (ImGui::Selectable("##row", selected, 0, {width, line})) select_unit(panel, selected ? "" : unit.name);
     const std::string operation = operation_title(unit.operation.index());
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s: %s", unit.name.c_str(), operation.c_str());
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s: %s\n%s", unit.name.c_str(), operation.c_str(),
+                          operation_help(rig::operation_name(unit.operation.index())));
     std::string time;
     if (!row.inner && row.top < times.size()) time = fixed_text(times[row.top], 1) + " \xC2\xB5s";
     const float time_width = time.empty() ? 0.0f : ImGui::CalcTextSize(time.c_str()).x + 0.5f * em;
@@ -117,7 +120,8 @@ void live_lines(const RigPanel& panel, const UnitRow& row) {
 }
 
 void add_menu(const RigPanel& panel) {
-    if (row_button("Add a unit", 1)) ImGui::OpenPopup("add unit");
+    if (row_button("Add a unit", 1, true, "A list of every kind of unit; the new one runs last"))
+        ImGui::OpenPopup("add unit");
     if (!ImGui::BeginPopup("add unit")) return;
     close_popup_on_escape();
     for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i) {

@@ -40,6 +40,7 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
             arguments.push_back({"at", at});
             emit.continuously("rope.pin", arguments);
         }
+        explain("Where the particle is pinned.");
     } else {
         reading("at", "%.3f  %.3f  %.3f", static_cast<double>(at.x), static_cast<double>(at.y),
                 static_cast<double>(at.z));
@@ -48,7 +49,9 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     reading("tension", "%.2f N", static_cast<double>(tension_at(world, particle)));
     reading(body.kind == rope::Body::Kind::Rope ? "rope's length" : "length of a row", "%.3f m",
             world.length(body));
-    if (row_button(pinned ? "Unpin" : "Pin", 3)) emit(pinned ? "rope.unpin" : "rope.pin", which);
+    if (row_button(pinned ? "Unpin" : "Pin", 3, true,
+                   pinned ? "Lets the particle move again" : "Holds the particle where it is now"))
+        emit(pinned ? "rope.unpin" : "rope.pin", which);
     const bool rope = body.kind == rope::Body::Kind::Rope;
     if (row_button("Cut", 3, rope && body.count > 1, "Cuts the segment after this particle"))
         emit("rope.cut", {{"rope", world.name(body)}, {"segment", std::min(index, body.count - 2)}});
@@ -64,22 +67,27 @@ void shape_rows(const rope::Collider& collider, const std::string& name, Emit& e
     };
     const auto radius_row = [&](float radius) {
         if (number_field("radius", radius, 0.002f, 0.0f, 1e3f, "%.3f m")) set("radius", radius);
+        explain("How thick the collider is, from its middle to its surface.");
     };
     if (const auto* sphere = std::get_if<rope::Sphere>(&collider.shape)) radius_row(sphere->radius);
     if (const auto* capsule = std::get_if<rope::Capsule>(&collider.shape)) {
         glm::vec3 a = capsule->a, b = capsule->b;
         if (point_field("one end", a, 0.01f)) set("a", a);
+        explain("The middle of one of its round ends.");
         if (point_field("other end", b, 0.01f)) set("b", b);
+        explain("The middle of its other round end.");
         radius_row(capsule->radius);
     }
     if (const auto* plane = std::get_if<rope::Plane>(&collider.shape)) {
         glm::vec3 normal = plane->normal;
         if (point_field("normal", normal, 0.01f, 1.0f, "%.3f") && glm::length(normal) > 1e-3f)
             set("normal", normal);
+        explain("The direction out of the plane: ropes stay on this side. Its length does not matter.");
     }
     if (const auto* box = std::get_if<rope::Box>(&collider.shape)) {
         glm::vec3 half = box->half_extents;
         if (point_field("half extents", half, 0.005f, 1e3f)) set("half_extents", glm::abs(half));
+        explain("From the middle of the box to its faces, along its own axes: half its size.");
         // Turned on about its own axes: the angles that it is told by meet at a pole, a box does not.
         const glm::vec3 was = glm::degrees(glm::eulerAngles(box->rotation)) + 0.0f;  // no -0
         glm::vec3 turned = was;
@@ -87,6 +95,7 @@ void shape_rows(const rope::Collider& collider, const std::string& name, Emit& e
             const glm::quat q = box->rotation * glm::quat(glm::radians(turned - was));
             set("rotation", q);
         }
+        explain("Turns the box about its own axes.");
     }
 }
 
@@ -96,6 +105,7 @@ void collider_rows(const RopePart& part, const rope::Collider& collider, Emit& e
     reading("kind", "%s", rope::kind(collider.shape));
     glm::vec3 at = rope::centre(collider.shape);
     if (point_field("at", at, 0.01f)) emit.continuously("rope.collider.move", {{"name", name}, {"to", at}});
+    explain("Where the collider is. It can be dragged in the picture too.");
     shape_rows(collider, name, emit);
     const auto found = std::find_if(part.swings.begin(), part.swings.end(),
                                     [&](const Swing& swing) { return swing.collider == name; });
@@ -106,7 +116,11 @@ void collider_rows(const RopePart& part, const rope::Collider& collider, Emit& e
         emit.continuously("rope.collider.swing", {{"name", name}, {"by", by}, {"period", period}});
     };
     if (point_field("swings by", by, 0.01f)) swing();
-    if (swings && number_field("period", period, 0.02f, shortest_period, longest_period, "%.2f s")) swing();
+    explain("How far the collider swings to each side of where it is. With 0, 0, 0 it stands still.");
+    if (swings) {
+        if (number_field("period", period, 0.02f, shortest_period, longest_period, "%.2f s")) swing();
+        explain("How long it takes to swing there and back.");
+    }
     if (row_button("Remove", 3, true, "Removes the collider")) emit("rope.collider.remove", {{"name", name}});
     end_row();
 }

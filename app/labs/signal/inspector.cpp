@@ -66,7 +66,7 @@ void fit_rows(const SignalPart& part, Emit& emit) {
         note(
             "Drag the blue ball as the output should move. The input begins when you take hold of it; the "
             "recording ends when you let go.");
-        if (row_button("Stop", 1)) emit("signal.fit.stop");
+        if (row_button("Stop", 1, true, "Ends the recording; what is there is kept")) emit("signal.fit.stop");
         return;
     }
     const char* const recording = "Plays the input from its start while you drag the output ball";
@@ -87,6 +87,7 @@ void fit_rows(const SignalPart& part, Emit& emit) {
     }
     std::string path;
     if (text_field("response", path, "CSV file, Enter")) emit("signal.fit", {{"to", path}});
+    explain("A file of the response that is wanted. Enter reads it and fits every kind of filter to it.");
     if (part.wanted.empty()) return;
     if (part.fitting) {
         const std::size_t done = part.fits.size(), all = signal::kinds().size();

@@ -33,23 +33,30 @@ void input_section(const SignalPart& part, Emit& emit) {
     if (!input.file) why_not[static_cast<int>(InputKind::Csv)] = "give a file below";
     if (choice_field("kind", chosen, titles.data(), 6, why_not))
         emit("signal.input", {{"kind", input_kinds.name(static_cast<InputKind>(chosen))}});
+    explain("What goes into the first filter.");
     const bool wave =
         input.kind == InputKind::Square || input.kind == InputKind::Sine || input.kind == InputKind::Noise;
     if (wave) {
         float amplitude = static_cast<float>(input.amplitude), period = static_cast<float>(input.period);
         if (number_field("amplitude", amplitude, 0.01f, 0.0f, 100.0f, "%.2f"))
             emit.continuously("signal.input", {{"amplitude", amplitude}});
+        explain("How far the input goes to each side of 0.");
         if (number_field("period", period, 0.02f, 0.1f, 60.0f, "%.2f s"))
             emit.continuously("signal.input", {{"period", period}});
+        explain(input.kind == InputKind::Noise
+                    ? "The slow drift heads for a new value four times in this time."
+                    : "How long it takes until the input begins anew.");
     }
     if (input.kind == InputKind::Hand) {
         float hand = static_cast<float>(input.hand);
         if (number_field("value", hand, 0.01f, -1e6f, 1e6f, "%.3f"))
             emit.continuously("signal.hand", {{"value", hand}});
+        explain("The input itself: how high the orange ball is.");
     }
     std::string path = input.path;
     if (text_field("CSV file", path, "path, Enter opens it"))
         emit("signal.input", {{"kind", "csv"}, {"path", path}});
+    explain("A file whose rows become the input, over and over. Enter opens it.");
     note(input_kinds.help(input.kind));
 }
 
@@ -62,7 +69,8 @@ void export_section(Emit& emit) {
 
 /// Adding is one button and a list: fourteen buttons would be a wall.
 void add_button(Emit& emit) {
-    if (row_button("Add a filter", 1)) ImGui::OpenPopup("add filter");
+    if (row_button("Add a filter", 1, true, "A list of every kind; the new one comes last"))
+        ImGui::OpenPopup("add filter");
     if (!ImGui::BeginPopup("add filter")) return;
     close_popup_on_escape();
     for (const signal::Kind& kind : signal::kinds())
@@ -94,7 +102,7 @@ void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit) {
         colour_mark(stage_colour(palette, part, i));
         bool on = stage.enabled;
         if (ImGui::Checkbox("##on", &on)) emit("signal.filter.enable", {{"at", i}, {"on", on}});
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("Off, the input passes as it is");
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("Off, its input passes as it is");
         ImGui::SameLine();
         const float width = std::max(20.0f, ImGui::GetContentRegionAvail().x);
         const bool selected = part.selected == i;
@@ -104,6 +112,7 @@ void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit) {
         ImGui::PushStyleColor(ImGuiCol_Button,
                               ImGui::GetStyleColorVec4(selected ? ImGuiCol_Header : ImGuiCol_ChildBg));
         if (ImGui::Button((title + "##title").c_str(), {width, 0.0f})) emit("signal.select", {{"at", i}});
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("Click selects this filter: its parameters are below");
         ImGui::PopStyleColor();
         ImGui::PopStyleVar();
         ImGui::PopID();

@@ -8,6 +8,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/labs/signal/filter_json.hpp"
 #include "app/labs/signal/panels.hpp"
+#include "app/labs/signal/parameter_help.hpp"
 #include "app/labs/signal/scene.hpp"
 #include "app/widgets/curve_editor.hpp"
 #include "app/widgets/fields.hpp"
@@ -37,9 +38,10 @@ void number_row(const signal::Filter& filter, const signal::Parameter& parameter
     const float speed =
         parameter.logarithmic ? std::max(0.01f * std::abs(value), 1e-4f) : 0.005f * (high - low);
     // What is beyond the useful range can be typed.
-    if (!number_field(title.c_str(), value, speed, std::min(low, value), std::max(high, value),
-                      format_of(parameter).c_str()))
-        return;
+    const bool changed = number_field(title.c_str(), value, speed, std::min(low, value),
+                                      std::max(high, value), format_of(parameter).c_str());
+    explain(parameter_help(signal::kind(filter), parameter.name));
+    if (!changed) return;
     ArgumentValue argument(value);
     if (parameter.element >= 0) {
         Json pair = parameters_json(filter).at(std::string(parameter.name));
@@ -62,11 +64,17 @@ void spring_rows(const signal::Spring<>& spring, std::size_t at, Emit& emit) {
         float half_life = static_cast<float>(feel.half_life);
         if (number_field("half-life", half_life, 0.002f, 0.001f, 10.0f, "%.3f s"))
             set(signal::of_half_life(static_cast<double>(half_life), spring.critical_damping));
+        explain("The same spring by the time until half of the way is left. Sets strength; damping stays.");
     }
     if (std::isfinite(feel.duration)) {
         float duration = static_cast<float>(feel.duration), bounce = static_cast<float>(feel.bounce);
         bool changed = number_field("duration", duration, 0.005f, 0.01f, 10.0f, "%.3f s");
+        explain("The same spring by the time of one swing without damping. Sets strength.");
         changed |= number_field("bounce", bounce, 0.005f, -0.9f, 1.0f, "%.3f");
+        explain(
+            "How much the spring overshoots: 0 does not, 1 swings for ever, less than 0 is sluggish. Sets "
+            "the "
+            "damping.");
         if (changed) set(signal::of_duration(static_cast<double>(duration), static_cast<double>(bounce)));
     }
 }
@@ -87,6 +95,7 @@ void parameter_rows(const SignalPart& part, const Palette& palette, Emit& emit) 
         bool on = parameter.get(filter) != 0.0;
         if (ImGui::Checkbox(words(parameter.name).c_str(), &on))
             emit("signal.filter.set", {{"at", at}, {std::string(parameter.name), on}});
+        explain(parameter_help(signal::kind(filter), parameter.name));
     }
     if (const auto* spring = std::get_if<signal::Spring<>>(&filter)) spring_rows(*spring, at, emit);
     if (const auto* curve = std::get_if<signal::Curve>(&filter)) {

@@ -109,6 +109,7 @@ void node_chooser(const HumanoidPanel& panel) {
         end_search();
     }
     ImGui::EndDisabled();
+    explain("Which node of the character is the chosen bone. Type a part of its name to find it.");
 }
 
 }  // namespace

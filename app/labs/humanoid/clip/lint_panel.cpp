@@ -113,6 +113,9 @@ void export_rows(const HumanoidPanel& panel) {
 void map_rows(const HumanoidPanel& panel) {
     auto& state = panel.runtime.panel;
     text_field("map file", state.map_file, "bones.json");
+    explain(
+        "A file of this bone map, to save to or load from: it suits every character with the same node "
+        "names.");
     if (row_button("Save map", 2, !state.map_file.empty(), "To the file; an existing one is replaced"))
         panel.emit("humanoid.map.save", {{"path", state.map_file}});
     if (row_button("Load map", 2, !state.map_file.empty(), "From the file"))

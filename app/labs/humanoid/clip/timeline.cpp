@@ -67,7 +67,10 @@ void clip_strip(const HumanoidPanel& panel) {
     int tick = std::clamp(static_cast<int>(std::lround(playback.time / tick_seconds)), 0, ticks);
     const TimeStrip strip{
         .ticks = ticks, .seconds = tick_seconds, .known = ticks, .bars = lint_marks(panel, ticks)};
-    if (time_strip("clip", tick, strip).moved) {
+    const TimeStripUse use = time_strip("clip", tick, strip);
+    if (use.hovered >= 0 && !ImGui::IsItemActive())
+        tell_strip("The clip. Drag shows it at that time; the marks are what Motion lint has found.");
+    if (use.moved) {
         const double time = std::min(tick * tick_seconds, duration);
         panel.emit.continuously("humanoid.clip",
                                 {{"time", since_begin(playback, duration, time)}, {"play", false}});

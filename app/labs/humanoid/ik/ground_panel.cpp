@@ -29,7 +29,9 @@ void shape_rows(const HumanoidPanel& panel) {
          depth = static_cast<float>(100.0 * ground.step_depth);
     if (number_field("step height", height, 0.1f, -200.0f, 200.0f, "%.1f cm"))
         set("step_height", 0.01f * height);
+    explain("How high each stair rises above the one before; stairs go down where it is negative.");
     if (number_field("step depth", depth, 0.1f, 5.0f, 1000.0f, "%.1f cm")) set("step_depth", 0.01f * depth);
+    explain("How long each stair is, along +Z.");
 }
 
 /// What each foot does, or why it is left alone.
@@ -59,6 +61,7 @@ void ground_rows(const HumanoidPanel& panel) {
     std::string path = ik.ground.mesh ? ik.ground.mesh->path : std::string();
     if (text_field("mesh file", path, "a .gltf or .glb file") && !path.empty())
         panel.emit("humanoid.ground", {{"kind", "mesh"}, {"path", path}});
+    explain("A file whose triangles become the ground. Enter reads it.");
     shape_rows(panel);
     bool on = ik.foot_ik.on;
     const std::string& why = panel.runtime.solvers.why_no_feet(panel.part);

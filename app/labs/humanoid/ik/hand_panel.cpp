@@ -23,8 +23,9 @@ void curve_fields(const HumanoidPanel& panel, std::size_t hand, const HandCurve&
     if (number_field((side + " from").c_str(), begin, 0.005f, 0.0f, full, "%.2f s")) set("begin", begin);
     explain("Until then the hand is the clip's.");
     if (number_field((side + " full from").c_str(), full, 0.005f, begin, until, "%.2f s")) set("full", full);
+    explain("From then on the hand is on its target.");
     if (number_field((side + " full to").c_str(), until, 0.005f, full, end, "%.2f s")) set("until", until);
-    explain("Between these two the hand is on its target.");
+    explain("Until then the hand is on its target; afterwards it goes back to the clip.");
     if (number_field((side + " to").c_str(), end, 0.005f, until, far, "%.2f s")) set("end", end);
     explain("From then on the hand is the clip's.");
 }
@@ -69,6 +70,7 @@ void hand_rows(const HumanoidPanel& panel) {
     auto weight = static_cast<float>(ik.look_at.weight);
     if (number_field("gaze weight", weight, 0.01f, 0.0f, 1.0f, "%.2f"))
         panel.emit.continuously("humanoid.look_at", {{"weight", weight}});
+    explain("How far spine, neck and head turn to the orange ball. 0: as in the clip. 1: all the way.");
     const ShownPose& shown = panel.runtime.shown(panel.workspace);
     if (shown.look && !shown.look->in_view) note("It is out of the cone of view.");
 }

@@ -1,0 +1,81 @@
+// What a row of a panel means, while the mouse rests on it: its text, and the range and the unit of its
+// field.
+#include <imgui.h>
+#include <imgui_internal.h>  // GetItemID() is not public in every version
+
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+#include "app/document/units.hpp"
+#include "app/widgets/expression.hpp"
+#include "app/widgets/fields.hpp"
+#include "app/widgets/number_entry.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr double endless = 1e6;  ///< a range that ends here or beyond only keeps numbers finite
+
+/// "0.25", "1000": no zeros at the end.
+std::string plain_number(double value) {
+    std::string text = fixed_text(value, 6);
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+    return text;
+}
+
+/// " m", "°": as it stands behind a number.
+std::string behind(std::string unit) {
+    unit = unit.substr(0, unit.find(','));  // "°/s, no limit"
+    if (unit == "deg") unit = "degrees";
+    return unit.empty() || unit.starts_with("\xC2\xB0") ? unit : ' ' + unit;
+}
+
+/// " 0 to 10 m."; nothing where any number is allowed.
+std::string range_text(const RowAbove& row) {
+    const std::string unit = behind(unit_of(row.format.data()));
+    const bool low = row.low > -endless, high = row.high < endless;
+    if (low && high) return ' ' + plain_number(row.low) + " to " + plain_number(row.high) + unit + '.';
+    if (low) return ' ' + plain_number(row.low) + unit + " or more.";
+    if (high) return ' ' + plain_number(row.high) + unit + " or less.";
+    if (unit.empty()) return {};
+    return unit == " m" ? " In metres." : " In " + unit.substr(unit.find_first_not_of(' ')) + '.';
+}
+
+/// Whether the last item is a field of that row, or stands in it behind the field.
+bool in_row(const RowAbove& row) {
+    const ImVec2 at = ImGui::GetItemRectMin();
+    return row.frame == ImGui::GetFrameCount() && at.x > row.field.x - 0.5f &&
+           std::abs(at.y - row.field.y) < 0.5f * ImGui::GetTextLineHeight();
+}
+
+}  // namespace
+
+void explain(const char* text) {
+    const NumberEditing& numbers = *static_cast<const NumberEditing*>(ImGui::GetIO().UserData);
+    const RowAbove& row = numbers.row;
+    const bool of_row = in_row(row);
+    ImVec2 low = ImGui::GetItemRectMin();
+    // A text that is only read has its name to the left of it; a box has its name in it.
+    if (of_row)
+        low = {row.from.x, row.from.y};
+    else if (ImGui::GetItemID() == 0)
+        low.x = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMin().x;
+    if (!ImGui::IsWindowHovered() || !ImGui::IsMouseHoveringRect(low, ImGui::GetItemRectMax())) return;
+    // Whoever drags or types looks at what comes of it.
+    if (ImGui::IsMouseDown(ImGuiMouseButton_Left) || numbers.id != 0) return;
+    std::string whole = text;
+    if (whole.empty()) return;
+    if (of_row && row.has_range) {
+        if (whole.back() != '.') whole += '.';
+        whole += range_text(row);
+    }
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(22.0f * ImGui::GetFontSize());
+    ImGui::TextUnformatted(whole.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,83 @@
+// The unit and the range of a field, as they follow its explanation.
+#include <gtest/gtest.h>
+
+#include "app/widgets/fields.hpp"
+#include "tests/app/support/tooltips.hpp"
+
+namespace tendril::app {
+namespace {
+
+class Explained : public testing::Test {
+  protected:
+    /// The tooltip at a place of a panel with that row alone.
+    template <class Row>
+    std::string at(glm::vec2 mouse, const Row& row) {
+        const auto draw = [&] {
+            row();
+            explain("What it does.");
+        };
+        const std::string all = finder_.read(draw, mouse);
+        const std::size_t begin = all.find("What it does.");
+        return begin == all.npos ? "" : all.substr(begin, all.find_first_of("\r\n", begin) - begin);
+    }
+    std::string of_number(float low, float high, const char* format) {
+        return at(field, [&] {
+            float value = 0.5f;
+            number_field("value", value, 0.1f, low, high, format);
+        });
+    }
+
+    static constexpr glm::vec2 name{20.0f, 20.0f}, field{200.0f, 20.0f}, below{200.0f, 200.0f};
+    test::TooltipFinder finder_;
+};
+
+TEST_F(Explained, EndsWithTheRangeAndTheUnitOfTheField) {
+    EXPECT_EQ(of_number(0.0f, 10.0f, "%.3f m"), "What it does. 0 to 10 m.");
+    EXPECT_EQ(of_number(0.1f, 0.25f, "%.2f"), "What it does. 0.1 to 0.25.");
+    EXPECT_EQ(of_number(-180.0f, 180.0f, "%.0f deg"), "What it does. -180 to 180 degrees.");
+    EXPECT_EQ(of_number(0.0f, 80.0f, "%.0f\u00b0"), "What it does. 0 to 80\u00b0.");
+    EXPECT_EQ(of_number(0.0f, 100.0f, "%.0f %%"), "What it does. 0 to 100 %.");
+    EXPECT_EQ(of_number(0.0f, 1e9f, "%.1f\u00b0/s, no limit"), "What it does. 0\u00b0/s or more.");
+    EXPECT_EQ(of_number(-1e9f, 1e9f, "%.3f m"), "What it does. In metres.");
+    EXPECT_EQ(of_number(-1e9f, 1e9f, "%.3f"), "What it does.");
+}
+
+TEST_F(Explained, WholeNumbersHaveARangeToo) {
+    int value = 3;
+    EXPECT_EQ(at(field, [&] { integer_field("value", value, 1, 8); }), "What it does. 1 to 8.");
+    EXPECT_EQ(at(field, [&] { integer_slider("value", value, 0, 7); }), "What it does. 0 to 7.");
+}
+
+TEST_F(Explained, IsShownAtTheNameAsWellAndNowhereElse) {
+    float value = 0.5f;
+    const auto row = [&] { number_field("value", value, 0.1f, 0.0f, 1.0f, "%.3f"); };
+    EXPECT_EQ(at(name, row), "What it does. 0 to 1.");
+    EXPECT_EQ(at(below, row), "");
+}
+
+TEST_F(Explained, IsAboutAllThreeOfAPoint) {
+    glm::vec3 point(0.0f);
+    for (const float y : {20.0f, 50.0f, 80.0f}) {
+        EXPECT_EQ(at({200.0f, y}, [&] { point_field("at", point, 0.1f, 5.0f); }), "What it does. -5 to 5 m.");
+    }
+    const auto vector = [&] {
+        vector_field("by", point, 0.1f, glm::vec3(0.0f), glm::vec3(1.0f, 2.0f, 3.0f), "%.3f");
+    };
+    for (const float x : {20.0f, 150.0f, 280.0f})
+        EXPECT_EQ(at({x, 45.0f}, vector), "What it does.") << "each has a range of its own";
+}
+
+TEST_F(Explained, ARowWithoutANumberHasNoRange) {
+    const char* const titles[] = {"one", "two"};
+    int chosen = 0;
+    float value = 0.5f;
+    const auto rows = [&] {
+        choice_field("choice", chosen, titles, 2);
+        explain("What it does.");
+        number_field("value", value, 0.1f, 0.0f, 1.0f, "%.3f");
+    };
+    EXPECT_EQ(at(field, rows), "What it does.");
+}
+
+}  // namespace
+}  // namespace tendril::app
