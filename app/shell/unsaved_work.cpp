@@ -18,8 +18,9 @@ void show_recovery(const ShellFrame& frame, Emit& emit) {
     explain(offers.front().file.string().c_str());
     ImGui::Spacing();
     const ArgumentList path{{"path", offers.front().file.string()}};
-    if (row_button("Recover it", 2)) emit("scene.recover", path);
-    if (row_button("Delete it", 2)) emit("scene.discard", path);
+    if (row_button("Recover it", 2, true, "Opens the scene that was not saved")) emit("scene.recover", path);
+    if (row_button("Delete it", 2, true, "Deletes this work for good; the scene that is open stays"))
+        emit("scene.discard", path);
     ImGui::End();
 }
 
