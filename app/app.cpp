@@ -83,7 +83,11 @@ void App::settle() {
 }
 
 void App::start_recording() {
-    // Who plays it has no past to go back to.
+    // Who plays it has no past to go back to, and of the open lab what a scene holds.
+    const std::shared_ptr<const Part> part = workspace_.document.parts().at(workspace_.lab);
+    const bool modified = workspace_.modified();
+    workspace_.document.set(workspace_.lab, part->load(part->save(), workspace_.lab));
+    if (!modified) workspace_.saved = workspace_.document;
     workspace_.rewind.clear();
     workspace_.moment = 0;
     workspace_.ui.incident.reset();
@@ -261,8 +265,10 @@ void App::take_picture() {
 void App::run_command(const std::string& name, const Json& arguments, Gesture gesture) {
     const std::string open = workspace_.lab;
     const std::shared_ptr<const Part> before = workspace_.document.parts().at(open);
+    const std::uint64_t beginnings = workspace_.beginnings;
     commands_->run(workspace_, name, arguments, gesture);
-    if (workspace_.lab == open && commands_->find(name)->effect == Effect::Edit) review(before);
+    const bool same_scene = workspace_.lab == open && workspace_.beginnings == beginnings;
+    if (same_scene && commands_->find(name)->effect == Effect::Edit) review(before, workspace_.moment);
 }
 
 void App::run(const RunCommand& command) {
@@ -331,11 +337,12 @@ Json App::told_state() const {
                      {"seconds", lab().seconds(workspace_)}};
     state["events"] = Json::array();
     for (const Incident& incident : workspace_.rewind.incidents())
-        state["events"].push_back({{"tick", incident.tick},
-                                   {"joint", incident.joint},
-                                   {"kind", name(incident.kind)},
-                                   {"degrees", number(incident.degrees)},
-                                   {"cause", incident.cause}});
+        state["events"].push_back(
+            {{"tick", incident.tick},
+             {"joint", incident.joint == no_joint ? Json(nullptr) : Json(incident.joint)},
+             {"kind", name(incident.kind)},
+             {"degrees", number(incident.degrees)},
+             {"cause", incident.cause}});
     // Of changes by hand alone there is something to say once one looks back at them.
     const bool looks_back = !workspace_.rewind.empty() && workspace_.moment < workspace_.rewind.newest();
     if (looks_back || (!workspace_.rewind.empty() && clock.tick > 0)) {

@@ -77,7 +77,7 @@ class App final : public Stage {
     void run_emitted(Emit& emit);
     void run_command(const std::string& name, const Json& arguments, Gesture gesture);
     void note_refusal(const std::string& why);
-    void review(const std::shared_ptr<const Part>& before);
+    void review(const std::shared_ptr<const Part>& before, std::uint64_t moment);
     /// Writes the picture that was asked for. Throws Refused where it cannot.
     void take_picture();
     void advance_time();

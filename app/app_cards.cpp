@@ -14,7 +14,11 @@ const Card* App::shown_card() const {
 void App::watch_shown_card() {
     if (const Card* const card = shown_card())
         watch_card(workspace_.ui.cards[workspace_.lab], *card, workspace_.document.parts().at(workspace_.lab),
-                   [this] { return told_state(); });
+                   [this] {
+                       Json state = told_state();
+                       state["time"]["moment"] = workspace_.moment;  // as events count
+                       return state;
+                   });
 }
 
 bool App::card_is_due() const {

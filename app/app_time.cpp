@@ -7,11 +7,11 @@
 namespace tendril::app {
 
 /// Notes what the open lab has to say about its change.
-void App::review(const std::shared_ptr<const Part>& before) {
+void App::review(const std::shared_ptr<const Part>& before, std::uint64_t moment) {
     const auto& after = workspace_.document.parts().at(workspace_.lab);
     if (before == after) return;
     for (Incident& incident : lab().review(*before, *after)) {
-        incident.tick = workspace_.moment;
+        incident.tick = moment;
         workspace_.rewind.note(std::move(incident));
     }
 }
@@ -23,27 +23,37 @@ void App::note_refusal(const std::string& why) {
 
 void App::step_lab() {
     Clock& clock = workspace_.clock;
-    if (lab().moving(workspace_)) {
-        workspace_.remember_moment();
+    if (!lab().moving(workspace_)) {
+        workspace_.pass_change();
+    } else {
+        // One moment a tick, as it was before a hand changed it too.
+        if (workspace_.rewind.changed()) {
+            workspace_.rewind.remember_change(workspace_.moment, clock.tick);
+        } else {
+            workspace_.remember_moment();
+        }
+        ++workspace_.moment;
         const auto before = workspace_.document.parts().at(workspace_.lab);
         lab().step(workspace_);
-        review(before);
-    } else {
-        workspace_.rewind.remember_change(workspace_.moment, clock.tick);
+        review(before, workspace_.moment - 1);
     }
     ++clock.tick;
-    ++workspace_.moment;
     clock.passed += static_cast<double>(clock.speed);
     clock.steps_due = std::max(0, clock.steps_due - 1);
 }
 
-/// On to the next moment that is remembered, by speed.
+/// On to the moment that is remembered nearest, by speed.
 void App::replay() {
     Clock& clock = workspace_.clock;
-    const int by = clock.whole_ticks();
+    const Rewind& rewind = workspace_.rewind;
+    if (rewind.empty()) {
+        clock.replaying = false;
+        return;
+    }
+    clock.replayed += static_cast<std::uint64_t>(clock.whole_ticks());
     clock.passed += static_cast<double>(clock.speed);
-    const std::uint64_t newest = workspace_.rewind.newest();
-    const std::uint64_t to = std::min(newest, workspace_.moment + static_cast<std::uint64_t>(by));
+    const std::uint64_t newest = rewind.newest();
+    const std::uint64_t to = std::min(newest, clock.replayed);
     workspace_.go_to_moment(newest - to);
     if (to == newest) clock.replaying = false;
 }

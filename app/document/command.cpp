@@ -197,6 +197,7 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
     const Place from = workspace.place();
     workspace.gesture_begins = !workspace.history.is_open(gesture);
     const bool modified = workspace.modified();
+    const std::uint64_t beginnings = workspace.beginnings;
     try {
         command->apply(workspace, Arguments(arguments));
     } catch (const std::exception& error) {
@@ -209,7 +210,7 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
     if (command->effect == Effect::Edit) {
         workspace.rewind.forget_from(workspace.moment);  // what came of it, as it was before, came not
         if (const auto& part = before.parts().at(workspace.lab);
-            part != workspace.document.parts().at(workspace.lab))
+            beginnings == workspace.beginnings && part != workspace.document.parts().at(workspace.lab))
             workspace.rewind.begin_change(workspace.edition, part);
         ++workspace.edition;
         workspace.ui.incident.reset();

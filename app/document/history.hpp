@@ -39,6 +39,8 @@ class History {
     std::optional<Document> undo(const Document& current, Place* place = nullptr);
     std::optional<Document> redo(const Document& current, Place* place = nullptr);
     void clear();
+    /// Forgets the last change, as if it had been none.
+    void forget_last() { take(past_); }
 
     /// Whether undo would bring back these very parts.
     bool leads_to(const Document& parts) const { return !past_.empty() && past_.back().document == parts; }

@@ -8,6 +8,8 @@
 
 namespace tendril::app {
 
+inline constexpr auto no_joint = static_cast<std::size_t>(-1);
+
 struct Incident {
     enum class Kind {
         Flip,     ///< a joint jumped
@@ -16,10 +18,10 @@ struct Incident {
         Status    ///< a solve ended otherwise than the one before, or what was asked for was refused
     };
     Kind kind = Kind::Status;
-    std::uint64_t tick = 0;  ///< between the moment of this tick and the next
-    std::size_t joint = 0;
-    float degrees = 0.0f;  ///< that a bone at it turned; where it stops, for a limit; else 0
-    std::string cause;     ///< for people: "the chain was straight (collinear)"
+    std::uint64_t tick = 0;        ///< between the moment of this tick and the next
+    std::size_t joint = no_joint;  ///< none of what was refused
+    float degrees = 0.0f;          ///< that a bone at it turned; where it stops, for a limit; else 0
+    std::string cause;             ///< for people: "the chain was straight (collinear)"
 };
 
 /// As --state has it.

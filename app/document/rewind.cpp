@@ -22,7 +22,7 @@ void Rewind::remember(std::uint64_t tick, std::uint64_t edition, std::shared_ptr
 void Rewind::forget_from(std::uint64_t tick) {
     // Where there is nothing to forget, nobody went back in time: what has just happened at this tick stays.
     if (!moments_.empty() && newest() >= tick)
-        while (!incidents_.empty() && incidents_.back().tick >= tick) incidents_.pop_back();
+        std::erase_if(incidents_, [tick](const Incident& each) { return each.tick >= tick; });
     while (!moments_.empty() && moments_.back().tick >= tick) drop_last();
     if (moments_.empty()) stride_ = 1;
 }
@@ -46,8 +46,16 @@ void Rewind::remember_change(std::uint64_t tick, std::uint64_t clock) {
 }
 
 void Rewind::note(Incident incident) {
-    if (incidents_.size() == most_incidents) incidents_.pop_front();
-    incidents_.push_back(std::move(incident));
+    if (incidents_.size() == most_incidents) {
+        const auto less = std::find_if(incidents_.begin(), incidents_.end(), [](const Incident& each) {
+            return each.kind != Incident::Kind::Flip;
+        });
+        incidents_.erase(less == incidents_.end() ? incidents_.begin() : less);
+    }
+    const auto behind =
+        std::upper_bound(incidents_.begin(), incidents_.end(), incident.tick,
+                         [](std::uint64_t tick, const Incident& each) { return tick < each.tick; });
+    incidents_.insert(behind, std::move(incident));
 }
 
 const Rewind::Moment& Rewind::at(std::uint64_t ticks_back) const {

@@ -42,7 +42,7 @@ class Rewind {
     /// Remembers what the change began from.
     void remember_change(std::uint64_t tick, std::uint64_t clock = 0);
 
-    /// The oldest goes where there are too many, or ten seconds have passed.
+    /// Where there are too many, the oldest goes that is no flip; after ten seconds, each.
     void note(Incident incident);
     const std::deque<Incident>& incidents() const { return incidents_; }
 

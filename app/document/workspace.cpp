@@ -19,9 +19,12 @@ void Workspace::open_lab(const std::string& name) {
     camera = seen != cameras.end() ? seen->second : first_view_of(name);
     rewind.clear();
     ui.incident.reset();
+    clock.replaying = false;
 }
 
 void Workspace::start_anew() {
+    ++beginnings;
+    clock.replaying = false;
     clock.tick = 0;
     moment = 0;
     clock.passed = 0.0;
@@ -54,6 +57,11 @@ void Workspace::go_to_moment(std::uint64_t ticks_back) {
         Document before;
         before.set(lab, newest.part);
         if (!history.leads_to(before)) history.push(before, "time.seek", 0, place(), place());
+    } else if (then.edition == newest.edition) {
+        // Back where one came from, there is nothing to undo of it.
+        Document here;
+        here.set(lab, newest.part);
+        if (history.undo_label() == "time.seek" && history.leads_to(here)) history.forget_last();
     }
     const bool over_a_change = edition != then.edition;
     moment = then.tick;

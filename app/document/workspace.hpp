@@ -23,12 +23,13 @@ inline constexpr double tick_seconds = 1.0 / 60.0;
 
 struct Clock {
     bool playing = true;
-    std::uint64_t tick = 0;  ///< simulated ticks so far
-    int steps_due = 0;       ///< ticks to take at once, though paused
-    float speed = 1.0f;      ///< slow motion: seconds that pass in a lab in a second of time
-    double passed = 0.0;     ///< ticks that have passed in the labs, by speed
-    bool replaying = false;  ///< the last seconds are shown again, at this speed
-    bool measured = false;   ///< what simulating takes is measured: in a live window, where it does no harm
+    std::uint64_t tick = 0;      ///< simulated ticks so far
+    int steps_due = 0;           ///< ticks to take at once, though paused
+    float speed = 1.0f;          ///< slow motion: seconds that pass in a lab in a second of time
+    double passed = 0.0;         ///< ticks that have passed in the labs, by speed
+    bool replaying = false;      ///< the last seconds are shown again, at this speed
+    std::uint64_t replayed = 0;  ///< up to this moment
+    bool measured = false;  ///< what simulating takes is measured: in a live window, where it does no harm
 
     /// Of a lab that moves by whole ticks: how many pass in the next one.
     int whole_ticks() const;
@@ -87,7 +88,9 @@ struct Workspace {
     std::map<std::string, CameraPose> cameras;  ///< of the labs that were open before
     Clock clock;
     Rewind rewind;
-    std::uint64_t moment = 0;   ///< counts what rewind remembers: ticks that were simulated, and changes by hand
+    std::uint64_t beginnings = 0;  ///< counts the scenes that began: new ones, and those that were opened
+    std::uint64_t moment =
+        0;  ///< counts what rewind remembers: ticks that were simulated, and changes by hand
     std::uint64_t edition = 0;  ///< which of the changes that can be undone was the last; counted
     History history;
     bool gesture_begins = true;  ///< the command that runs is alone, or the first of its drag

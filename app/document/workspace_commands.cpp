@@ -7,9 +7,16 @@ namespace {
 
 void step_through(Workspace& workspace, bool back) {
     Place place = workspace.place();
+    const bool present = !workspace.rewind.empty() && workspace.moment > workspace.rewind.newest();
     auto document = back ? workspace.history.undo(workspace.document, &place)
                          : workspace.history.redo(workspace.document, &place);
     if (!document) throw Refused(back ? "nothing to undo" : "nothing to redo");
+    if (present) {  // how it was stays remembered
+        workspace.remember_moment();
+        ++workspace.moment;
+    }
+    workspace.clock.replaying = false;
+    workspace.ui.incident.reset();
     workspace.document = std::move(*document);
     const auto parts = workspace.document.parts();
     for (const auto& [lab, part] : parts) {
@@ -57,6 +64,7 @@ void replay(Workspace& w) {
     w.go_to_moment(w.moment == newest ? newest - w.rewind.oldest() : newest - w.moment);
     w.ui.incident.reset();
     w.clock.replaying = true;
+    w.clock.replayed = w.moment;
 }
 
 /// To the moment after an incident, with the one before it drawn over it.
@@ -88,6 +96,7 @@ void add_time_commands(CommandTable& table) {
     const auto run = [](Workspace& w, bool playing) {
         w.clock.playing = playing;
         w.clock.replaying = false;
+        if (playing) w.ui.incident.reset();
     };
     add("time.play", "Runs the simulation", [run](Workspace& w) { run(w, true); });
     add("time.pause", "Pauses the simulation, or what is shown again",
@@ -116,11 +125,15 @@ void add_time_commands(CommandTable& table) {
          .help =
              "Pauses and goes back to an earlier moment, from which time continues. Going back over a change "
              "can be undone",
-         .effect = Effect::Look,
+         .effect = Effect::Replace,
          .apply = seek});
-    add("time.replay",
-        "Shows the last ten seconds again, from the moment that is shown or, at the last one, from the first",
-        replay);
+    table.add(
+        {.name = "time.replay",
+         .arguments = {},
+         .help = "Shows the last ten seconds again, from the moment that is shown or, at the last one, from "
+                 "the first",
+         .effect = Effect::Replace,
+         .apply = [](Workspace& w, const Arguments&) { replay(w); }});
     table.add({.name = "time.incident",
                .arguments = {{.name = "number",
                               .type = ArgumentType::Integer,
@@ -130,7 +143,7 @@ void add_time_commands(CommandTable& table) {
                               .high = Rewind::most_incidents - 1}},
                .help = "Goes to a moment at which a joint jumped, and shows what was before it and what came "
                        "of it",
-               .effect = Effect::Look,
+               .effect = Effect::Replace,
                .apply = show_incident});
 }
 

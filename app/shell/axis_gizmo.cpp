@@ -85,7 +85,12 @@ void show_axis_gizmo(const ShellFrame& frame, Emit& emit) {
     for (const End& end : ends) {
         const Axis& axis = axes[end.axis];
         bool hovered = false;
-        if (end_button(end, radius, hovered)) emit("camera.view", {{"name", axis.view}});
+        // What is nearer takes the click.
+        const bool hidden = std::any_of(ends.begin(), ends.end(), [&](const End& other) {
+            return other.depth > end.depth &&
+                   glm::distance(glm::vec2(other.at.x, other.at.y), glm::vec2(end.at.x, end.at.y)) < radius;
+        });
+        if (!hidden && end_button(end, radius, hovered)) emit("camera.view", {{"name", axis.view}});
         if (hovered) {
             list->AddCircleFilled({centre.x, centre.y}, reach + 1.7f * radius, imgui_u32(colours.text, 0.05f),
                                   48);

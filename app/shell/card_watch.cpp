@@ -9,7 +9,8 @@ namespace {
 
 /// The state of a large part takes long to write: one byte of it in so many waits a tick.
 constexpr std::size_t bytes_a_tick = 8192;
-constexpr std::uint64_t longest_wait = 60;
+/// And that of one that is larger still is not looked at.
+constexpr std::size_t most_bytes = 1u << 20;
 
 constexpr const char* events_path = "events";
 
@@ -29,7 +30,7 @@ double newest_event(const Json& state) {
 
 /// Whether something of the kind was noted since the card was shown.
 bool has_event(const CardProgress& progress, const Json& state, const std::string& kind) {
-    const Json now = value_at(state, "time.tick"), events = value_at(state, "events");
+    const Json now = value_at(state, "time.moment"), events = value_at(state, "events");
     double last = progress.start.at(events_path)->get<double>();
     if (now.is_number() && now.get<double>() < last) last = -1.0;  // time began anew
     return std::any_of(events.begin(), events.end(), [&](const Json& each) {
@@ -66,6 +67,7 @@ void begin(CardProgress& progress, const Card& card, const Json& state) {
 void watch_card(CardProgress& progress, const Card& card, const std::shared_ptr<const Part>& part,
                 const std::function<Json()>& state) {
     if (progress.ticks_to_wait > 0) --progress.ticks_to_wait;
+    if (part->bytes() > most_bytes) return;
     const bool fresh = progress.done.empty();
     if (!fresh && (!card_waits(progress, part) || progress.ticks_to_wait > 0)) return;
     const Json now = state();
@@ -78,12 +80,12 @@ void watch_card(CardProgress& progress, const Card& card, const std::shared_ptr<
         });
     }
     progress.seen = part;
-    progress.ticks_to_wait = std::min<std::uint64_t>(1 + part->bytes() / bytes_a_tick, longest_wait);
+    progress.ticks_to_wait = 1 + part->bytes() / bytes_a_tick;
 }
 
 bool card_waits(const CardProgress& progress, const std::shared_ptr<const Part>& part) {
     const bool all = std::all_of(progress.done.begin(), progress.done.end(), [](bool done) { return done; });
-    return progress.seen != part && (!all || progress.done.empty());
+    return progress.seen != part && part->bytes() <= most_bytes && (!all || progress.done.empty());
 }
 
 std::size_t current_step(const CardProgress& progress, const Card& card) {

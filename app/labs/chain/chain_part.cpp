@@ -81,14 +81,13 @@ void keep_step(ChainPart& part, ChainRuntime& runtime) {
         part.study.step = std::min(part.study.step, trace->frames());
 }
 
-/// With the joint selected that is selected now, and flips counted as they are now.
+/// With the joint selected that is selected now.
 std::shared_ptr<const Part> ChainPart::at_moment(std::shared_ptr<const Part> then) const {
     const auto& earlier = dynamic_cast<const ChainPart&>(*then);
     const auto selection = selected && *selected < earlier.chain.size() ? selected : std::nullopt;
-    if (selection == earlier.selected && flips == earlier.flips) return then;
+    if (selection == earlier.selected) return then;
     auto part = std::make_shared<ChainPart>(earlier);
     part->selected = selection;
-    part->flips = flips;
     return part;
 }
 

@@ -42,6 +42,7 @@ void draw_ghosts(const View& view, const ChainPart& part, DrawList& list) {
     for (const Rewind::Moment& moment : past.moments()) {
         if (moment.tick % apart != 0) continue;
         const auto segments = dynamic_cast<const ChainPart&>(*moment.part).chain.segments();
+        if (segments.size() > max_studied_segments) continue;
         const auto age =
             static_cast<float>(past.newest() - moment.tick) / static_cast<float>(Rewind::most_ticks);
         const glm::vec4 colour = faded(view.palette, view.palette.ghost, 0.75f - 0.55f * age);

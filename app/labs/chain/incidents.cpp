@@ -6,6 +6,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/document/units.hpp"
+#include "app/labs/chain/verdict.hpp"
 
 namespace tendril::app {
 namespace {
@@ -122,10 +123,14 @@ Move move_of(const ChainPart& before, const ChainPart& after) {
     return move;
 }
 
-/// Whether the line from root to target passed the pole target, on either side of the root, or came close to
-/// it: there the plane that the chain bends in has no direction.
-bool passed_pole(const Move& move, const ChainPart& before, const ChainPart& after) {
-    if (!before.reach.pole || !after.reach.pole) return false;
+/// Where the line from root to target passes the pole target, on either side of the root, the plane that the
+/// chain bends in has no direction.
+struct PolePassage {
+    bool passed = false;  ///< between the two
+    bool close = false;   ///< it is near the pole at one of them
+};
+PolePassage pole_passage(const Move& move, const ChainPart& before, const ChainPart& after) {
+    if (!before.reach.pole || !after.reach.pole) return {};
     constexpr float close = 0.17f;  // radians, ten degrees
     const glm::vec3 was = glm::cross(move.from - move.root, *before.reach.pole - move.root);
     const glm::vec3 is = glm::cross(move.to - move.root, *after.reach.pole - move.root);
@@ -133,8 +138,8 @@ bool passed_pole(const Move& move, const ChainPart& before, const ChainPart& aft
         const float angle = angle_between(target - move.root, pole - move.root);
         return std::min(angle, glm::pi<float>() - angle);
     };
-    return glm::dot(was, is) < 0.0f ||
-           std::min(off(move.from, *before.reach.pole), off(move.to, *after.reach.pole)) < close;
+    return {glm::dot(was, is) < 0.0f,
+            std::min(off(move.from, *before.reach.pole), off(move.to, *after.reach.pole)) < close};
 }
 
 /// The first cause that holds; the sentence says no more than what is known.
@@ -142,11 +147,13 @@ std::string cause_of(const Move& move, const ChainPart& before, const ChainPart&
     constexpr float near_root = 0.02f, straight = 0.02f;  // of the reach
     if (distance_to(move.root, move.from, move.to) < near_root * move.reach)
         return "the target went through the root";
-    if (passed_pole(move, before, after)) return "the target's line passed the pole";
+    const PolePassage pole = pole_passage(move, before, after);
+    if (pole.passed) return "the target's line passed the pole";
     if (after.result->report.restarts > 0) return "the solver restarted from another pose";
     if (limit_switched(before, after)) return "a limit switched sides";
     if (std::min(bend(before.chain), bend(after.chain)) < straight * move.reach)
         return "the chain was straight (collinear)";
+    if (pole.close) return "the target's line came close to the pole";
     return "the solver went over to another pose that the target allows";
 }
 
@@ -162,6 +169,12 @@ std::optional<Incident> flip(const ChainPart& before, const ChainPart& after) {
                     .joint = turn.joint,
                     .degrees = glm::degrees(turn.angle),
                     .cause = cause_of(move, before, after)};
+}
+
+/// "Out of reach: the target is out of reach, ...", in the words of the verdict.
+std::string status_cause(const ChainPart& part) {
+    const std::string verdict = chain_verdict(part).text;
+    return verdict.substr(0, verdict.find(':')) + ": " + status_help(part.result->report.status);
 }
 
 /// The same chain under the same rules: what changed came of target and pole target.
@@ -187,7 +200,7 @@ std::vector<Incident> chain_incidents(const ChainPart& before, const ChainPart& 
     const ik::Report& report = after.result->report;
     if (auto jumped = flip(before, after)) {
         incidents.push_back(std::move(*jumped));
-    } else if (report.restarts > 0) {
+    } else if (report.restarts > 0 && before.result && before.result->report.restarts == 0) {
         incidents.push_back({.kind = Incident::Kind::Restart,
                              .joint = after.chain.size() - 1,
                              .cause = "the solver restarted from " +
@@ -204,9 +217,7 @@ std::vector<Incident> chain_incidents(const ChainPart& before, const ChainPart& 
                              .cause = active_limit_text(*limit)});
     } else if (before.result && before.result->report.status != report.status) {
         incidents.push_back(
-            {.kind = Incident::Kind::Status,
-             .joint = after.chain.size() - 1,
-             .cause = std::string(ik::name(report.status)) + ": " + status_help(report.status)});
+            {.kind = Incident::Kind::Status, .joint = after.chain.size() - 1, .cause = status_cause(after)});
     }
     return incidents;
 }

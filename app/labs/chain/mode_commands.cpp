@@ -113,8 +113,7 @@ void add_mode_commands(CommandTable& table) {
          number_argument("angle_share",
                          "while the target, as the root sees it, turns by less than this share of it", 0, 1),
          number_argument("reach_share", "or moves by less than this share of the reach", 0, 1)},
-        "Sets what counts as a flip in mode reach, from the next move of the target on", set_flips,
-        Effect::Look));
+        "Sets what counts as a flip in mode reach, from the next move of the target on", set_flips));
 }
 
 }  // namespace tendril::app

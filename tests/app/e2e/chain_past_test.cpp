@@ -149,6 +149,42 @@ TEST(ChainsPast, AnAnalysisBeginsWhereTheLastDragBegan) {
         EXPECT_EQ(positions[i], start["segments"][i]["position"]) << i;
 }
 
+TEST(ChainsPast, AReplayEndsWithThePastItShows) {
+    // Another lab, another scene, or undo takes it away while it runs.
+    for (const char* other : {"lab.open", "scene.new", "undo"}) {
+        ScriptText script = through_the_root().command("time.replay").wait(2);
+        const Json arguments = std::string(other) == "lab.open" ? Json{{"name", "rope"}} : Json::object();
+        EXPECT_EQ(play(script.command(other, arguments).wait(30)).outcome.exit_code, 0) << other;
+    }
+}
+
+TEST(ChainsPast, AReplayGoesOverWhatIsNotRemembered) {
+    // Ticks at rest between two drags are nobody's moments.
+    ScriptText script = ScriptText().command("chain.target", {{"to", {5, 1, 0}}}).wait(1);
+    for (int i = 0; i < 5; ++i) script.command("time.step").wait(1);
+    script.command("chain.target", {{"to", {4, 2, 0}}}).wait(1);
+    const Json end = state_after(script);
+    const Json shown = state_after(script.command("time.replay").wait(30));
+    EXPECT_FALSE(shown["time"].contains("ticks_back") && shown["time"]["ticks_back"] != 0) << shown["time"];
+    EXPECT_EQ(shown["segments"], end["segments"]);
+}
+
+TEST(ChainsPast, LookingIsNothingToUndo) {
+    ScriptText script = ScriptText();
+    for (int i = 1; i <= 5; ++i) script.command("chain.target", {{"to", {7 - i, i, 0}}}).wait(1);
+    const Json end = state_after(script);
+    const Json back = state_after(ScriptText(script).command("time.replay").wait(30).command("undo"));
+    EXPECT_EQ(back["target"], Json::array({3.0, 4.0, 0.0})) << "the last change, and not the way back";
+    EXPECT_EQ(end["target"], Json::array({2.0, 5.0, 0.0}));
+}
+
+TEST(ChainsPast, AnotherSceneHasAPastOfItsOwn) {
+    const ScriptText script = through_the_root().command("scene.new").wait(3);
+    const Json state = state_after(script);
+    EXPECT_TRUE(state["events"].empty());
+    EXPECT_EQ(play(ScriptText(script).command("time.seek", {{"ticks_back", 1}}, true)).outcome.exit_code, 0);
+}
+
 TEST(ChainsPast, ARecordingOfItAllEndsInTheSameState) {
     const TempFolder folder;
     const std::string recording = (folder / "r.jsonl").string(), state = (folder / "s.json").string();

@@ -33,6 +33,7 @@ Turn furthest_turn(const std::vector<glm::vec3>& was, const std::vector<glm::vec
 class ChainIncidents : public ChainTest {
   protected:
     std::mt19937 random{7};
+    std::string also_;  ///< another cause that is right too
     float uniform(float low, float high) {
         return low + (high - low) * static_cast<float>(random() >> 8) / 16777216.0f;
     }
@@ -91,7 +92,7 @@ class ChainIncidents : public ChainTest {
                        (std::abs(mark->degrees - turn.degrees) > 0.1f || !jumped(was, mark->joint, turn))) {
                 gesture.problem = where + "joint " + std::to_string(mark->joint) + " instead of " +
                                   std::to_string(turn.joint);
-            } else if (mark && mark->cause != cause) {
+            } else if (mark && mark->cause != cause && mark->cause != also_) {
                 gesture.problem = where + "\"" + mark->cause + "\" instead of \"" + cause + "\"";
             }
             if (!gesture.problem.empty()) break;
@@ -144,6 +145,7 @@ TEST_F(ChainIncidents, TargetThroughTheRoot) {
 }
 
 TEST_F(ChainIncidents, TargetsLinePassedThePole) {
+    also_ = "the target's line came close to the pole";  // a tick before it passes, or after
     expect_planted(40, "the target's line passed the pole", [&] {
         const glm::vec3 line = direction(), axis = across(line);
         chain({uniform(0.7f, 1.3f), uniform(0.7f, 1.3f), uniform(0.7f, 1.3f)}, line, axis, 0.6f);

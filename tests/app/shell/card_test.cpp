@@ -115,18 +115,18 @@ TEST_F(CardWatch, an_expectation_is_one_of_a_script) {
 TEST_F(CardWatch, an_event_must_be_of_that_kind_and_new) {
     use_condition({{"event", "flip"}});
     const auto event = [](const char* kind, int tick) { return Json{{"kind", kind}, {"tick", tick}}; };
-    watch({{"time", {{"tick", 5}}}, {"events", Json::array({event("flip", 4)})}});
+    watch({{"time", {{"moment", 5}}}, {"events", Json::array({event("flip", 4)})}});
     EXPECT_FALSE(done()) << "that was before the card was shown";
-    change({{"time", {{"tick", 9}}}, {"events", Json::array({event("flip", 4), event("limit", 8)})}});
+    change({{"time", {{"moment", 9}}}, {"events", Json::array({event("flip", 4), event("limit", 8)})}});
     EXPECT_FALSE(done());
-    change({{"time", {{"tick", 9}}}, {"events", Json::array({event("limit", 8), event("flip", 9)})}});
+    change({{"time", {{"moment", 9}}}, {"events", Json::array({event("limit", 8), event("flip", 9)})}});
     EXPECT_TRUE(done());
 }
 
 TEST_F(CardWatch, an_event_is_new_where_time_began_anew) {
     use_condition({{"event", "flip"}});
-    watch({{"time", {{"tick", 500}}}, {"events", Json::array({{{"kind", "flip"}, {"tick", 490}}})}});
-    change({{"time", {{"tick", 3}}}, {"events", Json::array({{{"kind", "flip"}, {"tick", 2}}})}});
+    watch({{"time", {{"moment", 500}}}, {"events", Json::array({{{"kind", "flip"}, {"tick", 490}}})}});
+    change({{"time", {{"moment", 3}}}, {"events", Json::array({{{"kind", "flip"}, {"tick", 2}}})}});
     EXPECT_TRUE(done());
 }
 
