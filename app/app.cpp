@@ -85,9 +85,11 @@ void App::settle() {
 void App::start_recording() {
     // Who plays it has no past to go back to, and of the open lab what a scene holds.
     const std::shared_ptr<const Part> part = workspace_.document.parts().at(workspace_.lab);
-    const bool modified = workspace_.modified();
-    workspace_.document.set(workspace_.lab, part->load(part->save(), workspace_.lab));
-    if (!modified) workspace_.saved = workspace_.document;
+    if (part != workspace_.blank.parts().at(workspace_.lab)) {
+        const bool modified = workspace_.modified();
+        workspace_.document.set(workspace_.lab, part->load(part->save(), workspace_.lab));
+        if (!modified) workspace_.saved = workspace_.document;
+    }
     workspace_.rewind.clear();
     workspace_.moment = 0;
     workspace_.ui.incident.reset();
