@@ -19,6 +19,10 @@ enum class PastPlot { Nothing, Error, Swing, Twist };
 LabSetting past_plot_setting();
 PastPlot past_plot(const Settings& settings);
 
+/// A circle of short lines; `across` and `up` are of length 1 and at right angles. `pixels`: their width.
+void draw_circle(DrawList& list, glm::vec3 centre, float radius, glm::vec3 across, glm::vec3 up, float pixels,
+                 glm::vec4 colour);
+
 /// The limits, from the numbers that the solver uses, and the angles that the joints have.
 void draw_limits(const View& view, const ShownChain& shown, DrawList& list);
 /// The pole, and the line that it turns the chain about.

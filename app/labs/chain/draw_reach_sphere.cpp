@@ -7,20 +7,6 @@
 namespace tendril::app {
 namespace {
 
-/// A circle as short lines; `across` and `up` are of length 1 and at right angles.
-void circle(const View& view, DrawList& list, glm::vec3 centre, float radius, glm::vec3 across, glm::vec3 up,
-            float width, float strength) {
-    constexpr int sides = 128;
-    const glm::vec4 colour = faded(view.palette, view.palette.ghost, strength);
-    glm::vec3 from = centre + radius * across;
-    for (int i = 1; i <= sides; ++i) {
-        const float angle = glm::two_pi<float>() * static_cast<float>(i) / sides;
-        const glm::vec3 to = centre + radius * (std::cos(angle) * across + std::sin(angle) * up);
-        list.line(from, to, width * view.scale, colour);
-        from = to;
-    }
-}
-
 /// What the eye sees of a sphere is smaller than its great circle, and nearer.
 void outline(const View& view, DrawList& list, glm::vec3 centre, float radius) {
     const Camera& camera = view.camera;
@@ -36,10 +22,23 @@ void outline(const View& view, DrawList& list, glm::vec3 centre, float radius) {
         seen = radius * std::sqrt(1.0f - share * share);
     }
     const glm::vec3 across = glm::normalize(glm::cross(camera.up(), towards));
-    circle(view, list, middle, seen, across, glm::cross(towards, across), 1.5f, 0.38f);
+    draw_circle(list, middle, seen, across, glm::cross(towards, across), 1.5f * view.scale,
+                faded(view.palette, view.palette.ghost, 0.38f));
 }
 
 }  // namespace
+
+void draw_circle(DrawList& list, glm::vec3 centre, float radius, glm::vec3 across, glm::vec3 up, float pixels,
+                 glm::vec4 colour) {
+    constexpr int sides = 128;
+    glm::vec3 from = centre + radius * across;
+    for (int i = 1; i <= sides; ++i) {
+        const float angle = glm::two_pi<float>() * static_cast<float>(i) / sides;
+        const glm::vec3 to = centre + radius * (std::cos(angle) * across + std::sin(angle) * up);
+        list.line(from, to, pixels, colour);
+        from = to;
+    }
+}
 
 LabSetting reach_sphere() {
     return {.key = "reach sphere",
@@ -58,8 +57,8 @@ void draw_reach_sphere(const View& view, const ShownChain& shown, DrawList& list
     const float high = std::abs(root.y);
     if (high >= reach) return;
     const glm::vec3 foot(root.x, 0.0f, root.z);
-    circle(view, list, foot, std::sqrt(reach * reach - high * high), {1.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f},
-           1.0f, 0.3f);
+    draw_circle(list, foot, std::sqrt(reach * reach - high * high), {1.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f},
+                view.scale, faded(view.palette, view.palette.ghost, 0.3f));
 }
 
 }  // namespace tendril::app

@@ -11,7 +11,6 @@ namespace tendril::app {
 namespace {
 
 constexpr int most_ghosts = 6;
-constexpr int circle_sides = 64;
 
 class StudyDrawing {
   public:
@@ -108,14 +107,8 @@ class StudyDrawing {
     void sphere(glm::vec3 centre, float radius) {
         const glm::vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
         for (int plane = 0; plane < 3; ++plane) {
-            const glm::vec3 u = axes[plane], v = axes[(plane + 1) % 3];
-            glm::vec3 from = centre + radius * u;
-            for (int i = 1; i <= circle_sides; ++i) {
-                const float angle = glm::two_pi<float>() * static_cast<float>(i) / circle_sides;
-                const glm::vec3 to = centre + radius * (std::cos(angle) * u + std::sin(angle) * v);
-                list_.line(from, to, px(1.0f), faded(view_.palette, view_.palette.accent, 0.45f));
-                from = to;
-            }
+            draw_circle(list_, centre, radius, axes[plane], axes[(plane + 1) % 3], px(1.0f),
+                        faded(view_.palette, view_.palette.accent, 0.45f));
         }
     }
 

@@ -51,6 +51,18 @@ TEST(View, ButtonsFollowThePreset) {
               state_after(preset("maya"))["camera"]["distance"].get<double>());
 }
 
+TEST(Panels, ASectionFoldsByAClickOnItsTitle) {
+    // Folded presets bring the modes up to where they were: a click there chooses Reach.
+    const glm::vec2 presets(40.0f, 69.0f);
+    ScriptText folded = ScriptText().click(presets).wait(25);
+    const glm::vec2 reach_then(60.0f, chain_panel::forward.y - 32.0f - 96.0f);
+    EXPECT_EQ(state_after(ScriptText(folded).click(reach_then).wait(2))["mode"], "reach");
+    EXPECT_EQ(state_after(ScriptText().click(reach_then).wait(2))["mode"], "backward");
+    // Another click brings them back.
+    const glm::vec2 forward = chain_panel::forward;
+    EXPECT_EQ(state_after(folded.click(presets).wait(25).click(forward).wait(2))["mode"], "forward");
+}
+
 TEST(Panels, AddStaysUnderThePointer) {
     const std::size_t before = state_after(ScriptText().wait(1))["segments"].size();
     for (const char* mode : {"forward", "backward", "fixed"}) {

@@ -66,6 +66,32 @@ TEST_F(ChainInspector, shows_the_step_that_is_under_the_microscope) {
     expect_says("x " + metres(part().chain.position(4).x, "%.3f m"));
 }
 
+TEST_F(ChainInspector, says_first_what_became_of_the_target) {
+    const auto says = [&](const char* verdict) {
+        EXPECT_EQ(state().at("verdict"), verdict);
+        EXPECT_EQ(text().rfind(verdict, 0), 0u) << "it comes first, in:\n" << text();
+    };
+    says("Tail on the target");
+    run("chain.mode", {{"mode", "with_index"}, {"index", 3}});
+    says("Joint 3 4.00 m from the target");
+    run("chain.mode", {{"mode", "fixed"}, {"iterations", 100}});
+    run("chain.target", {{"to", {3, 2, 0}}});
+    says("Head on the target");
+    run("chain.clear");
+    says("No joints");
+    reach_with(2);
+    says("Drag the target");
+    run("chain.target", {{"to", {0.5, 1.25, 0}}});
+    says("Reached");
+    run("chain.target", {{"to", {0, 2.25, 0}}});
+    says("Out of reach: 0.25 m short");
+    run("chain.target", {{"to", {1.5, 1, 0}}});
+    run("chain.limit", {{"index", 1}, {"kind", "hinge"}, {"min_deg", 0}, {"max_deg", 90}});
+    run("chain.target", {{"to", {0.5, 0, 0}}});
+    EXPECT_EQ(state().at("verdict").get<std::string>().rfind("Limited by joint 1: 0.", 0), 0u)
+        << state().at("verdict");
+}
+
 TEST_F(ChainInspector, shows_the_table_of_the_step) {
     reach_with(2);
     run("view.fold", {{"section", "chain: Joints, in metres"}, {"folded", false}});
