@@ -14,7 +14,6 @@
 #include "app/document/scene_file.hpp"
 #include "app/io/picture.hpp"
 #include "app/shell/gizmo_view.hpp"
-#include "app/shell/labels_view.hpp"
 #include "app/shell/theme.hpp"
 
 namespace tendril::app {
@@ -120,15 +119,16 @@ void App::compose(const Event* event, Pass pass) {
     const bool in_tick = pass == Pass::Tick;
     layout_ = lay_out(size_, ui_scale(), workspace_.settings, lab().timeline_height(workspace_),
                       lab().canvas_share(workspace_));
-    workspace_.ui.view_size = layout_.view.size();
+    divide_view();
     Emit emit;
     if (in_tick && event != nullptr) take_event(*event, emit);
     ui_.begin({size_, window_.framebuffer_size(), layout_.scale}, workspace_.settings.theme, input_, event,
               pass != Pass::Picture);
     if (in_tick) {
         take_shortcut(emit);
-        const Camera camera(workspace_.camera, layout_.view);
-        pointer_.take(event, input_, pointed_at(camera), emit);
+        const Pane& pane = pane_at_hand();
+        const Camera camera = pane.camera(workspace_.camera);
+        pointer_.take(event, input_, pointed_at(pane, camera), emit);
         run_emitted(emit);
     }
 
@@ -152,19 +152,13 @@ void App::compose(const Event* event, Pass pass) {
     run_emitted(emit);
     if (in_tick) advance_time();
 
-    const Camera camera(workspace_.camera, layout_.view);
-    drawn_.clear();
-    const View view{workspace_,         camera,       palette(workspace_.settings.theme), pointer_.hovered(),
-                    pointer_.dragged(), layout_.scale};
-    lab().draw(view, drawn_);
-    show_gizmo(drawn_, lab(), view, pointer_);
-    show_constraint(drawn_, view, pointer_, input_);
-    show_labels(drawn_, camera, palette(workspace_.settings.theme), layout_.scale);
+    divide_view();
+    draw_panes();
     ui_.end();
 }
 
-Pointer::Scene App::pointed_at(const Camera& camera) const {
-    return {workspace_, lab(), camera, drawn_, ui_.wants_mouse(), layout_.scale};
+Pointer::Scene App::pointed_at(const Pane& pane, const Camera& camera) const {
+    return {workspace_, lab(), camera, pane.drawn, ui_.wants_mouse(), layout_.scale};
 }
 
 void App::take_event(const Event& event, Emit& emit) {
@@ -203,8 +197,9 @@ void App::take_shortcut(Emit& emit) {
     const Chord chord = input_.pressed();
     if (chord.key == Key::Unknown) return;
     if (chord.key == Key::Escape && pointer_.dragged() != no_pick) {
-        const Camera camera(workspace_.camera, layout_.view);
-        pointer_.release(pointed_at(camera), emit);  // a drag that was let go leaves nothing behind
+        const Pane& pane = pane_at_hand();
+        const Camera camera = pane.camera(workspace_.camera);
+        pointer_.release(pointed_at(pane, camera), emit);  // a drag that was let go leaves nothing behind
         if (workspace_.history.is_open(gesture_)) emit("undo");
         return;
     }
@@ -246,17 +241,24 @@ void App::take_picture() {
                                      glm::vec2(largest_picture));
     const glm::vec2 size(wanted->size.x > 0 ? static_cast<float>(wanted->size.x) : own.x,
                          wanted->size.y > 0 ? static_cast<float>(wanted->size.y) : own.y);
-    const Camera camera(workspace_.camera, {{0.0f, 0.0f}, size}), seen(workspace_.camera, layout_.view);
+    const std::vector<Rect> rects = tiled({{0.0f, 0.0f}, size}, panes_.size(), 2.0f);
+    const Camera camera(workspace_.camera, rects.front()), seen = panes_.front().camera(workspace_.camera);
     const glm::vec3 target = workspace_.camera.target;
     const float scale = layout_.scale * seen.metres_per_pixel(target) / camera.metres_per_pixel(target);
     const auto draw = [&](const Palette& colours) {
-        DrawList list;
-        lab().draw({workspace_, camera, colours, no_pick, no_pick, scale}, list);
-        return list;
+        std::vector<Pane> panes;
+        for (const Rect& rect : rects) {
+            panes.push_back({rect});
+            const Camera here(workspace_.camera, rect);
+            lab().draw({workspace_, here, colours, no_pick, no_pick, scale, panes.size() - 1},
+                       panes.back().drawn);
+        }
+        return panes;
     };
     try {
-        write_png(wanted->path, draw_picture(renderer_, draw, camera, palette(workspace_.settings.theme),
-                                             wanted->transparent));
+        write_png(wanted->path,
+                  draw_picture(renderer_, draw, workspace_.camera, glm::ivec2(size),
+                               palette(workspace_.settings.theme), wanted->transparent));
     } catch (const std::exception& error) {
         throw Refused(std::string("view.picture: ") + error.what());
     }
@@ -306,9 +308,8 @@ void App::update_window() {
 
 void App::draw() {
     const glm::ivec2 pixels = window_.framebuffer_size();
-    const Camera camera(workspace_.camera, layout_.view);
     renderer_.draw(
-        drawn_, camera, palette(workspace_.settings.theme),
+        panes_, workspace_.camera, palette(workspace_.settings.theme),
         {.framebuffer = window_.framebuffer(),
          .framebuffer_size = pixels,
          .pixel_ratio = static_cast<float>(pixels.x) / static_cast<float>(std::max(1, window_.size().x))});
@@ -357,16 +358,18 @@ Json App::told_state() const {
 }
 
 Json App::state() {
-    const Camera camera(workspace_.camera, layout_.view);
+    const Pane& first = panes_.front();
+    const Camera camera = first.camera(workspace_.camera);
     Json state = told_state();
     Json handles = Json::array();
     for (const Handle& handle : lab().handles(workspace_)) {
         const auto at = camera.project(handle.frame.position);
         handles.push_back({{"name", handle.name}, {"pixel", at ? pixel(*at) : Json(nullptr)}});
     }
-    for (const NamedGrip& grip : gizmo_grips(drawn_, lab(), workspace_, camera, layout_.scale))
+    for (const NamedGrip& grip : gizmo_grips(first.drawn, lab(), workspace_, camera, layout_.scale))
         handles.push_back({{"name", grip.name}, {"pixel", pixel(grip.pixel)}});
     state["handles"] = std::move(handles);
+    if (panes_.size() > 1) state["panes"] = panes_state();
     if (shown_card() != nullptr) state["card"] = card_state();
     return state;
 }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/document/autosave.hpp"
 #include "app/io/image.hpp"
@@ -69,7 +70,11 @@ class App final : public Stage {
     enum class Pass { Tick, Settle, Picture };
     /// Runs the user interface and builds the picture, once.
     void compose(const Event* event, Pass pass);
-    Pointer::Scene pointed_at(const Camera& camera) const;
+    void divide_view();
+    const Pane& pane_at_hand();
+    void draw_panes();
+    Json panes_state() const;
+    Pointer::Scene pointed_at(const Pane& pane, const Camera& camera) const;
     void take_event(const Event& event, Emit& emit);
     void take_shortcut(Emit& emit);
     void take_file(const std::string& path, Emit& emit);
@@ -105,7 +110,8 @@ class App final : public Stage {
     Shell shell_;
     Input input_;
     Pointer pointer_;
-    DrawList drawn_;
+    std::vector<Pane> panes_;  ///< of the last picture; one at least
+    std::size_t pane_ = 0;     ///< where the hand is, or was
     Layout layout_;
     std::optional<Recorder> recorder_;
     glm::ivec2 size_{0};  ///< the window's; changed by events alone, so that a recording has every change

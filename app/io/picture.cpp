@@ -8,11 +8,10 @@
 namespace tendril::app {
 namespace {
 
-Image drawn(Renderer& renderer, const DrawScene& draw, const Camera& camera, const Palette& palette,
-            bool grid) {
-    const glm::ivec2 size(camera.viewport().size());
+Image drawn(Renderer& renderer, const DrawScene& draw, const CameraPose& pose, glm::ivec2 size,
+            const Palette& palette, bool grid) {
     const OffscreenFramebuffer target(size);
-    renderer.draw(draw(palette), camera, palette,
+    renderer.draw(draw(palette), pose, palette,
                   {.framebuffer = target.name(), .framebuffer_size = size, .grid = grid});
     return read_framebuffer(target.name(), size);
 }
@@ -41,12 +40,12 @@ Image matted(const Image& black, const Image& white) {
 
 }  // namespace
 
-Image draw_picture(Renderer& renderer, const DrawScene& draw, const Camera& camera, const Palette& palette,
-                   bool transparent) {
-    if (!transparent) return drawn(renderer, draw, camera, palette, true);
+Image draw_picture(Renderer& renderer, const DrawScene& draw, const CameraPose& pose, glm::ivec2 size,
+                   const Palette& palette, bool transparent) {
+    if (!transparent) return drawn(renderer, draw, pose, size, palette, true);
     // What fades into its background fades into either of these.
-    return matted(drawn(renderer, draw, camera, before(palette, 0.0f), false),
-                  drawn(renderer, draw, camera, before(palette, 1.0f), false));
+    return matted(drawn(renderer, draw, pose, size, before(palette, 0.0f), false),
+                  drawn(renderer, draw, pose, size, before(palette, 1.0f), false));
 }
 
 }  // namespace tendril::app

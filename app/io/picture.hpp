@@ -8,13 +8,13 @@
 
 namespace tendril::app {
 
-/// What a lab draws, in the colours of a palette.
-using DrawScene = std::function<DrawList(const Palette&)>;
+/// What a lab draws in its panes, in the colours of a palette.
+using DrawScene = std::function<std::vector<Pane>(const Palette&)>;
 
-/// Draws the scene as `camera` sees it; its viewport is the whole picture. With `transparent` there is
+/// Draws the scene as the camera sees it, in a picture of `size` pixels. With `transparent` there is
 /// nothing behind it, and what is see-through or a shadow is so in the file. Needs a current context; throws
 /// std::runtime_error where the driver has no memory for it.
-Image draw_picture(Renderer& renderer, const DrawScene& draw, const Camera& camera, const Palette& palette,
-                   bool transparent);
+Image draw_picture(Renderer& renderer, const DrawScene& draw, const CameraPose& pose, glm::ivec2 size,
+                   const Palette& palette, bool transparent);
 
 }  // namespace tendril::app

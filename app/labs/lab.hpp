@@ -18,6 +18,7 @@
 #include "app/view/draw_list.hpp"
 #include "app/view/gizmo.hpp"
 #include "app/view/palette.hpp"
+#include "app/view/panes.hpp"
 #include "app/widgets/emit.hpp"
 
 namespace tendril::app {
@@ -31,7 +32,8 @@ struct View {
     const Palette& palette;
     PickId hovered = no_pick;
     PickId dragged = no_pick;
-    float scale = 1.0f;  ///< of everything measured in pixels
+    float scale = 1.0f;    ///< of everything measured in pixels
+    std::size_t pane = 0;  ///< of Lab::panes()
 };
 
 /// A frame that a person can take hold of. Dragged by what is drawn there it moves in the plane of the view
@@ -84,6 +86,10 @@ class Lab {
     virtual std::shared_ptr<Part> blank() const = 0;
     virtual void add_commands(CommandTable& table) const = 0;
     virtual void draw(const View& view, DrawList& list) const = 0;
+
+    /// Where several things are compared side by side: the views that the scene is divided into, all with one
+    /// camera. Each is drawn by itself (View::pane), and the mouse works in each. Empty: one view.
+    virtual std::vector<PaneTitle> panes(const Workspace&) const { return {}; }
 
     // what is first seen
     virtual CameraPose first_view() const { return {}; }

@@ -185,6 +185,7 @@ void show_toasts(const ShellFrame& frame) {
 
 void show_first_hint(const ShellFrame& frame) {
     if (frame.workspace.settings.hint_seen) return;
+    if (!frame.lab.panes(frame.workspace).empty()) return;  // there are titles
     const Rect& view = frame.layout.view;
     const Palette& colours = frame.colours();
     const float wrap = std::max(80.0f, view.size().x - 40.0f);

@@ -21,14 +21,6 @@ namespace {
 
 constexpr float veil_opacity = 0.13f;  ///< of one layer; what is hollow has two
 
-/// The camera's viewport in framebuffer pixels, within the framebuffer.
-PixelRect pixel_rect(const Rect& viewport, const Frame& frame) {
-    const glm::vec2 limit(frame.framebuffer_size);
-    const glm::vec2 low = glm::clamp(glm::round(viewport.min * frame.pixel_ratio), glm::vec2(0.0f), limit);
-    const glm::vec2 high = glm::clamp(glm::round(viewport.max * frame.pixel_ratio), low, limit);
-    return {glm::ivec2(low.x, limit.y - high.y), glm::ivec2(high - low)};
-}
-
 /// Whatever was drawn before (the panels, too) may have left these as it liked.
 void reset_state() {
     glDisable(GL_CULL_FACE);
@@ -60,37 +52,51 @@ Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
 Renderer::~Renderer() = default;
 
 void Renderer::draw(const DrawList& list, const Camera& camera, const Palette& palette, const Frame& frame) {
-    const PixelRect viewport = pixel_rect(camera.viewport(), frame);
-    const bool seen = viewport.size.x > 0 && viewport.size.y > 0;
-    const glm::ivec2 size = frame.framebuffer_size;
-    int calls = 0;
     reset_state();
-    if (seen) calls += impl_->shadows.prepare(list, camera, palette.shadow, viewport);
+    impl_->draw_calls = impl_->backdrop.draw(camera.pose(), {&camera.viewport(), 1}, palette, frame);
+    draw_scene(list, camera, palette, frame);
+    leave_plain_state();
+}
 
-    calls += impl_->backdrop.draw(camera, palette, frame, viewport);
+void Renderer::draw(std::span<const Pane> panes, const CameraPose& pose, const Palette& palette,
+                    const Frame& frame) {
+    std::vector<Rect> viewports;
+    for (const Pane& pane : panes) viewports.push_back(pane.rect);
+    reset_state();
+    impl_->draw_calls = impl_->backdrop.draw(pose, viewports, palette, frame);
+    for (const Pane& pane : panes) draw_scene(pane.drawn, pane.camera(pose), palette, frame);
+    leave_plain_state();
+}
+
+/// All but what lies behind it.
+void Renderer::draw_scene(const DrawList& list, const Camera& camera, const Palette& palette,
+                          const Frame& frame) {
+    const PixelRect viewport = pixel_rect(camera.viewport(), frame);
+    if (viewport.size.x <= 0 || viewport.size.y <= 0) return;
+    const glm::ivec2 size = frame.framebuffer_size;
+    int calls = impl_->shadows.prepare(list, camera, palette.shadow, viewport);
+    glBindFramebuffer(GL_FRAMEBUFFER, frame.framebuffer);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(viewport.min.x, viewport.min.y, viewport.size.x, viewport.size.y);
+    glDepthMask(GL_TRUE);
     glClearDepth(1.0);
     glClear(GL_DEPTH_BUFFER_BIT);
-    if (seen) {
-        glEnable(GL_SCISSOR_TEST);
-        glScissor(viewport.min.x, viewport.min.y, viewport.size.x, viewport.size.y);
-        // The ground is drawn in the camera's clip space, all else in pixels of the framebuffer.
-        glViewport(viewport.min.x, viewport.min.y, viewport.size.x, viewport.size.y);
-        calls += impl_->shadows.draw(camera);
-        glViewport(0, 0, size.x, size.y);
-        calls += impl_->mesh.draw(list.mesh, camera, frame);
-        calls += impl_->skins.draw(list.skins, true, camera, frame);
-        impl_->strokes.prepare(list, camera, frame);
-        calls += impl_->strokes.draw(Layer::Scene);
-        calls += impl_->mesh.draw(list.veil, camera, frame, veil_opacity);
-        calls += impl_->skins.draw(list.skins, false, camera, frame);
-        if (!list.overlay.indices.empty()) {
-            glClear(GL_DEPTH_BUFFER_BIT);
-            calls += impl_->mesh.draw(list.overlay, camera, frame);
-        }
-        calls += impl_->strokes.draw(Layer::Overlay);
+    // The ground is drawn in the camera's clip space, all else in pixels of the framebuffer.
+    glViewport(viewport.min.x, viewport.min.y, viewport.size.x, viewport.size.y);
+    calls += impl_->shadows.draw(camera);
+    glViewport(0, 0, size.x, size.y);
+    calls += impl_->mesh.draw(list.mesh, camera, frame);
+    calls += impl_->skins.draw(list.skins, true, camera, frame);
+    impl_->strokes.prepare(list, camera, frame);
+    calls += impl_->strokes.draw(Layer::Scene);
+    calls += impl_->mesh.draw(list.veil, camera, frame, veil_opacity);
+    calls += impl_->skins.draw(list.skins, false, camera, frame);
+    if (!list.overlay.indices.empty()) {
+        glClear(GL_DEPTH_BUFFER_BIT);
+        calls += impl_->mesh.draw(list.overlay, camera, frame);
     }
-    leave_plain_state();
-    impl_->draw_calls = calls;
+    calls += impl_->strokes.draw(Layer::Overlay);
+    impl_->draw_calls += calls;
 }
 
 int Renderer::draw_calls() const {

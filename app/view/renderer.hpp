@@ -1,5 +1,5 @@
 // Draws a DrawList with GL 3.3 core: background, ground grid, contact shadows, meshes, skins, strokes.
-// Eight draw calls at the most, however much is in the list, and those of skins: one or two for each
+// Eight draw calls at the most in a pane, however much is in the list, and those of skins: one or two for each
 // material. Edges are anti-aliased by coverage, without multisampling, so that a software rasteriser is fast
 // and every backend gives the same picture. (Where two solids run through each other, the line between them
 // is not.)
@@ -10,10 +10,12 @@
 
 #include <glm/vec2.hpp>
 #include <memory>
+#include <span>
 
 #include "app/view/camera.hpp"
 #include "app/view/draw_list.hpp"
 #include "app/view/palette.hpp"
+#include "app/view/panes.hpp"
 
 namespace tendril::app {
 
@@ -34,10 +36,15 @@ class Renderer {
 
     /// Clears the whole framebuffer to the palette and draws the list in the camera's viewport.
     void draw(const DrawList& list, const Camera& camera, const Palette& palette, const Frame& frame);
+    /// The same with several panes, each in its rectangle as the camera sees it from there.
+    void draw(std::span<const Pane> panes, const CameraPose& pose, const Palette& palette,
+              const Frame& frame);
     /// GL draw calls that the last draw() made.
     int draw_calls() const;
 
   private:
+    void draw_scene(const DrawList& list, const Camera& camera, const Palette& palette, const Frame& frame);
+
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

@@ -2,6 +2,13 @@
 
 namespace tendril::app {
 
+PixelRect pixel_rect(const Rect& viewport, const Frame& frame) {
+    const glm::vec2 limit(frame.framebuffer_size);
+    const glm::vec2 low = glm::clamp(glm::round(viewport.min * frame.pixel_ratio), glm::vec2(0.0f), limit);
+    const glm::vec2 high = glm::clamp(glm::round(viewport.max * frame.pixel_ratio), low, limit);
+    return {glm::ivec2(low.x, limit.y - high.y), glm::ivec2(high - low)};
+}
+
 Backdrop::Backdrop() {
     glGenFramebuffers(1, &framebuffer_);
     glGenRenderbuffers(1, &colour_);
@@ -12,20 +19,23 @@ Backdrop::~Backdrop() {
     glDeleteRenderbuffers(1, &colour_);
 }
 
-int Backdrop::draw_directly(const Camera& camera, const Palette& palette, const Frame& frame,
-                            PixelRect viewport) const {
+int Backdrop::draw_directly(const Key& key, const Palette& palette, const Frame& frame) const {
     glDisable(GL_SCISSOR_TEST);
     glViewport(0, 0, frame.framebuffer_size.x, frame.framebuffer_size.y);
     int calls = background_.draw(palette, frame.framebuffer_size);
-    if (!frame.grid || viewport.size.x <= 0 || viewport.size.y <= 0) return calls;
+    if (!frame.grid) return calls;
     glEnable(GL_SCISSOR_TEST);
-    glScissor(viewport.min.x, viewport.min.y, viewport.size.x, viewport.size.y);
-    glViewport(viewport.min.x, viewport.min.y, viewport.size.x, viewport.size.y);
-    calls += grid_.draw(camera, palette, frame);
+    for (const Rect& each : key.viewports) {
+        const PixelRect viewport = pixel_rect(each, frame);
+        if (viewport.size.x <= 0 || viewport.size.y <= 0) continue;
+        glScissor(viewport.min.x, viewport.min.y, viewport.size.x, viewport.size.y);
+        glViewport(viewport.min.x, viewport.min.y, viewport.size.x, viewport.size.y);
+        calls += grid_.draw(Camera(key.pose, each), palette, frame);
+    }
     return calls;
 }
 
-void Backdrop::keep(const Camera& camera, const Palette& palette, const Frame& frame, PixelRect viewport) {
+void Backdrop::keep(const Key& key, const Palette& palette, const Frame& frame) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
     if (size_ != frame.framebuffer_size) {
         size_ = frame.framebuffer_size;
@@ -33,12 +43,13 @@ void Backdrop::keep(const Camera& camera, const Palette& palette, const Frame& f
         glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, size_.x, size_.y);
         glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_);
     }
-    draw_directly(camera, palette, frame, viewport);
+    kept_calls_ = draw_directly(key, palette, frame);
 }
 
-int Backdrop::draw(const Camera& camera, const Palette& palette, const Frame& frame, PixelRect viewport) {
-    const Key key{camera.pose(),
-                  camera.viewport(),
+int Backdrop::draw(const CameraPose& pose, std::span<const Rect> viewports, const Palette& palette,
+                   const Frame& frame) {
+    const Key key{pose,
+                  {viewports.begin(), viewports.end()},
                   {palette.background_top, palette.background_bottom, palette.grid, palette.axis_x,
                    palette.axis_y, palette.axis_z},
                   frame.framebuffer_size,
@@ -48,9 +59,9 @@ int Backdrop::draw(const Camera& camera, const Palette& palette, const Frame& fr
     last_ = key;
     if (!still) {
         glBindFramebuffer(GL_FRAMEBUFFER, frame.framebuffer);
-        return draw_directly(camera, palette, frame, viewport);
+        return draw_directly(key, palette, frame);
     }
-    if (kept_ != key) keep(camera, palette, frame, viewport);
+    if (kept_ != key) keep(key, palette, frame);
     kept_ = key;
     const glm::ivec2 size = frame.framebuffer_size;
     glDisable(GL_SCISSOR_TEST);
@@ -58,7 +69,7 @@ int Backdrop::draw(const Camera& camera, const Palette& palette, const Frame& fr
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, frame.framebuffer);
     glBlitFramebuffer(0, 0, size.x, size.y, 0, 0, size.x, size.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, frame.framebuffer);
-    return frame.grid && viewport.size.x > 0 && viewport.size.y > 0 ? 2 : 1;
+    return kept_calls_;
 }
 
 }  // namespace tendril::app

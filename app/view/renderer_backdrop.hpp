@@ -8,6 +8,8 @@
 
 #include <array>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "app/view/gl_objects.hpp"
 #include "app/view/renderer_grid.hpp"
@@ -19,6 +21,9 @@ struct PixelRect {
     glm::ivec2 min{0}, size{0};
 };
 
+/// A viewport in framebuffer pixels, within the framebuffer.
+PixelRect pixel_rect(const Rect& viewport, const Frame& frame);
+
 class Backdrop {
   public:
     Backdrop();
@@ -26,30 +31,31 @@ class Backdrop {
     Backdrop(const Backdrop&) = delete;
     Backdrop& operator=(const Backdrop&) = delete;
 
-    /// Fills frame.framebuffer, and leaves it bound. Returns the number of draw calls; a copy counts as one
+    /// Fills frame.framebuffer, and leaves it bound; the grid is in each of the viewports. Returns the number of draw calls; a copy counts as one
     /// for each that it saves, so that the number tells of the picture and not of the frame before.
-    int draw(const Camera& camera, const Palette& palette, const Frame& frame, PixelRect viewport);
+    int draw(const CameraPose& pose, std::span<const Rect> viewports, const Palette& palette,
+             const Frame& frame);
 
   private:
     /// All that the backdrop depends on.
     struct Key {
         CameraPose pose;
-        Rect viewport;
+        std::vector<Rect> viewports;
         std::array<glm::vec3, 6> colours;
         glm::ivec2 size;
         float pixel_ratio;
         bool grid;
         bool operator==(const Key&) const = default;
     };
-    int draw_directly(const Camera& camera, const Palette& palette, const Frame& frame,
-                      PixelRect viewport) const;
-    void keep(const Camera& camera, const Palette& palette, const Frame& frame, PixelRect viewport);
+    int draw_directly(const Key& key, const Palette& palette, const Frame& frame) const;
+    void keep(const Key& key, const Palette& palette, const Frame& frame);
 
     BackgroundPass background_;
     GridPass grid_;
     GLuint framebuffer_ = 0, colour_ = 0;
     glm::ivec2 size_{0};
     std::optional<Key> last_, kept_;
+    int kept_calls_ = 0;  ///< that drawing it took
 };
 
 }  // namespace tendril::app

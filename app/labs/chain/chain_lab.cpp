@@ -176,11 +176,11 @@ Bounds ChainLab::bounds(const Workspace& workspace, bool selection_only) const {
         low = glm::min(low, *part.reach.pole);
         high = glm::max(high, *part.reach.pole);
     }
-    if (const ShownChain shown = shown_chain(workspace); shown.race) {
-        const glm::vec3 lane = race_lane(shown);
-        high += glm::max(lane * static_cast<float>(shown.race->racers.size()) - glm::abs(lane), 0.0f);
-    }
     return bounds_of(low, high);
+}
+
+std::vector<PaneTitle> ChainLab::panes(const Workspace& workspace) const {
+    return race_panes(shown_chain(workspace), palette(workspace.settings.theme));
 }
 
 std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
@@ -189,7 +189,9 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
     const ChainPart& part = shown.part;
     std::vector<LegendRow> rows;
     if (shown.race) {
+        // Side by side each has its title.
         for (const Racer& racer : shown.race->racers) {
+            if (part.study.side_by_side) break;
             rows.push_back({solver_title(racer.method), solver_colour(colours, racer.method)});
         }
         rows.push_back({"start", colours.ghost});

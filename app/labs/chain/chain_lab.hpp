@@ -32,6 +32,7 @@ class ChainLab final : public Lab {
     std::vector<Incident> review(const Part& before, const Part& after) const override;
     void draw(const View& view, DrawList& list) const override;
 
+    std::vector<PaneTitle> panes(const Workspace& workspace) const override;
     std::vector<LegendRow> legend(const Workspace& workspace) const override;
     std::vector<Handle> handles(const Workspace& workspace) const override;
     std::optional<Handle> handle(const Workspace& workspace, PickId pick) const override;

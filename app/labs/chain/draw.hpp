@@ -32,8 +32,11 @@ void draw_pole(const View& view, const ChainPart& part, DrawList& list);
 void draw_reach_sphere(const View& view, const ShownChain& shown, DrawList& list);
 /// What the step under the microscope does, over the poses that the iterations before it ended in.
 void draw_microscope(const View& view, const ShownChain& shown, DrawList& list);
-/// The chains that the solvers of a race ended in.
+/// The chains that the solvers of a race ended in: side by side the one of this pane, else all, drawn apart
+/// where one would cover another.
 void draw_race(const View& view, const ShownChain& shown, DrawList& list);
+/// A pane for each solver of a race that is shown side by side, else none.
+std::vector<PaneTitle> race_panes(const ShownChain& shown, const Palette& palette);
 
 /// Under a chain that shows what came of an incident: how it stood before, and how the joint that jumped
 /// went.
@@ -42,8 +45,5 @@ void draw_incident(const View& view, const ChainPart& part, DrawList& list);
 /// Whether the poses of the last ten seconds are shown, one for each half second.
 LabSetting ghost_setting();
 void draw_ghosts(const View& view, const ChainPart& part, DrawList& list);
-
-/// How far apart the lanes of a race are that is shown side by side, metres; 0 overlaid.
-glm::vec3 race_lane(const ShownChain& shown);
 
 }  // namespace tendril::app

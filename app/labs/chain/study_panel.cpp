@@ -185,7 +185,7 @@ void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
         emit("race.side_by_side", {{"on", apart}});
         emit("camera.frame", {{"what", "all"}});
     }
-    explain("Draws the chain of each solver in a place of its own, instead of one over the other.");
+    explain("Shows each solver's chain in a view of its own, all with one camera, instead of all in one.");
     start_buttons("race.open", emit);
     end_row();
     if (row_button("Copy numbers as CSV", 1, true, "Every solver's residual at each iteration"))

@@ -56,6 +56,37 @@ DrawList many(int count) {
     return list;
 }
 
+/// Whether a rectangle of window coordinates, with equal pixels, is the same in both pictures.
+bool same_within(const Image& a, const Image& b, const Rect& rect) {
+    for (int y = static_cast<int>(rect.min.y); y < static_cast<int>(rect.max.y); ++y) {
+        for (int x = static_cast<int>(rect.min.x); x < static_cast<int>(rect.max.x); ++x) {
+            const auto i = static_cast<std::size_t>(4 * (y * a.size.x + x));
+            if (!std::equal(&a.rgba[i], &a.rgba[i] + 4, &b.rgba[i])) return false;
+        }
+    }
+    return true;
+}
+
+TEST_P(Drawing, APaneHasWhatItWouldHaveAlone) {
+    const CameraPose pose{.yaw = 0.3f, .pitch = 0.5f, .distance = 6.0f};
+    const Palette colours = palette(Theme::Dark);
+    std::vector<Pane> panes;
+    for (const Rect& rect : tiled({{20.0f, 10.0f}, {320.0f, 230.0f}}, 3, 2.0f)) panes.push_back({rect});
+    panes[0].drawn = many(40);
+    panes[2].drawn = many(90);
+    const Frame frame{window_->framebuffer(), size, 1.0f, true};
+    for (int again = 0; again < 3; ++again) {  // the backdrop is copied the second time
+        renderer_.draw(panes, pose, colours, frame);
+        const Image together = read_framebuffer(window_->framebuffer(), size);
+        Renderer other;
+        for (const Pane& pane : panes) {
+            other.draw(pane.drawn, pane.camera(pose), colours, frame);
+            EXPECT_TRUE(same_within(together, read_framebuffer(window_->framebuffer(), size), pane.rect))
+                << again;
+        }
+    }
+}
+
 TEST_P(Drawing, CallsDoNotGrowWithStrokes) {
     const CameraPose pose{.pitch = 0.5f};
     draw(many(4), pose, palette(Theme::Dark), true);

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
@@ -12,12 +11,12 @@ namespace {
 
 constexpr int most_ghosts = 6;
 
-class StudyDrawing {
+class MicroscopeDrawing {
   public:
-    StudyDrawing(const View& view, const ShownChain& shown, DrawList& list)
+    MicroscopeDrawing(const View& view, const ShownChain& shown, DrawList& list)
         : view_(view), shown_(shown), part_(shown.part), list_(list) {}
 
-    void microscope() {
+    void run() {
         const Trace& trace = *shown_.trace;
         const std::size_t step = part_.study.step;
         ghosts(trace, step);
@@ -34,17 +33,6 @@ class StudyDrawing {
         label(centre, std::to_string(move.neighbour));
     }
 
-    void race() {
-        const Race& race = *shown_.race;
-        const glm::vec3 lane = race_lane(shown_);
-        polyline(part_.study.start, ghost(0.8f), 2.0f, {});
-        for (std::size_t i = 0; i < race.racers.size(); ++i) {
-            const glm::vec3 apart = lane * static_cast<float>(i);
-            if (i > 0 && lane != glm::vec3(0.0f)) target_again(apart);
-            racer(race.racers[i], apart);
-        }
-    }
-
   private:
     float px(float pixels) const { return pixels * view_.scale; }
     glm::vec4 ghost(float alpha) const { return faded(view_.palette, view_.palette.ghost, alpha); }
@@ -57,21 +45,21 @@ class StudyDrawing {
                                 .rank = 3});
     }
 
-    void polyline(const std::vector<glm::vec3>& joints, glm::vec4 colour, float width, glm::vec3 apart) {
+    void polyline(const std::vector<glm::vec3>& joints, glm::vec4 colour, float width) {
         for (std::size_t i = 1; i < joints.size(); ++i) {
-            list_.line(joints[i - 1] + apart, joints[i] + apart, px(width), colour);
+            list_.line(joints[i - 1], joints[i], px(width), colour);
         }
     }
 
     /// The start, and where the last iterations ended, the older the fainter.
     void ghosts(const Trace& trace, std::size_t step) {
-        polyline(trace.start, ghost(0.8f), 2.0f, {});
+        polyline(trace.start, ghost(0.8f), 2.0f);
         for (const glm::vec3& joint : trace.start) list_.sphere(joint, px(3.0f), Unit::Pixels, ghost(0.8f));
         const int now = trace.iteration(step);
         for (int i = std::max(1, now - most_ghosts); i < now; ++i) {
             const float age = static_cast<float>(now - i) / static_cast<float>(most_ghosts + 1);
             const std::vector<glm::vec3> pose = trace.pose(trace.end_of_iteration(i));
-            polyline(pose, ghost(0.75f * (1.0f - age)), 1.5f, {});
+            polyline(pose, ghost(0.75f * (1.0f - age)), 1.5f);
             for (const glm::vec3& joint : pose) {
                 list_.sphere(joint, px(2.5f), Unit::Pixels, ghost(0.75f * (1.0f - age)));
             }
@@ -112,31 +100,6 @@ class StudyDrawing {
         }
     }
 
-    void racer(const Racer& racer, glm::vec3 apart) {
-        const glm::vec4 colour(solver_colour(view_.palette, racer.method), 1.0f);
-        if (apart != glm::vec3(0.0f)) polyline(part_.study.start, ghost(0.8f), 2.0f, apart);
-        for (std::size_t i = 0; i < racer.joints.size(); ++i) {
-            if (i > 0) {
-                list_.line(racer.joints[i - 1] + apart, racer.joints[i] + apart, px(3.0f), colour).shadow =
-                    true;
-            }
-            list_
-                .sphere(racer.joints[i] + apart, px(i == 0 ? 7.0f : 5.0f), Unit::Pixels,
-                        i == 0 ? glm::vec4(view_.palette.head, 1.0f) : colour)
-                .shadow = true;
-        }
-        if (racer.joints.empty()) return;
-        char text[96];
-        std::snprintf(text, sizeof text, "%s: %d", solver_title(racer.method), racer.report.iterations);
-        // Overlaid, the tips lie on the target: there the panel tells them apart.
-        if (part_.study.side_by_side) label(racer.joints.back() + apart, text);
-    }
-
-    void target_again(glm::vec3 apart) {
-        list_.ring(part_.target + apart, px(14.0f), px(1.5f), glm::vec4(view_.palette.target, 0.8f)).layer =
-            Layer::Overlay;
-    }
-
     const View& view_;
     const ShownChain& shown_;
     const ChainPart& part_;
@@ -145,24 +108,8 @@ class StudyDrawing {
 
 }  // namespace
 
-glm::vec3 race_lane(const ShownChain& shown) {
-    const Study& study = shown.part.study;
-    if (!study.side_by_side || !shown.race) return glm::vec3(0.0f);
-    float low = 1e30f, high = -1e30f;
-    const auto take = [&](const std::vector<glm::vec3>& joints) {
-        for (const glm::vec3& joint : joints) low = std::min(low, joint.x), high = std::max(high, joint.x);
-    };
-    take(study.start);
-    for (const Racer& racer : shown.race->racers) take(racer.joints);
-    return {1.1f * (high - low) + 0.5f, 0.0f, 0.0f};
-}
-
 void draw_microscope(const View& view, const ShownChain& shown, DrawList& list) {
-    StudyDrawing(view, shown, list).microscope();
-}
-
-void draw_race(const View& view, const ShownChain& shown, DrawList& list) {
-    StudyDrawing(view, shown, list).race();
+    MicroscopeDrawing(view, shown, list).run();
 }
 
 }  // namespace tendril::app

@@ -1,0 +1,60 @@
+// The 3D view: nearly always one pane, and where a lab compares things several with one camera.
+#include <algorithm>
+#include <cmath>
+
+#include "app/app.hpp"
+#include "app/document/json_complete.hpp"
+#include "app/shell/gizmo_view.hpp"
+#include "app/shell/labels_view.hpp"
+#include "app/shell/panes_view.hpp"
+
+namespace tendril::app {
+
+/// What was drawn in a pane stays there until the next picture: it is what one sees, and picks.
+void App::divide_view() {
+    constexpr float gap = 2.0f;
+    const std::vector<Rect> rects =
+        tiled(layout_.view, lab().panes(workspace_).size(), std::round(gap * layout_.scale));
+    panes_.resize(rects.size());
+    for (std::size_t i = 0; i < rects.size(); ++i) panes_[i].rect = rects[i];
+    workspace_.ui.view_size = rects.front().size();
+    if (pane_ >= panes_.size()) pane_ = 0;
+}
+
+/// A drag stays in the pane where it began.
+const Pane& App::pane_at_hand() {
+    if (!pointer_.busy()) {
+        for (std::size_t i = 0; i < panes_.size(); ++i)
+            if (panes_[i].rect.contains(input_.mouse())) pane_ = i;
+    }
+    return panes_[pane_];
+}
+
+/// Titles, and where each pane is: its corners in window coordinates.
+Json App::panes_state() const {
+    Json state = Json::array();
+    const std::vector<PaneTitle> titles = lab().panes(workspace_);
+    for (std::size_t i = 0; i < std::min(panes_.size(), titles.size()); ++i)
+        state.push_back({{"title", titles[i].text},
+                         {"min", pixel(panes_[i].rect.min)},
+                         {"max", pixel(panes_[i].rect.max)}});
+    return state;
+}
+
+void App::draw_panes() {
+    const Palette& colours = palette(workspace_.settings.theme);
+    for (std::size_t i = 0; i < panes_.size(); ++i) {
+        Pane& pane = panes_[i];
+        const Camera camera = pane.camera(workspace_.camera);
+        pane.drawn.clear();
+        const View view{workspace_,         camera,        colours, pointer_.hovered(),
+                        pointer_.dragged(), layout_.scale, i};
+        lab().draw(view, pane.drawn);
+        show_gizmo(pane.drawn, lab(), view, pointer_);
+        show_constraint(pane.drawn, view, pointer_, input_);
+        show_labels(pane.drawn, camera, colours, layout_.scale);
+    }
+    show_pane_titles(panes_, lab().panes(workspace_), colours, layout_.scale);
+}
+
+}  // namespace tendril::app

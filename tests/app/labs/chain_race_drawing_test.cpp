@@ -1,0 +1,126 @@
+// Chains of a race that would cover each other are drawn apart.
+#include <glm/geometric.hpp>
+#include <map>
+
+#include "app/labs/chain/colours.hpp"
+#include "app/labs/chain/shown.hpp"
+#include "tests/app/labs/chain_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+class RaceDrawingTest : public ChainTest {
+  protected:
+    const Camera camera_{CameraPose{.yaw = 0.4f, .pitch = 0.3f, .distance = 12.0f}, {{0, 0}, {800, 600}}};
+    const Palette& colours_ = palette(Theme::Dark);
+
+    std::shared_ptr<const Race> race() const { return shown_chain(workspace).race; }
+
+    /// The lines that have a solver's colour, in their order: one for each of its bones.
+    std::map<ik::Method, std::vector<Stroke>> bones(std::size_t pane = 0) const {
+        DrawList list;
+        labs.find(chain_lab)->draw({workspace, camera_, colours_, no_pick, no_pick, 1.0f, pane}, list);
+        std::map<ik::Method, std::vector<Stroke>> found;
+        for (const Stroke& stroke : list.strokes) {
+            if (stroke.a == stroke.b || !stroke.shadow) continue;
+            for (const Racer& racer : race()->racers) {
+                if (glm::vec3(stroke.colour) == solver_colour(colours_, racer.method))
+                    found[racer.method].push_back(stroke);
+            }
+        }
+        return found;
+    }
+    glm::vec2 seen(glm::vec3 at) const { return *camera_.project(at); }
+    /// Pixels from where a bone is drawn to where it is, at its middle, across it.
+    float aside(const Stroke& drawn, glm::vec3 from, glm::vec3 to) const {
+        const glm::vec2 along = glm::normalize(seen(to) - seen(from));
+        const glm::vec2 off = seen(0.5f * (drawn.a + drawn.b)) - seen(0.5f * (from + to));
+        return glm::abs(along.x * off.y - along.y * off.x);
+    }
+};
+
+TEST_F(RaceDrawingTest, EqualChainsRunAlongLikeStrands) {
+    reach_with(6);
+    // Already there: every solver keeps the pose that it starts from.
+    run("chain.target", {{"to", Json::array({6, 0, 0})}});
+    run("race.open", {{"start", "here"}});
+    for (const ik::Method method : ik::all_methods) {
+        if (method != ik::Method::TwoBone) run("race.solver", {{"name", ik::name(method)}, {"on", true}});
+    }
+    const auto drawn = bones();
+    ASSERT_EQ(drawn.size(), race()->racers.size());
+    ASSERT_GE(drawn.size(), 4u);
+    for (std::size_t bone = 0; bone < 6; ++bone) {
+        std::vector<glm::vec2> middles;
+        for (const auto& [method, lines] : drawn) {
+            ASSERT_EQ(lines.size(), 6u) << ik::name(method);
+            middles.push_back(seen(0.5f * (lines[bone].a + lines[bone].b)));
+        }
+        for (std::size_t i = 0; i < middles.size(); ++i) {
+            for (std::size_t j = 0; j < i; ++j) EXPECT_GT(glm::distance(middles[i], middles[j]), 3.0f) << bone;
+        }
+    }
+}
+
+TEST_F(RaceDrawingTest, WhatStandsApartIsDrawnWhereItIs) {
+    reach_with(6);
+    run("race.open", {{"start", "straight"}});
+    run("chain.target", {{"to", {2, 2.5, 1}}});
+    const auto drawn = bones();
+    int apart = 0;
+    for (const Racer& racer : race()->racers) {
+        const auto& lines = drawn.at(racer.method);
+        ASSERT_EQ(lines.size(), 6u);
+        for (std::size_t bone = 1; bone <= 6; ++bone) {
+            float nearest_pixels = 1e9f;
+            for (const Racer& other : race()->racers) {
+                if (other.method == racer.method) continue;
+                nearest_pixels = std::min(
+                    nearest_pixels, std::max(glm::distance(seen(other.joints[bone]), seen(racer.joints[bone])),
+                                             glm::distance(seen(other.joints[bone - 1]),
+                                                           seen(racer.joints[bone - 1]))));
+            }
+            const float off = aside(lines[bone - 1], racer.joints[bone - 1], racer.joints[bone]);
+            if (nearest_pixels > 3.1f) {
+                EXPECT_LT(off, 0.05f) << ik::name(racer.method) << " bone " << bone;
+                ++apart;
+            }
+            EXPECT_LT(off, 12.0f) << ik::name(racer.method) << " bone " << bone;
+        }
+    }
+    EXPECT_GT(apart, 8);
+}
+
+TEST_F(RaceDrawingTest, SideBySideEachPaneHasOneChainAndThatWhereItIs) {
+    reach_with(4);
+    run("chain.target", {{"to", {4, 0, 0}}});
+    run("race.open", {{"start", "here"}});
+    run("race.side_by_side", {{"on", true}});
+    ASSERT_EQ(labs.find(chain_lab)->panes(workspace).size(), race()->racers.size());
+    for (std::size_t pane = 0; pane < race()->racers.size(); ++pane) {
+        const auto drawn = bones(pane);
+        ASSERT_EQ(drawn.size(), 1u);
+        const Racer& racer = race()->racers[pane];
+        ASSERT_EQ(drawn.begin()->first, racer.method);
+        for (std::size_t bone = 1; bone <= 4; ++bone) {
+            EXPECT_EQ(drawn.begin()->second[bone - 1].a, racer.joints[bone - 1]);
+            EXPECT_EQ(drawn.begin()->second[bone - 1].b, racer.joints[bone]);
+        }
+    }
+}
+
+TEST_F(RaceDrawingTest, ChainsSeenEndOnAreStillDrawn) {
+    reach_with(3);
+    run("chain.target", {{"to", {3, 0, 0}}});
+    run("race.open", {{"start", "here"}});
+    DrawList list;
+    const Camera along({.yaw = glm::radians(90.0f), .pitch = 0.0f, .distance = 12.0f}, {{0, 0}, {800, 600}});
+    labs.find(chain_lab)->draw({workspace, along, colours_, no_pick, no_pick, 1.0f}, list);
+    for (const Stroke& stroke : list.strokes) {
+        for (const float value : {stroke.a.x, stroke.a.y, stroke.a.z, stroke.b.x, stroke.b.y, stroke.b.z})
+            EXPECT_TRUE(std::isfinite(value));
+    }
+}
+
+}  // namespace
+}  // namespace tendril::app
