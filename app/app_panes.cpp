@@ -54,6 +54,7 @@ void App::draw_panes() {
         show_constraint(pane.drawn, view, pointer_, input_);
         show_labels(pane.drawn, camera, colours, layout_.scale);
     }
+    if (const auto box = pointer_.box()) show_selection_box(*box, colours, layout_.scale);
     show_pane_titles(panes_, lab().panes(workspace_), colours, layout_.scale);
 }
 

@@ -141,6 +141,15 @@ class Lab {
     virtual void drop(const Workspace&, PickId, Emit&) const {}
     /// The handle, or with no_pick the empty scene, is clicked.
     virtual void click(const Workspace&, PickId, Emit&) const {}
+    /// Clicked with Shift held: adds to what is selected, or takes it out, where several can be selected.
+    virtual void click_more(const Workspace& workspace, PickId pick, Emit& emit) const {
+        click(workspace, pick, emit);
+    }
+    /// Whether a box can be drawn that selects: Ctrl and a drag on nothing.
+    virtual bool selects_by_box() const { return false; }
+    /// The handles that are in the box are selected, with `add` beside those that were. One that stays as it
+    /// is may be among them.
+    virtual void select(const Workspace&, const std::vector<PickId>&, bool /*add*/, Emit&) const {}
     /// The second click on a handle; the first was a click too.
     virtual void double_click(const Workspace& workspace, PickId pick, Emit& emit) const {
         click(workspace, pick, emit);

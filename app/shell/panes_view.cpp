@@ -41,4 +41,11 @@ void show_pane_titles(std::span<const Pane> panes, std::span<const PaneTitle> ti
     }
 }
 
+void show_selection_box(const Rect& box, const Palette& palette, float scale) {
+    ImDrawList* const list = ImGui::GetBackgroundDrawList();
+    const ImVec2 low{box.min.x, box.min.y}, high{box.max.x, box.max.y};
+    list->AddRectFilled(low, high, imgui_u32(palette.selection, 0.12f));
+    list->AddRect(low, high, imgui_u32(palette.selection, 0.9f), 0.0f, 0, scale);
+}
+
 }  // namespace tendril::app

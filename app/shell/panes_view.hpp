@@ -1,4 +1,4 @@
-// What is written over the panes of a divided view.
+// What is written and drawn flat over the panes of the view.
 #pragma once
 
 #include <span>
@@ -11,5 +11,8 @@ namespace tendril::app {
 /// Titles in the panes' top left corners, and lines between the panes. Nothing where there is one pane.
 void show_pane_titles(std::span<const Pane> panes, std::span<const PaneTitle> titles, const Palette& palette,
                       float scale);
+
+/// The box that is drawn with the mouse, to select what is in it.
+void show_selection_box(const Rect& box, const Palette& palette, float scale);
 
 }  // namespace tendril::app

@@ -97,6 +97,7 @@ void Pointer::press(const MousePress& press, const Input& input, const Scene& sc
     caught_ = hovered_ = pick(scene.drawn, scene.camera, input.mouse(), slack * scene.scale);
     caught_in_ = &scene.lab;
     draggable_ = false;
+    boxing_ = caught_ == no_pick && input.ctrl() && scene.lab.selects_by_box();
     const auto part = picked_part(caught_);
     const auto handle = part ? scene.lab.gizmo(scene.workspace) : scene.lab.handle(scene.workspace, caught_);
     if (handle) take_hold(*handle, part ? part : handle->part, scene);
@@ -122,7 +123,9 @@ bool Pointer::clicked_before(const Input& input, const Scene& scene) const {
 void Pointer::let_go(const Input& input, const Scene& scene, Emit& emit) {
     if (doing_ == Doing::Press && !picked_part(caught_)) {
         const bool twice = clicked_before(input, scene);
-        if (twice) {
+        if (input.shift() || input.ctrl()) {
+            scene.lab.click_more(scene.workspace, caught_, emit);
+        } else if (twice) {
             scene.lab.double_click(scene.workspace, caught_, emit);
         } else {
             scene.lab.click(scene.workspace, caught_, emit);
@@ -131,6 +134,7 @@ void Pointer::let_go(const Input& input, const Scene& scene, Emit& emit) {
         clicked_at_ = input.mouse();
         since_click_ = 0;
     }
+    if (doing_ == Doing::Box) select_in_box(input.shift(), scene, emit);
     release(scene, emit);
 }
 
@@ -139,6 +143,7 @@ void Pointer::move(const Input& input, const Scene& scene, Emit& emit) {
     switch (doing_) {
         case Doing::Nothing:
         case Doing::Stray:
+        case Doing::Box:
             break;
         case Doing::Orbit:
             emit_camera(emit, scene.workspace.camera, orbited(scene.workspace.camera, by));
@@ -152,7 +157,10 @@ void Pointer::move(const Input& input, const Scene& scene, Emit& emit) {
             break;
         case Doing::Press:
             if (glm::distance(input.mouse(), caught_at_) < drag_threshold * scene.scale) break;
-            doing_ = draggable_ ? Doing::Drag : caught_ == no_pick ? Doing::Orbit : Doing::Stray;
+            doing_ = draggable_           ? Doing::Drag
+                     : boxing_            ? Doing::Box
+                     : caught_ == no_pick ? Doing::Orbit
+                                          : Doing::Stray;
             if (doing_ == Doing::Drag) drag(input, scene, emit);
             if (doing_ == Doing::Orbit)
                 emit_camera(emit, scene.workspace.camera,
@@ -162,6 +170,22 @@ void Pointer::move(const Input& input, const Scene& scene, Emit& emit) {
             drag(input, scene, emit);
             break;
     }
+}
+
+std::optional<Rect> Pointer::box() const {
+    if (doing_ != Doing::Box) return std::nullopt;
+    return Rect{glm::min(caught_at_, last_), glm::max(caught_at_, last_)};
+}
+
+/// What lies behind something else too: one cannot see through a coil, but one can select in it.
+void Pointer::select_in_box(bool add, const Scene& scene, Emit& emit) const {
+    const Rect inside = *box();
+    std::vector<PickId> picks;
+    for (const Handle& handle : scene.lab.handles(scene.workspace)) {
+        const auto pixel = scene.camera.project(handle.frame.position);
+        if (pixel && inside.contains(*pixel)) picks.push_back(handle.pick);
+    }
+    scene.lab.select(scene.workspace, picks, add, emit);
 }
 
 void Pointer::drag(const Input& input, const Scene& scene, Emit& emit) {

@@ -1,4 +1,4 @@
-// The mouse in the 3D view: hover, click, drag a handle, turn and shift the camera. It changes nothing
+// The mouse in the 3D view: hover, click, drag a handle, select by a box, turn and shift the camera. It changes nothing
 // itself: it emits commands.
 #pragma once
 
@@ -43,17 +43,21 @@ class Pointer {
     bool busy() const { return doing_ != Doing::Nothing; }
     /// The axis or plane that a held key binds the drag to; empty for the view plane.
     std::string constraint(const Input& input) const;
+    /// The box that is being drawn to select what is in it, window coordinates.
+    std::optional<Rect> box() const;
     /// Where the handle was when it was caught.
     glm::vec3 caught_position() const { return caught_frame_.position; }
     Cursor cursor() const;
 
   private:
-    enum class Doing { Nothing, Press, Stray, Drag, Orbit, Pan, Zoom };  ///< Stray: a drag of what stays
+    /// Stray: a drag of what stays.
+    enum class Doing { Nothing, Press, Stray, Drag, Orbit, Pan, Zoom, Box };
 
     void press(const MousePress& press, const Input& input, const Scene& scene);
     void let_go(const Input& input, const Scene& scene, Emit& emit);
     void move(const Input& input, const Scene& scene, Emit& emit);
     void drag(const Input& input, const Scene& scene, Emit& emit);
+    void select_in_box(bool add, const Scene& scene, Emit& emit) const;
     std::optional<glm::vec3> dragged_to(const Input& input, const Camera& camera) const;
     void take_hold(const Handle& handle, std::optional<GizmoPart> part, const Scene& scene);
     bool clicked_before(const Input& input, const Scene& scene) const;
@@ -69,6 +73,7 @@ class Pointer {
     glm::vec2 offset_{0.0f};          ///< from the mouse to the handle's pixel when caught
     Handle::Frame caught_frame_;      ///< the handle's when caught
     bool draggable_ = false;          ///< what is caught can be dragged
+    bool boxing_ = false;             ///< nothing is caught, and a drag draws a box
     std::optional<GizmoDrag> by_;     ///< by a part
     int since_click_ = 1000;          ///< ticks
     PickId clicked_ = no_pick;        ///< last

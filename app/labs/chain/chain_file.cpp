@@ -20,7 +20,7 @@ Json ChainPart::save() const {
         json["iterations"][chain_modes.rows[i].name] = iterations[i];
     json["tolerance"] = number(tolerance);
     json["target"] = point(target);
-    json["selected"] = selected ? Json(*selected) : Json(nullptr);
+    json["selected"] = chosen_point ? Json(chain_points.name(*chosen_point)) : selection.save();
     json["default_direction"] = point(chain.default_direction());
     json["motion"] = save_motion(motion);
     json["segments"] = std::move(segments);
@@ -98,8 +98,13 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
         ChainRuntime runtime;  // a part belongs to no workspace yet
         keep_step(*part, runtime);
         check_range(*part);
-        if (const auto selection = place.optional("selected"); selection && !part->chain.empty())
-            part->selected = static_cast<std::size_t>(selection->integer(0, last));
+        if (const auto selected = place.optional("selected")) {
+            if (selected->json().is_string()) {
+                part->chosen_point = selected->choice(chain_points);
+            } else {
+                part->selection = Selection::load(*selected, part->chain.size());
+            }
+        }
     } catch (const std::logic_error& error) {  // the core's own words, told where in the file
         place.fail(error.what());
     }

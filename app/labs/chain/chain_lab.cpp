@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "app/document/json_complete.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/colours.hpp"
 #include "app/labs/chain/commands.hpp"
@@ -132,16 +133,49 @@ void ChainLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame
 
 void ChainLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
     if (pick == no_pick) {
-        if (chain_part(workspace).selected) emit("chain.select");
+        const ChainPart& part = chain_part(workspace);
+        if (!part.selection.empty() || part.chosen_point) emit("chain.select");
         return;
     }
-    if (pick == target_pick || pick == pole_pick) return;
+    if (pick == target_pick || pick == pole_pick) {
+        const ChainPoint point = pick == target_pick ? ChainPoint::Target : ChainPoint::Pole;
+        emit("chain.select", {{"point", chain_points.name(point)}});
+        return;
+    }
     const std::size_t index = picked_segment(pick);
     emit("chain.select", {{"index", index}});
     const ChainPart& part = chain_part(workspace);
     if (part.mode == ChainMode::WithIndex && part.index != index) {
         emit("chain.mode", {{"mode", chain_modes.name(part.mode)}, {"index", index}});
     }
+}
+
+void ChainLab::click_more(const Workspace& workspace, PickId pick, Emit& emit) const {
+    if (pick == no_pick) return;
+    if (pick == target_pick || pick == pole_pick) return click(workspace, pick, emit);
+    emit("chain.select", {{"index", picked_segment(pick)}, {"add", true}});
+}
+
+void ChainLab::select(const Workspace& workspace, const std::vector<PickId>& picks, bool add,
+                      Emit& emit) const {
+    Json joints = Json::array();
+    for (const PickId pick : picks)
+        if (pick != target_pick && pick != pole_pick) joints.push_back(picked_segment(pick));
+    if (!joints.empty()) {
+        emit("chain.select", {{"joints", SharedJson(std::move(joints))}, {"add", add}});
+    } else if (!add) {
+        click(workspace, no_pick, emit);
+    }
+}
+
+/// Of what is selected, and can be moved.
+std::optional<Handle> ChainLab::gizmo(const Workspace& workspace) const {
+    const ChainPart& part = chain_part(workspace);
+    if (part.chosen_point == ChainPoint::Target) return handle(workspace, target_pick);
+    if (part.chosen_point == ChainPoint::Pole)
+        return part.mode == ChainMode::Reach ? handle(workspace, pole_pick) : std::nullopt;
+    if (!part.selection.active() || part.selection.several() || part.study.open()) return std::nullopt;
+    return handle(workspace, segment_pick(*part.selection.active()));
 }
 
 std::string ChainLab::hint(const Workspace& workspace, PickId pick) const {
@@ -162,9 +196,18 @@ std::string ChainLab::hint(const Workspace& workspace, PickId pick) const {
 
 Bounds ChainLab::bounds(const Workspace& workspace, bool selection_only) const {
     const ChainPart& part = chain_part(workspace);
-    if (selection_only && part.selected) {
-        return {part.chain.position(*part.selected),
-                std::max(1.5f * part.chain.length(*part.selected), 0.5f)};
+    if (selection_only && part.chosen_point) {
+        const bool target = part.chosen_point == ChainPoint::Target;
+        return {target ? part.target : part.reach.pole.value_or(part.target), 0.5f};
+    }
+    if (selection_only && !part.selection.empty()) {
+        glm::vec3 low(1e30f), high(-1e30f);
+        for (const std::size_t i : part.selection.all()) {
+            const glm::vec3 room(1.5f * part.chain.length(i) / glm::sqrt(3.0f));
+            low = glm::min(low, part.chain.position(i) - room);
+            high = glm::max(high, part.chain.position(i) + room);
+        }
+        return bounds_of(low, high);
     }
     glm::vec3 low = part.target, high = part.target;
     for (const Segment& segment : part.chain.segments()) {
@@ -211,6 +254,11 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
     if (!part.reach.limits.empty()) rows.push_back({"limit", colours.ghost, true});
     if (!part.reach.limits.empty()) rows.push_back({"active limit", colours.limit, true});
     return rows;
+}
+
+std::vector<MouseHelp> ChainLab::mouse_help() const {
+    return {{"Shift+click on a joint", "adds it to the selection, or takes it out"},
+            {"Ctrl+drag on nothing", "draws a box that selects the joints in it; with Shift it adds them"}};
 }
 
 std::vector<Shortcut> ChainLab::shortcuts() const {

@@ -37,6 +37,11 @@ class ChainLab final : public Lab {
     std::vector<Handle> handles(const Workspace& workspace) const override;
     std::optional<Handle> handle(const Workspace& workspace, PickId pick) const override;
     void drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const override;
+    void click_more(const Workspace& workspace, PickId pick, Emit& emit) const override;
+    bool selects_by_box() const override { return true; }
+    void select(const Workspace& workspace, const std::vector<PickId>& picks, bool add,
+                Emit& emit) const override;
+    std::optional<Handle> gizmo(const Workspace& workspace) const override;
     void click(const Workspace& workspace, PickId pick, Emit& emit) const override;
     std::string hint(const Workspace& workspace, PickId pick) const override;
 
@@ -45,6 +50,7 @@ class ChainLab final : public Lab {
     void inspector(const Workspace& workspace, Emit& emit) const override;
     float timeline_height(const Workspace& workspace) const override;
     void timeline(const Workspace& workspace, Emit& emit) const override;
+    std::vector<MouseHelp> mouse_help() const override;
     std::vector<Shortcut> shortcuts() const override;
     std::vector<LabSetting> settings() const override;
     std::vector<CommandCall> opening() const override;

@@ -20,7 +20,7 @@ ChainPart first_chain() {
 
 bool operator==(const ChainPart& a, const ChainPart& b) {
     return a.mode == b.mode && a.index == b.index && a.iterations == b.iterations &&
-           a.tolerance == b.tolerance && a.target == b.target && a.selected == b.selected &&
+           a.tolerance == b.tolerance && a.target == b.target && a.selection == b.selection && a.chosen_point == b.chosen_point &&
            a.motion == b.motion && a.chain == b.chain && a.reach == b.reach && a.result == b.result &&
            a.study == b.study && a.flips == b.flips;
 }
@@ -81,19 +81,21 @@ void keep_step(ChainPart& part, ChainRuntime& runtime) {
         part.study.step = std::min(part.study.step, trace->frames());
 }
 
-/// With the joint selected that is selected now.
+/// With what is selected now.
 std::shared_ptr<const Part> ChainPart::at_moment(std::shared_ptr<const Part> then) const {
     const auto& earlier = dynamic_cast<const ChainPart&>(*then);
-    const auto selection = selected && *selected < earlier.chain.size() ? selected : std::nullopt;
-    if (selection == earlier.selected) return then;
+    Selection now = selection;
+    now.keep_below(earlier.chain.size());
+    if (now == earlier.selection && chosen_point == earlier.chosen_point) return then;
     auto part = std::make_shared<ChainPart>(earlier);
-    part->selected = selection;
+    part->selection = std::move(now);
+    part->chosen_point = chosen_point;
     return part;
 }
 
 std::size_t ChainPart::bytes() const {
     return sizeof(*this) + chain.size() * sizeof(Segment) + reach.limits.size() * sizeof(ik::Limit) +
-           bytes_of(reach.state) + study.bytes();
+           bytes_of(reach.state) + study.bytes() + selection.all().size() * sizeof(std::size_t);
 }
 
 float length_error(const Chain& chain, std::size_t index) {

@@ -12,6 +12,7 @@
 #include "app/labs/chain/reach.hpp"
 #include "app/labs/chain/study.hpp"
 #include "app/labs/kit/motion.hpp"
+#include "app/labs/kit/selection.hpp"
 
 namespace tendril::app {
 
@@ -24,6 +25,11 @@ inline constexpr float min_damping = 1e-4f, max_damping = 10.0f;
 
 /// How the chain follows its target: the library's four modes, and Reach, which pins the head and iterates.
 enum class ChainMode { Forward, Backward, Fixed, WithIndex, Reach };
+
+/// What can be selected beside joints.
+enum class ChainPoint { Target, Pole };
+inline constexpr EnumNames<ChainPoint, 2> chain_points{
+    "point", {{"target", "Target", "What the chain follows."}, {"pole", "Pole target", "What it bends towards."}}};
 
 /// When a solve counts as a flip: a bone turned by more than `degrees`, while the target, as the root sees
 /// it, turned by less than a share of that, or moved by less than a share of the reach.
@@ -42,7 +48,8 @@ struct ChainPart final : Part {
     std::array<int, 4> iterations{1, 1, 1, 1};  ///< each pull mode's own; Fixed is the one that repeats
     float tolerance = 1e-4f;                    ///< metres, of Fixed
     glm::vec3 target{0.0f};
-    std::optional<std::size_t> selected;
+    Selection selection;                    ///< of joints
+    std::optional<ChainPoint> chosen_point;  ///< instead of joints
     Motion motion;
     ReachSettings reach;
     std::optional<ReachResult> result;  ///< of the last solve; none once the chain was moved otherwise

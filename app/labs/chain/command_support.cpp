@@ -1,5 +1,6 @@
 #include "app/labs/chain/command_support.hpp"
 
+#include "app/document/json_complete.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/kit/part_command.hpp"
@@ -46,6 +47,29 @@ void check_index(const ChainPart& part, std::size_t index) {
         throw Refused("index " + std::to_string(index) + " is out of range, the chain has " +
                       std::to_string(part.chain.size()) + " segments");
     }
+}
+
+Argument joints_argument() {
+    return {.name = "joints",
+            .type = ArgumentType::List,
+            .required = false,
+            .help = "several, counted from 0, instead of index"};
+}
+
+std::vector<std::size_t> joints_of(const Arguments& given, const ChainPart& part) {
+    if (given.has("index") == given.has("joints")) throw Refused("needs index, or joints");
+    std::vector<std::size_t> joints;
+    if (given.has("index")) {
+        joints.push_back(index_of(given));
+    } else {
+        for (const Json& each : given.json("joints")) {
+            if (!each.is_number_unsigned())
+                throw Refused("joints: " + json_summary(each) + " is no joint; they are counted from 0");
+            joints.push_back(each.get<std::size_t>());
+        }
+    }
+    for (const std::size_t index : joints) check_index(part, index);
+    return joints;
 }
 
 void add_chain_commands(CommandTable& table) {

@@ -112,8 +112,10 @@ class Drawing {
         ball.shadow = true;
         ball.pick = pick;
         ball.rank = 1;
-        if (part_.selected == i) {
-            list_.ring(at(i), grown + px(4.0f), px(2.5f), glm::vec4(view_.palette.selection, 1.0f)).layer =
+        if (part_.selection.has(i)) {
+            list_.ring(at(i), grown + px(4.0f), px(part_.selection.active() == i ? 2.5f : 1.5f),
+                       glm::vec4(view_.palette.selection, 1.0f))
+                .layer =
                 Layer::Overlay;
         } else if (hovered) {
             list_.ring(at(i), grown + px(3.0f), px(1.5f), glm::vec4(view_.palette.text, 0.55f)).layer =
@@ -177,7 +179,7 @@ class Drawing {
             const std::size_t stride = part_.chain.size() / most_labels + 1;
             for (std::size_t i = 0; i < part_.chain.size(); i += stride) {
                 const bool end = i == 0 || i + 1 == part_.chain.size();
-                label(i, part_.selected == i ? 2 : end ? 1 : 0);
+                label(i, part_.selection.has(i) ? 2 : end ? 1 : 0);
             }
         } else {
             const PickId pick = view_.dragged != no_pick ? view_.dragged : view_.hovered;
@@ -185,7 +187,8 @@ class Drawing {
                 picked_segment(pick) < part_.chain.size()) {
                 label(picked_segment(pick), 3);
             }
-            if (part_.selected && segment_pick(*part_.selected) != pick) label(*part_.selected, 2);
+            const auto selected = part_.selection.active();
+            if (selected && segment_pick(*selected) != pick) label(*selected, 2);
         }
     }
 

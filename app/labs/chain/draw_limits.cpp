@@ -12,7 +12,7 @@ namespace tendril::app {
 namespace {
 
 constexpr std::size_t most_limits =
-    24;  ///< drawn; in longer chains those of the selected joint and of the active limit
+    24;  ///< drawn; in longer chains those of the selected joints and of the active limit
 
 class LimitDrawing {
   public:
@@ -28,7 +28,7 @@ class LimitDrawing {
     void run() {
         const std::size_t bones = joints_.size() - 1;
         for (std::size_t i = 0; i < bones; ++i) {
-            const bool shown = bones <= most_limits || is_active(i) || part_.selected == i;
+            const bool shown = bones <= most_limits || is_active(i) || part_.selection.has(i);
             if (shown && limit_of(part_.reach, i).kind != ik::JointKind::Free) joint(i);
         }
     }
@@ -43,7 +43,7 @@ class LimitDrawing {
         const glm::quat parent = i == 0 ? glm::quat(1, 0, 0, 0) : turns_[i - 1];
         const float bone = part_.chain.segments()[i + 1].length;
         const float pixels = 90.0f * view_.scale * view_.camera.metres_per_pixel(joints_[i]);
-        const bool active = is_active(i), lit = active || part_.selected == i;
+        const bool active = is_active(i), lit = active || part_.selection.has(i);
         const LimitShape shape(limit, rest, parent);
         const LimitLook look{.centre = joints_[i],
                              .radius = std::min(0.75f * bone, pixels),

@@ -17,41 +17,6 @@ namespace {
 
 using Joints = std::vector<glm::vec3>;
 
-/// Under the microscope a joint is read, not set: it is where the step has it.
-void selected_in_step(const ShownChain& chain, const Joints& joints, std::size_t i) {
-    const ShownSegment shown = shown_segment(chain, joints, i);
-    reading("x", "%.3f m", static_cast<double>(shown.position.x));
-    reading("y", "%.3f m", static_cast<double>(shown.position.y));
-    reading("z", "%.3f m", static_cast<double>(shown.position.z));
-    reading("bone in this step", "%.3f m", static_cast<double>(shown.length));
-    reading("to the target", "%.3f m", static_cast<double>(glm::distance(shown.position, chain.part.target)));
-}
-
-void selection_rows(const ShownChain& shown, const Joints& joints, Emit& emit) {
-    section("Selection");
-    const ChainPart& part = shown.part;
-    if (!part.selected) {
-        note("Nothing is selected.");
-        return;
-    }
-    const std::size_t i = *part.selected;
-    const glm::vec3 at = joints[i];
-    const std::string end = end_name(part, i);
-    reading("joint", "%zu%s", i, end.empty() ? "" : (" (" + end + ")").c_str());
-    if (shown.trace) return selected_in_step(shown, joints, i);
-    glm::vec3 to = at;
-    if (point_field("at", to, 0.01f)) emit.continuously("chain.pull", {{"index", i}, {"to", to}});
-    explain("Where the joint is. A change pulls it there, and the chain follows.");
-    float length = part.chain.length(i);
-    if (number_field(i == 0 ? "length" : "bone length", length, 0.01f, 0.0f, 1000.0f, "%.3f m")) {
-        emit.continuously("chain.set_length", {{"index", i}, {"length", length}});
-    }
-    explain(i == 0 ? "The length of the bone that leads here once a joint is inserted before this one."
-                   : "The length of the bone that leads to this joint.");
-    if (i == 0) note("No bone leads to this joint: its length counts once a joint is inserted before it.");
-    reading("to the target", "%.3f m", static_cast<double>(glm::distance(at, part.target)));
-}
-
 void chain_rows(const ShownChain& shown, const Joints& joints) {
     section("Chain");
     const ChainPart& part = shown.part;
@@ -73,12 +38,12 @@ void joint_row(const ShownChain& shown, const Joints& joints, std::size_t i, Emi
     ImGui::TableNextColumn();
     char id[24];
     std::snprintf(id, sizeof id, "%zu", i);
-    if (ImGui::Selectable(id, shown.part.selected == i, ImGuiSelectableFlags_SpanAllColumns)) {
-        emit("chain.select", {{"index", i}});
+    if (ImGui::Selectable(id, shown.part.selection.has(i), ImGuiSelectableFlags_SpanAllColumns)) {
+        emit("chain.select", {{"index", i}, {"add", ImGui::GetIO().KeyShift}});
     }
     if (ImGui::IsItemHovered())
-        ImGui::SetTooltip(i == 0 ? "Click selects the first joint"
-                                 : "Click selects this joint. bone: the length of the bone that leads to it; "
+        ImGui::SetTooltip(i == 0 ? "Click selects the first joint, Shift+click adds it"
+                                 : "Click selects this joint, Shift+click adds it. bone: the length of the bone that leads to it; "
                                    "error: how far that is from what it should be");
     for (int axis = 0; axis < 3; ++axis) {
         ImGui::TableNextColumn();
@@ -120,7 +85,7 @@ void header_row(bool fixed) {
 /// Within the table: brings a row that was selected elsewhere into view, once.
 void follow_selection(const ChainPart& part, float row_height) {
     int& followed = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("followed"), -1);
-    const int selected = part.selected ? static_cast<int>(*part.selected) : -1;
+    const int selected = part.selection.active() ? static_cast<int>(*part.selection.active()) : -1;
     if (std::exchange(followed, selected) == selected || selected < 0) return;
     const float top = static_cast<float>(selected) * row_height;
     const float visible =

@@ -39,13 +39,28 @@ void pull(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
 }
 
 void select(ChainPart& part, const Arguments& given) {
-    if (!given.has("index")) {
-        part.selected.reset();
+    const bool add = given.has("add") && given.boolean("add");
+    if (given.has("point")) {
+        if (given.has("index") || given.has("joints") || add)
+            throw Refused("point goes with no joints: it is selected instead of them");
+        const ChainPoint chosen = chain_points.value(given.text("point"));
+        if (chosen == ChainPoint::Pole && !(part.mode == ChainMode::Reach && part.reach.pole))
+            throw Refused("there is no pole target");
+        part.selection.clear();
+        part.chosen_point = chosen;
         return;
     }
-    const std::size_t index = index_of(given);
-    check_index(part, index);
-    part.selected = index;
+    if (given.has("index") || given.has("joints")) {
+        const std::vector<std::size_t> joints = joints_of(given, part);
+        if (given.has("index") && add) {
+            part.selection.toggle(joints.front());
+        } else {
+            part.selection.take(joints, add);
+        }
+    } else if (!add) {
+        part.selection.clear();
+    }
+    part.chosen_point.reset();
 }
 
 void set_target(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
@@ -95,8 +110,12 @@ void add_mode_commands(CommandTable& table) {
                             "Pulls one segment, and the target with it; the mode stays as it is. In mode "
                             "reach: drags one joint, the root and the target stay",
                             pull));
-    table.add(chain_command("chain.select", {index_argument(false, "which segment; none when left out")},
-                            "Selects a segment", select, Effect::Look));
+    table.add(chain_command(
+        "chain.select",
+        {index_argument(false, "which joint; nothing is selected when all are left out"), joints_argument(),
+         switch_argument("add", "true: adds to what is selected, or with index takes out what is"),
+         choice_argument("point", false, "what is selected instead of joints", chain_points.names())},
+        "Selects joints, or the target or pole target", select, Effect::Look));
     table.add(chain_command("chain.motion",
                             {choice_argument("path", true, "the path", motion_paths.names()),
                              number_argument("radius", "metres", 0, static_cast<double>(max_motion_radius)),

@@ -67,19 +67,17 @@ void segment_rows(const ChainPart& part, Emit& emit) {
     const float length = length_of_next();
     if (row_button("Add", 3, true, "Adds a joint at the end, with a bone of that length"))
         emit("chain.add", {{"length", length}});
-    if (row_button("Insert", 3, part.selected.has_value(), "Inserts a joint before the selected one")) {
-        emit("chain.insert", {{"index", *part.selected}, {"length", length}});
-    }
-    if (row_button("Remove", 3, part.selected.has_value(), "Removes the selected joint")) {
-        emit("chain.remove", {{"index", *part.selected}});
-    }
-    if (part.selected) {
-        float selected = part.chain.length(*part.selected);
-        const std::string name = "bone of joint " + std::to_string(*part.selected);
-        if (number_field(name.c_str(), selected, 0.01f, 0.0f, 1000.0f, "%.3f m")) {
-            emit.continuously("chain.set_length", {{"index", *part.selected}, {"length", selected}});
-        }
-        explain("The length of the bone that leads to the selected joint.");
+    const auto selected = part.selection.active();
+    const bool several = part.selection.several();
+    if (row_button("Insert", 3, selected.has_value(), "Inserts a joint before the selected one"))
+        emit("chain.insert", {{"index", *selected}, {"length", length}});
+    if (row_button("Remove", 3, selected.has_value(),
+                   several ? "Removes the selected joints" : "Removes the selected joint"))
+        emit("chain.remove_selected");
+    if (selected) {
+        const std::string name =
+            several ? count_text(part.selection.all().size(), "bone") : "bone of joint " + std::to_string(*selected);
+        length_field(name.c_str(), part, emit);
     } else {
         note(part.chain.empty() ? "Add a joint, or take a preset." : "Click a joint to select it.");
     }

@@ -20,7 +20,11 @@ void past_plot_rows(const Workspace& workspace);
 void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, const Palette& palette);
 /// The inspector: the last flips and what else happened; a click goes to it.
 void incident_rows(const Workspace& workspace, const Palette& palette, Emit& emit);
-/// The inspector: the limit of the selected joint.
+/// The inspector: what is selected.
+void selection_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, Emit& emit);
+/// The length of the selected joints' bones.
+void length_field(const char* name, const ChainPart& part, Emit& emit);
+/// The inspector: the limit of the selected joints.
 void limit_rows(const ChainPart& part, Emit& emit);
 /// The inspector: the step that the microscope shows.
 void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit);

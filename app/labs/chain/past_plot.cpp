@@ -81,7 +81,7 @@ void past_plot_rows(const Workspace& workspace) {
     const Palette& colours = palette(workspace.settings.theme);
     const Rewind& past = workspace.rewind;
     // An angle is that of the joint that is selected, or else of the one after the root: an arm's elbow.
-    const std::size_t joint = now.selected.value_or(1);
+    const std::size_t joint = now.selection.active().value_or(1);
     const std::uint64_t first = past.empty() ? workspace.moment : past.oldest();
     const auto seconds = [&](std::uint64_t tick) {
         return static_cast<float>(static_cast<double>(tick - first) * tick_seconds);

@@ -37,6 +37,7 @@ void set_pole(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     if (given.has("to") && off) throw Refused("to and off exclude each other");
     if (!given.has("to") && !off) throw Refused("needs to, or off: true");
     part.reach.pole.reset();
+    if (off && part.chosen_point == ChainPoint::Pole) part.chosen_point.reset();
     if (given.has("to")) part.reach.pole = given.point("to");
     reach_again(part, runtime);
 }
@@ -44,9 +45,7 @@ void set_pole(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
 constexpr const char* angle_names[] = {"min_deg",  "max_deg",   "up_deg",        "down_deg",
                                        "left_deg", "right_deg", "twist_min_deg", "twist_max_deg"};
 
-void set_joint_limit(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
-    const std::size_t index = index_of(given);
-    check_index(part, index);
+void set_joint_limit(ChainPart& part, std::size_t index, const Arguments& given) {
     if (index + 1 == part.chain.size()) {
         throw Refused("index " + std::to_string(index) + " is the tail: no bone starts there to be limited");
     }
@@ -59,12 +58,17 @@ void set_joint_limit(ChainPart& part, const Arguments& given, ChainRuntime& runt
         if (given.has(angle)) json[angle] = number(given.number(angle));
     }
     set_limit(part.reach, index, limit_from_json(json, "limit"), part.chain);
+}
+
+void set_limits(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
+    for (const std::size_t index : joints_of(given, part)) set_joint_limit(part, index, given);
     reach_again(part, runtime);
 }
 
 std::vector<Argument> limit_arguments() {
     std::vector<Argument> arguments{
-        index_argument(true, "which joint; its limit is on the bone to the next one"),
+        index_argument(false, "which joint; its limit is on the bone to the next one"),
+        joints_argument(),
         choice_argument("kind", false, "kind of joint; kept when left out",
                         names(all_joint_kinds, [](ik::JointKind k) { return ik::name(k); })),
         {.name = "axis",
@@ -107,7 +111,7 @@ void add_reach_commands(CommandTable& table) {
         "Sets the solver of mode reach, from the next move of the target on", set_solver));
     table.add(chain_command("chain.limit", limit_arguments(),
                             "Limits how far a joint turns in mode reach; kind free removes the limit",
-                            set_joint_limit));
+                            set_limits));
     table.add(chain_command("chain.pole",
                             {{.name = "to",
                               .type = ArgumentType::Point,

@@ -32,7 +32,8 @@ void shape_changed(ChainPart& part) {
 }
 
 void set_length(ChainPart& part, const Arguments& given) {
-    require_ok(part.chain.set_length(index_of(given), given.number("length")));
+    for (const std::size_t index : joints_of(given, part))
+        require_ok(part.chain.set_length(index, given.number("length")));
     part.result.reset();
 }
 
@@ -56,7 +57,7 @@ void insert(ChainPart& part, const Arguments& given) {
         require_ok(part.chain.insert(index, given.number("length")));
     }
     // What points at a segment goes on pointing at it.
-    if (part.selected && *part.selected >= index) ++*part.selected;
+    part.selection.inserted(index);
     if (part.index >= index) ++part.index;
     shape_changed(part);
     bone_inserted(part.reach, index, part.chain.size());
@@ -66,15 +67,16 @@ void remove_at(ChainPart& part, std::size_t index) {
     require_ok(part.chain.remove(index));
     shape_changed(part);
     bone_removed(part.reach, index, part.chain.size());
-    if (part.selected && *part.selected > index) --*part.selected;
+    // A single one hands its selection on, so that one can go on removing.
+    const bool alone = part.selection.active() == index && !part.selection.several();
+    part.selection.removed(index);
     if (part.index > index) --part.index;
     if (part.chain.empty()) {
-        part.selected.reset();
         part.index = 0;
         return;
     }
     const std::size_t last = part.chain.size() - 1;
-    if (part.selected) part.selected = std::min(*part.selected, last);
+    if (alone) part.selection.only(std::min(index, last));
     part.index = std::min(part.index, last);
 }
 
@@ -83,8 +85,9 @@ void remove(ChainPart& part, const Arguments& given) {
 }
 
 void remove_selected(ChainPart& part, const Arguments&) {
-    if (!part.selected) throw Refused("no segment is selected");
-    remove_at(part, *part.selected);
+    if (part.selection.empty()) throw Refused("no joint is selected");
+    const std::vector<std::size_t> joints = part.selection.all();
+    for (std::size_t i = joints.size(); i-- > 0;) remove_at(part, joints[i]);
 }
 
 void clear(ChainPart& part, const Arguments& given) {
@@ -92,7 +95,8 @@ void clear(ChainPart& part, const Arguments& given) {
     if (given.has("default_direction"))
         require_ok(empty.set_default_direction(given.point("default_direction")));
     part.chain = empty;
-    part.selected.reset();
+    part.selection.clear();
+    part.chosen_point.reset();
     part.index = 0;
     part.motion.path = Motion::Path::Still;
     forget_limits(part.reach);
@@ -113,7 +117,8 @@ void take_preset(ChainPart& part, const Arguments& given, ChainRuntime& runtime)
     part.chain = make_preset(name, count, seed);
     part.target = part.chain.position(part.chain.size() - 1);
     part.index = std::min(part.index, part.chain.size() - 1);
-    part.selected.reset();
+    part.selection.clear();
+    part.chosen_point.reset();
     part.motion.path = Motion::Path::Still;
     forget_limits(part.reach);
     shape_changed(part);
@@ -134,10 +139,11 @@ void add_shape_commands(CommandTable& table) {
         "Inserts a segment before another", insert));
     table.add(
         chain_command("chain.remove", {index_argument(true, "which segment")}, "Removes a segment", remove));
-    table.add(chain_command("chain.remove_selected", {}, "Removes the selected segment", remove_selected));
+    table.add(chain_command("chain.remove_selected", {}, "Removes the selected joints", remove_selected));
     table.add(chain_command("chain.reset", {}, "Resets this lab to its first state", reset));
-    table.add(chain_command("chain.set_length", {index_argument(true, "which segment"), length_argument()},
-                            "Sets the length of a segment's bone", set_length));
+    table.add(chain_command("chain.set_length", {index_argument(false, "which joint; its length is that of the bone to it"), joints_argument(),
+                             length_argument()},
+                            "Sets the length of bones", set_length));
     table.add(chain_command(
         "chain.preset",
         {choice_argument("name", true, "which chain",

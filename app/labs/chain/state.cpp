@@ -84,7 +84,10 @@ Json ChainLab::state(const Workspace& workspace) const {
               {"target", point(part.target)},
               {"head", end(false)},
               {"tail", end(true)},
-              {"selected", part.selected ? Json(*part.selected) : Json(nullptr)},
+              {"selected", part.chosen_point         ? Json(chain_points.name(*part.chosen_point))
+                           : part.selection.active() ? Json(*part.selection.active())
+                                                     : Json(nullptr)},
+              {"selection", part.selection.all()},
               {"reach", number(part.chain.reach())},
               {"verdict", chain_verdict(part).text},
               {"motion", motion_paths.name(part.motion.path)},

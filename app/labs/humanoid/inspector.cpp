@@ -1,7 +1,6 @@
 // What is selected in the Humanoid lab, and the character in numbers.
 #include <imgui.h>
 
-#include <algorithm>
 #include <filesystem>
 
 #include "app/document/units.hpp"
@@ -9,7 +8,6 @@
 #include "app/labs/humanoid/ik/chains.hpp"
 #include "app/labs/humanoid/panels.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/fonts.hpp"
 #include "app/widgets/text.hpp"
 
 namespace tendril::app {
@@ -19,36 +17,6 @@ void text_row(const char* name, const std::string& value) {
     const float free = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(name).x - ImGui::GetFontSize();
     reading(name, "%s", elided(value, free).c_str());
     explain(value.c_str());
-}
-
-std::size_t mapped(const humanoid::BoneMap& map) {
-    return static_cast<std::size_t>(
-        std::ranges::count_if(map.bones, [](const humanoid::BoneMatch& each) { return each.node >= 0; }));
-}
-
-/// "Reached", "12 mm short", or what there is to reach with.
-std::string verdict_of(const HumanoidPanel& panel) {
-    if (panel.runtime.solvers.body(panel.part) == nullptr) return "Not a whole body";
-    const ShownPose& shown = panel.runtime.shown(panel.workspace);
-    double worst = -1.0;
-    for (const humanoid::Effector effector : all_effectors)
-        if (panel.part.ik.target(effector)) worst = std::max(worst, shown.residual(effector).value_or(-1.0));
-    if (worst < 0.0) return "A whole body";
-    const double mm = 1000.0 * worst;
-    if (mm < 1.0) return "Reached";
-    return mm < 100.0 ? fixed_text(mm, 1) + " mm short" : fixed_text(mm / 1000.0, 2) + " m short";
-}
-
-/// The largest text: what can be done with the character.
-void verdict(const HumanoidPanel& panel) {
-    const HumanoidPart& part = panel.part;
-    ImGui::PushFont(heading_font());
-    const std::string& why = panel.runtime.solvers.why_no_body(part);
-    ImGui::TextUnformatted(verdict_of(panel).c_str());
-    ImGui::PopFont();
-    note(why.empty() ? std::to_string(mapped(*part.map)) + " of " + std::to_string(humanoid::bone_count) +
-                           " bones are known."
-                     : why + '.');
 }
 
 void position_rows(const glm::dvec3& at) {
@@ -114,7 +82,7 @@ void character_inspector(const HumanoidPanel& panel) {
 
 void HumanoidLab::inspector(const Workspace& workspace, Emit& emit) const {
     const HumanoidPanel panel = humanoid_panel(workspace, emit);
-    verdict(panel);
+    show_verdict(humanoid_verdict(workspace), panel.colours);
     target_inspector(panel);
     limit_inspector(panel);
     character_inspector(panel);

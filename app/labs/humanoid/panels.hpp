@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "app/labs/kit/verdict.hpp"
 #include "app/view/palette.hpp"
 #include "app/widgets/emit.hpp"
 
@@ -16,6 +17,9 @@ struct HumanoidPanel {
     Emit& emit;
 };
 HumanoidPanel humanoid_panel(const Workspace& workspace, Emit& emit);
+
+/// What can be done with the character, and whether it reaches what it is to reach.
+Verdict humanoid_verdict(const Workspace& workspace);
 
 // left
 /// Which file it is, and what was done to it.

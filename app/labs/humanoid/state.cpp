@@ -6,6 +6,7 @@
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/ik/chains.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
+#include "app/labs/humanoid/panels.hpp"
 
 namespace tendril::app {
 namespace {
@@ -277,6 +278,7 @@ Json HumanoidLab::state(const Workspace& workspace) const {
     const HumanoidPart& part = humanoid_part(workspace);
     const ShownPose& shown = shown_pose(workspace);
     return Json{{"lab", humanoid_lab},
+                {"verdict", humanoid_verdict(workspace).text},
                 {"character", character_state(workspace, shown)},
                 {"body", body_state(workspace, shown)},
                 {"chains", chains_state(part, shown)},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/labs/kit/setting.hpp"
+#include "app/labs/kit/verdict.hpp"
 #include "app/labs/rig/rig_runtime.hpp"
 #include "app/labs/rig/unit_inputs.hpp"
 #include "app/view/palette.hpp"
@@ -36,6 +37,8 @@ void curve_rows(const RigPanel& panel);
 void solve_rows(const RigPanel& panel);
 
 // right
+/// Whether every unit ran.
+Verdict rig_verdict(const RigPart& part);
 /// The selected element: what it is, and fields for the value of a control.
 void element_inspector(const RigPanel& panel);
 /// Its poses, what is pending, and fields for the pose that a solve begins with.

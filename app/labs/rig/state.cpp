@@ -3,6 +3,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/labs/rig/clip.hpp"
+#include "app/labs/rig/panels.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rig/rig_runtime.hpp"
 #include "app/labs/rig/time_json.hpp"
@@ -141,6 +142,7 @@ Json RigLab::state(const Workspace& workspace) const {
     const RigPart& part = rig_part(workspace);
     auto& runtime = workspace.runtimes.of<RigRuntime>(rig_lab);
     return Json{{"lab", rig_lab},
+                {"verdict", rig_verdict(part).text},
                 {"elements", elements_state(part, runtime.resolved(workspace))},
                 {"curves", curves_state(part)},
                 {"units", units_state(part, runtime.microseconds(part.rig))},

@@ -159,6 +159,7 @@ void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
 }
 
 void RopeLab::inspector(const Workspace& workspace, Emit& emit) const {
+    show_verdict(rope_verdict(rope_part(workspace)), palette(workspace.settings.theme));
     selection_rows(workspace, emit);
     number_rows(workspace, palette(workspace.settings.theme));
 }

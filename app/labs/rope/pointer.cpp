@@ -1,5 +1,7 @@
 // What the mouse takes hold of in this lab, and what comes of it.
 #include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_lab.hpp"
@@ -18,6 +20,39 @@ const rope::Collider* holder_of(const NamedWorld& world, std::size_t particle) {
     for (const rope::Pin& pin : world.state().pins)
         if (pin.particle == particle) return world.holder(pin);
     return nullptr;
+}
+
+constexpr glm::vec3 along_x(1.0f, 0.0f, 0.0f), upright(0.0f, 1.0f, 0.0f);
+
+/// The turn that a shape has: of a capsule what brings the x axis along it, of a plane the y axis out of it.
+glm::quat turn_of(const rope::Shape& shape) {
+    const auto from = [](glm::vec3 axis, glm::vec3 direction) {
+        const float length = glm::length(direction);
+        return length > 1e-6f ? glm::quat(axis, direction / length) : glm::quat(1, 0, 0, 0);
+    };
+    if (const auto* box = std::get_if<rope::Box>(&shape)) return box->rotation;
+    if (const auto* capsule = std::get_if<rope::Capsule>(&shape)) return from(along_x, capsule->b - capsule->a);
+    if (const auto* plane = std::get_if<rope::Plane>(&shape)) return from(upright, plane->normal);
+    return {1.0f, 0.0f, 0.0f, 0.0f};
+}
+
+/// What rope.collider.set is told so that the shape has that turn.
+ArgumentList turned(const rope::Shape& shape, glm::quat turn) {
+    if (const auto* capsule = std::get_if<rope::Capsule>(&shape)) {
+        const glm::vec3 middle = rope::centre(shape);
+        const glm::vec3 half = 0.5f * glm::distance(capsule->a, capsule->b) * (turn * along_x);
+        return {{"a", middle - half}, {"b", middle + half}};
+    }
+    if (std::holds_alternative<rope::Plane>(shape)) return {{"normal", turn * upright}};
+    return {{"rotation", glm::normalize(turn)}};
+}
+
+Handle collider_handle(const NamedWorld& world, const rope::Collider& collider, PickId pick) {
+    const bool turns = !std::holds_alternative<rope::Sphere>(collider.shape);
+    return {"collider." + world.name(collider),
+            pick,
+            {rope::centre(collider.shape), turn_of(collider.shape)},
+            turns ? Drag::Position | Drag::Rotation : Drag::Position};
 }
 
 Handle particle_handle(const NamedWorld& world, const ParticlePlace& place) {
@@ -71,8 +106,18 @@ std::vector<Handle> RopeLab::handles(const Workspace& workspace) const {
 std::optional<Handle> RopeLab::handle(const Workspace& workspace, PickId pick) const {
     const NamedWorld& world = *rope_part(workspace).world;
     if (const auto* collider = picked_collider(world, pick))
-        return Handle{"collider." + world.name(*collider), pick, {rope::centre(collider->shape)}};
+        return collider_handle(world, *collider, pick);
     if (const auto place = picked_particle(world, pick)) return particle_handle(world, *place);
+    return std::nullopt;
+}
+
+/// Of a collider that is selected: a rope has hands enough.
+std::optional<Handle> RopeLab::gizmo(const Workspace& workspace) const {
+    const RopePart& part = rope_part(workspace);
+    if (!part.selection || part.selection->collider.empty()) return std::nullopt;
+    const auto& colliders = part.world->state().colliders;
+    for (std::size_t i = 0; i < colliders.size(); ++i)
+        if (part.world->name(colliders[i]) == part.selection->collider) return handle(workspace, collider_pick(i));
     return std::nullopt;
 }
 
@@ -80,7 +125,15 @@ void RopeLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame&
     const glm::vec3 to = frame.position;
     const RopePart& part = rope_part(workspace);
     if (const auto* collider = picked_collider(*part.world, pick)) {
-        emit.continuously("rope.collider.move", {{"name", part.world->name(*collider)}, {"to", to}});
+        const Handle::Frame now = collider_handle(*part.world, *collider, pick).frame;
+        const std::string& name = part.world->name(*collider);
+        if (frame.rotation != now.rotation) {
+            ArgumentList arguments = turned(collider->shape, frame.rotation);
+            arguments.push_back({"name", name});
+            emit.continuously("rope.collider.set", arguments);
+        }
+        if (to != now.position || frame.rotation == now.rotation)
+            emit.continuously("rope.collider.move", {{"name", name}, {"to", to}});
         return;
     }
     const auto place = picked_particle(*part.world, pick);

@@ -51,6 +51,7 @@ class RopeLab final : public Lab {
 
     std::vector<Handle> handles(const Workspace& workspace) const override;
     std::optional<Handle> handle(const Workspace& workspace, PickId pick) const override;
+    std::optional<Handle> gizmo(const Workspace& workspace) const override;
     void drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const override;
     void drop(const Workspace& workspace, PickId pick, Emit& emit) const override;
     void click(const Workspace& workspace, PickId pick, Emit& emit) const override;

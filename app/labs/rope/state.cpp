@@ -1,6 +1,7 @@
 // What --state writes of the Rope lab.
 #include "app/document/json_complete.hpp"
 #include "app/labs/kit/world_file.hpp"
+#include "app/labs/rope/panels.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/rope/rope_names.hpp"
 
@@ -59,6 +60,7 @@ Json RopeLab::state(const Workspace& workspace) const {
     Json held = nullptr;
     if (part.hold) held = {{"rope", part.hold->body}, {"particle", part.hold->particle}};
     return Json{{"lab", rope_lab},
+                {"verdict", rope_verdict(part).text},
                 {"ropes", std::move(ropes)},
                 {"cloths", std::move(cloths)},
                 {"hair", std::move(hair)},

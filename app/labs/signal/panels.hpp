@@ -1,6 +1,7 @@
 // The pieces that the Signal lab's panels and its flat picture are put together from.
 #pragma once
 
+#include "app/labs/kit/verdict.hpp"
 #include "app/labs/signal/analysis.hpp"
 #include "app/view/palette.hpp"
 #include "app/widgets/emit.hpp"
@@ -13,6 +14,8 @@ std::string kind_title(const signal::Kind& kind);
 
 /// The chain: a row for each filter, and buttons that add one.
 void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit);
+/// How the whole chain follows its input.
+Verdict signal_verdict(const SignalPart& part, const signal::Measures& whole);
 /// The parameters of the filter that is selected.
 void parameter_rows(const SignalPart& part, const Palette& palette, Emit& emit);
 /// The ranking of fitted filters.

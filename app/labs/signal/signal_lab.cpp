@@ -9,6 +9,7 @@
 #include "app/labs/signal/analysis.hpp"
 #include "app/labs/signal/code.hpp"
 #include "app/labs/signal/filter_json.hpp"
+#include "app/labs/signal/panels.hpp"
 #include "app/labs/signal/presets.hpp"
 #include "app/labs/signal/scene.hpp"
 #include "app/labs/signal/signal_commands.hpp"
@@ -167,6 +168,7 @@ Json SignalLab::state(const Workspace& workspace) const {
                 {"amplitude", part.input.amplitude},
                 {"period", part.input.period},
                 {"output", output_of(part)},
+                {"verdict", signal_verdict(part, analysis.whole).text},
                 {"filters", std::move(filters)},
                 {"seconds", part.time},
                 {"selected", part.selected ? Json(*part.selected) : Json(nullptr)},

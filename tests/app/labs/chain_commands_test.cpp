@@ -52,16 +52,16 @@ TEST_F(ChainCommands, EditsLiveAndTheSelectionStaysWithItsSegment) {
     run("chain.select", {{"index", 4}});
     run("chain.insert", {{"index", 2}, {"length", 0.5}});
     EXPECT_EQ(part().chain.size(), 9u);
-    EXPECT_EQ(part().selected, 5u);
+    EXPECT_EQ(part().selection.active(), 5u);
     run("chain.remove", {{"index", 0}});
-    EXPECT_EQ(part().selected, 4u);
+    EXPECT_EQ(part().selection.active(), 4u);
     run("chain.remove", {{"index", 7}});
     run("chain.set_length", {{"index", 1}, {"length", 0.25}});
     EXPECT_EQ(part().chain.length(1), 0.25f);
     run("chain.add", {{"length", 2}, {"position", {0, 9, 0}}});
     EXPECT_NEAR(glm::distance(part().chain.position(7), part().chain.position(6)), 2.0f, 1e-4f);
     while (!part().chain.empty()) run("chain.remove", {{"index", part().chain.size() - 1}});
-    EXPECT_FALSE(part().selected);
+    EXPECT_TRUE(part().selection.empty());
     run("chain.target", {{"to", {1, 2, 3}}});  // an empty chain: only the target moves
     EXPECT_EQ(part().target, glm::vec3(1, 2, 3));
     run("chain.add", {{"length", 1}});

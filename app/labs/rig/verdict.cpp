@@ -1,0 +1,24 @@
+#include "app/document/units.hpp"
+#include "app/labs/rig/panels.hpp"
+
+namespace tendril::app {
+
+Verdict rig_verdict(const RigPart& part) {
+    std::size_t on = 0, all = 0, warned = 0;
+    std::string first;
+    for (const UnitRow& row : unit_rows(part)) {
+        ++all;
+        if (!row.unit->enabled) continue;
+        ++on;
+        const rig::Warning warning = part.state.units[row.at].warning;
+        if (warning == rig::Warning::None) continue;
+        if (warned++ == 0) first = row.unit->name + ": " + rig::message(warning) + ".";
+    }
+    if (all == 0) return {"No units", Verdict::Kind::Open, "Add a unit: it moves what the rig is made of."};
+    if (warned > 0) return {count_text(warned, "unit") + " left out", Verdict::Kind::Bad, first};
+    const std::string off = on < all ? std::to_string(all - on) + " more switched off." : std::string();
+    if (on == 0) return {"All units are off", Verdict::Kind::Open, {}};
+    return {on == 1 ? "The unit ran" : "All " + std::to_string(on) + " units ran", Verdict::Kind::Good, off};
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,122 @@
+// Selecting with the mouse: Shift, a box, and what the gizmo moves then.
+#include <glm/geometric.hpp>
+
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+using app::Json;
+
+ScriptText front() {
+    ScriptText script;
+    script.command("camera.view", {{"name", "front"}});
+    script.command("camera.frame", {{"what", "all"}});
+    return script;
+}
+
+glm::vec2 joint(const Json& state, int index) {
+    return handle(state, "segment." + std::to_string(index));
+}
+
+ScriptText& box(ScriptText& script, glm::vec2 from, glm::vec2 to, bool add = false) {
+    script.move(from).hold("ctrl");
+    if (add) script.hold("shift");
+    script.down().move(0.5f * (from + to)).move(to).up();
+    if (add) script.release("shift");
+    return script.release("ctrl");
+}
+
+TEST(SelectByMouse, ShiftClickAddsAJointAndTakesItOut) {
+    const Json start = state_after(front());
+    ScriptText script = front();
+    script.click(joint(start, 2)).hold("shift").click(joint(start, 5)).click(joint(start, 3));
+    EXPECT_EQ(state_after(script)["selection"], Json({2, 3, 5}));
+    script.click(joint(start, 5)).release("shift");
+    EXPECT_EQ(state_after(script)["selection"], Json({2, 3}));
+    script.click(joint(start, 6));
+    EXPECT_EQ(state_after(script)["selection"], Json::array({6}));
+}
+
+TEST(SelectByMouse, ABoxSelectsWhatIsInItAndTurnsNothing) {
+    const Json start = state_after(front());
+    const glm::vec2 room(20.0f, 40.0f);
+    ScriptText script = front();
+    box(script, joint(start, 2) - room, joint(start, 4) + room);
+    const Json one = state_after(script);
+    EXPECT_EQ(one["selection"], Json({2, 3, 4}));
+    EXPECT_EQ(one["camera"], start["camera"]);
+    EXPECT_EQ(one["segments"], start["segments"]);
+    // From the right to the left, and from below, is the same box.
+    ScriptText other = front();
+    box(other, joint(start, 4) + room, joint(start, 2) - room);
+    EXPECT_EQ(state_after(other)["selection"], Json({2, 3, 4}));
+    box(script, joint(start, 6) - room, joint(start, 6) + room, true);
+    EXPECT_EQ(state_after(script)["selection"], Json({2, 3, 4, 6}));
+    // Nothing in it: nothing is selected any more.
+    box(script, joint(start, 2) - 4.0f * room, joint(start, 2) - 3.0f * room);
+    EXPECT_EQ(state_after(script)["selection"], Json::array());
+}
+
+TEST(SelectByMouse, EscapeGivesABoxUp) {
+    const Json start = state_after(front());
+    ScriptText script = front();
+    script.click(joint(start, 1)).move(joint(start, 2) - 30.0f).hold("ctrl").down();
+    script.move(joint(start, 5) + 30.0f).key("escape").up().release("ctrl");
+    EXPECT_EQ(state_after(script)["selection"], Json::array({1}));
+}
+
+TEST(SelectByMouse, WithoutCtrlADragOnNothingStillTurnsTheView) {
+    const Json start = state_after(front());
+    const Json after =
+        state_after(front().drag({joint(start, 2) - glm::vec2(0, 90), joint(start, 4) - glm::vec2(0, 40)}));
+    EXPECT_NE(after["camera"], start["camera"]);
+    EXPECT_EQ(after["selection"], Json::array());
+}
+
+TEST(SelectByMouse, ARopeLabHasNoBoxAndTurnsTheView) {
+    ScriptText script;
+    script.command("lab.open", {{"name", "rope"}});
+    const Json start = state_after(script);
+    script.move({420, 120}).hold("ctrl").down().move({480, 150}).up().release("ctrl");
+    EXPECT_NE(state_after(script)["camera"], start["camera"]);
+}
+
+TEST(ChainGizmo, AnArrowOfTheTargetMovesItAlongThatAxisAlone) {
+    ScriptText script;
+    script.command("chain.mode", {{"mode", "reach"}});
+    script.command("chain.target", {{"to", {4, 2, 1}}});
+    script.click(handle(state_after(script), "target"));
+    const Json before = state_after(script);
+    EXPECT_EQ(before["selected"], "target");
+    for (const auto& [name, axis] : {std::pair("target.move_x", 0), std::pair("target.move_y", 1)}) {
+        const glm::vec2 grip = handle(before, name);
+        ScriptText dragged = script;
+        dragged.drag({grip, grip + glm::vec2(12, -12), grip + glm::vec2(24, -30)});
+        const glm::vec3 from = point_of(before["target"]), to = point_of(state_after(dragged)["target"]);
+        for (int i = 0; i < 3; ++i) {
+            if (i == axis) {
+                EXPECT_GT(glm::abs(to[i] - from[i]), 0.05f) << name;
+            } else {
+                EXPECT_NEAR(to[i], from[i], 1e-4f) << name;
+            }
+        }
+    }
+}
+
+TEST(ChainGizmo, AnArrowOfAJointPullsThatJoint) {
+    ScriptText script;
+    script.click(joint(state_after(ScriptText()), 4));
+    const Json before = state_after(script);
+    const glm::vec2 grip = handle(before, "segment.4.move_y");
+    const Json after = state_after(script.drag({grip, grip - glm::vec2(0, 20), grip - glm::vec2(0, 60)}));
+    const glm::vec3 from = point_of(before["segments"][4]["position"]),
+                    to = point_of(after["segments"][4]["position"]);
+    EXPECT_GT(to.y, from.y + 0.1f);
+    EXPECT_NEAR(to.x, from.x, 1e-3f);
+    EXPECT_NEAR(to.z, from.z, 1e-3f);
+    EXPECT_EQ(after["selected"], 4);
+}
+
+}  // namespace
+}  // namespace tendril::test

@@ -1,0 +1,136 @@
+// Several joints at once: selected, limited, made longer, removed.
+#include "app/labs/chain/shown.hpp"
+#include "tests/app/labs/chain_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+class ChainSelection : public ChainTest {
+  protected:
+    using Indices = std::vector<std::size_t>;
+    const Indices& selected() const { return part().selection.all(); }
+    ik::JointKind kind(std::size_t joint) const { return limit_of(part().reach, joint).kind; }
+};
+
+TEST_F(ChainSelection, ShiftAddsAndTakesOut) {
+    run("chain.select", {{"index", 2}});
+    run("chain.select", {{"index", 5}, {"add", true}});
+    EXPECT_EQ(selected(), (Indices{2, 5}));
+    EXPECT_EQ(state()["selected"], 5) << "the active one";
+    EXPECT_EQ(state()["selection"], Json({2, 5}));
+    run("chain.select", {{"index", 5}, {"add", true}});
+    EXPECT_EQ(selected(), Indices{2});
+    run("chain.select", {{"joints", {4, 1}}, {"add", true}});
+    EXPECT_EQ(selected(), (Indices{1, 2, 4}));
+    EXPECT_EQ(part().selection.active(), 1u);
+    run("chain.select", {{"joints", {6}}});
+    EXPECT_EQ(selected(), Indices{6});
+    run("chain.select");
+    EXPECT_TRUE(selected().empty());
+}
+
+TEST_F(ChainSelection, LimitsGoOnAllAndEachKeepsWhatIsNotTold) {
+    reach_with(6);
+    run("chain.limit", {{"index", 1}, {"kind", "hinge"}, {"axis", {0, 0, 1}}, {"min_deg", -10}, {"max_deg", 90}});
+    run("chain.limit", {{"index", 3}, {"kind", "hinge"}, {"axis", {0, 1, 0}}, {"min_deg", 0}, {"max_deg", 120}});
+    run("chain.limit", {{"joints", {1, 3}}, {"max_deg", 45}});
+    EXPECT_EQ(kind(1), ik::JointKind::Hinge);
+    EXPECT_EQ(limit_of(part().reach, 1).axis, glm::vec3(0, 0, 1));
+    EXPECT_EQ(limit_of(part().reach, 3).axis, glm::vec3(0, 1, 0));
+    EXPECT_EQ(kind(2), ik::JointKind::Free);
+    EXPECT_FLOAT_EQ(limit_of(part().reach, 1).max, glm::radians(45.0f));
+    EXPECT_FLOAT_EQ(limit_of(part().reach, 3).max, glm::radians(45.0f));
+    EXPECT_FLOAT_EQ(limit_of(part().reach, 1).min, glm::radians(-10.0f));
+    run("chain.limit", {{"joints", {0, 2, 4}}, {"kind", "hinge"}});
+    for (const std::size_t joint : {0u, 1u, 2u, 3u, 4u}) EXPECT_EQ(kind(joint), ik::JointKind::Hinge) << joint;
+    run("undo");
+    EXPECT_EQ(kind(2), ik::JointKind::Free) << "one step for all";
+    EXPECT_EQ(kind(1), ik::JointKind::Hinge);
+}
+
+TEST_F(ChainSelection, LengthsGoOnAll) {
+    run("chain.set_length", {{"joints", {2, 3, 5}}, {"length", 0.25}});
+    for (std::size_t i = 1; i < part().chain.size(); ++i)
+        EXPECT_FLOAT_EQ(part().chain.length(i), i == 2 || i == 3 || i == 5 ? 0.25f : 1.0f) << i;
+}
+
+TEST_F(ChainSelection, DeleteRemovesAllOfThem) {
+    const std::size_t size = part().chain.size();
+    run("chain.set_length", {{"index", 4}, {"length", 0.5}});
+    run("chain.select", {{"joints", {1, 3, 6}}});
+    run("chain.remove_selected");
+    EXPECT_EQ(part().chain.size(), size - 3);
+    EXPECT_FLOAT_EQ(part().chain.length(2), 0.5f) << "the fourth is the second now";
+    EXPECT_TRUE(selected().empty());
+    refused("chain.remove_selected");
+    run("undo");
+    EXPECT_EQ(part().chain.size(), size);
+    run("chain.select", {{"joints", {0, 1, 2, 3, 4, 5, 6, 7}}});
+    run("chain.remove_selected");
+    EXPECT_TRUE(part().chain.empty());
+}
+
+TEST_F(ChainSelection, WhatIsNoJointIsRefusedAndChangesNothing) {
+    reach_with(4);
+    run("chain.select", {{"joints", {1, 2}}});
+    const Json before = save_scene(workspace);
+    const Json joints_that_are_none = Json::array({{0, 9}, {-1}, {0.5}, {"tip"}, {nullptr}, {{0}}, {1e300}});
+    for (const Json& joints : joints_that_are_none) {
+        for (const char* command : {"chain.select", "chain.limit", "chain.set_length"}) {
+            Json arguments{{"joints", joints}};
+            if (std::string(command) == "chain.set_length") arguments["length"] = 1;
+            EXPECT_FALSE(refused(command, arguments).empty()) << command << joints;
+            EXPECT_EQ(save_scene(workspace), before);
+        }
+    }
+    EXPECT_NE(refused("chain.limit", {{"joints", {1, 4}}, {"kind", "hinge"}}).find("tail"), std::string::npos);
+    EXPECT_NE(refused("chain.limit", {{"kind", "hinge"}}).find("index, or joints"), std::string::npos);
+    EXPECT_NE(refused("chain.select", {{"index", 1}, {"joints", {1}}}).find("index, or joints"),
+              std::string::npos);
+    EXPECT_NE(refused("chain.select", {{"point", "pole"}}).find("no pole"), std::string::npos);
+    refused("chain.select", {{"point", "target"}, {"index", 1}});
+    EXPECT_EQ(save_scene(workspace), before);
+}
+
+TEST_F(ChainSelection, TheTargetOrThePoleInsteadOfJoints) {
+    reach_with(3);
+    run("chain.pole", {{"to", {0, 2, 0}}});
+    const Lab& lab = *labs.find(chain_lab);
+    EXPECT_FALSE(lab.gizmo(workspace));
+    run("chain.select", {{"joints", {1, 2}}});
+    EXPECT_FALSE(lab.gizmo(workspace)) << "of several";
+    run("chain.select", {{"index", 1}});
+    EXPECT_EQ(lab.gizmo(workspace)->name, "segment.1");
+    run("chain.select", {{"point", "target"}});
+    EXPECT_TRUE(selected().empty());
+    EXPECT_EQ(state()["selected"], "target");
+    EXPECT_EQ(lab.gizmo(workspace)->name, "target");
+    run("chain.select", {{"point", "pole"}});
+    EXPECT_EQ(lab.gizmo(workspace)->name, "pole");
+    run("chain.mode", {{"mode", "forward"}});
+    EXPECT_FALSE(lab.gizmo(workspace)) << "the pole is for mode reach";
+    run("chain.mode", {{"mode", "reach"}});
+    run("chain.pole", {{"off", true}});
+    EXPECT_FALSE(lab.gizmo(workspace));
+    EXPECT_TRUE(state()["selected"].is_null());
+}
+
+TEST_F(ChainSelection, ComesBackFromAFileAndStaysOverTheSeconds) {
+    run("chain.select", {{"joints", {1, 4, 2}}});
+    Workspace other = make_blank_workspace(labs);
+    load_scene(other, parse_json(save_scene(workspace).dump()));
+    EXPECT_EQ(chain_part(other).selection, part().selection);
+    run("chain.select", {{"point", "target"}});
+    load_scene(other, parse_json(save_scene(workspace).dump()));
+    EXPECT_EQ(chain_part(other).chosen_point, ChainPoint::Target);
+    // An older moment with fewer joints keeps those that it has.
+    ChainPart then = part();
+    then.chain = Chain();
+    ChainPart now = part();
+    now.selection.take({0, 5}, false);
+    const auto shown = now.at_moment(std::make_shared<ChainPart>(then));
+    EXPECT_TRUE(dynamic_cast<const ChainPart&>(*shown).selection.empty());
+}
+
+}  // namespace
+}  // namespace tendril::app
