@@ -56,6 +56,13 @@ void replay_button(const Workspace& workspace, Emit& emit) {
     ImGui::SameLine();
 }
 
+void record_button(const Workspace& workspace, Emit& emit) {
+    if (icon_button("record", Icon::Record, "Pauses, and records the last ten seconds as a video",
+                    !workspace.rewind.empty()))
+        emit("view.video_dialog");
+    ImGui::SameLine();
+}
+
 void tell(const Incident& incident) {
     tell_strip((incident_title(incident) + ":\n" + incident.cause +
                 ".\nClick shows what was before, and what came of it.")
@@ -64,10 +71,11 @@ void tell(const Incident& incident) {
 
 }  // namespace
 
-void past_strip(const Workspace& workspace, Emit& emit) {
+void past_strip(const Workspace& workspace, Emit& emit, bool can_record) {
     const Rewind& past = workspace.rewind;
     const Palette& colours = palette(workspace.settings.theme);
     replay_button(workspace, emit);
+    if (can_record) record_button(workspace, emit);
     // The strip is ten seconds long from the beginning: what is not there yet is to its right.
     const std::uint64_t now = workspace.moment;
     const std::uint64_t first = past.empty() ? now : past.oldest();
