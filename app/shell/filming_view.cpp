@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/shell/shell.hpp"
+#include "app/shell/theme.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/text.hpp"
 
@@ -27,7 +28,9 @@ void show_filming(const ShellFrame& frame, Emit& emit) {
     const std::string count =
         "frame " + std::to_string(filming->done) + " of " + std::to_string(filming->frames);
     const float button = ImGui::CalcTextSize("Cancel").x + 2.0f * ImGui::GetStyle().FramePadding.x;
+    ImGui::PushStyleColor(ImGuiCol_PlotHistogram, imgui_colour(frame.colours().accent, 0.5f));
     ImGui::ProgressBar(part, {-button - ImGui::GetStyle().ItemSpacing.x, 0.0f}, count.c_str());
+    ImGui::PopStyleColor();
     ImGui::SameLine();
     if (ImGui::Button("Cancel")) emit("view.end_video");
     explain("Esc: writes no video; no file is left");

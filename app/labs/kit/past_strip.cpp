@@ -56,11 +56,21 @@ void replay_button(const Workspace& workspace, Emit& emit) {
     ImGui::SameLine();
 }
 
+/// Small and below the replay button, where the strip keeps its length.
 void record_button(const Workspace& workspace, Emit& emit) {
-    if (icon_button("record", Icon::Record, "Pauses, and records the last ten seconds as a video",
-                    !workspace.rewind.empty()))
-        emit("view.video_dialog");
-    ImGui::SameLine();
+    const float side = ImGui::GetFrameHeight(), height = 0.45f * side;
+    const ImVec2 at = ImGui::GetCursorScreenPos(), low{at.x, at.y + 0.92f * side};
+    const bool enabled = !workspace.rewind.empty();
+    ImGui::SetCursorScreenPos(low);
+    ImGui::BeginDisabled(!enabled);
+    if (ImGui::InvisibleButton("record", {side, height})) emit("view.video_dialog");
+    const ImU32 colour = ImGui::GetColorU32(ImGui::IsItemHovered() ? ImGuiCol_CheckMark : ImGuiCol_Text);
+    draw_icon(ImGui::GetWindowDrawList(), Icon::Record, {low.x + 0.5f * side, low.y + 0.5f * height}, height,
+              colour);
+    ImGui::EndDisabled();
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+        ImGui::SetTooltip("Pauses, and records the last ten seconds as a video");
+    ImGui::SetCursorScreenPos(at);
 }
 
 void tell(const Incident& incident) {
@@ -74,8 +84,8 @@ void tell(const Incident& incident) {
 void past_strip(const Workspace& workspace, Emit& emit, bool can_record) {
     const Rewind& past = workspace.rewind;
     const Palette& colours = palette(workspace.settings.theme);
-    replay_button(workspace, emit);
     if (can_record) record_button(workspace, emit);
+    replay_button(workspace, emit);
     // The strip is ten seconds long from the beginning: what is not there yet is to its right.
     const std::uint64_t now = workspace.moment;
     const std::uint64_t first = past.empty() ? now : past.oldest();
