@@ -12,9 +12,9 @@
 #include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
-#include "app/io/picture.hpp"
 #include "app/shell/gizmo_view.hpp"
 #include "app/shell/theme.hpp"
+#include "app/video_take.hpp"
 
 namespace tendril::app {
 namespace {
@@ -203,6 +203,7 @@ void App::take_shortcut(Emit& emit) {
         if (workspace_.history.is_open(gesture_)) emit("undo");
         return;
     }
+    if (chord.key == Key::Escape && video_ && !workspace_.ui.covered()) return emit("view.end_video");
     const Shortcut* shortcut = shortcuts_.find(chord, workspace_.lab);
     // A key that is held repeats what goes on step by step, but turns nothing on and off again.
     if (shortcut != nullptr && input_.repeated() && !shortcut->repeats) return;
@@ -217,7 +218,7 @@ void App::run_emitted(Emit& emit) {
     for (Emitted& command : emit.take()) {
         try {
             run_command(command.name, command.arguments, command.continuous ? gesture_ : 0);
-            take_picture();
+            take_pictures();
             if (command.continuous && pointer_.dragged() != no_pick) workspace_.settings.hint_seen = true;
         } catch (const Refused& refusal) {
             refuse(refusal.what());
@@ -225,44 +226,6 @@ void App::run_emitted(Emit& emit) {
             if (command.name.starts_with(workspace_.lab + ".")) note_refusal(refusal.what());
         }
     }
-}
-
-/// Without what the mouse is over, labels and panels. Lines are as thick against what they show as they are
-/// in the window.
-void App::take_picture() {
-    const auto wanted = std::exchange(workspace_.ui.picture, std::nullopt);
-    if (!wanted) return;
-    if (lab().canvas_share(workspace_) > 0.0f)
-        throw Refused(
-            "view.picture: this lab's picture is more than a view of a scene; --screenshot writes it");
-    const float ratio =
-        static_cast<float>(window_.framebuffer_size().x) / static_cast<float>(std::max(1, window_.size().x));
-    const glm::vec2 own = glm::clamp(glm::round(layout_.view.size() * ratio), glm::vec2(smallest_picture),
-                                     glm::vec2(largest_picture));
-    const glm::vec2 size(wanted->size.x > 0 ? static_cast<float>(wanted->size.x) : own.x,
-                         wanted->size.y > 0 ? static_cast<float>(wanted->size.y) : own.y);
-    const std::vector<Rect> rects = tiled({{0.0f, 0.0f}, size}, panes_.size(), 2.0f);
-    const Camera camera(workspace_.camera, rects.front()), seen = panes_.front().camera(workspace_.camera);
-    const glm::vec3 target = workspace_.camera.target;
-    const float scale = layout_.scale * seen.metres_per_pixel(target) / camera.metres_per_pixel(target);
-    const auto draw = [&](const Palette& colours) {
-        std::vector<Pane> panes;
-        for (const Rect& rect : rects) {
-            panes.push_back({rect});
-            const Camera here(workspace_.camera, rect);
-            lab().draw({workspace_, here, colours, no_pick, no_pick, scale, panes.size() - 1},
-                       panes.back().drawn);
-        }
-        return panes;
-    };
-    try {
-        write_png(wanted->path,
-                  draw_picture(renderer_, draw, workspace_.camera, glm::ivec2(size),
-                               palette(workspace_.settings.theme), wanted->transparent));
-    } catch (const std::exception& error) {
-        throw Refused(std::string("view.picture: ") + error.what());
-    }
-    workspace_.toast("Written: " + wanted->path.string());
 }
 
 /// What came of a change is a matter for the last seconds too.
@@ -280,7 +243,8 @@ void App::run(const RunCommand& command) {
         run_command(command.name, command.arguments, 0);
         workspace_.pass_change();
         if (const auto& finish = commands_->find(command.name)->finish) finish(workspace_);
-        take_picture();
+        take_pictures();
+        while (video_) write_video();
         if (recorder_) recorder_->command(command.name, command.arguments, false);
     } catch (const Refused& refusal) {
         if (recorder_) recorder_->command(command.name, command.arguments, true);
@@ -380,7 +344,7 @@ bool App::busy() const {
 
 bool App::restless() const {
     const bool moving = workspace_.clock.playing && lab().moving(workspace_);
-    return moving || workspace_.clock.replaying || card_is_due() || lab().working(workspace_) ||
+    return moving || workspace_.clock.replaying || card_is_due() || lab().working(workspace_) || video_ ||
            settling_ > 0 || !workspace_.ui.toasts.empty();
 }
 

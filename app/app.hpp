@@ -24,6 +24,9 @@
 
 namespace tendril::app {
 
+struct PictureView;
+class VideoTake;
+
 class App final : public Stage {
   public:
     /// `window` must outlive the app, with its context current. Where `complain`, refusals also go to stderr.
@@ -83,8 +86,15 @@ class App final : public Stage {
     void run_command(const std::string& name, const Json& arguments, Gesture gesture);
     void note_refusal(const std::string& why);
     void review(const std::shared_ptr<const Part>& before, std::uint64_t moment);
-    /// Writes the picture that was asked for. Throws Refused where it cannot.
-    void take_picture();
+    /// Writes, copies or begins what was asked for of the view. Throws Refused where it cannot.
+    void take_pictures();
+    void take_picture(const PictureRequest& wanted);
+    void begin_video(const VideoRequest& wanted);
+    /// The next frames of the video. Throws Refused where they cannot be written: then there is none.
+    void write_video();
+    void pass_video();
+    /// How a picture of that many pixels, or with 0 as many as the view has, shows the view.
+    PictureView picture_view(glm::ivec2 size) const;
     void advance_time();
     void replay();
     void step_lab();
@@ -114,6 +124,7 @@ class App final : public Stage {
     std::size_t pane_ = 0;     ///< where the hand is, or was
     Layout layout_;
     std::optional<Recorder> recorder_;
+    std::unique_ptr<VideoTake> video_;  ///< the one that is being written
     glm::ivec2 size_{0};  ///< the window's; changed by events alone, so that a recording has every change
     float base_scale_ = 1.0f;  ///< the window's wish for the size of text and widgets
     Gesture gesture_ = 1;

@@ -12,9 +12,8 @@ namespace tendril::app {
 
 /// What was drawn in a pane stays there until the next picture: it is what one sees, and picks.
 void App::divide_view() {
-    constexpr float gap = 2.0f;
     const std::vector<Rect> rects =
-        tiled(layout_.view, lab().panes(workspace_).size(), std::round(gap * layout_.scale));
+        tiled(layout_.view, lab().panes(workspace_).size(), std::round(pane_gap * layout_.scale));
     panes_.resize(rects.size());
     for (std::size_t i = 0; i < rects.size(); ++i) panes_[i].rect = rects[i];
     workspace_.ui.view_size = rects.front().size();

@@ -69,6 +69,7 @@ void App::advance_time() {
     }
     while (clock.steps_due > 0) step_lab();
     if (lab().working(workspace_)) lab().work(workspace_);
+    pass_video();
     watch_shown_card();
     auto& toasts = workspace_.ui.toasts;
     for (Toast& toast : toasts) --toast.ticks_left;

@@ -93,10 +93,12 @@ void write_stream(const fs::path& path, std::string_view bytes) {
     if (!written) fail(path, reason);
 }
 
+}  // namespace
+
 /// A new file beside the one to be written, gone again unless it is moved over it.
-class Temporary {
+class AtomicFile::Beside {
   public:
-    Temporary(const fs::path& target, const fs::path& folder) : target_(target) {
+    Beside(const fs::path& target, const fs::path& folder) : target_(target) {
         // A name is taken where a program of the same number was killed while it wrote.
         constexpr int tries = 1000;
         for (int i = 0; i < tries && fd_ < 0; ++i) {
@@ -106,18 +108,19 @@ class Temporary {
         }
         if (fd_ < 0) fail(target_, last_error());
     }
-    ~Temporary() {
+    ~Beside() {
         if (fd_ >= 0) ::close(fd_);
         if (!moved_) ::unlink(name_.c_str());
     }
-    Temporary(const Temporary&) = delete;
-    Temporary& operator=(const Temporary&) = delete;
+    Beside(const Beside&) = delete;
+    Beside& operator=(const Beside&) = delete;
 
-    /// Returns when the bytes are on the disk, with the permissions of `old` where that exists.
-    void fill(std::string_view bytes, const fs::path& old) {
+    const fs::path& name() const { return name_; }
+    void append(std::string_view bytes) { require(write_all(fd_, bytes)); }
+    /// Returns when all of it is on the disk, with the permissions of `old` where that exists.
+    void finish(const fs::path& old) {
         struct stat before {};
         if (::stat(old.c_str(), &before) == 0) require(::fchmod(fd_, before.st_mode & 07777) == 0);
-        require(write_all(fd_, bytes));
         require(::fsync(fd_) == 0);
         require(::close(std::exchange(fd_, -1)) == 0);
     }
@@ -140,22 +143,40 @@ class Temporary {
     bool moved_ = false;
 };
 
-}  // namespace
-
 void write_file_atomically(const fs::path& path, std::string_view bytes) {
     if (is_stream(check_place(path))) return write_stream(path, bytes);
+    AtomicFile file(path);
+    file.append(bytes);
+    file.commit();
+}
+
+AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
+    if (is_stream(check_place(path))) fail(path, "is not a regular file");
     check_permission(path);
-    const fs::path file = follow_links(path);
-    Temporary temporary(path, folder_of(file));
-    temporary.fill(bytes, file);
-    temporary.move_over(file);
+    file_ = follow_links(path);
+    beside_ = std::make_unique<Beside>(path, folder_of(file_));
+}
+
+AtomicFile::~AtomicFile() = default;
+
+void AtomicFile::append(std::string_view bytes) {
+    beside_->append(bytes);
+}
+
+const fs::path& AtomicFile::beside() const {
+    return beside_->name();
+}
+
+void AtomicFile::commit() {
+    beside_->finish(file_);
+    beside_->move_over(file_);
 }
 
 void check_writable(const fs::path& path) {
     const bool stream = is_stream(check_place(path));
     check_permission(path);
     // Only making a file tells: permissions do not know of read-only and virtual file systems.
-    if (!stream) Temporary(path, folder_of(follow_links(path)));
+    if (!stream) AtomicFile{path};
 }
 
 }  // namespace tendril::app

@@ -16,6 +16,7 @@
 #include "app/document/rewind.hpp"
 #include "app/document/runtime.hpp"
 #include "app/document/settings.hpp"
+#include "app/document/video_request.hpp"
 
 namespace tendril::app {
 
@@ -53,10 +54,10 @@ struct Recoverable {
 
 inline constexpr int smallest_picture = 16, largest_picture = 8192;  ///< pixels, each way
 
-/// A picture of the view, on its way to a file.
+/// A picture of the view, on its way to a file or to the clipboard.
 struct PictureRequest {
-    std::filesystem::path path;
-    glm::ivec2 size{0};  ///< pixels; 0: as large as the view
+    std::filesystem::path path;  ///< empty: to the clipboard
+    glm::ivec2 size{0};          ///< pixels; 0: as large as the view
     bool transparent = false;
 };
 
@@ -65,16 +66,24 @@ struct UiState {
     bool help = false;
     bool palette = false;
     bool settings = false;
-    enum class FileDialog { None, Open, SaveAs, SaveAndQuit } file_dialog = FileDialog::None;
+    enum class FileDialog { None, Open, SaveAs, SaveAndQuit, Video } file_dialog = FileDialog::None;
     std::vector<Toast> toasts;
     std::vector<Recoverable> recoverable;  ///< until it is answered
     glm::vec2 view_size{1000.0f, 700.0f};  ///< the 3D view, in window coordinates
     std::optional<std::string> copied;     ///< text on its way to the clipboard
     std::optional<PictureRequest> picture;
-    std::optional<Incident> incident;  ///< the one that is shown: what was before it over what came of it
+    std::optional<VideoRequest> video;     ///< asked for, and not begun
+    std::optional<VideoProgress> filming;  ///< the video that is being written
+    bool ends_filming = false;             ///< it is no longer wanted
+    std::optional<Incident> incident;      ///< the one that is shown: what was before it over what came of it
     std::map<std::string, CardProgress> cards;  ///< of things to try, by lab
     bool asks_to_quit = false;                  ///< what becomes of unsaved work
     bool quit = false;
+
+    /// Something lies over the scene that Esc closes.
+    bool covered() const {
+        return help || palette || settings || asks_to_quit || file_dialog != FileDialog::None;
+    }
 };
 
 struct Workspace {

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace tendril::app {
@@ -20,5 +22,9 @@ Image read_framebuffer(unsigned framebuffer, glm::ivec2 size);
 /// Throws std::runtime_error naming the path and the reason. Writing is atomic.
 void write_png(const std::filesystem::path& path, const Image& image);
 Image read_png(const std::filesystem::path& path);
+
+/// A PNG file's bytes; throws std::runtime_error saying why.
+std::string encode_png(const Image& image);
+Image decode_png(std::string_view png);
 
 }  // namespace tendril::app

@@ -12,6 +12,7 @@
 #include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/signal/signal_lab.hpp"
+#include "app/labs/video_commands.hpp"
 
 namespace tendril::app {
 
@@ -49,6 +50,7 @@ CommandTable make_command_table(const Labs& labs) {
     add_workspace_commands(table);
     add_camera_commands(table, labs);
     add_card_commands(table);
+    add_video_commands(table, labs);
     for (const auto& lab : labs.all()) {
         lab->add_commands(table);
         for (const LabSetting& setting : lab->settings()) table.add(setting_command(setting));

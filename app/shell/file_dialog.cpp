@@ -14,6 +14,11 @@ namespace tendril::app {
 
 namespace fs = std::filesystem;
 
+bool FileDialog::lists(const fs::path& file) const {
+    const fs::path ending = file.extension();
+    return filming() ? ending == ".png" || ending == ".mp4" : ending == ".json";
+}
+
 void FileDialog::go_to(const fs::path& folder) {
     std::error_code error;
     fs::directory_iterator each(folder, error);
@@ -28,7 +33,7 @@ void FileDialog::go_to(const fs::path& folder) {
         if (error) break;
         const std::string name = each->path().filename().string();
         const bool is_folder = each->is_directory(error);
-        if (name.starts_with('.') || (!is_folder && each->path().extension() != ".json")) continue;
+        if (name.starts_with('.') || (!is_folder && !lists(each->path()))) continue;
         entries_.push_back({name, is_folder});
     }
     std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
@@ -36,7 +41,13 @@ void FileDialog::go_to(const fs::path& folder) {
     });
 }
 
-void FileDialog::take(bool saving, const fs::path& mine, Emit& emit) {
+/// The command closes the dialog where it succeeds: a refused name stays, to be mended.
+void FileDialog::send(const fs::path& path, Emit& emit) {
+    if (filming()) return emit("view.video", video_.arguments(path));
+    emit(saving() ? "scene.save" : "scene.open", {{"path", path.string()}});
+}
+
+void FileDialog::take(const Workspace& workspace, Emit& emit) {
     if (name_[0] == '\0') return;
     fs::path path = fs::path(name_.data()).is_absolute() ? fs::path(name_.data()) : folder_ / name_.data();
     std::error_code error;
@@ -45,21 +56,30 @@ void FileDialog::take(bool saving, const fs::path& mine, Emit& emit) {
         name_.fill('\0');
         return;
     }
-    if (saving && path.extension().empty()) path += ".json";
-    if (saving && path != mine && path != confirmed_ && fs::exists(path, error)) {
+    if (filming())
+        path = video_.with_ending(path);
+    else if (saving() && path.extension().empty())
+        path += ".json";
+    // The scene's own file is replaced unasked.
+    const bool mine = !filming() && path == workspace.path;
+    if (saving() && !mine && path != confirmed_ && fs::exists(path, error)) {
         confirmed_ = path;
-        complaint_ = path.filename().string() + " already exists. Press Save again to replace it.";
+        complaint_ =
+            path.filename().string() + " already exists. Press " + action() + " again to replace it.";
         return;
     }
-    // The command closes the dialog where it succeeds: a refused name stays, to be mended.
-    emit(saving ? "scene.save" : "scene.open", {{"path", path.string()}});
+    send(path, emit);
 }
 
-void FileDialog::start(const Workspace& workspace, bool saving) {
+void FileDialog::start(const Workspace& workspace) {
     std::error_code error;
     go_to(workspace.path.empty() ? fs::current_path(error) : fs::absolute(workspace.path).parent_path());
     confirmed_.clear();
-    std::snprintf(name_.data(), name_.size(), "%s", saving ? workspace.path.filename().string().c_str() : "");
+    if (filming()) video_.start(workspace);
+    const std::string name = filming()  ? video_name(workspace, folder_)
+                             : saving() ? workspace.path.filename().string()
+                                        : std::string();
+    std::snprintf(name_.data(), name_.size(), "%s", name.c_str());
 }
 
 bool FileDialog::list() {
@@ -68,8 +88,10 @@ bool FileDialog::list() {
     for (const Entry& entry : entries_) {
         const std::string shown = entry.folder ? entry.name + "/" : entry.name;
         if (!ImGui::Selectable(shown.c_str(), entry.name == name_.data(),
-                               ImGuiSelectableFlags_AllowDoubleClick))
+                               ImGuiSelectableFlags_AllowDoubleClick)) {
+            explain(entry.folder ? "Shows what is in this folder" : "Takes this file's name");
             continue;
+        }
         if (entry.folder) {
             entered = folder_ / entry.name;
         } else {
@@ -87,19 +109,22 @@ void FileDialog::frame(const Workspace& workspace, glm::vec2 screen, float scale
     const bool appearing = open && shown_ != wanted;
     shown_ = wanted;
     if (!open) return;
-    const bool saving = wanted != UiState::FileDialog::Open;
-    if (appearing) start(workspace, saving);
-    const glm::vec2 size = glm::max(glm::vec2(520.0f, 420.0f) * scale, glm::vec2(0.5f, 0.6f) * screen);
-    if (!begin_sheet(saving ? "Save scene as" : "Open scene", screen, size)) emit("view.close");
+    if (appearing) start(workspace);
+    const glm::vec2 size =
+        glm::max(glm::vec2(520.0f, filming() ? 540.0f : 420.0f) * scale, glm::vec2(0.5f, 0.6f) * screen);
+    if (!begin_sheet(title(), screen, size)) emit("view.close");
     if (ImGui::Button("Up")) go_to(folder_.parent_path());
+    explain("Shows the folder above this one");
     ImGui::SameLine();
     text_elided(folder_.string(), ImGui::GetContentRegionAvail().x, true);
     const float wrap = ImGui::GetContentRegionAvail().x;
     const float complaint =
         complaint_.empty() ? 0.0f : ImGui::CalcTextSize(complaint_.c_str(), nullptr, false, wrap).y;
-    ImGui::BeginChild("entries", {0.0f, -2.0f * ImGui::GetFrameHeightWithSpacing() - complaint}, true);
+    const float rows = filming() ? 2.0f + VideoOptions::rows : 2.0f;
+    ImGui::BeginChild("entries", {0.0f, -rows * ImGui::GetFrameHeightWithSpacing() - complaint}, true);
     bool done = list();
     ImGui::EndChild();
+    if (filming()) video_.frame();
     ImGui::SetNextItemWidth(-1.0f);
     if (appearing) ImGui::SetKeyboardFocusHere();
     if (ImGui::InputTextWithHint("##name", "file name", name_.data(), name_.size(),
@@ -107,11 +132,16 @@ void FileDialog::frame(const Workspace& workspace, glm::vec2 screen, float scale
         done = true;
         ImGui::SetKeyboardFocusHere(-1);  // a name that is refused can be mended at once
     }
-    done |= ImGui::Button(saving ? "Save" : "Open");
+    explain("The name of the file. Enter takes it.");
+    done |= ImGui::Button(action());
+    explain(filming()  ? "Writes the video, and shows how far it is"
+            : saving() ? "Saves the scene to this file"
+                       : "Opens this scene");
     ImGui::SameLine();
     if (ImGui::Button("Cancel")) emit("view.close");
+    explain("Esc: closes this and changes nothing");
     if (!complaint_.empty()) note(complaint_);
-    if (done) take(saving, workspace.path, emit);
+    if (done) take(workspace, emit);
     ImGui::End();
 }
 

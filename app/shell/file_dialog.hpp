@@ -1,4 +1,4 @@
-// Asks for a scene's path: the folders and scenes there are, and a field to type in.
+// Asks for the path of a scene or of a video: the folders and files there are, and a field to type in.
 #pragma once
 
 #include <array>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/document/workspace.hpp"
+#include "app/shell/video_options.hpp"
 #include "app/widgets/emit.hpp"
 
 namespace tendril::app {
@@ -21,17 +22,26 @@ class FileDialog {
         std::string name;
         bool folder;
     };
-    void start(const Workspace& workspace, bool saving);
+    void start(const Workspace& workspace);
     void go_to(const std::filesystem::path& folder);
-    /// The folders and scenes; true once a scene is chosen for good.
+    bool lists(const std::filesystem::path& file) const;
+    /// The folders and files; true once a file is chosen for good.
     bool list();
-    /// `mine` is the scene's own file, which it may replace unasked.
-    void take(bool saving, const std::filesystem::path& mine, Emit& emit);
+    void take(const Workspace& workspace, Emit& emit);
+    void send(const std::filesystem::path& path, Emit& emit);
+
+    bool saving() const { return shown_ != UiState::FileDialog::Open; }
+    bool filming() const { return shown_ == UiState::FileDialog::Video; }
+    const char* action() const { return filming() ? "Record" : saving() ? "Save" : "Open"; }
+    const char* title() const {
+        return filming() ? "Record a video" : saving() ? "Save scene as" : "Open scene";
+    }
 
     std::filesystem::path folder_, confirmed_;
     std::vector<Entry> entries_;
     std::array<char, 1024> name_{};
     std::string complaint_;
+    VideoOptions video_;
     UiState::FileDialog shown_ = UiState::FileDialog::None;
 };
 

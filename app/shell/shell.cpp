@@ -327,6 +327,7 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
     palette_.frame(workspace.ui.palette, frame.commands, frame.shortcuts, frame.screen(), frame.layout.scale,
                    emit);
     file_dialog_.frame(workspace, frame.screen(), frame.layout.scale, emit);
+    show_filming(frame, emit);
     show_recovery(frame, emit);
     show_quit(frame, emit);
     show_toasts(frame);

@@ -51,6 +51,7 @@ void show_help(const ShellFrame& frame, Emit& emit);
 void show_settings(const ShellFrame& frame, Emit& emit);
 void show_recovery(const ShellFrame& frame, Emit& emit);
 void show_quit(const ShellFrame& frame, Emit& emit);
+void show_filming(const ShellFrame& frame, Emit& emit);
 void show_toasts(const ShellFrame& frame);
 void show_first_hint(const ShellFrame& frame);
 void show_legend(const ShellFrame& frame);

@@ -30,6 +30,8 @@ std::vector<Shortcut> common_rows() {
         row("ctrl+s", "scene.save_dialog", {{"ask", false}}, "Save", "Scene"),
         row("ctrl+shift+s", "scene.save_dialog", {{"ask", true}}, "Save as...", "Scene"),
         row("ctrl+p", "view.picture", {}, "Picture of the view", "Scene"),
+        row("ctrl+shift+c", "view.copy_picture", {}, "Copy the picture", "Scene"),
+        row("ctrl+shift+p", "view.video_dialog", {}, "Record a video...", "Scene"),
         row("ctrl+q", "quit", {{"unsaved", "ask"}}, "Quit", "Scene", shown, typing),
         row("ctrl+z", "undo", {}, "Undo", "Edit", shown, false, again),
         row("ctrl+shift+z", "redo", {}, "Redo", "Edit", shown, false, again),

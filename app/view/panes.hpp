@@ -25,6 +25,8 @@ struct Pane {
     Camera camera(const CameraPose& pose) const { return {pose, rect}; }
 };
 
+inline constexpr float pane_gap = 2.0f;  ///< pixels, at scale 1
+
 /// `count` equal rectangles in rows, from the top left, as nearly square as they come; the last row may have
 /// fewer. Between them `gap` pixels, and all on whole pixels. A single one is all of the view.
 std::vector<Rect> tiled(const Rect& view, std::size_t count, float gap);

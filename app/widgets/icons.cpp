@@ -105,6 +105,9 @@ void draw_icon(ImDrawList* list, Icon icon, ImVec2 centre, float size, ImU32 col
             pen.line(-0.7f, 0.05f, -0.2f, 0.55f);
             pen.line(-0.2f, 0.55f, 0.75f, -0.5f);
             break;
+        case Icon::Record:
+            list->AddCircleFilled(centre, 0.55f * pen.half, colour, 24);
+            break;
     }
 }
 

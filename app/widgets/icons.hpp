@@ -5,7 +5,21 @@
 
 namespace tendril::app {
 
-enum class Icon { Menu, Undo, Redo, Play, Pause, Step, Help, Gear, ChevronLeft, ChevronRight, Close, Check };
+enum class Icon {
+    Menu,
+    Undo,
+    Redo,
+    Play,
+    Pause,
+    Step,
+    Help,
+    Gear,
+    ChevronLeft,
+    ChevronRight,
+    Close,
+    Check,
+    Record
+};
 
 /// A square, frameless button of the frame's height. `tooltip` may be null.
 bool icon_button(const char* id, Icon icon, const char* tooltip, bool enabled = true, bool active = false);

@@ -56,6 +56,23 @@ void replay_button(const Workspace& workspace, Emit& emit) {
     ImGui::SameLine();
 }
 
+/// Small and below the replay button, where the strip keeps its length.
+void record_button(const Workspace& workspace, Emit& emit) {
+    const float side = ImGui::GetFrameHeight(), height = 0.45f * side;
+    const ImVec2 at = ImGui::GetCursorScreenPos(), low{at.x, at.y + 0.92f * side};
+    const bool enabled = !workspace.rewind.empty();
+    ImGui::SetCursorScreenPos(low);
+    ImGui::BeginDisabled(!enabled);
+    if (ImGui::InvisibleButton("record", {side, height})) emit("view.video_dialog");
+    const ImU32 colour = ImGui::GetColorU32(ImGui::IsItemHovered() ? ImGuiCol_CheckMark : ImGuiCol_Text);
+    draw_icon(ImGui::GetWindowDrawList(), Icon::Record, {low.x + 0.5f * side, low.y + 0.5f * height}, height,
+              colour);
+    ImGui::EndDisabled();
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+        ImGui::SetTooltip("Pauses, and records the last ten seconds as a video");
+    ImGui::SetCursorScreenPos(at);
+}
+
 void tell(const Incident& incident) {
     tell_strip((incident_title(incident) + ":\n" + incident.cause +
                 ".\nClick shows what was before, and what came of it.")
@@ -64,9 +81,10 @@ void tell(const Incident& incident) {
 
 }  // namespace
 
-void past_strip(const Workspace& workspace, Emit& emit) {
+void past_strip(const Workspace& workspace, Emit& emit, bool can_record) {
     const Rewind& past = workspace.rewind;
     const Palette& colours = palette(workspace.settings.theme);
+    if (can_record) record_button(workspace, emit);
     replay_button(workspace, emit);
     // The strip is ten seconds long from the beginning: what is not there yet is to its right.
     const std::uint64_t now = workspace.moment;

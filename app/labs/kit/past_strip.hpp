@@ -10,7 +10,8 @@
 
 namespace tendril::app {
 
-void past_strip(const Workspace& workspace, Emit& emit);
+/// `can_record`: with a button to make a video of them, which shows nothing but the view of the scene.
+void past_strip(const Workspace& workspace, Emit& emit, bool can_record = true);
 
 /// "Joint 2 flipped: its bone turned 128 degrees in one tick"
 std::string incident_title(const Incident& incident);

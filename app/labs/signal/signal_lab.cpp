@@ -77,7 +77,7 @@ void SignalLab::work(Workspace& workspace) const {
 }
 
 void SignalLab::timeline(const Workspace& workspace, Emit& emit) const {
-    past_strip(workspace, emit);
+    past_strip(workspace, emit, false);
 }
 
 std::vector<Handle> SignalLab::handles(const Workspace& workspace) const {

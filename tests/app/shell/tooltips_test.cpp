@@ -332,6 +332,15 @@ TEST_P(ShellTooltips, StandAtTheSettings) {
     });
 }
 
+TEST_P(ShellTooltips, StandAtTheVideoDialogAndAtItsProgress) {
+    Workspace workspace = opened({"as it opens", lab().opening()});
+    workspace.ui.file_dialog = UiState::FileDialog::Video;
+    workspace.ui.filming = VideoProgress{"arm-1.png", 20, 301};
+    search_part(workspace, "video", [](const Layout&, glm::vec2 size) {
+        return Rect{{0.25f * size.x, 0.0f}, {0.75f * size.x, size.y}};
+    });
+}
+
 INSTANTIATE_TEST_SUITE_P(Labs, ShellTooltips, testing::Values("chain", "rope", "signal", "rig", "humanoid"),
                          [](const auto& lab) { return std::string(lab.param); });
 

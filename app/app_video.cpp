@@ -1,0 +1,90 @@
+// Pictures and videos of the view, on their way out.
+#include <algorithm>
+#include <glm/common.hpp>
+#include <utility>
+
+#include "app/app.hpp"
+#include "app/document/refused.hpp"
+#include "app/io/clipboard_picture.hpp"
+#include "app/video_take.hpp"
+
+namespace tendril::app {
+
+PictureView App::picture_view(glm::ivec2 wanted) const {
+    const float ratio =
+        static_cast<float>(window_.framebuffer_size().x) / static_cast<float>(std::max(1, window_.size().x));
+    const glm::vec2 own = glm::clamp(glm::round(layout_.view.size() * ratio), glm::vec2(smallest_picture),
+                                     glm::vec2(largest_picture));
+    const glm::vec2 size(wanted.x > 0 ? static_cast<float>(wanted.x) : own.x,
+                         wanted.y > 0 ? static_cast<float>(wanted.y) : own.y);
+    const Camera camera(workspace_.camera, tiled({{0.0f, 0.0f}, size}, panes_.size(), pane_gap).front()),
+        seen = panes_.front().camera(workspace_.camera);
+    const glm::vec3 target = workspace_.camera.target;
+    return {workspace_.camera, glm::ivec2(size),
+            layout_.scale * seen.metres_per_pixel(target) / camera.metres_per_pixel(target)};
+}
+
+void App::take_picture(const PictureRequest& wanted) {
+    const bool copies = wanted.path.empty();
+    const std::string command = copies ? "view.copy_picture" : "view.picture";
+    if (lab().canvas_share(workspace_) > 0.0f)
+        throw Refused(command +
+                      ": this lab's picture is more than a view of a scene; --screenshot writes it");
+    try {
+        const Image image =
+            picture_of(workspace_, lab(), renderer_, picture_view(wanted.size), wanted.transparent);
+        copies ? copy_picture(image) : write_png(wanted.path, image);
+    } catch (const std::exception& error) {
+        throw Refused(command + ": " + error.what());
+    }
+    workspace_.toast(copies ? "Copied the picture" : "Written: " + wanted.path.string());
+}
+
+void App::begin_video(const VideoRequest& wanted) {
+    PictureView view = picture_view(wanted.size);
+    // MP4 has half as many colours each way: the view's own size is a pixel too large at times.
+    if (const glm::ivec2 size = view.size; wanted.path.extension() == ".mp4" && size % 2 != glm::ivec2(0))
+        view = picture_view(size - size % 2);
+    try {
+        video_ = std::make_unique<VideoTake>(wanted, workspace_, lab(), renderer_, view);
+    } catch (const std::exception& error) {
+        throw Refused(std::string("view.video: ") + error.what());
+    }
+    workspace_.ui.filming = video_->progress();
+}
+
+void App::take_pictures() {
+    UiState& ui = workspace_.ui;
+    if (const auto wanted = std::exchange(ui.picture, std::nullopt)) take_picture(*wanted);
+    if (const auto wanted = std::exchange(ui.video, std::nullopt)) begin_video(*wanted);
+    if (!std::exchange(ui.ends_filming, false) || !video_) return;
+    workspace_.toast("Cancelled: " + ui.filming->name + " is not written");
+    video_.reset();
+    ui.filming.reset();
+}
+
+void App::write_video() {
+    try {
+        video_->work();
+    } catch (const std::exception& error) {
+        video_.reset();
+        workspace_.ui.filming.reset();
+        throw Refused(std::string("view.video: ") + error.what());
+    }
+    workspace_.ui.filming = video_->progress();
+    if (!video_->done()) return;
+    workspace_.toast("Written: " + video_->wanted().path.string());
+    video_.reset();
+    workspace_.ui.filming.reset();
+}
+
+void App::pass_video() {
+    if (!video_) return;
+    try {
+        write_video();
+    } catch (const Refused& refusal) {
+        refuse(refusal.what());
+    }
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,80 @@
+#include "app/io/mp4.hpp"
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace tendril::app {
+namespace {
+
+constexpr double longest_end = 120.0;  ///< seconds that ffmpeg may take for what it still holds back
+
+std::vector<std::string> command(const VideoFormat& format, const std::filesystem::path& file) {
+    const FrameTime time = frame_time(format);
+    const std::string size = std::to_string(format.size.x) + "x" + std::to_string(format.size.y);
+    const std::string rate = std::to_string(time.denominator) + "/" + std::to_string(time.numerator);
+    // What players on every system accept. After file: a name may have a colon.
+    return {find_program("ffmpeg").string(),
+            "-hide_banner",
+            "-nostdin",
+            "-loglevel",
+            "error",
+            "-f",
+            "rawvideo",
+            "-pixel_format",
+            "rgba",
+            "-video_size",
+            size,
+            "-framerate",
+            rate,
+            "-i",
+            "pipe:0",
+            "-vf",
+            "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p",
+            "-colorspace",
+            "bt709",
+            "-color_primaries",
+            "bt709",
+            "-color_trc",
+            "bt709",
+            "-color_range",
+            "tv",
+            "-c:v",
+            "libx264",
+            "-preset",
+            "fast",
+            "-crf",
+            "18",
+            "-movflags",
+            "+faststart",
+            "-f",
+            "mp4",
+            "-y",
+            "file:" + std::filesystem::absolute(file).string()};
+}
+
+}  // namespace
+
+std::string why_no_mp4() {
+    return find_program("ffmpeg").empty() ? "to write MP4, install ffmpeg" : "";
+}
+
+Mp4File::Mp4File(const std::filesystem::path& path, const VideoFormat& format)
+    : file_(path), format_(format), ffmpeg_(command(format, file_.beside())) {}
+
+void Mp4File::add(const Image& frame) {
+    if (frame.size != format_.size) throw std::runtime_error("a frame has another size than the video");
+    if (frames_ == format_.frames) throw std::runtime_error("there is a frame too many");
+    ffmpeg_.write({reinterpret_cast<const char*>(frame.rgba.data()), frame.rgba.size()});
+    ++frames_;
+}
+
+void Mp4File::finish() {
+    if (frames_ != format_.frames)
+        throw std::runtime_error("only " + std::to_string(frames_) + " of " + std::to_string(format_.frames) +
+                                 " frames");
+    ffmpeg_.finish(longest_end);
+    file_.commit();
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,28 @@
+// MP4 with H.264 video, which everything plays, written by ffmpeg where that is installed: frames go through
+// a pipe to it. Colours are halved in resolution (4:2:0), and there is no alpha channel.
+#pragma once
+
+#include "app/document/atomic_file.hpp"
+#include "app/io/child_process.hpp"
+#include "app/io/video_file.hpp"
+
+namespace tendril::app {
+
+/// "to write MP4, install ffmpeg", or empty where it is installed.
+std::string why_no_mp4();
+
+/// Its size must be even, each way.
+class Mp4File final : public VideoFile {
+  public:
+    Mp4File(const std::filesystem::path& path, const VideoFormat& format);
+    void add(const Image& frame) override;
+    void finish() override;
+
+  private:
+    AtomicFile file_;  ///< outlives the process that writes it
+    VideoFormat format_;
+    ChildProcess ffmpeg_;
+    int frames_ = 0;
+};
+
+}  // namespace tendril::app

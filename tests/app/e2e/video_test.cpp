@@ -1,0 +1,280 @@
+// The last seconds as a video: every frame is the picture of that moment, and nothing else changes.
+#include <cstdlib>
+
+#include "app/document/command.hpp"
+#include "tests/app/support/apng.hpp"
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+using app::Json;
+
+/// A chain whose target is dragged in the view.
+ScriptText dragged_chain() {
+    ScriptText script;
+    script.command("lab.open", {{"name", "chain"}}).command("chain.mode", {{"mode", "reach"}});
+    const glm::vec2 at = handle(state_after(script), "target");
+    std::vector<glm::vec2> points{at};
+    for (int i = 1; i <= 30; ++i)
+        points.push_back(at - glm::vec2(6.0f * static_cast<float>(i), 3.0f * static_cast<float>(i % 7)));
+    return script.drag(points).wait(5);
+}
+
+ScriptText swinging_rope() {
+    ScriptText script;
+    return script.command("lab.open", {{"name", "rope"}})
+        .command("rope.preset", {{"name", "pendulum"}})
+        .wait(40);
+}
+
+Json video(const std::filesystem::path& path, const Json& more = Json::object()) {
+    Json arguments{{"path", path.string()}, {"width", 160}, {"height", 120}};
+    arguments.update(more);
+    return arguments;
+}
+
+/// What the program says to it, in a script after `before`.
+std::string refusal(const ScriptText& before, const Json& arguments, const Environment& changes = {}) {
+    const TempFolder folder;
+    ScriptText script = before;
+    write(folder / "script.jsonl", script.command("view.video", arguments).text());
+    const Outcome outcome =
+        run_program({"--headless", "--script", (folder / "script.jsonl").string()}, changes);
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    return outcome.err;
+}
+
+/// A program of that name on PATH, before all others.
+Environment with_program(const TempFolder& folder, const std::string& name, const std::string& script) {
+    write(folder / name, "#!/bin/sh\n" + script);
+    std::filesystem::permissions(folder / name, std::filesystem::perms::owner_all);
+    return {{"PATH", folder.path().string() + ":" + std::getenv("PATH")}};
+}
+
+Outcome run_script(const ScriptText& script, const Environment& changes = {},
+                   const std::filesystem::path& in = {}) {
+    const TempFolder folder;
+    write(folder / "script.jsonl", script.text());
+    return run_program({"--headless", "--script", (folder / "script.jsonl").string()}, changes, in);
+}
+
+void expect_frames_are_pictures(const ScriptText& scene, const Json& more, int from, int to, int every) {
+    const TempFolder folder;
+    Json look{{"width", 160}, {"height", 120}};
+    if (more.contains("transparent")) look["transparent"] = true;
+    ScriptText script = scene;
+    script.command("view.video", video(folder / "video.png", more));
+    std::vector<std::filesystem::path> pictures;
+    for (int back = from; back >= to; back -= every) {
+        pictures.push_back(folder / (std::to_string(back) + ".png"));
+        look["path"] = pictures.back().string();
+        script.command("time.seek", {{"ticks_back", back}}).command("view.picture", look);
+    }
+    play(script);
+    const Apng read_back = read_apng(read(folder / "video.png"));
+    EXPECT_EQ(read_back.size, glm::ivec2(160, 120));
+    ASSERT_EQ(read_back.frames.size(), pictures.size());
+    int different = 0;
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        EXPECT_EQ(read_back.frames[i].image.rgba, app::read_png(pictures[i]).rgba) << pictures[i];
+        different += i > 0 && read_back.frames[i].image.rgba != read_back.frames[i - 1].image.rgba;
+    }
+    EXPECT_GT(different, static_cast<int>(pictures.size()) / 2) << "something moves in it";
+}
+
+TEST(Video, ShowsADragAsItWas) {
+    expect_frames_are_pictures(dragged_chain(), {{"from", 0.5}, {"to", 0.1}}, 30, 6, 2);
+}
+
+TEST(Video, ShowsASwingingRope) {
+    expect_frames_are_pictures(swinging_rope(), {{"from", 0.6}, {"every", 3}}, 36, 0, 3);
+}
+
+TEST(Video, HasATransparentBackground) {
+    expect_frames_are_pictures(swinging_rope(), {{"from", 0.2}, {"every", 4}, {"transparent", true}}, 12, 0,
+                               4);
+}
+
+/// Once more after going back in time: what one looks at is not where the video ends.
+TEST(Video, ShowsAllThatIsRememberedWhereverOneIs) {
+    const TempFolder folder;
+    ScriptText script = swinging_rope();
+    const Json now = state_after(script);
+    const int remembered = now["time"]["remembered"].get<int>();
+    ASSERT_GE(remembered, 30);
+    script.command("view.video", video(folder / "a.png"))
+        .command("time.seek", {{"ticks_back", 20}})
+        .command("view.video", video(folder / "b.png"));
+    play(script);
+    const Apng at_the_end = read_apng(read(folder / "a.png")),
+               in_the_past = read_apng(read(folder / "b.png"));
+    EXPECT_EQ(at_the_end.frames.size(), static_cast<std::size_t>(remembered / 2 + 1));
+    ASSERT_EQ(in_the_past.frames.size(), at_the_end.frames.size());
+    for (std::size_t i = 0; i < at_the_end.frames.size(); ++i)
+        EXPECT_EQ(in_the_past.frames[i].image.rgba, at_the_end.frames[i].image.rgba) << i;
+}
+
+TEST(Video, ChangesNothingElse) {
+    for (const ScriptText& scene : {dragged_chain(), swinging_rope()}) {
+        const TempFolder folder;
+        ScriptText plain = scene, filmed = scene;
+        plain.wait(400);
+        filmed.command("view.video", video(folder / "a.png")).wait(400);
+        const Played before = play(plain, {.picture = true}), after = play(filmed, {.picture = true});
+        EXPECT_EQ(before.state, after.state);
+        EXPECT_EQ(before.picture.rgba, after.picture.rgba);
+    }
+    // What was undone can be redone.
+    const TempFolder folder;
+    ScriptText undone = dragged_chain();
+    undone.command("undo").command("view.video", video(folder / "a.png")).command("redo");
+    EXPECT_EQ(state_after(undone)["segments"], state_after(dragged_chain())["segments"]);
+}
+
+TEST(Video, IsRefusedInWords) {
+    const TempFolder folder;
+    const ScriptText scene = swinging_rope(), nothing = ScriptText().command("time.pause");
+    const auto refused = [&](const Json& more) { return refusal(scene, video(folder / "a.png", more)); };
+    EXPECT_TRUE(has(refusal(nothing, video(folder / "a.png")), "nothing has moved yet"));
+    EXPECT_TRUE(has(refused({{"from", 0.1}, {"to", 0.2}}),
+                    "from must be further back than to, which is 0.20 s, got 0.10 s"));
+    EXPECT_TRUE(has(refused({{"from", 0.2}, {"to", 0.2}}), "from must be further back"));
+    EXPECT_TRUE(has(refused({{"from", 5}}), "remembered, got 5.00 s"));
+    EXPECT_TRUE(has(refused({{"from", 11}}), "from must be 0.0 to 10.0, got 11"));
+    EXPECT_TRUE(has(refused({{"from", -1}}), "from must be 0.0 to 10.0, got -1"));
+    EXPECT_TRUE(has(refused({{"from", "now"}}), "from"));
+    EXPECT_TRUE(has(refused({{"width", 9000}}), "width must be 16 to 8192, got 9000"));
+    EXPECT_TRUE(has(refused({{"height", 1}}), "height must be 16 to 8192, got 1"));
+    EXPECT_TRUE(has(refused({{"every", 0}}), "every must be 1 to 60, got 0"));
+    EXPECT_TRUE(has(refused({{"speed", 0}}), "speed must be 0.05 to 2.0, got 0"));
+    for (const char* name : {"a.gif", "a", "a.PNGX", ""})
+        EXPECT_TRUE(has(refused({{"path", name}}), "path must end in .png or .mp4, got")) << name;
+    EXPECT_TRUE(has(refused({{"path", "/nowhere/a.png"}}), "/nowhere/a.png"));
+    EXPECT_TRUE(has(refused({{"path", folder.path().string() + "/"}}), "path must end in"));
+    const TempFolder tools;
+    const Environment fake = with_program(tools, "ffmpeg", "cat > /dev/null\n"), none{{"PATH", "/nowhere"}};
+    const auto mp4 = [&](const Json& more) { return refusal(scene, video(folder / "a.mp4", more), fake); };
+    EXPECT_TRUE(has(refusal(scene, video(folder / "a.mp4"), none), "to write MP4, install ffmpeg"));
+    EXPECT_TRUE(has(mp4({{"transparent", true}}), "MP4 has no transparency"));
+    EXPECT_TRUE(has(mp4({{"width", 161}}), "width of an MP4 must be even, got 161"));
+    EXPECT_TRUE(has(mp4({{"height", 121}}), "height of an MP4 must be even, got 121"));
+    ScriptText plots = scene;
+    plots.command("lab.open", {{"name", "signal"}}).wait(30);
+    EXPECT_TRUE(has(refusal(plots, video(folder / "a.png")), "more than a view of a scene"));
+    EXPECT_EQ(folder.names(), std::vector<std::string>{}) << "nothing is left of any of these";
+}
+
+/// The dialog by its key, its name as it is offered, and Enter.
+ScriptText recorded_by_hand() {
+    ScriptText script = swinging_rope();
+    return script.key("ctrl+shift+p").wait(4).key("enter").wait(3);
+}
+
+TEST(Video, IsWrittenWhileOneGoesOn) {
+    const TempFolder folder;
+    ScriptText script = recorded_by_hand();
+    EXPECT_TRUE(succeeded(run_script(script.wait(60), {}, folder.path())));
+    ASSERT_EQ(folder.names(), std::vector<std::string>{"tendril-1.png"});
+    EXPECT_GE(read_apng(read(folder / "tendril-1.png")).frames.size(), 20u);
+    // What happens meanwhile is not in it.
+    ScriptText meanwhile = recorded_by_hand();
+    meanwhile.command("rope.clear").command("lab.open", {{"name", "chain"}}).wait(60);
+    const std::string alone = read(folder / "tendril-1.png");
+    std::filesystem::remove(folder / "tendril-1.png");
+    EXPECT_TRUE(succeeded(run_script(meanwhile, {}, folder.path())));
+    EXPECT_EQ(read(folder / "tendril-1.png"), alone);
+}
+
+TEST(Video, IsCancelledByEscapeAndLeavesNoFile) {
+    const TempFolder folder;
+    ScriptText script = recorded_by_hand();
+    ScriptText escaped = script, commanded = script;
+    EXPECT_TRUE(succeeded(run_script(escaped.key("escape").wait(80), {}, folder.path())));
+    EXPECT_TRUE(succeeded(run_script(commanded.command("view.end_video").wait(80), {}, folder.path())));
+    EXPECT_TRUE(succeeded(run_script(script, {}, folder.path()))) << "the program ends before the video does";
+    EXPECT_EQ(folder.names(), std::vector<std::string>{});
+    EXPECT_TRUE(has(run_script(swinging_rope().command("view.end_video")).err, "no video is being written"));
+    ScriptText twice = recorded_by_hand();
+    EXPECT_TRUE(has(run_script(twice.command("view.video", video("b.png")), {}, folder.path()).err,
+                    "tendril-1.png is still being written"));
+}
+
+/// The program that writes it is a stand-in here: it counts what it is given.
+TEST(Mp4Video, GoesThroughAPipe) {
+    const TempFolder folder, tools;
+    const Environment fake = with_program(tools, "ffmpeg",
+                                          "echo \"$@\" > '" + (tools / "arguments").string() +
+                                              "'\nfor last; do :; done\nwc -c > \"${last#file:}\"\n");
+    ScriptText script = swinging_rope();
+    script.command("view.video", video(folder / "a b;c.mp4", {{"from", 0.5}, {"every", 3}}));
+    EXPECT_TRUE(succeeded(run_script(script, fake)));
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"a b;c.mp4"});
+    EXPECT_EQ(std::stol(read(folder / "a b;c.mp4")), 11L * 160 * 120 * 4);
+    const std::string arguments = read(tools / "arguments");
+    EXPECT_TRUE(has(arguments, "-video_size 160x120 -framerate 60/3"));
+    EXPECT_TRUE(has(arguments, "yuv420p"));
+    ScriptText own_size = swinging_rope();
+    own_size.command("view.video", {{"path", (folder / "own.mp4").string()}, {"from", 0.1}});
+    EXPECT_TRUE(succeeded(run_script(own_size, fake))) << "of the view, made even";
+}
+
+TEST(Mp4Video, TellsWhatFfmpegSays) {
+    const TempFolder folder, tools;
+    write(folder / "a.mp4", "old");
+    for (const char* end : {"echo 'Unknown encoder libx264' >&2; exit 1\n",
+                            "cat > /dev/null; echo 'Unknown encoder libx264' >&2; exit 1\n"}) {
+        const Environment fake = with_program(tools, "ffmpeg", end);
+        EXPECT_TRUE(has(refusal(swinging_rope(), video(folder / "a.mp4"), fake),
+                        "view.video: ffmpeg failed: Unknown encoder libx264"));
+    }
+    EXPECT_EQ(read(folder / "a.mp4"), "old");
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"a.mp4"});
+}
+
+TEST(Mp4Video, HasAllFrames) {
+    if (std::system("ffmpeg -version > /dev/null 2>&1 && ffprobe -version > /dev/null 2>&1") != 0)
+        GTEST_SKIP() << "ffmpeg is not installed";
+    const TempFolder folder;
+    ScriptText script = swinging_rope();
+    script.command("view.video", video(folder / "a.mp4", {{"from", 0.5}, {"every", 3}}));
+    EXPECT_TRUE(succeeded(run_script(script)));
+    const std::string probe =
+        "ffprobe -v error -count_frames -show_entries stream=nb_read_frames,width,height,codec_name "
+        "-of csv=p=0 '" +
+        (folder / "a.mp4").string() + "' > '" + (folder / "said").string() + "'";
+    ASSERT_EQ(std::system(probe.c_str()), 0);
+    EXPECT_EQ(read(folder / "said"), "h264,160,120,11\n");
+}
+
+TEST(CopiedPicture, GoesToAProgram) {
+    const TempFolder folder, tools;
+    Environment fake = with_program(tools, "xclip",
+                                    "echo \"$@\" > '" + (tools / "arguments").string() + "'\ncat > '" +
+                                        (tools / "clipboard").string() + "'\n");
+    fake.push_back({"WAYLAND_DISPLAY", std::nullopt});
+    const Json look{{"width", 200}, {"height", 100}, {"transparent", true}};
+    Json to_file = look;
+    to_file["path"] = (folder / "a.png").string();
+    ScriptText script = swinging_rope();
+    script.command("view.copy_picture", look).command("view.picture", to_file);
+    EXPECT_TRUE(succeeded(run_script(script, fake)));
+    EXPECT_EQ(read(tools / "clipboard"), read(folder / "a.png"));
+    EXPECT_EQ(read(tools / "arguments"), "-selection clipboard -t image/png\n");
+}
+
+TEST(CopiedPicture, SaysWhatToInstall) {
+    const ScriptText copy = ScriptText().command("view.copy_picture");
+    const auto said = [&](const std::optional<std::string>& wayland) {
+        return run_script(copy, {{"PATH", "/nowhere"}, {"WAYLAND_DISPLAY", wayland}}).err;
+    };
+    EXPECT_TRUE(has(said(std::nullopt), "view.copy_picture: to copy a picture, install xclip"));
+    EXPECT_TRUE(has(said("wayland-0"), "view.copy_picture: to copy a picture, install wl-clipboard"));
+    const TempFolder tools;
+    const Environment fake =
+        with_program(tools, "xclip", "echo \"Error: Can't open display: (null)\" >&2; exit 1\n");
+    EXPECT_TRUE(has(run_script(copy, fake).err, "xclip failed: Error: Can't open display: (null)"));
+}
+
+}  // namespace
+}  // namespace tendril::test
