@@ -221,7 +221,7 @@ void add_window_commands(CommandTable& table) {
            [](Workspace& w) -> bool& { return w.ui.help; });
     toggle("view.palette", "Find a command", "Finds a command by its name",
            [](Workspace& w) -> bool& { return w.ui.palette; });
-    toggle("view.settings", "Open the settings", "Shows the settings",
+    toggle("view.settings", "Show the settings", "Shows the settings",
            [](Workspace& w) -> bool& { return w.ui.settings; });
 
     table.add({.name = "view.close",

@@ -112,7 +112,7 @@ void add_microscope_commands(CommandTable& table) {
     table.add(chain_command("microscope.open", "Open the microscope", {start_argument()},
                             "Shows a solve step by step, always from the same start", open_microscope,
                             Effect::Edit));
-    table.add(chain_command("microscope.seek", "Go to a step of the solve",
+    table.add(chain_command("microscope.seek", "Show a step of the solve",
                             {{.name = "step",
                               .type = ArgumentType::Integer,
                               .help = "how many steps are shown",

@@ -138,7 +138,7 @@ void add_element_commands(CommandTable& table) {
         "Sets an element's input pose, from which every solve begins", set_element));
     table.add(rig_command("rig.element.remove", "Remove an element", {name_argument()},
                           "Removes an element that is no parent and that no unit names", remove));
-    table.add(rig_command("rig.remove_selected", "Delete the selection", {},
+    table.add(rig_command("rig.remove_selected", "Delete selection", {},
                           "Removes the element or the unit that was selected last", remove_selected));
     table.add(rig_command("rig.control.set", "Set a control",
                           {control_argument("name", true, "of the element"),

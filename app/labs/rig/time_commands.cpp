@@ -175,7 +175,7 @@ void add_time_commands(CommandTable& table) {
          switch_argument("turn", "a transform control looks along the path, with its z axis")},
         "Moves a control along a path while the simulation runs", set_motion));
     table.add({.name = "rig.time",
-               .title = "Go to a moment of the take",
+               .title = "Show a moment of the take",
                .arguments = {number_argument("seconds", "as the clock shows them", 0, 1e9),
                              integer_argument("tick", "of 1/60 s, instead of seconds", 0, 1e9)},
                .help = "Pauses and goes to a moment of the take, earlier or later: what playing there shows, "

@@ -183,7 +183,7 @@ void add_body_commands(CommandTable& table) {
     table.add(rope_command("rope.remove", "Remove a rope, cloth or hair",
                            {body_argument("name", true, "of a rope, cloth or hair")},
                            "Removes a rope, cloth or hair", remove));
-    table.add(rope_command("rope.remove_selected", "Delete the selection", {}, "Deletes the selection",
+    table.add(rope_command("rope.remove_selected", "Delete selection", {}, "Deletes the selection",
                            remove_selected));
     table.add(rope_command("rope.pin", "Pin a particle",
                            {rope_argument(true, "which"), particle_argument(true, "which"),

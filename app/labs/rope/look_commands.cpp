@@ -58,7 +58,7 @@ void add_look_commands(CommandTable& table) {
         "rope.let_go", "Let go of the held particle", {}, "Releases what rope.hold holds",
         [](RopeEdit& edit, const Arguments&) { let_go(edit.part); }, Effect::Look));
     table.add(rope_command(
-        "rope.tool", "Choose what a click does", {choice_argument("name", true, "which", rope_tools.names())},
+        "rope.tool", "Choose the click action", {choice_argument("name", true, "which", rope_tools.names())},
         "Sets what a click in the scene does",
         [](RopeEdit& edit, const Arguments& given) { edit.part.tool = rope_tools.value(given.text("name")); },
         Effect::Look));

@@ -152,8 +152,8 @@ void add_filter_commands(CommandTable& table) {
                                        {at, switch_argument("on", "the other way round when left out")},
                                        "Switches a filter on or off; off, the input passes as it is",
                                        enable));
-    table.add(part_command<SignalPart>(signal_lab, "signal.filter.remove_selected", "Delete the selection",
-                                       {}, "Removes the filter that is selected", remove_selected));
+    table.add(part_command<SignalPart>(signal_lab, "signal.filter.remove_selected", "Delete selection", {},
+                                       "Removes the filter that is selected", remove_selected));
     table.add(part_command<SignalPart>(
         signal_lab, "signal.select", "Select a filter",
         {filter_argument(index_argument("at", false, "which filter; none when left out", most_stages))},

@@ -61,6 +61,10 @@ Seen seen_after(ScriptText script) {
     return {camera["distance"].get<double>(), point_of(camera["target"])};
 }
 
+Json wheel(double by, double sideways) {
+    return {{"mouse", "wheel"}, {"by", by}, {"sideways", sideways}};
+}
+
 ScriptText scrolls(const char* what) {
     return ScriptText().command("view.scroll", {{"does", what}}).move(nothing);
 }
@@ -69,22 +73,22 @@ TEST(View, TheWheelZoomsAndSidewaysItShifts) {
     const Seen before = seen_after(scrolls("zoom"));
     const Seen zoomed = seen_after(scrolls("zoom").wheel(2));
     EXPECT_LT(zoomed.distance, before.distance);
-    const Seen shifted = seen_after(scrolls("zoom").scroll(0, 2));
+    const Seen shifted = seen_after(scrolls("zoom").line(wheel(0, 2)));
     EXPECT_EQ(shifted.distance, before.distance);
     EXPECT_GT(glm::distance(shifted.target, before.target), 0.05f);
     // To the left and back again.
-    const Seen back = seen_after(scrolls("zoom").scroll(0, 2).scroll(0, -2));
+    const Seen back = seen_after(scrolls("zoom").line(wheel(0, 2)).line(wheel(0, -2)));
     EXPECT_LT(glm::distance(back.target, before.target), 1e-4f);
     // Two fingers never go quite straight.
-    const Seen slanted = seen_after(scrolls("zoom").scroll(2, 0.5f));
+    const Seen slanted = seen_after(scrolls("zoom").line(wheel(2, 0.5)));
     EXPECT_EQ(slanted.distance, zoomed.distance);
     EXPECT_EQ(slanted.target, zoomed.target);
 }
 
 TEST(View, TwoFingersShiftItWhereThatIsChosenAndZoomWithCtrl) {
     const Seen before = seen_after(scrolls("pan"));
-    const Seen up = seen_after(scrolls("pan").wheel(2)), aside = seen_after(scrolls("pan").scroll(0, 2));
-    const Seen both = seen_after(scrolls("pan").scroll(2, 2));
+    const Seen up = seen_after(scrolls("pan").wheel(2)), aside = seen_after(scrolls("pan").line(wheel(0, 2)));
+    const Seen both = seen_after(scrolls("pan").line(wheel(2, 2)));
     for (const Seen& each : {up, aside, both}) {
         EXPECT_EQ(each.distance, before.distance);
         EXPECT_GT(glm::distance(each.target, before.target), 0.05f);
@@ -98,7 +102,7 @@ TEST(View, TwoFingersShiftItWhereThatIsChosenAndZoomWithCtrl) {
     const Seen pinched = seen_after(scrolls("pan").hold("ctrl").wheel(2).release("ctrl"));
     EXPECT_EQ(pinched.distance, seen_after(scrolls("zoom").wheel(2)).distance);
     // Over a panel it is the panel's.
-    const Seen panel = seen_after(scrolls("pan").move({100, 400}).scroll(2, 2));
+    const Seen panel = seen_after(scrolls("pan").move({100, 400}).line(wheel(2, 2)));
     EXPECT_EQ(panel.target, before.target);
 }
 

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "app/document/command.hpp"
+#include "app/document/json_complete.hpp"
 #include "app/labs/labs.hpp"
 #include "app/shell/shortcuts.hpp"
 #include "tests/app/support/program.hpp"

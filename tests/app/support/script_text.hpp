@@ -30,9 +30,6 @@ class ScriptText {
     ScriptText& down(const char* button = "left") { return line({{"mouse", "down"}, {"button", button}}); }
     ScriptText& up(const char* button = "left") { return line({{"mouse", "up"}, {"button", button}}); }
     ScriptText& wheel(float by) { return line({{"mouse", "wheel"}, {"by", app::number(by)}}); }
-    ScriptText& scroll(float by, float sideways) {
-        return line({{"mouse", "wheel"}, {"by", app::number(by)}, {"sideways", app::number(sideways)}});
-    }
     ScriptText& key(const char* name) { return line({{"key", name}}); }
     ScriptText& hold(const char* name) { return line({{"key", name}, {"action", "down"}}); }
     ScriptText& release(const char* name) { return line({{"key", name}, {"action", "up"}}); }
