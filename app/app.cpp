@@ -44,7 +44,7 @@ App::App(Window& window, bool complain, Labs labs)
       complain_(complain),
       labs_(std::move(labs)),
       commands_(std::make_unique<CommandTable>(make_command_table(labs_))),
-      shortcuts_(labs_),
+      shortcuts_(labs_, *commands_),
       cards_(labs_),
       workspace_(make_blank_workspace(labs_)) {
     ImGui::GetIO().SetClipboardTextFn = [](void* data, const char* text) {
@@ -139,7 +139,9 @@ void App::compose(const Event* event, Pass pass) {
         hint = "Moving " + bound + ".";
     }
     if (const std::string by_part = gizmo_hint(lab(), workspace_, pointer_); !by_part.empty()) hint = by_part;
-    if (hint.empty()) hint = view_hint(mouse_preset(workspace_.settings)) + " ? shows every key.";
+    if (hint.empty())
+        hint = view_hint(mouse_preset(workspace_.settings), scroll_action(workspace_.settings)) +
+               " ? shows every key.";
     if (workspace_.ui.asks_to_quit && !workspace_.modified()) workspace_.ui.asks_to_quit = false;
     shell_.frame({workspace_, labs_, lab(), *commands_, shortcuts_, layout_, hint, shown_card()}, emit);
     if (const std::string why = std::exchange(ui_.numbers().refused, {}); !why.empty()) {

@@ -63,7 +63,8 @@ void list_commands() {
     };
     const CommandTable table = make_command_table(labs);
     for (const Command& command : table.all()) {
-        std::printf("%s\n    %s\n", usage(command).c_str(), command.help.c_str());
+        std::printf("%s\n    %s\n    %s\n", usage(command).c_str(), command.title.c_str(),
+                    command.help.c_str());
         for (const Argument& argument : command.arguments) {
             std::string choices;
             for (const auto& choice : argument.choices) choices += (choices.empty() ? ": " : ", ") + choice;
@@ -126,7 +127,10 @@ void SessionLine::check() {
 int SessionLine::run() {
     if (labs) list_labs();
     if (commands) list_commands();
-    if (shortcuts) std::fputs(Shortcuts(Labs()).markdown().c_str(), stdout);
+    if (shortcuts) {
+        const Labs all;
+        std::fputs(Shortcuts(all, make_command_table(all)).markdown().c_str(), stdout);
+    }
     if (labs || commands || shortcuts) return 0;
     end_session_on_signals();
     return run_session(options);

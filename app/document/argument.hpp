@@ -1,6 +1,7 @@
 // What a command takes: how its arguments are declared, and those it was given.
 #pragma once
 
+#include <functional>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <string>
@@ -9,6 +10,8 @@
 #include "app/document/json.hpp"
 
 namespace tendril::app {
+
+struct Workspace;
 
 /// NumberOrPoint: one number, or three. Rotation: a unit quaternion [x, y, z, w], or degrees about X, then Y,
 /// then Z. What is in a List, and Any value
@@ -33,6 +36,10 @@ struct Argument {
     std::string help{};
     double low = -1e9, high = 1e9;       ///< for numbers and integers
     std::vector<std::string> choices{};  ///< for texts; empty: any
+    /// For the palette. Names (or numbers) of the things that are there to be named; others may do as well.
+    std::function<std::vector<std::string>(const Workspace&)> known{};
+    /// What it is set to now.
+    std::function<std::string(const Workspace&)> present{};
 };
 
 /// Arguments that have been checked against their command: present where required, of the right type, finite

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/document/argument.hpp"
@@ -23,6 +24,9 @@ enum class Effect {
 
 struct Command {
     std::string name;
+    /// What a person looks for, in the palette and the menus: two to six words that say what to do, without a
+    /// full stop ("Add a joint at the tip"). Unique among the commands of a lab and the program's own.
+    std::string title{};
     std::vector<Argument> arguments;
     std::string help;
     Effect effect = Effect::Edit;
@@ -31,11 +35,14 @@ struct Command {
     /// Of what it only begins, and ticks go on with (Lab::work): does the rest at once. For scripts, whose
     /// next line finds it done.
     std::function<void(Workspace&)> finish{};
+    std::string lab{};  ///< whose it is, by name; the table fills it in. Empty: the program's own
 };
 
 class CommandTable {
   public:
     void add(Command command);
+    /// What is added from here on belongs to that lab.
+    void begin_lab(std::string name) { lab_ = std::move(name); }
     const Command* find(std::string_view name) const;
     const std::vector<Command>& all() const { return commands_; }
 
@@ -45,7 +52,11 @@ class CommandTable {
 
   private:
     std::vector<Command> commands_;
+    std::string lab_;
 };
+
+/// Checks given arguments as CommandTable::run does before it applies them. Throws Refused.
+void check_arguments(const Command& command, const Json& given);
 
 /// "chain.add length [position]", for lists and help.
 std::string usage(const Command& command);

@@ -11,6 +11,7 @@ namespace {
 
 void add_file_commands(CommandTable& table) {
     table.add({.name = "scene.new",
+               .title = "Start a new scene",
                .arguments = {},
                .help = "Starts a new scene; undo restores the old one",
                .effect = Effect::Edit,
@@ -22,6 +23,7 @@ void add_file_commands(CommandTable& table) {
                    w.camera = w.first_view_of(w.lab);
                }});
     table.add({.name = "scene.open",
+               .title = "Open a scene file",
                .arguments = {{.name = "path", .type = ArgumentType::Text, .help = "the scene file"}},
                .help = "Opens a scene file; undo restores the scene before it",
                .effect = Effect::Edit,
@@ -30,6 +32,7 @@ void add_file_commands(CommandTable& table) {
                    w.ui.file_dialog = UiState::FileDialog::None;
                }});
     table.add({.name = "scene.save",
+               .title = "Save the scene to a file",
                .arguments = {{.name = "path",
                               .type = ArgumentType::Text,
                               .required = false,
@@ -62,8 +65,17 @@ void answered(Workspace& workspace, const std::filesystem::path& file) {
 }
 
 void add_recovery_commands(CommandTable& table) {
-    const Argument path{.name = "path", .type = ArgumentType::Text, .help = "an autosave that a crash left"};
+    const Argument path{.name = "path",
+                        .type = ArgumentType::Text,
+                        .help = "an autosave that a crash left",
+                        .known = [](const Workspace& w) {
+                            std::vector<std::string> files;
+                            for (const Recoverable& each : w.ui.recoverable)
+                                files.push_back(each.file.string());
+                            return files;
+                        }};
     table.add({.name = "scene.recover",
+               .title = "Recover unsaved work",
                .arguments = {path},
                .help = "Recovers unsaved work after a crash",
                .effect = Effect::Edit,
@@ -75,6 +87,7 @@ void add_recovery_commands(CommandTable& table) {
                    w.toast("Recovered. It is not saved yet.");
                }});
     table.add({.name = "scene.discard",
+               .title = "Delete what a crash left",
                .arguments = {path},
                .help = "Deletes unsaved work that a crash left",
                .effect = Effect::Look,
@@ -84,6 +97,7 @@ void add_recovery_commands(CommandTable& table) {
                    answered(w, file);
                }});
     table.add({.name = "scene.recover_later",
+               .title = "Ask about unsaved work later",
                .arguments = {},
                .help = "Asks again about unsaved work at the next start",
                .effect = Effect::Look,
@@ -93,11 +107,13 @@ void add_recovery_commands(CommandTable& table) {
 void add_dialog_commands(CommandTable& table) {
     table.add(
         {.name = "scene.open_dialog",
+         .title = "Choose a scene to open",
          .arguments = {},
          .help = "Shows a dialog to open a scene",
          .effect = Effect::Look,
          .apply = [](Workspace& w, const Arguments&) { w.ui.file_dialog = UiState::FileDialog::Open; }});
     table.add({.name = "scene.save_dialog",
+               .title = "Save the scene",
                .arguments = {{.name = "ask",
                               .type = ArgumentType::Boolean,
                               .required = false,
@@ -135,6 +151,7 @@ void add_picture_command(CommandTable& table) {
                         .high = largest_picture};
     };
     table.add({.name = "view.picture",
+               .title = "Save a picture of the view",
                .arguments = {{.name = "path",
                               .type = ArgumentType::Text,
                               .required = false,
@@ -170,6 +187,7 @@ void quit(Workspace& w, const Arguments& given) {
 
 void add_quit_command(CommandTable& table) {
     table.add({.name = "quit",
+               .title = "Quit Tendril",
                .arguments = {{.name = "unsaved",
                               .type = ArgumentType::Text,
                               .required = false,

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "app/document/command.hpp"
+#include "app/document/json_complete.hpp"
 
 namespace tendril::app {
 namespace {
@@ -39,11 +40,13 @@ void step_through(Workspace& workspace, bool back) {
 
 void add_history_commands(CommandTable& table) {
     table.add({.name = "undo",
+               .title = "Undo",
                .arguments = {},
                .help = "Undoes the last change; a whole drag is one change",
                .effect = Effect::Replace,
                .apply = [](Workspace& w, const Arguments&) { step_through(w, true); }});
     table.add({.name = "redo",
+               .title = "Redo",
                .arguments = {},
                .help = "Redoes what was undone",
                .effect = Effect::Replace,
@@ -85,9 +88,21 @@ void show_incident(Workspace& w, const Arguments& given) {
     w.ui.incident = incident;
 }
 
+std::vector<std::string> known_incidents(const Workspace& w) {
+    std::vector<std::string> numbers;
+    for (std::size_t i = 0; i < w.rewind.incidents().size(); ++i) numbers.push_back(std::to_string(i));
+    return numbers;
+}
+
+/// Shortest, as it would be typed.
+std::string plain(float value) {
+    return number(value).dump();
+}
+
 void add_time_commands(CommandTable& table) {
-    const auto add = [&](const char* name, const char* help, auto change) {
+    const auto add = [&](const char* name, const char* title, const char* help, auto change) {
         table.add({.name = name,
+                   .title = title,
                    .arguments = {},
                    .help = help,
                    .effect = Effect::Look,
@@ -98,25 +113,28 @@ void add_time_commands(CommandTable& table) {
         w.clock.replaying = false;
         if (playing) w.ui.incident.reset();
     };
-    add("time.play", "Runs the simulation", [run](Workspace& w) { run(w, true); });
-    add("time.pause", "Pauses the simulation, or what is shown again",
+    add("time.play", "Run the simulation", "Runs the simulation", [run](Workspace& w) { run(w, true); });
+    add("time.pause", "Pause the simulation", "Pauses the simulation, or what is shown again",
         [run](Workspace& w) { run(w, false); });
-    add("time.toggle", "Runs or pauses the simulation",
+    add("time.toggle", "Run or pause the simulation", "Runs or pauses the simulation",
         [run](Workspace& w) { run(w, !w.clock.playing && !w.clock.replaying); });
-    add("time.step", "Pauses and advances by one tick of 1/60 s", [run](Workspace& w) {
+    add("time.step", "Advance by one tick", "Pauses and advances by one tick of 1/60 s", [run](Workspace& w) {
         run(w, false);
         ++w.clock.steps_due;
     });
     table.add({.name = "time.speed",
+               .title = "Set the simulation's speed",
                .arguments = {{.name = "factor",
                               .help = "1 is real time; below 1 is slow motion",
                               .low = slowest,
-                              .high = fastest}},
+                              .high = fastest,
+                              .present = [](const Workspace& w) { return plain(w.clock.speed); }}},
                .help = "Sets the speed of the simulation",
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments& a) { w.clock.speed = a.number("factor"); }});
     table.add(
         {.name = "time.seek",
+         .title = "Go back in time",
          .arguments = {{.name = "ticks_back",
                         .type = ArgumentType::Integer,
                         .help = "ticks of 1/60 s before the last one",
@@ -129,18 +147,21 @@ void add_time_commands(CommandTable& table) {
          .apply = seek});
     table.add(
         {.name = "time.replay",
+         .title = "Replay the last ten seconds",
          .arguments = {},
          .help = "Shows the last ten seconds again, from the moment that is shown or, at the last one, from "
                  "the first",
          .effect = Effect::Replace,
          .apply = [](Workspace& w, const Arguments&) { replay(w); }});
     table.add({.name = "time.incident",
+               .title = "Show when a joint jumped",
                .arguments = {{.name = "number",
                               .type = ArgumentType::Integer,
                               .required = false,
                               .help = "which of the state's events, 0 is the oldest; none when left out",
                               .low = 0,
-                              .high = Rewind::most_incidents - 1}},
+                              .high = Rewind::most_incidents - 1,
+                              .known = known_incidents}},
                .help = "Goes to a moment at which a joint jumped, and shows what was before it and what came "
                        "of it",
                .effect = Effect::Replace,
@@ -149,15 +170,20 @@ void add_time_commands(CommandTable& table) {
 
 /// A setting that is one of two: the one that is named, or the other one when none is.
 template <class Choice>
-Command either(const char* name, const char* argument, std::vector<std::string> choices, const char* help,
-               Choice Settings::*setting) {
-    const std::string second = choices[1];
+Command either(const char* name, const char* title, const char* argument, std::vector<std::string> choices,
+               const char* help, Choice Settings::*setting) {
+    const std::string first = choices[0], second = choices[1];
     return {.name = name,
+            .title = title,
             .arguments = {{.name = argument,
                            .type = ArgumentType::Text,
                            .required = false,
                            .help = "the other one when left out",
-                           .choices = std::move(choices)}},
+                           .choices = std::move(choices),
+                           .present =
+                               [first, second, setting](const Workspace& w) {
+                                   return w.settings.*setting == Choice{0} ? first : second;
+                               }}},
             .help = help,
             .effect = Effect::Look,
             .apply = [argument, second, setting](Workspace& w, const Arguments& a) {
@@ -167,9 +193,19 @@ Command either(const char* name, const char* argument, std::vector<std::string> 
             }};
 }
 
+/// Those that a person has folded or unfolded before.
+std::vector<std::string> known_sections(const Workspace& w) {
+    const std::string before = fold_key("");
+    std::vector<std::string> names;
+    for (const auto& [key, choice] : w.settings.choices)
+        if (key.starts_with(before)) names.push_back(key.substr(before.size()));
+    return names;
+}
+
 void add_window_commands(CommandTable& table) {
-    const auto toggle = [&](const char* name, const char* help, auto member) {
+    const auto toggle = [&](const char* name, const char* title, const char* help, auto member) {
         table.add({.name = name,
+                   .title = title,
                    .arguments = {{.name = "open",
                                   .type = ArgumentType::Boolean,
                                   .required = false,
@@ -181,12 +217,15 @@ void add_window_commands(CommandTable& table) {
                        open = a.has("open") ? a.boolean("open") : !open;
                    }});
     };
-    toggle("view.help", "Shows the keys and what the mouse does",
+    toggle("view.help", "Show keys and mouse", "Shows the keys and what the mouse does",
            [](Workspace& w) -> bool& { return w.ui.help; });
-    toggle("view.palette", "Finds a command by its name", [](Workspace& w) -> bool& { return w.ui.palette; });
-    toggle("view.settings", "Shows the settings", [](Workspace& w) -> bool& { return w.ui.settings; });
+    toggle("view.palette", "Find a command", "Finds a command by its name",
+           [](Workspace& w) -> bool& { return w.ui.palette; });
+    toggle("view.settings", "Show the settings", "Shows the settings",
+           [](Workspace& w) -> bool& { return w.ui.settings; });
 
     table.add({.name = "view.close",
+               .title = "Close or cancel",
                .arguments = {},
                .help = "Closes the palette, help, settings or dialog",
                .effect = Effect::Look,
@@ -198,6 +237,7 @@ void add_window_commands(CommandTable& table) {
                }});
     table.add(
         {.name = "view.panels",
+         .title = "Show or hide the side panels",
          .arguments =
              {{.name = "left", .type = ArgumentType::Boolean, .required = false, .help = "the lab's panel"},
               {.name = "right", .type = ArgumentType::Boolean, .required = false, .help = "the inspector"}},
@@ -212,6 +252,7 @@ void add_window_commands(CommandTable& table) {
              if (a.has("right")) s.right_open = a.boolean("right");
          }});
     table.add({.name = "view.panel_width",
+               .title = "Set a side panel's width",
                .arguments = {{.name = "side",
                               .type = ArgumentType::Text,
                               .help = "which panel",
@@ -223,23 +264,32 @@ void add_window_commands(CommandTable& table) {
                    (a.text("side") == "left" ? w.settings.left_width : w.settings.right_width) =
                        a.number("width");
                }});
-    table.add(either("view.theme", "name", {"dark", "light"}, "Dark or light", &Settings::theme));
-    table.add(either("view.labels", "show", {"hover", "always"}, "Shows labels on hover, or always",
-                     &Settings::labels));
+    table.add(either("view.theme", "Switch between light and dark", "name", {"dark", "light"},
+                     "Dark or light", &Settings::theme));
+    table.add(either("view.labels", "Show labels always or on hover", "show", {"hover", "always"},
+                     "Shows labels on hover, or always", &Settings::labels));
     table.add({.name = "view.fold",
-               .arguments = {{.name = "section", .type = ArgumentType::Text, .help = "lab and title"},
+               .title = "Fold or unfold a section",
+               .arguments = {{.name = "section",
+                              .type = ArgumentType::Text,
+                              .help = "lab and title",
+                              .known = known_sections},
                              {.name = "folded", .type = ArgumentType::Boolean, .help = "to its title"}},
                .help = "Folds a section of a panel, or unfolds it",
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments& a) {
                    w.settings.choices[fold_key(a.text("section"))] = a.boolean("folded") ? "folded" : "open";
                }});
-    table.add(
-        {.name = "view.text_scale",
-         .arguments = {{.name = "scale", .help = "1 is the system's own size", .low = 0.5, .high = 3.0}},
-         .help = "Size of text and widgets",
-         .effect = Effect::Look,
-         .apply = [](Workspace& w, const Arguments& a) { w.settings.text_scale = a.number("scale"); }});
+    table.add({.name = "view.text_scale",
+               .title = "Set the text size",
+               .arguments = {{.name = "scale",
+                              .help = "1 is the system's own size",
+                              .low = 0.5,
+                              .high = 3.0,
+                              .present = [](const Workspace& w) { return plain(w.settings.text_scale); }}},
+               .help = "Size of text and widgets",
+               .effect = Effect::Look,
+               .apply = [](Workspace& w, const Arguments& a) { w.settings.text_scale = a.number("scale"); }});
 }
 
 }  // namespace
@@ -250,7 +300,18 @@ void add_workspace_commands(CommandTable& table) {
     add_time_commands(table);
     add_window_commands(table);
     table.add({.name = "lab.open",
-               .arguments = {{.name = "name", .type = ArgumentType::Text, .help = "as --list-labs has it"}},
+               .title = "Open a lab",
+               .arguments = {{.name = "name",
+                              .type = ArgumentType::Text,
+                              .help = "as --list-labs has it",
+                              .known =
+                                  [](const Workspace& w) {
+                                      std::vector<std::string> names;
+                                      for (const auto& [name, part] : w.document.parts())
+                                          names.push_back(name);
+                                      return names;
+                                  },
+                              .present = [](const Workspace& w) { return w.lab; }}},
                .help = "Opens a lab",
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments& a) {

@@ -40,13 +40,27 @@ void look_from(Workspace& workspace, const std::string& name) {
 LabSetting mouse_setting() {
     return {.key = "mouse",
             .command = "view.mouse",
+            .title = "Choose the mouse preset",
             .argument = "like",
             .help = "Turns and shifts the view with the mouse as this program does",
             .choices = {{"tendril", "Tendril"}, {"blender", "Blender"}, {"maya", "Maya, Unreal"}}};
 }
 
+LabSetting scroll_setting() {
+    return {.key = "scroll",
+            .command = "view.scroll",
+            .title = "Choose what scrolling does",
+            .argument = "does",
+            .help =
+                "What the wheel, or two fingers on a touchpad, do in the view: zoom, or shift it. Where they "
+                "shift "
+                "it, they zoom while Ctrl is held; some systems send a pinch as just that",
+            .choices = {{"zoom", "zooms"}, {"pan", "shifts the view"}}};
+}
+
 void add_camera_commands(CommandTable& table, const Labs& labs) {
     table.add({.name = "camera.set",
+               .title = "Place or turn the camera",
                .arguments = {{.name = "target",
                               .type = ArgumentType::Point,
                               .required = false,
@@ -68,6 +82,7 @@ void add_camera_commands(CommandTable& table, const Labs& labs) {
                .effect = Effect::Look,
                .apply = set_pose});
     table.add({.name = "camera.frame",
+               .title = "Frame everything or the selection",
                .arguments = {{.name = "what",
                               .type = ArgumentType::Text,
                               .help = "what to bring into view",
@@ -79,6 +94,7 @@ void add_camera_commands(CommandTable& table, const Labs& labs) {
                    w.camera = framed(w.camera, {{0.0f, 0.0f}, w.ui.view_size}, bounds.centre, bounds.radius);
                }});
     table.add({.name = "camera.view",
+               .title = "Look from front, side or top",
                .arguments = {{.name = "name",
                               .type = ArgumentType::Text,
                               .help = "where from",
@@ -87,8 +103,10 @@ void add_camera_commands(CommandTable& table, const Labs& labs) {
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments& a) { look_from(w, a.text("name")); }});
     table.add(setting_command(mouse_setting()));
+    table.add(setting_command(scroll_setting()));
     table.add(
         {.name = "camera.orthographic",
+         .title = "Switch perspective off or on",
          .arguments = {},
          .help = "Turns perspective off, or on again",
          .effect = Effect::Look,

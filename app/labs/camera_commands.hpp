@@ -7,6 +7,8 @@ namespace tendril::app {
 
 /// Whose way of turning and shifting the view with the mouse is followed.
 LabSetting mouse_setting();
+/// What the wheel, or two fingers on a touchpad, do in the view.
+LabSetting scroll_setting();
 
 /// `labs` must outlive the table.
 void add_camera_commands(CommandTable& table, const Labs& labs);

@@ -8,6 +8,7 @@ namespace tendril::app {
 
 void add_card_commands(CommandTable& table) {
     table.add({.name = "view.card",
+               .title = "Show or hide things to try",
                .arguments = {{.name = "open",
                               .type = ArgumentType::Boolean,
                               .required = false,

@@ -52,6 +52,7 @@ CommandTable make_command_table(const Labs& labs) {
     add_card_commands(table);
     add_video_commands(table, labs);
     for (const auto& lab : labs.all()) {
+        table.begin_lab(lab->name());
         lab->add_commands(table);
         for (const LabSetting& setting : lab->settings()) table.add(setting_command(setting));
     }

@@ -85,6 +85,7 @@ void require_view(const Workspace& w, const Labs& labs) {
 void add_recording(CommandTable& table, const Labs& labs) {
     table.add(
         {.name = "view.video",
+         .title = "Write a video of the past",
          .arguments =
              {{.name = "path",
                .type = ArgumentType::Text,
@@ -119,6 +120,7 @@ void add_recording(CommandTable& table, const Labs& labs) {
              w.ui.file_dialog = UiState::FileDialog::None;
          }});
     table.add({.name = "view.end_video",
+               .title = "Stop recording the video",
                .arguments = {},
                .help = "Cancels the video that is being written; no file is left",
                .effect = Effect::Look,
@@ -127,6 +129,7 @@ void add_recording(CommandTable& table, const Labs& labs) {
                    w.ui.ends_filming = true;
                }});
     table.add({.name = "view.video_dialog",
+               .title = "Record a video...",
                .arguments = {},
                .help = "Pauses, and shows a dialog to record the last seconds as a video",
                .effect = Effect::Look,
@@ -142,6 +145,7 @@ void add_recording(CommandTable& table, const Labs& labs) {
 
 void add_copying(CommandTable& table, const Labs& labs) {
     table.add({.name = "view.copy_picture",
+               .title = "Copy the picture",
                .arguments = {pixels("width", "pixels; the view's when left out"),
                              pixels("height", "pixels; the view's when left out"),
                              {.name = "transparent",

@@ -25,7 +25,11 @@ struct LineOf {
     Json operator()(const MousePress& e) const {
         return {{"mouse", e.down ? "down" : "up"}, {"button", button_name(e.button)}};
     }
-    Json operator()(const MouseWheel& e) const { return {{"mouse", "wheel"}, {"by", number(e.by)}}; }
+    Json operator()(const MouseWheel& e) const {
+        Json json{{"mouse", "wheel"}, {"by", number(e.by)}};
+        if (e.sideways != 0.0f) json["sideways"] = number(e.sideways);
+        return json;
+    }
     Json operator()(const KeyChange& e) const {
         if (e.key == Key::Unknown) return nullptr;
         return {{"key", std::string(key_name(e.key))}, {"action", e.down ? "down" : "up"}};

@@ -67,8 +67,9 @@ Action mouse_line(const Json& line) {
         return Event(MousePress{mouse_button(line), what == "down"});
     }
     if (what == "wheel") {
-        check_members(line, {"mouse", "by"});
-        return Event(MouseWheel{json_number(json_member(line, "by", ""), "by")});
+        check_members(line, {"mouse", "by", "sideways"});
+        const float sideways = line.contains("sideways") ? json_number(line["sideways"], "sideways") : 0.0f;
+        return Event(MouseWheel{json_number(json_member(line, "by", ""), "by"), sideways});
     }
     fail("mouse: expected \"move\", \"down\", \"up\" or \"wheel\", found " + json_summary(line["mouse"]));
 }

@@ -3,59 +3,38 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cctype>
-#include <cstdio>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
+#include "app/shell/shell.hpp"
 #include "app/widgets/text.hpp"
 
 namespace tendril::app {
 namespace {
 
-std::string lower(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
+constexpr std::size_t most_recent = 8;
+
+/// Below the list: the chosen row's help, and a line that says what is wrong or which keys there are.
+float height_below(const std::string& help) {
+    const float line = ImGui::GetTextLineHeightWithSpacing(), width = ImGui::GetContentRegionAvail().x;
+    const float wrapped = ImGui::CalcTextSize(help.c_str(), nullptr, false, width).y;
+    // Room for two lines keeps the list still; where few rows fit, they come first.
+    const float least = ImGui::GetWindowHeight() < 18.0f * line ? 1.0f : 2.0f;
+    return line + std::clamp(wrapped, least * ImGui::GetTextLineHeight(), 4.0f * ImGui::GetTextLineHeight()) +
+           3.0f * ImGui::GetStyle().ItemSpacing.y + 0.25f * ImGui::GetTextLineHeight();
 }
 
-/// Splits at blanks, but not within brackets or quotes.
-std::vector<std::string> pieces(const std::string& line) {
-    std::vector<std::string> found;
-    std::string piece;
-    int depth = 0;
-    bool quoted = false;
-    for (const char c : line) {
-        if (c == '"') quoted = !quoted;
-        if (!quoted && (c == '[' || c == '{')) ++depth;
-        if (!quoted && (c == ']' || c == '}')) --depth;
-        if (c == ' ' && depth <= 0 && !quoted) {
-            if (!piece.empty()) found.push_back(std::exchange(piece, {}));
-        } else {
-            piece += c;
-        }
-    }
-    if (!piece.empty()) found.push_back(piece);
-    return found;
-}
-
-/// Scrolls just as far as it takes to have the last item wholly in the window.
-void scroll_to_item() {
-    const float top = ImGui::GetWindowPos().y, bottom = top + ImGui::GetWindowSize().y;
-    if (ImGui::GetItemRectMin().y < top) ImGui::SetScrollHereY(0.0f);
-    if (ImGui::GetItemRectMax().y > bottom) ImGui::SetScrollHereY(1.0f);
-}
-
-void begin_palette(std::size_t commands, glm::vec2 screen, float scale) {
+void begin_palette(const std::vector<PaletteRow>& rows, bool headed, glm::vec2 screen, float scale) {
     const float width = std::min(820.0f * scale, 0.9f * screen.x);
-    const float rows =
-        static_cast<float>(std::max<std::size_t>(commands, 3)) + 5.0f;  // with the line and its help
-    ImGui::SetNextWindowPos({0.5f * screen.x, 0.14f * screen.y}, ImGuiCond_Always, {0.5f, 0.0f});
+    const float line = ImGui::GetTextLineHeightWithSpacing();
+    const float others = (headed ? 7.0f : 6.0f) * line;  // the line, its command, its help
+    const float wanted = palette_list_height(rows, width - 2.0f * ImGui::GetStyle().WindowPadding.x) + others;
+    ImGui::SetNextWindowPos({0.5f * screen.x, 0.1f * screen.y}, ImGuiCond_Always, {0.5f, 0.0f});
     ImGui::SetNextWindowSize(
-        {width, std::min(rows * ImGui::GetTextLineHeightWithSpacing(), 0.7f * screen.y)});
+        {width, std::min(wanted, std::max(0.7f * screen.y, std::min(0.86f * screen.y, 16.0f * line)))});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 9.0f);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
@@ -66,175 +45,230 @@ void begin_palette(std::size_t commands, glm::vec2 screen, float scale) {
     ImGui::PopStyleVar(2);
 }
 
-}  // namespace
-
-TypedCommand read_typed_command(const std::string& line) {
-    const auto words = pieces(line);
-    if (words.empty()) throw std::runtime_error("no command");
-    Json arguments = Json::object();
-    for (std::size_t i = 1; i < words.size(); ++i) {
-        const std::size_t equals = words[i].find('=');
-        if (equals == 0 || equals == std::string::npos) {
-            throw std::runtime_error("\"" + words[i] + "\" is no argument; write name=value");
-        }
-        const std::string value = words[i].substr(equals + 1);
-        Json parsed = Json::parse(value, nullptr, false);
-        arguments[words[i].substr(0, equals)] = parsed.is_discarded() ? Json(value) : std::move(parsed);
-    }
-    return {words.front(), std::move(arguments)};
+/// The command whose arguments are typed.
+void header(const Command& command) {
+    const float room = ImGui::GetContentRegionAvail().x;
+    ImGui::TextUnformatted(command.title.c_str());
+    const float left = room - ImGui::GetItemRectSize().x - ImGui::GetStyle().ItemSpacing.x;
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s", elided_at_word(command.help, left).c_str());
 }
 
-std::vector<const Command*> search_commands(const CommandTable& table, const std::string& query) {
-    std::istringstream stream(lower(query.substr(0, query.find('='))));
-    std::vector<std::string> words;
-    for (std::string word; stream >> word;) words.push_back(word);
-    // With "chain.add length=..." typed, the last word is an argument's name.
-    if (query.find('=') != std::string::npos && words.size() > 1) words.resize(1);
+/// As Enter and Tab put it into the line, to go on with: "chain.add length=", "undo".
+std::string begun(const Command& command, bool optional_too) {
+    const auto needed = std::find_if(command.arguments.begin(), command.arguments.end(),
+                                     [](const Argument& a) { return a.required; });
+    if (needed != command.arguments.end()) return command.name + " " + needed->name + "=";
+    return command.name + (optional_too && !command.arguments.empty() ? " " : "");
+}
 
-    std::vector<const Command*> first, rest;
-    for (const Command& command : table.all()) {
-        const std::string text = lower(command.name + " " + command.help);
-        const auto in_text = [&](const std::string& word) { return text.find(word) != std::string::npos; };
-        if (!std::all_of(words.begin(), words.end(), in_text)) continue;
-        const bool starts = !words.empty() && command.name.rfind(words.front(), 0) == 0;
-        (starts ? first : rest).push_back(&command);
+}  // namespace
+
+CommandPalette::Offer CommandPalette::offer(const ShellFrame& frame) const {
+    const std::string line = line_.data();
+    Offer offer{.typed = read_typed_line(frame.commands, line)};
+    if (offer.typed.command == nullptr) {
+        offer.found = search_commands(frame.commands, line, frame.workspace.lab, recent_);
+    } else {
+        offer.ways = completions(offer.typed, line, frame.workspace);
     }
-    first.insert(first.end(), rest.begin(), rest.end());
-    return first;
+    return offer;
 }
 
 void CommandPalette::forget() {
     line_.fill('\0');
     chosen_ = listed_choice_ = 0;
-    take_caret_ = false;
+    moved_ = take_caret_ = false;
     complaint_.clear();
 }
 
-void CommandPalette::run_chosen(const Command& chosen, Emit& emit) {
-    const auto needed = std::find_if(chosen.arguments.begin(), chosen.arguments.end(),
-                                     [](const Argument& a) { return a.required; });
-    if (needed == chosen.arguments.end()) {
-        emit("view.palette", {{"open", false}});
-        emit(chosen.name);
-        return;
-    }
-    std::snprintf(line_.data(), line_.size(), "%s %s=", chosen.name.c_str(), needed->name.c_str());
-    complaint_ = "Type its arguments: " + usage(chosen);
+void CommandPalette::put(const std::string& line) {
+    if (line.size() >= line_.size()) return;
+    line_.fill('\0');
+    std::copy(line.begin(), line.end(), line_.begin());
     chosen_ = 0;
+    moved_ = false;
     take_caret_ = true;
+    complaint_.clear();
 }
 
-void CommandPalette::run(const CommandTable& table, const Command* chosen, Emit& emit) {
+std::string CommandPalette::tabbed(const ShellFrame& frame) const {
     const std::string line = line_.data();
-    take_caret_ = true;
-    try {
-        if (line.find('=') == std::string::npos && chosen != nullptr) {
-            run_chosen(*chosen, emit);
-            return;
-        }
-        const TypedCommand typed = read_typed_command(line);
-        if (table.find(typed.name) == nullptr)
-            throw std::runtime_error("there is no command \"" + typed.name + "\"");
-        emit("view.palette", {{"open", false}});
-        emit.typed(typed.name, typed.arguments);
-    } catch (const std::runtime_error& error) {
-        complaint_ = error.what();
-    }
+    const Offer now = offer(frame);
+    const auto chosen = static_cast<std::size_t>(chosen_);
+    if (chosen >= now.size()) return line;
+    if (now.typed.command != nullptr)
+        return moved_ ? now.ways[chosen].line : completed(now.typed, line, now.ways, chosen);
+    std::vector<std::string> names;
+    for (const Command& command : frame.commands.all())
+        if (!line.empty() && command.name.starts_with(line)) names.push_back(command.name);
+    const std::string common = common_prefix(names);
+    if (!moved_ && names.size() > 1 && common.size() > line.size()) return common;
+    return begun(*now.found[chosen], true);
 }
 
-bool CommandPalette::line_field(bool appearing) {
+int CommandPalette::on_tab(const ShellFrame& frame, ImGuiInputTextCallbackData& data) {
+    // The field has its own copy while it has the keyboard: this is what is typed.
+    std::copy(data.Buf, data.Buf + data.BufTextLen + 1, line_.begin());
+    const std::string line = tabbed(frame);
+    if (line.size() >= line_.size() || line == data.Buf) return 0;
+    data.DeleteChars(0, data.BufTextLen);
+    data.InsertChars(0, line.c_str());
+    return 0;
+}
+
+bool CommandPalette::line_field(const ShellFrame& frame, bool appearing) {
     if (appearing) ImGui::SetWindowFocus();
     if (appearing || take_caret_) ImGui::SetKeyboardFocusHere();
-    // Dear ImGui selects the whole line when it hands over the keyboard: what is typed next would replace it.
-    const auto caret_to_end = [](ImGuiInputTextCallbackData* data) {
-        bool& wanted = *static_cast<bool*>(data->UserData);
-        if (wanted) data->CursorPos = data->SelectionStart = data->SelectionEnd = data->BufTextLen;
-        wanted = false;
+    struct Context {
+        CommandPalette& palette;
+        const ShellFrame& frame;
+    } context{*this, frame};
+    const auto called = [](ImGuiInputTextCallbackData* data) {
+        const auto& [palette, of] = *static_cast<Context*>(data->UserData);
+        if (data->EventFlag == ImGuiInputTextFlags_CallbackCompletion) return palette.on_tab(of, *data);
+        // Dear ImGui selects the whole line when it hands over the keyboard: what is typed next would
+        // replace it.
+        if (palette.take_caret_)
+            data->CursorPos = data->SelectionStart = data->SelectionEnd = data->BufTextLen;
+        palette.take_caret_ = false;
         return 0;
     };
     ImGui::SetNextItemWidth(-1.0f);
     const bool entered = ImGui::InputTextWithHint(
-        "##line", "Find a command: time.speed factor=0.5", line_.data(), line_.size(),
-        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackAlways, caret_to_end,
-        &take_caret_);
+        "##line", "Find a command: add, undo, time.speed factor=0.5", line_.data(), line_.size(),
+        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackAlways |
+            ImGuiInputTextFlags_CallbackCompletion,
+        called, &context);
     if (entered)
         ImGui::SetKeyboardFocusHere(-1);  // Enter lets go of the line; whatever comes of it, take it back
     if (ImGui::IsItemEdited()) {
         chosen_ = 0;
+        moved_ = false;
         complaint_.clear();
     }
     return entered;
 }
 
 void CommandPalette::move_choice(int count) {
+    const int before = chosen_;
     const auto step = [&](ImGuiKey key, int by) {
         if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(key))) chosen_ += by;
     };
     step(ImGuiKey_DownArrow, 1);
     step(ImGuiKey_UpArrow, -1);
     chosen_ = std::clamp(chosen_, 0, std::max(0, count - 1));
+    moved_ = moved_ || chosen_ != before;
 }
 
-const Command* CommandPalette::list(const Found& found, const Shortcuts& shortcuts,
-                                    bool bring_choice_into_view) {
-    const Command* clicked = nullptr;
-    ImGui::BeginChild("found", {0.0f, -ImGui::GetTextLineHeightWithSpacing()}, false, ImGuiWindowFlags_NoNav);
-    if (ImGui::BeginTable("commands", 3, ImGuiTableFlags_NoPadOuterX | ImGuiTableFlags_SizingStretchProp)) {
-        ImGui::TableSetupColumn("usage", ImGuiTableColumnFlags_WidthStretch, 1.0f);
-        ImGui::TableSetupColumn("help", ImGuiTableColumnFlags_WidthStretch, 1.35f);
-        ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed);
-        for (int i = 0; i < static_cast<int>(found.size()); ++i) {
-            const Command& command = *found[static_cast<std::size_t>(i)];
-            ImGui::TableNextRow();
-            ImGui::TableNextColumn();
-            ImGui::PushID(i);
-            if (ImGui::Selectable("##row", i == chosen_, ImGuiSelectableFlags_SpanAllColumns))
-                clicked = &command;
-            ImGui::PopID();
-            if (i == chosen_ && bring_choice_into_view) scroll_to_item();
-            ImGui::SameLine(0.0f, 0.0f);
-            text_elided(usage(command), ImGui::GetContentRegionAvail().x);
-            ImGui::TableNextColumn();
-            text_elided(command.help, ImGui::GetContentRegionAvail().x, true);
-            ImGui::TableNextColumn();
-            ImGui::TextDisabled("%s", shortcuts.keys_for(command.name).c_str());
-        }
-        ImGui::EndTable();
+std::vector<PaletteRow> CommandPalette::rows(const ShellFrame& frame, const Offer& offer) const {
+    std::vector<PaletteRow> list;
+    for (const Command* command : offer.found) {
+        const Lab* lab = command->lab == frame.workspace.lab ? nullptr : frame.labs.find(command->lab);
+        list.push_back({command->title, lab == nullptr ? "" : lab->title(), usage(*command),
+                        frame.shortcuts.keys_for(command->name), command->help});
     }
-    ImGui::EndChild();
-    return clicked;
+    for (const CompletionRow& way : offer.ways) {
+        const std::string help = way.help.empty() ? way.detail : way.help;
+        list.push_back({way.text, "", way.detail, way.given ? "given" : "", help, way.given});
+    }
+    return list;
 }
 
-void CommandPalette::explain(const Found& found) {
+void CommandPalette::status(const Offer& offer) const {
     const float room = ImGui::GetContentRegionAvail().x;
-    if (!complaint_.empty()) {
+    const bool search = offer.typed.command == nullptr;
+    const std::string wrong = complaint_.empty() ? mistake(offer.typed) : complaint_;
+    if (!wrong.empty()) {
         ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_CheckMark));
-        text_elided(complaint_, room);
+        text_elided(wrong, room);
         ImGui::PopStyleColor();
-    } else {
-        text_elided(count_text(found.size(), "command") + ".  Up and Down choose, Enter runs, Escape closes.",
-                    room, true);
+        return;
+    }
+    const std::string keys = "Up and Down choose, Tab completes, Enter runs, Escape closes.";
+    const std::string lack = missing(offer.typed);
+    const bool typed_now = offer.typed.last.assigned && lack.starts_with(offer.typed.last.name + " ");
+    const std::string text = search ? count_text(offer.found.size(), "command") + ".  " + keys
+                             : !lack.empty() && !typed_now ? lack
+                                                           : keys;
+    const bool fits = ImGui::CalcTextSize(text.c_str()).x <= room;
+    ImGui::TextDisabled("%s", elided_at_word(fits || !search ? text : keys, room).c_str());
+}
+
+void CommandPalette::run(const std::string& name, SharedJson arguments, Emit& emit) {
+    std::erase(recent_, name);
+    recent_.insert(recent_.begin(), name);
+    if (recent_.size() > most_recent) recent_.pop_back();
+    emit("view.palette", {{"open", false}});
+    emit.typed(name, std::move(arguments));
+}
+
+void CommandPalette::choose(const Offer& offer, std::size_t row, Emit& emit) {
+    if (offer.typed.command != nullptr) return put(offer.ways[row].line);
+    const Command& command = *offer.found[row];
+    const bool needs = std::any_of(command.arguments.begin(), command.arguments.end(),
+                                   [](const Argument& a) { return a.required; });
+    if (needs) return put(begun(command, false));
+    run(command.name, Json::object(), emit);
+}
+
+void CommandPalette::run(const ShellFrame& frame, Emit& emit) {
+    take_caret_ = true;
+    try {
+        TypedCommand typed = read_typed_command(line_.data());
+        const Command* command = frame.commands.find(typed.name);
+        if (command == nullptr) throw std::runtime_error("there is no command \"" + typed.name + "\"");
+        check_arguments(*command, *typed.arguments);
+        run(typed.name, std::move(typed.arguments), emit);
+    } catch (const std::runtime_error& error) {
+        complaint_ = error.what();
     }
 }
 
-void CommandPalette::frame(bool open, const CommandTable& table, const Shortcuts& shortcuts, glm::vec2 screen,
-                           float scale, Emit& emit) {
+void CommandPalette::enter(const ShellFrame& frame, const Offer& offer, Emit& emit) {
+    take_caret_ = true;
+    const std::string line = line_.data();
+    const auto row = static_cast<std::size_t>(chosen_);
+    if (line.empty() && !moved_ && recent_.empty()) return;  // nothing was asked for
+    if (offer.typed.command == nullptr) {
+        if (line.find('=') == std::string::npos && row < offer.found.size()) return choose(offer, row, emit);
+        return run(frame, emit);
+    }
+    const bool goes_on = row < offer.ways.size() && offer.ways[row].line != line;
+    if (goes_on && moved_) return choose(offer, row, emit);
+    run(frame, emit);
+    // Nothing is wrong, but it cannot be run yet: what is begun, or missing, is next.
+    if (!complaint_.empty() && goes_on && !offer.ways[row].given && mistake(offer.typed).empty())
+        choose(offer, row, emit);
+}
+
+void CommandPalette::frame(const ShellFrame& frame, Emit& emit) {
+    const bool open = frame.workspace.ui.palette;
     const bool appearing = open && !was_open_;
     was_open_ = open;
     if (!open) return;
     if (appearing) forget();
-    const Found before = search_commands(table, line_.data());
-    begin_palette(before.size(), screen, scale);
-    const bool entered = line_field(appearing);
-    const Found found = search_commands(table, line_.data());
-    move_choice(static_cast<int>(found.size()));
+    const Offer before = offer(frame);
+    begin_palette(rows(frame, before), before.typed.command != nullptr, frame.screen(), frame.layout.scale);
+    const bool entered = line_field(frame, appearing);
+    const Offer now = offer(frame);
+    if (now.typed.command != nullptr) header(*now.typed.command);
+    move_choice(static_cast<int>(now.size()));
     const bool moved = std::exchange(listed_choice_, chosen_) != chosen_;
-    const Command* clicked = list(found, shortcuts, moved);
-    explain(found);
-    if (clicked != nullptr) {
-        run_chosen(*clicked, emit);
+    const std::vector<PaletteRow> list = rows(frame, now);
+    const auto chosen = static_cast<std::size_t>(chosen_);
+    const std::string help = chosen < list.size() ? list[chosen].help : std::string();
+    const auto clicked = palette_list(list, chosen_, moved, height_below(help));
+    ImGui::Dummy({0.0f, 0.25f * ImGui::GetTextLineHeight()});
+    ImGui::TextWrapped("%s", help.c_str());
+    ImGui::SetCursorPosY(ImGui::GetWindowHeight() - ImGui::GetStyle().WindowPadding.y -
+                         ImGui::GetTextLineHeight());
+    status(now);
+    if (clicked) {
+        take_caret_ = true;
+        choose(now, *clicked, emit);
     } else if (entered) {
-        run(table, found.empty() ? nullptr : found[static_cast<std::size_t>(chosen_)], emit);
+        enter(frame, now, emit);
     }
     ImGui::End();
 }

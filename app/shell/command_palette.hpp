@@ -1,54 +1,63 @@
-// Ctrl+K: finds a command by its name or help, and runs it with arguments typed as they would be in a script.
+// Ctrl+K: finds a command by what it does, shows what it takes and what that may be, and runs it as it would
+// stand in a script.
 #pragma once
 
 #include <array>
 #include <glm/vec2.hpp>
 #include <string>
+#include <vector>
 
-#include "app/shell/shortcuts.hpp"
+#include "app/shell/command_completion.hpp"
+#include "app/shell/command_line.hpp"
+#include "app/shell/command_search.hpp"
+#include "app/shell/palette_rows.hpp"
 #include "app/widgets/emit.hpp"
+
+struct ImGuiInputTextCallbackData;
 
 namespace tendril::app {
 
-struct Command;
-class CommandTable;
-
-/// Reads `chain.add length=1.5 position=[0,1,0]`: a name, then arguments as JSON, where a bare word is a
-/// text.
-struct TypedCommand {
-    std::string name;
-    SharedJson arguments;
-};
-/// Throws std::runtime_error naming the piece that it cannot read.
-TypedCommand read_typed_command(const std::string& line);
-
-/// Commands that match every word of the query, in name or help; those whose name starts with it first.
-std::vector<const Command*> search_commands(const CommandTable& table, const std::string& query);
+struct ShellFrame;
 
 class CommandPalette {
   public:
-    void frame(bool open, const CommandTable& table, const Shortcuts& shortcuts, glm::vec2 screen,
-               float scale, Emit& emit);
+    void frame(const ShellFrame& frame, Emit& emit);
 
   private:
-    using Found = std::vector<const Command*>;
+    /// What the line leads to.
+    struct Offer {
+        TypedLine typed{};
+        std::vector<const Command*> found{};  ///< where it is a search
+        std::vector<CompletionRow> ways{};    ///< where it is a command
+        std::size_t size() const { return typed.command == nullptr ? found.size() : ways.size(); }
+    };
+    Offer offer(const ShellFrame& frame) const;
     void forget();
     /// The line that is typed in; whether Enter ended it.
-    bool line_field(bool appearing);
+    bool line_field(const ShellFrame& frame, bool appearing);
+    int on_tab(const ShellFrame& frame, ImGuiInputTextCallbackData& data);
+    /// The line as Tab completes it.
+    std::string tabbed(const ShellFrame& frame) const;
     void move_choice(int count);
-    /// The list; the row that was clicked, if any.
-    const Command* list(const Found& found, const Shortcuts& shortcuts, bool bring_choice_into_view);
-    void explain(const Found& found);
-    /// Runs what is typed, or `chosen` where only a search is typed.
-    void run(const CommandTable& table, const Command* chosen, Emit& emit);
-    void run_chosen(const Command& chosen, Emit& emit);
+    /// What the list shows of the offer.
+    std::vector<PaletteRow> rows(const ShellFrame& frame, const Offer& offer) const;
+    /// The line below the list: what is wrong, what is missing, or which keys do what.
+    void status(const Offer& offer) const;
+    void enter(const ShellFrame& frame, const Offer& offer, Emit& emit);
+    void choose(const Offer& offer, std::size_t row, Emit& emit);
+    /// Runs the line as it stands; complains where it cannot be run, and lets it be mended.
+    void run(const ShellFrame& frame, Emit& emit);
+    void run(const std::string& name, SharedJson arguments, Emit& emit);
+    void put(const std::string& line);
 
     std::array<char, 512> line_{};
     int chosen_ = 0;
     int listed_choice_ = 0;  ///< as the list last showed it
+    bool moved_ = false;     ///< a row was chosen by hand since the line was last edited
     bool was_open_ = false;
     bool take_caret_ = false;  ///< the line wants the keyboard, the caret after its last character
     std::string complaint_;
+    std::vector<std::string> recent_;  ///< commands that ran from here, the newest first
 };
 
 }  // namespace tendril::app

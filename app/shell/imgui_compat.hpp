@@ -71,12 +71,14 @@ inline void imgui_feed(const Input& input, bool typing) {
 #endif
 }
 
-inline void imgui_feed_wheel(float by) {
-    by = std::clamp(by, -100.0f, 100.0f);  // a list scrolled by more loses itself in rounding
+inline void imgui_feed_wheel(float by, float sideways) {
+    by = std::clamp(by, -100.0f, 100.0f);
+    sideways = std::clamp(sideways, -100.0f, 100.0f);  // a list scrolled by more loses itself in rounding
 #if IMGUI_VERSION_NUM < 18700
     ImGui::GetIO().MouseWheel += by;
+    ImGui::GetIO().MouseWheelH += sideways;
 #else
-    ImGui::GetIO().AddMouseWheelEvent(0.0f, by);
+    ImGui::GetIO().AddMouseWheelEvent(sideways, by);
 #endif
 }
 

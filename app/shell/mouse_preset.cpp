@@ -53,6 +53,10 @@ MousePreset mouse_preset(const Settings& settings) {
     return static_cast<MousePreset>(mouse_setting().chosen(settings));
 }
 
+Scroll scroll_action(const Settings& settings) {
+    return static_cast<Scroll>(scroll_setting().chosen(settings));
+}
+
 std::optional<MouseAction> mouse_action(MousePreset preset, MouseButton button, HeldKeys held) {
     for (const Binding& binding : bindings)
         if (binding.preset == preset && binding.button == button && binding.held == held)
@@ -72,7 +76,10 @@ std::string orbit_hint(MousePreset preset) {
     return first_gesture(preset, MouseAction::Orbit) + " turns the view.";
 }
 
-std::string view_hint(MousePreset preset) {
+std::string view_hint(MousePreset preset, Scroll scroll) {
+    if (scroll == Scroll::Pan)
+        return first_gesture(preset, MouseAction::Orbit) +
+               " turns the view, two fingers shift it; with Ctrl they zoom.";
     std::string pan = first_gesture(preset, MouseAction::Pan);
     if (!pan.starts_with("Alt") && !pan.starts_with("Shift"))
         pan[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(pan[0])));

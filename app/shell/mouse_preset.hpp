@@ -14,6 +14,11 @@ namespace tendril::app {
 enum class MousePreset { Tendril, Blender, Maya };
 MousePreset mouse_preset(const Settings& settings);
 
+/// What the wheel does in the view, or two fingers on a touchpad. Where they pan, they zoom while Ctrl is
+/// held.
+enum class Scroll { Zoom, Pan };
+Scroll scroll_action(const Settings& settings);
+
 enum class MouseAction { Orbit, Pan, Zoom };
 struct HeldKeys {
     bool shift = false, ctrl = false, alt = false;
@@ -26,7 +31,7 @@ std::optional<MouseAction> mouse_action(MousePreset preset, MouseButton button, 
 /// "Right drag, Alt+left drag"; empty where none does.
 std::string gestures_of(MousePreset preset, MouseAction action);
 /// "Right-drag turns the view, middle-drag shifts it, the wheel zooms."
-std::string view_hint(MousePreset preset);
+std::string view_hint(MousePreset preset, Scroll scroll = Scroll::Zoom);
 /// "Right-drag turns the view."
 std::string orbit_hint(MousePreset preset);
 

@@ -92,7 +92,8 @@ void show_help(const ShellFrame& frame, Emit& emit) {
         ImGui::TableNextColumn();
         key_table("Mouse", mouse, [&] {
             for (const auto& help :
-                 frame.shortcuts.mouse_help(frame.workspace.lab, mouse_preset(frame.workspace.settings)))
+                 frame.shortcuts.mouse_help(frame.workspace.lab, mouse_preset(frame.workspace.settings),
+                                            scroll_action(frame.workspace.settings)))
                 key_row(help.gesture, help.effect);
         });
         key_table("Time", mouse, [&] {
@@ -110,7 +111,7 @@ void show_help(const ShellFrame& frame, Emit& emit) {
 
 /// What the mouse and the labs leave to choose.
 static void lab_settings(const ShellFrame& frame, Emit& emit) {
-    std::vector<LabSetting> settings{mouse_setting()};
+    std::vector<LabSetting> settings{mouse_setting(), scroll_setting()};
     for (const auto& lab : frame.labs.all())
         for (LabSetting& setting : lab->settings()) settings.push_back(std::move(setting));
     for (const LabSetting& setting : settings) {

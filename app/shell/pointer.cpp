@@ -1,6 +1,8 @@
 #include "app/shell/pointer.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -13,6 +15,8 @@ constexpr float drag_threshold = 4.0f;  ///< pixels; less is a click
 constexpr float slack = 4.0f;           ///< pixels beyond a handle's edge that still catch it
 constexpr int double_click_ticks = 20;
 constexpr float pixels_per_notch = 20.0f;  ///< of a drag that zooms
+constexpr float pixels_per_scroll =
+    15.0f;  ///< by which the view shifts for a notch: about the fingers' own way
 
 /// The axis of the first axis key held.
 std::optional<glm::vec3> held_axis(const Input& input) {
@@ -43,6 +47,18 @@ void emit_camera(Emit& emit, const CameraPose& from, const CameraPose& to) {
     if (!arguments.empty()) emit.continuously("camera.set", arguments);
 }
 
+/// Fingers that go up or down never go quite straight: only the larger of the two ways counts where they mean
+/// different things.
+CameraPose scrolled(const MouseWheel& wheel, const Input& input, const Pointer::Scene& scene) {
+    const auto pan = [&](glm::vec2 notches) {
+        return panned(scene.camera, pixels_per_scroll * glm::clamp(notches, -100.0f, 100.0f));
+    };
+    const bool pans = scroll_action(scene.workspace.settings) == Scroll::Pan;
+    if (pans && !input.ctrl()) return pan({wheel.sideways, wheel.by});
+    if (!pans && std::abs(wheel.sideways) > std::abs(wheel.by)) return pan({wheel.sideways, 0.0f});
+    return zoomed(scene.camera, input.mouse(), wheel.by);
+}
+
 }  // namespace
 
 void Pointer::take(const Event* event, const Input& input, const Scene& scene, Emit& emit) {
@@ -57,9 +73,8 @@ void Pointer::take(const Event* event, const Input& input, const Scene& scene, E
             move(input, scene, emit);
         } else if (const auto* wheel = std::get_if<MouseWheel>(event)) {
             // What is caught of a gizmo was measured from where the eye was.
-            if (!scene.over_panel && !by_ && scene.camera.viewport().contains(input.mouse())) {
-                emit_camera(emit, scene.workspace.camera, zoomed(scene.camera, input.mouse(), wheel->by));
-            }
+            if (!scene.over_panel && !by_ && scene.camera.viewport().contains(input.mouse()))
+                emit_camera(emit, scene.workspace.camera, scrolled(*wheel, input, scene));
         } else if (const auto* focus = std::get_if<Focus>(event); focus != nullptr && !focus->focused) {
             release(scene, emit);
         } else if (std::holds_alternative<KeyChange>(*event) && doing_ == Doing::Drag) {

@@ -324,8 +324,7 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
     show_axis_gizmo(frame, emit);
     if (workspace.ui.help) show_help(frame, emit);
     if (workspace.ui.settings) show_settings(frame, emit);
-    palette_.frame(workspace.ui.palette, frame.commands, frame.shortcuts, frame.screen(), frame.layout.scale,
-                   emit);
+    palette_.frame(frame, emit);
     file_dialog_.frame(workspace, frame.screen(), frame.layout.scale, emit);
     show_filming(frame, emit);
     show_recovery(frame, emit);

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <utility>
 
+#include "app/document/command.hpp"
+
 namespace tendril::app {
 namespace {
 
@@ -12,6 +14,7 @@ constexpr const char* last_section = "Help";
 /// The rows of every lab.
 std::vector<Shortcut> common_rows() {
     constexpr bool hidden = false, typing = true, shown = true, again = true;
+    constexpr const char* own = "";  // the command's title
     const auto row = [](const char* chord, const char* command, ArgumentList arguments, const char* title,
                         const char* section, bool in_menu = true, bool while_typing = false,
                         bool repeats = false) {
@@ -25,40 +28,40 @@ std::vector<Shortcut> common_rows() {
                         repeats};
     };
     return {
-        row("ctrl+n", "scene.new", {}, "New scene", "Scene"),
-        row("ctrl+o", "scene.open_dialog", {}, "Open...", "Scene"),
+        row("ctrl+n", "scene.new", {}, own, "Scene"),
+        row("ctrl+o", "scene.open_dialog", {}, own, "Scene"),
         row("ctrl+s", "scene.save_dialog", {{"ask", false}}, "Save", "Scene"),
         row("ctrl+shift+s", "scene.save_dialog", {{"ask", true}}, "Save as...", "Scene"),
-        row("ctrl+p", "view.picture", {}, "Picture of the view", "Scene"),
-        row("ctrl+shift+c", "view.copy_picture", {}, "Copy the picture", "Scene"),
-        row("ctrl+shift+p", "view.video_dialog", {}, "Record a video...", "Scene"),
-        row("ctrl+q", "quit", {{"unsaved", "ask"}}, "Quit", "Scene", shown, typing),
-        row("ctrl+z", "undo", {}, "Undo", "Edit", shown, false, again),
-        row("ctrl+shift+z", "redo", {}, "Redo", "Edit", shown, false, again),
-        row("ctrl+y", "redo", {}, "Redo", "Edit", hidden, false, again),
+        row("ctrl+p", "view.picture", {}, own, "Scene"),
+        row("ctrl+shift+c", "view.copy_picture", {}, own, "Scene"),
+        row("ctrl+shift+p", "view.video_dialog", {}, own, "Scene"),
+        row("ctrl+q", "quit", {{"unsaved", "ask"}}, own, "Scene", shown, typing),
+        row("ctrl+z", "undo", {}, own, "Edit", shown, false, again),
+        row("ctrl+shift+z", "redo", {}, own, "Edit", shown, false, again),
+        row("ctrl+y", "redo", {}, own, "Edit", hidden, false, again),
         row("f", "camera.frame", {{"what", "selection"}}, "Frame selection", "View"),
         row("home", "camera.frame", {{"what", "all"}}, "Frame all", "View"),
         row("1", "camera.view", {{"name", "front"}}, "Front", "View"),
         row("3", "camera.view", {{"name", "side"}}, "Side", "View"),
         row("7", "camera.view", {{"name", "top"}}, "Top", "View"),
-        row("5", "camera.orthographic", {}, "Orthographic", "View"),
-        row("l", "view.labels", {}, "Labels always", "View"),
-        row("t", "view.theme", {}, "Light or dark", "View"),
-        row("f9", "view.panels", {}, "Fold panels", "View"),
-        row("space", "time.toggle", {}, "Play or pause", "Time"),
-        row(".", "time.step", {}, "One tick", "Time", shown, false, again),
-        row("?", "view.help", {}, "Keys and mouse", last_section),
-        row("f1", "view.help", {}, "Keys and mouse", last_section, hidden, typing),
-        row("f2", "view.card", {}, "Things to try", last_section, shown, typing),
-        row("ctrl+k", "view.palette", {}, "Find a command", last_section, shown, typing),
-        row("ctrl+,", "view.settings", {}, "Settings", last_section),
-        row("escape", "view.close", {}, "Close or cancel", last_section, hidden, typing),
+        row("5", "camera.orthographic", {}, own, "View"),
+        row("l", "view.labels", {}, own, "View"),
+        row("t", "view.theme", {}, own, "View"),
+        row("f9", "view.panels", {}, own, "View"),
+        row("space", "time.toggle", {}, own, "Time"),
+        row(".", "time.step", {}, own, "Time", shown, false, again),
+        row("?", "view.help", {}, own, last_section),
+        row("f1", "view.help", {}, own, last_section, hidden, typing),
+        row("f2", "view.card", {}, own, last_section, shown, typing),
+        row("ctrl+k", "view.palette", {}, own, last_section, shown, typing),
+        row("ctrl+,", "view.settings", {}, own, last_section),
+        row("escape", "view.close", {}, own, last_section, hidden, typing),
     };
 }
 
 }  // namespace
 
-Shortcuts::Shortcuts(const Labs& labs) : rows_(common_rows()) {
+Shortcuts::Shortcuts(const Labs& labs, const CommandTable& commands) : rows_(common_rows()) {
     for (const auto& lab : labs.all()) {
         for (Shortcut row : lab->shortcuts()) {
             row.lab = lab->name();
@@ -66,6 +69,9 @@ Shortcuts::Shortcuts(const Labs& labs) : rows_(common_rows()) {
         }
         mouse_.push_back({lab->name(), lab->mouse_help()});
     }
+    for (Shortcut& row : rows_)
+        if (const Command* command = commands.find(row.command); command != nullptr && row.title.empty())
+            row.title = command->title;
 }
 
 void Shortcuts::add(Shortcut row) {
@@ -101,7 +107,7 @@ std::string Shortcuts::all_keys_for(const Shortcut& wanted) const {
     return keys;
 }
 
-std::vector<MouseHelp> Shortcuts::mouse_help(std::string_view lab, MousePreset preset) const {
+std::vector<MouseHelp> Shortcuts::mouse_help(std::string_view lab, MousePreset preset, Scroll scroll) const {
     const std::string zoom = gestures_of(preset, MouseAction::Zoom);
     std::vector<MouseHelp> list{
         {"Left drag on a handle", "moves it, in the plane of the view"},
@@ -110,7 +116,10 @@ std::vector<MouseHelp> Shortcuts::mouse_help(std::string_view lab, MousePreset p
         {"Left click", "selects"},
         {"Left drag on nothing, " + gestures_of(preset, MouseAction::Orbit), "turns the view"},
         {gestures_of(preset, MouseAction::Pan), "shifts the view"},
-        {"Wheel" + (zoom.empty() ? zoom : ", " + zoom), "zooms to the cursor"},
+        {(scroll == Scroll::Pan ? "Ctrl+wheel" : "Wheel") + (zoom.empty() ? zoom : ", " + zoom),
+         "zooms to the cursor"},
+        scroll == Scroll::Pan ? MouseHelp{"Two fingers on a touchpad, wheel", "shifts the view"}
+                              : MouseHelp{"Two fingers sideways, tilted wheel", "shifts the view sideways"},
         {"Click on an axis in the corner", "looks from there"},
         {"File dropped on the window", "opens it"},
         {"Click on a number", "types another: 1/3, 2*pi, 30 cm"},

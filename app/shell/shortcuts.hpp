@@ -14,11 +14,13 @@
 
 namespace tendril::app {
 
+class CommandTable;
+
 class Shortcuts {
   public:
     /// Rows of a lab stand behind the others of their section, sections of its own before the last one,
-    /// *Help*.
-    explicit Shortcuts(const Labs& labs);
+    /// *Help*. A row without a title has its command's.
+    Shortcuts(const Labs& labs, const CommandTable& commands);
 
     /// A row with the same title as an earlier one is another key for it.
     const std::vector<Shortcut>& all() const { return rows_; }
@@ -29,8 +31,8 @@ class Shortcuts {
     /// "Ctrl+Shift+Z, Ctrl+Y": every key that does the same.
     std::string all_keys_for(const Shortcut& wanted) const;
     /// What the mouse does everywhere, then what it does in the lab of that name, or with none in any.
-    std::vector<MouseHelp> mouse_help(std::string_view lab = {},
-                                      MousePreset preset = MousePreset::Tendril) const;
+    std::vector<MouseHelp> mouse_help(std::string_view lab = {}, MousePreset preset = MousePreset::Tendril,
+                                      Scroll scroll = Scroll::Zoom) const;
     /// Both lists as Markdown tables, as they stand in the README.
     std::string markdown() const;
 

@@ -86,7 +86,7 @@ void Ui::begin(const Surface& surface, Theme theme, const Input& input, const Ev
     io.DeltaTime = time_passes ? static_cast<float>(tick_seconds) : 1e-9f;  // zero is not allowed
     imgui_feed(input, event != nullptr && std::holds_alternative<TextInput>(*event));
     if (event != nullptr) {
-        if (const auto* wheel = std::get_if<MouseWheel>(event)) imgui_feed_wheel(wheel->by);
+        if (const auto* wheel = std::get_if<MouseWheel>(event)) imgui_feed_wheel(wheel->by, wheel->sideways);
         if (const auto* text = std::get_if<TextInput>(event)) io.AddInputCharactersUTF8(text->utf8.c_str());
     }
     ImGui_ImplOpenGL3_NewFrame();

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace tendril::app {
 namespace {
@@ -36,6 +37,17 @@ std::string elided(const std::string& text, float width) {
     std::string cut = text.substr(0, character_begin(text, fits));
     while (!cut.empty() && (cut.back() == ' ' || cut.back() == '.')) cut.pop_back();
     return cut + "...";
+}
+
+std::string elided_at_word(const std::string& text, float width) {
+    if (width_of(text) <= width) return text;
+    std::string best;
+    for (std::size_t end = text.find(' '); end != text.npos; end = text.find(' ', end + 1)) {
+        std::string cut = text.substr(0, end) + " ...";
+        if (width_of(cut) > width) break;
+        best = std::move(cut);
+    }
+    return best;
 }
 
 void text_elided(const std::string& text, float width, bool dim) {

@@ -7,6 +7,8 @@ namespace tendril::app {
 
 /// The text as it is if it fits into `width` pixels, else as much of it as does and "...".
 std::string elided(const std::string& text, float width);
+/// Cut behind a whole word instead; empty where not even the first one fits.
+std::string elided_at_word(const std::string& text, float width);
 /// Writes it on one line within `width`, dim or not; what was cut is told when the mouse rests on it.
 void text_elided(const std::string& text, float width, bool dim = false);
 /// Writes it at the right end of the room that is left, so that digits stay under digits.

@@ -23,9 +23,11 @@ struct MousePress {
     MouseButton button = MouseButton::Left;
     bool down = true;
 };
-/// Notches of the wheel, positive away from the person.
+/// Notches of the wheel, positive away from the person; a touchpad's two fingers send parts of one. Of a
+/// wheel that tilts, or two fingers, sideways too: positive to the left.
 struct MouseWheel {
     float by = 0.0f;
+    float sideways = 0.0f;
 };
 /// A key went down (repeats come as further downs) or up. Keys are named by what the keyboard's layout writes
 /// on them. Question comes down and up at once, wherever it is typed, after the key (with Shift or without)

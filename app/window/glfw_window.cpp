@@ -152,8 +152,9 @@ void GlfwWindow::listen_to_input() {
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
         of(w).pending_.emplace_back(MouseMove{glm::vec2(x, y)});
     });
-    glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double y) {
-        if (y != 0.0) of(w).pending_.emplace_back(MouseWheel{static_cast<float>(y)});
+    glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
+        if (x != 0.0 || y != 0.0)
+            of(w).pending_.emplace_back(MouseWheel{static_cast<float>(y), static_cast<float>(x)});
     });
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
         const MouseButton name = button == GLFW_MOUSE_BUTTON_RIGHT    ? MouseButton::Right
@@ -207,6 +208,7 @@ void append(std::vector<Event>& events, Event&& event) {
         auto* const before = std::get_if<MouseWheel>(&last);
         if (wheel != nullptr && before != nullptr) {
             before->by += wheel->by;
+            before->sideways += wheel->sideways;
             return;
         }
     }

@@ -275,7 +275,7 @@ std::vector<Shortcut> ChainLab::shortcuts() const {
     };
     return {
         delete_shortcut("chain.remove_selected"),
-        {*chord_from_name("b"), "view.segments", {}, "Bones or spheres", "View", in_menu},
+        {*chord_from_name("b"), "view.segments", {}, "", "View", in_menu},
         step("right", "by", 1, "Microscope: a step on"),
         step("left", "by", -1, "Microscope: a step back"),
         step("shift+right", "iterations", 1, "Microscope: an iteration on"),

@@ -7,9 +7,10 @@
 
 namespace tendril::app {
 
-Command chain_command(const char* name, std::vector<Argument> arguments, const char* help, ChainSolve change,
-                      Effect effect) {
+Command chain_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
+                      ChainSolve change, Effect effect) {
     return {.name = name,
+            .title = title,
             .arguments = std::move(arguments),
             .help = help,
             .effect = effect,
@@ -26,16 +27,18 @@ Command chain_command(const char* name, std::vector<Argument> arguments, const c
             }};
 }
 
-Command chain_command(const char* name, std::vector<Argument> arguments, const char* help, ChainChange change,
-                      Effect effect) {
+Command chain_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
+                      ChainChange change, Effect effect) {
     return chain_command(
-        name, std::move(arguments), help,
+        name, title, std::move(arguments), help,
         ChainSolve([change](ChainPart& part, const Arguments& given, ChainRuntime&) { change(part, given); }),
         effect);
 }
 
 Argument index_argument(bool required, const char* help) {
-    return index_argument("index", required, help, max_segments);
+    return offering(index_argument("index", required, help, max_segments), [](const Workspace& w) {
+        return places(w.document.get<ChainPart>(chain_lab).chain.size());
+    });
 }
 
 std::size_t index_of(const Arguments& given) {

@@ -16,10 +16,10 @@ using ChainChange = void (*)(ChainPart&, const Arguments&);
 using ChainSolve = std::function<void(ChainPart&, const Arguments&, ChainRuntime&)>;
 
 /// A command on a copy of the lab's part.
-Command chain_command(const char* name, std::vector<Argument> arguments, const char* help, ChainChange change,
-                      Effect effect = Effect::Edit);
-Command chain_command(const char* name, std::vector<Argument> arguments, const char* help, ChainSolve change,
-                      Effect effect = Effect::Edit);
+Command chain_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
+                      ChainChange change, Effect effect = Effect::Edit);
+Command chain_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
+                      ChainSolve change, Effect effect = Effect::Edit);
 
 Argument index_argument(bool required, const char* help);
 

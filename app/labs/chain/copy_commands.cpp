@@ -9,6 +9,7 @@ namespace tendril::app {
 
 void add_copy_commands(CommandTable& table) {
     table.add({.name = "chain.copy",
+               .title = "Copy the chain",
                .arguments = {choice_argument("as", true, "a program against the library, or the scene",
                                              {"cpp", "json"})},
                .help = "Puts the chain on the clipboard, as code or as a scene",
@@ -21,6 +22,7 @@ void add_copy_commands(CommandTable& table) {
                                         : "The scene is on the clipboard, as JSON.");
                }});
     table.add({.name = "race.copy",
+               .title = "Copy the race as CSV",
                .arguments = {},
                .help = "Puts every solver's residual at each iteration on the clipboard, as CSV",
                .effect = Effect::Look,

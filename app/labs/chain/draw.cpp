@@ -206,6 +206,7 @@ class Drawing {
 LabSetting segment_style() {
     return {.key = "segments",
             .command = "view.segments",
+            .title = "Draw spheres or tapered bones",
             .argument = "style",
             .help = "Draws segments as lines and spheres, or as tapered bones",
             .choices = {{"spheres", "lines and spheres"}, {"bones", "bones"}}};

@@ -29,6 +29,7 @@ void draw_arc(const View& view, glm::vec3 from, glm::vec3 to, glm::vec3 about, D
 LabSetting ghost_setting() {
     return {.key = "chain ghosts",
             .command = "view.chain_ghosts",
+            .title = "Show or hide past poses",
             .argument = "of",
             .help = "Shows the poses of the last ten seconds of the Chain lab, one for each half second",
             .choices = {{"nothing", "none"}, {"past", "every half second"}}};

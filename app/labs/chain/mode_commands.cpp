@@ -97,37 +97,37 @@ void set_flips(ChainPart& part, const Arguments& given) {
 
 void add_mode_commands(CommandTable& table) {
     table.add(chain_command(
-        "chain.mode",
+        "chain.mode", "Choose how the chain follows",
         {choice_argument("mode", true, "how the chain follows the target", chain_modes.names()),
          index_argument(false, "which segment with_index pulls"),
          integer_argument("iterations", "maximum, of fixed and reach", 1, max_iterations),
          number_argument("tolerance", "metres from the target at which fixed or reach stops", 0, 1e9)},
         "Sets how the chain follows the target, from the next move of the target on", set_mode));
-    table.add(chain_command("chain.target", {point_argument("to", true, "metres")},
+    table.add(chain_command("chain.target", "Move the target", {point_argument("to", true, "metres")},
                             "Moves the target and applies the mode once", set_target));
-    table.add(chain_command("chain.pull",
+    table.add(chain_command("chain.pull", "Pull a joint",
                             {index_argument(true, "which segment"), point_argument("to", true, "metres")},
                             "Pulls one segment, and the target with it; the mode stays as it is. In mode "
                             "reach: drags one joint, the root and the target stay",
                             pull));
     table.add(chain_command(
-        "chain.select",
+        "chain.select", "Select joints",
         {index_argument(false, "which joint; nothing is selected when all are left out"), joints_argument(),
          switch_argument("add", "true: adds to what is selected, or with index takes out what is"),
          choice_argument("point", false, "what is selected instead of joints", chain_points.names())},
         "Selects joints, or the target or pole target", select, Effect::Look));
-    table.add(chain_command("chain.motion",
+    table.add(chain_command("chain.motion", "Move the target along a path",
                             {choice_argument("path", true, "the path", motion_paths.names()),
                              number_argument("radius", "metres", 0, static_cast<double>(max_motion_radius)),
                              number_argument("period", "seconds per round", shortest_decimal(shortest_period),
                                              shortest_decimal(longest_period))},
                             "Moves the target along a path while the simulation runs", set_motion));
     table.add(chain_command(
-        "chain.seek",
+        "chain.seek", "Place the target on its path",
         {{.name = "tick", .type = ArgumentType::Integer, .help = "tick of the round", .low = 0}},
         "Moves the target to a tick of its round", seek));
     table.add(chain_command(
-        "chain.flips",
+        "chain.flips", "Set what counts as a flip",
         {number_argument("degrees", "a bone turns by more than this", fewest_flip_degrees, most_flip_degrees),
          number_argument("angle_share",
                          "while the target, as the root sees it, turns by less than this share of it", 0, 1),

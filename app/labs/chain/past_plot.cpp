@@ -56,6 +56,7 @@ std::string title_of(PastPlot what, std::size_t joint) {
 LabSetting past_plot_setting() {
     return {.key = "chain plot",
             .command = "view.chain_plot",
+            .title = "Plot the chain's last ten seconds",
             .argument = "of",
             .help = "Plots something of the last ten seconds of the Chain lab below the scene",
             .choices = {{"nothing", "nothing"},

@@ -91,7 +91,7 @@ std::vector<Argument> limit_arguments() {
 
 void add_reach_commands(CommandTable& table) {
     table.add(chain_command(
-        "chain.solver",
+        "chain.solver", "Set the solver",
         {choice_argument("name", false, "kept when left out, as all the others are",
                          names(ik::all_methods, [](ik::Method m) { return ik::name(m); })),
          integer_argument("iterations", "maximum", 1, max_iterations),
@@ -109,10 +109,10 @@ void add_reach_commands(CommandTable& table) {
          choice_argument("pole_turn", false, "all joints at once, or each between its neighbours",
                          pole_turns.names())},
         "Sets the solver of mode reach, from the next move of the target on", set_solver));
-    table.add(chain_command("chain.limit", limit_arguments(),
+    table.add(chain_command("chain.limit", "Limit joints", limit_arguments(),
                             "Limits how far a joint turns in mode reach; kind free removes the limit",
                             set_limits));
-    table.add(chain_command("chain.pole",
+    table.add(chain_command("chain.pole", "Set the pole target",
                             {{.name = "to",
                               .type = ArgumentType::Point,
                               .required = false,

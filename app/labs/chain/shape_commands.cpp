@@ -128,24 +128,28 @@ void take_preset(ChainPart& part, const Arguments& given, ChainRuntime& runtime)
 }  // namespace
 
 void add_shape_commands(CommandTable& table) {
-    table.add(chain_command("chain.clear",
+    table.add(chain_command("chain.clear", "Remove every joint",
                             {point_argument("default_direction", false,
                                             "unit vector along which a chain without a direction extends")},
                             "Removes every segment", clear));
-    table.add(chain_command("chain.add", {length_argument(), position_argument()},
+    table.add(chain_command("chain.add", "Add a joint at the tip", {length_argument(), position_argument()},
                             "Appends a segment at the tail", add));
-    table.add(chain_command(
-        "chain.insert", {index_argument(true, "the new segment's"), length_argument(), position_argument()},
-        "Inserts a segment before another", insert));
     table.add(
-        chain_command("chain.remove", {index_argument(true, "which segment")}, "Removes a segment", remove));
-    table.add(chain_command("chain.remove_selected", {}, "Removes the selected joints", remove_selected));
-    table.add(chain_command("chain.reset", {}, "Resets this lab to its first state", reset));
-    table.add(chain_command("chain.set_length", {index_argument(false, "which joint; its length is that of the bone to it"), joints_argument(),
-                             length_argument()},
-                            "Sets the length of bones", set_length));
+        chain_command("chain.insert", "Insert a joint",
+                      {index_argument(true, "the new segment's"), length_argument(), position_argument()},
+                      "Inserts a segment before another", insert));
+    table.add(chain_command("chain.remove", "Remove a joint", {index_argument(true, "which segment")},
+                            "Removes a segment", remove));
+    table.add(chain_command("chain.remove_selected", "Delete selection", {}, "Removes the selected joints",
+                            remove_selected));
+    table.add(
+        chain_command("chain.reset", "Reset the Chain lab", {}, "Resets this lab to its first state", reset));
+    table.add(chain_command("chain.set_length", "Set the length of bones",
+                            {index_argument(false, "which joint; its length is that of the bone to it"),
+                             joints_argument(), length_argument()},
+                            "Sets the length of the bones to joints", set_length));
     table.add(chain_command(
-        "chain.preset",
+        "chain.preset", "Open a chain preset",
         {choice_argument("name", true, "which chain",
                          names(presets(), [](const Preset& p) { return p.name; })),
          integer_argument("count", "segments", 1, static_cast<double>(max_segments)),

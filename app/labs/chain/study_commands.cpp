@@ -109,10 +109,10 @@ void lay_out_race(ChainPart& part, const Arguments& given) {
 }
 
 void add_microscope_commands(CommandTable& table) {
-    table.add(chain_command("microscope.open", {start_argument()},
+    table.add(chain_command("microscope.open", "Open the microscope", {start_argument()},
                             "Shows a solve step by step, always from the same start", open_microscope,
                             Effect::Edit));
-    table.add(chain_command("microscope.seek",
+    table.add(chain_command("microscope.seek", "Show a step of the solve",
                             {{.name = "step",
                               .type = ArgumentType::Integer,
                               .help = "how many steps are shown",
@@ -120,18 +120,19 @@ void add_microscope_commands(CommandTable& table) {
                               .high = max_trace_steps}},
                             "Goes to a step of the solve", seek, Effect::Look));
     table.add(chain_command(
-        "microscope.step",
+        "microscope.step", "Step through the solve",
         {integer_argument("by", "steps forward, or back when negative; 1 when left out", -max_trace_steps,
                           max_trace_steps),
          integer_argument("iterations", "iterations forward, or back when negative, to the end of one",
                           -max_iterations, max_iterations)},
         "Goes some steps forward or back", step, Effect::Look));
-    table.add(chain_command("microscope.play",
+    table.add(chain_command("microscope.play", "Play the solve's steps",
                             {number_argument("pace", "steps a second; 8 when left out",
                                              shortest_decimal(slowest_pace), shortest_decimal(fastest_pace))},
                             "Goes through the steps by itself, to the last", play, Effect::Look));
-    table.add(chain_command("microscope.pause", {}, "Stops going through the steps", pause, Effect::Look));
-    table.add(chain_command("microscope.close", {},
+    table.add(chain_command("microscope.pause", "Pause the solve's steps", {},
+                            "Stops going through the steps", pause, Effect::Look));
+    table.add(chain_command("microscope.close", "Close the microscope", {},
                             "Closes the microscope; the chain stays as the solve left it", close_microscope,
                             Effect::Look));
 }
@@ -139,6 +140,7 @@ void add_microscope_commands(CommandTable& table) {
 /// Does not change the chain: writes what the race found.
 Command race_save() {
     return {.name = "race.save",
+            .title = "Save the race as CSV",
             .arguments = {{.name = "path", .type = ArgumentType::Text, .help = "a CSV file to write"}},
             .help = "Writes every solver's residual at each iteration as CSV",
             .effect = Effect::Look,
@@ -154,21 +156,22 @@ Command race_save() {
 
 void add_study_commands(CommandTable& table) {
     add_microscope_commands(table);
-    table.add(chain_command("race.open", {start_argument()},
+    table.add(chain_command("race.open", "Start a race of solvers", {start_argument()},
                             "Runs several solvers from the same start to the same target", open_race,
                             Effect::Edit));
     table.add(
-        chain_command("race.solver",
+        chain_command("race.solver", "Choose which solvers race",
                       {choice_argument("name", true, "which solver",
                                        names(ik::all_methods, [](ik::Method m) { return ik::name(m); })),
                        {.name = "on", .type = ArgumentType::Boolean, .help = "true: it takes part"}},
                       "Lets a solver take part in the race", choose_racer, Effect::Look));
-    table.add(chain_command("race.side_by_side",
+    table.add(chain_command("race.side_by_side", "Show the race side by side",
                             {{.name = "on", .type = ArgumentType::Boolean, .help = "false: overlaid"}},
                             "Shows the chains of the race beside each other", lay_out_race, Effect::Look));
     table.add(race_save());
-    table.add(chain_command("race.close", {}, "Closes the race; the chain stays as its own solver left it",
-                            close_race, Effect::Look));
+    table.add(chain_command("race.close", "Close the race", {},
+                            "Closes the race; the chain stays as its own solver left it", close_race,
+                            Effect::Look));
 }
 
 }  // namespace tendril::app

@@ -297,6 +297,7 @@ class Drawing {
 LabSetting bones_setting() {
     return {.key = "character_bones",
             .command = "view.character_bones",
+            .title = "Choose how bones are drawn",
             .argument = "style",
             .help = "Shows the bones of a character as tapered bones, or as lines and spheres",
             .choices = {{"tapered", "Tapered bones"}, {"lines", "Lines and spheres"}}};
@@ -305,6 +306,7 @@ LabSetting bones_setting() {
 LabSetting helpers_setting() {
     return {.key = "character_helpers",
             .command = "view.character_helpers",
+            .title = "Show or hide helper nodes",
             .argument = "nodes",
             .help = "Shows the nodes of a character that are no bones of its body: fingers, helpers",
             .choices = {{"shown", "Nodes beside the body shown"}, {"hidden", "The body alone"}}};

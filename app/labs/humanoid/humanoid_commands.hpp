@@ -13,6 +13,10 @@ std::size_t node_named(const HumanoidPart& part, const std::string& name);
 /// For the choices of an argument.
 std::vector<std::string> bone_names();
 
+/// Offered by name: nodes of the skeleton, clips.
+Argument node_argument(const char* name, bool required, const char* help);
+Argument clip_argument(const char* name, const char* help);
+
 /// Waits for the file that is being read, if one is, and shows its character. Throws Refused.
 void finish_loading(Workspace& workspace);
 

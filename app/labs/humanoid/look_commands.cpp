@@ -21,11 +21,11 @@ void set_view(HumanoidPart& part, const Arguments& given) {
 }  // namespace
 
 void add_humanoid_look_commands(CommandTable& table) {
-    table.add(
-        part_command<HumanoidPart>(humanoid_lab, "humanoid.select", {text_argument("node", false, "by name")},
-                                   "Selects a node; nothing when it is left out", select, Effect::Look));
     table.add(part_command<HumanoidPart>(
-        humanoid_lab, "humanoid.view",
+        humanoid_lab, "humanoid.select", "Select a node", {node_argument("node", false, "by name")},
+        "Selects a node; nothing when it is left out", select, Effect::Look));
+    table.add(part_command<HumanoidPart>(
+        humanoid_lab, "humanoid.view", "Set how the character is shown",
         {switch_argument("ghost", "of the pose as it was before anything changed it"),
          choice_argument("skin", false, "how what the character wears is drawn", skin_looks.names()),
          choice_argument("skinning", false, "how it follows twisted arms", skinnings.names()),

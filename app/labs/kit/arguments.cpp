@@ -1,5 +1,7 @@
 #include "app/labs/kit/arguments.hpp"
 
+#include <utility>
+
 namespace tendril::app {
 
 Argument choice_argument(const char* name, bool required, const char* help,
@@ -43,6 +45,17 @@ Argument index_argument(const char* name, bool required, const char* help, std::
             .help = help,
             .low = 0,
             .high = static_cast<double>(count) - 1};
+}
+
+Argument offering(Argument argument, std::function<std::vector<std::string>(const Workspace&)> known) {
+    argument.known = std::move(known);
+    return argument;
+}
+
+std::vector<std::string> places(std::size_t count) {
+    std::vector<std::string> list;
+    for (std::size_t i = 0; i < count; ++i) list.push_back(std::to_string(i));
+    return list;
 }
 
 }  // namespace tendril::app

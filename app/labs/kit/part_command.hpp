@@ -22,9 +22,11 @@ void change_part(Workspace& workspace, const char* lab, Change change) {
 
 /// A command that does just that.
 template <class LabPart>
-Command part_command(const char* lab, const char* name, std::vector<Argument> arguments, const char* help,
-                     void (*change)(LabPart&, const Arguments&), Effect effect = Effect::Edit) {
+Command part_command(const char* lab, const char* name, const char* title, std::vector<Argument> arguments,
+                     const char* help, void (*change)(LabPart&, const Arguments&),
+                     Effect effect = Effect::Edit) {
     return {.name = name,
+            .title = title,
             .arguments = std::move(arguments),
             .help = help,
             .effect = effect,

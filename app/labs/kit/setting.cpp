@@ -20,11 +20,16 @@ Command setting_command(const LabSetting& setting) {
     const char* const otherwise =
         names.size() == 2 ? "the other one when left out" : "the next one when left out";
     return {.name = setting.command,
+            .title = setting.title,
             .arguments = {{.name = setting.argument,
                            .type = ArgumentType::Text,
                            .required = false,
                            .help = otherwise,
-                           .choices = names}},
+                           .choices = names,
+                           .present =
+                               [setting](const Workspace& w) {
+                                   return setting.choices[setting.chosen(w.settings)].name;
+                               }}},
             .help = setting.help,
             .effect = Effect::Look,
             .apply = [setting](Workspace& w, const Arguments& given) {

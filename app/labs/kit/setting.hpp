@@ -18,6 +18,7 @@ struct LabSetting {
     };
     std::string key;              ///< in the settings' file, and in their sheet
     std::string command;          ///< "view.segments"
+    std::string title;            ///< of the command
     std::string argument;         ///< of the command
     std::string help;             ///< of the command
     std::vector<Choice> choices;  ///< two at least; the first is the default

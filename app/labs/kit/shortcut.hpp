@@ -12,7 +12,7 @@ struct Shortcut {
     Chord chord;
     std::string command;
     ArgumentList arguments{};
-    std::string title;    ///< as the menu has it
+    std::string title;    ///< as the menu has it; empty: the command's own
     std::string section;  ///< of the menu and the help: "Edit"; a lab may add sections of its own
     bool in_menu = true;
     bool while_typing = false;  ///< works although a text field has the keyboard
@@ -22,7 +22,7 @@ struct Shortcut {
 
 /// Delete, as every lab in which something can be selected has it.
 inline Shortcut delete_shortcut(const char* command) {
-    return {*chord_from_name("delete"), command, {}, "Delete selection", "Edit"};
+    return {*chord_from_name("delete"), command, {}, "", "Edit"};
 }
 
 /// What the mouse does: a row of the help.

@@ -12,10 +12,13 @@ namespace tendril::app {
 namespace {
 
 Argument name_argument() {
-    return text_argument("name", true, "of the element");
+    return element_argument("name", true, "of the element");
 }
 Argument curve_argument() {
-    return text_argument("name", true, "of the curve");
+    return offering(text_argument("name", true, "of the curve"), [](const Workspace& w) {
+        return names(rig_part(w).rig.definition().curves,
+                     [](const rig::NamedCurve& each) { return each.name; });
+    });
 }
 
 JsonPlace place_of(const Arguments& given, const char* name) {
@@ -113,10 +116,10 @@ void set_curve(RigPart& part, const Arguments& given) {
 
 void add_element_commands(CommandTable& table) {
     table.add(rig_command(
-        "rig.element.add",
-        {name_argument(),
+        "rig.element.add", "Add a bone, null or control",
+        {text_argument("name", true, "of the element"),
          choice_argument("kind", false, "a bone where left out", {"bone", "null", "control"}),
-         text_argument("parent", false, "an element; none where left out"),
+         element_argument("parent", false, "an element; none where left out"),
          json_argument("local", false,
                        "{translation, rotation [x, y, z, w], scale} within the parent; the initial pose"),
          choice_argument("control", false, "what kind of control; transform where left out",
@@ -124,31 +127,34 @@ void add_element_commands(CommandTable& table) {
          json_argument("axes", false, "of a 2D control, vector2d: two of \"x\", \"y\", \"z\""),
          json_argument("minimum", false, "of a control: a number, [a, b] or [x, y, z] as its kind has it"),
          json_argument("maximum", false, "likewise"),
-         text_argument("space", false, "of a control: the element that it goes with, its parent")},
+         element_argument("space", false, "of a control: the element that it goes with, its parent")},
         "Adds a bone, a null or a control", add_element));
     table.add(rig_command(
-        "rig.element.set",
+        "rig.element.set", "Set an element's pose",
         {name_argument(),
          choice_argument("space", false, "of the transform; local where left out", {"local", "global"}),
          json_argument("transform", true, "{translation, rotation, scale}; what is left out stays"),
          switch_argument("propagate", "the children move with it; on where left out")},
         "Sets an element's input pose, from which every solve begins", set_element));
-    table.add(rig_command("rig.element.remove", {name_argument()},
+    table.add(rig_command("rig.element.remove", "Remove an element", {name_argument()},
                           "Removes an element that is no parent and that no unit names", remove));
-    table.add(rig_command("rig.remove_selected", {}, "Removes the element or the unit that was selected last",
-                          remove_selected));
-    table.add(rig_command(
-        "rig.control.set",
-        {name_argument(), json_argument("value", true,
-                                        "{translation, rotation, scale}, [x, y, z], [x, y, z, w], a number, "
-                                        "a bool or [a, b], as its kind has it")},
-        "Sets a control, within its limits", set_control));
-    table.add(rig_command("rig.control.reset", {name_argument()},
+    table.add(rig_command("rig.remove_selected", "Delete selection", {},
+                          "Removes the element or the unit that was selected last", remove_selected));
+    table.add(rig_command("rig.control.set", "Set a control",
+                          {control_argument("name", true, "of the element"),
+                           json_argument("value", true,
+                                         "{translation, rotation, scale}, [x, y, z], [x, y, z, w], a number, "
+                                         "a bool or [a, b], as its kind has it")},
+                          "Sets a control, within its limits", set_control));
+    table.add(rig_command("rig.control.reset", "Reset a control",
+                          {control_argument("name", true, "of the element")},
                           "Sets a control to the value that it begins with", reset_control));
-    table.add(rig_command("rig.curve.add",
-                          {curve_argument(), number_argument("value", "0 where left out", -1e9, 1e9)},
+    table.add(rig_command("rig.curve.add", "Add a curve",
+                          {text_argument("name", true, "of the curve"),
+                           number_argument("value", "0 where left out", -1e9, 1e9)},
                           "Adds a named curve, which units write", add_curve));
-    table.add(rig_command("rig.curve.set", {curve_argument(), {.name = "value", .help = "before the units"}},
+    table.add(rig_command("rig.curve.set", "Set a curve's value",
+                          {curve_argument(), {.name = "value", .help = "before the units"}},
                           "Sets the value that a curve has before the units write it", set_curve));
 }
 

@@ -76,6 +76,7 @@ LabSetting pending_marks() {
     return {
         .key = "pending_poses",
         .command = "view.pending_poses",
+        .title = "Mark pending poses in the tree",
         .argument = "marks",
         .help = "Marks in the tree of the Rig lab which local and global transforms wait to be worked out",
         .choices = {{"shown", "Pending poses marked"}, {"hidden", "Not marked"}}};

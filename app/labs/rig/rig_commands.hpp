@@ -10,8 +10,12 @@
 namespace tendril::app {
 
 /// A command on a copy of the lab's part.
-Command rig_command(const char* name, std::vector<Argument> arguments, const char* help,
+Command rig_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
                     void (*change)(RigPart&, const Arguments&));
+/// Offered by name: elements, those of them that are controls, units.
+Argument element_argument(const char* name, bool required, const char* help);
+Argument control_argument(const char* name, bool required, const char* help);
+Argument unit_argument(const char* name, bool required, const char* help);
 /// A value that is no number, text or point; the command reads it itself.
 Argument json_argument(const char* name, bool required, const char* help);
 

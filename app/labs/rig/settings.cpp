@@ -8,6 +8,7 @@ namespace tendril::app {
 LabSetting rig_axes_setting() {
     return {.key = "bone_axes",
             .command = "view.bone_axes",
+            .title = "Show or hide bone axes",
             .argument = "show",
             .help = "Shows or hides the axes of every bone",
             .choices = {{"shown", "Axes at every bone"}, {"hidden", "No axes at bones"}}};
@@ -17,6 +18,7 @@ LabSetting rig_pending_setting() {
     return {
         .key = "pending_rings",
         .command = "view.pending_rings",
+        .title = "Show or hide pending rings",
         .argument = "show",
         .help = "Draws a ring around what the last edit or solve left pending",
         .choices = {{"hidden", "No rings around pending poses"}, {"shown", "Rings around pending poses"}}};
@@ -25,6 +27,7 @@ LabSetting rig_pending_setting() {
 LabSetting rig_figures_setting() {
     return {.key = "figures",
             .command = "view.figures",
+            .title = "Show or hide heads and blobs",
             .argument = "show",
             .help = "Shows or hides heads and blobs, so that the bones within are seen",
             .choices = {{"shown", "Heads and blobs drawn"}, {"hidden", "Bones only"}}};

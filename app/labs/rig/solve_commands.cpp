@@ -90,9 +90,31 @@ void solve(Workspace& workspace, const Arguments& given) {
 
 }  // namespace
 
-Command rig_command(const char* name, std::vector<Argument> arguments, const char* help,
+Command rig_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
                     void (*change)(RigPart&, const Arguments&)) {
-    return part_command<RigPart>(rig_lab, name, std::move(arguments), help, change);
+    return part_command<RigPart>(rig_lab, name, title, std::move(arguments), help, change);
+}
+
+Argument element_argument(const char* name, bool required, const char* help) {
+    return offering(text_argument(name, required, help), [](const Workspace& w) {
+        return names(rig_part(w).rig.definition().elements,
+                     [](const rig::Element& each) { return each.name; });
+    });
+}
+
+Argument control_argument(const char* name, bool required, const char* help) {
+    return offering(text_argument(name, required, help), [](const Workspace& w) {
+        std::vector<std::string> list;
+        for (const rig::Element& each : rig_part(w).rig.definition().elements)
+            if (each.kind == rig::ElementKind::Control) list.push_back(each.name);
+        return list;
+    });
+}
+
+Argument unit_argument(const char* name, bool required, const char* help) {
+    return offering(text_argument(name, required, help), [](const Workspace& w) {
+        return names(rig_part(w).rig.unit_names(), [](const std::string& each) { return each; });
+    });
 }
 
 Argument json_argument(const char* name, bool required, const char* help) {
@@ -100,30 +122,35 @@ Argument json_argument(const char* name, bool required, const char* help) {
 }
 
 void add_solve_commands(CommandTable& table) {
-    table.add(rig_command("rig.clear", {}, "Removes every element, curve and unit", clear));
-    table.add(rig_command("rig.reset", {}, "Resets this lab to its first state", reset));
-    table.add(part_command<RigPart>(rig_lab, "rig.select",
-                                    {text_argument("element", false, "none where left out"),
-                                     text_argument("unit", false, "none where left out")},
+    table.add(rig_command("rig.clear", "Remove everything from the rig", {},
+                          "Removes every element, curve and unit", clear));
+    table.add(rig_command("rig.reset", "Reset the Rig lab", {}, "Resets this lab to its first state", reset));
+    table.add(part_command<RigPart>(rig_lab, "rig.select", "Select an element or unit",
+                                    {element_argument("element", false, "none where left out"),
+                                     unit_argument("unit", false, "none where left out")},
                                     "Selects an element, a unit, or one of each", select, Effect::Look));
     table.add({.name = "rig.read",
-               .arguments = {text_argument("name", true, "of the element")},
+               .title = "Read an element's pose",
+               .arguments = {element_argument("name", true, "of the element")},
                .help = "Reads an element's pose, and says how many transforms had to be worked out for it",
                .effect = Effect::Look,
                .apply = read});
     table.add({.name = "rig.copy",
+               .title = "Copy the rig as C++",
                .arguments = {},
                .help = "Puts the rig on the clipboard, as a C++ program against the library",
                .effect = Effect::Look,
                .apply = copy});
     table.add(
         {.name = "rig.preset",
+         .title = "Open a rig preset",
          .arguments = {choice_argument("name", true, "which scene",
                                        names(rig_presets(), [](const auto& each) { return each.name; }))},
          .help = "Opens a preset",
          .effect = Effect::Edit,
          .apply = take_preset});
     table.add({.name = "rig.solve",
+               .title = "Solve the rig",
                .arguments = {choice_argument("direction", false, "forward where left out",
                                              {"forward", "backward"})},
                .help = "Runs the units, or sets the controls from the bones as they are; no time passes",

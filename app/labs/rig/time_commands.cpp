@@ -145,25 +145,27 @@ void cancel_rates(RigPart& part, const Arguments&) {
 void add_clip_commands(CommandTable& table) {
     table.add(
         {.name = "rig.clip.record",
+         .title = "Record the take as a clip",
          .arguments = {number_argument("seconds", "from the take's start; where left out, what was played",
                                        tick_seconds, longest_clip)},
          .help = "Records the bones of the take as a clip, a pose a frame, 60 a second",
          .effect = Effect::Edit,
          .apply = record});
-    table.add(rig_command("rig.clip.clear", {}, "Removes the clip", clear_clip));
-    table.add(rig_command("rig.clip.solve", {},
+    table.add(rig_command("rig.clip.clear", "Remove the clip", {}, "Removes the clip", clear_clip));
+    table.add(rig_command("rig.clip.solve", "Solve the clip backward", {},
                           "Solves the clip backward, frame by frame, and shows on the timeline what the rig "
                           "cannot express; some frames a tick",
                           solve_clip));
-    table.add(rig_command("rig.clip.cancel", {}, "Stops the backward solve of the clip", cancel_clip));
+    table.add(rig_command("rig.clip.cancel", "Stop the backward solve", {},
+                          "Stops the backward solve of the clip", cancel_clip));
 }
 
 }  // namespace
 
 void add_time_commands(CommandTable& table) {
     table.add(rig_command(
-        "rig.motion",
-        {text_argument("name", true, "of a transform or position control"),
+        "rig.motion", "Move a control along a path",
+        {control_argument("name", true, "of a transform or position control"),
          choice_argument("path", true, "the path, flat on the ground", motion_paths.names()),
          point_argument("centre", false,
                         "within the control's space; where left out, the path starts at the control"),
@@ -173,6 +175,7 @@ void add_time_commands(CommandTable& table) {
          switch_argument("turn", "a transform control looks along the path, with its z axis")},
         "Moves a control along a path while the simulation runs", set_motion));
     table.add({.name = "rig.time",
+               .title = "Show a moment of the take",
                .arguments = {number_argument("seconds", "as the clock shows them", 0, 1e9),
                              integer_argument("tick", "of 1/60 s, instead of seconds", 0, 1e9)},
                .help = "Pauses and goes to a moment of the take, earlier or later: what playing there shows, "
@@ -181,6 +184,7 @@ void add_time_commands(CommandTable& table) {
                .apply = go});
     table.add(
         {.name = "rig.rates",
+         .title = "Compare frame rates",
          .arguments = {number_argument("seconds",
                                        "from the take's start; where left out, what was played, "
                                        "ten seconds at most",
@@ -189,7 +193,8 @@ void add_time_commands(CommandTable& table) {
          .effect = Effect::Edit,
          .apply = compare_rates,
          .finish = finish_rates});
-    table.add(rig_command("rig.rates.cancel", {}, "Stops the comparison of frame rates", cancel_rates));
+    table.add(rig_command("rig.rates.cancel", "Stop comparing frame rates", {},
+                          "Stops the comparison of frame rates", cancel_rates));
     add_clip_commands(table);
 }
 

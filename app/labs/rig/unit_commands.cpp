@@ -8,7 +8,7 @@ namespace tendril::app {
 namespace {
 
 Argument unit_name_argument(bool required) {
-    return text_argument("name", required, "of the unit");
+    return unit_argument("name", required, "of the unit");
 }
 
 /// All but its place is the unit as a scene file has it.
@@ -57,17 +57,18 @@ std::vector<Argument> unit_arguments(std::vector<Argument> arguments) {
 
 void add_unit_commands(CommandTable& table) {
     table.add(rig_command(
-        "rig.unit.add",
+        "rig.unit.add", "Add a unit",
         unit_arguments({choice_argument("unit", true, "its operation", operation_names()),
                         text_argument("name", false, "one of its own; after its operation where left out"),
                         integer_argument("at", "its place among the units; at the end where left out", 0,
                                          static_cast<double>(max_lab_units))}),
         "Adds a unit with its inputs: literals, outputs of units before it, elements", add));
-    table.add(rig_command("rig.unit.set", unit_arguments({unit_name_argument(true)}),
+    table.add(rig_command("rig.unit.set", "Change a unit's inputs",
+                          unit_arguments({unit_name_argument(true)}),
                           "Changes inputs of a unit; those that are not given stay", set));
-    table.add(rig_command("rig.unit.remove", {unit_name_argument(true)},
+    table.add(rig_command("rig.unit.remove", "Remove a unit", {unit_name_argument(true)},
                           "Removes a unit from which no other takes an output", remove));
-    table.add(rig_command("rig.unit.move",
+    table.add(rig_command("rig.unit.move", "Move a unit in the order",
                           {unit_name_argument(true),
                            {.name = "at",
                             .type = ArgumentType::Integer,
@@ -75,7 +76,7 @@ void add_unit_commands(CommandTable& table) {
                             .low = 0,
                             .high = static_cast<double>(max_lab_units)}},
                           "Moves a unit, so that it runs earlier or later", move));
-    table.add(rig_command("rig.unit.enable",
+    table.add(rig_command("rig.unit.enable", "Switch a unit on or off",
                           {unit_name_argument(true), {.name = "on", .type = ArgumentType::Boolean}},
                           "Switches a unit off or on", enable));
 }

@@ -135,7 +135,7 @@ Argument own_name(const char* otherwise) {
 }
 
 void add_adding_commands(CommandTable& table) {
-    table.add(rope_command("rope.add",
+    table.add(rope_command("rope.add", "Add a rope",
                            {point_argument("from", true, "metres"), point_argument("to", true, "metres"),
                             own_name("\"rope\", \"rope 2\", ... when left out"),
                             integer_argument("segments", "32 when left out", 1, most_particles - 1),
@@ -145,7 +145,7 @@ void add_adding_commands(CommandTable& table) {
                             switch_argument("pin_end", "pins its last particle")},
                            "Adds a rope: straight, or hanging where it is longer than the distance", add));
     table.add(
-        rope_command("rope.cloth.add",
+        rope_command("rope.cloth.add", "Add a cloth",
                      {point_argument("corner", true, "metres"),
                       point_argument("along", true, "from the corner to the other end of the first row"),
                       point_argument("down", true, "from the corner to the last row"),
@@ -160,36 +160,39 @@ void add_adding_commands(CommandTable& table) {
                       choice_argument("pins", false, "of its first row",
                                       names(pins_names, [](const char* name) { return name; }))},
                      "Adds a cloth", add_cloth));
-    table.add(
-        rope_command("rope.hair.add",
-                     {own_name("\"hair\", \"hair 2\", ... when left out"),
-                      point_argument("centre", false, "of the patch that it grows from"),
-                      text_argument("attach", false, "a collider that it grows from, instead of a centre"),
-                      point_argument("direction", false, "of growth; down, or outwards from a collider"),
-                      integer_argument("strands", "32 when left out", 1, most_particles),
-                      number_argument("spread", "the patch's radius, metres; 0.1 when left out", 0.0, 1e9),
-                      number_argument("length", "metres; 0.5 when left out", 0.0, 1e9),
-                      integer_argument("segments", "of a strand; 16 when left out", 2, most_particles - 1),
-                      number_argument("radius", "metres; 0.004 when left out", 0.0, 1e9),
-                      number_argument("density", "kg/m; 0.05 when left out", 0.0, 1e9),
-                      number_argument("bend", "compliance, m/N", 0.0, 1e9)},
-                     "Adds strands of hair, pinned at their roots", add_hair));
+    table.add(rope_command(
+        "rope.hair.add", "Add hair",
+        {own_name("\"hair\", \"hair 2\", ... when left out"),
+         point_argument("centre", false, "of the patch that it grows from"),
+         collider_argument("attach", false, "a collider that it grows from, instead of a centre"),
+         point_argument("direction", false, "of growth; down, or outwards from a collider"),
+         integer_argument("strands", "32 when left out", 1, most_particles),
+         number_argument("spread", "the patch's radius, metres; 0.1 when left out", 0.0, 1e9),
+         number_argument("length", "metres; 0.5 when left out", 0.0, 1e9),
+         integer_argument("segments", "of a strand; 16 when left out", 2, most_particles - 1),
+         number_argument("radius", "metres; 0.004 when left out", 0.0, 1e9),
+         number_argument("density", "kg/m; 0.05 when left out", 0.0, 1e9),
+         number_argument("bend", "compliance, m/N", 0.0, 1e9)},
+        "Adds strands of hair, pinned at their roots", add_hair));
 }
 
 }  // namespace
 
 void add_body_commands(CommandTable& table) {
     add_adding_commands(table);
-    table.add(rope_command("rope.remove", {text_argument("name", true, "of a rope, cloth or hair")},
+    table.add(rope_command("rope.remove", "Remove a rope, cloth or hair",
+                           {body_argument("name", true, "of a rope, cloth or hair")},
                            "Removes a rope, cloth or hair", remove));
-    table.add(rope_command("rope.remove_selected", {}, "Deletes the selection", remove_selected));
-    table.add(rope_command("rope.pin",
+    table.add(rope_command("rope.remove_selected", "Delete selection", {}, "Deletes the selection",
+                           remove_selected));
+    table.add(rope_command("rope.pin", "Pin a particle",
                            {rope_argument(true, "which"), particle_argument(true, "which"),
                             point_argument("at", false, "metres; where it is when left out")},
                            "Pins a particle to a point", pin));
-    table.add(rope_command("rope.unpin", {rope_argument(true, "which"), particle_argument(true, "which")},
+    table.add(rope_command("rope.unpin", "Unpin a particle",
+                           {rope_argument(true, "which"), particle_argument(true, "which")},
                            "Unpins a particle", unpin));
-    table.add(rope_command("rope.cut",
+    table.add(rope_command("rope.cut", "Cut a rope",
                            {rope_argument(true, "which"),
                             {.name = "segment",
                              .type = ArgumentType::Integer,

@@ -135,7 +135,7 @@ void set_swing(RopeEdit& edit, const Arguments& given) {
 }
 
 Argument name_argument() {
-    return text_argument("name", true, "which");
+    return collider_argument("name", true, "which");
 }
 
 }  // namespace
@@ -157,20 +157,21 @@ void add_collider_commands(CommandTable& table) {
         return arguments;
     };
     table.add(
-        rope_command("rope.collider.add",
+        rope_command("rope.collider.add", "Add a collider",
                      with_shape({text_argument("name", true, "a new one"),
                                  choice_argument("kind", true,
                                                  "sphere: centre, radius; capsule: a, b, radius; "
                                                  "plane: point, normal; box: centre, half_extents, rotation",
                                                  names(kinds(), [](const Kind& k) { return k.name; }))}),
                      "Adds a body that ropes cannot enter", add));
-    table.add(rope_command("rope.collider.set", with_shape({name_argument()}),
+    table.add(rope_command("rope.collider.set", "Change a collider", with_shape({name_argument()}),
                            "Sets the place, size or rotation of a collider", set));
-    table.add(rope_command("rope.collider.move",
+    table.add(rope_command("rope.collider.move", "Move a collider",
                            {name_argument(), point_argument("to", true, "where its centre goes, metres")},
                            "Moves a collider; it pushes what it meets", move));
-    table.add(rope_command("rope.collider.remove", {name_argument()}, "Removes a collider", remove));
-    table.add(rope_command("rope.collider.swing",
+    table.add(rope_command("rope.collider.remove", "Remove a collider", {name_argument()},
+                           "Removes a collider", remove));
+    table.add(rope_command("rope.collider.swing", "Swing a collider",
                            {name_argument(), point_argument("by", true, "metres to each side; 0: off"),
                             number_argument("period", "seconds", shortest_decimal(shortest_period),
                                             shortest_decimal(longest_period))},

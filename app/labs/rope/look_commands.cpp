@@ -45,25 +45,25 @@ void set_view(RopeEdit& edit, const Arguments& given) {
 }  // namespace
 
 void add_look_commands(CommandTable& table) {
-    table.add(rope_command("rope.select",
+    table.add(rope_command("rope.select", "Select a particle or collider",
                            {rope_argument(false, "of the particle"), particle_argument(false, "which"),
-                            text_argument("collider", false, "instead of a particle")},
+                            collider_argument("collider", false, "instead of a particle")},
                            "Selects a particle or a collider; nothing when all is left out", select,
                            Effect::Look));
-    table.add(rope_command("rope.hold",
+    table.add(rope_command("rope.hold", "Hold a particle",
                            {rope_argument(true, "which"), particle_argument(true, "which; a free one"),
                             point_argument("at", true, "metres")},
                            "Holds a free particle, as a drag does, until rope.let_go", hold));
     table.add(rope_command(
-        "rope.let_go", {}, "Releases what rope.hold holds",
+        "rope.let_go", "Let go of the held particle", {}, "Releases what rope.hold holds",
         [](RopeEdit& edit, const Arguments&) { let_go(edit.part); }, Effect::Look));
     table.add(rope_command(
-        "rope.tool", {choice_argument("name", true, "which", rope_tools.names())},
+        "rope.tool", "Choose the click action", {choice_argument("name", true, "which", rope_tools.names())},
         "Sets what a click in the scene does",
         [](RopeEdit& edit, const Arguments& given) { edit.part.tool = rope_tools.value(given.text("name")); },
         Effect::Look));
     table.add(rope_command(
-        "rope.view",
+        "rope.view", "Set how ropes are shown",
         {switch_argument("particles", "shown as balls"), switch_argument("strain", "strain as colour"),
          integer_argument("sides", "of the tube", fewest_sides, most_sides)},
         "Sets how ropes are shown; what is left out stays", set_view, Effect::Look));

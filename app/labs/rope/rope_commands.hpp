@@ -10,9 +10,12 @@
 namespace tendril::app {
 
 /// A command on a copy of the lab's part; what it changes in the world wakes it.
-Command rope_command(const char* name, std::vector<Argument> arguments, const char* help,
+Command rope_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
                      void (*change)(RopeEdit&, const Arguments&), Effect effect = Effect::Edit);
 
+/// Offered by name: what hangs in the world, and what it meets.
+Argument body_argument(const char* name, bool required, const char* help);
+Argument collider_argument(const char* name, bool required, const char* help);
 Argument rope_argument(bool required, const char* help);
 Argument particle_argument(bool required, const char* help);
 

@@ -44,9 +44,10 @@ void RopeEdit::dragged() {
     if (!part.samples.empty()) part.samples.back() = sample_of(*part.world);
 }
 
-Command rope_command(const char* name, std::vector<Argument> arguments, const char* help,
+Command rope_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
                      void (*change)(RopeEdit&, const Arguments&), Effect effect) {
     return {.name = name,
+            .title = title,
             .arguments = std::move(arguments),
             .help = help,
             .effect = effect,
@@ -145,8 +146,22 @@ void forget_missing(RopePart& part) {
                   [&](const Swing& swing) { return world.find_collider(swing.collider) == nullptr; });
 }
 
+Argument body_argument(const char* name, bool required, const char* help) {
+    return offering(text_argument(name, required, help), [](const Workspace& w) {
+        const NamedWorld& world = *rope_part(w).world;
+        return names(world.state().bodies, [&](const rope::Body& body) { return world.name(body); });
+    });
+}
+
+Argument collider_argument(const char* name, bool required, const char* help) {
+    return offering(text_argument(name, required, help), [](const Workspace& w) {
+        const NamedWorld& world = *rope_part(w).world;
+        return names(world.state().colliders, [&](const rope::Collider& each) { return world.name(each); });
+    });
+}
+
 Argument rope_argument(bool required, const char* help) {
-    return text_argument("rope", required, help);
+    return body_argument("rope", required, help);
 }
 
 Argument particle_argument(bool required, const char* help) {

@@ -80,20 +80,24 @@ std::vector<Argument> settings_arguments() {
 }  // namespace
 
 void add_world_commands(CommandTable& table) {
-    table.add(rope_command("rope.clear", {}, "Removes every rope and collider", clear));
-    table.add(rope_command("rope.reset", {}, "Resets this lab to its first state", reset));
+    table.add(rope_command("rope.clear", "Remove all ropes and colliders", {},
+                           "Removes every rope and collider", clear));
+    table.add(
+        rope_command("rope.reset", "Reset the Rope lab", {}, "Resets this lab to its first state", reset));
     table.add(
         {.name = "rope.preset",
+         .title = "Open a rope preset",
          .arguments = {choice_argument("name", true, "which scene",
                                        names(rope_scenes(), [](const auto& each) { return each.name; }))},
          .help = "Opens a preset",
          .effect = Effect::Edit,
          .apply = take_scene});
-    table.add(rope_command("rope.settings", settings_arguments(),
+    table.add(rope_command("rope.settings", "Set how ropes are simulated", settings_arguments(),
                            "Sets how ropes are simulated; what is left out stays", settings));
-    table.add(rope_command(
-        "rope.jitter", {{.name = "dial", .help = "0: even frames; 1: from 1 to 250 ms", .low = 0, .high = 1}},
-        "Makes frames uneven, as in a program that stutters", set_jitter));
+    table.add(
+        rope_command("rope.jitter", "Make frame times uneven",
+                     {{.name = "dial", .help = "0: even frames; 1: from 1 to 250 ms", .low = 0, .high = 1}},
+                     "Makes frames uneven, as in a program that stutters", set_jitter));
 }
 
 }  // namespace tendril::app

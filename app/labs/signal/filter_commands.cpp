@@ -12,6 +12,13 @@ std::vector<std::string> all_kind_names() {
     return names(signal::kinds(), [](const signal::Kind& kind) { return kind.name; });
 }
 
+/// Of a filter that is there, by its place.
+Argument filter_argument(Argument place) {
+    return offering(std::move(place), [](const Workspace& w) {
+        return places(w.document.get<SignalPart>(signal_lab).stages.size());
+    });
+}
+
 /// The names that filters of any kind can be given, each once.
 std::vector<Argument> parameter_arguments() {
     std::vector<Argument> arguments;
@@ -122,7 +129,7 @@ void remove_selected(SignalPart& part, const Arguments&) {
 }  // namespace
 
 void add_filter_commands(CommandTable& table) {
-    const Argument at = index_argument("at", true, "which filter, from 0", most_stages);
+    const Argument at = filter_argument(index_argument("at", true, "which filter, from 0", most_stages));
     std::vector<Argument> adding{choice_argument("kind", true, "which kind", all_kind_names())};
     std::vector<Argument> setting{at};
     for (const Argument& parameter : parameter_arguments()) {
@@ -131,24 +138,26 @@ void add_filter_commands(CommandTable& table) {
     }
     adding.push_back(index_argument("at", false, "before which filter, from 0; at the end when left out",
                                     most_stages + 1));
-    table.add(part_command<SignalPart>(signal_lab, "signal.filter.add", adding,
+    table.add(part_command<SignalPart>(signal_lab, "signal.filter.add", "Add a filter", adding,
                                        "Adds a filter to the chain; parameters left out have their defaults",
                                        add));
-    table.add(part_command<SignalPart>(signal_lab, "signal.filter.set", setting,
+    table.add(part_command<SignalPart>(signal_lab, "signal.filter.set", "Set a filter's parameters", setting,
                                        "Sets parameters of a filter; those left out stay", set));
-    table.add(part_command<SignalPart>(signal_lab, "signal.filter.remove", {at}, "Removes a filter", remove));
-    table.add(part_command<SignalPart>(signal_lab, "signal.filter.move",
+    table.add(part_command<SignalPart>(signal_lab, "signal.filter.remove", "Remove a filter", {at},
+                                       "Removes a filter", remove));
+    table.add(part_command<SignalPart>(signal_lab, "signal.filter.move", "Move a filter in the chain",
                                        {at, index_argument("to", true, "its new place", most_stages)},
                                        "Moves a filter to another place in the chain", move));
-    table.add(part_command<SignalPart>(
-        signal_lab, "signal.filter.enable", {at, switch_argument("on", "the other way round when left out")},
-        "Switches a filter on or off; off, the input passes as it is", enable));
-    table.add(part_command<SignalPart>(signal_lab, "signal.filter.remove_selected", {},
+    table.add(part_command<SignalPart>(signal_lab, "signal.filter.enable", "Switch a filter on or off",
+                                       {at, switch_argument("on", "the other way round when left out")},
+                                       "Switches a filter on or off; off, the input passes as it is",
+                                       enable));
+    table.add(part_command<SignalPart>(signal_lab, "signal.filter.remove_selected", "Delete selection", {},
                                        "Removes the filter that is selected", remove_selected));
     table.add(part_command<SignalPart>(
-        signal_lab, "signal.select",
-        {index_argument("at", false, "which filter; none when left out", most_stages)}, "Selects a filter",
-        select, Effect::Look));
+        signal_lab, "signal.select", "Select a filter",
+        {filter_argument(index_argument("at", false, "which filter; none when left out", most_stages))},
+        "Selects a filter", select, Effect::Look));
 }
 
 }  // namespace tendril::app

@@ -155,7 +155,7 @@ Argument number(const char* name, const char* help, double most) {
 
 void add_fit_commands(CommandTable& table) {
     Command fitting = part_command<SignalPart>(
-        signal_lab, "signal.fit",
+        signal_lab, "signal.fit", "Fit filters to a response",
         {{.name = "to",
           .type = ArgumentType::ListOrText,
           .required = false,
@@ -163,30 +163,32 @@ void add_fit_commands(CommandTable& table) {
         "Fits every kind of filter to a response, and ranks them", fit);
     fitting.finish = finish_fit;
     table.add(std::move(fitting));
-    table.add(part_command<SignalPart>(signal_lab, "signal.fit.cancel", {},
+    table.add(part_command<SignalPart>(signal_lab, "signal.fit.cancel", "Stop the fit", {},
                                        "Ends a fit that is running; what is fitted so far stays", cancel));
     table.add(part_command<SignalPart>(
-        signal_lab, "signal.fit.draw",
+        signal_lab, "signal.fit.draw", "Draw the wanted response",
         {number("from", "seconds", 1e3), number("from_value", "the response there", most_amplitude),
          number("to", "seconds", 1e3), number("to_value", "the response there", most_amplitude)},
         "Draws a stroke of the response that is wanted", draw));
     table.add({.name = "signal.fit.record",
+               .title = "Record the wanted response",
                .arguments = {},
                .help = "Plays the input from its start, once the output ball is dragged, and records that as "
                        "the response that is wanted",
                .apply = begin});
-    table.add(part_command<SignalPart>(signal_lab, "signal.fit.hand",
+    table.add(part_command<SignalPart>(signal_lab, "signal.fit.hand", "Move the recorded output",
                                        {number("value", "where the output should be now", most_amplitude)},
                                        "Shows the response that is being recorded", show));
-    table.add(part_command<SignalPart>(signal_lab, "signal.fit.stop", {},
+    table.add(part_command<SignalPart>(signal_lab, "signal.fit.stop", "Stop recording the response", {},
                                        "Ends the recording of a response; what is there is kept", stop));
     table.add(part_command<SignalPart>(
-        signal_lab, "signal.fit.use",
+        signal_lab, "signal.fit.use", "Use a fitted filter",
         {{.name = "rank", .type = ArgumentType::Integer, .help = "0: the best", .low = 0, .high = 1000}},
         "Puts a fitted filter in the place of the chain", use_fit));
-    table.add(part_command<SignalPart>(signal_lab, "signal.fit.clear", {},
+    table.add(part_command<SignalPart>(signal_lab, "signal.fit.clear", "Forget the wanted response", {},
                                        "Forgets the response that is wanted", forget));
     table.add({.name = "signal.copy",
+               .title = "Copy filters or the past",
                .arguments = {choice_argument("as", true, "what", {"cpp", "csv"})},
                .help = "Puts the filters on the clipboard as C++, or the last ten seconds as CSV",
                .effect = Effect::Look,

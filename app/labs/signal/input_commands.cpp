@@ -73,16 +73,17 @@ void choose_plot(SignalPart& part, const Arguments& given) {
 }  // namespace
 
 void add_input_commands(CommandTable& table) {
-    table.add(part_command<SignalPart>(signal_lab, "signal.clear", {}, "Removes every filter", clear));
-    table.add(part_command<SignalPart>(signal_lab, "signal.reset", {}, "Resets this lab to its first state",
-                                       reset));
+    table.add(part_command<SignalPart>(signal_lab, "signal.clear", "Remove all filters", {},
+                                       "Removes every filter", clear));
+    table.add(part_command<SignalPart>(signal_lab, "signal.reset", "Reset the Signal lab", {},
+                                       "Resets this lab to its first state", reset));
     table.add(part_command<SignalPart>(
-        signal_lab, "signal.preset",
+        signal_lab, "signal.preset", "Open a signal preset",
         {choice_argument("name", true, "which",
                          names(signal_presets(), [](const auto& each) { return each.name; }))},
         "Opens a preset", preset));
     table.add(part_command<SignalPart>(
-        signal_lab, "signal.input",
+        signal_lab, "signal.input", "Set the input",
         {choice_argument("kind", false, "what goes in", input_kinds.names()),
          number_argument("amplitude", "of square, sine and noise", -most_amplitude, most_amplitude),
          number_argument("period", "seconds, of square, sine and noise", shortest_input_period,
@@ -90,10 +91,10 @@ void add_input_commands(CommandTable& table) {
          text_argument("path", false, "of csv: rows of dt,input")},
         "Sets what goes into the first filter; what is left out stays", set_input));
     table.add(part_command<SignalPart>(
-        signal_lab, "signal.hand",
+        signal_lab, "signal.hand", "Move the hand",
         {{.name = "value", .help = "where the hand is", .low = -most_amplitude, .high = most_amplitude}},
         "Moves the hand, which takes the input over", move_hand));
-    table.add(part_command<SignalPart>(signal_lab, "signal.plot",
+    table.add(part_command<SignalPart>(signal_lab, "signal.plot", "Choose the lower plot",
                                        {choice_argument("name", true, "which", signal_plots.names())},
                                        "Chooses the lower plot", choose_plot, Effect::Look));
 }

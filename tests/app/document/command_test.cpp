@@ -52,7 +52,7 @@ TEST_F(CommandArguments, ANumberOrAPoint) {
     const std::string rule = "test.pull: by must be a number or a point [x, y, z], got ";
     EXPECT_EQ(refused("test.pull", {{"by", "3"}}), rule + "\"3\"");
     EXPECT_EQ(refused("test.pull", {{"by", {1, 2}}}), rule + "[1,2]");
-    EXPECT_EQ(refused("test.pull", {{"by", 6}}), "test.pull: by must be -5.0 to 5.0, got 6");
+    EXPECT_EQ(refused("test.pull", {{"by", 6}}), "test.pull: by must be -5 to 5, got 6");
     EXPECT_EQ(refused("test.pull", {{"by", {1, 2, "z"}}}),
               "test.pull: by must be three finite numbers of at most 1e9 in magnitude, got [1,2,\"z\"]");
     refused("test.pull", {{"by", std::nan("")}});

@@ -128,7 +128,8 @@ class Monkey {
             case 9:
                 return MousePress{static_cast<MouseButton>(below(3)), coin()};
             case 10:
-                return MouseWheel{below(10) == 0 ? between(-1e9f, 1e9f) : between(-3.0f, 3.0f)};
+                return MouseWheel{below(10) == 0 ? between(-1e9f, 1e9f) : between(-3.0f, 3.0f),
+                                  below(10) == 0 ? between(-1e9f, 1e9f) : between(-3.0f, 3.0f)};
             case 11:
                 return KeyChange{key(), coin()};
             case 12:

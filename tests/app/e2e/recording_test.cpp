@@ -88,6 +88,7 @@ TEST_F(Recording, holds_the_use_of_panels) {
     script.key("ctrl+k").text("theme").key("enter").wait(1);
     script.move({130, 500}).wheel(-3).wheel(1);
     script.move({1140, 400}).wheel(-2);
+    script.move({640, 500}).line({{"mouse", "wheel"}, {"by", 0.5}, {"sideways", -1.5}});
     script.drag({{640, 600}, {580, 560}, {500, 580}}, "right").drag({{640, 600}, {580, 560}}, "middle");
     script.hold("shift")
         .move({640, 600})

@@ -34,8 +34,8 @@ Played played_with_refusals(const ScriptText& script) {
 TEST(TypedNumbers, OutOfRangeAreRefusedWithValueAndRange) {
     const Played played = played_with_refusals(typed_into_every_row("99999"));
     for (const char* reason : {"chain.solver: iterations must be 1 to 10000, got 99999",
-                               "chain.solver: snap_back must be 0.0 to 1.0, got 99999.0",
-                               "chain.solver: soft_zone must be 0.0 to 1.0, got 99999.0"})
+                               "chain.solver: snap_back must be 0 to 1, got 99999.0",
+                               "chain.solver: soft_zone must be 0 to 1, got 99999.0"})
         EXPECT_TRUE(has(played.outcome.err, reason));
     const app::Json& solve = played.state.at("solve");
     EXPECT_EQ(solve.at("iterations"), 100);

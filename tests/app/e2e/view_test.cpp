@@ -51,6 +51,61 @@ TEST(View, ButtonsFollowThePreset) {
               state_after(preset("maya"))["camera"]["distance"].get<double>());
 }
 
+struct Seen {
+    double distance = 0.0;
+    glm::vec3 target{0.0f};
+};
+
+Seen seen_after(ScriptText script) {
+    const Json camera = state_after(script.wait(1))["camera"];
+    return {camera["distance"].get<double>(), point_of(camera["target"])};
+}
+
+Json wheel(double by, double sideways) {
+    return {{"mouse", "wheel"}, {"by", by}, {"sideways", sideways}};
+}
+
+ScriptText scrolls(const char* what) {
+    return ScriptText().command("view.scroll", {{"does", what}}).move(nothing);
+}
+
+TEST(View, TheWheelZoomsAndSidewaysItShifts) {
+    const Seen before = seen_after(scrolls("zoom"));
+    const Seen zoomed = seen_after(scrolls("zoom").wheel(2));
+    EXPECT_LT(zoomed.distance, before.distance);
+    const Seen shifted = seen_after(scrolls("zoom").line(wheel(0, 2)));
+    EXPECT_EQ(shifted.distance, before.distance);
+    EXPECT_GT(glm::distance(shifted.target, before.target), 0.05f);
+    // To the left and back again.
+    const Seen back = seen_after(scrolls("zoom").line(wheel(0, 2)).line(wheel(0, -2)));
+    EXPECT_LT(glm::distance(back.target, before.target), 1e-4f);
+    // Two fingers never go quite straight.
+    const Seen slanted = seen_after(scrolls("zoom").line(wheel(2, 0.5)));
+    EXPECT_EQ(slanted.distance, zoomed.distance);
+    EXPECT_EQ(slanted.target, zoomed.target);
+}
+
+TEST(View, TwoFingersShiftItWhereThatIsChosenAndZoomWithCtrl) {
+    const Seen before = seen_after(scrolls("pan"));
+    const Seen up = seen_after(scrolls("pan").wheel(2)), aside = seen_after(scrolls("pan").line(wheel(0, 2)));
+    const Seen both = seen_after(scrolls("pan").line(wheel(2, 2)));
+    for (const Seen& each : {up, aside, both}) {
+        EXPECT_EQ(each.distance, before.distance);
+        EXPECT_GT(glm::distance(each.target, before.target), 0.05f);
+    }
+    EXPECT_LT(glm::distance(both.target - before.target, up.target + aside.target - 2.0f * before.target),
+              1e-3f);
+    // As far as the same way with the middle button: the scene follows the fingers.
+    const Seen dragged =
+        seen_after(scrolls("pan").down("middle").move(nothing + glm::vec2(30, 30)).up("middle"));
+    EXPECT_LT(glm::distance(both.target, dragged.target), 1e-3f);
+    const Seen pinched = seen_after(scrolls("pan").hold("ctrl").wheel(2).release("ctrl"));
+    EXPECT_EQ(pinched.distance, seen_after(scrolls("zoom").wheel(2)).distance);
+    // Over a panel it is the panel's.
+    const Seen panel = seen_after(scrolls("pan").move({100, 400}).line(wheel(2, 2)));
+    EXPECT_EQ(panel.target, before.target);
+}
+
 TEST(Panels, ASectionFoldsByAClickOnItsTitle) {
     // Folded presets bring the modes up to where they were: a click there chooses Reach.
     const glm::vec2 presets(40.0f, 69.0f);

@@ -88,7 +88,7 @@ TEST_F(ChainCommands, RefusalsSayWhyInOneLine) {
     EXPECT_EQ(refused("chain.remove", {{"index", 8}}),
               "chain.remove: index 8 is out of range, the chain has 8 segments");
     EXPECT_EQ(refused("chain.add", Json::object()), "chain.add: length is missing (a number)");
-    EXPECT_EQ(refused("chain.add", {{"length", -1}}), "chain.add: length must be at least 0.0, got -1");
+    EXPECT_EQ(refused("chain.add", {{"length", -1}}), "chain.add: length must be at least 0, got -1");
     EXPECT_EQ(refused("chain.add", {{"length", "long"}}), "chain.add: length must be a number, got \"long\"");
     EXPECT_EQ(refused("chain.add", {{"lenght", 1}, {"length", 1}}).substr(0, 44),
               "chain.add: unknown argument \"lenght\"; it tak");

@@ -86,7 +86,7 @@ TEST_F(ThirdLab, IsPicturedAndItsHandlesAreWhereTheyAreDrawn) {
 
 TEST_F(ThirdLab, IsInThePaletteTheHelpAndTheShortcuts) {
     EXPECT_EQ(search_commands(app_.commands(), "spring.anchor").front()->name, "spring.anchor");
-    const Shortcuts shortcuts(app_.labs());
+    const Shortcuts shortcuts(app_.labs(), app_.commands());
     const Shortcut* row = shortcuts.find(*chord_from_name("r"), "spring");
     ASSERT_NE(row, nullptr);
     EXPECT_EQ(row->command, "spring.ball");

@@ -112,7 +112,8 @@ bool same(const MousePress& a, const MousePress& b) {
     return a.button == b.button && a.down == b.down;
 }
 bool same(const MouseWheel& a, const MouseWheel& b) {
-    return std::bit_cast<std::uint32_t>(a.by) == std::bit_cast<std::uint32_t>(b.by);
+    return std::bit_cast<std::uint32_t>(a.by) == std::bit_cast<std::uint32_t>(b.by) &&
+           std::bit_cast<std::uint32_t>(a.sideways) == std::bit_cast<std::uint32_t>(b.sideways);
 }
 bool same(const KeyChange& a, const KeyChange& b) {
     return a.key == b.key && a.down == b.down;

@@ -32,7 +32,7 @@ inline app::Event random_event(std::mt19937& random) {
         case 1:
             return MousePress{static_cast<MouseButton>(below(3)), coin()};
         case 2:
-            return MouseWheel{number()};
+            return MouseWheel{number(), coin() ? number() : 0.0f};
         case 3:
             return KeyChange{key(), coin()};
         case 4:

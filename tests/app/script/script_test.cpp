@@ -54,6 +54,8 @@ TEST(Script, has_lines_for_the_mouse) {
     EXPECT_TRUE(!up.down && up.button == MouseButton::Right);
     EXPECT_EQ(only_event<MousePress>(R"({"mouse": "up", "button": "middle"})").button, MouseButton::Middle);
     EXPECT_EQ(only_event<MouseWheel>(R"({"mouse": "wheel", "by": -2})").by, -2.0f);
+    EXPECT_EQ(only_event<MouseWheel>(R"({"mouse": "wheel", "by": -2})").sideways, 0.0f) << "an old recording";
+    EXPECT_EQ(only_event<MouseWheel>(R"({"mouse": "wheel", "by": 0, "sideways": 1.5})").sideways, 1.5f);
 }
 
 TEST(Script, has_lines_for_keys_and_text) {

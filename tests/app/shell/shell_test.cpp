@@ -36,7 +36,7 @@ bool accepted_somewhere(const Labs& labs, const CommandTable& table, const Short
 TEST(Shortcuts, EachRunsACommandOfTheTableAndNoTwoShareAKey) {
     const Labs labs;
     const CommandTable table = make_command_table(labs);
-    const Shortcuts shortcuts(labs);
+    const Shortcuts shortcuts(labs, table);
     std::vector<std::string> seen;
     for (const Shortcut& shortcut : shortcuts.all()) {
         ASSERT_NE(table.find(shortcut.command), nullptr) << shortcut.command;
@@ -56,7 +56,8 @@ TEST(Shortcuts, EachRunsACommandOfTheTableAndNoTwoShareAKey) {
 }
 
 TEST(Shortcuts, OfALabStandBehindTheOthersOfTheirSection) {
-    const Shortcuts shortcuts((Labs()));
+    const Labs labs;
+    const Shortcuts shortcuts(labs, make_command_table(labs));
     std::vector<std::string> sections;
     for (const Shortcut& shortcut : shortcuts.all())
         if (sections.empty() || sections.back() != shortcut.section) sections.push_back(shortcut.section);
@@ -89,6 +90,8 @@ TEST(Shortcuts, TheMouseTurnsAndShiftsTheView) {
         EXPECT_EQ(does(preset, left, {.shift = true}), std::nullopt) << "a drag in the ground plane";
         EXPECT_NE(view_hint(preset).find(" turns the view"), std::string::npos);
     }
+    EXPECT_EQ(view_hint(own, Scroll::Pan),
+              "Right-drag turns the view, two fingers shift it; with Ctrl they zoom.");
     EXPECT_EQ(view_hint(own), "Right-drag turns the view, middle-drag shifts it, the wheel zooms.");
 }
 

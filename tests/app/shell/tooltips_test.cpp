@@ -288,7 +288,7 @@ class ShellTooltips : public TooltipTest, public testing::WithParamInterface<con
         require(found, name);
     }
 
-    Shortcuts shortcuts_{labs_};
+    Shortcuts shortcuts_{labs_, table_};
 };
 
 TEST_P(ShellTooltips, StandAtTheTopBarAndAtTheEdgesOfThePanels) {

@@ -63,7 +63,8 @@ void add_attachment_commands(CommandTable& table) {
     };
     table.add(
         {.name = "humanoid.attach",
-         .arguments = {text_argument("bone", true, "a bone, as it is mapped, or a node, by name"),
+         .title = "Attach a rope, hair or cloth",
+         .arguments = {node_argument("bone", true, "a bone, as it is mapped, or a node, by name"),
                        choice_argument("kind", true, "what", attachment_kinds.names()),
                        text_argument("name", false, "a new one; after its kind when left out"),
                        metres("length", "metres"),
@@ -79,8 +80,13 @@ void add_attachment_commands(CommandTable& table) {
                  "character's height",
          .effect = Effect::Edit,
          .apply = attach});
-    table.add(part_command<HumanoidPart>(humanoid_lab, "humanoid.detach",
-                                         {text_argument("name", true, "of the attachment")},
+    table.add(part_command<HumanoidPart>(humanoid_lab, "humanoid.detach", "Detach a rope, hair or cloth",
+                                         {offering(text_argument("name", true, "of the attachment"),
+                                                   [](const Workspace& w) {
+                                                       return names(
+                                                           humanoid_part(w).attachments.list,
+                                                           [](const Attachment& each) { return each.name; });
+                                                   })},
                                          "Takes a rope, hair or a cloth off the character", detach));
 }
 

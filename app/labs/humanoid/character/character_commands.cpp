@@ -111,8 +111,22 @@ std::size_t node_named(const HumanoidPart& part, const std::string& name) {
     throw std::invalid_argument("the character has no node \"" + name + "\"");
 }
 
+Argument node_argument(const char* name, bool required, const char* help) {
+    return offering(text_argument(name, required, help), [](const Workspace& w) {
+        return names(humanoid_part(w).skeleton().nodes(),
+                     [](const humanoid::Node& node) { return node.name; });
+    });
+}
+
+Argument clip_argument(const char* name, const char* help) {
+    return offering(text_argument(name, false, help), [](const Workspace& w) {
+        return names(humanoid_part(w).loaded->clips(), [](const humanoid::Clip& clip) { return clip.name; });
+    });
+}
+
 void add_character_commands(CommandTable& table) {
     table.add({.name = "humanoid.load",
+               .title = "Load a character",
                .arguments = {text_argument(
                    "path", false, "a .gltf, .glb, .fbx or .bvh file; the stick figure when left out")},
                .help = "Loads a character, as it rests, with nothing playing",
@@ -120,6 +134,7 @@ void add_character_commands(CommandTable& table) {
                .apply = load,
                .finish = finish_loading});
     table.add({.name = "humanoid.load.cancel",
+               .title = "Stop loading the character",
                .arguments = {},
                .help = "Ends the loading of a large file; the character that is there stays",
                .effect = Effect::Look,
@@ -127,11 +142,12 @@ void add_character_commands(CommandTable& table) {
                    humanoid_runtime(workspace).loading.cancel();
                }});
     table.add(keeping(part_command<HumanoidPart>(
-        humanoid_lab, "humanoid.map",
+        humanoid_lab, "humanoid.map", "Map a bone to a node",
         {choice_argument("bone", true, "which", bone_names()),
-         text_argument("node", false, "of the skeleton, by name; none when left out")},
+         node_argument("node", false, "of the skeleton, by name; none when left out")},
         "Says which node of the character is a bone", map)));
     table.add({.name = "humanoid.scale",
+               .title = "Correct the character's scale",
                .arguments = {{.name = "metres",
                               .help = "of a unit of the file",
                               .low = smallest_unit,
@@ -140,7 +156,8 @@ void add_character_commands(CommandTable& table) {
                .effect = Effect::Edit,
                .apply = rescale});
     table.add(part_command<HumanoidPart>(
-        humanoid_lab, "humanoid.t_pose", {{.name = "on", .type = ArgumentType::Boolean, .help = "or off"}},
+        humanoid_lab, "humanoid.t_pose", "Show the T-pose",
+        {{.name = "on", .type = ArgumentType::Boolean, .help = "or off"}},
         "Shows the rest pose with its arms straight aside and its legs straight down", set_t_pose));
 }
 

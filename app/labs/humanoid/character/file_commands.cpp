@@ -99,28 +99,30 @@ std::optional<Fault> fault_named(const std::string& name) {
 
 void add_humanoid_file_commands(CommandTable& table) {
     table.add({.name = "humanoid.map.save",
+               .title = "Save the bone map",
                .arguments = {text_argument("path", true, "a JSON file to write")},
                .help = "Writes which node is which bone",
                .effect = Effect::Look,
                .apply = save_map});
     table.add(keeping(
-        part_command<HumanoidPart>(humanoid_lab, "humanoid.map.load",
+        part_command<HumanoidPart>(humanoid_lab, "humanoid.map.load", "Load a bone map",
                                    {text_argument("path", true, "a JSON file that humanoid.map.save wrote")},
                                    "Takes a bone map that was saved", load_map)));
     add_kept_map_commands(table);
     table.add({.name = "humanoid.export",
+               .title = "Export a clip",
                .arguments = {text_argument("path", true, "a .gltf, .glb or .bvh file to write"),
-                             text_argument("clip", false, "which one; the chosen one, or the first"),
+                             clip_argument("clip", "which one; the chosen one, or the first"),
                              number_argument("fps", "frames a second; 60", smallest_rate, largest_rate)},
                .help = "Writes a clip with all that IK does to it, and says how near the file comes",
                .effect = Effect::Look,
                .apply = export_shown});
     table.add(part_command<HumanoidPart>(
-        humanoid_lab, "humanoid.cure",
+        humanoid_lab, "humanoid.cure", "Fix a fault in a clip",
         {choice_argument("kind", true, "of fault", fault_names()),
-         text_argument("node", false, "of the skeleton; all when left out"),
+         node_argument("node", false, "of the skeleton; all when left out"),
          integer_argument("frame", "of the clip's own; all when left out", 0, humanoid::max_lint_frames),
-         text_argument("clip", false, "which one; the chosen one, or the first")},
+         clip_argument("clip", "which one; the chosen one, or the first")},
         "Mends what the motion lint has found in a clip", cure_clip));
 }
 

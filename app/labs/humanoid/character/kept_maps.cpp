@@ -119,16 +119,19 @@ Command keeping(Command command) {
 
 void add_kept_map_commands(CommandTable& table) {
     table.add({.name = "humanoid.map.keep",
+               .title = "Keep the bone map",
                .arguments = {},
                .help = "Keeps the bone map, to be offered for characters of the same node names",
                .effect = Effect::Look,
                .apply = keep_told});
     table.add({.name = "humanoid.map.use",
+               .title = "Use the kept bone map",
                .arguments = {},
                .help = "Takes the bone map that was kept for these node names",
                .effect = Effect::Edit,
                .apply = use});
     table.add({.name = "humanoid.map.forget",
+               .title = "Forget the kept bone map",
                .arguments = {},
                .help = "Removes the bone map that was kept for these node names",
                .effect = Effect::Look,

@@ -64,8 +64,8 @@ void set_clip(HumanoidPart& part, const Arguments& given) {
 
 void add_clip_commands(CommandTable& table) {
     Command clip = part_command<HumanoidPart>(
-        humanoid_lab, "humanoid.clip",
-        {text_argument("name", false, "which clip; empty: the rest pose"),
+        humanoid_lab, "humanoid.clip", "Choose and play a clip",
+        {clip_argument("name", "which clip; empty: the rest pose"),
          integer_argument("index", "instead of the name, counted from 0", 0, 1e6),
          switch_argument("play", "or pause"),
          number_argument("time", "seconds from its beginning; over its duration, in a later round", 0.0, 1e6),

@@ -82,17 +82,17 @@ void add_hand_commands(CommandTable& table) {
         number_argument("view_deg", "half the angle of the cone in which targets are followed, degrees", 0.0,
                         widest_view_deg);
     table.add(ik_command(
-        "humanoid.hand_ik",
+        "humanoid.hand_ik", "Set hand IK",
         {switch_argument("on", "the targets of hands move the arm alone, blended to by their weight"),
          choice_argument("hand", false, "whose curve; both when left out", {"left", "right", "both"}),
          switch_argument("curve", "the weight follows the clip's time"),
          seconds("begin", "of the clip: 0 until then"), seconds("full", "1 from then"),
          seconds("until", "1 until then"), seconds("end", "0 from then"), view},
         "Blends the hands from the clip to their targets; what is left out stays", set_hand_ik));
-    table.add(ik_command("humanoid.self_collision",
+    table.add(ik_command("humanoid.self_collision", "Keep hands out of the body",
                          {{.name = "on", .type = ArgumentType::Boolean, .help = "or off"}},
                          "Keeps hands and lower arms out of the body while it reaches", set_self_collision));
-    table.add(ik_command("humanoid.look_at",
+    table.add(ik_command("humanoid.look_at", "Look at a point",
                          {switch_argument("on", "or off"),
                           point_argument("to", false, "metres; ahead of the head when it was never given"),
                           number_argument("weight", "0: as in the clip, 1: looks there", 0.0, 1.0), view},

@@ -30,9 +30,10 @@ void let_go(Workspace& workspace, const IkSettings& settings, const std::vector<
 
 }  // namespace
 
-Command ik_command(const char* name, std::vector<Argument> arguments, const char* help,
+Command ik_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
                    void (*change)(const IkNow&, HumanoidPart&, const Arguments&)) {
     return {.name = name,
+            .title = title,
             .arguments = std::move(arguments),
             .help = help,
             .effect = Effect::Edit,

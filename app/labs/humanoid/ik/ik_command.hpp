@@ -13,7 +13,7 @@ struct IkNow {
 };
 
 /// Changes the part; IK then remembers where that brings it.
-Command ik_command(const char* name, std::vector<Argument> arguments, const char* help,
+Command ik_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
                    void (*change)(const IkNow&, HumanoidPart&, const Arguments&));
 
 /// Of a Point, with all its digits.

@@ -95,7 +95,7 @@ std::vector<std::string> effector_names() {
 
 void add_ik_commands(CommandTable& table) {
     table.add(
-        ik_command("humanoid.target",
+        ik_command("humanoid.target", "Set an effector's target",
                    {choice_argument("effector", true, "which", effector_names()),
                     point_argument("to", false, "metres; where the effector is when left out"),
                     {.name = "rotation",
@@ -105,7 +105,7 @@ void add_ik_commands(CommandTable& table) {
                     number_argument("weight", "against other targets; 0 lets go", 0.0, heaviest_target)},
                    "Gives an effector a target, or lets it go", set_target));
     Command ground =
-        ik_command("humanoid.ground",
+        ik_command("humanoid.ground", "Choose the ground",
                    {choice_argument("kind", false, "which", ground_kinds.names()),
                     number_argument("angle_deg", "of the slope, degrees", -steepest_deg, steepest_deg),
                     number_argument("step_height", "of the stairs, metres", -highest_step, highest_step),
@@ -121,7 +121,7 @@ void add_ik_commands(CommandTable& table) {
     };
     table.add(std::move(ground));
     table.add(ik_command(
-        "humanoid.foot_ik",
+        "humanoid.foot_ik", "Set foot IK",
         {switch_argument("on", "or off"),
          number_argument("enter_speed", "m/s: a low foot that is slower is planted", 0.0, fastest_foot),
          number_argument("leave_speed", "m/s: one that is faster is let go", 0.0, fastest_foot),
@@ -130,7 +130,7 @@ void add_ik_commands(CommandTable& table) {
         "Brings the feet to the ground; what is left out stays", set_foot_ik));
     add_hand_commands(table);
     table.add(ik_command(
-        "humanoid.limits",
+        "humanoid.limits", "Choose where joint limits come from",
         {choice_argument("from", true, "which", limits_from.names()),
          choice_argument("bone", false, "of that joint alone; of all when left out", bone_names())},
         "Says where the limits of the joints come from", set_limits));

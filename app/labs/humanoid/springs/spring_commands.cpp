@@ -52,8 +52,8 @@ void set_spring(HumanoidPart& part, const Arguments& given) {
 
 void add_spring_commands(CommandTable& table) {
     table.add(part_command<HumanoidPart>(
-        humanoid_lab, "humanoid.spring",
-        {text_argument("node", true, "by name: it and all that hangs on it, no bones of the body"),
+        humanoid_lab, "humanoid.spring", "Let a node swing on springs",
+        {node_argument("node", true, "by name: it and all that hangs on it, no bones of the body"),
          switch_argument("on", "or off"),
          number_argument("strength", "of the tip, Hz; the base is stiffer", softest_spring, stiffest_spring),
          number_argument("critical_damping", "0 swings for ever, 1 does not swing past", 0.0,

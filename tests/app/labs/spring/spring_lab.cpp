@@ -35,9 +35,10 @@ std::shared_ptr<Part> SpringPart::load(const Json& json, const std::string& wher
 void SpringLab::add_commands(CommandTable& table) const {
     const Argument to{.name = "to", .type = ArgumentType::Point, .help = "metres"};
     table.add(part_command<SpringPart>(
-        lab, "spring.anchor", {to}, "Moves what the spring hangs from",
+        lab, "spring.anchor", "Move the anchor", {to}, "Moves what the spring hangs from",
         [](SpringPart& part, const Arguments& given) { part.anchor = given.point("to"); }));
-    table.add(part_command<SpringPart>(lab, "spring.ball", {to}, "Puts the ball somewhere, at rest",
+    table.add(part_command<SpringPart>(lab, "spring.ball", "Put the ball somewhere", {to},
+                                       "Puts the ball somewhere, at rest",
                                        [](SpringPart& part, const Arguments& given) {
                                            part.ball = given.point("to");
                                            part.velocity = glm::vec3(0.0f);

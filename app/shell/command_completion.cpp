@@ -1,0 +1,132 @@
+#include "app/shell/command_completion.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+
+#include "app/document/argument_check.hpp"
+#include "app/document/command.hpp"
+
+namespace tendril::app {
+namespace {
+
+std::string lower(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+/// In that order: those that begin with what is typed, then those that have it elsewhere.
+void sort_by(std::vector<CompletionRow>& rows, const std::string& typed) {
+    const std::string wanted = lower(typed);
+    const auto place = [&](const CompletionRow& row) { return lower(row.text).find(wanted); };
+    std::erase_if(rows, [&](const CompletionRow& row) { return place(row) == std::string::npos; });
+    std::stable_partition(rows.begin(), rows.end(),
+                          [&](const CompletionRow& row) { return place(row) == 0; });
+}
+
+/// What is typed of a value, without the quote that begins a text.
+std::string bare(const std::string& value) {
+    return value.starts_with('"') ? value.substr(1) : value;
+}
+
+std::vector<CompletionRow> value_rows(const TypedLine& typed, const Argument& argument,
+                                      const std::string& line, const Workspace& workspace) {
+    std::vector<std::string> values = argument.choices;
+    if (argument.type == ArgumentType::Boolean) values = {"true", "false"};
+    if (values.empty() && argument.known) values = argument.known(workspace);
+    const std::string now = argument.present ? argument.present(workspace) : std::string();
+    if (values.empty() && !now.empty()) values = {now};
+    const bool text = argument.type == ArgumentType::Text;
+    std::vector<CompletionRow> rows;
+    for (const std::string& value : values)
+        rows.push_back(
+            {value, value == now ? "now" : "", argument.help,
+             line.substr(0, typed.last_at) + argument.name + "=" + (text ? quoted(value) : value) + " "});
+    sort_by(rows, bare(typed.last.value));
+    if (rows.size() > most_rows) rows.erase(rows.begin() + most_rows, rows.end());
+    return rows;
+}
+
+std::string detail_of(const Argument& argument, const Workspace& workspace) {
+    return rule_text(argument) + (argument.present ? "; now " + argument.present(workspace) : "");
+}
+
+std::vector<CompletionRow> argument_rows(const TypedLine& typed, const std::string& line,
+                                         const Workspace& workspace) {
+    // The next argument goes behind what is typed, in the place of a name that is not finished.
+    const bool behind = typed.last.assigned;
+    const std::string before = behind ? line + " " : line.substr(0, typed.last_at);
+    std::vector<CompletionRow> required, optional, given;
+    for (const Argument& argument : typed.command->arguments) {
+        CompletionRow row{argument.name + "=", detail_of(argument, workspace), argument.help,
+                          before + argument.name + "="};
+        if (const TypedArgument* found = typed.find(argument.name)) {
+            row.given = true;
+            row.text += found->value;
+            row.line = line;
+            given.push_back(std::move(row));
+        } else {
+            (argument.required ? required : optional).push_back(std::move(row));
+        }
+    }
+    std::vector<CompletionRow> rows = std::move(required);
+    rows.insert(rows.end(), std::make_move_iterator(optional.begin()),
+                std::make_move_iterator(optional.end()));
+    if (!behind && !typed.last.name.empty()) {
+        auto matching = rows;
+        sort_by(matching, typed.last.name);
+        if (!matching.empty()) return matching;
+    }
+    // What is being typed is what the list is about.
+    const auto current = std::find_if(given.begin(), given.end(), [&](const CompletionRow& row) {
+        return behind && row.text == typed.last.name + "=" + typed.last.value;
+    });
+    if (current != given.end()) {
+        rows.insert(rows.begin(), std::move(*current));
+        given.erase(current);
+    }
+    rows.insert(rows.end(), std::make_move_iterator(given.begin()), std::make_move_iterator(given.end()));
+    return rows;
+}
+
+}  // namespace
+
+std::string common_prefix(const std::vector<std::string>& texts) {
+    if (texts.empty()) return {};
+    std::string prefix = texts.front();
+    for (const std::string& text : texts) {
+        const auto end = std::mismatch(prefix.begin(), prefix.end(), text.begin(), text.end()).first;
+        prefix.erase(end, prefix.end());
+    }
+    // Not in the middle of a character.
+    while (!prefix.empty() && texts.front().size() > prefix.size() &&
+           (static_cast<unsigned char>(texts.front()[prefix.size()]) & 0xC0) == 0x80)
+        prefix.pop_back();
+    return prefix;
+}
+
+std::vector<CompletionRow> completions(const TypedLine& typed, const std::string& line,
+                                       const Workspace& workspace) {
+    if (typed.command == nullptr) return {};
+    if (typed.last.assigned) {
+        if (const Argument* argument = find_argument(*typed.command, typed.last.name)) {
+            auto rows = value_rows(typed, *argument, line, workspace);
+            if (!rows.empty()) return rows;
+        }
+    }
+    return argument_rows(typed, line, workspace);
+}
+
+std::string completed(const TypedLine& typed, const std::string& line, const std::vector<CompletionRow>& rows,
+                      std::size_t chosen) {
+    if (chosen >= rows.size()) return line;
+    const std::string text = typed.last.assigned ? typed.last.value : typed.last.name;
+    std::vector<std::string> beginning;
+    for (const CompletionRow& row : rows)
+        if (!row.given && !text.empty() && row.text.starts_with(text)) beginning.push_back(row.text);
+    const std::string common = common_prefix(beginning);
+    if (beginning.size() < 2 || common.size() <= text.size()) return rows[chosen].line;
+    return line.substr(0, line.size() - text.size()) + common;
+}
+
+}  // namespace tendril::app

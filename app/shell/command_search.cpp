@@ -1,0 +1,75 @@
+#include "app/shell/command_search.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <sstream>
+#include <tuple>
+#include <utility>
+
+#include "app/document/command.hpp"
+
+namespace tendril::app {
+namespace {
+
+std::string lower(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+/// Whether it begins a word of the text: at its start, or behind what is no letter and no digit.
+bool begins_word(const std::string& text, const std::string& word) {
+    for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + 1))
+        if (at == 0 || std::isalnum(static_cast<unsigned char>(text[at - 1])) == 0) return true;
+    return false;
+}
+
+/// How far from what is meant, 0 the nearest; nothing where a word is not there at all.
+std::optional<int> distance(const Command& command, const std::vector<std::string>& words) {
+    const std::string title = lower(command.title), name = lower(command.name), help = lower(command.help);
+    int sum = 0;
+    for (const std::string& word : words) {
+        const int of_word = begins_word(title, word)               ? 0
+                            : begins_word(name, word)              ? 1
+                            : name.find(word) != name.npos         ? 2
+                            : title.find(word) != title.npos       ? 3
+                            : help.find(word) != std::string::npos ? 4
+                                                                   : -1;
+        if (of_word < 0) return std::nullopt;
+        sum += of_word;
+    }
+    return sum;
+}
+
+}  // namespace
+
+std::vector<const Command*> search_commands(const CommandTable& table, const std::string& query,
+                                            std::string_view open_lab, std::span<const std::string> recent) {
+    std::istringstream stream(lower(query.substr(0, query.find('='))));
+    std::vector<std::string> words;
+    for (std::string word; stream >> word;) words.push_back(word);
+    // With "chain.add length=..." typed, the last word is an argument's name.
+    if (query.find('=') != std::string::npos && words.size() > 1) words.resize(1);
+
+    const auto age = [&](const Command& command) {
+        return words.empty() ? std::find(recent.begin(), recent.end(), command.name) - recent.begin() : 0;
+    };
+    const auto scope = [&](const Command& command) {
+        return open_lab.empty() || command.lab == open_lab ? 0 : command.lab.empty() ? 1 : 2;
+    };
+    using Rank = std::tuple<bool, std::ptrdiff_t, bool, int, int>;
+    std::vector<std::pair<Rank, const Command*>> found;
+    for (const Command& command : table.all()) {
+        const auto far = distance(command, words);
+        if (!far) continue;
+        const bool other = words.size() != 1 || lower(command.name) != words.front();
+        found.push_back({{other, age(command), scope(command) == 2, *far, scope(command)}, &command});
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<const Command*> list;
+    for (const auto& [rank, command] : found) list.push_back(command);
+    return list;
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,208 @@
+// The command palette in the running program: what is typed, Tab, Enter and the mouse, and what ran.
+#include <imgui.h>
+
+#include <random>
+
+#include "app/app.hpp"
+#include "app/document/command.hpp"
+#include "app/document/json_complete.hpp"
+#include "app/labs/chain/chain_lab.hpp"
+#include "app/shell/ui.hpp"
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+using namespace app;
+
+class PaletteTest : public testing::Test {
+  public:
+    void take(const Event& event) { app_.tick(&event); }
+    PaletteTest& key(const char* name) {
+        take(KeyTap{*chord_from_name(name)});
+        return *this;
+    }
+    PaletteTest& type(const std::string& text) {
+        take(TextInput{text});
+        return *this;
+    }
+    PaletteTest& open() {
+        key("ctrl+k");
+        app_.tick(nullptr);
+        return *this;
+    }
+    bool is_open() { return app_.workspace().ui.palette; }
+    const ChainPart& chain() { return chain_part(app_.workspace()); }
+
+    std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
+    App app_{*window_};
+};
+
+TEST_F(PaletteTest, PlainWordsFindACommandAndEnterAsksForItsArguments) {
+    const std::size_t before = chain().chain.size();
+    open().type("joint at the tip").key("enter");
+    EXPECT_TRUE(is_open()) << "it needs a length";
+    app_.tick(nullptr);
+    type("1.5").key("enter");
+    EXPECT_FALSE(is_open());
+    ASSERT_EQ(chain().chain.size(), before + 1);
+    EXPECT_FLOAT_EQ(chain().chain.segments().back().length, 1.5f);
+}
+
+TEST_F(PaletteTest, TabCompletesNameArgumentAndValueWithTheCaretBehind) {
+    open().type("chain.mod").key("tab").type("re").key("tab").key("enter");
+    EXPECT_FALSE(is_open());
+    EXPECT_EQ(app_.state()["mode"], "reach");
+    // What several commands have in common, then the one that is typed on.
+    const std::size_t before = chain().chain.size();
+    open().type("chain.remo").key("tab").key("tab").type("1").key("enter");
+    EXPECT_FALSE(is_open());
+    EXPECT_EQ(chain().chain.size(), before - 1);
+}
+
+TEST_F(PaletteTest, TabGoesAsFarAsAllAgree) {
+    const std::string before = app_.state()["mode"];
+    open().type("microscope.s").key("tab").type("eek step=0");
+    key("escape");
+    EXPECT_FALSE(is_open());
+    open().type("time.sp").key("tab").type("0.5").key("enter");
+    EXPECT_FALSE(is_open());
+    EXPECT_FLOAT_EQ(app_.workspace().clock.speed, 0.5f);
+    EXPECT_EQ(app_.state()["mode"], before);
+}
+
+TEST_F(PaletteTest, UpAndDownChooseAValueAndEnterTakesItThenRuns) {
+    open().type("chain.mode mode=").key("down").key("down").key("enter");
+    EXPECT_TRUE(is_open()) << "what was chosen stands in the line now";
+    EXPECT_NE(app_.state()["mode"], "fixed");
+    app_.tick(nullptr);
+    key("enter");
+    EXPECT_FALSE(is_open());
+    EXPECT_EQ(app_.state()["mode"], "fixed");
+}
+
+TEST_F(PaletteTest, EnterFinishesAValueThatIsBegun) {
+    open().type("chain.mode mode=re").key("enter");
+    EXPECT_TRUE(is_open());
+    app_.tick(nullptr);
+    key("enter");
+    EXPECT_FALSE(is_open());
+    EXPECT_EQ(app_.state()["mode"], "reach");
+}
+
+TEST_F(PaletteTest, AMistakeRunsNothingAndCanBeMended) {
+    const std::size_t before = chain().chain.size();
+    for (const char* line : {"chain.add length=-1", "chain.add lenght=1", "chain.add length=abc",
+                             "chain.add 1", "nothing like=that", "chain.add position=[0,1,0]"}) {
+        open().type(line).key("enter");
+        EXPECT_TRUE(is_open()) << line;
+        EXPECT_TRUE(app_.workspace().ui.toasts.empty()) << "told in the palette, not by a refusal";
+        key("escape");
+        ASSERT_EQ(chain().chain.size(), before) << line;
+    }
+    open().type("chain.add length=-").key("enter");
+    ASSERT_TRUE(is_open());
+    app_.tick(nullptr);
+    key("backspace").type("2").key("enter");
+    EXPECT_FALSE(is_open());
+    EXPECT_EQ(chain().chain.size(), before + 1);
+}
+
+TEST_F(PaletteTest, OpensOnWhatRanLastAndRunsNothingUnasked) {
+    const Settings fresh = app_.workspace().settings;
+    const auto undone = app_.workspace().history.can_undo();
+    open().key("enter");
+    EXPECT_TRUE(is_open());
+    EXPECT_EQ(app_.workspace().history.can_undo(), undone);
+    key("escape");
+    open().type("light and dark").key("enter");
+    EXPECT_NE(app_.workspace().settings.theme, fresh.theme);
+    open().key("enter");
+    EXPECT_FALSE(is_open());
+    EXPECT_EQ(app_.workspace().settings.theme, fresh.theme) << "once more, by Enter alone";
+}
+
+TEST_F(PaletteTest, AClickOnARowChoosesIt) {
+    const Theme theme = app_.workspace().settings.theme;
+    open().type("theme");
+    const glm::vec2 first(420, 127);
+    take(MouseMove{first});
+    take(MousePress{MouseButton::Left, true});
+    take(MousePress{MouseButton::Left, false});
+    app_.tick(nullptr);
+    EXPECT_FALSE(is_open());
+    EXPECT_NE(app_.workspace().settings.theme, theme);
+    // One that needs an argument goes on in the line, with the keyboard there.
+    open().type("simulation's speed");
+    take(MousePress{MouseButton::Left, true});
+    take(MousePress{MouseButton::Left, false});
+    EXPECT_TRUE(is_open());
+    for (int i = 0; i < 3; ++i) app_.tick(nullptr);
+    type("0.25").key("enter");
+    EXPECT_FALSE(is_open());
+    EXPECT_FLOAT_EQ(app_.workspace().clock.speed, 0.25f);
+}
+
+TEST_F(PaletteTest, NamesOfTheSceneComplete) {
+    app_.run({"rope.add", Json{{"from", {0, 1, 0}}, {"to", {1, 1, 0}}, {"name", "blue line"}}});
+    open().type("rope.remove name=blu").key("tab").key("enter");
+    EXPECT_FALSE(is_open());
+    EXPECT_TRUE(app_.workspace().ui.toasts.empty()) << app_.workspace().ui.toasts.front().text;
+    const auto& known = app_.commands().find("rope.remove")->arguments.front().known;
+    const auto left = known(app_.workspace());
+    EXPECT_EQ(std::count(left.begin(), left.end(), "blue line"), 0);
+}
+
+// In every size that the program can have; where it is drawn, nothing may fail either.
+TEST_F(PaletteTest, OpensInWindowsOfAnySize) {
+    for (const glm::ivec2 size : {glm::ivec2(1, 1), {90, 60}, {320, 240}, {1024, 640}, {3000, 200}}) {
+        for (const double scale : {0.5, 1.0, 3.0}) {
+            take(Resize{size});
+            app_.run({"view.text_scale", Json{{"scale", scale}}});
+            for (const char* line :
+                 {"", "add", "chain.solver ", "chain.mode mode=", "xyzzy", "rope.add x=1"}) {
+                open().type(line).key("down").key("up");
+                app_.draw();
+                ASSERT_TRUE(is_open());
+                key("escape");
+            }
+        }
+    }
+}
+
+TEST_F(PaletteTest, HostileLinesCrashNothing) {
+    const TempFolder folder;  // whatever is written lands there
+    const auto here = std::filesystem::current_path();
+    std::filesystem::current_path(folder.path());
+    std::mt19937 random(5);
+    const auto below = [&](std::size_t end) { return random() % end; };
+    const char* bits[] = {" ",    "=",     "\"",      "[",      "]",    "{",
+                          "}",    "\\",    "1e999",   "-1",     "\xFF", "\xC3\xA4",
+                          "name", "mode=", "length=", "index=", "%s%n", "999999999999999999"};
+    const char* keys[] = {"tab", "enter", "up", "down", "backspace", "left", "home", "end"};
+    const auto& all = app_.commands().all();
+    for (int i = 0; i < 600; ++i) {
+        if (!is_open()) open();
+        std::string line = below(2) == 0 ? all[below(all.size())].name + " " : "";
+        for (std::size_t n = below(8); n > 0; --n) line += bits[below(std::size(bits))];
+        if (below(50) == 0) line += std::string(600, '[');
+        type(line);
+        for (std::size_t n = below(4); n > 0; --n) key(keys[below(std::size(keys))]);
+        if (below(2) == 0) key("escape");
+    }
+    std::filesystem::current_path(here);
+}
+
+// What two fingers scroll sideways, panels get too.
+TEST(Wheel, SidewaysReachesThePanels) {
+    const auto window = open_offscreen({640, 480});
+    Ui ui;
+    const Event event = MouseWheel{0.5f, -2.0f};
+    ui.begin({window->size(), window->framebuffer_size(), 1.0f}, Theme::Dark, Input(), &event, true);
+    EXPECT_EQ(ImGui::GetIO().MouseWheel, 0.5f);
+    EXPECT_EQ(ImGui::GetIO().MouseWheelH, -2.0f);
+    ui.end();
+}
+
+}  // namespace
+}  // namespace tendril::test

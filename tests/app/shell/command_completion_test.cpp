@@ -1,0 +1,232 @@
+// What the palette finds, offers and says while a line is typed, without a window.
+#include "app/shell/command_completion.hpp"
+
+#include <algorithm>
+#include <random>
+
+#include "app/document/command.hpp"
+#include "app/document/json_complete.hpp"
+#include "app/labs/labs.hpp"
+#include "app/shell/command_search.hpp"
+#include "tests/app/support/program.hpp"
+
+namespace tendril::test {
+namespace {
+
+using namespace app;
+using Strings = std::vector<std::string>;
+
+class Completion : public testing::Test {
+  protected:
+    TypedLine read(const std::string& line) const { return read_typed_line(table_, line); }
+    std::vector<CompletionRow> rows(const std::string& line) const {
+        return completions(read(line), line, workspace_);
+    }
+    Strings texts(const std::string& line) const {
+        Strings list;
+        for (const CompletionRow& row : rows(line)) list.push_back(row.text);
+        return list;
+    }
+    std::string tab(const std::string& line, std::size_t chosen = 0) const {
+        return completed(read(line), line, rows(line), chosen);
+    }
+    std::string wrong(const std::string& line) const { return mistake(read(line)); }
+    Strings names(const std::string& query, const char* lab = "", const Strings& recent = {}) const {
+        Strings list;
+        for (const Command* command : search_commands(table_, query, lab, recent))
+            list.push_back(command->name);
+        return list;
+    }
+
+    const Labs labs_;
+    const CommandTable table_ = make_command_table(labs_);
+    Workspace workspace_ = make_blank_workspace(labs_);
+};
+
+bool has(const Strings& list, const std::string& text) {
+    return std::find(list.begin(), list.end(), text) != list.end();
+}
+
+TEST_F(Completion, FindsByPlainWordsFirst) {
+    EXPECT_EQ(names("add joint", "chain").front(), "chain.add");
+    EXPECT_EQ(names("ADD JOINT tip", "chain").front(), "chain.add");
+    EXPECT_EQ(names("cut", "chain").front(), "rope.cut");
+    // The title's words before those of the name, and those before the help's.
+    const Strings swings = names("swing", "rope");
+    ASSERT_TRUE(has(swings, "rope.collider.swing"));
+    EXPECT_EQ(swings.front(), "rope.collider.swing");
+    // Words in any order, all of them.
+    EXPECT_TRUE(names("joint xyzzy").empty());
+    EXPECT_EQ(names("tip at joint a add", "chain").front(), "chain.add");
+}
+
+TEST_F(Completion, FindsWhatIsNamedAndThenTheOpenLabsOwn) {
+    EXPECT_EQ(names("rope.clear", "chain").front(), "rope.clear");
+    EXPECT_EQ(names("chain.remove", "rope").front(), "chain.remove");
+    for (const auto& lab : labs_.all()) {
+        const std::string own = lab->name();
+        if (table_.find(own + ".reset") != nullptr) {
+            EXPECT_EQ(names("reset lab", own.c_str()).front(), own + ".reset");
+        }
+        const Strings all = names("", own.c_str());
+        ASSERT_EQ(all.size(), table_.all().size());
+        EXPECT_EQ(table_.find(all.front())->lab, own);
+        EXPECT_FALSE(table_.find(all.back())->lab.empty());
+        EXPECT_NE(table_.find(all.back())->lab, own);
+    }
+}
+
+TEST_F(Completion, BeginsWithWhatRanLast) {
+    const Strings recent{"rope.cut", "undo"};
+    const Strings all = names("", "chain", recent);
+    EXPECT_EQ((Strings{all[0], all[1]}), recent);
+    EXPECT_EQ(all.size(), table_.all().size());
+    EXPECT_NE(names("chain", "chain", recent).front(), "undo") << "only where nothing is typed";
+}
+
+TEST_F(Completion, BeginsBehindTheNameOfACommand) {
+    EXPECT_TRUE(rows("chain.mode").empty()) << "it may become another's";
+    EXPECT_TRUE(rows("add a ").empty());
+    EXPECT_EQ(texts("chain.add "), (Strings{"length=", "position="})) << "required ones first";
+    EXPECT_EQ(texts("chain.insert position=[0,1,0] "), (Strings{"index=", "length=", "position=[0,1,0]"}));
+    EXPECT_TRUE(rows("chain.insert position=[0,1,0] ").back().given);
+    EXPECT_EQ(texts("chain.mode i"), (Strings{"index=", "iterations="}));
+    EXPECT_EQ(texts("chain.mode er"), (Strings{"iterations=", "tolerance="})) << "in the middle too";
+    EXPECT_EQ(rows("chain.add ").front().detail, "a number, at least 0")
+        << "its type and range, as it is checked";
+}
+
+TEST_F(Completion, OffersTheValuesOfAnArgument) {
+    EXPECT_EQ(texts("chain.mode mode=f"), (Strings{"forward", "fixed"}));
+    EXPECT_EQ(texts("chain.mode mode=ward"), (Strings{"forward", "backward"}));
+    EXPECT_EQ(texts("race.solver on="), (Strings{"true", "false"}));
+    EXPECT_EQ(rows("chain.mode mode=re").front().line, "chain.mode mode=reach ");
+    table_.run(workspace_, "rope.add", {{"from", {0, 1, 0}}, {"to", {1, 1, 0}}, {"name", "rope \"9\""}});
+    EXPECT_TRUE(has(texts("rope.remove name="), "rope \"9\""));
+    const std::string line = rows("rope.remove name=\"rope").back().line;
+    EXPECT_EQ(read_typed_command(line).arguments->at("name"), "rope \"9\"") << line;
+    for (const CompletionRow& row : rows("view.theme name="))
+        EXPECT_EQ(row.detail, row.text == "dark" ? "now" : "");
+    EXPECT_EQ(texts("time.speed factor="), (Strings{"1.0"})) << "what it is now";
+    table_.run(workspace_, "chain.preset", {{"name", "coil"}, {"count", 5000}});
+    EXPECT_EQ(rows("chain.select index=").size(), most_rows);
+    EXPECT_TRUE(has(texts("chain.select index=4999"), "4999"));
+}
+
+TEST_F(Completion, QuotesWhatWouldBeReadAsSomethingElse) {
+    for (const char* name :
+         {"arm", "my rope", "12", "true", "[1]", "a\"b", "", "\xC3\xA4 \xE2\x82\xAC", "a=b", "\\"}) {
+        const auto typed = read_typed_command("rope.remove name=" + quoted(name) + " ");
+        EXPECT_EQ(typed.arguments->at("name"), name) << quoted(name);
+    }
+    EXPECT_EQ(quoted("arm"), "arm");
+}
+
+TEST_F(Completion, TabTakesWhatAllHaveInCommonAndThenTheChosenRow) {
+    EXPECT_EQ(tab("chain.limit l"), "chain.limit left_deg=");
+    EXPECT_EQ(tab("chain.limit t"), "chain.limit twist_m");
+    EXPECT_EQ(tab("chain.limit twist_m", 1), "chain.limit twist_max_deg=");
+    EXPECT_EQ(tab("chain.add "), "chain.add length=");
+    EXPECT_EQ(tab("chain.mode mode=re"), "chain.mode mode=reach ");
+    EXPECT_EQ(tab("chain.preset name=s"), "chain.preset name=start ") << "nothing more in common: the row";
+    EXPECT_EQ(tab("chain.mode xyz"), "chain.mode mode=") << "nothing has that: the row that is chosen";
+    EXPECT_EQ(common_prefix({"a\xC3\xA4", "a\xC3\xB6"}), "a") << "not half a character";
+    EXPECT_EQ(common_prefix({}), "");
+}
+
+TEST_F(Completion, SaysWhatIsWrongWhileItIsTyped) {
+    EXPECT_EQ(wrong("chain.add length=1"), "");
+    EXPECT_EQ(wrong("chain.add len"), "");
+    EXPECT_EQ(wrong("chain.add length="), "");
+    EXPECT_EQ(wrong("chain.add length=-"), "");
+    EXPECT_EQ(wrong("chain.add length=1 position=[0, 1"), "");
+    EXPECT_EQ(wrong("chain.mode mode=re"), "") << "it may become reach";
+    EXPECT_EQ(wrong("race.solver on=tr"), "");
+    EXPECT_TRUE(test::has(wrong("chain.add lenght=1"), "no argument \"lenght\""));
+    EXPECT_TRUE(test::has(wrong("chain.add xyz"), "no argument \"xyz\""));
+    EXPECT_TRUE(test::has(wrong("chain.add 1.5 "), "write name=value"));
+    EXPECT_TRUE(test::has(wrong("chain.add length=abc"), "length must be a number"));
+    EXPECT_TRUE(test::has(wrong("chain.add length=-1"), "length must be"));
+    EXPECT_TRUE(test::has(wrong("chain.mode mode=re "), "mode must be one of forward"));
+    EXPECT_TRUE(test::has(wrong("chain.mode mode=flying"), "mode must be one of forward"));
+    EXPECT_TRUE(test::has(wrong("time.speed factor=3"), "factor must be 0.05 to 2, got 3"));
+    EXPECT_TRUE(test::has(missing(read("chain.insert index=1 ")), "length is missing (a number"));
+    EXPECT_TRUE(test::has(missing(read("chain.insert index=1 length=")), "length is missing"));
+    EXPECT_EQ(missing(read("chain.insert index=1 length=2")), "");
+    EXPECT_EQ(missing(read("undo ")), "");
+}
+
+// The same words as when it is run: what is told early is what would be refused.
+TEST_F(Completion, FindsEveryMistakeThatTheTableWouldRefuse) {
+    for (const char* line : {"chain.add length=abc ", "chain.add length=[1] ", "chain.target to=[1,2] ",
+                             "race.solver on=1 ", "chain.mode mode=x ", "chain.select index=1.5 ",
+                             "chain.add nothing=1 ", "humanoid.target rotation=[1,1,1,1] "}) {
+        const std::string told = wrong(line);
+        EXPECT_FALSE(told.empty()) << line;
+        const TypedCommand typed = read_typed_command(line);
+        EXPECT_THROW(table_.run(workspace_, typed.name, typed.arguments), Refused) << line;
+    }
+}
+
+// Whatever is typed, and wherever one stops: an answer, and lines that can be read again.
+TEST_F(Completion, TenThousandHostileLinesAreAnswered) {
+    std::mt19937 random(11);
+    const auto below = [&](std::size_t end) { return random() % end; };
+    const Strings bits{" ",
+                       "=",
+                       "\"",
+                       "[",
+                       "]",
+                       "{",
+                       "}",
+                       "\\",
+                       ",",
+                       ":",
+                       "1e999",
+                       "-",
+                       "nan",
+                       "true",
+                       "null",
+                       "\t",
+                       "\n",
+                       "\x01",
+                       "\xC3\xA4",
+                       "\xFF",
+                       "\xF0\x9F\x8E\xA8",
+                       "..",
+                       "name",
+                       "mode=",
+                       "to=",
+                       "index=",
+                       "length=",
+                       "position=[",
+                       "999999999999999999999",
+                       "%s%n"};
+    for (int i = 0; i < 10'000; ++i) {
+        std::string line = below(3) == 0 ? "" : table_.all()[below(table_.all().size())].name;
+        for (std::size_t n = below(12); n > 0; --n) {
+            line += below(3) == 0 ? " " : "";
+            line += bits[below(bits.size())];
+        }
+        if (below(100) == 0) line += std::string(5000, "[ \"=x"[below(5)]);
+        const TypedLine typed = read(line);
+        (void)mistake(typed);
+        (void)missing(typed);
+        (void)search_commands(table_, line, "chain");
+        const auto offered = completions(typed, line, workspace_);
+        EXPECT_LE(offered.size(), most_rows);
+        if (typed.command == nullptr) {
+            EXPECT_TRUE(offered.empty());
+        }
+        for (std::size_t row = 0; row < std::min<std::size_t>(offered.size(), 3); ++row)
+            EXPECT_EQ(read(completed(typed, line, offered, row)).command, typed.command) << line;
+        try {
+            const TypedCommand whole = read_typed_command(line);
+            if (const Command* command = table_.find(whole.name)) check_arguments(*command, whole.arguments);
+        } catch (const std::runtime_error&) {
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test
