@@ -55,8 +55,9 @@ void show_toasts(const ShellFrame& frame);
 void show_first_hint(const ShellFrame& frame);
 void show_legend(const ShellFrame& frame);
 
-/// A fixed window without decoration that fills `rect`. Always ImGui::End() after it.
-void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 padding);
+/// A fixed window without decoration that fills `rect`; one that `scrolls` has a bar where there is more in it
+/// than room. Always ImGui::End() after it.
+void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 padding, bool scrolls = false);
 
 /// A window of the given share of the screen in the middle of it, closed by Escape or the cross; false once
 /// closed.

@@ -122,6 +122,9 @@ void shelf_plot(const Workspace& workspace, const Palette& palette, float height
 void plot_choice(const SignalPart& part, Emit& emit) {
     for (const SignalPlot each : signal_plots.values()) {
         if (each != SignalPlot::Rates) ImGui::SameLine();
+        const float width =
+            ImGui::CalcTextSize(signal_plots.title(each)).x + 2.0f * ImGui::GetStyle().FramePadding.x;
+        if (width > ImGui::GetContentRegionAvail().x) ImGui::NewLine();
         const bool chosen = part.plot == each;
         ImGui::PushStyleColor(ImGuiCol_Button,
                               ImGui::GetStyleColorVec4(chosen ? ImGuiCol_Header : ImGuiCol_ChildBg));
@@ -144,6 +147,7 @@ void colour_key(const std::vector<std::pair<std::string, glm::vec3>>& rows) {
             const float needed = ImGui::CalcTextSize(name.c_str()).x + 1.4f * ImGui::GetFontSize() + more;
             if (ImGui::GetContentRegionAvail().x < needed) {
                 if (++lines > most_lines) {
+                    if (ImGui::GetContentRegionAvail().x < more) ImGui::NewLine();
                     ImGui::AlignTextToFramePadding();
                     ImGui::TextDisabled("and %zu more", rows.size() - i);
                     break;

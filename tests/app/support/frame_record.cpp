@@ -72,11 +72,11 @@ void FrameRecorder::item(const ImVec4& box, unsigned id) {
     record_.items.push_back({ImGui::GetCurrentContext()->CurrentWindow, id, {{box.x, box.y}, {box.z, box.w}}});
 }
 
-void FrameRecorder::last_item_is_button() {
+void FrameRecorder::last_item_is(DrawnItem::Kind kind) {
     const ImGuiID id = ImGui::GetCurrentContext()->LastItemData.ID;
     for (auto each = record_.items.rbegin(); each != record_.items.rend(); ++each) {
         if (each->id != id) continue;
-        each->kind = DrawnItem::Kind::Button;
+        each->kind = kind;
         return;
     }
 }
@@ -95,6 +95,8 @@ void FrameRecorder::last_item_is_button() {
 #define TENDRIL_BUTTON "_ZN5ImGui6ButtonEPKcRK6ImVec2"
 #define TENDRIL_SMALL_BUTTON "_ZN5ImGui11SmallButtonEPKc"
 #define TENDRIL_RADIO_BUTTON "_ZN5ImGui11RadioButtonEPKcb"
+#define TENDRIL_INPUT_TEXT "_ZN5ImGui17InputTextWithHintEPKcS1_PcmiPFiP26ImGuiInputTextCallbackDataEPv"
+#define TENDRIL_OVERLAP "_ZN5ImGui19SetItemAllowOverlapEv"
 
 namespace tendril::test {
 
@@ -128,7 +130,7 @@ bool real_button(const char*, const ImVec2&) __asm__("__real_" TENDRIL_BUTTON);
 bool button(const char*, const ImVec2&) __asm__("__wrap_" TENDRIL_BUTTON);
 bool button(const char* label, const ImVec2& size) {
     const bool pressed = real_button(label, size);
-    if (active != nullptr) active->last_item_is_button();
+    if (active != nullptr) active->last_item_is(DrawnItem::Kind::Button);
     return pressed;
 }
 
@@ -136,7 +138,7 @@ bool real_small_button(const char*) __asm__("__real_" TENDRIL_SMALL_BUTTON);
 bool small_button(const char*) __asm__("__wrap_" TENDRIL_SMALL_BUTTON);
 bool small_button(const char* label) {
     const bool pressed = real_small_button(label);
-    if (active != nullptr) active->last_item_is_button();
+    if (active != nullptr) active->last_item_is(DrawnItem::Kind::Button);
     return pressed;
 }
 
@@ -144,8 +146,28 @@ bool real_radio_button(const char*, bool) __asm__("__real_" TENDRIL_RADIO_BUTTON
 bool radio_button(const char*, bool) __asm__("__wrap_" TENDRIL_RADIO_BUTTON);
 bool radio_button(const char* label, bool on) {
     const bool pressed = real_radio_button(label, on);
-    if (active != nullptr) active->last_item_is_button();
+    if (active != nullptr) active->last_item_is(DrawnItem::Kind::Button);
     return pressed;
 }
+
+bool real_input_text(const char*, const char*, char*, std::size_t, ImGuiInputTextFlags, ImGuiInputTextCallback,
+                     void*) __asm__("__real_" TENDRIL_INPUT_TEXT);
+bool input_text(const char*, const char*, char*, std::size_t, ImGuiInputTextFlags, ImGuiInputTextCallback,
+                void*) __asm__("__wrap_" TENDRIL_INPUT_TEXT);
+bool input_text(const char* label, const char* hint, char* text, std::size_t size, ImGuiInputTextFlags flags,
+                ImGuiInputTextCallback callback, void* data) {
+    const bool entered = real_input_text(label, hint, text, size, flags, callback, data);
+    if (active != nullptr) active->last_item_is(DrawnItem::Kind::Text);
+    return entered;
+}
+
+#if IMGUI_VERSION_NUM < 18970  // later it is a flag that the item is made with
+void real_allow_overlap() __asm__("__real_" TENDRIL_OVERLAP);
+void allow_overlap() __asm__("__wrap_" TENDRIL_OVERLAP);
+void allow_overlap() {
+    if (active != nullptr) active->last_item_is(DrawnItem::Kind::Row);
+    real_allow_overlap();
+}
+#endif
 
 }  // namespace tendril::test

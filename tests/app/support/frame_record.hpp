@@ -25,7 +25,7 @@ struct DrawnText {
 };
 
 struct DrawnItem {
-    enum class Kind { Button, Other };
+    enum class Kind { Button, Text, Row, Other };  ///< a row may have items of its own on it
     const ImGuiWindow* window = nullptr;
     unsigned id = 0;
     app::Rect box;
@@ -51,7 +51,7 @@ class FrameRecorder {
     void text(const ImDrawList& list, const ImFont* font, float size, const ImVec2& at, const char* begin,
               const char* end, float wrap, const ImVec4* clip);
     void item(const ImVec4& box, unsigned id);
-    void last_item_is_button();
+    void last_item_is(DrawnItem::Kind kind);
 
   private:
     void begin();

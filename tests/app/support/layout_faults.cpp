@@ -63,6 +63,18 @@ bool in_title_bar(const DrawnItem& item) {
            inside(item.box, rect_of(item.window->TitleBarRect()));
 }
 
+/// What is typed scrolls in its field.
+bool is_typed(const FrameRecord& frame, const DrawnText& text) {
+    return std::any_of(frame.items.begin(), frame.items.end(), [&](const DrawnItem& item) {
+        return item.kind == DrawnItem::Kind::Text && inside(text.clip, item.box) && seen(text.clip);
+    });
+}
+
+/// What of an item can be seen now.
+Rect seen_of(const DrawnItem& item) {
+    return shared(item.box, rect_of(item.window->InnerClipRect));
+}
+
 LayoutFault fault(const std::string& what, const DrawnText& text) {
     return {what, window_name(text.window), text.text};
 }
@@ -100,7 +112,7 @@ std::vector<LayoutFault> cut_texts(const FrameRecord& frame) {
         if (hidden(text.window)) continue;
         if (text.wrap > 0.0f && text.widest_word > text.wrap + slack)
             found.push_back(fault("wraps within a word", text));
-        if (can_be_scrolled_to(text)) continue;
+        if (can_be_scrolled_to(text) || is_typed(frame, text)) continue;
         const Rect &box = text.box, &clip = text.clip;
         if (box.max.x > clip.max.x + slack) {
             found.push_back(fault("is cut at the right", text));
@@ -156,7 +168,8 @@ std::vector<LayoutFault> overlaps(const FrameRecord& frame) {
         for (std::size_t j = 0; j < i; ++j) {
             const DrawnItem& other = frame.items[j];
             const bool same = other.window == item.window && other.id != item.id && !in_title_bar(other);
-            if (same && collide(item.box, other.box))
+            const bool both = seen(seen_of(item)) && seen(seen_of(other));
+            if (same && both && other.kind != DrawnItem::Kind::Row && collide(item.box, other.box))
                 found.push_back({"lies on what is named \"" + name_of(frame, other) + "\"",
                                  window_name(item.window), name_of(frame, item)});
         }
@@ -174,7 +187,8 @@ std::vector<LayoutFault> out_of_reach(const FrameRecord& frame, glm::vec2 screen
         const glm::vec2 size = item.box.size();
         if (size.x < 3.0f || size.y < 3.0f) add("is too small to be clicked");
         Rect room = rect_of(item.window->InnerClipRect);
-        if (item.box.min.x < room.min.x - slack || item.box.max.x > room.max.x + slack)
+        const float rows = 0.5f * ImGui::GetStyle().ItemSpacing.x + slack;  // a row is wider by that, on both sides
+        if (item.box.min.x < room.min.x - rows || item.box.max.x > room.max.x + rows)
             add("begins or ends beside its window");
         if (const ImGuiWindow* const window = scroller_of(item.window)) {
             room = rect_of(window->InnerClipRect);
@@ -187,7 +201,8 @@ std::vector<LayoutFault> out_of_reach(const FrameRecord& frame, glm::vec2 screen
     for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
         if (hidden(window) || window->IsFallbackWindow) continue;
         const auto add = [&](const std::string& what) { found.push_back({what, window_name(window), ""}); };
-        if (!inside(rect_of(window->Rect()), {{0.0f, 0.0f}, screen})) add("is partly beyond the screen");
+        const bool child = (window->Flags & ImGuiWindowFlags_ChildWindow) != 0;  // its parent may scroll it
+        if (!child && !inside(rect_of(window->Rect()), {{0.0f, 0.0f}, screen})) add("is partly beyond the screen");
         const bool bar = (window->Flags & ImGuiWindowFlags_NoScrollbar) != 0;
         if (bar && window->ScrollMax.y > slack) add("has more in it than there is room for");
     }
