@@ -159,7 +159,7 @@ void App::compose(const Event* event, Pass pass) {
     lab().draw(view, drawn_);
     show_gizmo(drawn_, lab(), view, pointer_);
     show_constraint(drawn_, view, pointer_, input_);
-    show_labels(drawn_, camera, palette(workspace_.settings.theme), layout_.scale);
+    show_labels(drawn_, camera, palette(workspace_.settings.theme), layout_.scale, shell_.overlays());
     ui_.end();
 }
 

@@ -70,10 +70,10 @@ float axis_gizmo_width(const Layout& layout) {
     return 100.0f * layout.scale;
 }
 
-void show_axis_gizmo(const ShellFrame& frame, Emit& emit) {
+Rect show_axis_gizmo(const ShellFrame& frame, Emit& emit) {
     const Rect& view = frame.layout.view;
     const float scale = frame.layout.scale, reach = 27.0f * scale, radius = 8.5f * scale;
-    if (axis_gizmo_width(frame.layout) <= 0.0f) return;
+    if (axis_gizmo_width(frame.layout) <= 0.0f) return {view.min, view.min};
     const glm::vec2 centre{view.max.x - reach - 2.0f * radius, view.min.y + reach + 2.0f * radius};
     const Camera camera(frame.workspace.camera, view);
     std::array<End, 6> ends;
@@ -124,6 +124,8 @@ void show_axis_gizmo(const ShellFrame& frame, Emit& emit) {
     list->AddText({centre.x - 0.5f * size.x, centre.y + reach + 1.6f * radius}, imgui_u32(colours.text_dim),
                   name.c_str());
     ImGui::PopFont();
+    const float around = reach + radius;
+    return {centre - around, {centre.x + around, centre.y + reach + 1.6f * radius + size.y}};
 }
 
 }  // namespace tendril::app

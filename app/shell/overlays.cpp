@@ -174,7 +174,8 @@ void show_toasts(const ShellFrame& frame) {
     const Rect legend = legend_box(frame, frame.lab.legend(frame.workspace));
     // As wide as the view; over the panels too where it is too narrow to be read in.
     const float margin = 32.0f * scale, legible = std::min(380.0f * scale, frame.screen().x - margin);
-    const float widest = std::max(120.0f, std::min(520.0f * scale, std::max(view.size().x - margin, legible)));
+    const float widest =
+        std::max(120.0f, std::min(520.0f * scale, std::max(view.size().x - margin, legible)));
     const ImVec2 padding = ImGui::GetStyle().WindowPadding;
     const float wrap = widest - padding.x - 20.0f * scale;
     float bottom = view.max.y - 16.0f * scale;
@@ -183,12 +184,13 @@ void show_toasts(const ShellFrame& frame) {
         const Toast& toast = toasts[i];
         const std::string id = "toast " + std::to_string(i);
         const ImVec2 text = ImGui::CalcTextSize(toast.text.c_str(), nullptr, false, wrap);
-        const glm::vec2 size{text.x + 2.0f * padding.x, text.y + 2.0f * padding.y};
+        const glm::vec2 size{text.x + 2.0f * padding.x, std::min(text.y + 2.0f * padding.y, 400.0f * scale)};
         const float half = 0.5f * size.x, edge = 8.0f * scale;
         const float centre = std::clamp(view.centre().x, std::min(half + edge, 0.5f * frame.screen().x),
                                         std::max(frame.screen().x - half - edge, 0.5f * frame.screen().x));
         const bool on_legend = centre - half < legend.max.x && centre + half > legend.min.x;
-        if (on_legend && bottom > legend.min.y && legend.size().y > 0.0f) bottom = legend.min.y - 8.0f * scale;
+        if (on_legend && bottom > legend.min.y && legend.size().y > 0.0f)
+            bottom = legend.min.y - 8.0f * scale;
         ImGui::SetNextWindowPos({centre, bottom}, ImGuiCond_Always, {0.5f, 1.0f});
         ImGui::SetNextWindowSize({size.x, size.y});
         ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 7.0f);
@@ -209,13 +211,15 @@ void show_toasts(const ShellFrame& frame) {
     }
 }
 
-void show_first_hint(const ShellFrame& frame) {
-    if (frame.workspace.settings.hint_seen) return;
+Rect show_first_hint(const ShellFrame& frame) {
     const Rect& view = frame.layout.view;
+    const Rect none{view.min, view.min};
+    if (frame.workspace.settings.hint_seen) return none;
     const Palette& colours = frame.colours();
-    // As much is left free on both sides as the axis gizmo takes on one.
-    const float free = std::max(20.0f, axis_gizmo_width(frame.layout));
-    const float wrap = std::max(80.0f, view.size().x - 2.0f * free);
+    // In the middle, or as near to it as the axis gizmo allows.
+    constexpr float margin = 20.0f;
+    const float end = view.max.x - std::max(margin, axis_gizmo_width(frame.layout));
+    const float wrap = std::max(80.0f, end - view.min.x - margin);
     const auto size_of = [&](const std::string& text) {
         return ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
     };
@@ -223,19 +227,22 @@ void show_first_hint(const ShellFrame& frame) {
     std::string text =
         first + " " + orbit_hint(mouse_preset(frame.workspace.settings)) + " ? shows every key.";
     if (size_of(text).y > 0.15f * view.size().y) text = first;  // large letters in a small view
-    if (size_of(text).y > 0.15f * view.size().y) return;        // the picture comes first
-    const ImVec2 at{view.centre().x - 0.5f * size_of(text).x, view.min.y + 22.0f * frame.layout.scale};
+    if (size_of(text).y > 0.15f * view.size().y) return none;   // the picture comes first
+    const float width = size_of(text).x;
+    const ImVec2 at{std::min(view.centre().x - 0.5f * width, end - width),
+                    view.min.y + 22.0f * frame.layout.scale};
     ImGui::GetBackgroundDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at,
                                             imgui_u32(colours.text, 0.85f), text.c_str(), nullptr, wrap);
+    return {{at.x, at.y}, {at.x + width, at.y + size_of(text).y}};
 }
 
-void show_legend(const ShellFrame& frame) {
+Rect show_legend(const ShellFrame& frame) {
     const Palette& colours = frame.colours();
     const std::vector<LegendRow> rows = frame.lab.legend(frame.workspace);
     const Rect& view = frame.layout.view;
     const float scale = frame.layout.scale;
     const Rect box = legend_box(frame, rows);
-    if (box.size().y <= 0.0f) return;
+    if (box.size().y <= 0.0f) return box;
     ImGui::PushFont(small_font());
     const float line = 1.35f * ImGui::GetFontSize();
     float y = box.min.y;
@@ -251,6 +258,7 @@ void show_legend(const ShellFrame& frame) {
         y += line;
     }
     ImGui::PopFont();
+    return box;
 }
 
 }  // namespace tendril::app

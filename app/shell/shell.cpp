@@ -37,7 +37,7 @@ void panel_edge(const Rect& rect, bool left, float scale, Emit& emit) {
     const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
     if (lit) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     if (lit && !ImGui::IsItemActive())
-        ImGui::SetTooltip("Drag makes the panel wider or narrower; very narrow, it folds away");
+        tooltip("Drag makes the panel wider or narrower; very narrow, it folds away");
     ImGui::GetWindowDrawList()->AddLine({left ? x - 1.0f : x, rect.min.y}, {left ? x - 1.0f : x, rect.max.y},
                                         ImGui::GetColorU32(lit ? ImGuiCol_SeparatorActive : ImGuiCol_Border));
     if (ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 1.0f)) {
@@ -80,7 +80,8 @@ void folded_strip(const ShellFrame& frame, const Rect& rect, bool left, Emit& em
 void place_below_bar(const ShellFrame& frame, float x) {
     const float y = frame.layout.top.max.y + 2.0f;
     ImGui::SetNextWindowPos({x, y});
-    ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {frame.screen().x, std::max(1.0f, frame.screen().y - y - 2.0f)});
+    ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f},
+                                        {frame.screen().x, std::max(1.0f, frame.screen().y - y - 2.0f)});
 }
 
 void menu(const ShellFrame& frame, Emit& emit) {
@@ -325,10 +326,8 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
         ImGui::End();
     }
     status_bar(frame);
-    show_first_hint(frame);
+    overlays_ = {show_first_hint(frame), show_legend(frame), show_axis_gizmo(frame, emit)};
     show_card_halo(frame, lit_);
-    show_legend(frame);
-    show_axis_gizmo(frame, emit);
     if (workspace.ui.help) show_help(frame, emit);
     if (workspace.ui.settings) show_settings(frame, emit);
     palette_.frame(workspace.ui.palette, frame.commands, frame.shortcuts, frame.screen(), frame.layout.scale,

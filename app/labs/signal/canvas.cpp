@@ -13,6 +13,7 @@
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/plot.hpp"
+#include "app/widgets/text.hpp"
 
 namespace tendril::app {
 namespace {
@@ -130,7 +131,7 @@ void plot_choice(const SignalPart& part, Emit& emit) {
                               ImGui::GetStyleColorVec4(chosen ? ImGuiCol_Header : ImGuiCol_ChildBg));
         if (ImGui::Button(signal_plots.title(each))) emit("signal.plot", {{"name", signal_plots.name(each)}});
         ImGui::PopStyleColor();
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", signal_plots.help(each));
+        if (ImGui::IsItemHovered()) tooltip(signal_plots.help(each));
     }
 }
 

@@ -1,5 +1,5 @@
-// Every lab, at three sizes of window and three sizes of text: no text is cut, nothing lies on anything else, and
-// everything that can be clicked can be reached.
+// Every lab, at three sizes of window and three sizes of text: no text is cut, nothing lies on anything else,
+// and everything that can be clicked can be reached.
 #include <gtest/gtest.h>
 #include <imgui_internal.h>  // scrolling a window from outside, and which windows there are
 
@@ -40,12 +40,16 @@ class LayoutTest : public testing::TestWithParam<std::string> {
   protected:
     const Lab& lab() const { return *app_.labs().find(GetParam()); }
     Workspace& workspace() { return app_.workspace(); }
-    void run(const char* command, Json arguments = Json::object()) { app_.run({command, std::move(arguments)}); }
+    void run(const char* command, Json arguments = Json::object()) {
+        app_.run({command, std::move(arguments)});
+    }
 
     void set_up(const Shown& scene) {
         run("scene.new");
         run("lab.open", {{"name", GetParam()}});
-        for (const CommandCall& command : scene.commands) run(command.name.c_str(), to_json(command.arguments));
+        for (const CommandCall& command : scene.commands)
+            run(command.name.c_str(), to_json(command.arguments));
+        run("view.fold", {{"section", "chain: Joints, in metres"}, {"folded", false}});
         run("time.play");
         for (int i = 0; i < scene.ticks; ++i) app_.tick(nullptr);
         run("time.pause");
@@ -138,7 +142,8 @@ class LayoutTest : public testing::TestWithParam<std::string> {
             const Rect box{{rect.Min.x, rect.Min.y}, {rect.Max.x, rect.Max.y}};
             const bool panel = name == "left" || name == "right";  // its card and its content are
             const bool child = (window->Flags & ImGuiWindowFlags_ChildWindow) != 0;
-            const bool of_panel = child && (name == "left/content" || name == "right/content" || name == "right/card");
+            const bool of_panel =
+                child && (name == "left/content" || name == "right/content" || name == "right/card");
             if (panel || (child && !of_panel)) continue;
             // A toast lies over the panels, where the view is too narrow to read it in.
             if (name.starts_with("toast") && boxes_too_narrow()) continue;
@@ -175,16 +180,44 @@ class LayoutTest : public testing::TestWithParam<std::string> {
         for (const DrawnText& each : recorder_.frame().texts)
             told |= each.window != nullptr && (each.window->Flags & ImGuiWindowFlags_Tooltip) != 0 &&
                     each.text.find(kept) != each.text.npos;
-        if (!told) note({{"is cut short, and no tooltip has all of it", window_name(text.window), text.text}});
+        if (!told)
+            note({{"is cut short, and no tooltip has all of it", window_name(text.window), text.text}});
         app_.tick(&away);
     }
 
     void look_at_panels() {
-        look();
+        look_at_shown_panels();
         if (!layout().one_panel) return;
         run("view.panels", {{"left", false}, {"right", true}});
-        look();
+        look_at_shown_panels();
         run("view.panels", {{"left", true}, {"right", true}});
+    }
+    void look_at_shown_panels() {
+        look();
+        if (size_ == sizes[0]) look_at_lists();
+    }
+    /// What opens below each field with a list, once for each size of text: lists do not know the window's
+    /// size.
+    void look_at_lists() {
+        for (int step = 0; scroll_to(step); ++step) {
+            app_.settle();
+            std::vector<DrawnItem> lists;
+            for (const DrawnItem& item : recorder_.frame().items)
+                if (item.kind == DrawnItem::Kind::Combo && visible(item) &&
+                    opened_.insert({item.id, scale_}).second)
+                    lists.push_back(item);
+            for (const DrawnItem& item : lists) {
+                scroll_to(step);
+                app_.settle();
+                look_behind(item.box.centre());
+            }
+        }
+        scroll_to(0);
+    }
+    static bool visible(const DrawnItem& item) {
+        const ImRect& room = item.window->InnerClipRect;
+        return room.Contains({item.box.min.x, item.box.min.y}) &&
+               room.Contains({item.box.max.x, item.box.max.y});
     }
     /// What opens over the window, one after the other.
     void look_at_sheets() {
@@ -193,6 +226,12 @@ class LayoutTest : public testing::TestWithParam<std::string> {
             look();
             run(command, {{"open", false}});
         }
+        run("view.palette", {{"open", true}});
+        const Event text = TextInput{"chain.add length=nothing"}, enter = KeyTap{{Key::Enter}};
+        app_.tick(&text);
+        app_.tick(&enter);
+        look();
+        run("view.palette", {{"open", false}});
         for (const char* command : {"scene.open_dialog", "scene.save_dialog"}) {
             run(command);
             look();
@@ -201,10 +240,15 @@ class LayoutTest : public testing::TestWithParam<std::string> {
         workspace().ui.asks_to_quit = true;
         look();
         workspace().ui.asks_to_quit = false;
+        workspace().ui.recoverable = {
+            {"a scene with a name that is not short.json, 23 November, 13:45", "x.json"}};
+        look();
+        workspace().ui.recoverable.clear();
         workspace().toast("Written");
         EXPECT_THROW(run("time.speed", {{"factor", 1e9}}), Refused);
-        workspace().toast("A sentence that is as long as what is said about a file that cannot be read: at line 12, "
-                          "the joint \"LeftHandIndexFinger\" has no parent");
+        workspace().toast(
+            "A sentence that is as long as what is said about a file that cannot be read: at line 12, "
+            "the joint \"LeftHandIndexFinger\" has no parent");
         look();
         workspace().ui.toasts.clear();
     }
@@ -218,13 +262,16 @@ class LayoutTest : public testing::TestWithParam<std::string> {
         ASSERT_NE(menu, frame.items.end());
         look_behind(menu->box.centre());
         for (const DrawnText& text : frame.texts)
-            if (window_name(text.window) == "top" && text.text.ends_with(" ...")) look_behind(text.box.centre());
+            if (window_name(text.window) == "top" && text.text.ends_with(" ..."))
+                look_behind(text.box.centre());
     }
     /// What a click there opens.
     void look_behind(glm::vec2 at) {
         const Event there = MouseMove{at}, press = MousePress{MouseButton::Left, true},
                     release = MousePress{MouseButton::Left, false};
         for (const Event* event : {&there, &press, &release}) app_.tick(event);
+        app_.settle();
+        ++popups_;
         look();
         const Event escape = KeyTap{{Key::Escape}};
         app_.tick(&escape);
@@ -252,10 +299,12 @@ class LayoutTest : public testing::TestWithParam<std::string> {
     App app_{*window_};
     FrameRecorder recorder_;
     glm::ivec2 size_{0};
+    int popups_ = 0;  ///< that were looked at
     float scale_ = 1.0f;
     std::string scene_;
     std::map<std::string, Found> found_;
     std::set<std::string> asked_;
+    std::set<std::pair<unsigned, float>> opened_;
 };
 
 TEST_P(LayoutTest, CutsNothingAndOverlapsNothing) {
@@ -279,6 +328,7 @@ TEST_P(LayoutTest, CutsNothingAndOverlapsNothing) {
         }
     }
     EXPECT_GT(texts, 1000u) << "what is drawn is recorded";
+    RecordProperty("popups", popups_);
     report();
 }
 

@@ -14,7 +14,8 @@ FrameRecorder* active = nullptr;  // the wrapped functions have nothing else to 
 
 const ImGuiWindow* window_of(const ImDrawList& list) {
     const ImGuiContext& context = *ImGui::GetCurrentContext();
-    if (context.CurrentWindow != nullptr && context.CurrentWindow->DrawList == &list) return context.CurrentWindow;
+    if (context.CurrentWindow != nullptr && context.CurrentWindow->DrawList == &list)
+        return context.CurrentWindow;
     for (const ImGuiWindow* window : context.Windows)
         if (window->DrawList == &list) return window;
     return nullptr;
@@ -56,7 +57,8 @@ void FrameRecorder::text(const ImDrawList& list, const ImFont* font, float size,
     const ImVec4& window = list._CmdHeader.ClipRect;
     app::Rect seen{{window.x, window.y}, {window.z, window.w}};
     if (clip != nullptr)
-        seen = {glm::max(seen.min, glm::vec2(clip->x, clip->y)), glm::min(seen.max, glm::vec2(clip->z, clip->w))};
+        seen = {glm::max(seen.min, glm::vec2(clip->x, clip->y)),
+                glm::min(seen.max, glm::vec2(clip->z, clip->w))};
     record_.texts.push_back({window_of(list),
                              std::string(begin, end),
                              {{at.x, at.y}, {at.x + extent.x, at.y + extent.y}},
@@ -69,7 +71,8 @@ void FrameRecorder::text(const ImDrawList& list, const ImFont* font, float size,
 void FrameRecorder::item(const ImVec4& box, unsigned id) {
     begin();
     if (id == 0) return;
-    record_.items.push_back({ImGui::GetCurrentContext()->CurrentWindow, id, {{box.x, box.y}, {box.z, box.w}}});
+    record_.items.push_back(
+        {ImGui::GetCurrentContext()->CurrentWindow, id, {{box.x, box.y}, {box.z, box.w}}});
 }
 
 void FrameRecorder::last_item_is(DrawnItem::Kind kind) {
@@ -96,6 +99,7 @@ void FrameRecorder::last_item_is(DrawnItem::Kind kind) {
 #define TENDRIL_SMALL_BUTTON "_ZN5ImGui11SmallButtonEPKc"
 #define TENDRIL_RADIO_BUTTON "_ZN5ImGui11RadioButtonEPKcb"
 #define TENDRIL_INPUT_TEXT "_ZN5ImGui17InputTextWithHintEPKcS1_PcmiPFiP26ImGuiInputTextCallbackDataEPv"
+#define TENDRIL_COMBO "_ZN5ImGui10BeginComboEPKcS1_i"
 #define TENDRIL_OVERLAP "_ZN5ImGui19SetItemAllowOverlapEv"
 
 namespace tendril::test {
@@ -150,8 +154,8 @@ bool radio_button(const char* label, bool on) {
     return pressed;
 }
 
-bool real_input_text(const char*, const char*, char*, std::size_t, ImGuiInputTextFlags, ImGuiInputTextCallback,
-                     void*) __asm__("__real_" TENDRIL_INPUT_TEXT);
+bool real_input_text(const char*, const char*, char*, std::size_t, ImGuiInputTextFlags,
+                     ImGuiInputTextCallback, void*) __asm__("__real_" TENDRIL_INPUT_TEXT);
 bool input_text(const char*, const char*, char*, std::size_t, ImGuiInputTextFlags, ImGuiInputTextCallback,
                 void*) __asm__("__wrap_" TENDRIL_INPUT_TEXT);
 bool input_text(const char* label, const char* hint, char* text, std::size_t size, ImGuiInputTextFlags flags,
@@ -159,6 +163,14 @@ bool input_text(const char* label, const char* hint, char* text, std::size_t siz
     const bool entered = real_input_text(label, hint, text, size, flags, callback, data);
     if (active != nullptr) active->last_item_is(DrawnItem::Kind::Text);
     return entered;
+}
+
+bool real_begin_combo(const char*, const char*, ImGuiComboFlags) __asm__("__real_" TENDRIL_COMBO);
+bool begin_combo(const char*, const char*, ImGuiComboFlags) __asm__("__wrap_" TENDRIL_COMBO);
+bool begin_combo(const char* label, const char* preview, ImGuiComboFlags flags) {
+    const bool open = real_begin_combo(label, preview, flags);
+    if (active != nullptr && !open) active->last_item_is(DrawnItem::Kind::Combo);
+    return open;
 }
 
 #if IMGUI_VERSION_NUM < 18970  // later it is a flag that the item is made with

@@ -1,6 +1,6 @@
-// What Dear ImGui draws in a frame, as texts and items rather than pixels: each text with its place and with what
-// it is clipped to, each item with its box. Its functions are wrapped when the tests are linked (see CMakeLists.txt
-// there), so the program that is looked at is the one that people run.
+// What Dear ImGui draws in a frame, as texts and items rather than pixels: each text with its place and with
+// what it is clipped to, each item with its box. Its functions are wrapped when the tests are linked (see
+// CMakeLists.txt there), so the program that is looked at is the one that people run.
 #pragma once
 
 #include <imgui.h>
@@ -25,7 +25,7 @@ struct DrawnText {
 };
 
 struct DrawnItem {
-    enum class Kind { Button, Text, Row, Other };  ///< a row may have items of its own on it
+    enum class Kind { Button, Text, Combo, Row, Other };  ///< a row may have items of its own on it
     const ImGuiWindow* window = nullptr;
     unsigned id = 0;
     app::Rect box;

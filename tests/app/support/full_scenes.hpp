@@ -1,5 +1,5 @@
-// Scenes in which the panels are full: something is selected, and what can be switched on is on. For tests that
-// look at everything a panel can show.
+// Scenes in which the panels are full: something is selected, and what can be switched on is on. For tests
+// that look at everything a panel can show.
 #pragma once
 
 #include <string>

@@ -39,22 +39,26 @@ bool hidden(const ImGuiWindow* window) {
     return window != nullptr && (!window->Active || window->Hidden || window->SkipItems);
 }
 
-/// The window that scrolls it up and down, if one does.
+/// The window that scrolls what is in `window` up and down, itself or one around it; null where none does.
 const ImGuiWindow* scroller_of(const ImGuiWindow* window) {
-    while (window != nullptr && window->ScrollMax.y <= 0.0f &&
-           (window->Flags & ImGuiWindowFlags_ChildWindow) != 0)
-        window = window->ParentWindow;
-    return window != nullptr && window->ScrollMax.y > 0.0f ? window : nullptr;
+    while (window != nullptr && window->ScrollMax.y <= 0.0f)
+        window = (window->Flags & ImGuiWindowFlags_ChildWindow) != 0 ? window->ParentWindow : nullptr;
+    return window;
 }
 
-/// Whether it is cut by the edge beyond which one can scroll.
+/// Whether it is cut by an edge beyond which one can scroll.
 bool can_be_scrolled_to(const DrawnText& text) {
-    const ImGuiWindow* const window = scroller_of(text.window);
-    if (window == nullptr) return false;
-    const Rect room = rect_of(window->InnerClipRect);
-    const bool above = text.box.min.y < room.min.y + slack && text.clip.min.y >= room.min.y - slack;
-    const bool below = text.box.max.y > room.max.y - slack && text.clip.max.y <= room.max.y + slack;
-    return above || below;
+    for (const ImGuiWindow* window = scroller_of(text.window); window != nullptr;
+         window = scroller_of(window->ParentWindow)) {
+        const Rect room = rect_of(window->InnerClipRect);
+        // A table keeps the row of its titles at its upper edge.
+        const float titles = window->Scroll.y > 0.0f ? 2.0f * text.box.size().y : 0.0f;
+        const bool above =
+            text.box.min.y < room.min.y + titles + slack && text.clip.min.y >= room.min.y - slack;
+        const bool below = text.box.max.y > room.max.y - slack && text.clip.max.y <= room.max.y + slack;
+        if (above || below) return true;
+    }
+    return false;
 }
 
 /// The cross of a sheet: it is in the bar of its title, under which nothing scrolls.
@@ -85,7 +89,8 @@ std::string name_of(const FrameRecord& frame, const DrawnItem& item) {
     float nearest = 1e9f;
     for (const DrawnText& text : frame.texts) {
         if (text.window != item.window) continue;
-        const glm::vec2 away = glm::max(glm::max(item.box.min - text.box.max, text.box.min - item.box.max), 0.0f);
+        const glm::vec2 away =
+            glm::max(glm::max(item.box.min - text.box.max, text.box.min - item.box.max), 0.0f);
         const float distance = away.x + 3.0f * away.y;
         if (distance < nearest) nearest = distance, best = &text;
     }
@@ -99,8 +104,7 @@ std::string window_name(const ImGuiWindow* window) {
     std::string name = window->Name;
     for (std::size_t at = name.find('_'); at != name.npos; at = name.find('_', at)) {
         const std::size_t end = std::min(name.find('/', at), name.size());
-        const bool hash = end - at == 9 &&
-                          name.find_first_not_of("0123456789ABCDEF", at + 1) >= end;
+        const bool hash = end - at == 9 && name.find_first_not_of("0123456789ABCDEF", at + 1) >= end;
         hash ? static_cast<void>(name.erase(at, end - at)) : static_cast<void>(++at);
     }
     return name;
@@ -132,7 +136,8 @@ std::vector<LayoutFault> elided_texts(const FrameRecord& frame,
     for (const DrawnText& text : frame.texts) {
         if (hidden(text.window) || !text.text.ends_with("...") || means_dots(text.text)) continue;
         const auto button = [&](const DrawnItem& item) {
-            return item.kind == DrawnItem::Kind::Button && item.window == text.window && inside(text.box, item.box);
+            return item.kind == DrawnItem::Kind::Button && item.window == text.window &&
+                   inside(text.box, item.box);
         };
         if (std::any_of(frame.items.begin(), frame.items.end(), button)) {
             found.push_back(fault("is cut short on a button", text));
@@ -186,23 +191,26 @@ std::vector<LayoutFault> out_of_reach(const FrameRecord& frame, glm::vec2 screen
         };
         const glm::vec2 size = item.box.size();
         if (size.x < 3.0f || size.y < 3.0f) add("is too small to be clicked");
-        Rect room = rect_of(item.window->InnerClipRect);
-        const float rows = 0.5f * ImGui::GetStyle().ItemSpacing.x + slack;  // a row is wider by that, on both sides
-        if (item.box.min.x < room.min.x - rows || item.box.max.x > room.max.x + rows)
+        Rect room = rect_of(item.window->InnerRect);
+        // A row of a list is larger by half of the space around it.
+        const ImVec2 space = ImGui::GetStyle().ItemSpacing;
+        const glm::vec2 edge{0.5f * space.x + slack, 0.5f * space.y + 2.0f * slack};
+        if (item.box.min.x < room.min.x - edge.x || item.box.max.x > room.max.x + edge.x)
             add("begins or ends beside its window");
         if (const ImGuiWindow* const window = scroller_of(item.window)) {
-            room = rect_of(window->InnerClipRect);
+            room = rect_of(window->InnerRect);
             room.min.y -= window->Scroll.y;
             room.max.y += window->ScrollMax.y - window->Scroll.y;
         }
-        if (item.box.min.y < room.min.y - 2.0f * slack || item.box.max.y > room.max.y + 2.0f * slack)
+        if (item.box.min.y < room.min.y - edge.y || item.box.max.y > room.max.y + edge.y)
             add("begins or ends above or below its window");
     }
     for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
         if (hidden(window) || window->IsFallbackWindow) continue;
         const auto add = [&](const std::string& what) { found.push_back({what, window_name(window), ""}); };
         const bool child = (window->Flags & ImGuiWindowFlags_ChildWindow) != 0;  // its parent may scroll it
-        if (!child && !inside(rect_of(window->Rect()), {{0.0f, 0.0f}, screen})) add("is partly beyond the screen");
+        if (!child && !inside(rect_of(window->Rect()), {{0.0f, 0.0f}, screen}))
+            add("is partly beyond the screen");
         const bool bar = (window->Flags & ImGuiWindowFlags_NoScrollbar) != 0;
         if (bar && window->ScrollMax.y > slack) add("has more in it than there is room for");
     }

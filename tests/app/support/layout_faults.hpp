@@ -1,5 +1,5 @@
-// What is wrong with how a window is laid out: texts that are cut, things that lie on each other, and what cannot
-// be reached.
+// What is wrong with how a window is laid out: texts that are cut, things that lie on each other, and what
+// cannot be reached.
 #pragma once
 
 #include <functional>
@@ -28,11 +28,11 @@ struct ShellPart {
 /// "panel", "inspector/content": without the numbers that Dear ImGui adds.
 std::string window_name(const ImGuiWindow* window);
 
-/// Texts that are cut, whether by their window or by the box of what they stand in, or that wrap within a word.
-/// What a window that scrolls has cut at its upper or lower edge can be scrolled to.
+/// Texts that are cut, whether by their window or by the box of what they stand in, or that wrap within a
+/// word. What a window that scrolls has cut at its upper or lower edge can be scrolled to.
 std::vector<LayoutFault> cut_texts(const FrameRecord& frame);
-/// Texts that end in "..." although `means_dots` does not know them. On buttons and in headings that is a fault;
-/// of the others `others` gets the places, since they may have tooltips.
+/// Texts that end in "..." although `means_dots` does not know them. On buttons and in headings that is a
+/// fault; of the others `others` gets the places, since they may have tooltips.
 std::vector<LayoutFault> elided_texts(const FrameRecord& frame,
                                       const std::function<bool(const std::string&)>& means_dots,
                                       std::vector<const DrawnText*>& others);
