@@ -224,8 +224,9 @@ Rect show_first_hint(const ShellFrame& frame) {
         return ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
     };
     const std::string first = frame.lab.invitation();
-    std::string text =
-        first + " " + orbit_hint(mouse_preset(frame.workspace.settings)) + " ? shows every key.";
+    const std::string rest = orbit_hint(mouse_preset(frame.workspace.settings)) + " ? shows every key.";
+    std::string text = first + " " + rest;
+    if (ImGui::CalcTextSize(text.c_str()).x > wrap) text = first + "\n" + rest;
     if (size_of(text).y > 0.15f * view.size().y) text = first;  // large letters in a small view
     if (size_of(text).y > 0.15f * view.size().y) return none;   // the picture comes first
     const float width = size_of(text).x;
