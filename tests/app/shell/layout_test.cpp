@@ -146,7 +146,7 @@ class LayoutTest : public testing::TestWithParam<std::string> {
                 child && (name == "left/content" || name == "right/content" || name == "right/card");
             if (panel || (child && !of_panel)) continue;
             // A toast lies over the panels, where the view is too narrow to read it in.
-            if (name.starts_with("toast") && boxes_too_narrow()) continue;
+            if (name.starts_with("toast") && view_is_narrower_than_a_toast()) continue;
             add(name.starts_with("axis ") ? "axis gizmo" : name, box);
         }
         const std::vector<LegendRow> legend = lab().legend(workspace());
@@ -165,7 +165,7 @@ class LayoutTest : public testing::TestWithParam<std::string> {
         for (const auto& [name, box] : boxes) parts.push_back({name, box});
         return parts;
     }
-    bool boxes_too_narrow() { return layout().view.size().x < 412.0f * scale_; }
+    bool view_is_narrower_than_a_toast() { return layout().view.size().x < 412.0f * scale_; }
 
     /// With the mouse on it, all of it is told.
     void require_tooltip(const DrawnText& text) {
