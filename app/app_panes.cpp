@@ -51,7 +51,7 @@ void App::draw_panes() {
         lab().draw(view, pane.drawn);
         show_gizmo(pane.drawn, lab(), view, pointer_);
         show_constraint(pane.drawn, view, pointer_, input_);
-        show_labels(pane.drawn, camera, colours, layout_.scale);
+        show_labels(pane.drawn, camera, colours, layout_.scale, shell_.overlays());
     }
     if (const auto box = pointer_.box()) show_selection_box(*box, colours, layout_.scale);
     show_pane_titles(panes_, lab().panes(workspace_), colours, layout_.scale);

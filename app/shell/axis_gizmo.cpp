@@ -64,10 +64,16 @@ std::string view_name(const CameraPose& pose, const std::array<End, 6>& ends) {
 
 }  // namespace
 
-void show_axis_gizmo(const ShellFrame& frame, Emit& emit) {
+float axis_gizmo_width(const Layout& layout) {
+    const glm::vec2 view = layout.view.size();
+    if (view.x < 330.0f * layout.scale || view.y < 220.0f * layout.scale) return 0.0f;
+    return 100.0f * layout.scale;
+}
+
+Rect show_axis_gizmo(const ShellFrame& frame, Emit& emit) {
     const Rect& view = frame.layout.view;
     const float scale = frame.layout.scale, reach = 27.0f * scale, radius = 8.5f * scale;
-    if (view.size().x < 330.0f * scale || view.size().y < 220.0f * scale) return;
+    if (axis_gizmo_width(frame.layout) <= 0.0f) return {view.min, view.min};
     const glm::vec2 centre{view.max.x - reach - 2.0f * radius, view.min.y + reach + 2.0f * radius};
     const Camera camera(frame.workspace.camera, view);
     std::array<End, 6> ends;
@@ -118,6 +124,8 @@ void show_axis_gizmo(const ShellFrame& frame, Emit& emit) {
     list->AddText({centre.x - 0.5f * size.x, centre.y + reach + 1.6f * radius}, imgui_u32(colours.text_dim),
                   name.c_str());
     ImGui::PopFont();
+    const float around = reach + radius;
+    return {centre - around, {centre.x + around, centre.y + reach + 1.6f * radius + size.y}};
 }
 
 }  // namespace tendril::app

@@ -5,7 +5,10 @@
 
 namespace tendril::app {
 
-/// Nothing where the view is too small for it.
-void show_axis_gizmo(const ShellFrame& frame, Emit& emit);
+/// Pixels from the right edge of the view to the left edge of the gizmo; 0 where the view is too small for
+/// it.
+float axis_gizmo_width(const Layout& layout);
+/// Nothing where the view is too small for it. Where it is.
+Rect show_axis_gizmo(const ShellFrame& frame, Emit& emit);
 
 }  // namespace tendril::app

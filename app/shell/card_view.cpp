@@ -117,8 +117,7 @@ void footer(const Card& card, const Measure& m, Emit& emit) {
         emit("view.card", {{"open", true}});
     }
     ImGui::PopStyleColor(2);
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("Sets up the scene that this card is about; undo restores yours");
+    if (ImGui::IsItemHovered()) tooltip("Sets up the scene that this card is about; undo restores yours");
 }
 
 /// By its pick, if that is known, since to list all handles takes long where there are many.

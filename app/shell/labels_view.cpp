@@ -23,7 +23,8 @@ std::vector<Rect> balls_of(const DrawList& drawn, const Camera& camera) {
 
 }  // namespace
 
-void show_labels(const DrawList& drawn, const Camera& camera, const Palette& palette, float scale) {
+void show_labels(const DrawList& drawn, const Camera& camera, const Palette& palette, float scale,
+                 std::span<const Rect> overlays) {
     const std::vector<Label>& labels = drawn.labels;
     if (labels.empty()) return;
     ImGui::PushFont(small_font());
@@ -41,8 +42,9 @@ void show_labels(const DrawList& drawn, const Camera& camera, const Palette& pal
         asked.push_back(&label);
     }
     ImDrawList* list = ImGui::GetBackgroundDrawList();
-    const std::vector<Rect> balls = balls_of(drawn, camera);
-    for (const PlacedLabel& placed : place_labels(requests, camera.viewport(), 2.0f, balls)) {
+    std::vector<Rect> covers = balls_of(drawn, camera);
+    covers.insert(covers.end(), overlays.begin(), overlays.end());
+    for (const PlacedLabel& placed : place_labels(requests, camera.viewport(), 2.0f, covers)) {
         const Label& label = *asked[placed.request];
         const Rect& box = placed.box;
         // A plate keeps the text legible over whatever lies behind it.

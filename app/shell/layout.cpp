@@ -9,12 +9,15 @@ Layout lay_out(glm::vec2 window, float scale, const Settings& settings, float ti
     constexpr float bar = 44.0f, status = 28.0f, folded = 12.0f;
     constexpr float min_view = 0.34f;  // of the width: what the middle keeps, whatever the panels ask for
 
-    const float most = std::max(0.0f, 0.5f * (1.0f - min_view) * window.x);
+    // There is room for one panel only in a narrow window, and where the text is so large that two would be
+    // narrower than their labels need. That one may then be as wide as both.
+    constexpr float narrow = 900.0f, usual_width = 272.0f;
+    const float both = std::max(0.0f, (1.0f - min_view) * window.x);
+    const bool one_panel = window.x < narrow || 2.0f * usual_width * scale > both;
+    const float most = one_panel ? std::max(0.5f * both, both - folded * scale) : 0.5f * both;
     const auto side = [&](bool open, float width) {
         return std::round(std::min((open ? width : folded) * scale, most));
     };
-    constexpr float narrow = 900.0f;  // below it there is room for one of them
-    const bool one_panel = window.x < narrow;
     const bool right_open = settings.right_open && !(one_panel && settings.left_open);
     const float left = side(settings.left_open, settings.left_width);
     const float right = side(right_open, settings.right_width);

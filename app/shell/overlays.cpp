@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/labs/camera_commands.hpp"
+#include "app/shell/axis_gizmo.hpp"
 #include "app/shell/shell.hpp"
 #include "app/shell/theme.hpp"
 #include "app/widgets/fields.hpp"
@@ -128,7 +129,7 @@ static void lab_settings(const ShellFrame& frame, Emit& emit) {
 void show_settings(const ShellFrame& frame, Emit& emit) {
     const Settings& settings = frame.workspace.settings;
     const float scale = frame.layout.scale;
-    if (!begin_sheet("Settings", frame.screen(), {400.0f * scale, 400.0f * scale})) {
+    if (!begin_sheet("Settings", frame.screen(), {520.0f * scale, 400.0f * scale})) {
         emit("view.settings", {{"open", false}});
     }
     static constexpr const char* themes[] = {"dark", "light"};
@@ -152,66 +153,102 @@ void show_settings(const ShellFrame& frame, Emit& emit) {
     ImGui::End();
 }
 
+/// Where the legend is; without size where there is none.
+static Rect legend_box(const ShellFrame& frame, const std::vector<LegendRow>& rows) {
+    const Rect& view = frame.layout.view;
+    const float scale = frame.layout.scale;
+    const bool low = view.size().y < 300.0f * scale || view.size().x < 260.0f * scale;
+    if (rows.empty() || low) return {view.min, view.min};  // the picture comes first
+    ImGui::PushFont(small_font());
+    float widest = 0.0f;
+    for (const LegendRow& row : rows) widest = std::max(widest, ImGui::CalcTextSize(row.name.c_str()).x);
+    const float height = 1.35f * ImGui::GetFontSize() * static_cast<float>(rows.size());
+    ImGui::PopFont();
+    const float bottom = view.max.y - 12.0f * scale;
+    return {{view.min.x, bottom - height}, {view.min.x + 30.0f * scale + widest, bottom}};
+}
+
 void show_toasts(const ShellFrame& frame) {
     const float scale = frame.layout.scale;
     const Palette& colours = frame.colours();
     const Rect& view = frame.layout.view;
+    const Rect legend = legend_box(frame, frame.lab.legend(frame.workspace));
     // As wide as the view; over the panels too where it is too narrow to be read in.
     const float margin = 32.0f * scale, legible = std::min(380.0f * scale, frame.screen().x - margin);
-    const float width = std::max(120.0f, std::min(520.0f * scale, std::max(view.size().x - margin, legible)));
+    const float widest =
+        std::max(120.0f, std::min(520.0f * scale, std::max(view.size().x - margin, legible)));
+    const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+    const float wrap = widest - padding.x - 20.0f * scale;
     float bottom = view.max.y - 16.0f * scale;
     const auto& toasts = frame.workspace.ui.toasts;
     for (std::size_t i = toasts.size(); i-- > 0;) {
         const Toast& toast = toasts[i];
         const std::string id = "toast " + std::to_string(i);
-        ImGui::SetNextWindowPos({view.centre().x, bottom}, ImGuiCond_Always, {0.5f, 1.0f});
-        ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {width, 400.0f * scale});
+        const ImVec2 text = ImGui::CalcTextSize(toast.text.c_str(), nullptr, false, wrap);
+        const glm::vec2 size{text.x + 2.0f * padding.x, std::min(text.y + 2.0f * padding.y, 400.0f * scale)};
+        const float half = 0.5f * size.x, edge = 8.0f * scale;
+        const float centre = std::clamp(view.centre().x, std::min(half + edge, 0.5f * frame.screen().x),
+                                        std::max(frame.screen().x - half - edge, 0.5f * frame.screen().x));
+        const bool on_legend = centre - half < legend.max.x && centre + half > legend.min.x;
+        if (on_legend && bottom > legend.min.y && legend.size().y > 0.0f)
+            bottom = legend.min.y - 8.0f * scale;
+        ImGui::SetNextWindowPos({centre, bottom}, ImGuiCond_Always, {0.5f, 1.0f});
+        ImGui::SetNextWindowSize({size.x, size.y});
         ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 7.0f);
         ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
         const glm::vec3 mark = toast.kind == ToastKind::Refusal ? colours.limit : colours.accent;
         ImGui::PushStyleColor(ImGuiCol_Border, imgui_colour(mark, 0.8f));
         ImGui::Begin(id.c_str(), nullptr,
                      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
-                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
-                         ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                         ImGuiWindowFlags_NoNav);
         ImGui::PopStyleColor();
         ImGui::PopStyleVar(2);
-        ImGui::PushTextWrapPos(width - 20.0f * scale);
+        ImGui::PushTextWrapPos(padding.x + wrap);
         ImGui::TextUnformatted(toast.text.c_str());
         ImGui::PopTextWrapPos();
-        bottom -= ImGui::GetWindowSize().y + 8.0f * scale;
+        bottom -= size.y + 8.0f * scale;
         ImGui::End();
     }
 }
 
-void show_first_hint(const ShellFrame& frame) {
-    if (frame.workspace.settings.hint_seen) return;
-    if (!frame.lab.panes(frame.workspace).empty()) return;  // there are titles
+Rect show_first_hint(const ShellFrame& frame) {
     const Rect& view = frame.layout.view;
+    const Rect none{view.min, view.min};
+    if (frame.workspace.settings.hint_seen) return none;
+    if (!frame.lab.panes(frame.workspace).empty()) return none;  // there are titles
     const Palette& colours = frame.colours();
-    const float wrap = std::max(80.0f, view.size().x - 40.0f);
+    // In the middle, or as near to it as the axis gizmo allows.
+    constexpr float margin = 20.0f;
+    const float end = view.max.x - std::max(margin, axis_gizmo_width(frame.layout));
+    const float wrap = std::max(80.0f, end - view.min.x - margin);
     const auto size_of = [&](const std::string& text) {
         return ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
     };
     const std::string first = frame.lab.invitation();
-    std::string text =
-        first + " " + orbit_hint(mouse_preset(frame.workspace.settings)) + " ? shows every key.";
+    const std::string rest = orbit_hint(mouse_preset(frame.workspace.settings)) + " ? shows every key.";
+    std::string text = first + " " + rest;
+    if (ImGui::CalcTextSize(text.c_str()).x > wrap) text = first + "\n" + rest;
     if (size_of(text).y > 0.15f * view.size().y) text = first;  // large letters in a small view
-    if (size_of(text).y > 0.15f * view.size().y) return;        // the picture comes first
-    const ImVec2 at{view.centre().x - 0.5f * size_of(text).x, view.min.y + 22.0f * frame.layout.scale};
+    if (size_of(text).y > 0.15f * view.size().y) return none;   // the picture comes first
+    const float width = size_of(text).x;
+    const ImVec2 at{std::min(view.centre().x - 0.5f * width, end - width),
+                    view.min.y + 22.0f * frame.layout.scale};
     ImGui::GetBackgroundDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at,
                                             imgui_u32(colours.text, 0.85f), text.c_str(), nullptr, wrap);
+    return {{at.x, at.y}, {at.x + width, at.y + size_of(text).y}};
 }
 
-void show_legend(const ShellFrame& frame) {
+Rect show_legend(const ShellFrame& frame) {
     const Palette& colours = frame.colours();
     const std::vector<LegendRow> rows = frame.lab.legend(frame.workspace);
     const Rect& view = frame.layout.view;
     const float scale = frame.layout.scale;
-    if (view.size().y < 300.0f * scale || view.size().x < 260.0f * scale) return;  // the picture comes first
+    const Rect box = legend_box(frame, rows);
+    if (box.size().y <= 0.0f) return box;
     ImGui::PushFont(small_font());
     const float line = 1.35f * ImGui::GetFontSize();
-    float y = view.max.y - 12.0f * scale - line * static_cast<float>(rows.size());
+    float y = box.min.y;
     ImDrawList* list = ImGui::GetBackgroundDrawList();
     for (const LegendRow& row : rows) {
         const ImVec2 centre{view.min.x + 18.0f * scale, y + 0.5f * ImGui::GetFontSize()};
@@ -224,6 +261,7 @@ void show_legend(const ShellFrame& frame) {
         y += line;
     }
     ImGui::PopFont();
+    return box;
 }
 
 }  // namespace tendril::app

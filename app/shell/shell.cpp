@@ -37,7 +37,7 @@ void panel_edge(const Rect& rect, bool left, float scale, Emit& emit) {
     const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
     if (lit) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     if (lit && !ImGui::IsItemActive())
-        ImGui::SetTooltip("Drag makes the panel wider or narrower; very narrow, it folds away");
+        tooltip("Drag makes the panel wider or narrower; very narrow, it folds away");
     ImGui::GetWindowDrawList()->AddLine({left ? x - 1.0f : x, rect.min.y}, {left ? x - 1.0f : x, rect.max.y},
                                         ImGui::GetColorU32(lit ? ImGuiCol_SeparatorActive : ImGuiCol_Border));
     if (ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 1.0f)) {
@@ -76,9 +76,17 @@ void folded_strip(const ShellFrame& frame, const Rect& rect, bool left, Emit& em
     ImGui::End();
 }
 
+/// A popup of the bar, which scrolls where the window is too low for all of it.
+void place_below_bar(const ShellFrame& frame, float x) {
+    const float y = frame.layout.top.max.y + 2.0f;
+    ImGui::SetNextWindowPos({x, y});
+    ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f},
+                                        {frame.screen().x, std::max(1.0f, frame.screen().y - y - 2.0f)});
+}
+
 void menu(const ShellFrame& frame, Emit& emit) {
     if (icon_button("menu", Icon::Menu, "Menu")) ImGui::OpenPopup("menu popup");
-    ImGui::SetNextWindowPos({ImGui::GetItemRectMin().x, frame.layout.top.max.y + 2.0f});
+    place_below_bar(frame, ImGui::GetItemRectMin().x);
     if (!ImGui::BeginPopup("menu popup")) return;
     close_popup_on_escape();
     // Closer than rows of a panel: all of it in a window of 720 pixels.
@@ -117,7 +125,7 @@ void tab_list(const ShellFrame& frame, Emit& emit) {
     ImGui::PopStyleColor();
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("The other labs");
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-    ImGui::SetNextWindowPos({low.x, frame.layout.top.max.y + 2.0f});
+    place_below_bar(frame, low.x);
     if (ImGui::BeginPopup("labs")) {
         close_popup_on_escape();
         for (const auto& lab : frame.labs.all())
@@ -245,13 +253,13 @@ void status_bar(const ShellFrame& frame) {
 
 }  // namespace
 
-void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 padding) {
+void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 padding, bool scrolls) {
     ImGui::SetNextWindowPos({rect.min.x, rect.min.y});
     ImGui::SetNextWindowSize({std::max(1.0f, rect.size().x), std::max(1.0f, rect.size().y)});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, imgui_colour(colour));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
-    ImGui::Begin(name, nullptr, region_flags);
+    ImGui::Begin(name, nullptr, scrolls ? region_flags & ~ImGuiWindowFlags_NoScrollbar : region_flags);
     ImGui::PopStyleVar(2);
     ImGui::PopStyleColor();
 }
@@ -307,7 +315,7 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
     const Workspace& workspace = frame.workspace;
     if (frame.layout.canvas.size().x > 1.0f) {
         const float padding = 12.0f * frame.layout.scale;
-        begin_region("canvas", frame.layout.canvas, frame.colours().bar, {padding, padding});
+        begin_region("canvas", frame.layout.canvas, frame.colours().bar, {padding, padding}, true);
         frame.lab.canvas(workspace, emit);
         ImGui::End();
     }
@@ -318,10 +326,8 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
         ImGui::End();
     }
     status_bar(frame);
-    show_first_hint(frame);
+    overlays_ = {show_first_hint(frame), show_legend(frame), show_axis_gizmo(frame, emit)};
     show_card_halo(frame, lit_);
-    show_legend(frame);
-    show_axis_gizmo(frame, emit);
     if (workspace.ui.help) show_help(frame, emit);
     if (workspace.ui.settings) show_settings(frame, emit);
     palette_.frame(frame, emit);

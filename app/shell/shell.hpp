@@ -36,12 +36,15 @@ struct ShellFrame {
 class Shell {
   public:
     void frame(const ShellFrame& frame, Emit& emit);
+    /// What the last frame wrote on the scene: hint, legend and axis gizmo.
+    const std::vector<Rect>& overlays() const { return overlays_; }
 
   private:
     void side_panel(const ShellFrame& frame, bool left, Emit& emit);
 
     float overflow_[2] = {0.0f, 0.0f};  ///< how far each side panel can scroll
-    PickId lit_ = no_pick;              ///< of the handle that lights up; see show_card_halo()
+    std::vector<Rect> overlays_;
+    PickId lit_ = no_pick;  ///< of the handle that lights up; see show_card_halo()
     CommandPalette palette_;
     FileDialog file_dialog_;
 };
@@ -53,11 +56,13 @@ void show_recovery(const ShellFrame& frame, Emit& emit);
 void show_quit(const ShellFrame& frame, Emit& emit);
 void show_filming(const ShellFrame& frame, Emit& emit);
 void show_toasts(const ShellFrame& frame);
-void show_first_hint(const ShellFrame& frame);
-void show_legend(const ShellFrame& frame);
+// Those below say where they are; without size where they are not shown.
+Rect show_first_hint(const ShellFrame& frame);
+Rect show_legend(const ShellFrame& frame);
 
-/// A fixed window without decoration that fills `rect`. Always ImGui::End() after it.
-void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 padding);
+/// A fixed window without decoration that fills `rect`; one that `scrolls` has a bar where there is more in
+/// it than room. Always ImGui::End() after it.
+void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 padding, bool scrolls = false);
 
 /// A window of the given share of the screen in the middle of it, closed by Escape or the cross; false once
 /// closed.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/vec2.hpp>
 
+#include "app/widgets/text.hpp"
+
 namespace tendril::app {
 namespace {
 
@@ -189,7 +191,7 @@ bool piece_row(signal::CurveKey& key) {
     for (const signal::Piece piece : {signal::Piece::Constant, signal::Piece::Linear, signal::Piece::Cubic}) {
         if (piece != signal::Piece::Constant) ImGui::SameLine();
         if (ImGui::RadioButton(signal::name(piece), key.piece == piece)) key.piece = piece, changed = true;
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", piece_help(piece));
+        if (ImGui::IsItemHovered()) tooltip(piece_help(piece));
     }
     return changed;
 }
@@ -234,7 +236,7 @@ bool curve_editor(const char* id, signal::Curve& curve, glm::vec3 colour, float 
         changed = true;
     }
     if (ImGui::IsItemHovered() && !ImGui::IsItemActive())
-        ImGui::SetTooltip(
+        tooltip(
             "Drag a key, or the slope at either side of the one that was clicked.\n"
             "Double-click adds a key, right-click removes it.");
     editor.draw(active, input);

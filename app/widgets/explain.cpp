@@ -11,6 +11,7 @@
 #include "app/widgets/expression.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/number_entry.hpp"
+#include "app/widgets/text.hpp"
 
 namespace tendril::app {
 namespace {
@@ -71,11 +72,7 @@ void explain(const char* text) {
         if (whole.back() != '.') whole += '.';
         whole += range_text(row);
     }
-    ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(22.0f * ImGui::GetFontSize());
-    ImGui::TextUnformatted(whole.c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
+    tooltip(whole);
 }
 
 }  // namespace tendril::app

@@ -77,6 +77,11 @@ bool drag_number(const char* id, float& value, float speed, float low, float hig
 
 namespace {
 
+/// Of the last item, wrapped, though it may be disabled.
+void tooltip_of_button(const std::string& text) {
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) tooltip(text);
+}
+
 void line_below() {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::GetWindowDrawList()->AddLine(at, {at.x + ImGui::GetContentRegionAvail().x, at.y},
@@ -225,7 +230,10 @@ bool choice_field(const char* name, int& chosen, const char* const* titles, int 
                   const char* const* why_not) {
     const std::string id = begin_row(name);
     const float room = ImGui::CalcItemWidth() - ImGui::GetFrameHeight() - ImGui::GetStyle().FramePadding.x;
-    if (!ImGui::BeginCombo(id.c_str(), elided(titles[chosen], room).c_str())) return false;
+    const std::string shown = elided(titles[chosen], room);
+    const bool open = ImGui::BeginCombo(id.c_str(), shown.c_str());
+    if (!open && shown != titles[chosen]) tooltip_of_button(titles[chosen]);
+    if (!open) return false;
     close_popup_on_escape();
     bool changed = false;
     for (int i = 0; i < count; ++i) {
@@ -259,11 +267,13 @@ bool begin_search(const char* name, const std::string* shown, SearchText& typed)
         preview = elided(*shown,
                          ImGui::CalcItemWidth() - ImGui::GetFrameHeight() - ImGui::GetStyle().FramePadding.x);
     }
+    const bool cut = shown != nullptr && preview != *shown;
     const float em = ImGui::GetFontSize();
     ImGui::SetNextWindowSizeConstraints({20.0f * em, 0.0f}, {40.0f * em, 30.0f * em});
-    if (!ImGui::BeginCombo(id.c_str(), preview.c_str(),
-                           shown != nullptr ? ImGuiComboFlags_None : ImGuiComboFlags_NoPreview))
-        return false;
+    const bool open = ImGui::BeginCombo(id.c_str(), preview.c_str(),
+                                        shown != nullptr ? ImGuiComboFlags_None : ImGuiComboFlags_NoPreview);
+    if (!open && cut) tooltip_of_button(*shown);
+    if (!open) return false;
     close_popup_on_escape();
     if (ImGui::IsWindowAppearing()) {
         typed[0] = '\0';
@@ -286,16 +296,6 @@ bool search_row(const std::string& title, bool chosen, const SearchText& typed) 
 void end_search() {
     ImGui::EndChild();
     ImGui::EndCombo();
-}
-
-/// What a button does, wrapped, though it may be disabled.
-static void tooltip_of_button(const std::string& text) {
-    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-    ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(22.0f * ImGui::GetFontSize());
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
 }
 
 bool option_button(const char* title, bool chosen, const char* tooltip) {

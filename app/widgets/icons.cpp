@@ -3,6 +3,8 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "app/widgets/text.hpp"
+
 namespace tendril::app {
 namespace {
 
@@ -127,7 +129,7 @@ bool icon_button(const char* id, Icon icon, const char* tooltip, bool enabled, b
               ImGui::GetColorU32(active ? ImGuiCol_CheckMark : ImGuiCol_Text));
     ImGui::EndDisabled();
     if (tooltip != nullptr && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-        ImGui::SetTooltip("%s", tooltip);
+        app::tooltip(tooltip);
     return pressed;
 }
 

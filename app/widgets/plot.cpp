@@ -182,9 +182,11 @@ class Plot {
 
     void grid() {
         const ImU32 line = ImGui::GetColorU32(ImGuiCol_Border, 0.7f);
+        float lowest = from_.y;  // of the texts beside the y axis
         for (const auto& [at, text] : y_marks()) {
             list_->AddLine({from_.x, at}, {to_.x, at}, line);
             const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+            lowest = std::max(lowest, at + 0.5f * size.y);
             list_->AddText({from_.x - size.x - 4.0f, at - 0.5f * size.y}, dim(), text.c_str());
         }
         const int room = std::max(1, static_cast<int>((to_.x - from_.x) / (3.5f * ImGui::GetFontSize())));
@@ -197,9 +199,9 @@ class Plot {
             list_->AddLine({x(value), from_.y}, {x(value), to_.y}, line);
             const std::string text = short_text(static_cast<double>(value), axes_.x_unit);
             const float half = 0.5f * ImGui::CalcTextSize(text.c_str()).x;
-            list_->AddText(
-                {std::min(x(value) - half, to_.x - 2.0f * half + 0.5f * ImGui::GetFontSize()), to_.y + 2.0f},
-                dim(), text.c_str());
+            const float most = to_.x - 2.0f * half + 0.5f * ImGui::GetFontSize();
+            const float leftmost = lowest > to_.y + 2.0f ? from_.x - 3.0f : from_.x - half;
+            list_->AddText({std::max(leftmost, std::min(x(value) - half, most)), to_.y + 2.0f}, dim(), text.c_str());
         }
         const float text_height = ImGui::GetFontSize();
         list_->AddText({from_.x, from_.y - 1.15f * text_height}, dim(), y_title().c_str());

@@ -53,9 +53,12 @@ std::string elided_at_word(const std::string& text, float width) {
 void text_elided(const std::string& text, float width, bool dim) {
     const std::string shown = elided(text, width);
     write(shown, dim);
-    if (shown == text || !ImGui::IsItemHovered()) return;
+    if (shown != text && ImGui::IsItemHovered()) tooltip(text);
+}
+
+void tooltip(const std::string& text) {
     ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(28.0f * ImGui::GetFontSize());
+    ImGui::PushTextWrapPos(22.0f * ImGui::GetFontSize());
     ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();

@@ -38,7 +38,7 @@ void incident_row(const Workspace& workspace, std::size_t number, const Palette&
     }
     ImGui::PopStyleVar();
     ImGui::PopID();
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s.", incident.cause.c_str());
+    if (ImGui::IsItemHovered()) tooltip(incident.cause + ".");
 }
 
 }  // namespace

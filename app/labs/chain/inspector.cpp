@@ -42,9 +42,9 @@ void joint_row(const ShownChain& shown, const Joints& joints, std::size_t i, Emi
         emit("chain.select", {{"index", i}, {"add", ImGui::GetIO().KeyShift}});
     }
     if (ImGui::IsItemHovered())
-        ImGui::SetTooltip(i == 0 ? "Click selects the first joint, Shift+click adds it"
-                                 : "Click selects this joint, Shift+click adds it. bone: the length of the bone that leads to it; "
-                                   "error: how far that is from what it should be");
+        tooltip(i == 0 ? "Click selects the first joint, Shift+click adds it"
+                       : "Click selects this joint. bone: the length of the bone that leads to it; "
+                         "error: how far that is from what it should be");
     for (int axis = 0; axis < 3; ++axis) {
         ImGui::TableNextColumn();
         text_flush_right(fixed_text(static_cast<double>(segment.position[axis]), 2));

@@ -83,7 +83,7 @@ void row_tooltip(const RigPart& part, std::size_t i, rig::Pending pending, bool 
     if (marks)
         text += std::string("\nThe two bars are its local and its global transform: ") +
                 pending_text(pending) + '.';
-    ImGui::SetTooltip("%s", text.c_str());
+    tooltip(text);
 }
 
 /// Of one row to the next, pixels.

@@ -13,6 +13,7 @@
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/plot.hpp"
+#include "app/widgets/text.hpp"
 
 namespace tendril::app {
 namespace {
@@ -122,12 +123,15 @@ void shelf_plot(const Workspace& workspace, const Palette& palette, float height
 void plot_choice(const SignalPart& part, Emit& emit) {
     for (const SignalPlot each : signal_plots.values()) {
         if (each != SignalPlot::Rates) ImGui::SameLine();
+        const float width =
+            ImGui::CalcTextSize(signal_plots.title(each)).x + 2.0f * ImGui::GetStyle().FramePadding.x;
+        if (width > ImGui::GetContentRegionAvail().x) ImGui::NewLine();
         const bool chosen = part.plot == each;
         ImGui::PushStyleColor(ImGuiCol_Button,
                               ImGui::GetStyleColorVec4(chosen ? ImGuiCol_Header : ImGuiCol_ChildBg));
         if (ImGui::Button(signal_plots.title(each))) emit("signal.plot", {{"name", signal_plots.name(each)}});
         ImGui::PopStyleColor();
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", signal_plots.help(each));
+        if (ImGui::IsItemHovered()) tooltip(signal_plots.help(each));
     }
 }
 
@@ -144,6 +148,7 @@ void colour_key(const std::vector<std::pair<std::string, glm::vec3>>& rows) {
             const float needed = ImGui::CalcTextSize(name.c_str()).x + 1.4f * ImGui::GetFontSize() + more;
             if (ImGui::GetContentRegionAvail().x < needed) {
                 if (++lines > most_lines) {
+                    if (ImGui::GetContentRegionAvail().x < more) ImGui::NewLine();
                     ImGui::AlignTextToFramePadding();
                     ImGui::TextDisabled("and %zu more", rows.size() - i);
                     break;

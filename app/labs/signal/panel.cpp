@@ -112,7 +112,7 @@ void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit) {
         ImGui::PushStyleColor(ImGuiCol_Button,
                               ImGui::GetStyleColorVec4(selected ? ImGuiCol_Header : ImGuiCol_ChildBg));
         if (ImGui::Button((title + "##title").c_str(), {width, 0.0f})) emit("signal.select", {{"at", i}});
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("Click selects this filter: its parameters are below");
+        if (ImGui::IsItemHovered()) tooltip("Click selects this filter: its parameters are below");
         ImGui::PopStyleColor();
         ImGui::PopStyleVar();
         ImGui::PopID();

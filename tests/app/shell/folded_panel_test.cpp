@@ -26,5 +26,17 @@ TEST(FoldedPanel, OneFoldsByItselfWhereThereIsNoRoomForTwo) {
     EXPECT_TRUE(lay_out({899, 640}, 1.0f, settings, 0.0f).right_open);
 }
 
+TEST(FoldedPanel, OneFoldsByItselfWhereLargeTextLeavesRoomForOne) {
+    Settings settings;
+    EXPECT_FALSE(lay_out({1280, 720}, 1.5f, settings, 0.0f).one_panel);
+    const Layout large = lay_out({1280, 720}, 2.0f, settings, 0.0f);
+    EXPECT_TRUE(large.one_panel);
+    EXPECT_EQ(large.left.size().x, 2.0f * settings.left_width)
+        << "labels have the room that they have at scale 1";
+    EXPECT_EQ(large.right.size().x, 24.0f) << "the strip that brings it back";
+    settings.left_width = 520.0f;
+    EXPECT_GE(lay_out({1280, 720}, 2.0f, settings, 0.0f).view.size().x, 0.339f * 1280.0f);
+}
+
 }  // namespace
 }  // namespace tendril::app

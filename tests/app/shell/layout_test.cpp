@@ -1,0 +1,339 @@
+// Every lab, at three sizes of window and three sizes of text: no text is cut, nothing lies on anything else,
+// and everything that can be clicked can be reached.
+#include <gtest/gtest.h>
+#include <imgui_internal.h>  // scrolling a window from outside, and which windows there are
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
+
+#include "app/app.hpp"
+#include "app/document/command.hpp"
+#include "app/document/json_complete.hpp"
+#include "app/widgets/fonts.hpp"
+#include "tests/app/support/full_scenes.hpp"
+#include "tests/app/support/layout_faults.hpp"
+
+namespace tendril::test {
+namespace {
+
+using namespace app;
+
+constexpr glm::ivec2 sizes[] = {{1024, 640}, {1280, 720}, {2560, 1440}};
+constexpr float scales[] = {1.0f, 1.5f, 2.0f};
+
+std::vector<std::string> lab_names() {
+    std::vector<std::string> names;
+    const Labs labs;
+    for (const auto& lab : labs.all()) names.push_back(lab->name());
+    return names;
+}
+
+/// Titles that end in "..." since something is asked next.
+bool means_dots(const std::string& text) {
+    return text == "Save..." || text == "Open..." || text == "Save as..." || text == "Open ..." ||
+           text.ends_with(" ...");
+}
+
+class LayoutTest : public testing::TestWithParam<std::string> {
+  protected:
+    const Lab& lab() const { return *app_.labs().find(GetParam()); }
+    Workspace& workspace() { return app_.workspace(); }
+    void run(const char* command, Json arguments = Json::object()) {
+        app_.run({command, std::move(arguments)});
+    }
+
+    void set_up(const Shown& scene) {
+        run("scene.new");
+        run("lab.open", {{"name", GetParam()}});
+        for (const CommandCall& command : scene.commands)
+            run(command.name.c_str(), to_json(command.arguments));
+        run("view.fold", {{"section", "chain: Joints, in metres"}, {"folded", false}});
+        run("time.play");
+        for (int i = 0; i < scene.ticks; ++i) app_.tick(nullptr);
+        run("time.pause");
+        workspace().ui.toasts.clear();
+        scene_ = scene.name;
+    }
+    void resize(glm::ivec2 size) {
+        const Event resized = Resize{size}, away = MouseMove{{2.0f, static_cast<float>(size.y) - 2.0f}};
+        app_.tick(&resized);
+        app_.tick(&away);
+        size_ = size;
+    }
+    void set_scale(float scale) {
+        run("view.text_scale", {{"scale", scale}});
+        scale_ = scale;
+    }
+    Layout layout() {
+        return lay_out(size_, scale_, workspace().settings, lab().timeline_height(workspace()),
+                       lab().canvas_share(workspace()));
+    }
+
+    void note(const std::vector<LayoutFault>& faults) {
+        for (const LayoutFault& fault : faults) {
+            std::string key = fault.message();
+            key.erase(std::remove_if(key.begin(), key.end(), [](unsigned char c) { return std::isdigit(c); }),
+                      key.end());
+            Found& found = found_[key];
+            if (found.first.empty()) found.first = fault.message() + " (" + scene_ + ")";
+            found.where.insert({size_.x, scale_});
+        }
+    }
+
+    /// All windows that scroll, so many steps down. False once the last has reached its end.
+    static bool scroll_to(int step) {
+        bool more = step == 0;
+        for (ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+            if (!window->WasActive || window->ScrollMax.y <= 0.0f) continue;
+            const float page = 0.7f * window->InnerRect.GetHeight();
+            more |= page * static_cast<float>(step - 1) < window->ScrollMax.y;
+            window->Scroll.y = std::min(window->ScrollMax.y, page * static_cast<float>(step));
+        }
+        return more;
+    }
+    /// Everything that the window shows now, and what scrolling brings.
+    void look() {
+        for (int step = 0; scroll_to(step); ++step) {
+            app_.settle();
+            const FrameRecord frame = recorder_.frame();
+            note(cut_texts(frame));
+            std::vector<const DrawnText*> elided;
+            note(elided_texts(frame, means_dots, elided));
+            if (step == 0) look_at_places(frame);
+            note(overlaps(frame));
+            for (const DrawnText* text : elided) require_tooltip(*text);
+        }
+        scroll_to(0);
+    }
+    void look_at_places(const FrameRecord& frame) {
+        note(out_of_reach(frame, size_));
+        const Layout parts = layout();
+        const float middle = parts.view.max.x - parts.canvas.min.x;
+        if (middle < static_cast<float>(size_.x) / 3.0f)
+            note({{"is narrower than a third of the window", "window", "the 3D view"}});
+        note(covered(shell_parts(frame)));
+        note_beneath_panels(frame);
+    }
+    /// What lies on the scene and out of its rectangle is hidden by a panel.
+    void note_beneath_panels(const FrameRecord& frame) {
+        const Rect view = layout().view;
+        for (const DrawnText& text : frame.texts) {
+            if (text.window != nullptr) continue;
+            if (text.box.min.x < view.min.x || text.box.max.x > view.max.x || text.box.min.y < view.min.y ||
+                text.box.max.y > view.max.y)
+                note({{"is hidden beneath a panel", "scene", text.text}});
+        }
+    }
+    std::vector<ShellPart> shell_parts(const FrameRecord& frame) {
+        std::map<std::string, Rect> boxes;
+        const auto add = [&](const std::string& name, const Rect& box) {
+            const auto [at, is_new] = boxes.try_emplace(name, box);
+            at->second = {glm::min(at->second.min, box.min), glm::max(at->second.max, box.max)};
+        };
+        for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+            if (!window->Active || window->Hidden || window->IsFallbackWindow) continue;
+            const std::string name = window_name(window);
+            // Meant to lie over the others: sheets, which have a title, what pops up, and the palette.
+            if ((window->Flags & (ImGuiWindowFlags_Popup | ImGuiWindowFlags_Tooltip)) != 0) continue;
+            if ((window->Flags & ImGuiWindowFlags_NoTitleBar) == 0 || name.starts_with("palette")) continue;
+            const ImRect rect = window->Rect();
+            const Rect box{{rect.Min.x, rect.Min.y}, {rect.Max.x, rect.Max.y}};
+            const bool panel = name == "left" || name == "right";  // its card and its content are
+            const bool child = (window->Flags & ImGuiWindowFlags_ChildWindow) != 0;
+            const bool of_panel =
+                child && (name == "left/content" || name == "right/content" || name == "right/card");
+            if (panel || (child && !of_panel)) continue;
+            // A toast lies over the panels, where the view is too narrow to read it in.
+            if (name.starts_with("toast") && view_is_narrower_than_a_toast()) continue;
+            add(name.starts_with("axis ") ? "axis gizmo" : name, box);
+        }
+        const std::vector<LegendRow> legend = lab().legend(workspace());
+        for (const DrawnText& text : frame.texts) {
+            if (text.window != nullptr) continue;
+            const bool row = std::any_of(legend.begin(), legend.end(),
+                                         [&](const LegendRow& each) { return each.name == text.text; });
+            const std::string invitation = lab().invitation();
+            // A label on the scene may read the same.
+            const bool in_column = std::abs(text.box.min.x - layout().view.min.x - 30.0f * scale_) < 1.0f;
+            if (row && in_column) add("legend", {{layout().view.min.x, text.box.min.y}, text.box.max});
+            if (!invitation.empty() && text.text.starts_with(invitation)) add("first hint", text.box);
+            if (text.text == "Perspective" || text.text == "Orthographic") add("axis gizmo", text.box);
+        }
+        std::vector<ShellPart> parts;
+        for (const auto& [name, box] : boxes) parts.push_back({name, box});
+        return parts;
+    }
+    bool view_is_narrower_than_a_toast() { return layout().view.size().x < 412.0f * scale_; }
+
+    /// With the mouse on it, all of it is told.
+    void require_tooltip(const DrawnText& text) {
+        const std::string kept = text.text.substr(0, text.text.size() - 3);
+        if (!asked_.insert(window_name(text.window) + kept).second) return;
+        const Rect seen{glm::max(text.box.min, text.clip.min), glm::min(text.box.max, text.clip.max)};
+        const Event there = MouseMove{seen.centre()},
+                    away = MouseMove{{2.0f, static_cast<float>(size_.y) - 2.0f}};
+        app_.tick(&there);
+        app_.settle();
+        bool told = false;
+        for (const DrawnText& each : recorder_.frame().texts)
+            told |= each.window != nullptr && (each.window->Flags & ImGuiWindowFlags_Tooltip) != 0 &&
+                    each.text.find(kept) != each.text.npos;
+        if (!told)
+            note({{"is cut short, and no tooltip has all of it", window_name(text.window), text.text}});
+        app_.tick(&away);
+    }
+
+    void look_at_panels() {
+        look_at_shown_panels();
+        if (!layout().one_panel) return;
+        run("view.panels", {{"left", false}, {"right", true}});
+        look_at_shown_panels();
+        run("view.panels", {{"left", true}, {"right", true}});
+    }
+    void look_at_shown_panels() {
+        look();
+        if (size_ == sizes[0]) look_at_lists();
+    }
+    /// What opens below each field with a list, once for each size of text: lists do not know the window's
+    /// size.
+    void look_at_lists() {
+        for (int step = 0; scroll_to(step); ++step) {
+            app_.settle();
+            std::vector<DrawnItem> lists;
+            for (const DrawnItem& item : recorder_.frame().items)
+                if (item.kind == DrawnItem::Kind::Combo && visible(item) &&
+                    opened_.insert({item.id, scale_}).second)
+                    lists.push_back(item);
+            for (const DrawnItem& item : lists) {
+                scroll_to(step);
+                app_.settle();
+                look_behind(item.box.centre());
+            }
+        }
+        scroll_to(0);
+    }
+    static bool visible(const DrawnItem& item) {
+        const ImRect& room = item.window->InnerClipRect;
+        return room.Contains({item.box.min.x, item.box.min.y}) &&
+               room.Contains({item.box.max.x, item.box.max.y});
+    }
+    /// What opens over the window, one after the other.
+    void look_at_sheets() {
+        for (const char* command : {"view.settings", "view.help", "view.palette"}) {
+            run(command, {{"open", true}});
+            look();
+            run(command, {{"open", false}});
+        }
+        run("view.palette", {{"open", true}});
+        const Event text = TextInput{"chain.add length=nothing"}, enter = KeyTap{{Key::Enter}};
+        app_.tick(&text);
+        app_.tick(&enter);
+        look();
+        run("view.palette", {{"open", false}});
+        for (const char* command : {"scene.open_dialog", "scene.save_dialog"}) {
+            run(command);
+            look();
+            run("view.close");
+        }
+        workspace().ui.asks_to_quit = true;
+        look();
+        workspace().ui.asks_to_quit = false;
+        workspace().ui.recoverable = {
+            {"a scene with a name that is not short.json, 23 November, 13:45", "x.json"}};
+        look();
+        workspace().ui.recoverable.clear();
+        workspace().toast("Written");
+        EXPECT_THROW(run("time.speed", {{"factor", 1e9}}), Refused);
+        workspace().toast(
+            "A sentence that is as long as what is said about a file that cannot be read: at line 12, "
+            "the joint \"LeftHandIndexFinger\" has no parent");
+        look();
+        workspace().ui.toasts.clear();
+    }
+    /// The menu, and the list of labs where there is one.
+    void look_at_bar() {
+        app_.settle();
+        const FrameRecord frame = recorder_.frame();
+        const auto menu = std::find_if(frame.items.begin(), frame.items.end(), [](const DrawnItem& item) {
+            return window_name(item.window) == "top";
+        });
+        ASSERT_NE(menu, frame.items.end());
+        look_behind(menu->box.centre());
+        for (const DrawnText& text : frame.texts)
+            if (window_name(text.window) == "top" && text.text.ends_with(" ..."))
+                look_behind(text.box.centre());
+    }
+    /// What a click there opens.
+    void look_behind(glm::vec2 at) {
+        const Event there = MouseMove{at}, press = MousePress{MouseButton::Left, true},
+                    release = MousePress{MouseButton::Left, false};
+        for (const Event* event : {&there, &press, &release}) app_.tick(event);
+        app_.settle();
+        ++popups_;
+        look();
+        const Event escape = KeyTap{{Key::Escape}};
+        app_.tick(&escape);
+        const Event away = MouseMove{{2.0f, static_cast<float>(size_.y) - 2.0f}};
+        app_.tick(&away);
+    }
+
+    void report() const {
+        for (const auto& [key, found] : found_) {
+            std::string where;
+            for (const auto& [width, scale] : found.where) {
+                char text[32];
+                std::snprintf(text, sizeof text, " %d@%.1f", width, static_cast<double>(scale));
+                where += text;
+            }
+            ADD_FAILURE() << GetParam() << ", window width@text scale" << where << "; " << found.first;
+        }
+    }
+
+    struct Found {
+        std::string first;
+        std::set<std::pair<int, float>> where;
+    };
+    std::unique_ptr<Window> window_ = open_offscreen(sizes[0]);
+    App app_{*window_};
+    FrameRecorder recorder_;
+    glm::ivec2 size_{0};
+    int popups_ = 0;  ///< that were looked at
+    float scale_ = 1.0f;
+    std::string scene_;
+    std::map<std::string, Found> found_;
+    std::set<std::string> asked_;
+    std::set<std::pair<unsigned, float>> opened_;
+};
+
+TEST_P(LayoutTest, CutsNothingAndOverlapsNothing) {
+    std::size_t texts = 0;
+    for (const float scale : scales) {
+        set_scale(scale);
+        for (const Shown& scene : all_scenes(lab(), app_.commands())) {
+            set_up(scene);
+            run("view.card", {{"open", false}});
+            for (const glm::ivec2 size : sizes) {
+                resize(size);
+                look_at_panels();
+                texts += recorder_.frame().texts.size();
+                if (scene.name != "as it opens") continue;
+                run("view.card", {{"open", true}});
+                look_at_panels();
+                look_at_sheets();
+                look_at_bar();
+                run("view.card", {{"open", false}});
+            }
+        }
+    }
+    EXPECT_GT(texts, 1000u) << "what is drawn is recorded";
+    RecordProperty("popups", popups_);
+    report();
+}
+
+INSTANTIATE_TEST_SUITE_P(Labs, LayoutTest, testing::ValuesIn(lab_names()),
+                         [](const auto& lab) { return lab.param; });
+
+}  // namespace
+}  // namespace tendril::test
