@@ -77,7 +77,7 @@ class Deflate {
     Deflate(const Deflate&) = delete;
     Deflate& operator=(const Deflate&) = delete;
 
-    /// Packs all of it, and gives `take` piece after piece.
+    /// Packs all of it, and gives `take` part after part.
     template <class Take>
     void run(std::vector<std::uint8_t>& bytes, const Take& take) {
         std::vector<std::uint8_t> out(most_chunk_bytes);
@@ -170,10 +170,10 @@ void ApngFile::write_pixels(const Image& frame, const Area& area) {
     std::vector<std::uint8_t> bytes = filtered(frame, area);
     const bool first = frames_ == 0;
     std::string data;
-    Deflate().run(bytes, [&](std::string_view piece) {
+    Deflate().run(bytes, [&](std::string_view part) {
         data.clear();
         if (!first) put_32(data, sequence_++);
-        data += piece;
+        data += part;
         chunk(first ? "IDAT" : "fdAT", data);
     });
 }

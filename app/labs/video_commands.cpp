@@ -129,7 +129,7 @@ void add_recording(CommandTable& table, const Labs& labs) {
                    w.ui.ends_filming = true;
                }});
     table.add({.name = "view.video_dialog",
-               .title = "Record a video...",
+               .title = "Record a video",
                .arguments = {},
                .help = "Pauses, and shows a dialog to record the last seconds as a video",
                .effect = Effect::Look,

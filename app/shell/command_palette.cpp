@@ -22,8 +22,8 @@ float height_below(const std::string& help) {
     const float line = ImGui::GetTextLineHeightWithSpacing(), width = ImGui::GetContentRegionAvail().x;
     const float wrapped = ImGui::CalcTextSize(help.c_str(), nullptr, false, width).y;
     // Room for two lines keeps the list still; where few rows fit, they come first.
-    const float least = ImGui::GetWindowHeight() < 18.0f * line ? 1.0f : 2.0f;
-    return line + std::clamp(wrapped, least * ImGui::GetTextLineHeight(), 4.0f * ImGui::GetTextLineHeight()) +
+    const float fewest = ImGui::GetWindowHeight() < 18.0f * line ? 1.0f : 2.0f;
+    return line + std::clamp(wrapped, fewest * ImGui::GetTextLineHeight(), 4.0f * ImGui::GetTextLineHeight()) +
            3.0f * ImGui::GetStyle().ItemSpacing.y + 0.25f * ImGui::GetTextLineHeight();
 }
 

@@ -203,9 +203,9 @@ Bounds ChainLab::bounds(const Workspace& workspace, bool selection_only) const {
     if (selection_only && !part.selection.empty()) {
         glm::vec3 low(1e30f), high(-1e30f);
         for (const std::size_t i : part.selection.all()) {
-            const glm::vec3 room(1.5f * part.chain.length(i) / glm::sqrt(3.0f));
-            low = glm::min(low, part.chain.position(i) - room);
-            high = glm::max(high, part.chain.position(i) + room);
+            const glm::vec3 around(1.5f * part.chain.length(i) / glm::sqrt(3.0f));
+            low = glm::min(low, part.chain.position(i) - around);
+            high = glm::max(high, part.chain.position(i) + around);
         }
         return bounds_of(low, high);
     }

@@ -66,7 +66,7 @@ std::vector<std::size_t> joints_of(const Arguments& given, const ChainPart& part
         joints.push_back(index_of(given));
     } else {
         for (const Json& each : given.json("joints")) {
-            if (!each.is_number_unsigned())
+            if (!each.is_number_integer() || each.get<std::int64_t>() < 0)
                 throw Refused("joints: " + json_summary(each) + " is no joint; they are counted from 0");
             joints.push_back(each.get<std::size_t>());
         }

@@ -88,6 +88,7 @@ void remove_selected(ChainPart& part, const Arguments&) {
     if (part.selection.empty()) throw Refused("no joint is selected");
     const std::vector<std::size_t> joints = part.selection.all();
     for (std::size_t i = joints.size(); i-- > 0;) remove_at(part, joints[i]);
+    if (joints.size() > 1) part.selection.clear();
 }
 
 void clear(ChainPart& part, const Arguments& given) {
@@ -145,8 +146,9 @@ void add_shape_commands(CommandTable& table) {
     table.add(
         chain_command("chain.reset", "Reset the Chain lab", {}, "Resets this lab to its first state", reset));
     table.add(chain_command("chain.set_length", "Set the length of bones",
-                            {index_argument(false, "which joint; its length is that of the bone to it"),
-                             joints_argument(), length_argument()},
+                            {length_argument(),
+                             index_argument(false, "which joint; its length is that of the bone to it"),
+                             joints_argument()},
                             "Sets the length of the bones to joints", set_length));
     table.add(chain_command(
         "chain.preset", "Open a chain preset",

@@ -66,7 +66,7 @@ Json Selection::save() const {
 
 Selection Selection::load(const JsonPlace& place, std::size_t count) {
     Selection selection;
-    if (count == 0) return selection;
+    if (count == 0 || place.json().is_null()) return selection;
     if (!place.json().is_object()) {
         selection.only(place.index(count - 1));
         return selection;

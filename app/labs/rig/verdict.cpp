@@ -16,9 +16,9 @@ Verdict rig_verdict(const RigPart& part) {
     }
     if (all == 0) return {"No units", Verdict::Kind::Open, "Add a unit: it moves what the rig is made of."};
     if (warned > 0) return {count_text(warned, "unit") + " left out", Verdict::Kind::Bad, first};
-    const std::string off = on < all ? std::to_string(all - on) + " more switched off." : std::string();
-    if (on == 0) return {"All units are off", Verdict::Kind::Open, {}};
-    return {on == 1 ? "The unit ran" : "All " + std::to_string(on) + " units ran", Verdict::Kind::Good, off};
+    if (on == 0) return {"All units are off", Verdict::Kind::Open, "Switch one on in the list of units."};
+    const std::string of = std::to_string(on) + " of " + count_text(all, "unit") + " switched on.";
+    return {on == 1 ? "The unit ran" : "All units ran", Verdict::Kind::Good, of};
 }
 
 }  // namespace tendril::app

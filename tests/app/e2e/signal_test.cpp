@@ -91,7 +91,7 @@ TEST(SignalInTheWindow, TheAxesOfAResponseStayWhileItIsDrawn) {
 
 /// The window stays responsive; a script's own command is done at once, and comes to the same.
 TEST(SignalInTheWindow, AFitThatAButtonBeginsGoesOnFromTickToTick) {
-    const glm::vec2 fit{1060.0f, 210.0f};
+    const glm::vec2 fit{1060.0f, 286.0f};
     const ScriptText drawn =
         ScriptText()
             .command("lab.open", {{"name", "signal"}})

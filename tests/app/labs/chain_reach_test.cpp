@@ -37,7 +37,7 @@ TEST_F(ChainReach, a_solve_that_moves_nothing_says_so_too) {
 }
 
 TEST_F(ChainReach, delete_removes_what_is_selected) {
-    EXPECT_NE(refused("chain.remove_selected").find("no segment is selected"), std::string::npos);
+    EXPECT_NE(refused("chain.remove_selected").find("no joint is selected"), std::string::npos);
     run("chain.select", {{"index", 3}});
     run("chain.remove_selected");
     EXPECT_EQ(part().chain.size(), 7u);

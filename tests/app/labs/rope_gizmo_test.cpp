@@ -23,7 +23,7 @@ class RopeGizmo : public RopeTest {
     void drag(const Handle::Frame& to) {
         Emit emit;
         lab().drag(workspace, gizmo()->pick, to, emit);
-        for (const Emitted& each : emit.take()) run(each.name, *each.arguments);
+        for (const Emitted& each : emit.take()) run(each.name.c_str(), *each.arguments);
     }
     const rope::Shape& shape(const char* name) const { return world().find_collider(name)->shape; }
 };

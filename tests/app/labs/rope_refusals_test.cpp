@@ -34,7 +34,7 @@ TEST_F(RopeRefusals, SayWhyInOneLine) {
               "rope.settings: substep must be 1e-05 to 0.1, got 0");
     EXPECT_EQ(refused("rope.settings", {{"gravity", "down"}}),
               "rope.settings: gravity must be a number or a point [x, y, z], got \"down\"");
-    EXPECT_EQ(refused("rope.jitter", {{"dial", 1.5}}), "rope.jitter: dial must be 0.0 to 1.0, got 1.5");
+    EXPECT_EQ(refused("rope.jitter", {{"dial", 1.5}}), "rope.jitter: dial must be 0 to 1, got 1.5");
     EXPECT_EQ(refused("rope.view", {{"sides", 2}}), "rope.view: sides must be 3 to 64, got 2");
     EXPECT_EQ(refused("rope.tool", {{"name", "glue"}}),
               "rope.tool: name must be one of move, pin, cut, got \"glue\"");

@@ -108,7 +108,7 @@ TEST(Selection, AFileThatSaysNonsenseIsToldWhere) {
     says(5, "selected");
     says(-1, "selected");
     says("all", "selected");
-    says({{"active", 1}}, "selected.all");
+    says({{"active", 1}}, "\"all\" is missing");
     says({{"active", 1}, {"all", {2, 3}}}, "selected.active");
     says({{"active", 1}, {"all", {1, 7}}}, "selected.all");
     says({{"active", 1}, {"all", {1, 1, 1, 1, 1, 1}}}, "most is 5");

@@ -79,9 +79,9 @@ TEST_F(RigApp, AnInputIsChosenFromElementsThatAreFoundByName) {
         send(MousePress{MouseButton::Left, false});
         for (int i = 0; i < 3; ++i) app_.tick(nullptr);
     };
-    click({1190.0f, 277.0f});
+    click({1190.0f, 352.0f});
     send(TextInput{"TILT, tr"});
-    click({1000.0f, 341.0f});
+    click({1000.0f, 416.0f});
     EXPECT_EQ(std::get<std::string>(target().element.which), "tilt");
     EXPECT_EQ(target().of, rig::Of::Translation);
     EXPECT_EQ(target().space, rig::Space::Global);
@@ -89,9 +89,9 @@ TEST_F(RigApp, AnInputIsChosenFromElementsThatAreFoundByName) {
     app_.run({"undo"});
     EXPECT_EQ(target(), before);
     // Escape leaves it as it is.
-    click({1190.0f, 277.0f});
+    click({1190.0f, 352.0f});
     send(KeyTap{*chord_from_name("escape")});
-    click({1000.0f, 341.0f});
+    click({1000.0f, 416.0f});
     EXPECT_EQ(target(), before);
 }
 
