@@ -205,7 +205,10 @@ void App::take_shortcut(Emit& emit) {
         if (workspace_.history.is_open(gesture_)) emit("undo");
         return;
     }
-    if (chord.key == Key::Escape && video_ && !workspace_.ui.covered()) return emit("view.end_video");
+    // Where nothing else is left that Esc could mean.
+    const bool taken = workspace_.ui.covered() || ui_.wants_text() || ImGui::IsAnyItemActive() ||
+                       ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup);
+    if (chord.key == Key::Escape && video_ && !taken) return emit("view.end_video");
     const Shortcut* shortcut = shortcuts_.find(chord, workspace_.lab);
     // A key that is held repeats what goes on step by step, but turns nothing on and off again.
     if (shortcut != nullptr && input_.repeated() && !shortcut->repeats) return;
@@ -236,6 +239,7 @@ void App::run_command(const std::string& name, const Json& arguments, Gesture ge
     const std::shared_ptr<const Part> before = workspace_.document.parts().at(open);
     const std::uint64_t beginnings = workspace_.beginnings;
     commands_->run(workspace_, name, arguments, gesture);
+    divide_view();  // what is asked for next, to frame all of it, goes by what there is now
     const bool same_scene = workspace_.lab == open && workspace_.beginnings == beginnings;
     if (same_scene && commands_->find(name)->effect == Effect::Edit) review(before, workspace_.moment);
 }

@@ -6,16 +6,12 @@
 #include "app/io/picture.hpp"
 
 namespace tendril::app {
-namespace {
 
-/// A count and not a time, so that a recording of what a person did comes out the same.
 int frames_a_tick(glm::ivec2 size) {
     constexpr std::int64_t pixels_a_tick = 1'000'000, most = 4;
-    const std::int64_t pixels = static_cast<std::int64_t>(size.x) * size.y;
+    const std::int64_t pixels = std::max<std::int64_t>(1, static_cast<std::int64_t>(size.x) * size.y);
     return static_cast<int>(std::clamp<std::int64_t>(pixels_a_tick / pixels, 1, most));
 }
-
-}  // namespace
 
 Image picture_of(const Workspace& workspace, const Lab& lab, Renderer& renderer, const PictureView& view,
                  bool transparent) {
@@ -34,7 +30,7 @@ Image picture_of(const Workspace& workspace, const Lab& lab, Renderer& renderer,
 }
 
 VideoTake::VideoTake(const VideoRequest& wanted, const Workspace& workspace, const Lab& lab,
-                     Renderer& renderer, const PictureView& view)
+                     Renderer& renderer, const PictureView& view, int frames_a_tick)
     : wanted_(wanted),
       workspace_(workspace),
       lab_(lab),
@@ -44,7 +40,8 @@ VideoTake::VideoTake(const VideoRequest& wanted, const Workspace& workspace, con
                                      .frames = wanted.frames(),
                                      .every = wanted.every,
                                      .speed = wanted.speed,
-                                     .transparent = wanted.transparent})) {
+                                     .transparent = wanted.transparent})),
+      frames_a_tick_(frames_a_tick) {
     workspace_.history.clear();  // of no use to it
     workspace_.ui.incident.reset();
     workspace_.clock.replaying = false;
@@ -52,7 +49,7 @@ VideoTake::VideoTake(const VideoRequest& wanted, const Workspace& workspace, con
 }
 
 void VideoTake::work() {
-    for (int i = frames_a_tick(view_.size); i > 0 && !done(); --i) {
+    for (int i = frames_a_tick_; i > 0 && !done(); --i) {
         workspace_.go_to_moment(static_cast<std::uint64_t>(wanted_.from - written_ * wanted_.every));
         file_->add(picture_of(workspace_, lab_, renderer_, view_, wanted_.transparent));
         ++written_;

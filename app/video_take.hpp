@@ -23,12 +23,16 @@ struct PictureView {
 Image picture_of(const Workspace& workspace, const Lab& lab, Renderer& renderer, const PictureView& view,
                  bool transparent);
 
+/// How many frames of that size, in pixels, a tick has time for. A count and not a time, so that a recording
+/// of what a person did comes out the same.
+int frames_a_tick(glm::ivec2 size);
+
 /// What throws does so with std::runtime_error. Unless it is done when it is destroyed, no file is left.
 class VideoTake {
   public:
     /// `lab` and `renderer` must outlive it. The workspace must remember something.
     VideoTake(const VideoRequest& wanted, const Workspace& workspace, const Lab& lab, Renderer& renderer,
-              const PictureView& view);
+              const PictureView& view, int frames_a_tick);
     /// Writes the next frames, as many as a tick has time for.
     void work();
     bool done() const { return written_ == wanted_.frames(); }
@@ -42,6 +46,7 @@ class VideoTake {
     Renderer& renderer_;
     PictureView view_;
     std::unique_ptr<VideoFile> file_;
+    int frames_a_tick_ = 1;
     int written_ = 0;
 };
 

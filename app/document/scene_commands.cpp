@@ -178,6 +178,9 @@ void add_picture_command(CommandTable& table) {
 
 void quit(Workspace& w, const Arguments& given) {
     const std::string unsaved = given.has("unsaved") && w.modified() ? given.text("unsaved") : "discard";
+    const bool asks = given.has("unsaved") && given.text("unsaved") == "ask";
+    if (asks && w.ui.filming)
+        throw Refused(w.ui.filming->name + " is still being written; wait for it, or cancel it with Escape");
     if (unsaved == "save" && !w.path.empty()) save_scene_file(w, std::filesystem::path(w.path));
     const bool needs_name = unsaved == "save" && w.path.empty();
     w.ui.asks_to_quit = unsaved == "ask";

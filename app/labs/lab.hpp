@@ -147,6 +147,8 @@ class Lab {
     }
     /// Whether a box can be drawn that selects: Ctrl and a drag on nothing.
     virtual bool selects_by_box() const { return false; }
+    /// What a box selects where its middle is inside.
+    virtual std::vector<Handle> selectable(const Workspace& workspace) const { return handles(workspace); }
     /// The handles that are in the box are selected, with `add` beside those that were. One that stays as it
     /// is may be among them.
     virtual void select(const Workspace&, const std::vector<PickId>&, bool /*add*/, Emit&) const {}

@@ -72,6 +72,11 @@ VideoRequest video_request(const Workspace& w, const Arguments& given) {
         if (mp4 && given.has(side) && given.integer(side) % 2 != 0)
             throw Refused(std::string(side) + " of an MP4 must be even, got " +
                           std::to_string(given.integer(side)));
+    constexpr double most_a_second = 60.0;
+    if (!mp4 && wanted.speed * most_a_second > most_a_second * wanted.every + 1e-6)
+        throw Refused("speed of an animated PNG with every " + std::to_string(wanted.every) + " must be at most " +
+                      std::to_string(wanted.every) + ", got " + fixed_text(wanted.speed, 2) +
+                      ": programs that show it slow down over 60 frames a second");
     set_range(wanted, w, given);
     check_writable(wanted.path);
     return wanted;
@@ -117,7 +122,6 @@ void add_recording(CommandTable& table, const Labs& labs) {
                  throw Refused(w.ui.filming->name + " is still being written; view.end_video cancels it");
              require_view(w, labs);
              w.ui.video = video_request(w, a);
-             w.ui.file_dialog = UiState::FileDialog::None;
          }});
     table.add({.name = "view.end_video",
                .title = "Stop recording the video",

@@ -64,16 +64,15 @@ std::string view_name(const CameraPose& pose, const std::array<End, 6>& ends) {
 
 }  // namespace
 
-float axis_gizmo_width(const Layout& layout) {
-    const glm::vec2 view = layout.view.size();
-    if (view.x < 330.0f * layout.scale || view.y < 220.0f * layout.scale) return 0.0f;
-    return 100.0f * layout.scale;
+float axis_gizmo_width(glm::vec2 pane, float scale) {
+    if (pane.x < 330.0f * scale || pane.y < 220.0f * scale) return 0.0f;
+    return 100.0f * scale;
 }
 
 Rect show_axis_gizmo(const ShellFrame& frame, Emit& emit) {
     const Rect& view = frame.layout.view;
     const float scale = frame.layout.scale, reach = 27.0f * scale, radius = 8.5f * scale;
-    if (axis_gizmo_width(frame.layout) <= 0.0f) return {view.min, view.min};
+    if (axis_gizmo_width(frame.workspace.ui.view_size, scale) <= 0.0f) return {view.min, view.min};
     const glm::vec2 centre{view.max.x - reach - 2.0f * radius, view.min.y + reach + 2.0f * radius};
     const Camera camera(frame.workspace.camera, view);
     std::array<End, 6> ends;

@@ -7,7 +7,7 @@ namespace tendril::app {
 
 /// Pixels from the right edge of the view to the left edge of the gizmo; 0 where the view is too small for
 /// it.
-float axis_gizmo_width(const Layout& layout);
+float axis_gizmo_width(glm::vec2 pane, float scale);
 /// Nothing where the view is too small for it. Where it is.
 Rect show_axis_gizmo(const ShellFrame& frame, Emit& emit);
 

@@ -187,7 +187,7 @@ void show_card_halo(const ShellFrame& frame, PickId& known) {
     const CardStep* const step = step_to_do(frame);
     if (step == nullptr || step->place != CardStep::Place::Handle) return;
     const std::optional<Handle> found = handle_named(frame, step->place_name, known);
-    if (!found) return;
+    if (!found || frame.lab.panes(frame.workspace).size() > 1) return;
     const Workspace& workspace = frame.workspace;
     const Rect& view = frame.layout.view;
     const auto at = Camera(workspace.camera, view).project(found->frame.position);

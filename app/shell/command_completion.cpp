@@ -37,6 +37,19 @@ std::vector<CompletionRow> value_rows(const TypedLine& typed, const Argument& ar
     const std::string now = argument.present ? argument.present(workspace) : std::string();
     if (values.empty() && !now.empty()) values = {now};
     const bool text = argument.type == ArgumentType::Text;
+    // Of half a million joints few are looked at.
+    if (values.size() > most_rows) {
+        const std::string typed_now = lower(bare(typed.last.value));
+        const auto place = [&](const std::string& value) { return lower(value).find(typed_now); };
+        std::vector<std::string> first, rest;
+        for (std::string& value : values) {
+            const std::size_t at = place(value);
+            if (at == 0 && first.size() < most_rows) first.push_back(std::move(value));
+            if (at != 0 && at != std::string::npos && rest.size() < most_rows) rest.push_back(std::move(value));
+        }
+        first.insert(first.end(), std::make_move_iterator(rest.begin()), std::make_move_iterator(rest.end()));
+        values = std::move(first);
+    }
     std::vector<CompletionRow> rows;
     for (const std::string& value : values)
         rows.push_back(
@@ -120,13 +133,17 @@ std::vector<CompletionRow> completions(const TypedLine& typed, const std::string
 std::string completed(const TypedLine& typed, const std::string& line, const std::vector<CompletionRow>& rows,
                       std::size_t chosen) {
     if (chosen >= rows.size()) return line;
-    const std::string text = typed.last.assigned ? typed.last.value : typed.last.name;
+    const std::string as_typed = typed.last.assigned ? typed.last.value : typed.last.name;
+    const std::string text = bare(as_typed);
     std::vector<std::string> beginning;
     for (const CompletionRow& row : rows)
         if (!row.given && !text.empty() && row.text.starts_with(text)) beginning.push_back(row.text);
     const std::string common = common_prefix(beginning);
     if (beginning.size() < 2 || common.size() <= text.size()) return rows[chosen].line;
-    return line.substr(0, line.size() - text.size()) + common;
+    // A name with a blank needs its quote, which ends once the name does.
+    std::string inserted = typed.last.assigned ? quoted(common) : common;
+    if (inserted != common) inserted.pop_back();
+    return line.substr(0, line.size() - as_typed.size()) + inserted;
 }
 
 }  // namespace tendril::app

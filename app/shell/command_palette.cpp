@@ -203,13 +203,18 @@ void CommandPalette::run(const std::string& name, SharedJson arguments, Emit& em
     emit.typed(name, std::move(arguments));
 }
 
-void CommandPalette::choose(const Offer& offer, std::size_t row, Emit& emit) {
+void CommandPalette::choose(const ShellFrame& frame, const Offer& offer, std::size_t row, Emit& emit) {
     if (offer.typed.command != nullptr) return put(offer.ways[row].line);
     const Command& command = *offer.found[row];
     const bool needs = std::any_of(command.arguments.begin(), command.arguments.end(),
                                    [](const Argument& a) { return a.required; });
     if (needs) return put(begun(command, false));
-    run(command.name, Json::object(), emit);
+    // As the key does that stands beside it: Ctrl+Q asks before it quits.
+    const auto& keys = frame.shortcuts.all();
+    const auto key = std::find_if(keys.begin(), keys.end(), [&](const Shortcut& each) {
+        return each.command == command.name && frame.works_here(each);
+    });
+    run(command.name, key == keys.end() ? Json::object() : to_json(key->arguments), emit);
 }
 
 void CommandPalette::run(const ShellFrame& frame, Emit& emit) {
@@ -231,15 +236,15 @@ void CommandPalette::enter(const ShellFrame& frame, const Offer& offer, Emit& em
     const auto row = static_cast<std::size_t>(chosen_);
     if (line.empty() && !moved_ && recent_.empty()) return;  // nothing was asked for
     if (offer.typed.command == nullptr) {
-        if (line.find('=') == std::string::npos && row < offer.found.size()) return choose(offer, row, emit);
+        if (line.find('=') == std::string::npos && row < offer.found.size()) return choose(frame, offer, row, emit);
         return run(frame, emit);
     }
     const bool goes_on = row < offer.ways.size() && offer.ways[row].line != line;
-    if (goes_on && moved_) return choose(offer, row, emit);
+    if (goes_on && moved_) return choose(frame, offer, row, emit);
     run(frame, emit);
     // Nothing is wrong, but it cannot be run yet: what is begun, or missing, is next.
     if (!complaint_.empty() && goes_on && !offer.ways[row].given && mistake(offer.typed).empty())
-        choose(offer, row, emit);
+        choose(frame, offer, row, emit);
 }
 
 void CommandPalette::frame(const ShellFrame& frame, Emit& emit) {
@@ -266,7 +271,7 @@ void CommandPalette::frame(const ShellFrame& frame, Emit& emit) {
     status(now);
     if (clicked) {
         take_caret_ = true;
-        choose(now, *clicked, emit);
+        choose(frame, now, *clicked, emit);
     } else if (entered) {
         enter(frame, now, emit);
     }

@@ -44,7 +44,7 @@ class CommandPalette {
     /// The line below the list: what is wrong, what is missing, or which keys do what.
     void status(const Offer& offer) const;
     void enter(const ShellFrame& frame, const Offer& offer, Emit& emit);
-    void choose(const Offer& offer, std::size_t row, Emit& emit);
+    void choose(const ShellFrame& frame, const Offer& offer, std::size_t row, Emit& emit);
     /// Runs the line as it stands; complains where it cannot be run, and lets it be mended.
     void run(const ShellFrame& frame, Emit& emit);
     void run(const std::string& name, SharedJson arguments, Emit& emit);

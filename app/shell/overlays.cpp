@@ -220,7 +220,7 @@ Rect show_first_hint(const ShellFrame& frame) {
     const Palette& colours = frame.colours();
     // In the middle, or as near to it as the axis gizmo allows.
     constexpr float margin = 20.0f;
-    const float end = view.max.x - std::max(margin, axis_gizmo_width(frame.layout));
+    const float end = view.max.x - std::max(margin, axis_gizmo_width(view.size(), frame.layout.scale));
     const float wrap = std::max(80.0f, end - view.min.x - margin);
     const auto size_of = [&](const std::string& text) {
         return ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);

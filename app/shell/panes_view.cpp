@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "app/shell/axis_gizmo.hpp"
 #include "app/shell/theme.hpp"
 #include "app/widgets/fonts.hpp"
-#include "app/widgets/text.hpp"
 
 namespace tendril::app {
 
@@ -23,17 +23,19 @@ void show_pane_titles(std::span<const Pane> panes, std::span<const PaneTitle> ti
         list->AddRect({rect.min.x, rect.min.y}, {rect.max.x, rect.max.y}, imgui_u32(palette.bar), 0.0f, 0,
                       2.0f * scale);
         // The axes are in the corner of the whole view.
-        const bool axes = rect.min.y == panes.front().rect.min.y && rect.max.x == right;
-        const float room = rect.size().x - 2.0f * inset - (axes ? 90.0f * scale : 0.0f);
+        const bool corner = rect.min.y == panes.front().rect.min.y && rect.max.x == right;
+        const float axes = corner ? axis_gizmo_width(rect.size(), scale) : 0.0f;
+        const float room = rect.size().x - 2.0f * inset - axes;
         ImVec2 at{rect.min.x + inset, rect.min.y + 0.7f * inset};
         const auto line = [&](const std::string& text, glm::vec3 colour) {
-            const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+            const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, room);
             if (at.y + size.y > rect.max.y) return;
-            list->AddText(at, imgui_u32(colour), text.c_str());
+            list->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, imgui_u32(colour), text.c_str(), nullptr,
+                          room);
             at.y += size.y + 1.0f * scale;
         };
         ImGui::PushFont(heading_font());
-        line(elided(title.text, room), title.colour);
+        line(title.text, title.colour);
         ImGui::PopFont();
         ImGui::PushFont(small_font());
         if (ImGui::CalcTextSize(title.detail.c_str()).x < room) line(title.detail, palette.text_dim);

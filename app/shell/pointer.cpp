@@ -196,7 +196,7 @@ std::optional<Rect> Pointer::box() const {
 void Pointer::select_in_box(bool add, const Scene& scene, Emit& emit) const {
     const Rect inside = *box();
     std::vector<PickId> picks;
-    for (const Handle& handle : scene.lab.handles(scene.workspace)) {
+    for (const Handle& handle : scene.lab.selectable(scene.workspace)) {
         const auto pixel = scene.camera.project(handle.frame.position);
         if (pixel && inside.contains(*pixel)) picks.push_back(handle.pick);
     }

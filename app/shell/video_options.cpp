@@ -42,12 +42,15 @@ void VideoOptions::frame() {
 }
 
 std::filesystem::path VideoOptions::with_ending(std::filesystem::path path) const {
-    if (path.extension().empty()) path += mp4() ? ".mp4" : ".png";
+    const char* const ending = mp4() ? ".mp4" : ".png";
+    // What is chosen above the list counts, also where a file of the other kind was clicked in it.
+    if (path.extension() == ".mp4" || path.extension() == ".png") return path.replace_extension(ending);
+    if (path.extension().empty()) path += ending;
     return path;
 }
 
 ArgumentList VideoOptions::arguments(const std::filesystem::path& path) const {
-    ArgumentList list{{"path", path.string()}, {"every", smooth_ == 0 ? 2 : 1}};
+    ArgumentList list{{"path", path.string()}, {"every", smooth_ == 0 || (!mp4() && speed_ > 1.0f) ? 2 : 1}};
     if (from_ < remembered_) list.push_back({"from", from_});
     if (to_ > 0.0f) list.push_back({"to", to_});
     if (speed_ != 1.0f) list.push_back({"speed", speed_});

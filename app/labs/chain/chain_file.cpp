@@ -101,6 +101,8 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
         if (const auto selected = place.optional("selected")) {
             if (selected->json().is_string()) {
                 part->chosen_point = selected->choice(chain_points);
+                if (part->chosen_point == ChainPoint::Pole && !part->reach.pole)
+                    selected->fail("there is no pole target to be selected");
             } else {
                 part->selection = Selection::load(*selected, part->chain.size());
             }

@@ -156,11 +156,18 @@ void ChainLab::click_more(const Workspace& workspace, PickId pick, Emit& emit) c
     emit("chain.select", {{"index", picked_segment(pick)}, {"add", true}});
 }
 
+/// In a race nobody sees the joints of the chain itself.
+std::vector<Handle> ChainLab::selectable(const Workspace& workspace) const {
+    std::vector<Handle> joints = handles(workspace);
+    const bool racing = chain_part(workspace).study.kind == Study::Kind::Race;
+    std::erase_if(joints, [&](const Handle& each) { return racing || each.pick < segment_pick(0); });
+    return joints;
+}
+
 void ChainLab::select(const Workspace& workspace, const std::vector<PickId>& picks, bool add,
                       Emit& emit) const {
     Json joints = Json::array();
-    for (const PickId pick : picks)
-        if (pick != target_pick && pick != pole_pick) joints.push_back(picked_segment(pick));
+    for (const PickId pick : picks) joints.push_back(picked_segment(pick));
     if (!joints.empty()) {
         emit("chain.select", {{"joints", SharedJson(std::move(joints))}, {"add", add}});
     } else if (!add) {
@@ -234,7 +241,7 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
     if (shown.race) {
         // Side by side each has its title.
         for (const Racer& racer : shown.race->racers) {
-            if (part.study.side_by_side) break;
+            if (part.study.side_by_side && shown.race->racers.size() > 1) break;
             rows.push_back({solver_title(racer.method), solver_colour(colours, racer.method)});
         }
         rows.push_back({"start", colours.ghost});

@@ -90,6 +90,7 @@ std::shared_ptr<const Part> ChainPart::at_moment(std::shared_ptr<const Part> the
     auto part = std::make_shared<ChainPart>(earlier);
     part->selection = std::move(now);
     part->chosen_point = chosen_point;
+    if (chosen_point == ChainPoint::Pole && !part->reach.pole) part->chosen_point.reset();
     return part;
 }
 

@@ -1,5 +1,7 @@
 #include "app/labs/chain/command_support.hpp"
 
+#include <algorithm>
+
 #include "app/document/json_complete.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/commands.hpp"
@@ -72,6 +74,14 @@ std::vector<std::size_t> joints_of(const Arguments& given, const ChainPart& part
         }
     }
     for (const std::size_t index : joints) check_index(part, index);
+    return joints;
+}
+
+std::vector<std::size_t> joints_to_set(const Arguments& given, const ChainPart& part) {
+    std::vector<std::size_t> joints = joints_of(given, part);
+    if (joints.empty()) throw Refused("joints is empty");
+    std::sort(joints.begin(), joints.end());
+    joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
     return joints;
 }
 

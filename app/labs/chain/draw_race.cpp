@@ -59,25 +59,27 @@ class RaceDrawing {
         return 0.5f * px(strand_pixels) * static_cast<float>(before - after);
     }
 
-    /// Metres, of one pixel to the side of the bone that leads to a joint, as the eye sees it; zero where it
-    /// is seen end on.
+    /// To the side of the bone that leads to a joint, as the eye sees it, of length 1; zero where it is seen
+    /// end on.
     glm::vec3 sideways(std::size_t c, std::size_t joint) const {
         const glm::vec3 from = joints(c)[joint - 1], to = joints(c)[joint];
         const glm::vec3 across = glm::cross(view_.camera.forward(), to - from);
         const float length = glm::length(across);
         if (!(length > 1e-6f * glm::distance(from, to))) return glm::vec3(0.0f);
-        return across * (view_.camera.metres_per_pixel(to) / length);
+        return across / length;
     }
 
     /// From the joint to where the strand meets the next bone's of the same chain: at a corner both keep
     /// their distance from the middle. `bone` leads to the joint or from it.
     glm::vec3 corner(std::size_t c, std::size_t joint, std::size_t bone) const {
-        const glm::vec3 own = aside(c, bone) * sideways(c, bone);
+        const float metres = aside(c, bone) * view_.camera.metres_per_pixel(joints(c)[joint]);
+        const glm::vec3 own = sideways(c, bone);
         const std::size_t other = bone == joint ? joint + 1 : joint;
-        if (other == 0 || other >= joints(c).size() || aside(c, other) != aside(c, bone)) return own;
-        const glm::vec3 mean = 0.5f * (own + aside(c, other) * sideways(c, other));
-        const float cosine_squared = glm::dot(mean, mean) / std::max(glm::dot(own, own), 1e-20f);
-        return mean / std::max(cosine_squared, 0.25f);
+        if (other == 0 || other >= joints(c).size() || aside(c, other) != aside(c, bone)) return metres * own;
+        const glm::vec3 next = sideways(c, other);
+        if (next == glm::vec3(0.0f) || own == glm::vec3(0.0f)) return metres * own;
+        const glm::vec3 mean = 0.5f * (own + next);
+        return metres / std::max(glm::dot(mean, mean), 0.25f) * mean;  // a sharp corner is cut short
     }
 
     void chain(std::size_t c) {

@@ -9,6 +9,7 @@ namespace {
 void set_mode(ChainPart& part, const Arguments& given) {
     part.mode = chain_modes.value(given.text("mode"));
     if (part.mode != ChainMode::Reach) part.study.close();
+    if (part.mode != ChainMode::Reach && part.chosen_point == ChainPoint::Pole) part.chosen_point.reset();
     if (given.has("index")) {
         const std::size_t index = index_of(given);
         check_index(part, index);

@@ -128,6 +128,16 @@ void bone_removed(ReachSettings& settings, std::size_t index, std::size_t segmen
     settings.limits.resize(segments_now < 2 ? 0 : segments_now - 1);
 }
 
+void bones_removed(ReachSettings& settings, const std::vector<std::size_t>& joints, std::size_t segments_now) {
+    settings.state = {};
+    if (settings.limits.empty()) return;
+    std::vector<ik::Limit> left;
+    for (std::size_t i = 0; i < settings.limits.size(); ++i)
+        if (!std::binary_search(joints.begin(), joints.end(), i)) left.push_back(settings.limits[i]);
+    left.resize(segments_now < 2 ? 0 : segments_now - 1);  // no bone starts at what is the tail now
+    settings.limits = std::move(left);
+}
+
 void forget_limits(ReachSettings& settings) {
     settings.limits.clear();
     settings.state.rotations.assign(settings.state.bones(), glm::quat(1, 0, 0, 0));
@@ -139,9 +149,15 @@ ik::Limit limit_of(const ReachSettings& settings, std::size_t joint) {
 }
 
 void set_limit(ReachSettings& settings, std::size_t joint, const ik::Limit& limit, const Chain& chain) {
-    if (const char* why = ik::fault(limit, chain.default_direction())) throw std::invalid_argument(why);
+    set_limits(settings, {{joint, limit}}, chain);
+}
+
+void set_limits(ReachSettings& settings, const std::vector<std::pair<std::size_t, ik::Limit>>& limits,
+                const Chain& chain) {
+    for (const auto& [joint, limit] : limits)
+        if (const char* why = ik::fault(limit, chain.default_direction())) throw std::invalid_argument(why);
     if (settings.limits.empty()) settings.limits.resize(chain.size() - 1);
-    settings.limits[joint] = limit;
+    for (const auto& [joint, limit] : limits) settings.limits[joint] = limit;
     const bool all_free = std::all_of(settings.limits.begin(), settings.limits.end(),
                                       [](const auto& each) { return each.kind == ik::JointKind::Free; });
     if (all_free) forget_limits(settings);

@@ -14,6 +14,7 @@
 #include <tendril/ik/pole_turn.hpp>
 #include <tendril/ik/report.hpp>
 #include <tendril/ik/state.hpp>
+#include <utility>
 #include <vector>
 
 #include "app/document/json.hpp"
@@ -96,11 +97,15 @@ std::size_t bytes_of(const ik::State& state);
 /// Bones are counted anew: a segment came before `index`, or went from there.
 void bone_inserted(ReachSettings& settings, std::size_t index, std::size_t segments_now);
 void bone_removed(ReachSettings& settings, std::size_t index, std::size_t segments_now);
+/// Several segments went, ascending as they were counted before.
+void bones_removed(ReachSettings& settings, const std::vector<std::size_t>& joints, std::size_t segments_now);
 void forget_limits(ReachSettings& settings);
 /// The limit of a joint; free where none is set.
 ik::Limit limit_of(const ReachSettings& settings, std::size_t joint);
 /// Throws std::invalid_argument for a limit with a fault.
 void set_limit(ReachSettings& settings, std::size_t joint, const ik::Limit& limit, const Chain& chain);
+void set_limits(ReachSettings& settings, const std::vector<std::pair<std::size_t, ik::Limit>>& limits,
+                const Chain& chain);
 
 /// "joint 2 (hinge) stops at 145 degrees; the target needs 162".
 std::string active_limit_text(const ik::ActiveLimit& limit);

@@ -45,7 +45,8 @@ void set_pole(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
 constexpr const char* angle_names[] = {"min_deg",  "max_deg",   "up_deg",        "down_deg",
                                        "left_deg", "right_deg", "twist_min_deg", "twist_max_deg"};
 
-void set_joint_limit(ChainPart& part, std::size_t index, const Arguments& given) {
+/// What a joint's limit becomes.
+ik::Limit changed_limit(const ChainPart& part, std::size_t index, const Arguments& given) {
     if (index + 1 == part.chain.size()) {
         throw Refused("index " + std::to_string(index) + " is the tail: no bone starts there to be limited");
     }
@@ -57,11 +58,14 @@ void set_joint_limit(ChainPart& part, std::size_t index, const Arguments& given)
     for (const char* angle : angle_names) {
         if (given.has(angle)) json[angle] = number(given.number(angle));
     }
-    set_limit(part.reach, index, limit_from_json(json, "limit"), part.chain);
+    return limit_from_json(json, "limit");
 }
 
-void set_limits(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
-    for (const std::size_t index : joints_of(given, part)) set_joint_limit(part, index, given);
+void limit_joints(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
+    std::vector<std::pair<std::size_t, ik::Limit>> limits;
+    for (const std::size_t index : joints_to_set(given, part))
+        limits.emplace_back(index, changed_limit(part, index, given));
+    set_limits(part.reach, limits, part.chain);
     reach_again(part, runtime);
 }
 
@@ -111,7 +115,7 @@ void add_reach_commands(CommandTable& table) {
         "Sets the solver of mode reach, from the next move of the target on", set_solver));
     table.add(chain_command("chain.limit", "Limit joints", limit_arguments(),
                             "Limits how far a joint turns in mode reach; kind free removes the limit",
-                            set_limits));
+                            limit_joints));
     table.add(chain_command("chain.pole", "Set the pole target",
                             {{.name = "to",
                               .type = ArgumentType::Point,

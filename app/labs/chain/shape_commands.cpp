@@ -32,8 +32,16 @@ void shape_changed(ChainPart& part) {
 }
 
 void set_length(ChainPart& part, const Arguments& given) {
-    for (const std::size_t index : joints_of(given, part))
-        require_ok(part.chain.set_length(index, given.number("length")));
+    const std::vector<std::size_t> joints = joints_to_set(given, part);
+    const float length = given.number("length");
+    if (joints.size() == 1) {
+        require_ok(part.chain.set_length(joints.front(), length));
+    } else {
+        const auto now = part.chain.segments();
+        std::vector<Segment> segments(now.begin(), now.end());
+        for (const std::size_t index : joints) segments[index].length = length;
+        part.chain = require_value(Chain::from_segments(std::move(segments), part.chain.default_direction()));
+    }
     part.result.reset();
 }
 
@@ -80,15 +88,28 @@ void remove_at(ChainPart& part, std::size_t index) {
     part.index = std::min(part.index, last);
 }
 
+/// All at once: one by one each would move all that come after it.
+void remove_all(ChainPart& part, const std::vector<std::size_t>& joints) {
+    const auto gone = [&](std::size_t i) { return std::binary_search(joints.begin(), joints.end(), i); };
+    std::vector<Segment> left;
+    for (std::size_t i = 0; i < part.chain.size(); ++i)
+        if (!gone(i)) left.push_back(part.chain.segments()[i]);
+    part.index -= static_cast<std::size_t>(std::lower_bound(joints.begin(), joints.end(), part.index) - joints.begin());
+    part.chain = require_value(Chain::from_segments(std::move(left), part.chain.default_direction()));
+    part.index = std::min(part.index, std::max<std::size_t>(part.chain.size(), 1) - 1);
+    bones_removed(part.reach, joints, part.chain.size());
+    part.selection.clear();
+    shape_changed(part);
+}
+
 void remove(ChainPart& part, const Arguments& given) {
     remove_at(part, index_of(given));
 }
 
 void remove_selected(ChainPart& part, const Arguments&) {
     if (part.selection.empty()) throw Refused("no joint is selected");
-    const std::vector<std::size_t> joints = part.selection.all();
-    for (std::size_t i = joints.size(); i-- > 0;) remove_at(part, joints[i]);
-    if (joints.size() > 1) part.selection.clear();
+    if (part.selection.several()) return remove_all(part, std::vector(part.selection.all()));
+    remove_at(part, *part.selection.active());
 }
 
 void clear(ChainPart& part, const Arguments& given) {

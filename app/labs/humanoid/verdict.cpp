@@ -22,7 +22,7 @@ Verdict humanoid_verdict(const Workspace& workspace) {
     if (worst < 1e-3) return {"Reached", Verdict::Kind::Good, bones};
     const std::string off =
         worst < 0.1 ? fixed_text(1000.0 * worst, 1) + " mm" : fixed_text(worst, 2) + " m";
-    return {"Out of reach: " + off + " short", Verdict::Kind::Bad, bones};
+    return {off + " short", Verdict::Kind::Bad, bones};
 }
 
 }  // namespace tendril::app

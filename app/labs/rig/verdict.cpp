@@ -6,9 +6,10 @@ namespace tendril::app {
 Verdict rig_verdict(const RigPart& part) {
     std::size_t on = 0, all = 0, warned = 0;
     std::string first;
+    const auto& units = part.rig.definition().units;
     for (const UnitRow& row : unit_rows(part)) {
         ++all;
-        if (!row.unit->enabled) continue;
+        if (!row.unit->enabled || !units[row.top].enabled) continue;
         ++on;
         const rig::Warning warning = part.state.units[row.at].warning;
         if (warning == rig::Warning::None) continue;

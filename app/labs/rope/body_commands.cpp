@@ -92,19 +92,26 @@ void remove_selected(RopeEdit& edit, const Arguments&) {
 }
 
 void pin(RopeEdit& edit, const Arguments& given) {
-    const NamedParticle named = named_particle(edit.seen(), given);
-    if (edit.part.hold == Hold{named.body, named.index}) edit.part.hold.reset();  // now it is held for good
-    if (given.has("at"))
-        edit.move_pin(named.particle, given.point("at"));
-    else
-        edit.world().pin(named.particle, edit.seen().position(named.particle));
+    if (given.has("at") && given.has("particles"))
+        throw Refused("at is for one particle: pinned to one point, several would be on top of each other");
+    for (const NamedParticle& named : named_particles(edit.seen(), given)) {
+        if (edit.part.hold == Hold{named.body, named.index}) edit.part.hold.reset();  // now it is held for good
+        if (given.has("at"))
+            edit.move_pin(named.particle, given.point("at"));
+        else
+            edit.world().pin(named.particle, edit.seen().position(named.particle));
+    }
 }
 
 void unpin(RopeEdit& edit, const Arguments& given) {
-    const NamedParticle named = named_particle(edit.seen(), given);
-    if (!edit.seen().pinned(named.particle)) return;
-    if (edit.part.hold == Hold{named.body, named.index}) edit.part.hold.reset();
-    edit.world().unpin(named.particle);
+    std::vector<NamedParticle> all = named_particles(edit.seen(), given);
+    // From the last: what is taken from the end of a list moves nothing.
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.particle > b.particle; });
+    for (const NamedParticle& named : all) {
+        if (!edit.seen().pinned(named.particle)) continue;
+        if (edit.part.hold == Hold{named.body, named.index}) edit.part.hold.reset();
+        edit.world().unpin(named.particle);
+    }
 }
 
 /// What pointed behind the cut points at the same particle of the new rope.
@@ -113,6 +120,20 @@ void follow_cut(std::string& body, std::size_t& particle, const std::string& cut
     if (body != cut_rope || particle <= segment) return;
     body = rest;
     particle -= segment + 1;
+}
+
+/// The selection goes with its active particle.
+void follow_cut(RopeSelection& selection, const std::string& cut_rope, std::size_t segment,
+                const std::string& rest) {
+    if (selection.body != cut_rope) return;
+    std::size_t active = selection.particle();
+    const bool behind = active > segment;
+    follow_cut(selection.body, active, cut_rope, segment, rest);
+    std::vector<std::size_t> stay;
+    for (const std::size_t each : selection.particles.all())
+        if ((each > segment) == behind) stay.push_back(behind ? each - segment - 1 : each);
+    stay.push_back(active);
+    selection.particles.take(stay, false);
 }
 
 void cut(RopeEdit& edit, const Arguments& given) {
@@ -125,7 +146,7 @@ void cut(RopeEdit& edit, const Arguments& given) {
     }
     const std::string rest = edit.world().cut(name, segment);
     RopePart& part = edit.part;
-    if (part.selection) follow_cut(part.selection->body, part.selection->particle, name, segment, rest);
+    if (part.selection) follow_cut(*part.selection, name, segment, rest);
     if (part.hold) follow_cut(part.hold->body, part.hold->particle, name, segment, rest);
     forget_missing(part);
 }
@@ -185,13 +206,13 @@ void add_body_commands(CommandTable& table) {
                            "Removes a rope, cloth or hair", remove));
     table.add(rope_command("rope.remove_selected", "Delete selection", {}, "Deletes the selection",
                            remove_selected));
-    table.add(rope_command("rope.pin", "Pin a particle",
-                           {rope_argument(true, "which"), particle_argument(true, "which"),
-                            point_argument("at", false, "metres; where it is when left out")},
-                           "Pins a particle to a point", pin));
-    table.add(rope_command("rope.unpin", "Unpin a particle",
-                           {rope_argument(true, "which"), particle_argument(true, "which")},
-                           "Unpins a particle", unpin));
+    table.add(rope_command("rope.pin", "Pin particles",
+                           {rope_argument(true, "which"), particle_argument(false, "which"),
+                            particles_argument(), point_argument("at", false, "metres; where it is when left out")},
+                           "Pins particles to where they are, or one to a point", pin));
+    table.add(rope_command("rope.unpin", "Unpin particles",
+                           {rope_argument(true, "which"), particle_argument(false, "which"), particles_argument()},
+                           "Unpins particles", unpin));
     table.add(rope_command("rope.cut", "Cut a rope",
                            {rope_argument(true, "which"),
                             {.name = "segment",

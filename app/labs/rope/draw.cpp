@@ -50,7 +50,7 @@ class Drawing {
                part_.selection->body == world_.name(body);
     }
     bool chosen(const rope::Body& body, std::size_t i) const {
-        return chosen(body) && part_.selection->particle == i;
+        return chosen(body) && part_.selection->particles.has(i);
     }
 
     glm::vec3 collider_colour(std::size_t i) const {

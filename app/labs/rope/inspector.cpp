@@ -7,6 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "app/document/json_complete.hpp"
 #include "app/labs/rope/panels.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_names.hpp"
@@ -55,6 +56,25 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     const bool rope = body.kind == rope::Body::Kind::Rope;
     if (row_button("Cut", 3, rope && body.count > 1, "Cuts the segment after this particle"))
         emit("rope.cut", {{"rope", world.name(body)}, {"segment", std::min(index, body.count - 2)}});
+    if (row_button("Remove", 3, true, "Removes the whole body"))
+        emit("rope.remove", {{"name", world.name(body)}});
+    end_row();
+}
+
+/// Of several particles.
+void several_rows(const RopePart& part, const rope::Body& body, const std::vector<std::size_t>& all, Emit& emit) {
+    const NamedWorld& world = *part.world;
+    const auto pinned = static_cast<std::size_t>(std::count_if(
+        all.begin(), all.end(), [&](std::size_t i) { return world.pinned(body.first + i); }));
+    reading("body", "%s", world.name(body).c_str());
+    reading("particles", "%zu of %zu", all.size(), body.count);
+    reading("pinned", "%zu", pinned);
+    const auto which = [&] {
+        return ArgumentList{{"rope", world.name(body)}, {"particles", SharedJson(Json(all))}};
+    };
+    if (row_button("Pin", 3, pinned < all.size(), "Holds all of them where they are now"))
+        emit("rope.pin", which());
+    if (row_button("Unpin", 3, pinned > 0, "Lets all of them move again")) emit("rope.unpin", which());
     if (row_button("Remove", 3, true, "Removes the whole body"))
         emit("rope.remove", {{"name", world.name(body)}});
     end_row();
@@ -144,8 +164,10 @@ void selection_rows(const Workspace& workspace, Emit& emit) {
         if (const rope::Collider* collider = part.world->find_collider(part.selection->collider))
             return collider_rows(part, *collider, emit);
         const rope::Body* body = part.world->find(part.selection->body);
-        if (body != nullptr && part.selection->particle < body->count)
-            return particle_rows(part, *body, part.selection->particle, emit);
+        if (body != nullptr && part.selection->particles.several())
+            return several_rows(part, *body, part.selection->particles.all(), emit);
+        if (body != nullptr && part.selection->particle() < body->count)
+            return particle_rows(part, *body, part.selection->particle(), emit);
     }
     note("Nothing is selected. Click a rope or a collider.");
 }

@@ -6,18 +6,31 @@ namespace tendril::app {
 namespace {
 
 void select(RopeEdit& edit, const Arguments& given) {
-    const bool particle = given.has("rope") || given.has("particle");
+    const bool particle = given.has("rope") || given.has("particle") || given.has("particles");
+    const bool add = given.has("add") && given.boolean("add");
     if (particle && given.has("collider"))
         throw Refused("a particle or a collider can be selected, not both");
-    edit.part.selection.reset();
     if (given.has("collider")) {
         collider_of(edit.seen(), given.text("collider"));
-        edit.part.selection = RopeSelection{{}, 0, given.text("collider")};
+        edit.part.selection = RopeSelection{{}, {}, given.text("collider")};
     } else if (particle) {
         if (!given.has("rope")) throw Refused("rope is missing (a text)");
-        if (!given.has("particle")) throw Refused("particle is missing (a whole number)");
-        const NamedParticle chosen = named_particle(edit.seen(), given);
-        edit.part.selection = RopeSelection{chosen.body, chosen.index, {}};
+        if (!given.has("particle") && !given.has("particles"))
+            throw Refused("particle is missing (a whole number)");
+        std::vector<std::size_t> chosen;
+        for (const NamedParticle& each : named_particles(edit.seen(), given)) chosen.push_back(each.index);
+        const std::string rope = given.text("rope");
+        const auto& before = edit.part.selection;
+        RopeSelection selection{rope, {}, {}};
+        if (add && before && before->body == rope) selection = *before;
+        if (add && given.has("particle"))
+            selection.particles.toggle(chosen.front());
+        else
+            selection.particles.take(chosen, add);
+        edit.part.selection = std::move(selection);
+        if (edit.part.selection->particles.empty()) edit.part.selection.reset();
+    } else if (!add) {
+        edit.part.selection.reset();
     }
 }
 
@@ -45,10 +58,11 @@ void set_view(RopeEdit& edit, const Arguments& given) {
 }  // namespace
 
 void add_look_commands(CommandTable& table) {
-    table.add(rope_command("rope.select", "Select a particle or collider",
+    table.add(rope_command("rope.select", "Select particles or a collider",
                            {rope_argument(false, "of the particle"), particle_argument(false, "which"),
-                            collider_argument("collider", false, "instead of a particle")},
-                           "Selects a particle or a collider; nothing when all is left out", select,
+                            collider_argument("collider", false, "instead of a particle"), particles_argument(),
+                            switch_argument("add", "true: adds particles of the same rope, or takes one out")},
+                           "Selects particles or a collider; nothing when all is left out", select,
                            Effect::Look));
     table.add(rope_command("rope.hold", "Hold a particle",
                            {rope_argument(true, "which"), particle_argument(true, "which; a free one"),

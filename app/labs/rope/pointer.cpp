@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "app/document/json_complete.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 
@@ -127,7 +128,13 @@ void RopeLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame&
     if (const auto* collider = picked_collider(*part.world, pick)) {
         const Handle::Frame now = collider_handle(*part.world, *collider, pick).frame;
         const std::string& name = part.world->name(*collider);
-        if (frame.rotation != now.rotation) {
+        // About the axis of a capsule or out of a plane there is nothing to turn.
+        const glm::quat by = frame.rotation * glm::inverse(now.rotation);
+        const bool box = std::holds_alternative<rope::Box>(collider->shape);
+        const glm::vec3 axis =
+            now.rotation * (std::holds_alternative<rope::Plane>(collider->shape) ? upright : along_x);
+        const bool turns = frame.rotation != now.rotation && (box || glm::distance(by * axis, axis) > 1e-6f);
+        if (turns) {
             ArgumentList arguments = turned(collider->shape, frame.rotation);
             arguments.push_back({"name", name});
             emit.continuously("rope.collider.set", arguments);
@@ -175,6 +182,54 @@ void RopeLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
     } else if (part.tool == RopeTool::Cut) {  // of what cannot be cut the command says so
         const std::size_t segment = std::min(place->index, std::max<std::size_t>(place->body->count, 2) - 2);
         emit("rope.cut", {{"rope", world.name(*place->body)}, {"segment", segment}});
+    }
+}
+
+void RopeLab::click_more(const Workspace& workspace, PickId pick, Emit& emit) const {
+    const NamedWorld& world = *rope_part(workspace).world;
+    const auto place = picked_particle(world, pick);
+    if (!place) {
+        if (pick != no_pick) click(workspace, pick, emit);
+        return;
+    }
+    ArgumentList arguments = of_particle(world, *place);
+    arguments.push_back({"add", true});
+    emit("rope.select", arguments);
+}
+
+/// Every particle, not only those that have a handle.
+std::vector<Handle> RopeLab::selectable(const Workspace& workspace) const {
+    const NamedWorld& world = *rope_part(workspace).world;
+    std::vector<Handle> all;
+    for (std::size_t i = 0; i < world.size(); ++i) all.push_back({{}, particle_pick(i), {world.position(i)}});
+    return all;
+}
+
+/// Those of the body that has the most of them in the box, or of the one that is added to.
+void RopeLab::select(const Workspace& workspace, const std::vector<PickId>& picks, bool add,
+                     Emit& emit) const {
+    const RopePart& part = rope_part(workspace);
+    const NamedWorld& world = *part.world;
+    std::vector<std::size_t> boxed(picks.begin(), picks.end());
+    std::sort(boxed.begin(), boxed.end());
+    const rope::Body* most = nullptr;
+    std::vector<std::size_t> inside;
+    for (const rope::Body& body : world.state().bodies) {
+        std::vector<std::size_t> here;
+        const auto first = std::lower_bound(boxed.begin(), boxed.end(), body.first);
+        for (auto at = first; at != boxed.end() && *at < body.first + body.count; ++at)
+            here.push_back(*at - body.first);
+        const bool added_to = add && part.selection && part.selection->body == world.name(body);
+        if (here.size() <= inside.size() && !(added_to && !here.empty())) continue;
+        most = &body;
+        inside = std::move(here);
+        if (added_to) break;
+    }
+    const bool replaces = add && part.selection && most != nullptr && part.selection->body != world.name(*most);
+    if (most != nullptr && !replaces) {
+        emit("rope.select", {{"rope", world.name(*most)}, {"particles", SharedJson(Json(inside))}, {"add", add}});
+    } else if (!add && part.selection) {
+        emit("rope.select");
     }
 }
 

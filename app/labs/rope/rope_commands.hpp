@@ -18,6 +18,8 @@ Argument body_argument(const char* name, bool required, const char* help);
 Argument collider_argument(const char* name, bool required, const char* help);
 Argument rope_argument(bool required, const char* help);
 Argument particle_argument(bool required, const char* help);
+/// Several, for a command that does the same to all.
+Argument particles_argument();
 
 void add_world_commands(CommandTable& table);
 void add_body_commands(CommandTable& table);

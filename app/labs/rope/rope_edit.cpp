@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "app/document/json_complete.hpp"
 #include "app/labs/kit/part_command.hpp"
 #include "app/labs/rope/rope_time.hpp"
 
@@ -113,6 +114,26 @@ NamedParticle named_particle(const NamedWorld& world, const Arguments& given) {
     return {given.text("rope"), index, body.first + index};
 }
 
+std::vector<NamedParticle> named_particles(const NamedWorld& world, const Arguments& given) {
+    if (given.has("particle") == given.has("particles")) throw Refused("needs particle, or particles");
+    if (given.has("particle")) return {named_particle(world, given)};
+    const std::string name = given.text("rope");
+    const rope::Body& body = body_of(world, name);
+    std::vector<NamedParticle> named;
+    for (const Json& each : given.json("particles")) {
+        if (!each.is_number_integer() || each.get<std::int64_t>() < 0)
+            throw Refused("particles: " + json_summary(each) + " is no particle; they are counted from 0");
+        const auto index = each.get<std::size_t>();
+        if (index >= body.count) {
+            throw Refused("particles: " + std::to_string(index) + " is out of range, \"" + name + "\" has " +
+                          std::to_string(body.count));
+        }
+        named.push_back({name, index, body.first + index});
+    }
+    if (named.empty()) throw Refused("particles is empty");
+    return named;
+}
+
 std::optional<std::size_t> held_particle(const RopePart& part) {
     const rope::Body* body = part.hold ? part.world->find(part.hold->body) : nullptr;
     if (body == nullptr || part.hold->particle >= body->count) return std::nullopt;
@@ -137,8 +158,10 @@ void forget_missing(RopePart& part) {
     };
     if (part.hold && !there(part.hold->body, part.hold->particle)) part.hold.reset();
     if (part.selection) {
-        const RopeSelection& selection = *part.selection;
-        const bool stays = selection.collider.empty() ? there(selection.body, selection.particle)
+        RopeSelection& selection = *part.selection;
+        const rope::Body* body = world.find(selection.body);
+        selection.particles.keep_below(body != nullptr ? body->count : 0);
+        const bool stays = selection.collider.empty() ? !selection.particles.empty()
                                                       : world.find_collider(selection.collider) != nullptr;
         if (!stays) part.selection.reset();
     }
@@ -162,6 +185,13 @@ Argument collider_argument(const char* name, bool required, const char* help) {
 
 Argument rope_argument(bool required, const char* help) {
     return body_argument("rope", required, help);
+}
+
+Argument particles_argument() {
+    return {.name = "particles",
+            .type = ArgumentType::List,
+            .required = false,
+            .help = "several, counted from 0, instead of particle"};
 }
 
 Argument particle_argument(bool required, const char* help) {

@@ -54,6 +54,9 @@ struct NamedParticle {
     std::size_t particle = 0;  ///< in the world
 };
 NamedParticle named_particle(const NamedWorld& world, const Arguments& given);
+/// Those that `particle` or `particles` names, of one rope. Throws Refused where neither or both are given, or
+/// one is not there.
+std::vector<NamedParticle> named_particles(const NamedWorld& world, const Arguments& given);
 
 /// What a drag holds, if it still does.
 std::optional<std::size_t> held_particle(const RopePart& part);

@@ -1,5 +1,6 @@
 // The Rope lab in a scene file. What a drag holds when it is saved is let go: nobody holds it when it is
 // opened.
+#include <algorithm>
 #include <stdexcept>
 
 #include "app/document/json_complete.hpp"
@@ -51,7 +52,9 @@ std::vector<Swing> load_swings(const JsonPlace& place, const NamedWorld& world) 
 Json save_selection(const std::optional<RopeSelection>& selection) {
     if (!selection) return nullptr;
     if (!selection->collider.empty()) return Json{{"collider", selection->collider}};
-    return Json{{"rope", selection->body}, {"particle", selection->particle}};
+    Json json{{"rope", selection->body}, {"particle", selection->particle()}};
+    if (selection->particles.several()) json["particles"] = selection->particles.all();
+    return json;
 }
 
 std::optional<RopeSelection> load_selection(const JsonPlace& place, const NamedWorld& world) {
@@ -68,8 +71,18 @@ std::optional<RopeSelection> load_selection(const JsonPlace& place, const NamedW
     selection.body = rope.text();
     const rope::Body* body = world.find(selection.body);
     if (body == nullptr) rope.fail("there is no rope " + json_summary(rope.json()));
-    const int last = body->count == 0 ? 0 : static_cast<int>(body->count) - 1;
-    selection.particle = static_cast<std::size_t>(place["particle"].integer(0, last));
+    if (body->count == 0) return std::nullopt;
+    const std::size_t active = place["particle"].index(body->count - 1);
+    std::vector<std::size_t> all;
+    if (place.has("particles")) {
+        place["particles"].for_each("particles", body->count, [&](const JsonPlace& each) {
+            all.push_back(each.index(body->count - 1));
+        });
+        if (std::find(all.begin(), all.end(), active) == all.end())
+            place["particle"].fail("is not among the particles that are selected");
+    }
+    all.push_back(active);
+    selection.particles.take(all, false);
     return selection;
 }
 

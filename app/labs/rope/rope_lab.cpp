@@ -62,7 +62,12 @@ std::optional<Bounds> selection_bounds(const RopePart& part) {
         return Bounds{rope::centre(collider->shape), std::max(2.0f * rope::size(collider->shape), 0.2f)};
     const rope::Body* body = world.find(part.selection->body);
     if (body == nullptr) return std::nullopt;
-    return Bounds{world.position(body->first + part.selection->particle), 0.3f};
+    glm::vec3 low(1e30f), high(-1e30f);
+    for (const std::size_t i : part.selection->particles.all()) {
+        low = glm::min(low, world.position(body->first + i));
+        high = glm::max(high, world.position(body->first + i));
+    }
+    return bounds_of(low, high, 0.3f);
 }
 
 }  // namespace
@@ -121,7 +126,9 @@ std::vector<Shortcut> RopeLab::shortcuts() const {
 }
 
 std::vector<MouseHelp> RopeLab::mouse_help() const {
-    return {{"Left click", "selects, pins or unpins, or cuts, as the panel says"}};
+    return {{"Left click", "selects, pins or unpins, or cuts, as the panel says"},
+            {"Shift+click on a rope", "adds a particle to the selection, or takes it out"},
+            {"Ctrl+drag on nothing", "draws a box that selects particles of one rope; with Shift it adds them"}};
 }
 
 std::vector<TestScene> RopeLab::test_scenes() const {

@@ -10,6 +10,7 @@
 #include "app/document/document.hpp"
 #include "app/document/workspace.hpp"
 #include "app/labs/kit/named_world.hpp"
+#include "app/labs/kit/selection.hpp"
 
 namespace tendril::app {
 
@@ -37,11 +38,12 @@ struct Hold {
     bool operator==(const Hold&) const = default;
 };
 
-/// What is selected: a particle of a body, or a collider.
+/// What is selected: particles of a body, or a collider.
 struct RopeSelection {
     std::string body;
-    std::size_t particle = 0;
-    std::string collider;  ///< not empty: this, and no particle
+    Selection particles;   ///< of the body; one at least
+    std::string collider;  ///< not empty: this, and no particles
+    std::size_t particle() const { return particles.active().value_or(0); }
     bool operator==(const RopeSelection&) const = default;
 };
 

@@ -38,7 +38,9 @@ Json collider_state(const RopePart& part, const rope::Collider& collider) {
 Json selection_state(const std::optional<RopeSelection>& selection) {
     if (!selection) return nullptr;
     if (!selection->collider.empty()) return Json{{"collider", selection->collider}};
-    return Json{{"rope", selection->body}, {"particle", selection->particle}};
+    return Json{{"rope", selection->body},
+                {"particle", selection->particle()},
+                {"particles", selection->particles.all()}};
 }
 
 }  // namespace

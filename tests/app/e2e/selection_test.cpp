@@ -74,12 +74,27 @@ TEST(SelectByMouse, WithoutCtrlADragOnNothingStillTurnsTheView) {
     EXPECT_EQ(after["selection"], Json::array());
 }
 
-TEST(SelectByMouse, ARopeLabHasNoBoxAndTurnsTheView) {
+TEST(SelectByMouse, ASignalLabHasNoBoxAndTurnsTheView) {
     ScriptText script;
-    script.command("lab.open", {{"name", "rope"}});
+    script.command("lab.open", {{"name", "signal"}});
     const Json start = state_after(script);
-    script.move({420, 120}).hold("ctrl").down().move({480, 150}).up().release("ctrl");
+    const glm::vec2 free = handle(start, "output") - glm::vec2(0.0f, 150.0f);
+    script.move(free).hold("ctrl").down().move(free + glm::vec2(60.0f, 30.0f)).up().release("ctrl");
     EXPECT_NE(state_after(script)["camera"], start["camera"]);
+}
+
+TEST(SelectByMouse, ABoxAroundACornerOfAClothSelectsAllParticlesThere) {
+    ScriptText script;
+    script.command("lab.open", {{"name", "rope"}}).command("time.pause");
+    script.command("rope.preset", {{"name", "cloth"}}).command("camera.view", {{"name", "top"}});
+    script.command("camera.frame", {{"what", "all"}});
+    const Json start = state_after(script);
+    const glm::vec2 corner = handle(start, start["cloths"][0]["name"].get<std::string>() + ".0");
+    box(script, corner - 30.0f, corner + 30.0f);
+    const Json after = state_after(script);
+    ASSERT_TRUE(after["selected"].is_object()) << after["selected"].dump();
+    EXPECT_GT(after["selected"]["particles"].size(), 3u);
+    EXPECT_EQ(after["camera"], start["camera"]);
 }
 
 TEST(ChainGizmo, AnArrowOfTheTargetMovesItAlongThatAxisAlone) {

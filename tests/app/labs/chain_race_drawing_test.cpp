@@ -62,6 +62,36 @@ TEST_F(RaceDrawingTest, EqualChainsRunAlongLikeStrands) {
     }
 }
 
+/// Around a bend the strands meet at their corners, and keep their distance.
+TEST_F(RaceDrawingTest, StrandsMeetAtTheCorners) {
+    reach_with(6);
+    run("chain.target", {{"to", Json::array({2.5, 2.5, 0.5})}});  // already there: the pose that all keep
+    run("race.open", {{"start", "here"}});
+    const auto drawn = bones();
+    int corners = 0;
+    std::map<ik::Method, std::vector<glm::vec3>> poses;
+    for (const Racer& racer : race()->racers) poses[racer.method] = racer.joints;
+    for (const auto& [method, lines] : drawn) {
+        ASSERT_EQ(lines.size(), 6u);
+        for (std::size_t bone = 1; bone < 6; ++bone) {
+            const glm::vec2 end = seen(lines[bone - 1].b), next = seen(lines[bone].a);
+            EXPECT_LT(glm::distance(end, next), 0.6f) << ik::name(method) << " joint " << bone;
+            ++corners;
+        }
+        for (std::size_t bone = 0; bone < 6; ++bone) {
+            const float off = aside(lines[bone], poses[method][bone], poses[method][bone + 1]);
+            EXPECT_LT(off, 9.5f) << ik::name(method) << " bone " << bone;
+        }
+    }
+    EXPECT_GT(corners, 15);
+    // Some of them are apart indeed.
+    const auto middle = [&](ik::Method method) {
+        const Stroke& line = drawn.at(method)[3];
+        return seen(0.5f * (line.a + line.b));
+    };
+    EXPECT_GT(glm::distance(middle(race()->racers[0].method), middle(race()->racers[1].method)), 3.0f);
+}
+
 TEST_F(RaceDrawingTest, WhatStandsApartIsDrawnWhereItIs) {
     reach_with(6);
     run("race.open", {{"start", "straight"}});

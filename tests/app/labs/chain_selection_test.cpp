@@ -70,6 +70,51 @@ TEST_F(ChainSelection, DeleteRemovesAllOfThem) {
     EXPECT_TRUE(part().chain.empty());
 }
 
+/// One by one this would take hours: it ends, or the test runs out of time.
+TEST_F(ChainSelection, ManyAreDoneAtOnce) {
+    run("chain.preset", {{"name", "start"}, {"count", 100'000}});
+    run("chain.mode", {{"mode", "reach"}});
+    Json most = Json::array();
+    for (std::size_t i = part().chain.size() - 1; i-- > 10;) most.push_back(i);
+    run("chain.set_length", {{"joints", most}, {"length", 0.5}});
+    EXPECT_FLOAT_EQ(part().chain.length(50'000), 0.5f);
+    EXPECT_FLOAT_EQ(part().chain.length(5), 1.0f);
+    run("chain.limit", {{"joints", most}, {"kind", "free"}});
+    EXPECT_TRUE(part().reach.limits.empty());
+    run("chain.limit", {{"joints", most}, {"kind", "hinge"}});
+    EXPECT_EQ(kind(99'998), ik::JointKind::Hinge);
+    run("chain.limit", {{"joints", most}, {"kind", "free"}});
+    EXPECT_TRUE(part().reach.limits.empty());
+    run("chain.select", {{"joints", most}});
+    run("chain.remove_selected");
+    EXPECT_EQ(part().chain.size(), 11u) << "the first ten, and the tail";
+}
+
+TEST_F(ChainSelection, RemovedTogetherOrOneByOneTheSameLimitsStay) {
+    for (const std::vector<std::size_t>& gone :
+         {std::vector<std::size_t>{1, 3}, {0, 2, 5}, {6, 7}, {0, 7}, {2, 3, 4}}) {
+        std::vector<std::vector<float>> left;
+        for (const bool together : {true, false}) {
+            reach_with(7);
+            for (int i = 0; i < 7; ++i)
+                run("chain.limit", {{"index", i}, {"kind", "hinge"}, {"axis", {0, 0, 1}}, {"max_deg", 10 + i}});
+            run("chain.mode", {{"mode", "with_index"}, {"index", 4}});
+            if (together) {
+                run("chain.select", {{"joints", gone}});
+                run("chain.remove_selected");
+            } else {
+                for (std::size_t i = gone.size(); i-- > 0;) run("chain.remove", {{"index", gone[i]}});
+            }
+            std::vector<float>& found = left.emplace_back();
+            for (const ik::Limit& limit : part().reach.limits) found.push_back(limit.max);
+            found.push_back(static_cast<float>(part().index));
+            found.push_back(static_cast<float>(part().chain.size()));
+            run("chain.mode", {{"mode", "reach"}});
+        }
+        EXPECT_EQ(left[0], left[1]) << gone.front();
+    }
+}
+
 TEST_F(ChainSelection, WhatIsNoJointIsRefusedAndChangesNothing) {
     reach_with(4);
     run("chain.select", {{"joints", {1, 2}}});
@@ -84,6 +129,8 @@ TEST_F(ChainSelection, WhatIsNoJointIsRefusedAndChangesNothing) {
         }
     }
     EXPECT_NE(refused("chain.limit", {{"joints", {1, 4}}, {"kind", "hinge"}}).find("tail"), std::string::npos);
+    refused("chain.limit", {{"joints", Json::array()}, {"kind", "hinge"}});
+    refused("chain.set_length", {{"joints", Json::array()}, {"length", 1}});
     EXPECT_NE(refused("chain.limit", {{"kind", "hinge"}}).find("index, or joints"), std::string::npos);
     EXPECT_NE(refused("chain.select", {{"index", 1}, {"joints", {1}}}).find("index, or joints"),
               std::string::npos);

@@ -107,7 +107,7 @@ TEST_F(RopeCommands, CutPartsARopeAndWhatWasChosenFollows) {
     ASSERT_EQ(state().at("ropes").size(), 2u);
     EXPECT_EQ(state().at("ropes")[0]["particles"].size(), 5u);
     EXPECT_EQ(state().at("ropes")[1]["particles"].size(), 6u);
-    const Json chosen{{"rope", "rope 2"}, {"particle", 2}};
+    const Json chosen{{"rope", "rope 2"}, {"particle", 2}, {"particles", {2}}};
     EXPECT_EQ(state().at("selected"), chosen);
     run("rope.remove", {{"name", "rope 2"}});
     EXPECT_EQ(state().at("selected"), nullptr);

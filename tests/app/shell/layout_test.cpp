@@ -328,6 +328,7 @@ TEST_P(LayoutTest, CutsNothingAndOverlapsNothing) {
         }
     }
     EXPECT_GT(texts, 1000u) << "what is drawn is recorded";
+    EXPECT_GT(popups_, 0) << "lists were opened";
     RecordProperty("popups", popups_);
     report();
 }
