@@ -1,4 +1,3 @@
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
@@ -11,7 +10,6 @@ namespace {
 
 constexpr float same_pixels = 3.0f;   ///< nearer than this, two chains cover each other
 constexpr float strand_pixels = 4.5f;  ///< from one strand to the next, where several run along together
-constexpr std::size_t most_racers = ik::all_methods.size();
 
 class RaceDrawing {
   public:

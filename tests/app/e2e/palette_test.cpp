@@ -154,6 +154,14 @@ TEST_F(PaletteTest, NamesOfTheSceneComplete) {
 }
 
 // In every size that the program can have; where it is drawn, nothing may fail either.
+/// It says Ctrl+Q beside it, and does what that does.
+TEST_F(PaletteTest, QuitAsksAboutUnsavedWorkAsItsKeyDoes) {
+    app_.run({"chain.add", Json{{"length", 1}}});
+    open().type("quit").key("enter");
+    EXPECT_FALSE(app_.quit());
+    EXPECT_TRUE(app_.workspace().ui.asks_to_quit);
+}
+
 TEST_F(PaletteTest, OpensInWindowsOfAnySize) {
     for (const glm::ivec2 size : {glm::ivec2(1, 1), {90, 60}, {320, 240}, {1024, 640}, {3000, 200}}) {
         for (const double scale : {0.5, 1.0, 3.0}) {

@@ -148,6 +148,7 @@ TEST(Video, IsRefusedInWords) {
     EXPECT_TRUE(has(refused({{"height", 1}}), "height must be 16 to 8192, got 1"));
     EXPECT_TRUE(has(refused({{"every", 0}}), "every must be 1 to 60, got 0"));
     EXPECT_TRUE(has(refused({{"speed", 0}}), "speed must be 0.05 to 2, got 0"));
+    EXPECT_TRUE(has(refused({{"speed", 2}, {"every", 1}}), "must be at most 1, got 2"));
     for (const char* name : {"a.gif", "a", "a.PNGX", ""})
         EXPECT_TRUE(has(refused({{"path", name}}), "path must end in .png or .mp4, got")) << name;
     EXPECT_TRUE(has(refused({{"path", "/nowhere/a.png"}}), "/nowhere/a.png"));
@@ -198,6 +199,16 @@ TEST(Video, IsCancelledByEscapeAndLeavesNoFile) {
     ScriptText twice = recorded_by_hand();
     EXPECT_TRUE(has(run_script(twice.command("view.video", video("b.png")), {}, folder.path()).err,
                     "tendril-1.png is still being written"));
+}
+
+TEST(Video, GoesOnWhereEscapeMeansSomethingElseAndWhereOneWantsToQuit) {
+    const TempFolder folder;
+    ScriptText menu = recorded_by_hand();
+    EXPECT_TRUE(succeeded(run_script(menu.click({22, 20}).key("escape").wait(80), {}, folder.path())));
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"tendril-1.png"}) << "the menu was closed";
+    ScriptText quits = recorded_by_hand();
+    EXPECT_TRUE(succeeded(run_script(quits.key("ctrl+q").wait(80), {}, folder.path())));
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"tendril-1.png", "tendril-2.png"}));
 }
 
 /// The program that writes it is a stand-in here: it counts what it is given.

@@ -134,6 +134,18 @@ TEST_F(Completion, TabTakesWhatAllHaveInCommonAndThenTheChosenRow) {
     EXPECT_EQ(common_prefix({}), "");
 }
 
+TEST_F(Completion, NamesWithABlankKeepTheirQuote) {
+    workspace_.open_lab("rope");
+    for (const char* name : {"blue line", "blue rope"})
+        table_.run(workspace_, "rope.add",
+                   {{"name", name}, {"from", {0, 2, 0}}, {"to", {1, 2, 0}}, {"segments", 4}});
+    const std::string begun = tab("rope.remove name=blu");
+    EXPECT_EQ(begun, "rope.remove name=\"blue ");
+    EXPECT_EQ(texts(begun), (Strings{"blue line", "blue rope"}));
+    EXPECT_EQ(tab(begun + "r"), "rope.remove name=\"blue rope\" ");
+    EXPECT_EQ(wrong(tab(begun + "r")), "");
+}
+
 TEST_F(Completion, SaysWhatIsWrongWhileItIsTyped) {
     EXPECT_EQ(wrong("chain.add length=1"), "");
     EXPECT_EQ(wrong("chain.add len"), "");
