@@ -76,9 +76,10 @@ class Taken {
     /// Until the visitor says false.
     template <typename Visit>
     void each_cell(const Rect& box, Visit visit) const {
-        const glm::ivec2 last = count_ - 1;
-        const glm::ivec2 low = glm::clamp(glm::ivec2((box.min - origin_) / cell_), glm::ivec2(0), last);
-        const glm::ivec2 high = glm::clamp(glm::ivec2((box.max - origin_) / cell_), glm::ivec2(0), last);
+        // As whole numbers only once they are near: a ball may be kilometres out of the picture.
+        const glm::vec2 last(count_ - 1);
+        const glm::ivec2 low(glm::clamp((box.min - origin_) / cell_, glm::vec2(0.0f), last));
+        const glm::ivec2 high(glm::clamp((box.max - origin_) / cell_, glm::vec2(0.0f), last));
         for (int y = low.y; y <= high.y; ++y) {
             for (int x = low.x; x <= high.x; ++x) {
                 if (!visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(count_.x) +

@@ -103,6 +103,7 @@ void move_along(Section& beyond, glm::vec3 to, glm::quat by) {
 void put_back(const Section& section, std::vector<glm::vec3>& joints, ReachSettings& settings) {
     const auto at = static_cast<std::ptrdiff_t>(section.first);
     std::copy(section.joints.begin(), section.joints.end(), joints.begin() + at);
+    if (section.rotations.empty()) return;  // there is nothing to be limited
     std::copy(section.rotations.begin(), section.rotations.end(), settings.state.rotations.begin() + at);
 }
 

@@ -178,6 +178,15 @@ TEST_F(ChainReach, a_scene_with_a_limit_that_commands_refuse_is_refused) {
     }
 }
 
+/// Nothing is remembered of bones that have just come or gone.
+TEST_F(ChainReach, a_joint_is_dragged_at_once_after_another_was_removed) {
+    reach_with(5);
+    run("chain.target", {{"to", {2, 2, 0}}});
+    run("chain.remove", {{"index", 1}});
+    run("chain.pull", {{"index", 2}, {"to", {0.5, 1.2, 0.3}}});
+    EXPECT_LT(glm::distance(part().chain.position(2), glm::vec3(0.5f, 1.2f, 0.3f)), 1e-2f);
+}
+
 TEST_F(ChainReach, limits_end_where_a_scene_would_be_too_large) {
     run("chain.preset", {{"name", "start"}, {"count", 100001}});
     EXPECT_NE(refused("chain.limit", {{"index", 0}, {"kind", "pivot"}}).find("100000"), std::string::npos);

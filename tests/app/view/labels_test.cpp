@@ -110,6 +110,15 @@ TEST(Labels, LeaveOutWhatCannotBePlaced) {
     EXPECT_TRUE(place_labels({}, viewport).empty());
 }
 
+/// A ball before the eye of a camera that is nearly in it fills more pixels than an int counts.
+TEST(Labels, AnObstacleOfAnySizeIsJustInTheWay) {
+    const std::vector<LabelRequest> requests{{.at = {500, 300}, .size = {40, 14}}};
+    const std::vector<Rect> obstacles{{{-1e12f, -1e12f}, {1e12f, 1e12f}},
+                                      {{-1e38f, 290.0f}, {1e38f, 310.0f}},
+                                      {{std::nanf(""), 0.0f}, {10.0f, 10.0f}}};
+    EXPECT_EQ(place_labels(requests, viewport, 2.0f, obstacles).size(), 1u) << "it has no better place";
+}
+
 TEST(Labels, TenThousandAreNoBurden) {
     const auto requests = random_requests(3, 10000);
     const auto start = std::chrono::steady_clock::now();
