@@ -16,7 +16,7 @@ Words shell(const std::string& script) {
 TEST(ChildProcesses, AreGivenAllBytes) {
     const TempFolder folder;
     std::string bytes;
-    for (int i = 0; i < 1'000'000; ++i) bytes += static_cast<char>(i * i >> 3);
+    for (unsigned i = 0; i < 1'000'000; ++i) bytes += static_cast<char>(i * i >> 3);
     ChildProcess child(shell("sleep 0.1; cat > '" + (folder / "out").string() + "'; echo chatter"));
     child.write(bytes);
     child.write("end");
