@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "app/document/json_complete.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/commands.hpp"
+#include "app/labs/kit/index_list.hpp"
 #include "app/labs/kit/part_command.hpp"
 
 namespace tendril::app {
@@ -55,26 +55,14 @@ void check_index(const ChainPart& part, std::size_t index) {
 }
 
 Argument joints_argument() {
-    return {.name = "joints",
-            .type = ArgumentType::List,
-            .required = false,
-            .help = "several, counted from 0, instead of index"};
+    return index_list_argument("joints", "index");
 }
 
 std::vector<std::size_t> joints_of(const Arguments& given, const ChainPart& part) {
-    if (given.has("index") == given.has("joints")) throw Refused("needs index, or joints");
-    std::vector<std::size_t> joints;
-    if (given.has("index")) {
-        joints.push_back(index_of(given));
-    } else {
-        for (const Json& each : given.json("joints")) {
-            if (!each.is_number_integer() || each.get<std::int64_t>() < 0)
-                throw Refused("joints: " + json_summary(each) + " is no joint; they are counted from 0");
-            joints.push_back(each.get<std::size_t>());
-        }
-    }
-    for (const std::size_t index : joints) check_index(part, index);
-    return joints;
+    if (!gives_one(given, "index", "joints")) return index_list(given, "joints", part.chain.size());
+    const std::size_t index = index_of(given);
+    check_index(part, index);
+    return {index};
 }
 
 std::vector<std::size_t> joints_to_set(const Arguments& given, const ChainPart& part) {

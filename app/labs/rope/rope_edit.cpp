@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "app/document/json_complete.hpp"
+#include "app/labs/kit/index_list.hpp"
 #include "app/labs/kit/part_command.hpp"
 #include "app/labs/rope/rope_time.hpp"
 
@@ -115,21 +115,12 @@ NamedParticle named_particle(const NamedWorld& world, const Arguments& given) {
 }
 
 std::vector<NamedParticle> named_particles(const NamedWorld& world, const Arguments& given) {
-    if (given.has("particle") == given.has("particles")) throw Refused("needs particle, or particles");
-    if (given.has("particle")) return {named_particle(world, given)};
+    if (gives_one(given, "particle", "particles")) return {named_particle(world, given)};
     const std::string name = given.text("rope");
     const rope::Body& body = body_of(world, name);
     std::vector<NamedParticle> named;
-    for (const Json& each : given.json("particles")) {
-        if (!each.is_number_integer() || each.get<std::int64_t>() < 0)
-            throw Refused("particles: " + json_summary(each) + " is no particle; they are counted from 0");
-        const auto index = each.get<std::size_t>();
-        if (index >= body.count) {
-            throw Refused("particles: " + std::to_string(index) + " is out of range, \"" + name + "\" has " +
-                          std::to_string(body.count));
-        }
+    for (const std::size_t index : index_list(given, "particles", body.count))
         named.push_back({name, index, body.first + index});
-    }
     if (named.empty()) throw Refused("particles is empty");
     return named;
 }
@@ -188,10 +179,7 @@ Argument rope_argument(bool required, const char* help) {
 }
 
 Argument particles_argument() {
-    return {.name = "particles",
-            .type = ArgumentType::List,
-            .required = false,
-            .help = "several, counted from 0, instead of particle"};
+    return index_list_argument("particles", "particle");
 }
 
 Argument particle_argument(bool required, const char* help) {

@@ -1,6 +1,5 @@
 // The Rope lab in a scene file. What a drag holds when it is saved is let go: nobody holds it when it is
 // opened.
-#include <algorithm>
 #include <stdexcept>
 
 #include "app/document/json_complete.hpp"
@@ -52,9 +51,7 @@ std::vector<Swing> load_swings(const JsonPlace& place, const NamedWorld& world) 
 Json save_selection(const std::optional<RopeSelection>& selection) {
     if (!selection) return nullptr;
     if (!selection->collider.empty()) return Json{{"collider", selection->collider}};
-    Json json{{"rope", selection->body}, {"particle", selection->particle()}};
-    if (selection->particles.several()) json["particles"] = selection->particles.all();
-    return json;
+    return Json{{"rope", selection->body}, {"particle", selection->particles.save()}};
 }
 
 std::optional<RopeSelection> load_selection(const JsonPlace& place, const NamedWorld& world) {
@@ -72,17 +69,8 @@ std::optional<RopeSelection> load_selection(const JsonPlace& place, const NamedW
     const rope::Body* body = world.find(selection.body);
     if (body == nullptr) rope.fail("there is no rope " + json_summary(rope.json()));
     if (body->count == 0) return std::nullopt;
-    const std::size_t active = place["particle"].index(body->count - 1);
-    std::vector<std::size_t> all;
-    if (place.has("particles")) {
-        place["particles"].for_each("particles", body->count, [&](const JsonPlace& each) {
-            all.push_back(each.index(body->count - 1));
-        });
-        if (std::find(all.begin(), all.end(), active) == all.end())
-            place["particle"].fail("is not among the particles that are selected");
-    }
-    all.push_back(active);
-    selection.particles.take(all, false);
+    selection.particles = Selection::load(place["particle"], body->count);
+    if (selection.particles.empty()) place["particle"].fail("no particle is selected");
     return selection;
 }
 

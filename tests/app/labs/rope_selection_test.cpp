@@ -90,9 +90,9 @@ TEST_F(RopeSelectionTest, ComesBackFromAFile) {
     load_scene(other, parse_json(save_scene(workspace).dump()));
     EXPECT_EQ(rope_part(other).selection, part().selection);
     Json broken = save_scene(workspace);
-    broken["labs"]["rope"]["selected"]["particles"] = {1, 7};
+    broken["labs"]["rope"]["selected"]["particle"]["all"] = {1, 7};
     EXPECT_THROW(load_scene(other, broken), std::runtime_error);
-    broken["labs"]["rope"]["selected"]["particles"] = {3, 99};
+    broken["labs"]["rope"]["selected"]["particle"]["all"] = {3, 99};
     EXPECT_THROW(load_scene(other, broken), std::runtime_error);
 }
 

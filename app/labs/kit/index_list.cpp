@@ -1,0 +1,36 @@
+#include "app/labs/kit/index_list.hpp"
+
+#include <string>
+
+#include "app/document/json_complete.hpp"
+#include "app/document/refused.hpp"
+
+namespace tendril::app {
+
+Argument index_list_argument(const char* name, const char* instead_of) {
+    return {.name = name,
+            .type = ArgumentType::List,
+            .required = false,
+            .help = std::string("several, counted from 0, instead of ") + instead_of};
+}
+
+bool gives_one(const Arguments& given, const char* index, const char* list) {
+    if (given.has(index) == given.has(list))
+        throw Refused(std::string("needs ") + index + ", or " + list);
+    return given.has(index);
+}
+
+std::vector<std::size_t> index_list(const Arguments& given, const char* name, std::size_t count) {
+    std::vector<std::size_t> indices;
+    for (const Json& each : given.json(name)) {
+        if (!each.is_number_integer() || each.get<std::int64_t>() < 0)
+            throw Refused(std::string(name) + ": " + json_summary(each) + " is no whole number from 0 on");
+        if (each.get<std::size_t>() >= count)
+            throw Refused(std::string(name) + ": " + json_summary(each) + " is out of range, there are " +
+                          std::to_string(count));
+        indices.push_back(each.get<std::size_t>());
+    }
+    return indices;
+}
+
+}  // namespace tendril::app
