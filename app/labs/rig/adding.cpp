@@ -3,16 +3,17 @@
 #include <string_view>
 
 #include "app/document/json_complete.hpp"
+#include "app/labs/rig/rig_edit.hpp"
 
 namespace tendril::app {
 namespace {
 
 using Elements = std::vector<rig::Element>;
 
-/// The selected element; else the first bone; else the first element.
+/// The active element; else the first bone; else the first element.
 const rig::Element* item_of(const RigPart& part) {
     const Elements& elements = part.rig.definition().elements;
-    if (const auto selected = part.rig.element(part.selected.element)) return &elements[*selected];
+    if (const auto active = part.selected.elements.active()) return &elements[*active];
     for (const rig::Element& each : elements)
         if (each.kind == rig::ElementKind::Bone) return &each;
     return elements.empty() ? nullptr : &elements.front();
@@ -23,8 +24,33 @@ const rig::Element* parent_of(const RigPart& part, const rig::Element& element) 
     return parent ? &part.rig.definition().elements[*parent] : nullptr;
 }
 
-/// Any that is not this one, controls before others: what can be followed, or pointed at.
+/// Beside the active one.
+std::vector<std::string> others_selected(const RigPart& part) {
+    std::vector<std::size_t> others = part.selected.elements.all();
+    std::erase_if(others, [&](std::size_t each) { return each == part.selected.elements.active(); });
+    return names_of(part, others);
+}
+
+/// Those selected that are below no other one: a for-each comes to what is below them by itself.
+std::vector<std::string> roots_selected(const RigPart& part) {
+    const Elements& elements = part.rig.definition().elements;
+    std::vector<bool> covered(elements.size());
+    std::vector<std::size_t> roots;
+    for (const std::size_t at : from_the_roots(part.rig, part.state.elements)) {
+        const auto parent = part.rig.element(elements[at].parent);
+        const bool below = parent && covered[*parent], selected = part.selected.elements.has(at);
+        covered[at] = below || selected;
+        if (selected && !below) roots.push_back(at);
+    }
+    return names_of(part, roots);
+}
+
+/// Any that is not this one, those selected and then controls before others: what can be followed, or pointed
+/// at.
 const rig::Element* other_than(const RigPart& part, const rig::Element& element) {
+    for (const std::size_t each : part.selected.elements.all())
+        if (const rig::Element& other = part.rig.definition().elements[each]; &other != &element)
+            return &other;
     const rig::Element* found = nullptr;
     for (const rig::Element& each : part.rig.definition().elements) {
         if (&each == &element) continue;
@@ -54,7 +80,10 @@ UnitOffer follower(const RigPart& part, Json unit) {
     if (other == nullptr) return {{}, "two elements"};
     if (unit["unit"] == "parent_constraint") {
         unit["item"] = item->name;
-        unit["parents"] = Json::array({{{"item", other->name}}});
+        std::vector<std::string> parents = others_selected(part);
+        if (parents.empty()) parents.push_back(other->name);
+        unit["parents"] = Json::array();
+        for (const std::string& each : parents) unit["parents"].push_back({{"item", each}});
     } else if (unit["unit"] == "aim") {
         unit["item"] = item->name;
         unit["primary"] = {{"axis", {0, 1, 0}}, {"target", other->name}};
@@ -101,7 +130,8 @@ UnitOffer offered_unit(const RigPart& part, std::size_t operation) {
     if (kind == "for_each") {
         const rig::Element* item = item_of(part);
         if (item == nullptr) return {{}, "an element"};
-        unit["roots"] = Json::array({item->name});
+        const std::vector<std::string> selected = roots_selected(part);
+        unit["roots"] = selected.empty() ? Json::array({item->name}) : Json(selected);
         unit["body"] = Json::array();
     }
     if (kind == "set_curve") {

@@ -17,7 +17,8 @@ struct UnitOffer {
     std::optional<SharedJson> unit;
     const char* needs = "";  ///< "two bones or more": where there is no unit
 };
-/// `operation` is the index in rig::Operation. Works on the selected element, where it is one that works.
+/// `operation` is the index in rig::Operation. Works on the active element, where it is one that works: the
+/// others that are selected it follows. A for-each goes over all that are selected.
 UnitOffer offered_unit(const RigPart& part, std::size_t operation);
 
 }  // namespace tendril::app

@@ -52,7 +52,7 @@ class Drawing {
             }
             if (pending_) pending(i);
         }
-        if (p_.selected) input_pose(*p_.selected);
+        if (const auto element = p_.part.selected.only_element()) input_pose(*element);
         labels();
     }
 
@@ -93,7 +93,7 @@ class Drawing {
         const rig::Transform pose = p_.pose(i);
         const auto at = glm::vec3(pose.translation);
         if (figures_ && figure_of(p_.part, i) == Figure::Blob) {
-            const float tinted = p_.is_selected(i) ? 0.25f : p_.is_lit(i) ? 0.12f : 0.0f;
+            const float tinted = p_.is_active(i) ? 0.25f : p_.is_selected(i) || p_.is_lit(i) ? 0.12f : 0.0f;
             draw_blob(p_.view, p_.list, pose, p_.part,
                       p_.is_selected(i) ? p_.view.palette.selection : glm::vec3(1.0f), tinted,
                       element_pick(i));
@@ -116,7 +116,7 @@ class Drawing {
         if (!p_.is_selected(i) && !p_.is_lit(i)) return;
         const glm::vec4 paint = p_.is_selected(i) ? glm::vec4(p_.view.palette.selection, 1.0f)
                                                   : glm::vec4(p_.view.palette.text, 0.55f);
-        const float width = p_.px(p_.is_selected(i) ? 2.5f : 1.5f);
+        const float width = p_.px(p_.is_active(i) ? 2.5f : 1.5f);
         p_.list.ring(at, clear + p_.px(4.0f), width, paint).layer = Layer::Overlay;
     }
 
@@ -166,9 +166,9 @@ class Drawing {
         const std::size_t count = p_.part.state.controls.size(), stride = count / most_labels + 1;
         for (std::size_t i = 0; i < count; ++i) {
             if (p_.part.rig.definition().elements[i].control) continue;  // has its own
-            const bool marked = p_.is_lit(i) || p_.is_selected(i);
+            const bool marked = p_.is_lit(i) || p_.is_active(i);
             if (!marked && !(always && i % stride == 0)) continue;
-            const bool has_gizmo = p_.is_selected(i) && !lies_elsewhere(i);
+            const bool has_gizmo = p_.has_gizmo(i) && !lies_elsewhere(i);
             p_.label(p_.point(i), p_.name(i), p_.view.palette.text, has_gizmo ? gizmo_clearance : 14.0f,
                      marked ? 3 : 0);
         }
@@ -181,7 +181,7 @@ class Drawing {
 }  // namespace
 
 glm::vec3 RigPicture::marked(glm::vec3 colour, std::size_t i) const {
-    if (is_selected(i)) return glm::mix(colour, view.palette.selection, 0.75f);
+    if (is_selected(i)) return glm::mix(colour, view.palette.selection, is_active(i) ? 0.75f : 0.5f);
     return is_lit(i) ? glm::mix(colour, view.palette.text, 0.45f) : colour;
 }
 
@@ -209,7 +209,7 @@ void RigPicture::label(glm::vec3 at, std::string text, glm::vec3 colour, float c
 void RigLab::draw(const View& view, DrawList& list) const {
     const RigPart& part = rig_part(view.workspace);
     const rig::Hierarchy& elements = view.workspace.runtimes.of<RigRuntime>(rig_lab).resolved(view.workspace);
-    const RigPicture picture{view, list, part, elements, part.rig.element(part.selected.element)};
+    const RigPicture picture{view, list, part, elements};
     Drawing(picture, view.workspace.settings).run();
     draw_walks(view, list);
 }
@@ -220,7 +220,7 @@ std::vector<LegendRow> RigLab::legend(const Workspace& workspace) const {
                                 {"control", colours.target},
                                 {"at its limit", colours.limit},
                                 {"selection", colours.selection, true}};
-    const auto selected = rig_part(workspace).rig.element(rig_part(workspace).selected.element);
+    const auto selected = rig_part(workspace).selected.only_element();
     if (selected &&
         starts_elsewhere(rig_part(workspace), workspace.runtimes.of<RigRuntime>(rig_lab).resolved(workspace),
                          *selected))

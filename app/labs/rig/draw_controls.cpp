@@ -125,7 +125,7 @@ class Drawing {
         for (int axis = 0; axis < 3; ++axis) {
             const glm::vec3 arm = size_ * along(axis);
             line(at_ - arm, at_ + arm, width(), colour());
-            if (p_.is_selected(i_)) continue;  // its gizmo has arrows
+            if (p_.has_gizmo(i_)) continue;  // which has arrows
             for (const float side : {-1.0f, 1.0f}) {
                 Stroke& head = p_.list.bone(at_ + 0.72f * side * arm, at_ + 1.06f * side * arm, 0.14f * size_,
                                             0.01f * size_, glm::vec4(colour(), 1.0f));
@@ -160,13 +160,13 @@ class Drawing {
     void circles() {
         constexpr int sides = 48;
         const glm::vec3 colours[]{p_.view.palette.axis_x, p_.view.palette.axis_y, p_.view.palette.axis_z};
-        const bool gizmo = p_.is_selected(i_);
         for (int axis = 0; axis < 3; ++axis) {
             const PickId ring = element_pick(i_, axis);
             const bool lit = p_.view.hovered == ring;
             const glm::vec3 u = size_ * along((axis + 1) % 3), v = size_ * along((axis + 2) % 3);
             const glm::vec3 own = lit ? p_.view.palette.selection : colours[axis];
-            const glm::vec3 paint = gizmo ? glm::mix(own, p_.view.palette.selection, 0.5f) : own;
+            const float by = p_.is_active(i_) ? 0.5f : p_.is_selected(i_) ? 0.35f : 0.0f;
+            const glm::vec3 paint = glm::mix(own, p_.view.palette.selection, by);
             for (int k = 0; k < sides; ++k) {
                 const auto on = [&](int step) {
                     const float angle = glm::two_pi<float>() * static_cast<float>(step) / sides;
@@ -187,7 +187,9 @@ class Drawing {
         ball.rank = 3;
         ball.layer = Layer::Overlay;
         if (!p_.is_selected(i_)) return;
-        p_.list.ring(at_, p_.px(pixels + 5.5f), p_.px(2.0f), glm::vec4(p_.view.palette.selection, 1.0f))
+        p_.list
+            .ring(at_, p_.px(pixels + 5.5f), p_.px(p_.is_active(i_) ? 2.0f : 1.25f),
+                  glm::vec4(p_.view.palette.selection, 1.0f))
             .layer = Layer::Overlay;
     }
 
@@ -293,7 +295,7 @@ class Drawing {
 
     /// Sliders, switches and rectangles are read like a panel, so they always say what they are.
     void label() {
-        const bool marked = p_.is_lit(i_) || p_.is_selected(i_);
+        const bool marked = p_.is_lit(i_) || p_.is_active(i_);
         const rig::ControlKind kind = shape_.kind();
         const bool panel = kind == rig::ControlKind::Float || kind == rig::ControlKind::Bool ||
                            kind == rig::ControlKind::Vector2d;
@@ -312,7 +314,7 @@ class Drawing {
         if (kind == rig::ControlKind::Float) at = on_rail(0.5 * Rail::length);
         if (kind == rig::ControlKind::Vector2d) at = corner_of_rectangle();
         float clearance = panel && kind != rig::ControlKind::Bool ? 7.0f : 15.0f;
-        if (p_.is_selected(i_) && !panel) clearance = 84.0f;
+        if (p_.has_gizmo(i_) && !panel) clearance = 84.0f;
         const int rank = marked ? 4 : panel ? 2 : 1;
         p_.label(at, std::move(text), limit_ ? p_.view.palette.limit : p_.view.palette.text, clearance, rank);
     }

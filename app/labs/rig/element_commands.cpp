@@ -1,4 +1,6 @@
 // Elements and named curves: added, set and removed.
+#include <algorithm>
+
 #include "app/document/json_complete.hpp"
 #include "app/labs/kit/part_command.hpp"
 #include "app/labs/kit/require.hpp"
@@ -7,22 +9,16 @@
 #include "app/labs/rig/rig_edit.hpp"
 #include "app/labs/rig/take.hpp"
 #include "app/labs/rig/value_json.hpp"
+#include "app/labs/rig/value_text.hpp"
 
 namespace tendril::app {
 namespace {
 
-Argument name_argument() {
-    return element_argument("name", true, "of the element");
-}
 Argument curve_argument() {
     return offering(text_argument("name", true, "of the curve"), [](const Workspace& w) {
         return names(rig_part(w).rig.definition().curves,
                      [](const rig::NamedCurve& each) { return each.name; });
     });
-}
-
-JsonPlace place_of(const Arguments& given, const char* name) {
-    return {given.json(name), name};
 }
 
 void add_element(RigPart& part, const Arguments& given) {
@@ -31,71 +27,122 @@ void add_element(RigPart& part, const Arguments& given) {
     redefine(part, std::move(definition));
 }
 
-/// What is left out of the transform stays. The pose that a unit gave a bone is no part of its input pose.
-void set_element(RigPart& part, const Arguments& given) {
-    const std::size_t at = element_named(part, given.text("name"));
+/// The pose that a unit gave a bone is no part of its input pose.
+rig::Transform input_pose(RigPart& part, std::size_t at, rig::Space space) {
+    const bool control = part.rig.definition().elements[at].control.has_value();
+    if (!control && space == rig::Space::Global) return part.rig.start_pose(part.state, at);
+    return part.state.elements.get(part.rig.id(at), space, control ? rig::Pose::Current : rig::Pose::Input);
+}
+
+/// What is left out of the transform stays. Parents come first: their children go with them, and are then
+/// set.
+void set_elements(RigPart& part, const Arguments& given) {
+    const std::vector<std::size_t> elements = elements_given(part, given);
     const rig::Space space =
         given.has("space") && given.text("space") == "global" ? rig::Space::Global : rig::Space::Local;
-    const bool control = part.rig.definition().elements[at].control.has_value();
-    const rig::Transform now = !control && space == rig::Space::Global
-                                   ? part.rig.start_pose(part.state, at)
-                                   : part.state.elements.get(part.rig.id(at), space,
-                                                             control ? rig::Pose::Current : rig::Pose::Input);
-    const rig::Transform to = read_transform(place_of(given, "transform"), now);
     const bool propagate = !given.has("propagate") || given.boolean("propagate");
     const rig::State before = part.state;
-    require_ok(part.rig.set_element(part.state, at, space, to,
-                                    propagate ? rig::Propagate::Yes : rig::Propagate::No));
+    for (const std::size_t at : from_the_roots(part.rig, before.elements)) {
+        if (!std::ranges::binary_search(elements, at)) continue;
+        const rig::Transform now = input_pose(part, at, space);
+        const Json wanted = filled(given.json("transform"), transform_json(now));
+        require_ok(part.rig.set_element(part.state, at, space, read_transform({wanted, "transform"}, now),
+                                        propagate ? rig::Propagate::Yes : rig::Propagate::No));
+    }
     if (part.state != before) changed(part);
 }
 
 void remove(RigPart& part, const Arguments& given) {
-    remove_element(part, given.text("name"));
+    remove_elements(part, elements_given(part, given));
 }
 
-/// The element or the unit, whichever was selected last.
+/// The elements or the unit, whichever was selected last.
 void remove_selected(RigPart& part, const Arguments&) {
     const RigSelection selected = part.selected;
     if (selected.unit_last)
         remove_unit(part, selected.unit);
-    else if (!selected.element.empty())
-        remove_element(part, selected.element);
+    else if (!selected.elements.empty())
+        remove_elements(part, selected.elements.all());
     else
         throw Refused("nothing is selected");
 }
 
-std::size_t control_named(const RigPart& part, const std::string& name) {
-    const std::size_t at = element_named(part, name);
-    if (!part.rig.definition().elements[at].control)
-        throw std::invalid_argument("\"" + name + "\" is no control");
-    return at;
+std::vector<std::size_t> controls_given(const RigPart& part, const Arguments& given) {
+    std::vector<std::size_t> controls = elements_given(part, given);
+    for (const std::size_t at : controls) {
+        const rig::Element& element = part.rig.definition().elements[at];
+        if (!element.control) throw std::invalid_argument("\"" + element.name + "\" is no control");
+    }
+    return controls;
 }
 
-void set_value(RigPart& part, std::size_t at, const rig::Value& value) {
+struct ControlValue {
+    std::size_t element;  ///< its place in the definition
+    rig::Value value;
+};
+
+/// Those that it changes, in their order.
+std::vector<ControlValue> differing(const RigPart& part, std::vector<ControlValue> values) {
     rig::State after = part.state;
-    require_ok(part.rig.set_control(after, at, value));
-    if (after.controls[at] == part.state.controls[at]) return;  // units may have moved it since
-    part.state = std::move(after);
+    for (const ControlValue& each : values) require_ok(part.rig.set_control(after, each.element, each.value));
+    std::erase_if(values, [&](const ControlValue& each) {
+        return after.controls[each.element] == part.state.controls[each.element];
+    });
+    return values;
+}
+
+/// One that has the value already is left alone: units may have moved it since.
+void set_values(RigPart& part, std::vector<ControlValue> values) {
+    constexpr std::size_t most_keys_at_once = 64;  // each takes as long as all that are there
+    values = differing(part, std::move(values));
+    if (values.empty()) return;
+    std::vector<bool> is_set(part.state.controls.size());
+    for (const ControlValue& each : values) {
+        require_ok(part.rig.set_control(part.state, each.element, each.value));
+        is_set[each.element] = true;
+    }
     part.moving = true;
     part.backward.reset();
     part.rates.reset();
-    const std::string& name = part.rig.definition().elements[at].name;
     // One that is set does not walk on; else the take remembers it, and goes on.
-    const bool walked =
-        std::erase_if(part.walks, [&](const RigWalk& walk) { return walk.control == name; }) > 0;
-    walked ? begin_take(part) : key_control(part, at);
+    const bool walked = std::erase_if(part.walks, [&](const RigWalk& walk) {
+                            const auto at = part.rig.element(walk.control);
+                            return at && is_set[*at];
+                        }) > 0;
+    if (walked || values.size() > most_keys_at_once) return begin_take(part);
+    for (const ControlValue& each : values) key_control(part, each.element);
 }
 
-void set_control(RigPart& part, const Arguments& given) {
-    const std::size_t at = control_named(part, given.text("name"));
-    const rig::Control& control = *part.rig.definition().elements[at].control;
-    set_value(part, at, read_control_value(place_of(given, "value"), control.kind, part.state.controls[at]));
+rig::ControlKind one_kind(const RigPart& part, const std::vector<std::size_t>& controls) {
+    const std::vector<rig::Element>& elements = part.rig.definition().elements;
+    const rig::Element& first = elements[controls.front()];
+    for (const std::size_t at : controls)
+        if (const rig::ControlKind kind = elements[at].control->kind; kind != first.control->kind)
+            throw std::invalid_argument("names: \"" + first.name + "\" is a " +
+                                        control_title(first.control->kind) + ", \"" + elements[at].name +
+                                        "\" a " + control_title(kind) + "; give those of one kind");
+    return first.control->kind;
 }
 
-void reset_control(RigPart& part, const Arguments& given) {
-    const std::size_t at = control_named(part, given.text("name"));
-    const rig::Element& element = part.rig.definition().elements[at];
-    set_value(part, at, rig::rest_value(*element.control, element.initial));
+void set_controls(RigPart& part, const Arguments& given) {
+    const std::vector<std::size_t> controls = controls_given(part, given);
+    const rig::ControlKind kind = one_kind(part, controls);
+    std::vector<ControlValue> values;
+    for (const std::size_t at : controls) {
+        const rig::Value& now = part.state.controls[at];
+        const Json wanted = filled(given.json("value"), control_value_json(kind, now));
+        values.push_back({at, read_control_value({wanted, "value"}, kind, now)});
+    }
+    set_values(part, std::move(values));
+}
+
+void reset_controls(RigPart& part, const Arguments& given) {
+    std::vector<ControlValue> values;
+    for (const std::size_t at : controls_given(part, given)) {
+        const rig::Element& element = part.rig.definition().elements[at];
+        values.push_back({at, rig::rest_value(*element.control, element.initial)});
+    }
+    set_values(part, std::move(values));
 }
 
 void add_curve(RigPart& part, const Arguments& given) {
@@ -129,26 +176,31 @@ void add_element_commands(CommandTable& table) {
          json_argument("maximum", false, "likewise"),
          element_argument("space", false, "of a control: the element that it goes with, its parent")},
         "Adds a bone, a null or a control", add_element));
+    const Argument name = element_argument("name", false, "of the element"),
+                   control = control_argument("name", false, "of the element"),
+                   names = element_list_argument("names", "name");
     table.add(rig_command(
-        "rig.element.set", "Set an element's pose",
-        {name_argument(),
+        "rig.element.set", "Set the pose of elements",
+        {name, names,
          choice_argument("space", false, "of the transform; local where left out", {"local", "global"}),
-         json_argument("transform", true, "{translation, rotation, scale}; what is left out stays"),
+         json_argument("transform", true,
+                       "{translation, rotation, scale}; what is left out stays, and so does a null among "
+                       "[x, y, z]"),
          switch_argument("propagate", "the children move with it; on where left out")},
-        "Sets an element's input pose, from which every solve begins", set_element));
-    table.add(rig_command("rig.element.remove", "Remove an element", {name_argument()},
-                          "Removes an element that is no parent and that no unit names", remove));
+        "Sets the input poses of elements, from which every solve begins", set_elements));
+    table.add(rig_command("rig.element.remove", "Remove elements", {name, names},
+                          "Removes elements that are no parents of others and that no unit names", remove));
     table.add(rig_command("rig.remove_selected", "Delete selection", {},
-                          "Removes the element or the unit that was selected last", remove_selected));
-    table.add(rig_command("rig.control.set", "Set a control",
-                          {control_argument("name", true, "of the element"),
-                           json_argument("value", true,
-                                         "{translation, rotation, scale}, [x, y, z], [x, y, z, w], a number, "
-                                         "a bool or [a, b], as its kind has it")},
-                          "Sets a control, within its limits", set_control));
-    table.add(rig_command("rig.control.reset", "Reset a control",
-                          {control_argument("name", true, "of the element")},
-                          "Sets a control to the value that it begins with", reset_control));
+                          "Removes the elements or the unit that were selected last", remove_selected));
+    table.add(
+        rig_command("rig.control.set", "Set controls",
+                    {control, names,
+                     json_argument("value", true,
+                                   "{translation, rotation, scale}, [x, y, z], [x, y, z, w], a number, "
+                                   "a bool or [a, b], as its kind has it; a null among [x, y, z] stays")},
+                    "Sets controls of one kind, within their limits", set_controls));
+    table.add(rig_command("rig.control.reset", "Reset controls", {control, names},
+                          "Sets controls to the values that they begin with", reset_controls));
     table.add(rig_command("rig.curve.add", "Add a curve",
                           {text_argument("name", true, "of the curve"),
                            number_argument("value", "0 where left out", -1e9, 1e9)},

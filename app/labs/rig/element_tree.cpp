@@ -83,7 +83,7 @@ void row_tooltip(const RigPart& part, std::size_t i, rig::Pending pending, bool 
     if (marks)
         text += std::string("\nThe two bars are its local and its global transform: ") +
                 pending_text(pending) + '.';
-    tooltip(text);
+    tooltip(text + "\nShift+click adds it to the selection, or takes it out.");
 }
 
 /// Of one row to the next, pixels.
@@ -95,12 +95,20 @@ void draw_row(const RigPanel& panel, const Row& row, bool marks) {
     const rig::Element& element = panel.part.rig.definition().elements[row.element];
     const rig::Pending pending = panel.part.state.elements.pending(panel.part.rig.id(row.element));
     const float line = ImGui::GetTextLineHeight(), em = ImGui::GetFontSize();
-    const bool selected = panel.part.selected.element == element.name;
+    const RigSelection& selected = panel.part.selected;
     const ImVec2 corner = ImGui::GetCursorScreenPos(), at = ImGui::GetCursorPos();
     const float width = ImGui::GetContentRegionAvail().x;
     ImGui::PushID(static_cast<int>(row.element));
-    if (ImGui::Selectable("##row", selected, 0, {width, line}))
-        select_element(panel, selected ? "" : element.name);
+    ImVec4 colour = ImGui::GetStyleColorVec4(ImGuiCol_Header);
+    if (selected.elements.active() != row.element) colour.w *= 0.5f;
+    ImGui::PushStyleColor(ImGuiCol_Header, colour);
+    if (ImGui::Selectable("##row", selected.elements.has(row.element), 0, {width, line})) {
+        if (ImGui::GetIO().KeyShift)
+            panel.emit("rig.select", {{"element", element.name}, {"add", true}});
+        else
+            select_element(panel, selected.only_element() == row.element ? "" : element.name);
+    }
+    ImGui::PopStyleColor();
     if (ImGui::IsItemHovered()) row_tooltip(panel.part, row.element, pending, marks);
     ImGui::PopID();
     const float indent = 0.7f * em * static_cast<float>(std::min(row.depth, 6));
@@ -123,10 +131,10 @@ void draw_row(const RigPanel& panel, const Row& row, bool marks) {
 /// What was selected elsewhere is scrolled into view, once.
 void show_selected(const RigPanel& panel, const std::vector<Row>& rows) {
     std::string& shown = panel.runtime.panel.shown;
-    const std::string& selected = panel.part.selected.element;
+    const std::string selected = panel.part.selected_element();
     if (shown == selected) return;
     shown = selected;
-    const auto element = panel.part.rig.element(selected);
+    const auto element = panel.part.selected.elements.active();
     const auto row = std::find_if(rows.begin(), rows.end(),
                                   [&](const Row& each) { return element && each.element == *element; });
     if (row == rows.end()) return;
@@ -151,7 +159,7 @@ void add_menu(const RigPanel& panel) {
         close_popup_on_escape();
         const auto add = [&](const char* title, const char* kind, const char* control) {
             if (!ImGui::MenuItem(title)) return;
-            const std::string& parent = panel.part.selected.element;
+            const std::string parent = panel.part.selected_element();
             const std::string name = free_element_name(panel.part, *control != '\0' ? "control" : kind);
             ArgumentList arguments{{"name", name}, {"kind", kind}};
             if (!parent.empty()) arguments.push_back({"parent", parent});
@@ -169,7 +177,8 @@ void add_menu(const RigPanel& panel) {
             title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
             add(title.c_str(), "control", rig::name(kind));
         }
-        note(panel.part.selected.element.empty() ? "In the scene" : "Below " + panel.part.selected.element);
+        const std::string parent = panel.part.selected_element();
+        note(parent.empty() ? "In the scene" : "Below " + parent);
         ImGui::EndPopup();
     }
 }
@@ -205,9 +214,10 @@ void element_tree(const RigPanel& panel) {
     if (count == 0) note("No elements.");
     if (count > 0 && rows.empty()) note("No element has this in its name.");
     add_menu(panel);
-    const std::string& selected = panel.part.selected.element;
-    if (row_button("Remove", 2, !selected.empty(), "Removes the selected element"))
-        panel.edit("rig.element.remove", {{"name", selected}});
+    const Selection& selected = panel.part.selected.elements;
+    if (row_button("Remove", 2, !selected.empty(),
+                   selected.several() ? "Removes the selected elements" : "Removes the selected element"))
+        panel.edit("rig.element.remove", {which(panel.part, selected.all())});
     end_row();
 }
 

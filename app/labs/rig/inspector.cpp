@@ -20,102 +20,6 @@ namespace {
 
 constexpr float most = 1e9f;
 
-/// The limits of a control as a drag ends at them.
-glm::vec3 end_of(const std::optional<glm::dvec3>& limit, float none) {
-    return limit ? glm::vec3(*limit) : glm::vec3(none);
-}
-
-/// "-1.00 to 1.00", of the parts that the kind has.
-std::string limits_text(const rig::Control& control) {
-    const auto text = [&](const std::optional<glm::dvec3>& end) {
-        if (!end) return std::string("none");
-        if (control.kind == rig::ControlKind::Float) return fixed_text(end->x, 2);
-        const std::string all = vector_text(*end);
-        return control.kind == rig::ControlKind::Vector2d ? all.substr(0, all.rfind("  ")) : all;
-    };
-    return text(control.minimum) + " to " + text(control.maximum);
-}
-
-class ControlFields {
-  public:
-    ControlFields(const RigPanel& panel, const rig::Element& element)
-        : panel_(panel), element_(element), control_(*element.control) {}
-
-    void rows(const rig::Value& value) {
-        switch (control_.kind) {
-            case rig::ControlKind::Bool: {
-                bool on = std::get<bool>(value);
-                if (ImGui::Checkbox("on", &on)) panel_.edit("rig.control.set", arguments(on));
-                explain("The value of this control: on or off, for the units that read it.");
-                break;
-            }
-            case rig::ControlKind::Float: {
-                float shown = static_cast<float>(std::get<double>(value));
-                if (number_field("value", shown, 0.005f, low().x, high().x, "%.3f")) set(number(shown));
-                explain("The value of this control, for the units that read it.");
-                break;
-            }
-            case rig::ControlKind::Vector2d:
-                return pair(std::get<glm::dvec3>(value));
-            case rig::ControlKind::Position: {
-                const auto& at = std::get<glm::dvec3>(value);
-                const glm::vec3 shown(at);
-                glm::vec3 edited = shown;
-                if (vector_field("position, m", edited, 0.01f, low(), high(), "%.3f"))
-                    set(dpoint(edited_vector(at, shown, edited)));
-                explain("Where the control is, in metres along each axis.");
-                break;
-            }
-            case rig::ControlKind::Rotation: {
-                glm::dquat rotation = std::get<glm::dquat>(value);
-                if (rotation_field(panel_, "rotation, degrees", rotation)) set(rotation_json(rotation));
-                break;
-            }
-            case rig::ControlKind::Transform:
-                if (const auto changed =
-                        transform_fields(panel_, std::get<rig::Transform>(value), low(), high()))
-                    panel_.edit("rig.control.set", {{"name", element_.name}, {"value", *changed}});
-                break;
-        }
-    }
-    void end_rows(const rig::Value& value) const {
-        if (control_.minimum || control_.maximum) {
-            reading("limits", "%s", limits_text(control_).c_str());
-            explain("A drag stops at them.");
-        }
-        const rig::Value rest = rig::rest_value(control_, element_.initial);
-        if (row_button("Reset", 2, !(value == rest), "Sets it to its initial value"))
-            panel_.edit("rig.control.set", arguments(SharedJson(control_value_json(control_.kind, rest))));
-        end_row();
-    }
-
-  private:
-    glm::vec3 low() const { return end_of(control_.minimum, -most); }
-    glm::vec3 high() const { return end_of(control_.maximum, most); }
-    ArgumentList arguments(ArgumentValue value) const {
-        return {{"name", element_.name}, {"value", std::move(value)}};
-    }
-    void set(Json value) const { panel_.edit("rig.control.set", arguments(SharedJson(std::move(value)))); }
-    /// Along its two axes, each by its name.
-    void pair(const glm::dvec3& value) const {
-        for (int i = 0; i < 2; ++i) {
-            float shown = static_cast<float>(value[i]);
-            const std::string name =
-                std::string("along ") + "xyz"[control_.axes[static_cast<std::size_t>(i)]];
-            const bool changed = number_field(name.c_str(), shown, 0.005f, low()[i], high()[i], "%.3f m");
-            explain("The value of this control along that axis.");
-            if (!changed) continue;
-            Json both{value.x, value.y};
-            both[static_cast<std::size_t>(i)] = number(shown);
-            set(std::move(both));
-        }
-    }
-
-    const RigPanel& panel_;
-    const rig::Element& element_;
-    const rig::Control& control_;
-};
-
 void text_line(const char* name, const std::string& value, const char* what = "") {
     ImGui::TextDisabled("%s", name);
     if (*what != '\0') explain(what);
@@ -130,15 +34,16 @@ void pose_lines(const char* title, const rig::Transform& pose, const char* what)
     if (pose.scale != rig::Transform().scale) text_line("", "scale " + vector_text(pose.scale, 3));
 }
 
-void pending_rows(const RigPanel& panel, const std::string& name, rig::ElementId id) {
-    const rig::Pending pending = panel.part.state.elements.pending(id);
+void pending_rows(const RigPanel& panel, std::size_t element) {
+    const Selection& selected = panel.part.selected.elements;
+    const rig::Pending pending = panel.part.state.elements.pending(panel.part.rig.id(element));
     text_line(
         "pending", rig::name(pending),
         "An element stores a local and a global transform. What is written makes the other one pending, and "
         "for a global one those of all elements below it. It is worked out when something reads it.");
-    if (row_button("Read it", 2, true,
+    if (row_button(selected.several() ? "Read them" : "Read it", 2, true,
                    "Works out what is pending here and on the way to the root, and says how much that was"))
-        panel.emit("rig.read", {{"name", name}});
+        panel.emit("rig.read", {which(panel.part, selected.all())});
     end_row();
 }
 
@@ -184,23 +89,22 @@ std::optional<SharedJson> transform_fields(const RigPanel& panel, const rig::Tra
 }
 
 void element_inspector(const RigPanel& panel) {
-    const auto found = panel.part.rig.element(panel.part.selected.element);
-    section("Element");
-    if (!found) return note("Nothing is selected. Click an element, in the list or in the picture.");
-    const rig::Element& element = panel.part.rig.definition().elements[*found];
-    text_line("name", element.name);
+    const Selection& selected = panel.part.selected.elements;
+    section(selected.several() ? "Elements" : "Element");
+    if (!selected.active())
+        return note("Nothing is selected. Click an element, in the list or in the picture.");
+    const rig::Element& element = panel.part.rig.definition().elements[*selected.active()];
+    if (selected.several())
+        note(count_text(selected.all().size(), "element") + ", " + element.name + " is shown");
+    else
+        text_line("name", element.name);
     text_line("kind", element.control ? control_title(element.control->kind) : rig::name(element.kind));
     if (!element.parent.empty()) text_line("parent", element.parent);
-    if (!element.control) return;
-    ImGui::PushID("control");
-    ControlFields fields(panel, element);
-    fields.rows(panel.part.state.controls[*found]);
-    fields.end_rows(panel.part.state.controls[*found]);
-    ImGui::PopID();
+    control_rows(panel);
 }
 
 void pose_rows(const RigPanel& panel) {
-    const auto found = panel.part.rig.element(panel.part.selected.element);
+    const auto found = panel.part.selected.elements.active();
     if (!found) return;
     const rig::Element& element = panel.part.rig.definition().elements[*found];
     const rig::ElementId id = panel.part.rig.id(*found);
@@ -210,13 +114,17 @@ void pose_rows(const RigPanel& panel) {
     pose_lines("global", *panel.now.known(id, rig::Space::Global), "In the scene, after the last unit.");
     pose_lines("initial", *panel.now.known(id, rig::Space::Local, rig::Pose::Initial),
                "Within its parent, when it was added: the pose at rest.");
-    pending_rows(panel, element.name, id);
+    pending_rows(panel, *found);
     if (!element.control) {
         ImGui::TextUnformatted("Input pose, within its parent");
         explain("Every solve begins with it, before the first unit runs.");
+        const std::vector<std::size_t> alike = selected_alike(panel.part);
         const rig::Transform input = *panel.now.known(id, rig::Space::Local, rig::Pose::Input);
         if (const auto changed = transform_fields(panel, input, glm::vec3(-most), glm::vec3(most)))
-            panel.edit("rig.element.set", {{"name", element.name}, {"transform", *changed}});
+            panel.edit("rig.element.set",
+                       {which(panel.part, alike),
+                        {"transform", SharedJson(touched(**changed, transform_json(input)))}});
+        scope_note(panel.part, alike.size(), "bones or nulls");
     }
     ImGui::PopID();
 }

@@ -6,6 +6,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/labs/rig/control_shape.hpp"
 #include "app/labs/rig/figure.hpp"
+#include "app/labs/rig/rig_edit.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rig/rig_runtime.hpp"
 #include "app/labs/rig/value_json.hpp"
@@ -46,6 +47,12 @@ Handle input_handle(const Workspace& workspace, std::size_t i) {
             element.kind == rig::ElementKind::Null ? turn | Drag::Scale : turn};
 }
 
+/// Who selects elements leaves the unit selected that is.
+ArgumentList and_the_unit(const RigPart& part, ArgumentList arguments) {
+    if (!part.selected.unit.empty()) arguments.push_back({"unit", part.selected.unit});
+    return arguments;
+}
+
 const char* what_dragging_does(rig::ControlKind kind) {
     switch (kind) {
         case rig::ControlKind::Transform:
@@ -62,6 +69,12 @@ const char* what_dragging_does(rig::ControlKind kind) {
             break;
     }
     return "drag its knob within the rectangle";
+}
+
+Bounds closely_around(const RigPart& part, const rig::Hierarchy& elements, std::size_t i) {
+    const rig::ElementId id = part.rig.id(i);
+    const auto at = glm::vec3(elements.known(id, rig::Space::Global)->translation);
+    return {at, std::max(2.0f * static_cast<float>(bone_size(elements, id)), 0.4f)};
 }
 
 }  // namespace
@@ -87,7 +100,7 @@ std::optional<Handle> RigLab::handle(const Workspace& workspace, PickId pick) co
 
 std::optional<Handle> RigLab::gizmo(const Workspace& workspace) const {
     const RigPart& part = rig_part(workspace);
-    const auto selected = part.rig.element(part.selected.element);
+    const auto selected = part.selected.only_element();
     if (!selected) return std::nullopt;
     if (!part.rig.definition().elements[*selected].control) return input_handle(workspace, *selected);
     // A knob on its rail, or in its rectangle, needs nothing more to be dragged by.
@@ -125,18 +138,44 @@ void RigLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame& 
 void RigLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
     const RigPart& part = rig_part(workspace);
     if (!is_there(part, pick)) {
-        if (part.selected.element.empty()) return;
-        part.selected.unit.empty() ? emit("rig.select") : emit("rig.select", {{"unit", part.selected.unit}});
+        if (!part.selected.elements.empty()) emit("rig.select", and_the_unit(part, {}));
         return;
     }
     const rig::Element& element = part.rig.definition().elements[picked_element(pick)];
-    ArgumentList chosen{{"element", element.name}};
-    if (!part.selected.unit.empty()) chosen.push_back({"unit", part.selected.unit});
-    if (part.selected.element != element.name || part.selected.unit_last) emit("rig.select", chosen);
+    if (part.selected.only_element() != picked_element(pick) || part.selected.unit_last)
+        emit("rig.select", and_the_unit(part, {{"element", element.name}}));
     if (!element.control || element.control->kind != rig::ControlKind::Bool) return;
     const bool on = std::get<bool>(part.state.controls[picked_element(pick)]);
     emit("rig.control.set", {{"name", element.name}, {"value", SharedJson(Json(!on))}});
     if (!workspace.clock.playing) emit("rig.solve");
+}
+
+void RigLab::click_more(const Workspace& workspace, PickId pick, Emit& emit) const {
+    const RigPart& part = rig_part(workspace);
+    if (!is_there(part, pick)) return;
+    const rig::Element& element = part.rig.definition().elements[picked_element(pick)];
+    emit("rig.select", {{"element", element.name}, {"add", true}});
+}
+
+/// Every element, not only those that have a handle.
+std::vector<Handle> RigLab::selectable(const Workspace& workspace) const {
+    std::vector<Handle> all;
+    for (std::size_t i = 0; i < rig_part(workspace).state.controls.size(); ++i)
+        all.push_back(handle_of(workspace, i));
+    return all;
+}
+
+void RigLab::select(const Workspace& workspace, const std::vector<PickId>& picks, bool add,
+                    Emit& emit) const {
+    const RigPart& part = rig_part(workspace);
+    if (picks.empty()) {
+        if (!add) click(workspace, no_pick, emit);
+        return;
+    }
+    std::vector<std::size_t> inside;
+    for (const PickId pick : picks) inside.push_back(picked_element(pick));
+    emit("rig.select",
+         and_the_unit(part, {{"elements", SharedJson(Json(names_of(part, inside)))}, {"add", add}}));
 }
 
 void RigLab::double_click(const Workspace& workspace, PickId pick, Emit& emit) const {
@@ -155,7 +194,7 @@ std::string RigLab::hint(const Workspace& workspace, PickId pick) const {
     const rig::Element& element = part.rig.definition().elements[i];
     const auto shape = ControlShape::of(part, elements_of(workspace), i);
     if (!shape) {
-        const bool selected = part.selected.element == element.name;
+        const bool selected = part.selected.only_element() == i;
         return element.name + " (" + rig::name(element.kind) + "): " +
                (selected ? "its gizmo sets the pose that every solve begins with."
                          : "click selects it and shows the gizmo of its pose.");
@@ -171,25 +210,30 @@ std::vector<Shortcut> RigLab::shortcuts() const {
 }
 
 std::vector<MouseHelp> RigLab::mouse_help() const {
-    return {{"Double click on a control", "resets it to its initial value"},
+    return {{"Shift+click on an element", "adds it to the selection, or takes it out"},
+            {"Ctrl+drag on nothing", "draws a box that selects the elements in it; with Shift it adds them"},
+            {"Double click on a control", "resets it to its initial value"},
             {"Drag of an arrow, a square, a ring or a box", "moves, turns or scales what is selected"}};
 }
 
 Bounds RigLab::bounds(const Workspace& workspace, bool selection_only) const {
     const RigPart& part = rig_part(workspace);
     const rig::Hierarchy& elements = elements_of(workspace);
-    const auto selected = part.rig.element(part.selected.element);
-    if (selection_only && selected) {
-        const rig::ElementId id = part.rig.id(*selected);
-        const auto at = glm::vec3(elements.known(id, rig::Space::Global)->translation);
-        return {at, std::max(2.0f * static_cast<float>(bone_size(elements, id)), 0.4f)};
-    }
+    if (selection_only && part.selected.only_element())
+        return closely_around(part, elements, *part.selected.only_element());
     if (part.state.controls.empty()) return {{0.0f, 1.0f, 0.0f}, 1.5f};
     glm::vec3 low(1e30f), high(-1e30f);
     const auto take = [&](glm::vec3 at, float radius) {
         low = glm::min(low, at - radius);
         high = glm::max(high, at + radius);
     };
+    if (selection_only && part.selected.elements.several()) {
+        for (const std::size_t each : part.selected.elements.all()) {
+            const Bounds around = closely_around(part, elements, each);
+            take(around.centre, around.radius);
+        }
+        return bounds_of(low, high);
+    }
     for (std::size_t i = 0; i < part.state.controls.size(); ++i) {
         const Bounds figure = figure_bounds(part, elements, i);
         take(figure.centre, std::max(figure.radius, 0.1f));

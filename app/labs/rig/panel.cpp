@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <glm/trigonometric.hpp>
 
+#include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
 #include "app/labs/kit/folding.hpp"
 #include "app/labs/kit/preset_rows.hpp"
 #include "app/labs/rig/clip.hpp"
 #include "app/labs/rig/panels.hpp"
 #include "app/labs/rig/presets.hpp"
+#include "app/labs/rig/rig_edit.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rig/time_panel.hpp"
 #include "app/widgets/fields.hpp"
@@ -82,11 +84,17 @@ LabSetting pending_marks() {
         .choices = {{"shown", "Pending poses marked"}, {"hidden", "Not marked"}}};
 }
 
+NamedArgument which(const RigPart& part, const std::vector<std::size_t>& elements) {
+    std::vector<std::string> names = names_of(part, elements);
+    if (names.size() == 1) return {"name", names.front()};
+    return {"names", SharedJson(Json(std::move(names)))};
+}
+
 void select_element(const RigPanel& panel, const std::string& name) {
     panel.emit("rig.select", {{"element", name}, {"unit", panel.part.selected.unit}});
 }
 void select_unit(const RigPanel& panel, const std::string& name) {
-    panel.emit("rig.select", {{"element", panel.part.selected.element}, {"unit", name}});
+    panel.emit("rig.select", {{"unit", name}, {"add", true}});
 }
 
 void curve_rows(const RigPanel& panel) {

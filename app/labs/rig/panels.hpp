@@ -39,17 +39,26 @@ void solve_rows(const RigPanel& panel);
 // right
 /// Whether every unit ran.
 Verdict rig_verdict(const RigPart& part);
-/// The selected element: what it is, and fields for the value of a control.
+/// The selected elements: what the active one is, and fields for the value of a control.
 void element_inspector(const RigPanel& panel);
-/// Its poses, what is pending, and fields for the pose that a solve begins with.
+/// Its poses, what is pending, and fields for the pose that a solve begins with; that one is set on all.
 void pose_rows(const RigPanel& panel);
-/// What each unit added to the selected element.
+/// The value of the active one, if it is a control.
+void control_rows(const RigPanel& panel);
+/// Those selected that a field sets: controls of the active one's kind, or bones and nulls as it is one.
+std::vector<std::size_t> selected_alike(const RigPart& part);
+/// Says which those are, where several are selected. `what` they are: "position controls".
+void scope_note(const RigPart& part, std::size_t alike, const std::string& what);
+/// What each unit added to the active element.
 void why_rows(const RigPanel& panel);
 /// The selected unit: fields for its literals, and what the rest is now.
 void unit_inspector(const RigPanel& panel);
 
 /// Why a unit, or a part of it, was left out; nothing where it was not.
 void warning_line(const RigPanel& panel, rig::Warning warning, float margin = 0.0f);
+
+/// Which elements a command is about: "name" of one, "names" of several.
+NamedArgument which(const RigPart& part, const std::vector<std::size_t>& elements);
 
 /// Selects the one, and leaves the other kind of thing selected as it is.
 void select_element(const RigPanel& panel, const std::string& name);

@@ -16,7 +16,7 @@ struct RigPicture {
     DrawList& list;
     const RigPart& part;
     const rig::Hierarchy& elements;  ///< with nothing pending
-    std::optional<std::size_t> selected;
+    const Selection& selected = part.selected.elements;
 
     float px(float pixels) const { return pixels * view.scale; }
     float metres(float pixels, glm::vec3 at) const { return px(pixels) * view.camera.metres_per_pixel(at); }
@@ -28,12 +28,15 @@ struct RigPicture {
     rig::Transform pose(std::size_t i) const { return *elements.known(part.rig.id(i), rig::Space::Global); }
     glm::vec3 point(std::size_t i) const { return glm::vec3(pose(i).translation); }
 
-    bool is_selected(std::size_t i) const { return selected == i; }
+    bool is_selected(std::size_t i) const { return selected.has(i); }
+    bool is_active(std::size_t i) const { return selected.active() == i; }
+    /// What is in the way of names and arrowheads: only what is selected alone has one.
+    bool has_gizmo(std::size_t i) const { return part.selected.only_element() == i; }
     bool is_lit(std::size_t i) const {
         const PickId pick = view.dragged != no_pick ? view.dragged : view.hovered;
         return pick != no_pick && picked_element(pick) == i;
     }
-    /// A colour as it is of what is selected, or under the pointer.
+    /// A colour as it is of what is selected, the active one most of all, or under the pointer.
     glm::vec3 marked(glm::vec3 colour, std::size_t i) const;
 
     Stroke& line(glm::vec3 a, glm::vec3 b, float width, glm::vec3 colour, PickId pick = no_pick) const;

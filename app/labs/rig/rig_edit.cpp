@@ -95,6 +95,20 @@ void require_unit(auto& definition, const std::string& name, const auto& found) 
         throw std::invalid_argument("there is no unit " + quoted(name));
 }
 
+/// The same elements, by name, of those that the other rig has too.
+Selection in_other_rig(const Selection& before, const rig::Rig& from, const rig::Rig& to) {
+    std::vector<std::size_t> there;
+    const auto keep = [&](std::size_t element) {
+        if (const auto at = to.element(from.definition().elements[element].name)) there.push_back(*at);
+    };
+    for (const std::size_t each : before.all())
+        if (each != before.active()) keep(each);
+    if (before.active()) keep(*before.active());
+    Selection result;
+    result.take(there, false);
+    return result;
+}
+
 }  // namespace
 
 rig::Rig make_rig(rig::Definition definition) {
@@ -116,18 +130,18 @@ rig::Rig make_rig(rig::Definition definition) {
 void redefine(RigPart& part, rig::Definition definition) {
     rig::Rig rig = make_rig(std::move(definition));
     part.state = rig.adopted(part.rig, part.state);
+    part.selected.elements = in_other_rig(part.selected.elements, part.rig, rig);
     part.rig = std::move(rig);
-    forget_missing_selection(part);
+    forget_missing_unit(part);
     std::erase_if(part.walks, [&](const RigWalk& walk) { return !part.rig.element(walk.control); });
     changed(part);
 }
 
-void forget_missing_selection(RigPart& part) {
+void forget_missing_unit(RigPart& part) {
     const auto names = part.rig.unit_names();
-    if (!part.rig.element(part.selected.element)) part.selected.element.clear();
     if (std::ranges::find(names, part.selected.unit) == names.end()) part.selected.unit.clear();
     part.selected.unit_last =
-        !part.selected.unit.empty() && (part.selected.unit_last || part.selected.element.empty());
+        !part.selected.unit.empty() && (part.selected.unit_last || part.selected.elements.empty());
 }
 
 void changed(RigPart& part) {
@@ -138,16 +152,17 @@ void changed(RigPart& part) {
     begin_take(part);
 }
 
-void remove_element(RigPart& part, const std::string& name) {
-    const std::size_t at = element_named(part, name);
+void remove_elements(RigPart& part, const std::vector<std::size_t>& elements) {
     rig::Definition definition = part.rig.definition();
+    std::set<std::string> names;
+    for (const std::size_t each : elements) names.insert(definition.elements[each].name);
     for (const rig::Element& each : definition.elements)
-        if (each.parent == name)
-            throw std::invalid_argument(quoted(name) + " is the parent of " + quoted(each.name));
-    if (const auto use = first_use(definition.units, Named::Element, name))
-        throw std::invalid_argument("unit " + quoted(use->unit) + " needs " + quoted(name) + " as its " +
+        if (names.contains(each.parent) && !names.contains(each.name))
+            throw std::invalid_argument(quoted(each.parent) + " is the parent of " + quoted(each.name));
+    if (const auto use = first_use(definition.units, Named::Element, names))
+        throw std::invalid_argument("unit " + quoted(use->unit) + " needs " + quoted(use->name) + " as its " +
                                     use->member);
-    definition.elements.erase(definition.elements.begin() + static_cast<std::ptrdiff_t>(at));
+    std::erase_if(definition.elements, [&](const rig::Element& each) { return names.contains(each.name); });
     redefine(part, std::move(definition));
 }
 
@@ -156,7 +171,7 @@ void remove_unit(RigPart& part, const std::string& name) {
     require_unit(definition, name, [&](std::vector<rig::Unit>& units, std::size_t at) {
         units.erase(units.begin() + static_cast<std::ptrdiff_t>(at));
     });
-    if (const auto use = first_use(definition.units, Named::Unit, name))
+    if (const auto use = first_use(definition.units, Named::Unit, {name}))
         throw std::invalid_argument("unit " + quoted(use->unit) + " takes its " + use->member + " from " +
                                     quoted(name));
     redefine(part, std::move(definition));
@@ -235,6 +250,12 @@ std::size_t element_named(const RigPart& part, const std::string& name) {
     const auto found = part.rig.element(name);
     if (!found) throw std::invalid_argument("there is no element " + quoted(name));
     return *found;
+}
+
+std::vector<std::string> names_of(const RigPart& part, const std::vector<std::size_t>& elements) {
+    std::vector<std::string> names;
+    for (const std::size_t each : elements) names.push_back(part.rig.definition().elements[each].name);
+    return names;
 }
 
 std::size_t curve_named(const RigPart& part, const std::string& name) {

@@ -15,11 +15,8 @@ namespace tendril::app {
 rig::Rig make_rig(rig::Definition definition);
 void redefine(RigPart& part, rig::Definition definition);
 
-/// Of what the rig does not have.
-void forget_missing_selection(RigPart& part);
-
-/// Refused: one that is a parent, or that a unit names; the message says which.
-void remove_element(RigPart& part, const std::string& name);
+/// Refused: one that is a parent of what stays, or that a unit names; the message says which.
+void remove_elements(RigPart& part, const std::vector<std::size_t>& elements);
 /// In bodies too. Refused: one whose output another unit takes.
 void remove_unit(RigPart& part, const std::string& name);
 void enable_unit(RigPart& part, const std::string& name, bool on);
@@ -31,6 +28,8 @@ void add_unit(RigPart& part, rig::Unit unit, int at);
 
 /// Makes a unit, in a body too, as `unit` has it.
 void set_unit(RigPart& part, const std::string& name, rig::Unit unit);
+/// A unit that the rig does not have is selected no more.
+void forget_missing_unit(RigPart& part);
 /// Throws std::invalid_argument: there is no unit "arm".
 const rig::Unit& unit_named(const RigPart& part, const std::string& name);
 
@@ -38,6 +37,8 @@ const rig::Unit& unit_named(const RigPart& part, const std::string& name);
 std::vector<std::size_t> from_the_roots(const rig::Rig& rig, const rig::Hierarchy& tree);
 /// The place in the definition. Throws std::invalid_argument: there is no element "arm".
 std::size_t element_named(const RigPart& part, const std::string& name);
+/// What they are called.
+std::vector<std::string> names_of(const RigPart& part, const std::vector<std::size_t>& elements);
 std::size_t curve_named(const RigPart& part, const std::string& name);
 
 /// Something that a solve begins with was changed: a new take begins.

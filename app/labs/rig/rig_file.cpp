@@ -43,6 +43,25 @@ BackwardLeft load_backward(const JsonPlace& place, const rig::Definition& defini
     return left;
 }
 
+/// "element" is the active one; "elements" are all, where there are several.
+Selection load_elements(const JsonPlace& place, const rig::Rig& rig) {
+    const auto active = rig.element(place["element"].text());
+    const auto several = place.optional("elements");
+    std::vector<std::size_t> all;
+    if (several)
+        several->for_each("elements", rig.definition().elements.size(), [&](const JsonPlace& each) {
+            const auto at = rig.element(each.text());
+            if (!at) each.fail("there is no element " + json_summary(each.json()));
+            all.push_back(*at);
+        });
+    Selection selection;
+    selection.take(all, false);
+    if (several && !(active && selection.has(*active)))
+        place["element"].fail("is not among those that are selected");
+    if (active) selection.take({*active}, true);
+    return selection;
+}
+
 }  // namespace
 
 Json RigPart::save() const {
@@ -50,7 +69,8 @@ Json RigPart::save() const {
     Json& saved = json["state"] = rig_state_json(rig, state);
     saved["moving"] = moving;
     saved["backward"] = save_backward(*this);
-    saved["selected"] = {{"element", selected.element}, {"unit", selected.unit}};
+    saved["selected"] = {{"element", selected_element()}, {"unit", selected.unit}};
+    if (selected.elements.several()) saved["selected"]["elements"] = names_of(*this, selected.elements.all());
     if (selected.unit_last) saved["selected"]["unit_last"] = true;
     save_time(*this, saved);
     return json;
@@ -75,10 +95,10 @@ std::shared_ptr<Part> RigPart::load(const Json& json, const std::string& where) 
     if (const auto backward_place = state_place->optional("backward"))
         part->backward = load_backward(*backward_place, part->rig.definition());
     if (const auto selection = state_place->optional("selected")) {
-        check_members(*selection, {"element", "unit", "unit_last"});
-        part->selected = {(*selection)["element"].text(), (*selection)["unit"].text(),
+        check_members(*selection, {"element", "elements", "unit", "unit_last"});
+        part->selected = {load_elements(*selection, part->rig), (*selection)["unit"].text(),
                           selection->has("unit_last") && (*selection)["unit_last"].flag()};
-        forget_missing_selection(*part);
+        forget_missing_unit(*part);
     }
     return part;
 }

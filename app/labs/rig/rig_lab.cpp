@@ -47,6 +47,12 @@ std::vector<TestScene> RigLab::test_scenes() const {
            {{"unit", "offset_transform"}, {"item", "bone 1"}, {"offset", SharedJson(Json::object())}}},
           {"rig.select", {{"unit", "offset_transform"}}}},
          words}};
+    scenes.push_back({"several",
+                      {{"rig.preset", {{"name", "morph"}}},
+                       {"rig.element.add", {{"name", "bone 1"}}},
+                       {"rig.element.add", {{"name", "bone 2"}, {"parent", "bone 1"}}},
+                       {"rig.select", {{"elements", SharedJson(Json{"shape", "bone 1", "bone 2"})}}}},
+                      words});
     for (const RigPreset& preset : rig_presets())
         scenes.push_back({preset.name, {{"rig.preset", {{"name", preset.name}}}}, words});
     scenes.push_back({"walking",

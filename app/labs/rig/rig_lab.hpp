@@ -33,6 +33,11 @@ class RigLab final : public Lab {
     std::optional<Handle> gizmo(const Workspace& workspace) const override;
     void drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const override;
     void click(const Workspace& workspace, PickId pick, Emit& emit) const override;
+    void click_more(const Workspace& workspace, PickId pick, Emit& emit) const override;
+    bool selects_by_box() const override { return true; }
+    std::vector<Handle> selectable(const Workspace& workspace) const override;
+    void select(const Workspace& workspace, const std::vector<PickId>& picks, bool add,
+                Emit& emit) const override;
     void double_click(const Workspace& workspace, PickId pick, Emit& emit) const override;
     std::string hint(const Workspace& workspace, PickId pick) const override;
     std::vector<Shortcut> shortcuts() const override;

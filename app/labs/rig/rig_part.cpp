@@ -62,6 +62,15 @@ RigPart::RigPart(rig::Definition definition)
     moving = rig.solve(state, tick_seconds, workspace);
 }
 
+std::optional<std::size_t> RigSelection::only_element() const {
+    return elements.several() ? std::nullopt : elements.active();
+}
+
+std::string RigPart::selected_element() const {
+    const auto active = selected.elements.active();
+    return active ? rig.definition().elements[*active].name : std::string();
+}
+
 RigPart first_rig() {
     return RigPart(rig_presets().front().make());
 }
@@ -87,7 +96,7 @@ std::size_t RigPart::bytes() const {
     std::size_t shared = clip ? clip->poses.size() * sizeof(ClipPose) : 0;
     if (take.keys) shared += take.keys->size() * sizeof(TakeKey);
     return sizeof(*this) + state.controls.size() * an_element + state.units.size() * a_unit +
-           state_bytes(state) + shared / sharing;
+           state_bytes(state) + selected.elements.all().size() * sizeof(std::size_t) + shared / sharing;
 }
 
 }  // namespace tendril::app

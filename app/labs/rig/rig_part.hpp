@@ -15,6 +15,7 @@
 
 #include "app/document/document.hpp"
 #include "app/document/workspace.hpp"
+#include "app/labs/kit/selection.hpp"
 #include "app/labs/rig/rig_clip.hpp"
 #include "app/labs/rig/rig_take.hpp"
 
@@ -51,11 +52,15 @@ struct RateDifference {
     bool operator==(const RateDifference&) const = default;
 };
 
-/// What the panel shows more of, by name; empty: nothing.
+/// What the panel shows more of.
 struct RigSelection {
-    std::string element, unit;
+    Selection elements;      ///< by their places in the definition
+    std::string unit;        ///< by its name; empty: none
     bool unit_last = false;  ///< of both the unit was selected last: that is what Delete removes
     bool operator==(const RigSelection&) const = default;
+
+    /// The one element that is selected; nothing where it is none or several.
+    std::optional<std::size_t> only_element() const;
 };
 
 struct RigPart final : Part {
@@ -75,6 +80,9 @@ struct RigPart final : Part {
     std::shared_ptr<const RigClip> clip;         ///< null where none was recorded
     std::shared_ptr<const ClipSolve> clip_left;  ///< null where it was not solved
     RigSelection selected;
+
+    /// The name of the active element; empty where none is selected.
+    std::string selected_element() const;
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<RigPart>(*this); }
     Json save() const override;

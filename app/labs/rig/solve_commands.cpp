@@ -1,8 +1,12 @@
 // The rig as a whole: emptied, solved, put in the place of another.
+#include <algorithm>
 #include <stdexcept>
 #include <tendril/rig/backward.hpp>
 
+#include "app/document/json_complete.hpp"
+#include "app/document/refused.hpp"
 #include "app/document/units.hpp"
+#include "app/labs/kit/index_list.hpp"
 #include "app/labs/kit/names.hpp"
 #include "app/labs/kit/part_command.hpp"
 #include "app/labs/rig/code.hpp"
@@ -23,28 +27,42 @@ void reset(RigPart& part, const Arguments&) {
     part = first_rig();
 }
 
+void select_elements(const RigPart& part, Selection& elements, const Arguments& given, bool add) {
+    if (!gives_one(given, "element", "elements"))
+        return elements.take(element_list(part, given, "elements"), add);
+    const std::string name = given.text("element");
+    if (name.empty()) return;
+    const std::size_t at = element_named(part, name);
+    add ? elements.toggle(at) : elements.only(at);
+}
+
 void select(RigPart& part, const Arguments& given) {
-    RigSelection selected;
-    if (given.has("element")) selected.element = given.text("element");
+    const bool add = given.has("add") && given.boolean("add");
+    const bool gives_elements = given.has("element") || given.has("elements");
+    RigSelection selected = add ? part.selected : RigSelection();
+    if (gives_elements) select_elements(part, selected.elements, given, add);
     if (given.has("unit")) selected.unit = given.text("unit");
-    if (!selected.element.empty()) element_named(part, selected.element);
     if (!selected.unit.empty()) unit_named(part, selected.unit);
-    selected.unit_last =
-        !selected.unit.empty() && (selected.element.empty() || selected.unit != part.selected.unit);
+    const bool chosen = selected.unit != part.selected.unit || selected.elements.empty();
+    const bool stays = !gives_elements && (given.has("unit") || selected.unit_last);
+    selected.unit_last = !selected.unit.empty() && (chosen || stays);
     part.selected = std::move(selected);
 }
 
 /// Reading changes no answer, but works out and stores what is pending, which shows: so it is done to the
 /// part itself.
 void read(Workspace& workspace, const Arguments& given) {
+    const std::vector<std::size_t> elements = elements_given(rig_part(workspace), given);
     RigPart& part = workspace.document.edit<RigPart>(rig_lab);
-    const std::string name = given.text("name");
-    const rig::ElementId id = part.rig.id(element_named(part, name));
     const std::uint64_t before = part.state.elements.recomputations();
-    part.state.elements.get(id, rig::Space::Global);
-    part.state.elements.get(id, rig::Space::Local);
+    for (const std::size_t each : elements) {
+        part.state.elements.get(part.rig.id(each), rig::Space::Global);
+        part.state.elements.get(part.rig.id(each), rig::Space::Local);
+    }
     const auto count = static_cast<std::size_t>(part.state.elements.recomputations() - before);
-    workspace.toast("Reading " + name + ": " +
+    const std::string what = elements.size() == 1 ? part.rig.definition().elements[elements.front()].name
+                                                  : count_text(elements.size(), "element");
+    workspace.toast("Reading " + what + ": " +
                     (count == 0 ? "nothing was pending" : count_text(count, "transform") + " worked out"));
 }
 
@@ -117,6 +135,33 @@ Argument unit_argument(const char* name, bool required, const char* help) {
     });
 }
 
+Argument element_list_argument(const char* name, const char* instead_of) {
+    return {.name = name,
+            .type = ArgumentType::List,
+            .required = false,
+            .help = std::string("several by name, instead of ") + instead_of};
+}
+
+std::vector<std::size_t> element_list(const RigPart& part, const Arguments& given, const char* name) {
+    std::vector<std::size_t> elements;
+    for (const Json& each : given.json(name)) {
+        if (!each.is_string()) throw Refused(std::string(name) + ": " + json_summary(each) + " is no name");
+        const auto at = part.rig.element(each.get<std::string>());
+        if (!at) throw Refused(std::string(name) + ": there is no element " + json_summary(each));
+        elements.push_back(*at);
+    }
+    return elements;
+}
+
+std::vector<std::size_t> elements_given(const RigPart& part, const Arguments& given) {
+    if (gives_one(given, "name", "names")) return {element_named(part, given.text("name"))};
+    std::vector<std::size_t> elements = element_list(part, given, "names");
+    if (elements.empty()) throw Refused("names: [] has no element in it");
+    std::sort(elements.begin(), elements.end());
+    elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
+    return elements;
+}
+
 Argument json_argument(const char* name, bool required, const char* help) {
     return {.name = name, .type = ArgumentType::Any, .required = required, .help = help};
 }
@@ -125,14 +170,20 @@ void add_solve_commands(CommandTable& table) {
     table.add(rig_command("rig.clear", "Remove everything from the rig", {},
                           "Removes every element, curve and unit", clear));
     table.add(rig_command("rig.reset", "Reset the Rig lab", {}, "Resets this lab to its first state", reset));
-    table.add(part_command<RigPart>(rig_lab, "rig.select", "Select an element or unit",
-                                    {element_argument("element", false, "none where left out"),
-                                     unit_argument("unit", false, "none where left out")},
-                                    "Selects an element, a unit, or one of each", select, Effect::Look));
+    table.add(part_command<RigPart>(
+        rig_lab, "rig.select", "Select elements or a unit",
+        {element_argument("element", false, "none where left out"),
+         element_list_argument("elements", "element; the last one is shown"),
+         unit_argument("unit", false, "none where left out"),
+         switch_argument("add",
+                         "true: adds to what is selected, or with element takes out what is; the "
+                         "unit stays where left out")},
+        "Selects elements, a unit, or both", select, Effect::Look));
     table.add({.name = "rig.read",
-               .title = "Read an element's pose",
-               .arguments = {element_argument("name", true, "of the element")},
-               .help = "Reads an element's pose, and says how many transforms had to be worked out for it",
+               .title = "Read the pose of elements",
+               .arguments = {element_argument("name", false, "of the element"),
+                             element_list_argument("names", "name")},
+               .help = "Reads the poses of elements, and says how many transforms had to be worked out",
                .effect = Effect::Look,
                .apply = read});
     table.add({.name = "rig.copy",

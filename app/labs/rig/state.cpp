@@ -4,6 +4,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/labs/rig/clip.hpp"
 #include "app/labs/rig/panels.hpp"
+#include "app/labs/rig/rig_edit.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rig/rig_runtime.hpp"
 #include "app/labs/rig/time_json.hpp"
@@ -82,7 +83,7 @@ Json backward_state(const RigPart& part) {
 /// Why the selected element is where it is; null where none is selected.
 Json why_state(const Workspace& workspace, RigRuntime& runtime) {
     const RigPart& part = rig_part(workspace);
-    const auto element = part.rig.element(part.selected.element);
+    const auto element = part.selected.elements.active();
     if (!element) return nullptr;
     const rig::Explanation& why = runtime.explanation(workspace, *element);
     Json units = Json::array();
@@ -93,7 +94,7 @@ Json why_state(const Workspace& workspace, RigRuntime& runtime) {
                          {"degrees", glm::degrees(step.radians)},
                          {"change", transform_json(step.change)}});
     }
-    return Json{{"element", part.selected.element},
+    return Json{{"element", part.selected_element()},
                 {"input", transform_json(why.input)},
                 {"units", std::move(units)},
                 {"result", transform_json(why.result)}};
@@ -148,7 +149,8 @@ Json RigLab::state(const Workspace& workspace) const {
                 {"units", units_state(part, runtime.microseconds(part.rig))},
                 {"backward", backward_state(part)},
                 {"why", why_state(workspace, runtime)},
-                {"selected", {{"element", part.selected.element}, {"unit", part.selected.unit}}},
+                {"selected", {{"element", part.selected_element()}, {"unit", part.selected.unit}}},
+                {"selection", names_of(part, part.selected.elements.all())},
                 {"moving", part.moving},
                 {"take", take_state(part)},
                 {"motions", walks_json(part)},

@@ -1,4 +1,5 @@
 // Time in the lab: controls that walk, going to any tick, clips, frame rates.
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <stdexcept>
@@ -34,23 +35,21 @@ std::uint32_t phase_of(const Motion& from, std::uint32_t ticks, const Motion& to
 }
 
 /// The path starts where the control is, so setting it going never makes it jump; unless its centre is given.
-/// One that follows the same path already goes on around the same centre.
-void set_motion(RigPart& part, const Arguments& given) {
-    const std::size_t at = element_named(part, given.text("name"));
+/// One that follows the same path already goes on around the same centre. `old`: null where it does not walk.
+RigWalk walk_given(const RigPart& part, std::size_t at, const RigWalk* old, const Arguments& given) {
     const rig::Element& element = part.rig.definition().elements[at];
     if (!element.control) throw std::invalid_argument("\"" + element.name + "\" is no control");
     if (!can_walk(element.control->kind))
         throw std::invalid_argument("only a transform or position control can follow a path; \"" +
                                     element.name + "\" is a " + control_title(element.control->kind));
-    const auto old = std::ranges::find(part.walks, element.name, &RigWalk::control);
-    RigWalk walk = old == part.walks.end() ? RigWalk{element.name, {.radius = 0.5f}, false} : *old;
+    RigWalk walk = old != nullptr ? *old : RigWalk{element.name, {.radius = 0.5f}, false};
     walk.motion.path = motion_paths.value(given.text("path"));
     if (given.has("radius")) walk.motion.radius = given.number("radius");
     if (given.has("period")) walk.motion.period = given.number("period");
     if (given.has("turn")) walk.turn = given.boolean("turn");
     if (walk.turn && element.control->kind != rig::ControlKind::Transform)
         throw std::invalid_argument("only a transform control turns along its path");
-    const bool goes_on = old != part.walks.end() && walk.motion.path == old->motion.path;
+    const bool goes_on = old != nullptr && walk.motion.path == old->motion.path;
     walk.motion.ticks = goes_on ? phase_of(old->motion, part.take.tick, walk.motion) : 0;
     if (given.has("centre")) {
         walk.motion.centre = given.point("centre");
@@ -59,11 +58,23 @@ void set_motion(RigPart& part, const Arguments& given) {
         walk.motion.centre = place_of(part.state.controls[at]) - glm::vec3(walk_point(walk.motion, 0.0));
     }
     check_path(walk.motion.centre, glm::vec3(walk.motion.radius), "the control's path");
-    if (old != part.walks.end()) part.walks.erase(old);
+    return walk;
+}
+
+void set_motions(RigPart& part, const Arguments& given) {
+    const std::vector<std::size_t> controls = elements_given(part, given);
+    std::vector<const RigWalk*> old(part.state.controls.size());
+    for (const RigWalk& each : part.walks) old[element_named(part, each.control)] = &each;
+    std::vector<RigWalk> walks;
+    for (const std::size_t at : controls) walks.push_back(walk_given(part, at, old[at], given));
+    std::erase_if(part.walks, [&](const RigWalk& each) {
+        return std::ranges::binary_search(controls, element_named(part, each.control));
+    });
     part.moving = true;
     part.rates.reset();
     begin_take(part);
-    if (walk.motion.path != Motion::Path::Still) part.walks.push_back(std::move(walk));
+    for (RigWalk& each : walks)
+        if (each.motion.path != Motion::Path::Still) part.walks.push_back(std::move(each));
 }
 
 void go(Workspace& workspace, const Arguments& given) {
@@ -164,8 +175,9 @@ void add_clip_commands(CommandTable& table) {
 
 void add_time_commands(CommandTable& table) {
     table.add(rig_command(
-        "rig.motion", "Move a control along a path",
-        {control_argument("name", true, "of a transform or position control"),
+        "rig.motion", "Move controls along a path",
+        {control_argument("name", false, "of a transform or position control"),
+         element_list_argument("names", "name"),
          choice_argument("path", true, "the path, flat on the ground", motion_paths.names()),
          point_argument("centre", false,
                         "within the control's space; where left out, the path starts at the control"),
@@ -173,7 +185,7 @@ void add_time_commands(CommandTable& table) {
          number_argument("period", "seconds per round", shortest_decimal(shortest_period),
                          shortest_decimal(longest_period)),
          switch_argument("turn", "a transform control looks along the path, with its z axis")},
-        "Moves a control along a path while the simulation runs", set_motion));
+        "Moves controls along a path while the simulation runs", set_motions));
     table.add({.name = "rig.time",
                .title = "Show a moment of the take",
                .arguments = {number_argument("seconds", "as the clock shows them", 0, 1e9),

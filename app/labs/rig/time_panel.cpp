@@ -8,6 +8,7 @@
 
 #include "app/document/units.hpp"
 #include "app/labs/rig/clip.hpp"
+#include "app/labs/rig/panels.hpp"
 #include "app/labs/rig/rates.hpp"
 #include "app/labs/rig/walk.hpp"
 #include "app/widgets/fields.hpp"
@@ -15,24 +16,50 @@
 namespace tendril::app {
 namespace {
 
-/// The control that the rows are of: the selected one, else one that walks, else the first that can.
-const rig::Element* walker(const RigPart& part) {
-    const auto can = [](const rig::Element& element) {
-        return element.control && can_walk(element.control->kind);
-    };
+/// The controls that the rows are of; shown is the first of them. Those selected that can walk, the active
+/// one before others; else one that walks; else the first that can.
+std::vector<std::size_t> walkers(const RigPart& part) {
     const auto& elements = part.rig.definition().elements;
-    if (const auto at = part.rig.element(part.selected.element); at && can(elements[*at]))
-        return &elements[*at];
+    const auto can = [&](std::size_t at) {
+        return elements[at].control && can_walk(elements[at].control->kind);
+    };
+    std::vector<std::size_t> all;
+    for (const std::size_t each : part.selected.elements.all())
+        if (can(each)) all.push_back(each);
+    if (const auto active = std::ranges::find(all, part.selected.elements.active()); active != all.end())
+        std::iter_swap(all.begin(), active);
+    if (!all.empty()) return all;
     if (!part.walks.empty())
-        if (const auto at = part.rig.element(part.walks.front().control)) return &elements[*at];
-    const auto first = std::ranges::find_if(elements, can);
-    return first == elements.end() ? nullptr : &*first;
+        if (const auto at = part.rig.element(part.walks.front().control)) return {*at};
+    for (std::size_t i = 0; i < elements.size(); ++i)
+        if (can(i)) return {i};
+    return {};
 }
 
-void walk_fields(const RigWalk& walk, bool turns, Emit& emit) {
+/// Those that follow the same path, and can turn along it where `turning`.
+std::vector<std::size_t> alike(const RigPart& part, const std::vector<std::size_t>& controls,
+                               const RigWalk& walk, bool turning) {
+    std::vector<bool> same(part.state.controls.size());
+    for (const RigWalk& each : part.walks)
+        if (each.motion.path == walk.motion.path) same[*part.rig.element(each.control)] = true;
+    std::vector<std::size_t> found;
+    for (const std::size_t at : controls)
+        if (same[at] &&
+            (!turning || part.rig.definition().elements[at].control->kind == rig::ControlKind::Transform))
+            found.push_back(at);
+    return found;
+}
+
+/// What is set is set on all that follow the same path.
+void walk_fields(const RigPart& part, const std::vector<std::size_t>& controls, const RigWalk& walk,
+                 Emit& emit) {
+    const bool turns =
+        part.rig.definition().elements[controls.front()].control->kind == rig::ControlKind::Transform;
     const std::string path = motion_paths.name(walk.motion.path);
-    const auto set = [&](const char* argument, float value) {
-        emit.continuously("rig.motion", {{"name", walk.control}, {"path", path}, {argument, value}});
+    const auto set = [&](const char* argument, ArgumentValue value, bool turning = false) {
+        emit.continuously("rig.motion", {which(part, alike(part, controls, walk, turning)),
+                                         {"path", path},
+                                         {argument, std::move(value)}});
     };
     float radius = walk.motion.radius, period = walk.motion.period;
     if (number_field("radius", radius, 0.01f, 0.0f, 10.0f, "%.2f m")) set("radius", radius);
@@ -41,8 +68,7 @@ void walk_fields(const RigWalk& walk, bool turns, Emit& emit) {
     explain("How long one round takes.");
     if (!turns) return;
     bool turn = walk.turn;
-    if (ImGui::Checkbox("Looks along the path", &turn))
-        emit("rig.motion", {{"name", walk.control}, {"path", path}, {"turn", turn}});
+    if (ImGui::Checkbox("Looks along the path", &turn)) set("turn", turn, true);
     explain("The control turns with the path. Off, it keeps the rotation that it has.");
 }
 
@@ -111,21 +137,24 @@ void rate_rows(const RigPart& part, Emit& emit) {
 
 void walk_rows(const Workspace& workspace, Emit& emit) {
     const RigPart& part = rig_part(workspace);
-    const rig::Element* const control = walker(part);
-    if (!control) return;
+    const std::vector<std::size_t> controls = walkers(part);
+    if (controls.empty()) return;
     if (!folding_section(workspace, "Walk", emit)) return;
-    const auto walk = std::ranges::find(part.walks, control->name, &RigWalk::control);
+    const std::string& name = part.rig.definition().elements[controls.front()].name;
+    const auto walk = std::ranges::find(part.walks, name, &RigWalk::control);
     const bool walks = walk != part.walks.end();
     int path = static_cast<int>(walks ? walk->motion.path : Motion::Path::Still);
     const auto titles = motion_paths.titles();
-    if (choice_field(control->name.c_str(), path, titles.data(), static_cast<int>(titles.size())))
+    const std::string others =
+        controls.size() > 1 ? " and " + std::to_string(controls.size() - 1) + " more" : "";
+    if (choice_field((name + others).c_str(), path, titles.data(), static_cast<int>(titles.size())))
         emit("rig.motion",
-             {{"name", control->name}, {"path", motion_paths.name(static_cast<Motion::Path>(path))}});
+             {which(part, controls), {"path", motion_paths.name(static_cast<Motion::Path>(path))}});
     explain(
         "The control follows a path, flat on the ground, from where it is. Dragging it ends that, and begins "
         "a take");
     if (!walks) return;
-    walk_fields(*walk, control->control->kind == rig::ControlKind::Transform, emit);
+    walk_fields(part, controls, *walk, emit);
     if (!workspace.clock.playing) note("Paused: press Space to let it walk.");
 }
 

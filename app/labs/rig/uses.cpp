@@ -7,7 +7,7 @@ namespace {
 
 class Search {
   public:
-    Search(Named kind, const std::string& name) : kind_(kind), name_(name) {}
+    Search(Named kind, const std::set<std::string>& names) : kind_(kind), names_(names) {}
 
     std::optional<Use> found;
 
@@ -54,18 +54,19 @@ class Search {
     void field(const std::string&, const auto&) {}  // names nothing
 
     void take(const std::string& place, Named kind, const std::string& name) {
-        if (!found && kind == kind_ && name == name_) found = {unit_->name, place};
+        if (!found && kind == kind_ && names_.contains(name)) found = {unit_->name, place, name};
     }
 
     Named kind_;
-    const std::string& name_;
+    const std::set<std::string>& names_;
     const rig::Unit* unit_ = nullptr;
 };
 
 }  // namespace
 
-std::optional<Use> first_use(const std::vector<rig::Unit>& units, Named kind, const std::string& name) {
-    Search search(kind, name);
+std::optional<Use> first_use(const std::vector<rig::Unit>& units, Named kind,
+                             const std::set<std::string>& names) {
+    Search search(kind, names);
     search.units(units);
     return search.found;
 }

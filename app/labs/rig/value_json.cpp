@@ -31,6 +31,16 @@ glm::dvec3 read_vector(const JsonPlace& place, double most) {
     return {real_at(place, 0, most), real_at(place, 1, most), real_at(place, 2, most)};
 }
 
+/// Calls with each component of a vector, or of a transform's vectors, and what stands there in `other`.
+void for_each_in_vectors(Json& value, const Json& other, const auto& take) {
+    constexpr std::size_t longest_vector = 3;
+    if (value.is_object() && other.is_object())
+        for (auto& [key, member] : value.items())
+            if (other.contains(key)) for_each_in_vectors(member, other.at(key), take);
+    if (!value.is_array() || !other.is_array() || value.size() != other.size()) return;
+    for (std::size_t i = 0; i < value.size() && value.size() <= longest_vector; ++i) take(value[i], other[i]);
+}
+
 }  // namespace
 
 void check_members(const JsonPlace& place, const std::vector<std::string>& known) {
@@ -140,6 +150,20 @@ rig::Value read_control_value(const JsonPlace& place, rig::ControlKind kind, con
     if (!place.json().is_array() || place.json().size() != 2)
         place.fail("expected two numbers [a, b], found " + json_summary(place.json()));
     return glm::dvec3(real_at(place, 0, most), real_at(place, 1, most), 0.0);
+}
+
+Json touched(Json after, const Json& before) {
+    for_each_in_vectors(after, before, [](Json& each, const Json& was) {
+        if (each == was) each = nullptr;
+    });
+    return after;
+}
+
+Json filled(Json given, const Json& now) {
+    for_each_in_vectors(given, now, [](Json& each, const Json& is) {
+        if (each.is_null()) each = is;
+    });
+    return given;
 }
 
 }  // namespace tendril::app

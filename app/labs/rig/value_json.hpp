@@ -54,4 +54,11 @@ Json control_value_json(rig::ControlKind kind, const rig::Value& value);
 rig::Value read_control_value(const JsonPlace& place, rig::ControlKind kind, const rig::Value& now,
                               double most = most_given);
 
+// Of several things that are set at once each keeps what was not touched: that is null in a vector, or left
+// out of a transform.
+/// `after` without what is as in `before`.
+Json touched(Json after, const Json& before);
+/// `given` with what is null as `now` has it. A rotation is whole or not there.
+Json filled(Json given, const Json& now);
+
 }  // namespace tendril::app

@@ -64,7 +64,7 @@ void place_line(const char* title, const rig::Transform& pose) {
 }  // namespace
 
 void why_rows(const RigPanel& panel) {
-    const auto element = panel.part.rig.element(panel.part.selected.element);
+    const auto element = panel.part.selected.elements.active();
     if (!element) return;
     const rig::Element& selected = panel.part.rig.definition().elements[*element];
     const std::string title =

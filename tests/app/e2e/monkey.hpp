@@ -75,6 +75,10 @@ class Monkey {
     Json any_list() {
         if (below(8) == 0) return any_number();
         Json list = Json::array();
+        if (!words_.empty() && below(3) == 0) {  // names of several things
+            for (int i = below(4); i >= 0; --i) list.push_back(one_of(words_));
+            return list;
+        }
         for (int i = below(12); i > 0; --i) list.push_back(any_number());
         return list;
     }

@@ -145,6 +145,9 @@ std::vector<Shown> full_rigs() {
         shown.commands.push_back(call("rig.select", {{"element", element}}));
         all.push_back(std::move(shown));
     }
+    Shown several{"several", bones_and_a_control()};
+    several.commands.push_back(call("rig.select", {{"elements", SharedJson(Json{"a", "b", "look"})}}));
+    all.push_back(std::move(several));
     return all;
 }
 

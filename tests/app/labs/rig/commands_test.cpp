@@ -367,7 +367,7 @@ TEST_F(RigCommands, WhatWasSelectedLastIsRemoved) {
     EXPECT_TRUE(rig_part(other).selected.unit_last) << "a file knows it";
     run("rig.remove_selected");
     EXPECT_EQ(units(), all_units - 1);
-    EXPECT_EQ(part().selected.element, "ear");
+    EXPECT_EQ(part().selected_element(), "ear");
     run("rig.select", {{"element", "head"}});
     expect_refused("rig.remove_selected", Json::object(), {"head"});
 }

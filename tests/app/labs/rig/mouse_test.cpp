@@ -301,6 +301,53 @@ TEST_F(RigMouse, AClickSelectsAndAClickOnNothingDeselects) {
     EXPECT_EQ(selected(), "");
 }
 
+TEST_F(RigMouse, ShiftAddsABoxSelectsAndDeleteRemovesAll) {
+    one("position");
+    app_.run({"rig.element.add", Json{{"name", "bone"}, {"local", {{"translation", {0.8, 0, 0}}}}}});
+    app_.run({"rig.element.add", Json{{"name", "switch"},
+                                      {"kind", "control"},
+                                      {"control", "bool"},
+                                      {"local", {{"translation", {0, 0.9, 0}}}}}});
+    const auto selection = [&] { return app_.state().at("selection"); };
+    const auto hold = [&](Key key, bool down) { send(KeyChange{key, down}); };
+    click(at("bone"));
+    hold(Key::Shift, true);
+    click(at("switch"));
+    EXPECT_EQ(selection(), (Json{"bone", "switch"}));
+    EXPECT_EQ(selected(), "switch");
+    EXPECT_EQ(value("switch"), false) << "it is selected, not switched";
+    click(at("it"));
+    click(at("bone"));
+    EXPECT_EQ(selection(), (Json{"it", "switch"}));
+    click({330.0f, 200.0f});
+    EXPECT_EQ(selection(), (Json{"it", "switch"})) << "Shift on nothing adds nothing";
+    hold(Key::Shift, false);
+    EXPECT_FALSE(has_handle("it.move_x")) << "several have no gizmo";
+    wait(30);
+    click(at("it"));
+    EXPECT_EQ(selection(), Json::array({"it"})) << "one of several, clicked, is the only one";
+    EXPECT_TRUE(has_handle("it.move_x"));
+    click({330.0f, 200.0f});
+    EXPECT_EQ(selection(), Json::array());
+    hold(Key::Ctrl, true);
+    const glm::vec2 from = at("it") - glm::vec2(60.0f, -60.0f), to = at("bone") + glm::vec2(60.0f, -60.0f);
+    drag(from, {0.5f * (to - from), to - from});
+    hold(Key::Ctrl, false);
+    EXPECT_EQ(selection(), (Json{"it", "bone"}));
+    send(MouseMove{at("it")});
+    send(MousePress{MouseButton::Left, true});
+    send(MouseMove{at("it") + glm::vec2(30.0f, 0.0f)});
+    send(KeyTap{*chord_from_name("delete")});
+    EXPECT_EQ(selection(), (Json{"it", "bone"})) << "not in a drag";
+    send(MousePress{MouseButton::Left, false});
+    send(KeyTap{*chord_from_name("delete")});
+    EXPECT_TRUE(element("it").is_null());
+    EXPECT_TRUE(element("bone").is_null());
+    EXPECT_FALSE(element("switch").is_null());
+    app_.run({"undo"});
+    EXPECT_EQ(selection(), (Json{"it", "bone"}));
+}
+
 TEST_F(RigMouse, ABonesGizmoSetsThePoseThatEverySolveBeginsWith) {
     const Json nose = element("nose"), head = element("head");
     select("nose");
