@@ -130,11 +130,16 @@ rig::Rig make_rig(rig::Definition definition) {
 void redefine(RigPart& part, rig::Definition definition) {
     rig::Rig rig = make_rig(std::move(definition));
     part.state = rig.adopted(part.rig, part.state);
-    part.selected.elements = in_other_rig(part.selected.elements, part.rig, rig);
-    part.rig = std::move(rig);
-    forget_missing_unit(part);
+    const rig::Rig before = std::exchange(part.rig, std::move(rig));
+    select_as_in(part, part.selected, before);
     std::erase_if(part.walks, [&](const RigWalk& walk) { return !part.rig.element(walk.control); });
     changed(part);
+}
+
+void select_as_in(RigPart& part, RigSelection selected, const rig::Rig& other) {
+    selected.elements = in_other_rig(selected.elements, other, part.rig);
+    part.selected = std::move(selected);
+    forget_missing_unit(part);
 }
 
 void forget_missing_unit(RigPart& part) {

@@ -28,6 +28,8 @@ void add_unit(RigPart& part, rig::Unit unit, int at);
 
 /// Makes a unit, in a body too, as `unit` has it.
 void set_unit(RigPart& part, const std::string& name, rig::Unit unit);
+/// Selects what is selected in another rig, by name, of what this one has.
+void select_as_in(RigPart& part, RigSelection selected, const rig::Rig& other);
 /// A unit that the rig does not have is selected no more.
 void forget_missing_unit(RigPart& part);
 /// Throws std::invalid_argument: there is no unit "arm".
