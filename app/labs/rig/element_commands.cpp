@@ -75,6 +75,7 @@ void set_value(RigPart& part, std::size_t at, const rig::Value& value) {
     rig::State after = part.state;
     require_ok(part.rig.set_control(after, at, value));
     if (after.controls[at] == part.state.controls[at]) return;  // units may have moved it since
+    if (!part.last_solved) part.last_solved = std::make_shared<const rig::State>(std::move(part.state));
     part.state = std::move(after);
     part.moving = true;
     part.backward.reset();

@@ -9,6 +9,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
+#include "app/labs/kit/incident_rows.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rig/value_json.hpp"
 #include "app/labs/rig/value_text.hpp"
@@ -224,6 +225,7 @@ void pose_rows(const RigPanel& panel) {
 void RigLab::inspector(const Workspace& workspace, Emit& emit) const {
     const RigPanel panel = rig_panel(workspace, emit);
     show_verdict(rig_verdict(panel.part), panel.colours);
+    incident_rows(workspace, panel.colours, emit);
     unit_inspector(panel);
     element_inspector(panel);
     why_rows(panel);
