@@ -225,11 +225,11 @@ void pose_rows(const RigPanel& panel) {
 void RigLab::inspector(const Workspace& workspace, Emit& emit) const {
     const RigPanel panel = rig_panel(workspace, emit);
     show_verdict(rig_verdict(panel.part), panel.colours);
-    incident_rows(workspace, panel.colours, emit);
     unit_inspector(panel);
     element_inspector(panel);
     why_rows(panel);
     pose_rows(panel);
+    incident_rows(workspace, panel.colours, emit);  // last: fields keep still while one is dragged to a limit
 }
 
 }  // namespace tendril::app
