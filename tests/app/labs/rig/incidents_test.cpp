@@ -53,7 +53,8 @@ class RigIncidents : public RigTest {
 
     struct Gesture {
         int flips = 0;
-        std::string problem;
+        float furthest = 0.0f;
+        std::string cause{}, problem{};  ///< of the flip that turned the furthest
     };
     /// Sets a control to each of these, with a tick after each. Where the steps are small, all that turns by
     /// more than 30 degrees is a flip: it has to be marked in that very tick, with its bone and a cause.
@@ -76,6 +77,10 @@ class RigIncidents : public RigTest {
             const Incident* const mark = flip_in(all);
             const std::string where = "step " + std::to_string(i) + ": ";
             gesture.flips += most > 30.0;
+            if (mark && mark->degrees > gesture.furthest) {
+                gesture.furthest = mark->degrees;
+                gesture.cause = mark->cause;
+            }
             if (early) {
                 gesture.problem = where + "marked before the rig was solved";
             } else if ((most > 30.0) != (mark != nullptr)) {
@@ -132,9 +137,14 @@ TEST_F(RigIncidents, TheSecondTargetPassedTheFirst) {
         head(at, {{"axis", {0, 1, 0}}, {"target", "tilt"}});
         set("look", json(at + 1.5 * way));
         const glm::dvec3 off = uniform(0.0005, 0.002) * glm::cross(way, along);
-        return drag("tilt", line(at + uniform(0.6, 1.2) * way + off, along, 0.3, 0.015), "head",
-                    {"unit aim: the second target passed the line that the first is on",
-                     "unit aim: the second target came close to the line that the first is on"});
+        const std::string passed = "unit aim: the second target passed the line that the first is on";
+        const Gesture gesture =
+            drag("tilt", line(at + uniform(0.6, 1.2) * way + off, along, 0.3, 0.015), "head",
+                 {passed, "unit aim: the second target came close to the line that the first is on"});
+        if (gesture.flips > 0) {
+            EXPECT_EQ(gesture.cause, passed);
+        }
+        return gesture;
     });
 }
 
