@@ -36,7 +36,7 @@ LabSetting rig_figures_setting() {
 LabSetting rig_strip_setting() {
     return {.key = "rig_strip",
             .command = "view.rig_strip",
-            .title = "Show the take or the last ten seconds",
+            .title = "Show the take or the past",
             .argument = "of",
             .help = "Shows the take below the scene of the Rig lab, or its last ten seconds",
             .choices = {{"take", "The take below the scene"}, {"past", "The last ten seconds below it"}}};

@@ -201,7 +201,7 @@ void add_time_commands(CommandTable& table) {
     table.add(rig_command("rig.rates.cancel", "Stop comparing frame rates", {},
                           "Stops the comparison of frame rates", cancel_rates));
     table.add(rig_command(
-        "rig.flips", "Set what the Rig lab counts as a flip", flip_arguments(rig_flip_words),
+        "rig.flips", "Set the rule for bone flips", flip_arguments(rig_flip_words),
         "Sets what counts as a flip of a bone, from the next solve on", set_flips));
     add_clip_commands(table);
 }
