@@ -309,13 +309,15 @@ Json App::told_state() const {
                      {"speed", number(clock.speed)},
                      {"seconds", lab().seconds(workspace_)}};
     state["events"] = Json::array();
-    for (const Incident& incident : workspace_.rewind.incidents())
-        state["events"].push_back(
-            {{"tick", incident.tick},
-             {"joint", incident.joint == no_joint ? Json(nullptr) : Json(incident.joint)},
-             {"kind", name(incident.kind)},
-             {"degrees", number(incident.degrees)},
-             {"cause", incident.cause}});
+    for (const Incident& incident : workspace_.rewind.incidents()) {
+        Json event{{"tick", incident.tick},
+                   {"joint", incident.joint == no_joint ? Json(nullptr) : Json(incident.joint)},
+                   {"kind", name(incident.kind)},
+                   {"degrees", number(incident.degrees)},
+                   {"cause", incident.cause}};
+        if (!incident.name.empty()) event["name"] = incident.name;
+        state["events"].push_back(std::move(event));
+    }
     // Of changes by hand alone there is something to say once one looks back at them.
     const bool looks_back = !workspace_.rewind.empty() && workspace_.moment < workspace_.rewind.newest();
     if (looks_back || (!workspace_.rewind.empty() && clock.tick > 0)) {

@@ -26,9 +26,7 @@ Json ChainPart::save() const {
     json["segments"] = std::move(segments);
     json["reach"] = save_reach(reach, chain);
     if (study.open()) json["study"] = save_study(study);
-    json["flips"] = {{"degrees", number(flips.degrees)},
-                     {"angle_share", number(flips.angle_share)},
-                     {"reach_share", number(flips.reach_share)}};
+    json["flips"] = save_flip_rule(flips);
     return json;
 }
 
@@ -90,11 +88,7 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
                 place["study"].fail(std::string("is for mode reach, not ") + chain_modes.name(part->mode));
             part->study = load_study(place["study"], part->chain);
         }
-        if (const auto rule = place.optional("flips")) {
-            part->flips = {.degrees = (*rule)["degrees"].number(fewest_flip_degrees, most_flip_degrees),
-                           .angle_share = (*rule)["angle_share"].number(0.0f, 1.0f),
-                           .reach_share = (*rule)["reach_share"].number(0.0f, 1.0f)};
-        }
+        if (const auto rule = place.optional("flips")) part->flips = load_flip_rule(*rule);
         ChainRuntime runtime;  // a part belongs to no workspace yet
         keep_step(*part, runtime);
         check_range(*part);

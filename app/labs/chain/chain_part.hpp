@@ -11,6 +11,7 @@
 #include "app/document/document.hpp"
 #include "app/labs/chain/reach.hpp"
 #include "app/labs/chain/study.hpp"
+#include "app/labs/kit/flip_rule.hpp"
 #include "app/labs/kit/motion.hpp"
 #include "app/labs/kit/selection.hpp"
 
@@ -20,7 +21,6 @@ inline constexpr const char* chain_lab = "chain";
 inline constexpr std::size_t max_segments = 500'000;          ///< a scene of more would be too large a file
 inline constexpr std::size_t max_limited_segments = 100'000;  ///< of a chain with limits, for the same reason
 inline constexpr int max_iterations = 10'000;
-inline constexpr float fewest_flip_degrees = 1.0f, most_flip_degrees = 180.0f;
 inline constexpr float min_damping = 1e-4f, max_damping = 10.0f;
 
 /// How the chain follows its target: the library's four modes, and Reach, which pins the head and iterates.
@@ -31,15 +31,8 @@ enum class ChainPoint { Target, Pole };
 inline constexpr EnumNames<ChainPoint, 2> chain_points{
     "point", {{"target", "Target", "What the chain follows."}, {"pole", "Pole target", "What it bends towards."}}};
 
-/// When a solve counts as a flip: a bone turned by more than `degrees`, while the target, as the root sees
-/// it, turned by less than a share of that, or moved by less than a share of the reach.
-struct FlipRule {
-    float degrees = 30.0f;      ///< fewest_flip_degrees to most_flip_degrees
-    float angle_share = 0.2f;   ///< 0 to 1
-    float reach_share = 0.02f;  ///< 0 to 1
-
-    bool operator==(const FlipRule&) const = default;
-};
+inline constexpr FlipWords chain_flip_words{"chain.flips", "target", "the target, as the root sees it,", "reach",
+                                            "the chain's reach"};
 
 struct ChainPart final : Part {
     Chain chain;

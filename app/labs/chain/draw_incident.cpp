@@ -1,30 +1,10 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "app/document/units.hpp"
 #include "app/labs/chain/draw.hpp"
+#include "app/labs/kit/incident_pen.hpp"
 
 namespace tendril::app {
-namespace {
-
-/// The way that the end of a bone went which turned about its start, on the shorter way round.
-void draw_arc(const View& view, glm::vec3 from, glm::vec3 to, glm::vec3 about, DrawList& list) {
-    constexpr int sides = 24;
-    const glm::vec4 colour(view.palette.limit, 1.0f);
-    const float radius_from = glm::distance(from, about), radius_to = glm::distance(to, about);
-    glm::vec3 last = from;
-    for (int i = 1; i <= sides; ++i) {
-        const float t = static_cast<float>(i) / sides;
-        const glm::vec3 chord = glm::mix(from, to, t) - about;
-        const float length = glm::length(chord), radius = glm::mix(radius_from, radius_to, t);
-        // A half turn has no shorter way: it goes straight.
-        const glm::vec3 next = length > 0.05f * radius ? about + chord * (radius / length) : about + chord;
-        list.line(last, next, 2.0f * view.scale, colour).layer = Layer::Overlay;
-        last = next;
-    }
-}
-
-}  // namespace
 
 LabSetting ghost_setting() {
     return {.key = "chain ghosts",
@@ -70,14 +50,8 @@ void draw_incident(const View& view, const ChainPart& part, DrawList& list) {
     const bool last = joint + 1 == is.size();
     const std::size_t about =
         joint == 0 || (!last && moved(joint + 1) < moved(joint - 1)) ? joint + 1 : joint - 1;
-    draw_arc(view, was[joint].position, is[joint].position, is[about].position, list);
-    list.ring(is[joint].position, 14.0f * view.scale, 2.5f * view.scale, glm::vec4(view.palette.limit, 1.0f))
-        .layer = Layer::Overlay;
-    list.labels.push_back({.at = is[joint].position,
-                           .clearance = 18.0f * view.scale,
-                           .text = fixed_text(static_cast<double>(incident->degrees), 0) + " degrees",
-                           .colour = view.palette.text,
-                           .rank = 4});
+    draw_turn(view, was[joint].position, is[joint].position, is[about].position, list);
+    draw_incident_mark(view, *incident, is[joint].position, list);
 }
 
 }  // namespace tendril::app

@@ -7,22 +7,10 @@
 
 #include "app/document/units.hpp"
 #include "app/labs/chain/verdict.hpp"
+#include "app/labs/kit/reach_flip.hpp"
 
 namespace tendril::app {
 namespace {
-
-/// Radians, 0 to pi; 0 where one of them has no length.
-float angle_between(glm::vec3 a, glm::vec3 b) {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
-
-/// Metres from `point` to the line from `a` to `b`, no further than its ends.
-float distance_to(glm::vec3 point, glm::vec3 a, glm::vec3 b) {
-    const glm::vec3 along = b - a;
-    const float square = glm::dot(along, along);
-    const float t = square > 0.0f ? std::clamp(glm::dot(point - a, along) / square, 0.0f, 1.0f) : 0.0f;
-    return glm::distance(point, a + t * along);
-}
 
 struct Turn {
     std::size_t joint = 0;
@@ -43,21 +31,6 @@ Turn furthest_turn(const Chain& before, const Chain& after) {
             return glm::distance(a[joint].position, b[joint].position);
         };
         furthest = {moved(i - 1) > moved(i) ? i - 1 : i, angle};
-    }
-    return furthest;
-}
-
-/// The line from root to tip, and how far the joints lie from it, in metres.
-float bend(const Chain& chain) {
-    const auto segments = chain.segments();
-    const glm::vec3 root = segments.front().position, line = segments.back().position - root;
-    const float length = glm::length(line);
-    float furthest = 0.0f;
-    for (const Segment& segment : segments) {
-        const glm::vec3 from_root = segment.position - root;
-        const float off =
-            length > 0.0f ? glm::length(glm::cross(from_root, line)) / length : glm::length(from_root);
-        furthest = std::max(furthest, off);
     }
     return furthest;
 }
@@ -100,7 +73,6 @@ bool limit_switched(const ChainPart& before, const ChainPart& after) {
 
 /// What moved, from one solve to the next.
 struct Move {
-    glm::vec3 root{0.0f}, from{0.0f}, to{0.0f};  ///< the target
     float reach = 0.0f;
     float distance = 0.0f;  ///< metres, of target or pole target, whichever moved further
     float angle = 0.0f;     ///< radians, of the target as the root sees it
@@ -108,51 +80,33 @@ struct Move {
 };
 
 Move move_of(const ChainPart& before, const ChainPart& after) {
-    Move move;
-    move.root = after.chain.segments().front().position;
-    move.reach = after.chain.reach();
-    move.from = before.target;
-    move.to = after.target;
-    move.distance = glm::distance(move.from, move.to);
-    move.angle = angle_between(move.from - move.root, move.to - move.root);
+    const glm::vec3 root = after.chain.segments().front().position, line = after.target - root;
+    Move move{.reach = after.chain.reach(),
+              .distance = glm::distance(before.target, after.target),
+              .angle = angle_between(before.target - root, line)};
     if (!before.reach.pole || !after.reach.pole || *before.reach.pole == *after.reach.pole) return move;
-    const glm::vec3 line = move.to - move.root;
-    move.swivel = angle_between(glm::cross(line, *before.reach.pole - move.root),
-                                glm::cross(line, *after.reach.pole - move.root));
+    move.swivel = angle_between(glm::cross(line, *before.reach.pole - root),
+                                glm::cross(line, *after.reach.pole - root));
     move.distance = std::max(move.distance, glm::distance(*before.reach.pole, *after.reach.pole));
     return move;
 }
 
-/// Where the line from root to target passes the pole target, on either side of the root, the plane that the
-/// chain bends in has no direction.
-struct PolePassage {
-    bool passed = false;  ///< between the two
-    bool close = false;   ///< it is near the pole at one of them
-};
-PolePassage pole_passage(const Move& move, const ChainPart& before, const ChainPart& after) {
-    if (!before.reach.pole || !after.reach.pole) return {};
-    constexpr float close = 0.17f;  // radians, ten degrees
-    const glm::vec3 was = glm::cross(move.from - move.root, *before.reach.pole - move.root);
-    const glm::vec3 is = glm::cross(move.to - move.root, *after.reach.pole - move.root);
-    const auto off = [&](glm::vec3 target, glm::vec3 pole) {
-        const float angle = angle_between(target - move.root, pole - move.root);
-        return std::min(angle, glm::pi<float>() - angle);
-    };
-    return {glm::dot(was, is) < 0.0f,
-            std::min(off(move.from, *before.reach.pole), off(move.to, *after.reach.pole)) < close};
+ReachPose reach_pose(const ChainPart& part) {
+    ReachPose pose{.target = part.target, .pole = part.reach.pole};
+    for (const Segment& segment : part.chain.segments()) pose.joints.push_back(segment.position);
+    return pose;
 }
 
 /// The first cause that holds; the sentence says no more than what is known.
-std::string cause_of(const Move& move, const ChainPart& before, const ChainPart& after) {
-    constexpr float near_root = 0.02f, straight = 0.02f;  // of the reach
-    if (distance_to(move.root, move.from, move.to) < near_root * move.reach)
-        return "the target went through the root";
-    const PolePassage pole = pole_passage(move, before, after);
+std::string cause_of(const ChainPart& before, const ChainPart& after) {
+    const ReachPose was = reach_pose(before), is = reach_pose(after);
+    const float reach = after.chain.reach();
+    if (went_through_root(was, is, reach)) return "the target went through the root";
+    const PolePassage pole = pole_passage(was, is);
     if (pole.passed) return "the target's line passed the pole";
     if (after.result->report.restarts > 0) return "the solver restarted from another pose";
     if (limit_switched(before, after)) return "a limit switched sides";
-    if (std::min(bend(before.chain), bend(after.chain)) < straight * move.reach)
-        return "the chain was straight (collinear)";
+    if (was_straight(was, is, reach)) return "the chain was straight (collinear)";
     if (pole.close) return "the target's line came close to the pole";
     return "the solver went over to another pose that the target allows";
 }
@@ -168,7 +122,7 @@ std::optional<Incident> flip(const ChainPart& before, const ChainPart& after) {
     return Incident{.kind = Incident::Kind::Flip,
                     .joint = turn.joint,
                     .degrees = glm::degrees(turn.angle),
-                    .cause = cause_of(move, before, after)};
+                    .cause = cause_of(before, after)};
 }
 
 /// "Out of reach: the target is out of reach, ...", in the words of the verdict.

@@ -8,6 +8,7 @@
 #include "app/document/units.hpp"
 #include "app/labs/chain/panels.hpp"
 #include "app/labs/kit/folding.hpp"
+#include "app/labs/kit/incident_rows.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/text.hpp"

@@ -88,10 +88,7 @@ void seek(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
 }
 
 void set_flips(ChainPart& part, const Arguments& given) {
-    FlipRule& rule = part.flips;
-    if (given.has("degrees")) rule.degrees = given.number("degrees");
-    if (given.has("angle_share")) rule.angle_share = given.number("angle_share");
-    if (given.has("reach_share")) rule.reach_share = given.number("reach_share");
+    set_flip_rule(part.flips, given);
 }
 
 }  // namespace
@@ -128,11 +125,7 @@ void add_mode_commands(CommandTable& table) {
         {{.name = "tick", .type = ArgumentType::Integer, .help = "tick of the round", .low = 0}},
         "Moves the target to a tick of its round", seek));
     table.add(chain_command(
-        "chain.flips", "Set what counts as a flip",
-        {number_argument("degrees", "a bone turns by more than this", fewest_flip_degrees, most_flip_degrees),
-         number_argument("angle_share",
-                         "while the target, as the root sees it, turns by less than this share of it", 0, 1),
-         number_argument("reach_share", "or moves by less than this share of the reach", 0, 1)},
+        "chain.flips", "Set what counts as a flip", flip_arguments(chain_flip_words),
         "Sets what counts as a flip in mode reach, from the next move of the target on", set_flips));
 }
 

@@ -108,23 +108,6 @@ void target_rows(const ChainPart& part, bool playing, Emit& emit) {
     explain("How long one round takes. Shorter is faster.");
 }
 
-/// When a joint counts as one that jumped.
-void flip_rows(const FlipRule& rule, Emit& emit) {
-    const auto row = [&](const char* title, const char* name, float value, float speed, float low, float high,
-                         const char* format, const char* help) {
-        if (number_field(title, value, speed, low, high, format))
-            emit.continuously("chain.flips", {{name, value}});
-        explain(help);
-    };
-    row("flip over", "degrees", rule.degrees, 0.5f, fewest_flip_degrees, most_flip_degrees, "%.0f deg",
-        "A bone that turns by more than this in a tick, while the target hardly moves, is marked as a flip");
-    row("target turns", "angle_share", rule.angle_share, 0.005f, 0.0f, 1.0f, "< %.2f of it",
-        "The target hardly moves if, as the root sees it, it turns by less than this share of the bone's "
-        "turn");
-    row("or moves", "reach_share", rule.reach_share, 0.001f, 0.0f, 1.0f, "< %.3f of reach",
-        "Or if it moves by less than this share of the chain's reach");
-}
-
 /// What of the last ten seconds is plotted below the scene.
 void plot_choice(const Settings& settings, Emit& emit) {
     const LabSetting setting = past_plot_setting();
@@ -167,7 +150,7 @@ void ChainLab::panel(const Workspace& workspace, Emit& emit) const {
     if (open("Analyse")) {
         study_rows(part, emit);
         plot_choice(workspace.settings, emit);
-        if (part.mode == ChainMode::Reach) flip_rows(part.flips, emit);
+        if (part.mode == ChainMode::Reach) flip_rows(part.flips, chain_flip_words, emit);
     }
     if (open("Export")) export_rows(emit);
 }

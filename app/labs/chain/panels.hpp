@@ -18,8 +18,6 @@ void export_rows(Emit& emit);
 void past_plot_rows(const Workspace& workspace);
 /// The inspector: what became of the last move of the target, and how the last solve went.
 void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, const Palette& palette);
-/// The inspector: the last flips and what else happened; a click goes to it.
-void incident_rows(const Workspace& workspace, const Palette& palette, Emit& emit);
 /// The inspector: what is selected.
 void selection_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, Emit& emit);
 /// The length of the selected joints' bones.

@@ -8,17 +8,27 @@
 #include "app/document/units.hpp"
 #include "app/view/palette.hpp"
 #include "app/widgets/icons.hpp"
-#include "app/widgets/timeline.hpp"
 
 namespace tendril::app {
 
+namespace {
+
+std::string capitalised(std::string text) {
+    if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+    return text;
+}
+
+}  // namespace
+
 std::string incident_title(const Incident& incident) {
-    const std::string joint = "Joint " + std::to_string(incident.joint);
+    const bool named = !incident.name.empty();
+    const std::string joint = named ? "Bone " + incident.name : "Joint " + std::to_string(incident.joint);
     switch (incident.kind) {
         case Incident::Kind::Flip:
-            return joint + " flipped: a bone at it turned " +
+            return joint + (named ? " flipped: it turned " : " flipped: a bone at it turned ") +
                    fixed_text(static_cast<double>(incident.degrees), 0) + " degrees in one tick";
         case Incident::Kind::Limit:
+            if (named) break;
             return joint + " reached its limit";
         case Incident::Kind::Restart:
             return "The solver restarted";
@@ -26,9 +36,7 @@ std::string incident_title(const Incident& incident) {
             break;
     }
     // "Stretched: ...", "refused: ..."
-    std::string title = incident.cause.substr(0, incident.cause.find(':'));
-    if (!title.empty()) title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
-    return title;
+    return capitalised(incident.cause.substr(0, incident.cause.find(':')));
 }
 
 glm::vec3 incident_colour(const Incident& incident, const Palette& palette) {
@@ -44,9 +52,6 @@ glm::vec3 incident_colour(const Incident& incident, const Palette& palette) {
     return palette.text_dim;
 }
 
-namespace {
-
-/// Plays what is remembered again, or stops it.
 void replay_button(const Workspace& workspace, Emit& emit) {
     const bool runs = workspace.clock.replaying;
     if (icon_button("replay", runs ? Icon::Pause : Icon::Play,
@@ -56,7 +61,6 @@ void replay_button(const Workspace& workspace, Emit& emit) {
     ImGui::SameLine();
 }
 
-/// Small and below the replay button, where the strip keeps its length.
 void record_button(const Workspace& workspace, Emit& emit) {
     const float side = ImGui::GetFrameHeight(), height = 0.45f * side;
     const ImVec2 at = ImGui::GetCursorScreenPos(), low{at.x, at.y + 0.92f * side};
@@ -73,19 +77,35 @@ void record_button(const Workspace& workspace, Emit& emit) {
     ImGui::SetCursorScreenPos(at);
 }
 
-void tell(const Incident& incident) {
+TimeMark incident_mark(const Incident& incident, int at, const Palette& palette) {
+    return {.at = at,
+            .colour = incident_colour(incident, palette),
+            .large = incident.kind == Incident::Kind::Flip};
+}
+
+void tell_incident(const Incident& incident) {
     tell_strip((incident_title(incident) + ":\n" + incident.cause +
                 ".\nClick shows what was before, and what came of it.")
                    .c_str());
 }
 
-}  // namespace
+void past_strip(const Workspace& workspace, Emit& emit) {
+    record_button(workspace, emit);
+    replay_button(workspace, emit);
+    past_time_strip(workspace, emit);
+}
 
-void past_strip(const Workspace& workspace, Emit& emit, bool can_record) {
+bool other_strip_button(bool shown, const std::string& other) {
+    const bool asked = ImGui::Button(shown ? capitalised(other).c_str() : "Past");
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("Shows the strip of the %s", shown ? other.c_str() : "last ten seconds");
+    ImGui::SameLine();
+    return asked;
+}
+
+void past_time_strip(const Workspace& workspace, Emit& emit) {
     const Rewind& past = workspace.rewind;
     const Palette& colours = palette(workspace.settings.theme);
-    if (can_record) record_button(workspace, emit);
-    replay_button(workspace, emit);
     // The strip is ten seconds long from the beginning: what is not there yet is to its right.
     const std::uint64_t now = workspace.moment;
     const std::uint64_t first = past.empty() ? now : past.oldest();
@@ -98,15 +118,12 @@ void past_strip(const Workspace& workspace, Emit& emit, bool can_record) {
                     .known = place(last),
                     .bars = {}};
     const auto& incidents = past.incidents();
-    for (const Incident& incident : incidents) {
-        strip.marks.push_back({.at = place(incident.tick + 1),
-                               .colour = incident_colour(incident, colours),
-                               .large = incident.kind == Incident::Kind::Flip});
-    }
+    for (const Incident& incident : incidents)
+        strip.marks.push_back(incident_mark(incident, place(incident.tick + 1), colours));
     int tick = place(now);
     const TimeStripUse use = time_strip("past", tick, strip);
     if (use.on_mark >= 0)
-        tell(incidents[static_cast<std::size_t>(use.on_mark)]);
+        tell_incident(incidents[static_cast<std::size_t>(use.on_mark)]);
     else if (use.hovered >= 0 && !ImGui::IsItemActive())
         tell_strip("The last ten seconds. Drag goes back to how it was then.");
     if (use.mark_clicked) {

@@ -7,13 +7,31 @@
 #include "app/document/workspace.hpp"
 #include "app/view/palette.hpp"
 #include "app/widgets/emit.hpp"
+#include "app/widgets/timeline.hpp"
 
 namespace tendril::app {
 
-/// `can_record`: with a button to make a video of them, which shows nothing but the view of the scene.
-void past_strip(const Workspace& workspace, Emit& emit, bool can_record = true);
+/// With the buttons before it.
+void past_strip(const Workspace& workspace, Emit& emit);
 
-/// "Joint 2 flipped: its bone turned 128 degrees in one tick"
+// What that is put together from, for a lab that has another strip beside it.
+
+/// Makes a video of them, which shows nothing but the view of the scene: for a lab that has no more to show.
+/// Small and below the replay button, where the strip keeps its length.
+void record_button(const Workspace& workspace, Emit& emit);
+/// Plays what is remembered again, or stops it.
+void replay_button(const Workspace& workspace, Emit& emit);
+/// Where there is another strip: shows this one or, while this is the one that is `shown`, the other, of the
+/// `other` ("clip"). True in a frame in which a person asked for that.
+bool other_strip_button(bool shown, const std::string& other);
+/// Without any button.
+void past_time_strip(const Workspace& workspace, Emit& emit);
+/// At tick `at` of another strip: the mark of an incident.
+TimeMark incident_mark(const Incident& incident, int at, const Palette& palette);
+/// While the mouse is on that mark.
+void tell_incident(const Incident& incident);
+
+/// "Joint 2 flipped: a bone at it turned 128 degrees in one tick"
 std::string incident_title(const Incident& incident);
 glm::vec3 incident_colour(const Incident& incident, const Palette& palette);
 

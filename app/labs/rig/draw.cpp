@@ -212,6 +212,7 @@ void RigLab::draw(const View& view, DrawList& list) const {
     const RigPicture picture{view, list, part, elements};
     Drawing(picture, view.workspace.settings).run();
     draw_walks(view, list);
+    draw_incident(picture);
 }
 
 std::vector<LegendRow> RigLab::legend(const Workspace& workspace) const {
@@ -225,6 +226,7 @@ std::vector<LegendRow> RigLab::legend(const Workspace& workspace) const {
         starts_elsewhere(rig_part(workspace), workspace.runtimes.of<RigRuntime>(rig_lab).resolved(workspace),
                          *selected))
         rows.push_back({before_units, colours.ghost});
+    if (workspace.ui.incident) rows.push_back({"before it happened", colours.ghost});
     if (rig_pending_setting().chosen(workspace.settings) == 1) {
         rows.push_back({"global pose pending", colours.accent, true});
         rows.push_back({"local pose pending", colours.tail, true});

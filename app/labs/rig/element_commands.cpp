@@ -96,6 +96,7 @@ void set_values(RigPart& part, std::vector<ControlValue> values) {
     constexpr std::size_t most_keys_at_once = 64;  // each takes as long as all that are there
     values = differing(part, std::move(values));
     if (values.empty()) return;
+    if (!part.last_solved) part.last_solved = std::make_shared<const rig::State>(part.state);
     std::vector<bool> is_set(part.state.controls.size());
     for (const ControlValue& each : values) {
         require_ok(part.rig.set_control(part.state, each.element, each.value));

@@ -9,6 +9,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
+#include "app/labs/kit/incident_rows.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rig/value_json.hpp"
 #include "app/labs/rig/value_text.hpp"
@@ -136,6 +137,7 @@ void RigLab::inspector(const Workspace& workspace, Emit& emit) const {
     element_inspector(panel);
     why_rows(panel);
     pose_rows(panel);
+    incident_rows(workspace, panel.colours, emit);  // last: fields keep still while one is dragged to a limit
 }
 
 }  // namespace tendril::app

@@ -1,5 +1,6 @@
 // The Rig lab from tick to tick.
 #include "app/labs/rig/clip.hpp"
+#include "app/labs/rig/incidents.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rig/take.hpp"
 
@@ -31,6 +32,10 @@ std::uint64_t RigLab::tick_work(const Workspace& workspace) const {
 
 double RigLab::seconds(const Workspace& workspace) const {
     return static_cast<double>(rig_part(workspace).take.now()) * tick_seconds;
+}
+
+std::vector<Incident> RigLab::review(const Part& before, const Part& after) const {
+    return rig_incidents(dynamic_cast<const RigPart&>(before), dynamic_cast<const RigPart&>(after));
 }
 
 bool RigLab::working(const Workspace& workspace) const {

@@ -44,6 +44,9 @@ struct RigPicture {
     void label(glm::vec3 at, std::string text, glm::vec3 colour, float clearance, int rank) const;
 };
 
+/// What was before the incident that is shown; nothing where none is.
+void draw_incident(const RigPicture& picture);
+
 /// One control, with its name where that is shown.
 void draw_control(const RigPicture& picture, std::size_t element);
 

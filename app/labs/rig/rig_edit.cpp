@@ -151,6 +151,7 @@ void forget_missing_unit(RigPart& part) {
 
 void changed(RigPart& part) {
     part.moving = true;
+    part.edited = true;
     part.backward.reset();
     part.rates.reset();
     part.clip_left.reset();  // it was of the rig as it was

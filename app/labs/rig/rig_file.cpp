@@ -72,6 +72,7 @@ Json RigPart::save() const {
     saved["selected"] = {{"element", selected_element()}, {"unit", selected.unit}};
     if (selected.elements.several()) saved["selected"]["elements"] = names_of(*this, selected.elements.all());
     if (selected.unit_last) saved["selected"]["unit_last"] = true;
+    if (flips != FlipRule()) saved["flips"] = save_flip_rule(flips);
     save_time(*this, saved);
     return json;
 }
@@ -88,10 +89,12 @@ std::shared_ptr<Part> RigPart::load(const Json& json, const std::string& where) 
     const auto state_place = place.optional("state");
     if (!state_place) return part;  // a rig that was written by hand begins at rest
     check_members(*state_place, {"moving", "controls", "curves", "poses", "units", "backward", "selected",
-                                 "motions", "take", "rates", "clip"});
+                                 "motions", "take", "rates", "clip", "flips"});
     part->moving = (*state_place)["moving"].flag();
     part->state = read_rig_state(*state_place, part->rig);
+    part->edited = true;  // how it was last solved, the file does not say
     load_time(*state_place, *part);
+    if (const auto rule = state_place->optional("flips")) part->flips = load_flip_rule(*rule);
     if (const auto backward_place = state_place->optional("backward"))
         part->backward = load_backward(*backward_place, part->rig.definition());
     if (const auto selection = state_place->optional("selected")) {

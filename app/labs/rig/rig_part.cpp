@@ -77,9 +77,19 @@ RigPart first_rig() {
 
 bool RigPart::operator==(const RigPart& other) const {
     return moving == other.moving && backward == other.backward && selected == other.selected &&
-           walks == other.walks && rates == other.rates && same_value(clip, other.clip) &&
+           walks == other.walks && flips == other.flips && rates == other.rates && same_value(clip, other.clip) &&
            same_value(clip_left, other.clip_left) && rig.definition() == other.rig.definition() &&
            state == other.state && take == other.take;
+}
+
+/// With what is selected now, and by the rule that there is now.
+std::shared_ptr<const Part> RigPart::at_moment(std::shared_ptr<const Part> then) const {
+    const auto& earlier = dynamic_cast<const RigPart&>(*then);
+    if (earlier.selected == RigSelection{} && selected == RigSelection{} && earlier.flips == flips) return then;
+    auto part = std::make_shared<RigPart>(earlier);
+    part->flips = flips;
+    select_as_in(*part, selected, rig);  // which goes by place in the definition
+    return part;
 }
 
 std::size_t state_bytes(const rig::State& state) {
@@ -95,7 +105,8 @@ std::size_t RigPart::bytes() const {
     constexpr std::size_t an_element = 750, a_unit = 800, sharing = 16;
     std::size_t shared = clip ? clip->poses.size() * sizeof(ClipPose) : 0;
     if (take.keys) shared += take.keys->size() * sizeof(TakeKey);
-    return sizeof(*this) + state.controls.size() * an_element + state.units.size() * a_unit +
+    const std::size_t solved = last_solved ? state_bytes(*last_solved) : 0;
+    return sizeof(*this) + solved + state.controls.size() * an_element + state.units.size() * a_unit +
            state_bytes(state) + selected.elements.all().size() * sizeof(std::size_t) + shared / sharing;
 }
 

@@ -15,6 +15,7 @@
 
 #include "app/document/document.hpp"
 #include "app/document/workspace.hpp"
+#include "app/labs/kit/flip_rule.hpp"
 #include "app/labs/kit/selection.hpp"
 #include "app/labs/rig/rig_clip.hpp"
 #include "app/labs/rig/rig_take.hpp"
@@ -80,6 +81,14 @@ struct RigPart final : Part {
     std::shared_ptr<const RigClip> clip;         ///< null where none was recorded
     std::shared_ptr<const ClipSolve> clip_left;  ///< null where it was not solved
     RigSelection selected;
+    FlipRule flips;
+
+    // What no file has: it is of the moment between a change by hand and the next solve.
+    /// As the rig was last solved, before controls were set; null where none has been set since.
+    std::shared_ptr<const rig::State> last_solved;
+    /// More than controls was changed since.
+    bool edited = false;
+    const rig::State& solved_state() const { return last_solved ? *last_solved : state; }
 
     /// The name of the active element; empty where none is selected.
     std::string selected_element() const;
@@ -87,12 +96,16 @@ struct RigPart final : Part {
     std::shared_ptr<Part> clone() const override { return std::make_shared<RigPart>(*this); }
     Json save() const override;
     std::shared_ptr<Part> load(const Json& json, const std::string& where) const override;
+    std::shared_ptr<const Part> at_moment(std::shared_ptr<const Part> then) const override;
     std::size_t bytes() const override;
     bool operator==(const RigPart& other) const;
 };
 
 /// Roughly.
 std::size_t state_bytes(const rig::State& state);
+
+inline constexpr FlipWords rig_flip_words{"rig.flips", "control", "the control, as the bone sees it,", "size",
+                                          "the size of the skeleton"};
 
 /// What the lab starts with.
 RigPart first_rig();

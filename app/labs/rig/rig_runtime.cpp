@@ -37,6 +37,8 @@ rig::Workspace& RigRuntime::workspace(const rig::Rig& rig) {
 
 bool RigRuntime::solve(RigPart& part, double dt, bool measured) {
     rig::Workspace& scratch = workspace(part.rig);
+    part.last_solved.reset();
+    part.edited = false;
     if (!measured) return part.rig.solve(part.state, dt, scratch);
     kept_->microseconds.resize(part.rig.definition().units.size());
     Stopwatch stopwatch(kept_->microseconds);

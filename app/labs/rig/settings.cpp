@@ -33,8 +33,18 @@ LabSetting rig_figures_setting() {
             .choices = {{"shown", "Heads and blobs drawn"}, {"hidden", "Bones only"}}};
 }
 
+LabSetting rig_strip_setting() {
+    return {.key = "rig_strip",
+            .command = "view.rig_strip",
+            .title = "Show the take or the past",
+            .argument = "of",
+            .help = "Shows the take below the scene of the Rig lab, or its last ten seconds",
+            .choices = {{"take", "The take below the scene"}, {"past", "The last ten seconds below it"}}};
+}
+
 std::vector<LabSetting> RigLab::settings() const {
-    return {rig_axes_setting(), rig_figures_setting(), pending_marks(), rig_pending_setting()};
+    return {rig_axes_setting(), rig_figures_setting(), pending_marks(), rig_pending_setting(),
+            rig_strip_setting()};
 }
 
 }  // namespace tendril::app

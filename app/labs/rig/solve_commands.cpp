@@ -99,6 +99,7 @@ void solve(Workspace& workspace, const Arguments& given) {
         if (backward) {
             part.backward = solve_backward(part, runtime.workspace(part.rig));
             part.moving = true;
+            if (!part.last_solved) part.last_solved = std::make_shared<const rig::State>(before.state);
             if (part.state != before.state) begin_take(part);
         } else {
             solve_now(part, runtime, workspace.clock.measured);

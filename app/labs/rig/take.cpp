@@ -108,6 +108,8 @@ bool go_from_known(RigPart& part, std::uint32_t tick, RigRuntime& runtime) {
     const std::uint32_t from = nearest ? nearest->first : 0;
     if (too_far(part, tick - from)) return false;
     part.state = nearest ? nearest->second.state : *part.take.start;
+    part.last_solved.reset();
+    part.edited = !nearest;  // what a take starts with need not have been solved
     part.moving = nearest ? nearest->second.moving : true;
     part.take.tick = from;
     arrive(part, runtime);

@@ -94,7 +94,8 @@ void go(Workspace& workspace, const Arguments& given) {
     const bool modified = workspace.modified();
     RigPart& part = workspace.document.edit<RigPart>(rig_lab);
     go_to(part, static_cast<std::uint32_t>(tick), runtime_of(workspace));
-    workspace.clock.playing = false;
+    workspace.clock.playing = workspace.clock.replaying = false;
+    workspace.ui.incident.reset();
     if (!modified) workspace.saved = workspace.document;  // that time passes is nothing that wants saving
 }
 
@@ -146,6 +147,10 @@ void compare_rates(Workspace& workspace, const Arguments& given) {
 void finish_rates(Workspace& workspace) {
     RigPart& part = workspace.document.edit<RigPart>(rig_lab);
     for (RatesWork work; part.rates && part.rates->running;) work.advance(part);
+}
+
+void set_flips(RigPart& part, const Arguments& given) {
+    set_flip_rule(part.flips, given);
 }
 
 void cancel_rates(RigPart& part, const Arguments&) {
@@ -207,6 +212,9 @@ void add_time_commands(CommandTable& table) {
          .finish = finish_rates});
     table.add(rig_command("rig.rates.cancel", "Stop comparing frame rates", {},
                           "Stops the comparison of frame rates", cancel_rates));
+    table.add(rig_command(
+        "rig.flips", "Set the rule for bone flips", flip_arguments(rig_flip_words),
+        "Sets what counts as a flip of a bone, from the next solve on", set_flips));
     add_clip_commands(table);
 }
 

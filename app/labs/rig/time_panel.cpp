@@ -162,6 +162,8 @@ void time_rows(const Workspace& workspace, Emit& emit) {
     const RigPart& part = rig_part(workspace);
     if (folding_section(workspace, "Clip", emit)) clip_rows(part, emit);
     if (folding_section(workspace, "Frame rates", emit)) rate_rows(part, emit);
+    if (folding_section(workspace, "What counts as a flip", emit, false))
+        flip_rows(part.flips, rig_flip_words, emit);
 }
 
 }  // namespace tendril::app

@@ -8,7 +8,7 @@ namespace tendril::app {
 
 /// What moves a control by itself; nothing where no control can.
 void walk_rows(const Workspace& workspace, Emit& emit);
-/// Clip and frame rates.
+/// Clip, frame rates, and what counts as a flip.
 void time_rows(const Workspace& workspace, Emit& emit);
 
 }  // namespace tendril::app

@@ -77,7 +77,8 @@ void SignalLab::work(Workspace& workspace) const {
 }
 
 void SignalLab::timeline(const Workspace& workspace, Emit& emit) const {
-    past_strip(workspace, emit, false);
+    replay_button(workspace, emit);
+    past_time_strip(workspace, emit);
 }
 
 std::vector<Handle> SignalLab::handles(const Workspace& workspace) const {

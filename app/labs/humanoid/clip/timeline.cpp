@@ -84,11 +84,7 @@ void HumanoidLab::timeline(const Workspace& workspace, Emit& emit) const {
     if (panel.part.clip() == nullptr) return past_strip(workspace, emit);
     bool& past = panel.runtime.panel.past;
     buttons(panel);
-    if (ImGui::Button(past ? "Clip" : "Past")) past = !past;
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("%s",
-                          past ? "Shows the strip of the clip" : "Shows the strip of the last ten seconds");
-    ImGui::SameLine();
+    if (other_strip_button(past, "clip")) past = !past;
     if (past)
         past_strip(workspace, emit);
     else

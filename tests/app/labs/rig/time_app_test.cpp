@@ -15,9 +15,9 @@ void walking_head(App& app) {
 void send(App& app, const Event& event) {
     app.tick(&event);
 }
+constexpr float left = 443.5f, right = 988.5f, y = 677.0f;  ///< of the strip, in a window of 1280 x 720
 /// Presses on the strip at so many of its ten seconds, and drags the head on to each of the others.
 void scrub(App& app, const std::vector<float>& seconds) {
-    constexpr float left = 292.5f, right = 988.5f, y = 677.0f;  // of the strip, in a window of 1280 x 720
     const auto at = [&](float s) { return MouseMove{{left + (right - left) * s / 10.0f, y}}; };
     send(app, at(seconds.front()));
     send(app, MousePress{MouseButton::Left, true});
@@ -51,6 +51,67 @@ TEST_F(RigTimeApp, TheStripIsDraggedToAnyTickOfTheTake) {
     EXPECT_DOUBLE_EQ(app_.state().at("time").at("seconds").get<double>(),
                      static_cast<double>(part_of(app_).take.now()) * tick_seconds);
     EXPECT_EQ(app_.workspace().history.size(), 2u) << "the preset and the walk";
+}
+
+/// A click in a tick of its own.
+void click(App& app, glm::vec2 at) {
+    send(app, MouseMove{at});
+    send(app, MousePress{MouseButton::Left, true});
+    send(app, MousePress{MouseButton::Left, false});
+    app.tick(nullptr);
+}
+constexpr glm::vec2 replay{297.0f, 664.0f}, other_strip{338.0f, 664.0f}, back{378.0f, 664.0f}, on{411.0f, 664.0f};
+
+TEST_F(RigTimeApp, ReplayShowsItAgainAndTheStripKeepsStill) {
+    walking_head(app_);
+    for (int i = 0; i < 120; ++i) app_.tick(nullptr);
+    const std::uint64_t end = part_of(app_).take.now();
+    click(app_, replay);
+    EXPECT_TRUE(app_.workspace().clock.replaying);
+    EXPECT_LT(part_of(app_).take.now(), 20u);
+    click(app_, replay);
+    EXPECT_FALSE(app_.workspace().clock.replaying) << "paused";
+    const std::uint64_t paused = part_of(app_).take.now();
+    for (int i = 0; i < 10; ++i) app_.tick(nullptr);
+    EXPECT_EQ(part_of(app_).take.now(), paused);
+    click(app_, on);
+    EXPECT_EQ(part_of(app_).take.now(), paused + 1);
+    click(app_, back);
+    click(app_, back);
+    EXPECT_EQ(part_of(app_).take.now(), paused - 1);
+    click(app_, replay);
+    for (int i = 0; i < 200; ++i) app_.tick(nullptr);
+    EXPECT_FALSE(app_.workspace().clock.replaying);
+    EXPECT_GE(part_of(app_).take.now(), end);
+}
+
+TEST_F(RigTimeApp, TheOtherStripIsOneClickAway) {
+    walking_head(app_);
+    for (int i = 0; i < 60; ++i) app_.tick(nullptr);
+    click(app_, other_strip);
+    EXPECT_EQ(app_.workspace().settings.choices.at("rig_strip"), "past");
+    click(app_, other_strip);
+    EXPECT_EQ(app_.workspace().settings.choices.at("rig_strip"), "take");
+}
+
+TEST_F(RigTimeApp, AMarkIsClicked) {
+    app_.run({"lab.open", Json{{"name", rig_lab}}});
+    app_.run({"rig.preset", Json{{"name", "fk"}}});
+    const auto dial = [&](double to, int ticks) {
+        for (int i = 1; i <= ticks; ++i) {
+            app_.run({"rig.control.set", Json{{"name", "dial"}, {"value", to * i / ticks}}});
+            app_.tick(nullptr);
+        }
+    };
+    dial(1.0, 120);
+    const auto incidents = app_.workspace().rewind.incidents();
+    ASSERT_EQ(incidents.size(), 2u) << "it leaves its minimum, and comes to its maximum";
+    click(app_, {left + (right - left) * 0.02f / 10.0f, y - 4.0f});
+    ASSERT_TRUE(app_.workspace().ui.incident);
+    EXPECT_EQ(app_.workspace().ui.incident->cause, "control dial left its limit: its minimum is 0.00");
+    EXPECT_NEAR(std::get<double>(part_of(app_).state.controls[0]), 0.0, 0.03);
+    scrub(app_, {1.0f, 0.5f});
+    EXPECT_FALSE(app_.workspace().ui.incident) << "one looks elsewhere";
 }
 
 TEST_F(RigTimeApp, AClipIsSolvedThoughTimeIsPausedAndStaysResponsive) {

@@ -1,6 +1,7 @@
+#include "app/labs/kit/incident_rows.hpp"
+
 #include <imgui.h>
 
-#include "app/labs/chain/panels.hpp"
 #include "app/labs/kit/past_strip.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/plot.hpp"
@@ -27,10 +28,9 @@ void incident_row(const Workspace& workspace, std::size_t number, const Palette&
     const bool chosen = shown && shown->tick == incident.tick && shown->kind == incident.kind;
     ImGui::PushID(static_cast<int>(number));
     colour_mark(incident_colour(incident, palette));
-    std::string title = incident.kind == Incident::Kind::Flip
-                            ? "Joint " + std::to_string(incident.joint) + " flipped"
-                            : incident_title(incident);
-    title += ", " + age_text(workspace, incident);
+    // Of a flip the first words: how far it turned is told when it is shown.
+    std::string title = incident_title(incident);
+    title = title.substr(0, title.find(':')) + ", " + age_text(workspace, incident);
     ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, ImVec2(0.0f, 0.5f));
     if (ImGui::Selectable(elided(title, ImGui::GetContentRegionAvail().x).c_str(), chosen,
                           ImGuiSelectableFlags_None, {0.0f, ImGui::GetFrameHeight()})) {

@@ -1,0 +1,142 @@
+// The last ten seconds of the Rig lab in the running program: flips of bones, and going back to them.
+#include <cmath>
+
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+using app::Json;
+
+/// The head looks up; then the control that says where its crown is passes the line that it looks along.
+ScriptText tilt_past_the_look(int steps = 40) {
+    ScriptText script;
+    script.command("lab.open", {{"name", "rig"}})
+        .command("rig.preset", {{"name", "aim"}})
+        .command("rig.control.set", {{"name", "look"}, {"value", {0, 1}}})
+        .wait(2)
+        .command("rig.control.set", {{"name", "tilt"}, {"value", {0.303, 0.3145, 0.5}}})
+        .wait(3);
+    for (int i = 1; i <= steps; ++i)
+        script.command("rig.control.set", {{"name", "tilt"}, {"value", {0.303 - 0.015 * i, 0.3145, 0.5}}})
+            .wait(1);
+    return script;
+}
+
+std::vector<Json> flips_of(const Json& state) {
+    std::vector<Json> flips;
+    for (const Json& event : state.at("events"))
+        if (event.at("kind") == "flip") flips.push_back(event);
+    return flips;
+}
+
+const Json& element(const Json& state, const std::string& name) {
+    for (const Json& each : state.at("elements"))
+        if (each.at("name") == name) return each;
+    throw std::runtime_error("there is no element " + name);
+}
+
+std::size_t number_of(const Json& state, const Json& event) {
+    std::size_t number = 0;
+    while (state.at("events").at(number) != event) ++number;
+    return number;
+}
+
+TEST(RigsPast, AFlipIsMarkedAtItsTickWithBoneUnitAndCause) {
+    const Json state = state_after(tilt_past_the_look());
+    const std::vector<Json> flips = flips_of(state);
+    ASSERT_GE(flips.size(), 1u) << state["events"].dump(2);
+    double turned = 0.0;
+    for (const Json& flip : flips) {
+        EXPECT_EQ(flip["name"], "head");
+        EXPECT_EQ(state["elements"].at(flip["joint"].get<std::size_t>())["name"], "head");
+        EXPECT_EQ(flip["cause"].get<std::string>().substr(0, 28), "unit aim: the second target ");
+        turned += flip["degrees"].get<double>();
+    }
+    EXPECT_GT(turned, 60.0);
+    // Just before and just after it is as far apart as it says.
+    const std::size_t number = number_of(state, flips[0]);
+    const ScriptText there = tilt_past_the_look().command("time.incident", {{"number", number}});
+    const Json after = state_after(there);
+    const int back = after["time"]["ticks_back"].get<int>();
+    EXPECT_EQ(after["time"]["moment"].get<int>(), flips[0]["tick"].get<int>() + 1);
+    const Json before = state_after(ScriptText(there).command("time.seek", {{"ticks_back", back + 1}}));
+    const Json &a = element(before, "head")["global"]["rotation"], &b = element(after, "head")["global"]["rotation"];
+    double dot = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) dot += a[i].get<double>() * b[i].get<double>();
+    EXPECT_NEAR(2.0 * std::acos(std::min(1.0, std::abs(dot))) * 180.0 / 3.14159265, flips[0]["degrees"].get<double>(),
+                0.1);
+    EXPECT_EQ(after["events"], state["events"]) << "looking back forgets nothing";
+}
+
+TEST(RigsPast, APausedDragIsRememberedAndMarkedToo) {
+    ScriptText script;
+    script.command("lab.open", {{"name", "rig"}}).command("rig.preset", {{"name", "aim"}});
+    script.command("rig.control.set", {{"name", "look"}, {"value", {0, 1}}}).wait(3).command("time.pause");
+    for (int i = 0; i <= 40; ++i)
+        script
+            .command("rig.control.set", {{"name", "tilt"}, {"value", {0.303 - 0.015 * i, 0.3145, 0.5}}})
+            .command("rig.solve")
+            .wait(1);
+    const std::vector<Json> flips = flips_of(state_after(script));
+    ASSERT_GE(flips.size(), 1u);
+    EXPECT_EQ(flips[0]["name"], "head");
+}
+
+TEST(RigsPast, ItIsShownAgainAtAnySpeedUpToItsEnd) {
+    const ScriptText script = tilt_past_the_look();
+    const Json end = state_after(script);
+    ScriptText again = script;
+    again.command("time.speed", {{"factor", 0.5}}).command("time.replay").wait(20);
+    const Json shown = state_after(again);
+    EXPECT_GT(shown["time"]["ticks_back"].get<int>(), 20);
+    EXPECT_NE(element(shown, "tilt"), element(end, "tilt"));
+    const Json whole = state_after(again.wait(240));
+    EXPECT_EQ(whole["time"]["ticks_back"], 0) << "it has come to its end";
+    EXPECT_EQ(whole["elements"], end["elements"]);
+    EXPECT_EQ(whole["take"], end["take"]);
+    EXPECT_EQ(whole["events"], end["events"]);
+}
+
+TEST(RigsPast, WhatIsSelectedDoesNotGoBackInTime) {
+    const ScriptText script =
+        tilt_past_the_look(10).command("rig.select", {{"element", "nose"}}).command("time.seek", {{"ticks_back", 8}});
+    EXPECT_EQ(state_after(script)["selected"]["element"], "nose");
+}
+
+TEST(RigsPast, WhatIsDoneAfterGoingBackTakesThePlaceOfWhatWas) {
+    const Json state = state_after(tilt_past_the_look());
+    ASSERT_GE(flips_of(state).size(), 1u);
+    const ScriptText script = tilt_past_the_look()
+                                  .command("time.seek", {{"ticks_back", 75}})
+                                  .command("rig.control.set", {{"name", "tilt"}, {"value", {0.5, 0.8, 0}}})
+                                  .command("time.play")
+                                  .wait(2);
+    const std::size_t before = flips_of(state_after(tilt_past_the_look(0))).size();
+    EXPECT_LT(before, flips_of(state).size());
+    EXPECT_EQ(flips_of(state_after(script)).size(), before) << "it never came to the others";
+}
+
+TEST(RigsPast, ARecordingOfItAllEndsInTheSameState) {
+    const TempFolder folder;
+    const std::string recording = (folder / "r.jsonl").string(), state = (folder / "s.json").string();
+    ScriptText script = tilt_past_the_look();
+    script.command("time.seek", {{"ticks_back", 12}})
+        .command("time.replay")
+        .wait(5)
+        .command("time.incident", {{"number", 0}})
+        .wait(2)
+        .command("view.rig_strip", {{"of", "past"}})
+        .command("rig.time", {{"tick", 20}})
+        .command("rig.flips", {{"degrees", 20}})
+        .command("time.play")
+        .wait(30)
+        .command("undo")
+        .wait(3);
+    const Json recorded = play(script, {.more = {"--record", recording}}).state;
+    ASSERT_TRUE(succeeded(run_program({"--headless", "--script", recording, "--state", state})));
+    EXPECT_EQ(app::parse_json(read(state)), recorded);
+}
+
+}  // namespace
+}  // namespace tendril::test
