@@ -156,7 +156,8 @@ std::vector<Shown> full_humanoids() {
     all.push_back({"several nodes",
                    {walk, call("humanoid.spring", {{"node", "HeadTop_End"}}),
                     call("humanoid.limits", {{"from", "none"}, {"bone", "Head"}}),
-                    call("humanoid.select", {{"nodes", {"Hips", "Head", "LeftHand", "HeadTop_End"}}})},
+                    call("humanoid.select",
+                         {{"nodes", SharedJson(Json::array({"Hips", "Head", "LeftHand", "HeadTop_End"}))}})},
                    20});
     all.push_back({"a spring",
                    {walk, call("humanoid.spring", {{"node", "HeadTop_End"}}),
