@@ -28,16 +28,11 @@ class Drawing {
           part_(humanoid_part(view.workspace)),
           shown_(shown_pose(view.workspace)),
           body_(body_nodes(part_)),
-          springs_(part_.skeleton().size()),
-          selected_(part_.skeleton().find(part_.selected)),
+          springs_(swinging_nodes(part_, humanoid_runtime(view.workspace).solvers)),
           clad_(part_.loaded->character.skin.mesh && part_.view.skin != SkinLook::None),
           tapered_(bones_setting().chosen(view.workspace.settings) == 0),
           helpers_(helpers_setting().chosen(view.workspace.settings) == 0),
-          thickest_(static_cast<float>(0.014 * glm::distance(part_.loaded->low, part_.loaded->high))) {
-        for (const auto& chain : humanoid_runtime(view.workspace).solvers.springs(part_))
-            if (chain != nullptr)
-                for (const std::size_t each : chain->bones()) springs_[each] = true;
-    }
+          thickest_(static_cast<float>(0.014 * glm::distance(part_.loaded->low, part_.loaded->high))) {}
 
     void run() {
         const std::size_t middle = part_.node_of(humanoid::Bone::Hips).value_or(0);
@@ -64,8 +59,10 @@ class Drawing {
     bool lit(std::size_t i) const {
         return (view_.dragged != no_pick ? view_.dragged : view_.hovered) == node_pick(i);
     }
+    bool selected(std::size_t i) const { return part_.selection.has(i); }
+    bool active(std::size_t i) const { return part_.selection.active() == i; }
     glm::vec3 marked(glm::vec3 colour, std::size_t i) const {
-        if (selected_ == i) return glm::mix(colour, view_.palette.selection, 0.75f);
+        if (selected(i)) return glm::mix(colour, view_.palette.selection, active(i) ? 0.75f : 0.45f);
         return lit(i) ? glm::mix(colour, view_.palette.accent, 0.6f) : colour;
     }
     /// Whether its limit holds the bone that ends or turns there.
@@ -138,7 +135,7 @@ class Drawing {
         }
     }
     void node(std::size_t i) {
-        const bool marks = selected_ == i || lit(i);
+        const bool marks = selected(i) || lit(i);
         const float radius = (at_limit(i)   ? 6.0f
                               : body_[i]    ? 4.0f
                               : springs_[i] ? 3.0f
@@ -269,7 +266,7 @@ class Drawing {
                                     .rank = 3});
         }
         for (std::size_t i = 0; i < part_.skeleton().size(); ++i) {
-            const bool marks = lit(i) || selected_ == i;
+            const bool marks = lit(i) || selected(i);
             if (!marks && !(always && body_[i] && i % stride == 0)) continue;
             list_.labels.push_back({.at = shown_.point(i),
                                     .clearance = px(10.0f),
@@ -286,8 +283,7 @@ class Drawing {
     const HumanoidPart& part_;
     const ShownPose& shown_;
     std::vector<bool> body_, springs_;  // nodes: of the body, turned by a spring
-    std::optional<std::size_t> selected_;
-    bool clad_;  // in a skin that is drawn: bones stay inside of it
+    bool clad_;                         // in a skin that is drawn: bones stay inside of it
     bool tapered_, helpers_;
     float thickest_;  ///< metres
 };

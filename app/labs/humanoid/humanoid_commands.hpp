@@ -9,6 +9,8 @@ namespace tendril::app {
 
 /// The node of that name; throws std::invalid_argument where there is none.
 std::size_t node_named(const HumanoidPart& part, const std::string& name);
+/// That of "node", or those of "nodes", in their order. Throws Refused, and as node_named() does.
+std::vector<std::size_t> nodes_named(const HumanoidPart& part, const Arguments& given);
 
 /// For the choices of an argument.
 std::vector<std::string> bone_names();

@@ -5,6 +5,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/labs/humanoid/clip/clip_lint.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
+#include "app/labs/humanoid/node_selection.hpp"
 #include "app/labs/kit/json_place.hpp"
 
 namespace tendril::app {
@@ -147,7 +148,7 @@ Json HumanoidPart::save() const {
     if (!springs.empty()) json["springs"] = springs_json(*this);
     if (!attachments.list.empty()) json["attachments"] = attachments_json(attachments);
     json["quiet_ticks"] = quiet_ticks;
-    json["selected"] = selected;
+    json["selected"] = save_selection(selection, skeleton());
     json["view"] = {{"ghost", view.ghost},
                     {"follow", view.follow},
                     {"skin", skin_looks.name(view.skin)},
@@ -174,8 +175,8 @@ std::shared_ptr<Part> HumanoidPart::load(const Json& json, const std::string& wh
     if (const auto hanging = place.optional("attachments"))
         part->attachments = read_attachments(*hanging, part->skeleton());
     if (const auto ticks = place.optional("quiet_ticks")) part->quiet_ticks = ticks->integer(0, 1'000'000);
-    if (const auto name = place.optional("selected"); name && part->skeleton().find(name->text()))
-        part->selected = name->text();
+    if (const auto selected = place.optional("selected"))
+        part->selection = load_selection(*selected, part->skeleton());
     if (const auto shown = place.optional("view")) {
         if (const auto ghost = shown->optional("ghost")) part->view.ghost = ghost->flag();
         if (const auto skin = shown->optional("skin")) part->view.skin = skin->choice(skin_looks);

@@ -32,6 +32,11 @@ class HumanoidLab final : public Lab {
     void double_click(const Workspace& workspace, PickId pick, Emit& emit) const override;
     std::vector<MouseHelp> mouse_help() const override;
     void click(const Workspace& workspace, PickId pick, Emit& emit) const override;
+    void click_more(const Workspace& workspace, PickId pick, Emit& emit) const override;
+    bool selects_by_box() const override { return true; }
+    std::vector<Handle> selectable(const Workspace& workspace) const override;
+    void select(const Workspace& workspace, const std::vector<PickId>& picks, bool add,
+                Emit& emit) const override;
     std::string hint(const Workspace& workspace, PickId pick) const override;
     Bounds bounds(const Workspace& workspace, bool selection_only) const override;
     bool take_file(const std::string& path, Emit& emit) const override;

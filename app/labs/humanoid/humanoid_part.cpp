@@ -1,5 +1,7 @@
 #include "app/labs/humanoid/humanoid_part.hpp"
 
+#include "app/labs/humanoid/node_selection.hpp"
+
 namespace tendril::app {
 
 using humanoid::Bone;
@@ -30,7 +32,7 @@ std::optional<Bone> HumanoidPart::bone_of(std::size_t node) const {
 std::shared_ptr<const Part> HumanoidPart::at_moment(std::shared_ptr<const Part> then) const {
     auto part = std::make_shared<HumanoidPart>(dynamic_cast<const HumanoidPart&>(*then));
     part->view = view;
-    part->selected = part->skeleton().find(selected) ? selected : std::string();
+    part->selection = selection_in(part->skeleton(), selection, skeleton());
     return part;
 }
 
@@ -50,14 +52,15 @@ std::size_t HumanoidPart::bytes() const {
     std::size_t swinging = ik_state.release.turns.size() * a_turn;
     for (const humanoid::SpringChainState& each : ik_state.springs)
         swinging += each.masses.size() * sizeof(humanoid::SpringMass);
-    return sizeof(*this) + swinging + (skeleton().size() * a_node + keys * a_key) / sharing + hanging;
+    return sizeof(*this) + swinging + selection.all().size() * sizeof(std::size_t) +
+           (skeleton().size() * a_node + keys * a_key) / sharing + hanging;
 }
 
 bool HumanoidPart::operator==(const HumanoidPart& other) const {
     return loaded == other.loaded && (map == other.map || *map == *other.map) && playback == other.playback &&
            t_pose == other.t_pose && ik == other.ik && springs == other.springs &&
            ik_state == other.ik_state && attachments == other.attachments &&
-           quiet_ticks == other.quiet_ticks && selected == other.selected && view == other.view;
+           quiet_ticks == other.quiet_ticks && selection == other.selection && view == other.view;
 }
 
 void set_bone(HumanoidPart& part, Bone bone, std::optional<std::size_t> node) {

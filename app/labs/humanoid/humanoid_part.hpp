@@ -13,6 +13,7 @@
 #include "app/labs/humanoid/ik/ik_settings.hpp"
 #include "app/labs/humanoid/springs/springs.hpp"
 #include "app/labs/kit/names.hpp"
+#include "app/labs/kit/selection.hpp"
 
 namespace tendril::app {
 
@@ -36,7 +37,7 @@ inline constexpr EnumNames<Skinning, 2> skinnings{"skinning",
 enum class LimitsShown : std::uint8_t { None, Selected, All };
 
 inline constexpr EnumNames<LimitsShown, 3> limits_shown{
-    "limits", {{"none", "none"}, {"selected", "of the selected joint"}, {"all", "of all joints"}}};
+    "limits", {{"none", "none"}, {"selected", "of the selected joints"}, {"all", "of all joints"}}};
 
 struct HumanoidView {
     SkinLook skin = SkinLook::Transparent;
@@ -59,8 +60,8 @@ struct HumanoidPart final : Part {
     std::vector<SpringSetting> springs;
     IkState ik_state;
     Attachments attachments;
-    int quiet_ticks = 0;   ///< since anything was set or swung: springs come to rest meanwhile
-    std::string selected;  ///< a node's name; empty: none
+    int quiet_ticks = 0;  ///< since anything was set or swung: springs come to rest meanwhile
+    Selection selection;  ///< of nodes
     HumanoidView view;
 
     const humanoid::Skeleton& skeleton() const { return loaded->skeleton(); }

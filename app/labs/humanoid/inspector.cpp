@@ -6,7 +6,9 @@
 #include "app/document/units.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/ik/chains.hpp"
+#include "app/labs/humanoid/node_selection.hpp"
 #include "app/labs/humanoid/panels.hpp"
+#include "app/labs/kit/name_list.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/text.hpp"
 
@@ -30,9 +32,15 @@ void position_rows(const glm::dvec3& at) {
 void node_inspector(const HumanoidPanel& panel) {
     section("Selection");
     const HumanoidPart& part = panel.part;
-    const auto node = part.skeleton().find(part.selected);
+    const auto node = part.selection.active();
     if (!node) return note("Nothing is selected.");
-    text_row("node", part.selected);
+    const std::string& name = part.skeleton()[*node].name;
+    if (part.selection.several()) {
+        reading("nodes", "%zu", part.selection.all().size());
+        note(name_list_text(names_of(part.selection, part.skeleton())));
+        note("Shown is " + name + ".");
+    }
+    text_row("node", name);
     const auto bone = part.bone_of(*node);
     text_row("bone", bone ? humanoid::name(*bone) : "none of the body");
     const std::int32_t parent = part.skeleton()[*node].parent;
@@ -42,7 +50,7 @@ void node_inspector(const HumanoidPanel& panel) {
     if (!shown.before.empty())
         reading("from before", "%.1f mm",
                 1000.0 * glm::distance(shown.placed[*node].position, shown.before[*node].position));
-    spring_inspector(panel, *node);
+    spring_inspector(panel);
 }
 
 void target_inspector(const HumanoidPanel& panel) {

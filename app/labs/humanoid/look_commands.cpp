@@ -1,13 +1,22 @@
 // What is selected and how it is shown; leaves no step to undo.
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/kit/arguments.hpp"
+#include "app/labs/kit/name_list.hpp"
 
 namespace tendril::app {
 namespace {
 
 void select(HumanoidPart& part, const Arguments& given) {
-    part.selected.clear();
-    if (given.has("node")) part.selected = part.skeleton()[node_named(part, given.text("node"))].name;
+    const bool add = given.has("add") && given.boolean("add");
+    if (!given.has("node") && !given.has("nodes")) {
+        if (!add) part.selection.clear();
+        return;
+    }
+    const std::vector<std::size_t> nodes = nodes_named(part, given);
+    if (given.has("node") && add)
+        part.selection.toggle(nodes.front());
+    else
+        part.selection.take(nodes, add);
 }
 
 void set_view(HumanoidPart& part, const Arguments& given) {
@@ -22,8 +31,11 @@ void set_view(HumanoidPart& part, const Arguments& given) {
 
 void add_humanoid_look_commands(CommandTable& table) {
     table.add(part_command<HumanoidPart>(
-        humanoid_lab, "humanoid.select", "Select a node", {node_argument("node", false, "by name")},
-        "Selects a node; nothing when it is left out", select, Effect::Look));
+        humanoid_lab, "humanoid.select", "Select nodes",
+        {node_argument("node", false, "by name; nothing is selected when all are left out"),
+         name_list_argument("nodes", "node"),
+         switch_argument("add", "true: adds to what is selected, or with node takes out what is")},
+        "Selects nodes of the character", select, Effect::Look));
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.view", "Set how the character is shown",
         {switch_argument("ghost", "of the pose as it was before anything changed it"),

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
+#include "app/document/json_complete.hpp"
 #include "app/labs/humanoid/character/figure.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
@@ -31,12 +32,19 @@ Handle effector_handle(const Workspace& workspace, Effector effector) {
     return handle;
 }
 
-/// The effector whose bone is selected.
+/// The effector whose bone alone is selected.
 std::optional<Effector> selected_effector(const HumanoidPart& part) {
-    const auto node = part.skeleton().find(part.selected);
+    const auto node = part.selection.active();
+    if (!node || part.selection.several()) return std::nullopt;
     for (const Effector effector : all_effectors)
-        if (node && part.node_of(humanoid::bone_of(effector)) == *node) return effector;
+        if (part.node_of(humanoid::bone_of(effector)) == *node) return effector;
     return std::nullopt;
+}
+
+/// The one that is clicked, or whose effector is.
+std::optional<std::size_t> clicked_node(const HumanoidPart& part, PickId pick) {
+    const auto effector = picked_effector(pick);
+    return effector ? part.node_of(humanoid::bone_of(*effector)) : picked_node(part, pick);
 }
 
 std::string effector_hint(const HumanoidPart& part, Effector effector) {
@@ -83,12 +91,11 @@ void HumanoidLab::drag(const Workspace& workspace, PickId pick, const Handle::Fr
 void HumanoidLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
     const HumanoidPart& part = humanoid_part(workspace);
     auto& waiting = humanoid_runtime(workspace).panel.bone;
-    const auto effector = picked_effector(pick);
-    const auto node = effector ? part.node_of(humanoid::bone_of(*effector)) : picked_node(part, pick);
+    const auto node = clicked_node(part, pick);
     if (pick == look_pick) return;
     if (!node) {
         waiting.reset();
-        if (!part.selected.empty()) emit("humanoid.select");
+        if (!part.selection.empty()) emit("humanoid.select");
         return;
     }
     const std::string& name = part.skeleton()[*node].name;
@@ -97,7 +104,40 @@ void HumanoidLab::click(const Workspace& workspace, PickId pick, Emit& emit) con
             emit("humanoid.map", {{"bone", humanoid::name(*waiting)}, {"node", name}});
         waiting.reset();
     }
-    if (part.selected != name) emit("humanoid.select", {{"node", name}});
+    if (part.selection.active() != node || part.selection.several())
+        emit("humanoid.select", {{"node", name}});
+}
+
+void HumanoidLab::click_more(const Workspace& workspace, PickId pick, Emit& emit) const {
+    const HumanoidPart& part = humanoid_part(workspace);
+    if (const auto node = clicked_node(part, pick))
+        emit("humanoid.select", {{"node", part.skeleton()[*node].name}, {"add", true}});
+}
+
+/// The nodes that are drawn.
+std::vector<Handle> HumanoidLab::selectable(const Workspace& workspace) const {
+    const HumanoidPart& part = humanoid_part(workspace);
+    const bool helpers = helpers_setting().chosen(workspace.settings) == 0;
+    const std::vector<bool> body = body_nodes(part),
+                            springs = swinging_nodes(part, humanoid_runtime(workspace).solvers);
+    std::vector<Handle> nodes = handles(workspace);
+    std::erase_if(nodes, [&](const Handle& each) {
+        const auto node = picked_node(part, each.pick);
+        return !node || !(body[*node] || springs[*node] || helpers);
+    });
+    return nodes;
+}
+
+void HumanoidLab::select(const Workspace& workspace, const std::vector<PickId>& picks, bool add,
+                         Emit& emit) const {
+    const HumanoidPart& part = humanoid_part(workspace);
+    Json nodes = Json::array();
+    for (const PickId pick : picks)
+        if (const auto node = picked_node(part, pick)) nodes.push_back(part.skeleton()[*node].name);
+    if (!nodes.empty())
+        emit("humanoid.select", {{"nodes", SharedJson(std::move(nodes))}, {"add", add}});
+    else if (!add)
+        click(workspace, no_pick, emit);
 }
 
 void HumanoidLab::double_click(const Workspace& workspace, PickId pick, Emit& emit) const {
@@ -112,7 +152,7 @@ std::string HumanoidLab::hint(const Workspace& workspace, PickId pick) const {
     const auto effector = picked_effector(pick);
     if (pick == look_pick) return "what the head looks at: drag moves it.";
     if (effector && !waiting) return effector_hint(part, *effector);
-    const auto node = effector ? part.node_of(humanoid::bone_of(*effector)) : picked_node(part, pick);
+    const auto node = clicked_node(part, pick);
     if (!node) return {};
     const std::string& name = part.skeleton()[*node].name;
     if (waiting) return name + ": click makes it the " + humanoid::name(*waiting) + ".";
@@ -124,20 +164,26 @@ std::string HumanoidLab::hint(const Workspace& workspace, PickId pick) const {
 
 std::vector<MouseHelp> HumanoidLab::mouse_help() const {
     return {{"Drag of an orange ball", "gives hand, foot, head or hips a target"},
-            {"Double click on an orange ball", "lets it go"}};
+            {"Double click on an orange ball", "lets it go"},
+            {"Shift+click on a bone", "adds it to the selection, or takes it out"},
+            {"Ctrl+drag on nothing", "draws a box that selects the nodes in it; with Shift it adds them"}};
 }
 
 Bounds HumanoidLab::bounds(const Workspace& workspace, bool selection_only) const {
     const HumanoidPart& part = humanoid_part(workspace);
     const ShownPose& shown = shown_pose(workspace);
     const float size = static_cast<float>(std::max(0.01, glm::distance(part.loaded->low, part.loaded->high)));
-    if (const auto selected = part.skeleton().find(part.selected); selection_only && selected)
-        return {shown.point(*selected), 0.12f * size};
-    glm::vec3 low = shown.point(0), high = low;
+    const std::vector<std::size_t>& selected = part.selection.all();
+    const bool all = !selection_only || selected.empty();
+    glm::vec3 low = shown.point(all ? 0 : selected.front()), high = low;
     const auto take = [&](glm::vec3 at) {
         low = glm::min(low, at);
         high = glm::max(high, at);
     };
+    if (!all) {
+        for (const std::size_t node : selected) take(shown.point(node));
+        return bounds_of(low, high, 0.12f * size);
+    }
     for (std::size_t i = 0; i < part.skeleton().size(); ++i) take(shown.point(i));
     for (const auto& target : part.ik.targets)
         if (target) take(glm::vec3(target->position));

@@ -140,7 +140,7 @@ void look_rows(const HumanoidPanel& panel) {
             "left to those.");
     }
     int limits = static_cast<int>(view.limits);
-    constexpr const char* joints[]{"no joint", "selected joint",
+    constexpr const char* joints[]{"no joint", "selected joints",
                                    "all joints"};  // in the order of LimitsShown
     if (choice_field("limits of", limits, joints, 3))
         panel.emit("humanoid.view", {{"limits", limits_shown.name(static_cast<LimitsShown>(limits))}});

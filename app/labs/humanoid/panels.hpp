@@ -51,11 +51,12 @@ void map_rows(const HumanoidPanel& panel);
 // right
 /// How far effectors are from their targets.
 void target_inspector(const HumanoidPanel& panel);
-/// The selected node.
+// What is set here is set on all that is selected; what can only be read is that of the active one.
+/// The selected nodes.
 void node_inspector(const HumanoidPanel& panel);
-/// The spring that turns the selected node, or could.
-void spring_inspector(const HumanoidPanel& panel, std::size_t node);
-/// How far the selected joint is turned, and may be.
+/// The springs that turn the selected nodes, or could.
+void spring_inspector(const HumanoidPanel& panel);
+/// How far the selected joints are turned, and may be.
 void limit_inspector(const HumanoidPanel& panel);
 /// The character in numbers.
 void character_inspector(const HumanoidPanel& panel);

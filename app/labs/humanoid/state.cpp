@@ -6,6 +6,8 @@
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/ik/chains.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
+#include "app/labs/humanoid/limits/selected_joints.hpp"
+#include "app/labs/humanoid/node_selection.hpp"
 #include "app/labs/humanoid/panels.hpp"
 
 namespace tendril::app {
@@ -138,13 +140,12 @@ Json range_json(const ik::Limit* limit) {
             {"twist_max_deg", in_degrees(limit->twist_max)}};
 }
 
-/// How the selected joint is turned, and may be; null without one.
+/// How the joint that the inspector shows is turned, and may be; null without one.
 Json joint_state(const HumanoidPart& part, Solvers& solvers, const ShownPose& shown) {
-    const auto node = part.skeleton().find(part.selected);
-    const auto bone = node ? part.bone_of(*node) : std::nullopt;
-    const auto joint = bone ? joint_now(part, solvers, shown, *bone) : std::nullopt;
+    const SelectedJoints selected = selected_joints(part, solvers);
+    const auto joint = selected.shown ? joint_now(part, solvers, shown, *selected.shown) : std::nullopt;
     if (!joint) return nullptr;
-    return {{"bone", humanoid::name(*bone)},
+    return {{"bone", humanoid::name(*selected.shown)},
             {"limits", limits_from.name(joint->from)},
             {"up_deg", in_degrees(joint->angles.up)},
             {"left_deg", in_degrees(joint->angles.left)},
@@ -293,7 +294,8 @@ Json HumanoidLab::state(const Workspace& workspace) const {
                 {"springs", springs_state(workspace, shown)},
                 {"attachments", attachments_state(part)},
                 {"order", {"clip", "IK", "rig", "ropes"}},
-                {"selected", part.selected}};
+                {"selected", active_name(part.selection, part.skeleton())},
+                {"selection", names_of(part.selection, part.skeleton())}};
 }
 
 }  // namespace tendril::app

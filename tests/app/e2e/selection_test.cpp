@@ -97,6 +97,60 @@ TEST(SelectByMouse, ABoxAroundACornerOfAClothSelectsAllParticlesThere) {
     EXPECT_EQ(after["camera"], start["camera"]);
 }
 
+ScriptText figure() {
+    ScriptText script;
+    script.command("lab.open", {{"name", "humanoid"}}).command("time.pause");
+    return script.command("camera.view", {{"name", "front"}}).command("camera.frame", {{"what", "all"}});
+}
+
+TEST(SelectByMouse, ShiftClickAddsABoneOfTheFigureAndTakesItOut) {
+    const Json start = state_after(figure());
+    ScriptText script = figure();
+    script.click(handle(start, "node.LeftLowerArm")).hold("shift");
+    script.click(handle(start, "node.RightLowerArm")).click(handle(start, "left_hand"));
+    Json state = state_after(script);
+    EXPECT_EQ(state["selection"].size(), 3u);
+    EXPECT_EQ(state["selected"], "LeftHand") << "its ball stands for the hand";
+    // Beside all of it Shift keeps what is selected.
+    script.click(handle(start, "node.LeftLowerArm")).click({320, 120}).release("shift");
+    state = state_after(script);
+    EXPECT_EQ(state["selection"].size(), 2u);
+    EXPECT_EQ(state_after(script.click({320, 120}))["selection"], Json::array());
+    script.click(handle(start, "node.Spine"));
+    EXPECT_EQ(state_after(script)["selection"], Json::array({"Spine"}));
+}
+
+TEST(SelectByMouse, ABoxSelectsTheNodesOfTheFigureThatAreSeen) {
+    const Json start = state_after(figure());
+    const glm::vec2 hand = handle(start, "node.LeftHand"), margin(25.0f, 25.0f);
+    const glm::vec2 end = handle(start, "node.LeftHand_End");
+    ScriptText script = figure();
+    box(script, glm::min(hand, end) - margin, glm::max(hand, end) + margin);
+    const Json state = state_after(script);
+    EXPECT_EQ(state["selection"], Json({"LeftHand", "LeftHand_End"}));
+    EXPECT_EQ(state["camera"], start["camera"]);
+    EXPECT_TRUE(state["body"]["targets"].empty());
+    const glm::vec2 foot = handle(start, "node.RightLowerLeg");
+    EXPECT_EQ(state_after(box(script, foot - margin, foot + margin, true))["selection"].size(), 3u);
+    // A box in which nothing is selects nothing.
+    box(script, {320, 120}, {340, 140});
+    EXPECT_EQ(state_after(script)["selection"], Json::array());
+}
+
+TEST(SelectByMouse, ABoxLeavesOutHelperNodesThatAreHidden) {
+    ScriptText script = figure();
+    script.command("humanoid.load", {{"path", TENDRIL_SOURCE_DIR "/tests/app/golden/antennae.bvh"}}).wait(2);
+    const glm::vec2 tip = handle(state_after(script), "node.antenna_l_5"), margin(25.0f, 25.0f);
+    ScriptText hidden = script;
+    hidden.command("view.character_helpers", {{"nodes", "hidden"}}).wait(2);
+    ScriptText swinging = hidden;
+    swinging.command("humanoid.spring", {{"node", "antenna_l_1"}}).wait(2);
+    for (const auto& [text, seen] : {std::pair(&script, true), {&hidden, false}, {&swinging, true}}) {
+        const Json selection = state_after(box(*text, tip - margin, tip + margin))["selection"];
+        EXPECT_EQ(!selection.empty(), seen) << selection;
+    }
+}
+
 TEST(ChainGizmo, AnArrowOfTheTargetMovesItAlongThatAxisAlone) {
     ScriptText script;
     script.command("chain.mode", {{"mode", "reach"}});

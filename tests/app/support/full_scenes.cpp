@@ -156,6 +156,12 @@ std::vector<Shown> full_humanoids() {
     std::vector<Shown> all;
     for (const char* node : {"LeftHand", "Head", "Hips", "HeadTop_End", "LeftLowerLeg"})
         all.push_back({node, {walk, call("humanoid.select", {{"node", node}})}});
+    all.push_back({"several nodes",
+                   {walk, call("humanoid.spring", {{"node", "HeadTop_End"}}),
+                    call("humanoid.limits", {{"from", "none"}, {"bone", "Head"}}),
+                    call("humanoid.select",
+                         {{"nodes", SharedJson(Json::array({"Hips", "Head", "LeftHand", "HeadTop_End"}))}})},
+                   20});
     all.push_back({"a spring",
                    {walk, call("humanoid.spring", {{"node", "HeadTop_End"}}),
                     call("humanoid.select", {{"node", "HeadTop_End"}})},

@@ -62,9 +62,10 @@ void bone_row(const HumanoidPanel& panel, Bone bone) {
     const float width = ImGui::GetContentRegionAvail().x;
     ImGui::PushID(static_cast<int>(bone));
     if (ImGui::Selectable("##row", waiting == bone, 0, {width, line})) {
-        waiting = waiting == bone ? std::nullopt : std::optional(bone);
-        if (match.node >= 0 && waiting)
-            panel.emit("humanoid.select", {{"node", node_name(panel.part, match.node)}});
+        const bool more = ImGui::GetIO().KeyShift;
+        if (!more) waiting = waiting == bone ? std::nullopt : std::optional(bone);
+        if (match.node >= 0 && (more || waiting))
+            panel.emit("humanoid.select", {{"node", node_name(panel.part, match.node)}, {"add", more}});
     }
     if (ImGui::IsItemHovered()) bone_tooltip(panel.part, bone);
     ImGui::PopID();

@@ -6,7 +6,10 @@
 #include "app/labs/humanoid/character/kept_maps.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "app/labs/humanoid/node_selection.hpp"
 #include "app/labs/kit/arguments.hpp"
+#include "app/labs/kit/index_list.hpp"
+#include "app/labs/kit/name_list.hpp"
 #include "app/view/camera.hpp"
 
 namespace tendril::app {
@@ -24,7 +27,9 @@ void show_all(Workspace& workspace, const LoadedCharacter& character) {
 
 void show(Workspace& workspace, SharedCharacter character) {
     HumanoidPart part(std::move(character));
-    part.view = humanoid_part(workspace).view;
+    const HumanoidPart& before = humanoid_part(workspace);
+    part.view = before.view;
+    part.selection = selection_in(part.skeleton(), before.selection, before.skeleton());
     workspace.document.edit<HumanoidPart>(humanoid_lab) = part;
     show_all(workspace, *part.loaded);
     if (const std::string& why = humanoid_runtime(workspace).kept_maps.refused(workspace); !why.empty())
@@ -111,6 +116,13 @@ std::size_t node_named(const HumanoidPart& part, const std::string& name) {
     throw std::invalid_argument("the character has no node \"" + name + "\"");
 }
 
+std::vector<std::size_t> nodes_named(const HumanoidPart& part, const Arguments& given) {
+    if (gives_one(given, "node", "nodes")) return {node_named(part, given.text("node"))};
+    std::vector<std::size_t> nodes;
+    for (const std::string& name : name_list(given, "nodes")) nodes.push_back(node_named(part, name));
+    return nodes;
+}
+
 Argument node_argument(const char* name, bool required, const char* help) {
     return offering(text_argument(name, required, help), [](const Workspace& w) {
         return names(humanoid_part(w).skeleton().nodes(),
@@ -125,14 +137,16 @@ Argument clip_argument(const char* name, const char* help) {
 }
 
 void add_character_commands(CommandTable& table) {
-    table.add({.name = "humanoid.load",
-               .title = "Load a character",
-               .arguments = {text_argument(
-                   "path", false, "a .gltf, .glb, .fbx or .bvh file; the stick figure when left out")},
-               .help = "Loads a character, as it rests, with nothing playing",
-               .effect = Effect::Edit,
-               .apply = load,
-               .finish = finish_loading});
+    table.add(
+        {.name = "humanoid.load",
+         .title = "Load a character",
+         .arguments = {text_argument("path", false,
+                                     "a .gltf, .glb, .fbx or .bvh file; the stick figure when left out")},
+         .help = "Loads a character, as it rests, with nothing playing; selected nodes that it has too stay "
+                 "selected",
+         .effect = Effect::Edit,
+         .apply = load,
+         .finish = finish_loading});
     table.add({.name = "humanoid.load.cancel",
                .title = "Stop loading the character",
                .arguments = {},

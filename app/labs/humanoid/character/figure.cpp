@@ -44,6 +44,14 @@ std::vector<bool> body_nodes(const HumanoidPart& part) {
     return body;
 }
 
+std::vector<bool> swinging_nodes(const HumanoidPart& part, Solvers& solvers) {
+    std::vector<bool> swinging(part.skeleton().size());
+    for (const auto& chain : solvers.springs(part))
+        if (chain != nullptr)
+            for (const std::size_t each : chain->bones()) swinging[each] = true;
+    return swinging;
+}
+
 glm::dvec3 end_of(const HumanoidPart& part, std::size_t node) {
     const std::int32_t parent = part.skeleton()[node].parent;
     if (parent < 0) return glm::dvec3(0.0);

@@ -23,6 +23,8 @@ std::optional<std::size_t> picked_node(const HumanoidPart& part, PickId pick);
 /// Of each node, whether it is part of the body: mapped, between mapped ones, or the end of a mapped one.
 /// Fingers, twist bones and what carries the whole are not. All are, where hardly anything is mapped.
 std::vector<bool> body_nodes(const HumanoidPart& part);
+/// Of each node, whether a spring turns it.
+std::vector<bool> swinging_nodes(const HumanoidPart& part, Solvers& solvers);
 
 /// Nodes of the body that end in nothing, and how far the picture lets them go on, in their own space.
 glm::dvec3 end_of(const HumanoidPart& part, std::size_t node);

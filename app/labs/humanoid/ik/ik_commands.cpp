@@ -9,6 +9,8 @@
 #include "app/labs/humanoid/ik/release.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
 #include "app/labs/kit/arguments.hpp"
+#include "app/labs/kit/index_list.hpp"
+#include "app/labs/kit/name_list.hpp"
 
 namespace tendril::app {
 namespace {
@@ -33,25 +35,37 @@ void set_target(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     if (given.has("weight")) target->weight = given.real("weight");
 }
 
+/// That of "bone", or those of "bones".
+std::vector<std::string> joints_named(const Arguments& given) {
+    if (gives_one(given, "bone", "bones")) return {given.text("bone")};
+    std::vector<std::string> joints = name_list(given, "bones");
+    if (joints.empty()) throw Refused("bones is empty");
+    return joints;
+}
+
+void set_joint_limits(const IkNow& now, HumanoidPart& part, const std::string& name, LimitsFrom from) {
+    const auto bone = humanoid::bone_named(name);
+    if (!bone) throw std::invalid_argument("there is no bone \"" + name + "\"");
+    const LimitRanges& ranges = now.solvers.limits(part);
+    if (!part.node_of(*bone)) throw std::invalid_argument("the character has no " + name);
+    if (ranges.adult(*bone) == nullptr) throw std::invalid_argument("the " + name + " joint has no limits");
+    if (from == LimitsFrom::Motion && ranges.clips(*bone) == nullptr)
+        throw std::invalid_argument("no clip turns the " + name + " joint");
+    part.ik.joint_limits.erase(*bone);
+    if (from != part.ik.limits) part.ik.joint_limits[*bone] = from;
+}
+
 void set_limits(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     const LimitsFrom from = limits_from.value(given.text("from"));
     if (from == LimitsFrom::Motion && part.loaded->clips().empty())
         throw std::invalid_argument("the character has no clips to learn limits from");
     part.ik_state.body = {};  // it goes no farther than its targets do: where limits are new, it begins anew
-    if (!given.has("bone")) {
+    if (!given.has("bone") && !given.has("bones")) {
         part.ik.limits = from;
         part.ik.joint_limits.clear();
         return;
     }
-    const std::string name = given.text("bone");
-    const humanoid::Bone bone = *humanoid::bone_named(name);
-    const LimitRanges& ranges = now.solvers.limits(part);
-    if (!part.node_of(bone)) throw std::invalid_argument("the character has no " + name);
-    if (ranges.adult(bone) == nullptr) throw std::invalid_argument("the " + name + " joint has no limits");
-    if (from == LimitsFrom::Motion && ranges.clips(bone) == nullptr)
-        throw std::invalid_argument("no clip turns the " + name + " joint");
-    part.ik.joint_limits.erase(bone);
-    if (from != part.ik.limits) part.ik.joint_limits[bone] = from;
+    for (const std::string& name : joints_named(given)) set_joint_limits(now, part, name, from);
 }
 
 void set_ground(const IkNow&, HumanoidPart& part, const Arguments& given) {
@@ -132,7 +146,8 @@ void add_ik_commands(CommandTable& table) {
     table.add(ik_command(
         "humanoid.limits", "Choose where joint limits come from",
         {choice_argument("from", true, "which", limits_from.names()),
-         choice_argument("bone", false, "of that joint alone; of all when left out", bone_names())},
+         choice_argument("bone", false, "of that joint alone; of all when both are left out", bone_names()),
+         name_list_argument("bones", "bone")},
         "Says where the limits of the joints come from", set_limits));
 }
 

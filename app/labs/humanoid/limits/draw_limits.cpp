@@ -6,18 +6,13 @@
 #include "app/labs/humanoid/character/figure.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
+#include "app/labs/humanoid/limits/selected_joints.hpp"
 #include "app/labs/kit/limit_pen.hpp"
 
 namespace tendril::app {
 namespace {
 
 using humanoid::Bone;
-
-/// The bone whose joint is selected.
-std::optional<Bone> selected_bone(const HumanoidPart& part) {
-    const auto node = part.skeleton().find(part.selected);
-    return node ? part.bone_of(*node) : std::nullopt;
-}
 
 bool held(const ShownPose& shown, Bone bone) {
     return shown.body && shown.body->at_limit[static_cast<std::size_t>(bone)];
@@ -33,7 +28,7 @@ class LimitDrawing {
           solvers_(humanoid_runtime(view.workspace).solvers),
           body_(body_nodes(part)) {}
 
-    void selected(Bone bone) {
+    void selected(Bone bone, bool active) {
         const auto joint = joint_now(part_, solvers_, shown_, bone);
         if (!joint) return;
         const LimitRanges& ranges = solvers_.limits(part_);
@@ -43,11 +38,12 @@ class LimitDrawing {
         const auto range = [&](const ik::Limit& limit, glm::vec3 colour, float dial) {
             const bool in_force = joint->in_force == &limit;
             const LimitShape shape = ranges.shape(bone, limit, shown_);
-            const LimitPen pen = pen_of(bone, radius, beyond && in_force ? view_.palette.limit : colour,
-                                        in_force ? 1.0f : 0.7f, in_force);
-            pen.fill(shape);
+            const LimitPen pen =
+                pen_of(bone, radius, beyond && in_force ? view_.palette.limit : colour,
+                       (in_force ? 1.0f : 0.7f) * (active ? 1.0f : 0.5f), in_force && active);
+            if (active) pen.fill(shape);
             pen.outline(shape);
-            pen.dial(shape, joint->angles, 0.62f, dial);
+            if (active) pen.dial(shape, joint->angles, 0.62f, dial);
         };
         range(*joint->adult, adult_colour(view_.palette), 0.3f);
         if (joint->clips != nullptr) range(*joint->clips, clips_colour(view_.palette), 0.24f);
@@ -134,27 +130,29 @@ void draw_limits(const View& view, DrawList& list, const HumanoidPart& part, con
         humanoid_runtime(view.workspace).solvers.body(part) == nullptr)
         return;
     LimitDrawing drawing(view, list, part, shown);
-    const auto chosen = selected_bone(part);
+    const SelectedJoints chosen = selected_joints(part, humanoid_runtime(view.workspace).solvers);
     for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
         const auto bone = static_cast<Bone>(i);
-        if (!part.node_of(bone) || chosen == bone) continue;
+        if (!part.node_of(bone) || chosen.has(bone)) continue;
         if (held(shown, bone))
             drawing.held_back(bone);
         else if (part.view.limits == LimitsShown::All)
             drawing.discreet(bone);
     }
-    if (chosen) drawing.selected(*chosen);
+    for (const Bone bone : chosen.all)
+        if (bone != chosen.shown) drawing.selected(bone, false);
+    if (chosen.shown) drawing.selected(*chosen.shown, true);
 }
 
 std::vector<LegendRow> limits_legend(const Workspace& workspace) {
     const HumanoidPart& part = humanoid_part(workspace);
     Solvers& solvers = humanoid_runtime(workspace).solvers;
     if (part.view.limits == LimitsShown::None || solvers.body(part) == nullptr) return {};
-    const auto chosen = selected_bone(part);
+    const SelectedJoints chosen = selected_joints(part, solvers);
     bool adult = false, clips = false;
     for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
         const auto bone = static_cast<Bone>(i);
-        if (part.view.limits != LimitsShown::All && chosen != bone) continue;
+        if (part.view.limits != LimitsShown::All && !chosen.has(bone)) continue;
         adult = adult || solvers.limits(part).adult(bone) != nullptr;
         clips = clips || solvers.limits(part).clips(bone) != nullptr;
     }

@@ -1,12 +1,16 @@
-// The selected joint in degrees: how it is turned, and how far an adult's goes and the clips take it.
+// The selected joints: the active one in degrees, how it is turned, and how far an adult's goes and the clips
+// take it; which of the two holds is set on all.
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
 
+#include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
 #include "app/labs/humanoid/limits/draw_limits.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
+#include "app/labs/humanoid/limits/selected_joints.hpp"
 #include "app/labs/humanoid/panels.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
@@ -132,30 +136,67 @@ std::string in_words(const JointNow& joint) {
     return text + (joint.held ? "; it is at its limit." : ".");
 }
 
+using Joints = std::vector<Bone>;
+
+Json names_of(const Joints& joints) {
+    Json list = Json::array();
+    for (const Bone bone : joints) list.push_back(humanoid::name(bone));
+    return list;
+}
+
+/// A command's arguments: the limits of which joints come from where.
+ArgumentList taking(LimitsFrom from, const Joints& joints) {
+    const NamedArgument which = joints.size() == 1 ? NamedArgument{"bone", humanoid::name(joints.front())}
+                                                   : NamedArgument{"bones", SharedJson(names_of(joints))};
+    return {{"from", limits_from.name(from)}, which};
+}
+
+/// Where the limits come from: each joint's own range of that kind, about its own axes.
+void source_row(const HumanoidPanel& panel, const Joints& joints, LimitsFrom shown) {
+    const LimitRanges& ranges = panel.runtime.solvers.limits(panel.part);
+    Joints turned;
+    for (const Bone bone : joints)
+        if (ranges.clips(bone) != nullptr) turned.push_back(bone);
+    int from = static_cast<int>(shown);
+    const auto titles = limits_from.titles();
+    const char* why_not[]{nullptr, turned.empty() ? "no clip turns it" : nullptr, nullptr};
+    if (choice_field("range", from, titles.data(), static_cast<int>(titles.size()), why_not)) {
+        const auto chosen = static_cast<LimitsFrom>(from);
+        panel.emit("humanoid.limits", taking(chosen, chosen == LimitsFrom::Motion ? turned : joints));
+    }
+    explain(joints.size() == 1 ? "How far this joint may turn; the others stay as they are."
+                               : "How far each of these joints may turn, about its own axes.");
+    if (const std::size_t still = joints.size() - turned.size(); still > 0 && !turned.empty())
+        note("No clip turns " + std::to_string(still) + " of them: there the clips' range cannot be chosen.");
+}
+
+void several_note(const HumanoidPanel& panel, const SelectedJoints& joints) {
+    const std::size_t others = panel.part.selection.all().size() - joints.all.size();
+    if (others > 0)
+        note(count_text(others, "selected node") + (others == 1 ? " has" : " have") + " no limits.");
+    if (joints.all.size() < 2) return;
+    const LimitsFrom shown = panel.part.ik.limits_of(*joints.shown);
+    const bool alike =
+        std::ranges::all_of(joints.all, [&](Bone bone) { return panel.part.ik.limits_of(bone) == shown; });
+    note((alike ? "Shown is " : "They differ. Shown is ") + std::string(humanoid::name(*joints.shown)) +
+         "; what you set, you set on all.");
+}
+
 }  // namespace
 
 void limit_inspector(const HumanoidPanel& panel) {
     const HumanoidPart& part = panel.part;
-    const auto node = part.skeleton().find(part.selected);
-    const auto bone = node ? part.bone_of(*node) : std::nullopt;
-    if (!bone) return;
+    const SelectedJoints joints = selected_joints(part, panel.runtime.solvers);
+    if (!joints.shown) return;
     const ShownPose& shown = panel.runtime.shown(panel.workspace);
-    const auto joint = joint_now(part, panel.runtime.solvers, shown, *bone);
+    const auto joint = joint_now(part, panel.runtime.solvers, shown, *joints.shown);
     if (!joint) return;
-    section(("Limits of " + std::string(humanoid::name(*bone))).c_str());
-    table(panel, *bone, *joint);
+    section(joints.all.size() == 1 ? ("Limits of " + std::string(humanoid::name(*joints.shown))).c_str()
+                                   : ("Limits of " + count_text(joints.all.size(), "joint")).c_str());
+    several_note(panel, joints);
+    table(panel, *joints.shown, *joint);
     note(in_words(*joint));
-    const auto take = [&](LimitsFrom from) {
-        panel.emit("humanoid.limits", {{"from", limits_from.name(from)}, {"bone", humanoid::name(*bone)}});
-    };
-    const bool by_clips = joint->in_force != nullptr && joint->in_force == joint->clips;
-    if (by_clips) {
-        if (row_button("Use an adult's range", 1, true, "For this joint alone")) take(LimitsFrom::Defaults);
-    } else if (row_button("Use the clips' range", 1, joint->clips != nullptr,
-                          joint->clips != nullptr ? "For this joint alone" : "No clip turns this joint")) {
-        take(LimitsFrom::Motion);
-    }
-    end_row();
+    source_row(panel, joints.all, joint->from);
 }
 
 void limit_rows(const HumanoidPanel& panel) {

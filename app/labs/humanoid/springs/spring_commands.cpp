@@ -3,6 +3,7 @@
 
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/kit/arguments.hpp"
+#include "app/labs/kit/name_list.hpp"
 
 namespace tendril::app {
 namespace {
@@ -14,7 +15,8 @@ void drop(HumanoidPart& part, std::size_t which) {
 }
 
 /// The spring from just that node on.
-std::optional<std::size_t> spring_from(const HumanoidPart& part, const std::string& node) {
+std::optional<std::size_t> spring_from(const HumanoidPart& part, std::size_t from) {
+    const std::string& node = part.skeleton()[from].name;
     for (std::size_t i = 0; i < part.springs.size(); ++i)
         if (part.springs[i].node == node) return i;
     return std::nullopt;
@@ -31,10 +33,8 @@ std::size_t added(HumanoidPart& part, std::size_t node) {
     return part.springs.size() - 1;
 }
 
-void set_spring(HumanoidPart& part, const Arguments& given) {
-    const std::size_t node = node_named(part, given.text("node"));
-    const std::vector<SpringSetting> before = part.springs;
-    std::optional<std::size_t> which = spring_from(part, given.text("node"));
+void set_spring(HumanoidPart& part, std::size_t node, const Arguments& given) {
+    std::optional<std::size_t> which = spring_from(part, node);
     if (given.has("on") && !given.boolean("on")) {
         if (which) drop(part, *which);
         return;
@@ -45,23 +45,31 @@ void set_spring(HumanoidPart& part, const Arguments& given) {
     if (given.has("critical_damping")) spring.critical_damping = given.real("critical_damping");
     if (given.has("weight")) spring.weight = given.real("weight");
     if (given.has("max_angle_deg")) spring.max_angle_deg = given.real("max_angle_deg");
-    if (part.springs != before) part.quiet_ticks = 0;
+}
+
+void set_springs(HumanoidPart& part, const Arguments& given) {
+    const std::vector<std::size_t> nodes = nodes_named(part, given);
+    if (nodes.empty()) throw Refused("nodes is empty");
+    const std::vector<SpringSetting> before = part.springs;
+    for (const std::size_t node : nodes) set_spring(part, node, given);
+    const bool removes = given.has("on") && !given.boolean("on");
+    if (!removes && part.springs != before) part.quiet_ticks = 0;
 }
 
 }  // namespace
 
 void add_spring_commands(CommandTable& table) {
     table.add(part_command<HumanoidPart>(
-        humanoid_lab, "humanoid.spring", "Let a node swing on springs",
-        {node_argument("node", true, "by name: it and all that hangs on it, no bones of the body"),
-         switch_argument("on", "or off"),
+        humanoid_lab, "humanoid.spring", "Let nodes swing on springs",
+        {node_argument("node", false, "by name: it and all that hangs on it, no bones of the body"),
+         name_list_argument("nodes", "node"), switch_argument("on", "or off"),
          number_argument("strength", "of the tip, Hz; the base is stiffer", softest_spring, stiffest_spring),
          number_argument("critical_damping", "0 swings for ever, 1 does not swing past", 0.0,
                          most_spring_damping),
          number_argument("weight", "how much of the swing is shown", 0.0, 1.0),
          number_argument("max_angle_deg", "by which a bone turns against the clip at most, degrees", 0.0,
                          widest_swing_deg)},
-        "Lets ears, antennae or a tail trail behind by springs; what is left out stays", set_spring));
+        "Lets ears, antennae or a tail trail behind by springs; what is left out stays", set_springs));
 }
 
 }  // namespace tendril::app

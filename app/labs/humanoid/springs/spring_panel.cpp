@@ -1,8 +1,12 @@
 // The panel's rows of springs on the character's own nodes.
 #include <imgui.h>
 
+#include <algorithm>
 #include <glm/trigonometric.hpp>
 
+#include "app/document/json_complete.hpp"
+#include "app/document/units.hpp"
+#include "app/labs/humanoid/node_selection.hpp"
 #include "app/labs/humanoid/panels.hpp"
 #include "app/labs/kit/folding.hpp"
 #include "app/widgets/fields.hpp"
@@ -16,7 +20,9 @@ void spring_row(const HumanoidPanel& panel, std::size_t which) {
     reading(each.node.c_str(), "%.0f\u00b0",
             glm::degrees(panel.runtime.shown(panel.workspace).springs[which].angle));
     explain("How far the bone that swings farthest is turned from the clip now.");
-    if (row_button("Settings", 2, panel.part.selected != each.node, "Selects it: they are in the inspector"))
+    const bool shown = !panel.part.selection.several() &&
+                       active_name(panel.part.selection, panel.part.skeleton()) == each.node;
+    if (row_button("Settings", 2, !shown, "Selects it: they are in the inspector"))
         panel.emit("humanoid.select", {{"node", each.node}});
     if (row_button("Remove", 2, true, "It follows the clip alone again"))
         panel.emit("humanoid.spring", {{"node", each.node}, {"on", false}});
@@ -43,29 +49,35 @@ void add_row(const HumanoidPanel& panel) {
     end_search();
 }
 
-}  // namespace
-
-void spring_rows(const HumanoidPanel& panel) {
-    if (!folding_section(panel.workspace, "Springs", panel.emit)) return;
-    if (panel.part.springs.empty())
-        note("Ears, antennae and tails that the file has trail behind the head or the hips.");
-    for (std::size_t i = 0; i < panel.part.springs.size(); ++i) spring_row(panel, i);
-    if (panel.part.springs.size() < most_springs) add_row(panel);
+/// Which nodes a command is about: one, or several.
+NamedArgument of_nodes(const std::vector<std::string>& nodes) {
+    if (nodes.size() == 1) return {"node", nodes.front()};
+    return {"nodes", SharedJson(Json(nodes))};
 }
 
-void spring_inspector(const HumanoidPanel& panel, std::size_t node) {
-    const auto there = spring_on(panel.part, node);
-    if (!there) {
-        if (why_no_spring(panel.part, node).empty() && panel.part.springs.size() < most_springs &&
-            row_button("Put on a spring", 1, true, "It and all that hangs on it trail behind the clip"))
-            panel.emit("humanoid.spring", {{"node", panel.part.skeleton()[node].name}});
-        end_row();
-        return;
-    }
-    const SpringSetting& spring = panel.part.springs[*there];
-    section(("Spring from " + spring.node + " on").c_str());
+void put_on_springs_row(const HumanoidPanel& panel) {
+    std::vector<std::string> nodes;
+    for (const std::size_t node : selected_for_springs(panel.part))
+        nodes.push_back(panel.part.skeleton()[node].name);
+    if (nodes.empty()) return;
+    const bool free = panel.part.springs.size() + nodes.size() <= most_springs;
+    const std::string too_many = "There are " + std::to_string(most_springs) + " springs at most";
+    if (row_button(nodes.size() == 1 ? "Put on a spring" : "Put on springs", 1, free,
+                   free ? "It and all that hangs on it trail behind the clip" : too_many.c_str()))
+        panel.emit("humanoid.spring", {of_nodes(nodes)});
+    end_row();
+}
+
+bool same_settings(SpringSetting a, const SpringSetting& b) {
+    a.node = b.node;
+    return a == b;
+}
+
+/// What one sets of the one that is shown, one sets on all.
+void setting_rows(const HumanoidPanel& panel, const SpringSetting& spring,
+                  const std::vector<std::string>& nodes) {
     const auto set = [&](const char* argument, float value) {
-        panel.emit.continuously("humanoid.spring", {{"node", spring.node}, {argument, value}});
+        panel.emit.continuously("humanoid.spring", {of_nodes(nodes), {argument, value}});
     };
     auto strength = static_cast<float>(spring.strength),
          damping = static_cast<float>(spring.critical_damping), weight = static_cast<float>(spring.weight),
@@ -82,8 +94,40 @@ void spring_inspector(const HumanoidPanel& panel, std::size_t node) {
     if (number_field("at most", angle, 0.5f, 0.0f, widest_swing_deg, "%.0f\u00b0"))
         set("max_angle_deg", angle);
     explain("By which a bone turns against the clip at most.");
-    if (panel.runtime.solvers.springs(panel.part)[*there] == nullptr)
-        note("The bone map has made one of its nodes a bone of the body: it follows the clip.");
+}
+
+}  // namespace
+
+void spring_rows(const HumanoidPanel& panel) {
+    if (!folding_section(panel.workspace, "Springs", panel.emit)) return;
+    if (panel.part.springs.empty())
+        note("Ears, antennae and tails that the file has trail behind the head or the hips.");
+    for (std::size_t i = 0; i < panel.part.springs.size(); ++i) spring_row(panel, i);
+    if (panel.part.springs.size() < most_springs) add_row(panel);
+}
+
+void spring_inspector(const HumanoidPanel& panel) {
+    const HumanoidPart& part = panel.part;
+    put_on_springs_row(panel);
+    const std::vector<std::size_t> selected = selected_springs(part);
+    if (selected.empty()) return;
+    const std::size_t shown = spring_on(part, *part.selection.active()).value_or(selected.back());
+    const SpringSetting& spring = part.springs[shown];
+    std::vector<std::string> nodes;
+    for (const std::size_t each : selected) nodes.push_back(part.springs[each].node);
+    section(nodes.size() == 1 ? ("Spring from " + spring.node + " on").c_str()
+                              : (count_text(nodes.size(), "spring") + " selected").c_str());
+    const bool alike = std::ranges::all_of(
+        selected, [&](std::size_t each) { return same_settings(part.springs[each], spring); });
+    if (nodes.size() > 1)
+        note((alike ? "Shown is that from " : "They differ. Shown is that from ") + spring.node +
+             " on; what you set, you set on all.");
+    setting_rows(panel, spring, nodes);
+    const SpringChains& chains = panel.runtime.solvers.springs(part);
+    for (const std::size_t each : selected)
+        if (chains[each] == nullptr)
+            note("The bone map has made a node of the spring from " + part.springs[each].node +
+                 " on a bone of the body: it follows the clip.");
 }
 
 }  // namespace tendril::app

@@ -1,5 +1,6 @@
 #include "app/labs/humanoid/springs/springs.hpp"
 
+#include <algorithm>
 #include <glm/trigonometric.hpp>
 
 #include "app/document/json_complete.hpp"
@@ -65,6 +66,31 @@ std::string why_no_spring(const HumanoidPart& part, std::size_t node) {
     }
     if (part.skeleton()[node].parent < 0) return name + " hangs on nothing";
     return overlap(part, node);
+}
+
+std::vector<std::size_t> selected_for_springs(const HumanoidPart& part) {
+    std::vector<std::size_t> nodes;
+    const auto taken = [&](std::size_t node) {
+        return std::ranges::any_of(nodes,
+                                   [&](std::size_t above) { return part.skeleton().is_below(node, above); });
+    };
+    for (const std::int32_t each : part.skeleton().order()) {
+        const auto node = static_cast<std::size_t>(each);
+        if (part.selection.has(node) && !taken(node) && why_no_spring(part, node).empty())
+            nodes.push_back(node);
+    }
+    return nodes;
+}
+
+std::vector<std::size_t> selected_springs(const HumanoidPart& part) {
+    std::vector<std::size_t> springs;
+    for (std::size_t i = 0; i < part.springs.size(); ++i)
+        if (const auto root = part.skeleton().find(part.springs[i].node);
+            root && std::ranges::any_of(part.selection.all(), [&](std::size_t node) {
+                return part.skeleton().is_below(node, *root);
+            }))
+            springs.push_back(i);
+    return springs;
 }
 
 Json springs_json(const HumanoidPart& part) {

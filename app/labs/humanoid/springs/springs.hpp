@@ -35,6 +35,10 @@ std::optional<std::size_t> spring_on(const HumanoidPart& part, std::size_t node)
 /// Why there can be no spring from that node on, in words: another spring is in the way, or the node is the
 /// body's, or hangs on nothing; empty where there can be one, if it has some length.
 std::string why_no_spring(const HumanoidPart& part, std::size_t node);
+/// Those of the selected nodes from which there can be a spring, without what hangs on another one of them.
+std::vector<std::size_t> selected_for_springs(const HumanoidPart& part);
+/// The places in the part's list of the springs that turn what is selected, ascending.
+std::vector<std::size_t> selected_springs(const HumanoidPart& part);
 
 Json springs_json(const HumanoidPart& part);
 /// Throws std::runtime_error that begins with the place of what is wrong.

@@ -1,0 +1,273 @@
+// Several nodes of a character selected: by command, and what is set on all of them.
+#include <algorithm>
+#include <random>
+
+#include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "app/labs/humanoid/limits/limit_ranges.hpp"
+#include "app/labs/humanoid/node_selection.hpp"
+#include "humanoid_support.hpp"
+#include "tests/app/support/panel_text.hpp"
+#include "tests/app/support/temp_folder.hpp"
+
+namespace tendril::app {
+namespace {
+
+using humanoid::Bone;
+using Names = std::vector<std::string>;
+
+class HumanoidSelection : public HumanoidTest {
+  protected:
+    void select(const Names& nodes) { run("humanoid.select", {{"nodes", nodes}}); }
+    /// Without regard to the skeleton's order.
+    Names selected() const {
+        Names names = names_of(part().selection, part().skeleton());
+        std::sort(names.begin(), names.end());
+        return names;
+    }
+    std::string active() const { return state().at("selected"); }
+    std::string inspector() { return reader_.inspector(lab(), workspace); }
+    void expect_says(const std::string& text, const Names& all) {
+        for (const std::string& each : all)
+            EXPECT_NE(text.find(each), std::string::npos) << each << " is not in:\n" << text;
+    }
+    LimitsFrom from(Bone bone) const { return part().ik.limits_of(bone); }
+
+    test::PanelReader reader_;
+};
+
+TEST_F(HumanoidSelection, AddsAndTakesOut) {
+    run("humanoid.select", {{"node", "LeftHand"}});
+    run("humanoid.select", {{"node", "Head"}, {"add", true}});
+    EXPECT_EQ(selected(), (Names{"Head", "LeftHand"}));
+    EXPECT_EQ(active(), "Head");
+    run("humanoid.select", {{"node", "Head"}, {"add", true}});
+    EXPECT_EQ(selected(), Names{"LeftHand"});
+    run("humanoid.select", {{"nodes", {"RightFoot", "Hips"}}, {"add", true}});
+    EXPECT_EQ(selected(), (Names{"Hips", "LeftHand", "RightFoot"}));
+    EXPECT_EQ(active(), "Hips") << "the last one";
+    EXPECT_EQ(state().at("selection").size(), 3u);
+    run("humanoid.select", {{"add", true}});
+    EXPECT_EQ(selected().size(), 3u);
+    select({"Spine"});
+    EXPECT_EQ(selected(), Names{"Spine"});
+    run("humanoid.select");
+    EXPECT_TRUE(selected().empty());
+    EXPECT_EQ(active(), "");
+}
+
+TEST_F(HumanoidSelection, WhatIsNoNodeIsRefusedAndChangesNothing) {
+    select({"Head", "Hips"});
+    expect_refused("humanoid.select", {{"nodes", {"Head", "Tail"}}}, {"Tail"});
+    expect_refused("humanoid.select", {{"nodes", {"Head", 3}}}, {"nodes", "3"});
+    expect_refused("humanoid.select", {{"nodes", "Head"}}, {"nodes"});
+    expect_refused("humanoid.select", {{"node", "Head"}, {"nodes", Json::array({"Hips"})}},
+                   {"needs node, or nodes"});
+    expect_refused("humanoid.limits", {{"from", "none"}, {"bones", {"Head", "Tail"}}}, {"Tail"});
+    expect_refused("humanoid.limits", {{"from", "none"}, {"bones", {"Head", "Hips"}}},
+                   {"the Hips joint has no limits"});
+    expect_refused("humanoid.limits", {{"from", "none"}, {"bones", Json::array({nullptr})}},
+                   {"bones", "null"});
+    expect_refused("humanoid.limits", {{"from", "none"}, {"bones", Json::array()}}, {"bones is empty"});
+    expect_refused("humanoid.limits", {{"from", "none"}, {"bone", "Head"}, {"bones", Json::array({"Neck"})}},
+                   {"needs bone, or bones"});
+    expect_refused("humanoid.spring", {{"nodes", {"HeadTop_End", "LeftHand"}}}, {"LeftHand"});
+    expect_refused("humanoid.spring", {{"nodes", Json::array()}}, {"nodes is empty"});
+    expect_refused("humanoid.spring", {{"strength", 2}}, {"needs node, or nodes"});
+}
+
+TEST_F(HumanoidSelection, ALimitGoesOnAllAboutEachOnesOwnAxes) {
+    const Names arms{"LeftUpperArm", "RightUpperArm", "LeftLowerArm"};
+    const humanoid::BodyLimits adult = humanoid::default_limits(part().skeleton(), *part().map);
+    const humanoid::BodyLimits clips =
+        humanoid::learned_limits(part().skeleton(), *part().map, part().loaded->clips(), adult);
+    run("humanoid.limits", {{"from", "motion"}, {"bones", arms}});
+    humanoid::Body* const body = humanoid_runtime(workspace).solvers.body(part());
+    for (const std::string& name : arms) {
+        const Bone bone = *humanoid::bone_named(name);
+        const auto at = static_cast<std::size_t>(bone);
+        EXPECT_EQ(from(bone), LimitsFrom::Motion);
+        EXPECT_EQ(body->joints().limit(bone), clips[at]) << name;
+        EXPECT_NE(clips[at], adult[at]) << name;
+    }
+    EXPECT_NE(clips[static_cast<std::size_t>(Bone::LeftUpperArm)],
+              clips[static_cast<std::size_t>(Bone::RightUpperArm)])
+        << "a range of its own each";
+    EXPECT_EQ(from(Bone::RightLowerArm), LimitsFrom::Defaults);
+    EXPECT_EQ(part().ik.joint_limits.size(), 3u);
+    EXPECT_EQ(lab().state(reopened()).at("body"), state().at("body"));
+    run("undo");
+    EXPECT_TRUE(part().ik.joint_limits.empty()) << "one step for all";
+}
+
+TEST_F(HumanoidSelection, TheInspectorSaysHowManyAndWhichIsShown) {
+    select({"LeftUpperArm", "RightUpperArm", "Head"});
+    expect_says(inspector(), {"3", "Shown is Head.", "Limits of 3 joints",
+                              "Shown is Head; what you set, you set on all."});
+    run("humanoid.limits", {{"from", "none"}, {"bone", "LeftUpperArm"}});
+    expect_says(inspector(), {"They differ. Shown is Head"});
+    // The active one has no limits: another is shown, here and in the state.
+    select({"LeftUpperArm", "RightUpperArm", "Hips"});
+    expect_says(inspector(), {"Shown is Hips.", "1 selected node has no limits.", "Limits of 2 joints",
+                              "Shown is RightUpperArm; what you set"});
+    EXPECT_EQ(state().at("body").at("joint").at("bone"), "RightUpperArm");
+    select({"Hips", "HeadTop_End"});
+    EXPECT_EQ(inspector().find("Limits of"), std::string::npos);
+    EXPECT_TRUE(state().at("body").at("joint").is_null());
+    EXPECT_FALSE(lab().gizmo(workspace));
+    select({"LeftHand", "RightHand"});
+    EXPECT_FALSE(lab().gizmo(workspace)) << "of several";
+    select({"LeftHand"});
+    EXPECT_TRUE(lab().gizmo(workspace));
+    EXPECT_EQ(inspector().find("set on all"), std::string::npos);
+}
+
+TEST_F(HumanoidSelection, AreMarkedTheActiveOneStrongest) {
+    const Palette& colours = palette(Theme::Dark);
+    const auto share = [&](const char* node) {
+        const Camera camera({.target = {0.0f, 0.9f, 0.0f}, .distance = 3.6f},
+                            {{0.0f, 0.0f}, {1000.0f, 700.0f}});
+        DrawList list;
+        lab().draw({.workspace = workspace, .camera = camera, .palette = colours}, list);
+        const auto pick = static_cast<PickId>(*part().skeleton().find(node));
+        for (const Stroke& each : list.strokes)
+            if (each.pick == pick && each.shade != Shade::Ring)
+                return glm::distance(glm::vec3(each.colour), colours.selection);
+        ADD_FAILURE() << node << " is not drawn";
+        return 0.0f;
+    };
+    select({"LeftHand", "RightHand"});
+    EXPECT_LT(share("RightHand"), share("LeftHand"));
+    EXPECT_LT(share("LeftHand"), share("Head"));
+}
+
+TEST_F(HumanoidSelection, SpringsAreSetOnAll) {
+    run("humanoid.load", {{"path", TENDRIL_SOURCE_DIR "/tests/app/golden/antennae.bvh"}});
+    // The body, and what hangs on another one that is selected, gets none.
+    select({"Head", "antenna_l_1", "antenna_l_3", "antenna_r_2", "tail_1"});
+    const auto names = [&](const std::vector<std::size_t>& nodes) {
+        Names all;
+        for (const std::size_t node : nodes) all.push_back(part().skeleton()[node].name);
+        std::sort(all.begin(), all.end());
+        return all;
+    };
+    EXPECT_EQ(names(selected_for_springs(part())), (Names{"antenna_l_1", "antenna_r_2", "tail_1"}));
+    expect_says(inspector(), {"Put on springs"});
+    run("humanoid.spring", {{"nodes", names(selected_for_springs(part()))}});
+    ASSERT_EQ(part().springs.size(), 3u);
+    EXPECT_TRUE(selected_for_springs(part()).empty());
+    run("humanoid.spring", {{"node", "tail_1"}, {"strength", 0.8}});
+    EXPECT_EQ(selected_springs(part()), (std::vector<std::size_t>{0, 1, 2}));
+    expect_says(inspector(), {"3 springs selected", "They differ. Shown is that from tail_1 on"});
+    select({"antenna_l_3", "antenna_r_2", "Head"});
+    EXPECT_EQ(selected_springs(part()).size(), 2u);
+    expect_says(inspector(), {"2 springs selected", "Shown is that from antenna_r_2 on; what"});
+    run("humanoid.spring", {{"nodes", {"antenna_l_1", "antenna_r_2"}}, {"weight", 0.25}});
+    for (const SpringSetting& each : part().springs)
+        EXPECT_EQ(each.weight, each.node == "tail_1" ? 1.0 : 0.25) << each.node;
+    run("undo");
+    for (const SpringSetting& each : part().springs) EXPECT_EQ(each.weight, 1.0) << "one step for all";
+    run("humanoid.spring", {{"nodes", {"antenna_l_1", "antenna_r_2", "tail_1"}}, {"on", false}});
+    EXPECT_TRUE(part().springs.empty());
+}
+
+TEST_F(HumanoidSelection, ComesBackFromAFile) {
+    for (const Names& nodes :
+         {Names{}, Names{"Head"}, Names{"LeftHand", "Head"}, Names{"Head", "LeftFoot", "HeadTop_End"}}) {
+        select(nodes);
+        const Workspace other = reopened();
+        EXPECT_EQ(humanoid_part(other).selection, part().selection);
+        EXPECT_EQ(lab().state(other).at("selected"), nodes.empty() ? "" : nodes.back());
+    }
+    const auto loaded = [&](const Json& json) {
+        Json scene = save_scene(workspace);
+        scene.at("labs").at(humanoid_lab)["selected"] = json;
+        Workspace other = make_blank_workspace(labs);
+        load_scene(other, scene);
+        return names_of(humanoid_part(other).selection, humanoid_part(other).skeleton());
+    };
+    EXPECT_EQ(loaded("Head"), Names{"Head"}) << "as older files have it";
+    EXPECT_TRUE(loaded("").empty());
+    EXPECT_TRUE(loaded(nullptr).empty());
+    EXPECT_TRUE(loaded("Tail").empty()) << "another character lies where that of the scene was";
+    EXPECT_EQ(loaded({{"active", "Tail"}, {"all", {"Head", "Tail"}}}), Names{"Head"});
+    const auto says = [&](const Json& json, const std::string& what) {
+        try {
+            loaded(json);
+            ADD_FAILURE() << json << " was accepted";
+        } catch (const std::runtime_error& error) {
+            EXPECT_NE(std::string(error.what()).find("selected" + what), std::string::npos) << error.what();
+        }
+    };
+    says(7, "");
+    says({{"active", "Head"}}, "");
+    says({{"all", Json::array({"Head"})}}, "");
+    says({{"active", "Head"}, {"all", Json::array({"Hips"})}}, ".active");
+    says({{"active", "Head"}, {"all", "Head"}}, ".all");
+    says({{"active", "Head"}, {"all", {"Head", 1}}}, ".all");
+}
+
+TEST_F(HumanoidSelection, OnAnotherCharacterWhatIsThereStaysSelected) {
+    select({"HeadTop_End", "LeftHand", "Head"});
+    const Selection before = part().selection;
+    const test::TempFolder folder;
+    test::write(folder / "figure.bvh", bvh_figure());
+    run("humanoid.load", {{"path", (folder / "figure.bvh").string()}});
+    for (const std::string& name : selected()) EXPECT_TRUE(name == "Head" || name == "LeftHand") << name;
+    EXPECT_EQ(selected().size(), 2u);
+    EXPECT_EQ(active(), "Head");
+    run("undo");
+    EXPECT_EQ(part().selection, before);
+    run("humanoid.load", {{"path", TENDRIL_SOURCE_DIR "/tests/app/golden/antennae.bvh"}});
+    select({"antenna_l_1", "tail_1"});
+    run("humanoid.load");
+    EXPECT_TRUE(selected().empty());
+    EXPECT_EQ(active(), "");
+}
+
+TEST_F(HumanoidSelection, StaysOverTheSecondsAndThroughOtherCharacters) {
+    const auto then = std::make_shared<HumanoidPart>(part());
+    select({"Head", "LeftHand"});
+    const auto shown = part().at_moment(then);
+    EXPECT_EQ(dynamic_cast<const HumanoidPart&>(*shown).selection, part().selection);
+    const HumanoidPart other(load_character(TENDRIL_SOURCE_DIR "/tests/app/golden/antennae.bvh"));
+    HumanoidPart now = other;
+    now.selection.take({*now.skeleton().find("Head"), *now.skeleton().find("tail_1")}, false);
+    const auto earlier = now.at_moment(then);
+    const auto& figure = dynamic_cast<const HumanoidPart&>(*earlier);
+    EXPECT_EQ(names_of(figure.selection, figure.skeleton()), Names{"Head"});
+}
+
+/// Against what commands say that they do, kept as a plain list.
+TEST_F(HumanoidSelection, AnyOrderOfCommandsComesToWhatTheySay) {
+    std::mt19937 random(7);
+    const auto below = [&](std::size_t n) {
+        return std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
+    };
+    const std::size_t count = part().skeleton().size();
+    Names wanted;
+    for (int round = 0; round < 300; ++round) {
+        Names nodes;
+        for (std::size_t i = below(4); i-- > 0;) nodes.push_back(part().skeleton()[below(count)].name);
+        const bool add = below(3) > 0, one = nodes.size() == 1 && below(2) == 0;
+        const auto there = one && add ? std::find(wanted.begin(), wanted.end(), nodes[0]) : wanted.end();
+        if (one)
+            run("humanoid.select", {{"node", nodes[0]}, {"add", add}});
+        else
+            run("humanoid.select", {{"nodes", nodes}, {"add", add}});
+        if (!add) wanted.clear();
+        if (add && there != wanted.end())
+            wanted.erase(there);
+        else
+            for (const std::string& each : nodes)
+                if (std::find(wanted.begin(), wanted.end(), each) == wanted.end()) wanted.push_back(each);
+        std::sort(wanted.begin(), wanted.end());
+        ASSERT_EQ(selected(), wanted) << round;
+        ASSERT_EQ(active().empty(), wanted.empty());
+        if (round % 50 == 0) {
+            ASSERT_EQ(humanoid_part(reopened()).selection, part().selection);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tendril::app
