@@ -62,10 +62,11 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
 }
 
 /// Of several particles.
-void several_rows(const RopePart& part, const rope::Body& body, const std::vector<std::size_t>& all, Emit& emit) {
+void several_rows(const RopePart& part, const rope::Body& body, const std::vector<std::size_t>& all,
+                  Emit& emit) {
     const NamedWorld& world = *part.world;
-    const auto pinned = static_cast<std::size_t>(std::count_if(
-        all.begin(), all.end(), [&](std::size_t i) { return world.pinned(body.first + i); }));
+    const auto pinned = static_cast<std::size_t>(
+        std::count_if(all.begin(), all.end(), [&](std::size_t i) { return world.pinned(body.first + i); }));
     reading("body", "%s", world.name(body).c_str());
     reading("particles", "%zu of %zu", all.size(), body.count);
     reading("pinned", "%zu", pinned);
@@ -180,8 +181,9 @@ void number_rows(const Workspace& workspace, const Palette& palette) {
     const RopeSample last = part.samples.empty() ? RopeSample{} : part.samples.back();
     reading("length error", "%.4f %%", 100.0 * static_cast<double>(last.error));
     explain("How far the worst segment is from its length, as one sees it: after contact.");
-    reading("before contact", "%.4f %%", 100.0 * static_cast<double>(last.stretch));
-    explain("The length error as the solver left it, before colliders displaced anything.");
+    reading("as solved", "%.4f %%", 100.0 * static_cast<double>(last.stretch));
+    explain(
+        "The length error as the solver left it: of cloth and hair, before colliders displaced anything.");
     reading("energy", "%.3f J", static_cast<double>(last.energy));
     reading("substeps dropped", "%llu", static_cast<unsigned long long>(state.dropped));
     explain(
@@ -198,10 +200,9 @@ void number_rows(const Workspace& workspace, const Palette& palette) {
     ImGui::SameLine(0.0f, ImGui::GetFontSize());
     colour_mark(palette.limit);
     ImGui::AlignTextToFramePadding();
-    ImGui::TextDisabled("before contact");
-    const Curve errors[] = {
-        curve("length error", palette.ghost, part.samples, &RopeSample::error, 100.0f),
-        curve("before contact", palette.limit, part.samples, &RopeSample::stretch, 100.0f)};
+    ImGui::TextDisabled("as solved");
+    const Curve errors[] = {curve("length error", palette.ghost, part.samples, &RopeSample::error, 100.0f),
+                            curve("as solved", palette.limit, part.samples, &RopeSample::stretch, 100.0f)};
     plot("length error", errors, {.x = "time", .x_unit = "s", .y = "", .y_unit = "%", .min_y = 1e-4f}, 9.0f);
     const Curve energy[] = {curve("energy", palette.accent, part.samples, &RopeSample::energy, 1.0f)};
     plot("energy", energy, {.x = "time", .x_unit = "s", .y = "energy", .y_unit = "J", .min_y = 0.0f}, 9.0f);

@@ -94,6 +94,7 @@ void Workspace::Parts::add_up(Advance& done) {
         shortened = std::max(shortened, thread.done.shortened);
         done.work += thread.done.work;
         done.unresolved += thread.done.unresolved;
+        done.unconverged += thread.done.unconverged;
         thread.done = {};
     }
     done.passes += passes;

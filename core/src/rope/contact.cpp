@@ -1,4 +1,6 @@
-// Keeping particles and links out of colliders while the solver works.
+// Keeping particles and links out of colliders while the solver works: of cloth and hair, and of all with a
+// solver that takes one link after the other. Ropes that are solved directly have their own
+// (chain_contact.cpp).
 //
 // How far a collider has displaced a particle in a substep is remembered: the part along the normal bounds
 // friction (Coulomb's law, as displacements). What tension has drawn into the collider is part of it, so the

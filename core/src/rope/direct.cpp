@@ -5,13 +5,14 @@
 // it is solved again from the tension that was found, which now acts along the links' new directions: that
 // converges, and costs energy.
 //
-// Contacts are resolved last. So what tension draws into a collider shows as depth, and bounds friction: a
-// rope around a post has the friction of Euler and Eytelwein. The length errors that this causes are
-// corrected in the next substep.
+// A chain that touches colliders is solved with its contacts, by Newton's method (chain_newton.hpp). Where
+// chains share particles, as in a cloth, contacts are resolved last: what tension draws into a collider shows
+// as depth, and bounds friction. The length errors that this causes are corrected in the next substep.
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "rope/chain_newton.hpp"
 #include "rope/geometry.hpp"
 #include "rope/substep.hpp"
 
@@ -46,7 +47,30 @@ struct Substep::Batch {
     bool single = false;
 };
 
+/// Chains that share nothing: what touches something is solved with its contacts, all else as if in the air;
+/// what that brings into a collider, or fails, is solved again with contacts.
+int Substep::direct_alone() {
+    ChainNewton newton(state_, plan_, island_, scratch_, local_);
+    const std::uint32_t first = island_.chains.first, end = first + island_.chains.count;
+    const auto near = [&](std::uint32_t r) { return scratch_.body_near[plan_.chains[r].body] != 0; };
+    for (std::uint32_t r = first; r < end; ++r) {
+        scratch_.chain_solved[r] = near(r) && newton.find(r) && newton.touches();
+        if (scratch_.chain_solved[r] != 0) newton.solve();
+    }
+    report_.work += island_.links.count;
+    for (const Plan::Group& group : Plan::part(plan_.groups, island_.groups)) solve_group(group, 0);
+    for (std::uint32_t r = first; r < end; ++r) {
+        if (scratch_.chain_solved[r] != 0) continue;
+        const bool failed = !(scratch_.chain_error[r] <= fallback_error);
+        if ((newton.find(r) && newton.inside()) || failed) newton.solve();
+    }
+    measure();
+    limit_energy();
+    return 1;
+}
+
 int Substep::direct() {
+    if (island_.alone) return direct_alone();
     for (const std::uint32_t i : Plan::part(plan_.soft, island_.soft)) scratch_.multiplier[i] = 0.0;
     for (const Plan::Chain& chain : Plan::part(plan_.chains, island_.chains)) {
         if (!chain.alone) std::fill_n(scratch_.multiplier.begin() + chain.first_link, chain.links, 0.0);
@@ -73,8 +97,8 @@ int Substep::direct() {
     return passes;
 }
 
-/// The fallback: a body that could not be solved (or cannot be: it is asked for the impossible) is relaxed,
-/// which always ends somewhere sensible.
+/// The fallback where chains share particles: a body that could not be solved (or cannot be: it is asked for
+/// the impossible) is relaxed, which always ends somewhere sensible.
 void Substep::relax_failed_bodies() {
     bool any = false;
     const std::span<const std::uint32_t> bodies = Plan::part(plan_.bodies, island_.bodies);
@@ -116,7 +140,13 @@ double Substep::solve_group(const Plan::Group& group, int iteration) {
     double worst = 0.0;
     const auto lanes = static_cast<std::uint32_t>(scratch_.unit.lanes);
     for (std::uint32_t done = 0; done < group.chains;) {
-        const std::uint32_t left = group.chains - done;
+        if (scratch_.chain_solved[group.first_chain + done] != 0) {
+            ++done;
+            continue;
+        }
+        std::uint32_t left = 1;
+        while (done + left < group.chains && scratch_.chain_solved[group.first_chain + done + left] == 0)
+            ++left;
         // A few chains are quicker one by one than in a register that is mostly empty.
         const bool single = left < 2 || lanes == 1;
         const std::uint32_t count = single ? 1 : std::min(left, lanes);
@@ -137,7 +167,7 @@ double Substep::solve_batch(const Batch& batch, int iteration) {
         // Chains that share particles undo part of what the others did, and contacts leave length errors to
         // begin with: there the plain direction serves best.
         const std::uint32_t body = plan_.chains[batch.chain + std::min(lane, batch.count - 1)].body;
-        const bool contact = scratch_.body_near[body] != 0;
+        const bool contact = !island_.alone && scratch_.body_near[body] != 0;
         order.backward[lane] = first.alone && !contact ? min_backward : 1.0;
         const int max_passes = !first.alone ? 1 : contact ? 4 : 2;
         order.passes[lane] = std::min(max_passes, state_.settings.iterations);
@@ -160,8 +190,9 @@ double Substep::solve_batch(const Batch& batch, int iteration) {
 }
 
 void Substep::solve_again(std::uint32_t chain) {
-    const double enough =
-        scratch_.body_near[plan_.chains[chain].body] != 0 ? 10.0 * accepted_error : accepted_error;
+    const double enough = !island_.alone && scratch_.body_near[plan_.chains[chain].body] != 0
+                              ? 10.0 * accepted_error
+                              : accepted_error;
     if (scratch_.chain_error[chain] <= enough && !gains_energy(chain, 1e-4)) return;
     const Plan::Chain& it = plan_.chains[chain];
     Block block{local_.block.data() + local_.block_offset, it.links, 1};
@@ -228,7 +259,7 @@ void Substep::scatter(const Block& block, std::uint32_t lane, std::uint32_t numb
 /// and what is in its links; nothing where something else than gravity has worked on it.
 double Substep::energy_gained(std::uint32_t number) const {
     const Plan::Chain& chain = plan_.chains[number];
-    if (!chain.alone || scratch_.body_near[chain.body]) return 0.0;
+    if (!chain.alone || (!island_.alone && scratch_.body_near[chain.body] != 0)) return 0.0;
     const double per_square = 1.0 / (h_ * h_);
     double gained = 0.0;
     for (std::uint32_t k = 0; k <= chain.links; ++k) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "rope/chain_system.hpp"
 #include "rope/direct_block.hpp"
 #include "rope/plan.hpp"
 #include "tendril/rope/world.hpp"
@@ -46,11 +47,50 @@ struct Scratch {
         }
     };
     std::vector<Moving> colliders;
-    std::vector<double> chain_error;  ///< of each chain: relative length error after its last pass
-    std::vector<double> chain_gain;   ///< of each chain: energy it has more of than before, joules
+    std::vector<std::uint8_t> chain_solved;  ///< whether a chain is solved with what it touches
+    std::vector<double> chain_error;         ///< of each chain: relative length error after its last pass
+    std::vector<double> chain_gain;          ///< of each chain: energy it has more of than before, joules
     std::vector<double> chain_scale;  ///< of each chain: what its motion keeps, so that no energy is gained
     std::vector<std::uint32_t> collider_at;  ///< where a slot's collider is in the list
     detail::VectorUnit unit;
+};
+
+/// What solving a chain among colliders takes.
+struct ContactScratch {
+    /// Of a collider, where it is nearest to a particle.
+    struct Plane {
+        std::uint32_t collider = 0;
+        bool active = false;
+        bool passed = false;  ///< what goes its free way does not touch it
+        double gap = 0.0;
+        glm::dvec3 normal{0.0}, point{0.0};  ///< a particle on the plane touches
+        glm::dvec3 by{0.0};                  ///< how far the collider has moved there, in the substep
+    };
+    struct Contact {
+        std::uint32_t node = 0;
+        std::uint32_t first = 0, count = 0;  ///< in `planes`
+    };
+    /// Of colliders so small that a link can touch them between its ends.
+    struct LinkContact {
+        std::uint32_t bond = 0;
+        std::uint32_t first = 0, count = 0;    ///< in `link_colliders`
+        std::uint32_t collider = 0xffffffffu;  ///< that it touches
+        glm::dvec3 point{0.0};                 ///< on its plane
+    };
+    struct Kept {
+        glm::dvec3 x{0.0};
+        double multiplier = 0.0, error = 0.0;
+    };
+    std::vector<Contact> contacts;  ///< as `holds`, by node
+    std::vector<Plane> planes;
+    std::vector<LinkContact> link_contacts;  ///< as `bond_holds`, by bond
+    std::vector<std::uint32_t> link_colliders;
+    std::vector<detail::ChainNode> nodes;
+    std::vector<detail::ChainBond> bonds;
+    std::vector<detail::NodeContact> holds;
+    std::vector<detail::BondContact> bond_holds;
+    std::vector<Kept> kept;  ///< nodes and bonds before a step
+    std::vector<double> kept_contacts;
 };
 
 /// What solving one island takes; each thread has its own.
@@ -63,6 +103,7 @@ struct IslandScratch {
     std::vector<std::uint32_t> touched;  ///< particles with a touch
     std::vector<double> block;           ///< memory of a block
     std::size_t block_offset = 0;
+    ContactScratch contact;
     Advance done;  ///< in this substep; `passes` of the island that took most
 };
 

@@ -42,7 +42,7 @@ class Substep {
         }
     }
 
-    // contact.cpp: finds what is near, and keeps it out of colliders
+    // contact.cpp: finds what is near, and keeps what is not solved with its contacts out of colliders
     void find_near();
     void resolve_contacts(bool first);
     void resolve_particle(std::uint32_t i, std::uint32_t collider, double radius, bool first);
@@ -61,6 +61,7 @@ class Substep {
     // direct.cpp: whole chains at once
     struct Batch;
     int direct();
+    int direct_alone();
     double solve_group(const Plan::Group& group, int iteration);
     double solve_batch(const Batch& batch, int iteration);
     void solve_again(std::uint32_t chain);

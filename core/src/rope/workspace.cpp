@@ -20,6 +20,7 @@ void size(Scratch& scratch, const State& state, const Plan& plan) {
     scratch.multiplier.resize(state.links.size());
     scratch.chunk_low.resize(plan.chunks.size());
     scratch.chunk_high.resize(plan.chunks.size());
+    scratch.chain_solved.assign(plan.chains.size(), 0);
     scratch.chain_error.assign(plan.chains.size(), 0.0);
     scratch.chain_gain.assign(plan.chains.size(), 0.0);
     scratch.chain_scale.assign(plan.chains.size(), 1.0);
@@ -29,6 +30,12 @@ void size(IslandScratch& scratch, const State& state, const Plan& plan, std::siz
     scratch.touched.clear();
     scratch.touched.reserve(state.position.size());
     scratch.near.reserve(4 * plan.chunks.size());
+    const std::size_t nodes = plan.longest + 1;
+    ContactScratch& contact = scratch.contact;
+    contact.nodes.reserve(nodes), contact.bonds.reserve(nodes), contact.kept.reserve(nodes);
+    contact.contacts.reserve(nodes), contact.holds.reserve(nodes), contact.planes.reserve(4 * nodes);
+    contact.link_contacts.reserve(nodes), contact.bond_holds.reserve(nodes);
+    contact.kept_contacts.reserve(nodes), contact.link_colliders.reserve(4 * nodes);
     constexpr std::size_t alignment = 8;  // doubles: 64 bytes
     scratch.block.assign(detail::Block::doubles(plan.longest, lanes) + alignment, 0.0);
     const auto address = reinterpret_cast<std::uintptr_t>(scratch.block.data());

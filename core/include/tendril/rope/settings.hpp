@@ -13,7 +13,9 @@
 //   tension of the substep before is applied implicitly, because it makes a fine rope stiff sideways
 //   (M. Tournier et al., "Stable Constrained Dynamics", 2015), and it acts along the mean of the directions
 //   before and after, which neither adds energy nor removes it (O. Gonzalez, "Mechanical systems subject to
-//   holonomic constraints", 1999). A cloth is solved row by row and column by column.
+//   holonomic constraints", 1999). A rope that touches colliders is solved together with its contacts and
+//   their friction, by Newton's method: it keeps its length on a ball as it does in the air, with any number
+//   of segments. A cloth is solved row by row and column by column, and its contacts are resolved after that.
 #pragma once
 
 #include <cstddef>

@@ -1,0 +1,338 @@
+// What a chain touches: which planes hold which particle, and how friction drags on it.
+#include <algorithm>
+#include <cmath>
+
+#include "rope/chain_newton.hpp"
+#include "rope/contact_shape.hpp"
+#include "rope/geometry.hpp"
+
+namespace tendril::rope {
+namespace {
+
+using detail::dot;
+using glm::dvec3;
+
+constexpr double slack = 1e-3;         ///< metres that a particle may be pulled beside its free way
+constexpr double touching = 1e-5;      ///< metres above a surface
+constexpr double depth = 1e-7;         ///< metres inside that do no harm
+constexpr double harmful = 1e-6;       ///< metres inside that take another step
+constexpr double harmful_late = 1e-5;  ///< the same after many
+/// What friction lets a particle slip in a substep where it holds it, metres.
+constexpr double creep = 1e-7;
+
+dvec3 beside(const dvec3& v, const dvec3& normal) {
+    return v - dot(v, normal) * normal;
+}
+
+}  // namespace
+
+/// Of the chunk that a particle is in, which is looked for beginning with `chunk`.
+std::span<const IslandScratch::Near> ChainNewton::near_of(std::uint32_t i, std::uint32_t& chunk) const {
+    while (plan_.chunks[chunk].first > i) --chunk;
+    while (i - plan_.chunks[chunk].first >= plan_.chunks[chunk].count) ++chunk;
+    const auto before = [](const IslandScratch::Near& near, std::uint32_t c) { return near.chunk < c; };
+    const auto after = [](std::uint32_t c, const IslandScratch::Near& near) { return c < near.chunk; };
+    const auto first = std::lower_bound(local_.near.begin(), local_.near.end(), chunk, before);
+    return {first, std::upper_bound(first, local_.near.end(), chunk, after)};
+}
+
+ContactScratch::Contact& ChainNewton::contact_of(std::uint32_t node) {
+    if (s_.contacts.empty() || s_.contacts.back().node != node)
+        s_.contacts.push_back({node, static_cast<std::uint32_t>(s_.planes.size()), 0});
+    return s_.contacts.back();
+}
+
+bool ChainNewton::find(std::uint32_t number) {
+    chain_ = number;
+    s_.contacts.clear();
+    s_.planes.clear();
+    s_.link_contacts.clear();
+    s_.link_colliders.clear();
+    if (local_.near.empty()) return false;
+    const Plan::Chain& chain = plan_.chains[number];
+    radius_ = state_.bodies[chain.body].radius;
+    std::uint32_t chunk = island_.chunks.first, sought = chunk + island_.chunks.count;
+    std::span<const IslandScratch::Near> near;
+    bool link_before = false;
+    for (std::uint32_t k = 0; k <= chain.links; ++k) {
+        const std::uint32_t i = particle(k);
+        if (sought != chunk || i - plan_.chunks[chunk].first >= plan_.chunks[chunk].count) {
+            near = near_of(i, chunk);
+            sought = chunk;
+        }
+        if (link_before) contact_of(k);  // for the friction of the link
+        link_before = false;
+        const dvec3 from = state_.position[i], to = scratch_.base[i];
+        const double reach = radius_ + slack + detail::length(to - from);
+        local_.done.work += near.size();
+        for (const IslandScratch::Near& each : near) {
+            if (scratch_.weight[i] == 0.0 || collider(each.collider).far_from(to, reach)) continue;
+            ++contact_of(k).count;
+            s_.planes.emplace_back().collider = each.collider;
+        }
+        if (k == chain.links || plan_.chunks[chunk].reach <= 0.0f) continue;
+        const Link& link = state_.links[chain.first_link + k];
+        for (const IslandScratch::Near& each : near) {
+            const Scratch::Moving& moving = collider(each.collider);
+            if (link.rest <= moving.size) continue;
+            const std::uint32_t j = particle(k + 1);
+            const dvec3 way = scratch_.base[j] - state_.position[j], along = state_.position[j] - from;
+            const double far = radius_ + slack + 0.5 * detail::length(along) + detail::length(way) + reach;
+            if (moving.far_from(from + 0.5 * along, far)) continue;
+            if (!link_before) {
+                contact_of(k);
+                s_.link_contacts.push_back({k, static_cast<std::uint32_t>(s_.link_colliders.size()), 0, ~0u});
+            }
+            ++s_.link_contacts.back().count;
+            s_.link_colliders.push_back(each.collider);
+            link_before = true;
+        }
+    }
+    return !s_.contacts.empty();
+}
+
+/// Whether a link between two points touches, or all but does.
+bool ChainNewton::link_touches(const ContactScratch::LinkContact& contact, const dvec3& a, const dvec3& b,
+                               bool moved) const {
+    for (std::uint32_t c = contact.first; c < contact.first + contact.count; ++c) {
+        const Scratch::Moving& moving = collider(s_.link_colliders[c]);
+        const dvec3 from = moved ? a : a + moving.by_at(a), along = (moved ? b : b + moving.by_at(b)) - from;
+        const double near = radius_ + touching;
+        if (moving.far_from(from + 0.5 * along, near + 0.5 * detail::length(along))) continue;
+        local_.done.work += detail::max_line_samples;
+        const std::optional<double> at = detail::nearest_between(*moving.shape, from, from + along, near);
+        if (at && surface_distance(*moving.shape, from + *at * along).distance < near) return true;
+    }
+    return false;
+}
+
+bool ChainNewton::touches() const {
+    for (const ContactScratch::Contact& contact : s_.contacts) {
+        const std::uint32_t i = particle(contact.node);
+        const dvec3 start = state_.position[i], base = scratch_.base[i];
+        for (std::uint32_t p = contact.first; p < contact.first + contact.count; ++p) {
+            const Scratch::Moving& moving = collider(s_.planes[p].collider);
+            const dvec3 from = start + moving.by_at(start);
+            const double near = radius_ + touching, far = detail::length(base - from);
+            ++local_.done.work;
+            const double distance = surface_distance(*moving.shape, base).distance;
+            if (distance < near || far > 0.5 * moving.size + radius_) return true;
+            if (surface_distance(*moving.shape, from).distance < near) return true;
+        }
+    }
+    for (const ContactScratch::LinkContact& contact : s_.link_contacts) {
+        const std::uint32_t i = particle(contact.bond), j = particle(contact.bond + 1);
+        if (link_touches(contact, state_.position[i], state_.position[j], false)) return true;
+        if (link_touches(contact, scratch_.base[i], scratch_.base[j], true)) return true;
+    }
+    return false;
+}
+
+bool ChainNewton::inside() const {
+    for (const ContactScratch::Contact& contact : s_.contacts) {
+        const dvec3& place = scratch_.place[particle(contact.node)];
+        for (std::uint32_t p = contact.first; p < contact.first + contact.count; ++p) {
+            const Scratch::Moving& moving = collider(s_.planes[p].collider);
+            ++local_.done.work;
+            if (moving.far_from(place, radius_)) continue;
+            if (surface_distance(*moving.shape, place).distance < radius_ - depth) return true;
+        }
+    }
+    for (const ContactScratch::LinkContact& contact : s_.link_contacts) {
+        const std::uint32_t i = particle(contact.bond), j = particle(contact.bond + 1);
+        if (link_touches(contact, scratch_.place[i], scratch_.place[j], true)) return true;
+    }
+    return false;
+}
+
+/// Where a free way would pass a surface it is stopped on the side that it came from.
+void ChainNewton::begin_plane(ContactScratch::Contact& contact, ContactScratch::Plane& plane) {
+    const std::uint32_t i = particle(contact.node);
+    const Scratch::Moving& moving = collider(plane.collider);
+    plane.by = moving.by_at(state_.position[i]);
+    dvec3 at = state_.position[i] + plane.by;  // as the collider sees it
+    const dvec3 from = at, way = scratch_.base[i] - from;
+    const double far = detail::length(way), step = 0.5 * moving.size + radius_;
+    SurfaceDistance surface = surface_distance(*moving.shape, at);
+    plane.active = surface.distance < radius_ + touching;
+    plane.passed = false;
+    if (far > step && !plane.active && surface.distance < far + radius_) {
+        plane.passed = true;
+        const int samples = static_cast<int>(std::min(64.0, std::ceil(far / std::max(step, 1e-9))));
+        local_.done.work += static_cast<std::uint64_t>(samples);
+        for (int k = 1; k <= samples && plane.passed; ++k) {
+            const dvec3 on_the_way = from + (static_cast<double>(k) / samples) * way;
+            const SurfaceDistance there = surface_distance(*moving.shape, on_the_way);
+            if (there.distance >= radius_) continue;
+            at = on_the_way;
+            surface = there;
+            plane.active = true;
+            plane.passed = false;
+        }
+    }
+    plane.normal = surface.normal;
+    plane.point = at - (surface.distance - radius_) * surface.normal;
+}
+
+/// Whether anything changed that takes another step.
+bool ChainNewton::update_contacts() {
+    bool changed = false;
+    for (ContactScratch::Contact& contact : s_.contacts) changed |= update_planes(contact);
+    for (ContactScratch::LinkContact& contact : s_.link_contacts) changed |= update_link(contact);
+    return changed;
+}
+
+bool ChainNewton::update_planes(ContactScratch::Contact& contact) {
+    const detail::ChainNode& node = s_.nodes[contact.node];
+    detail::NodeContact& hold = s_.holds[static_cast<std::size_t>(node.contact)];
+    bool changed = false;
+    hold.planes = 0;
+    for (std::uint32_t p = contact.first; p < contact.first + contact.count; ++p) {
+        ContactScratch::Plane& plane = s_.planes[p];
+        const Scratch::Moving& moving = collider(plane.collider);
+        ++local_.done.work;
+        const bool was = plane.active;
+        if (!moved_ && plane.passed) continue;
+        if (moved_ && !was && moving.far_from(node.x, radius_)) continue;
+        plane.gap = dot(plane.normal, node.x - plane.point);
+        // What is far behind a plane has come through it: the surface that is nearest there is another one.
+        if (moved_ && (plane.passed || plane.gap > -0.5 * moving.size - radius_)) {
+            const SurfaceDistance surface = surface_distance(*moving.shape, node.x);
+            plane.normal = surface.normal;
+            plane.gap = surface.distance - radius_;
+            plane.point = node.x - plane.gap * surface.normal;
+            plane.passed = false;
+        }
+        if (plane.gap < -depth) {
+            plane.active = true;
+            changed |= plane.gap < (may_go_ ? -harmful : -harmful_late);
+        } else if (was && may_go_) {
+            // What it has to bear: what is out of balance without it.
+            plane.active = dot(node.force, plane.normal) + node.mass * plane.gap <= 0.0;
+        }
+        changed |= may_go_ && plane.active != was;
+        if (!plane.active) continue;
+        // The deepest first.
+        constexpr int most = detail::NodeContact::most;
+        if (hold.planes == most && plane.gap >= hold.gap[most - 1]) continue;
+        int at = std::min(hold.planes, most - 1);
+        for (; at > 0 && hold.gap[at - 1] > plane.gap; --at)
+            hold.normal[at] = hold.normal[at - 1], hold.gap[at] = hold.gap[at - 1];
+        hold.normal[at] = plane.normal;
+        hold.gap[at] = plane.gap;
+        hold.planes = std::min(hold.planes + 1, most);
+    }
+    rub(contact);
+    return changed;
+}
+
+/// Friction of a particle.
+void ChainNewton::rub(ContactScratch::Contact& contact) {
+    const detail::ChainNode& node = s_.nodes[contact.node];
+    detail::NodeContact& hold = s_.holds[static_cast<std::size_t>(node.contact)];
+    const double friction = static_cast<double>(state_.settings.friction);
+    hold.drag = 0.0;
+    if (hold.planes == 0 || friction == 0.0) return;
+    dvec3 by(0.0);
+    for (std::uint32_t p = contact.first; p < contact.first + contact.count; ++p)
+        if (s_.planes[p].active && s_.planes[p].normal == hold.normal[0]) by = s_.planes[p].by;
+    dvec3 force = node.force, slip = node.x - state_.position[particle(contact.node)] - by;
+    double normal = 0.0;
+    for (int p = 0; p < hold.planes; ++p) {
+        normal += std::max(0.0, -dot(force, hold.normal[p]) - node.mass * hold.gap[p]);
+        force = beside(force, hold.normal[p]);
+        slip = beside(slip, hold.normal[p]);
+    }
+    double slipped = detail::length(slip);
+    if (!moved_) {  // as far as it slipped before, or as it would by itself
+        const double before = detail::length(state_.displacement[particle(contact.node)] - by);
+        const double alone = detail::length(slip + (1.0 / node.mass) * force) - friction * normal / node.mass;
+        slipped = std::max(before, alone);
+    }
+    hold.slip = slip;
+    hold.drag = friction * normal / std::max(slipped, creep);
+}
+
+bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
+    const detail::ChainBond& bond = s_.bonds[contact.bond];
+    detail::BondContact& hold = s_.bond_holds[static_cast<std::size_t>(bond.contact)];
+    const dvec3 a = s_.nodes[contact.bond].x, b = s_.nodes[contact.bond + 1].x;
+    const bool was = hold.active;
+    if (was) {
+        const double thick = 0.5 * collider(contact.collider).size + radius_;
+        hold.gap = dot(hold.normal, a + hold.at * (b - a) - contact.point);
+        if (hold.gap < -thick) return true;  // it has come through
+    }
+    double deepest = was && (!may_go_ || hold.multiplier >= 0.0) ? touching : -depth;
+    std::uint32_t touched = ~0u;
+    hold.active = false;
+    for (std::uint32_t c = contact.first; c < contact.first + contact.count; ++c) {
+        const Scratch::Moving& moving = collider(s_.link_colliders[c]);
+        // Where the substep begins as the collider sees it, which has moved since.
+        const dvec3 by_a = moved_ ? dvec3(0.0) : moving.by_at(a),
+                    by_b = moved_ ? dvec3(0.0) : moving.by_at(b);
+        const dvec3 from = a + by_a, along = b + by_b - from;
+        if (moving.far_from(from + 0.5 * along, radius_ + touching + 0.5 * detail::length(along))) continue;
+        local_.done.work += detail::max_line_samples;
+        const std::optional<double> at =
+            detail::nearest_between(*moving.shape, from, from + along, radius_ + touching);
+        if (!at) continue;
+        const dvec3 nearest = from + *at * along;
+        const SurfaceDistance surface = surface_distance(*moving.shape, nearest);
+        const double distance = surface.distance - radius_;
+        const double gap = distance - dot(surface.normal, by_a + *at * (by_b - by_a));
+        if ((moved_ ? gap : std::min(gap, distance)) >= deepest) continue;
+        deepest = gap;
+        touched = s_.link_colliders[c];
+        hold.active = true;
+        hold.normal = surface.normal;
+        hold.at = *at;
+        hold.gap = gap;
+        contact.point = nearest - distance * surface.normal;
+    }
+    if (!hold.active) {
+        hold.multiplier = 0.0;
+    } else if (touched != contact.collider) {
+        // What it has to bear, roughly.
+        const dvec3 force = s_.nodes[contact.bond].force + s_.nodes[contact.bond + 1].force;
+        hold.multiplier = moved_ ? 0.0 : std::max(0.0, -dot(force, hold.normal));
+    }
+    const bool changed = (may_go_ && (hold.active != was || touched != contact.collider)) ||
+                         (hold.active && hold.gap < (may_go_ ? -harmful : -harmful_late));
+    contact.collider = touched;
+    if (hold.active) rub_link(contact);
+    return changed;
+}
+
+/// Friction of a link: its ends share the drag.
+void ChainNewton::rub_link(const ContactScratch::LinkContact& contact) {
+    const detail::BondContact& hold = s_.bond_holds[static_cast<std::size_t>(s_.bonds[contact.bond].contact)];
+    const double friction = static_cast<double>(state_.settings.friction);
+    const double normal = std::max(0.0, hold.multiplier);
+    if (friction == 0.0 || normal == 0.0) return;
+    const detail::ChainNode &a = s_.nodes[contact.bond], &b = s_.nodes[contact.bond + 1];
+    const auto slip_of = [&](std::uint32_t node) {
+        const dvec3 start = state_.position[particle(node)];
+        const dvec3 by = collider(contact.collider).by_at(s_.nodes[node].x);
+        return beside(s_.nodes[node].x - start - by, hold.normal);
+    };
+    const dvec3 slip_a = slip_of(contact.bond), slip_b = slip_of(contact.bond + 1);
+    const double t = hold.at;
+    double slipped = detail::length((1.0 - t) * slip_a + t * slip_b);
+    if (!moved_) {
+        const dvec3 before = (1.0 - t) * state_.displacement[particle(contact.bond)] +
+                             t * state_.displacement[particle(contact.bond + 1)];
+        slipped = detail::length(beside(before - collider(contact.collider).by, hold.normal));
+    }
+    const double drag = friction * normal / std::max(slipped, creep);
+    const auto share = [&](const detail::ChainNode& node, double part, const dvec3& slip) {
+        detail::NodeContact& end = s_.holds[static_cast<std::size_t>(node.contact)];
+        if (end.planes > 0) return;  // that has its own
+        end.drag = part * drag;
+        end.slip = slip;
+    };
+    share(a, 1.0 - t, slip_a);
+    share(b, t, slip_b);
+}
+
+}  // namespace tendril::rope

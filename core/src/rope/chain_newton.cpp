@@ -1,0 +1,161 @@
+#include "rope/chain_newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rope/contact_shape.hpp"
+#include "rope/geometry.hpp"
+
+namespace tendril::rope {
+namespace {
+
+using glm::dvec3;
+
+constexpr int max_steps = 16;
+constexpr int few_steps = 4;        ///< after which a larger error is accepted
+constexpr int steps_to_let_go = 8;  ///< in which contacts may go again
+constexpr int most_rejected = 3;    ///< steps in a row that are taken again
+/// Of a link, over h^2, by the inverse mass of its ends: what cannot be as short as it should be is so much
+/// longer that its tension is finite. A metre of rope, 64 segments, that carries a hundred times its weight
+/// gets a millionth longer.
+constexpr double smallest_compliance = 1e-8;
+constexpr double accepted = 1e-5;  ///< relative length error
+constexpr double first_stiffer = 10.0;
+constexpr double grown_too_far = 0.25, turned_too_far = 0.5;
+
+}  // namespace
+
+std::uint32_t ChainNewton::particle(std::uint32_t node) const {
+    return plan_.nodes[plan_.chains[chain_].first_node + node];
+}
+
+/// Where the substep begins, with the tension of the one before.
+void ChainNewton::begin() {
+    const Plan::Chain& chain = plan_.chains[chain_];
+    const double h = state_.settings.substep, square = h * h;
+    s_.nodes.resize(chain.links + 1);
+    s_.bonds.resize(chain.links);
+    s_.kept.resize(chain.links + 1);
+    for (std::uint32_t k = 0; k <= chain.links; ++k) {
+        const std::uint32_t i = particle(k);
+        detail::ChainNode& node = s_.nodes[k];
+        node.base = scratch_.base[i];
+        node.pinned = scratch_.weight[i] == 0.0;
+        node.x = node.pinned ? node.base : state_.position[i];
+        node.mass = state_.mass[i];
+        node.contact = -1;
+        if (k == chain.links) break;
+        const Link& link = state_.links[chain.first_link + k];
+        detail::ChainBond& bond = s_.bonds[k];
+        bond.rest = link.rest;
+        bond.compliance =
+            (static_cast<double>(state_.settings.compliance) * link.rest + link.compliance) / square;
+        const double weights = scratch_.weight[i] + scratch_.weight[particle(k + 1)];
+        bond.compliance = std::max(bond.compliance, smallest_compliance * weights);
+        bond.multiplier = std::max(0.0, static_cast<double>(link.tension) * square);
+        bond.contact = -1;
+    }
+    s_.holds.assign(s_.contacts.size(), {});
+    for (std::size_t c = 0; c < s_.contacts.size(); ++c) {
+        ContactScratch::Contact& contact = s_.contacts[c];
+        s_.nodes[contact.node].contact = static_cast<std::int32_t>(c);
+        for (std::uint32_t p = 0; p < contact.count; ++p) begin_plane(contact, s_.planes[contact.first + p]);
+    }
+    s_.bond_holds.assign(s_.link_contacts.size(), {});
+    s_.kept_contacts.assign(s_.link_contacts.size(), 0.0);
+    for (std::size_t c = 0; c < s_.link_contacts.size(); ++c) {
+        s_.bonds[s_.link_contacts[c].bond].contact = static_cast<std::int32_t>(c);
+        s_.link_contacts[c].collider = ~0u;
+    }
+}
+
+void ChainNewton::keep() {
+    for (std::size_t k = 0; k < s_.nodes.size(); ++k) {
+        s_.kept[k].x = s_.nodes[k].x;
+        if (k == s_.bonds.size()) break;
+        s_.kept[k].multiplier = s_.bonds[k].multiplier;
+        s_.kept[k].error = s_.bonds[k].error;
+    }
+    for (std::size_t c = 0; c < s_.bond_holds.size(); ++c) s_.kept_contacts[c] = s_.bond_holds[c].multiplier;
+}
+
+/// To where that part of the last step leads.
+void ChainNewton::go_back(double part) {
+    const auto back = [&](auto& to, const auto& from) { to = from + part * (to - from); };
+    for (std::size_t k = 0; k < s_.nodes.size(); ++k) {
+        back(s_.nodes[k].x, s_.kept[k].x);
+        if (k < s_.bonds.size()) back(s_.bonds[k].multiplier, s_.kept[k].multiplier);
+    }
+    for (std::size_t c = 0; c < s_.bond_holds.size(); ++c)
+        back(s_.bond_holds[c].multiplier, s_.kept_contacts[c]);
+}
+
+/// Whether a link has grown, or shrunk, by too much; `turned`: how far its ends have moved apart, by its
+/// length, at most.
+bool ChainNewton::went_too_far(double& turned) const {
+    bool wild = false;
+    turned = 0.0;
+    for (std::size_t k = 0; k < s_.bonds.size(); ++k) {
+        const double rest = s_.bonds[k].rest;
+        wild |= !(std::abs(s_.bonds[k].error) <= grown_too_far * rest + std::abs(s_.kept[k].error));
+        const dvec3 before = s_.kept[k + 1].x - s_.kept[k].x, now = s_.nodes[k + 1].x - s_.nodes[k].x;
+        const double squared = std::max({rest * rest, detail::dot(before, before), 1e-18});
+        turned = std::max(turned, detail::dot(now - before, now - before) / squared);
+    }
+    turned = std::sqrt(turned);
+    return wild;
+}
+
+void ChainNewton::solve() {
+    begin();
+    detail::ChainSystem system{s_.nodes, s_.bonds, s_.holds, s_.bond_holds};
+    const int steps = std::min(max_steps, state_.settings.iterations);
+    double stiffer = 0.0, turned = 1.0;
+    int taken = 0, rejected = 0;
+    moved_ = false;
+    system.evaluate(stiffer);
+    double worst = system.largest_error();
+    for (;; ++taken) {
+        may_go_ = taken <= steps_to_let_go;
+        const bool changed = update_contacts();
+        const double enough = taken <= few_steps ? accepted : may_go_ ? 10.0 * accepted : 100.0 * accepted;
+        const bool done = moved_ && !changed && worst <= enough;
+        if (done || taken == steps) break;
+        keep();
+        system.step();
+        local_.done.work += s_.bonds.size();
+        system.evaluate(stiffer);
+        const bool wild = went_too_far(turned);
+        if (wild && rejected < most_rejected) {
+            ++rejected;
+            stiffer = std::max(first_stiffer, 100.0 * stiffer);
+            go_back(0.0);
+            system.evaluate(stiffer);
+            continue;
+        }
+        rejected = 0;
+        if (wild && turned > turned_too_far) {
+            go_back(turned_too_far / turned);
+            system.evaluate(stiffer);
+        }
+        moved_ = true;
+        stiffer = stiffer > first_stiffer ? 0.1 * stiffer : 0.0;
+        worst = system.largest_error();
+    }
+    finish(worst);
+    local_.done.passes = std::max(local_.done.passes, taken);
+    if (taken == steps && !(worst <= 100.0 * accepted)) ++local_.done.unconverged;
+}
+
+void ChainNewton::finish(double worst) {
+    const Plan::Chain& chain = plan_.chains[chain_];
+    for (std::uint32_t k = 0; k <= chain.links; ++k) {
+        const std::uint32_t i = particle(k);
+        if (scratch_.weight[i] > 0.0) scratch_.place[i] = s_.nodes[k].x;
+        if (k < chain.links) scratch_.multiplier[chain.first_link + k] = s_.bonds[k].multiplier;
+    }
+    scratch_.chain_error[chain_] = worst;
+    scratch_.chain_gain[chain_] = 0.0;
+}
+
+}  // namespace tendril::rope
