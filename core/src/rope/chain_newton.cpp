@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "rope/contact_shape.hpp"
 #include "rope/geometry.hpp"
@@ -81,7 +82,8 @@ void ChainNewton::keep() {
 
 /// To where that part of the last step leads.
 void ChainNewton::go_back(double part) {
-    const auto back = [&](auto& to, const auto& from) { to = from + part * (to - from); };
+    // What is no number is not weighed, but left.
+    const auto back = [&](auto& to, const auto& from) { to = part > 0.0 ? from + part * (to - from) : from; };
     for (std::size_t k = 0; k < s_.nodes.size(); ++k) {
         back(s_.nodes[k].x, s_.kept[k].x);
         if (k < s_.bonds.size()) back(s_.bonds[k].multiplier, s_.kept[k].multiplier);
@@ -93,16 +95,17 @@ void ChainNewton::go_back(double part) {
 /// Whether a link has grown, or shrunk, by too much; `turned`: how far its ends have moved apart, by its
 /// length, at most.
 bool ChainNewton::went_too_far(double& turned) const {
-    bool wild = false;
+    bool wild = false, numbers = true;
     turned = 0.0;
     for (std::size_t k = 0; k < s_.bonds.size(); ++k) {
         const double rest = s_.bonds[k].rest;
+        numbers &= std::isfinite(s_.bonds[k].error);
         wild |= !(std::abs(s_.bonds[k].error) <= grown_too_far * rest + std::abs(s_.kept[k].error));
         const dvec3 before = s_.kept[k + 1].x - s_.kept[k].x, now = s_.nodes[k + 1].x - s_.nodes[k].x;
         const double squared = std::max({rest * rest, detail::dot(before, before), 1e-18});
         turned = std::max(turned, detail::dot(now - before, now - before) / squared);
     }
-    turned = std::sqrt(turned);
+    turned = numbers ? std::sqrt(turned) : std::numeric_limits<double>::infinity();
     return wild;
 }
 
@@ -110,7 +113,7 @@ void ChainNewton::solve() {
     begin();
     detail::ChainSystem system{s_.nodes, s_.bonds, s_.holds, s_.bond_holds};
     const int steps = std::min(max_steps, state_.settings.iterations);
-    double stiffer = 0.0, turned = 1.0;
+    double stiffer = 0.0, used = 0.0, turned = 1.0;
     int taken = 0, rejected = 0;
     moved_ = false;
     system.evaluate(stiffer);
@@ -119,7 +122,7 @@ void ChainNewton::solve() {
         may_go_ = taken <= steps_to_let_go;
         const bool changed = update_contacts();
         const double enough = taken <= few_steps ? accepted : may_go_ ? 10.0 * accepted : 100.0 * accepted;
-        const bool done = moved_ && !changed && worst <= enough;
+        const bool done = moved_ && !changed && worst <= enough && used == 0.0;
         if (done || taken == steps) break;
         keep();
         system.step();
@@ -139,6 +142,7 @@ void ChainNewton::solve() {
             system.evaluate(stiffer);
         }
         moved_ = true;
+        used = stiffer;
         stiffer = stiffer > first_stiffer ? 0.1 * stiffer : 0.0;
         worst = system.largest_error();
     }

@@ -62,7 +62,8 @@ int Substep::direct_alone() {
     for (std::uint32_t r = first; r < end; ++r) {
         if (scratch_.chain_solved[r] != 0) continue;
         const bool failed = !(scratch_.chain_error[r] <= fallback_error);
-        if ((newton.find(r) && newton.inside()) || failed) newton.solve();
+        const bool found = (failed || near(r)) && newton.find(r);
+        if (failed || (found && newton.inside())) newton.solve();
     }
     measure();
     limit_energy();
