@@ -222,21 +222,24 @@ TEST(RopeContact, ASegmentHangsOverAThinRod) {
     }
 }
 
-/// Something fast that passes beside a ball is not stopped by it.
+/// Something fast that passes beside a ball is not stopped by it: neither what flies on nor what is between
+/// two substeps so near that it is within the box around the ball.
 TEST(RopeContact, AThrownRopeFliesPast) {
-    std::array<World, 2> worlds{world_with({.gravity = {0, 0, 0}}), world_with({.gravity = {0, 0, 0}})};
-    for (World& world : worlds) {
-        world.add_rope("rope", {.from = {0.14f, 0.9f, -0.2f}, .to = {0.14f, 0.9f, 0.2f}, .segments = 8});
-        if (&world == &worlds[1]) world.add_collider("ball", Sphere{{0, 0, 0}, 0.1f});
-        rope::State state = world.state();
-        state.displaced_in = state.settings.substep;
-        for (dvec3& moved : state.displacement) moved = {0, -0.6, 0};
-        world = World(state);
-        run_substeps(world, 3, [] {});
+    for (const float from : {0.9f, 0.5f}) {
+        std::array<World, 2> worlds{world_with({.gravity = {0, 0, 0}}), world_with({.gravity = {0, 0, 0}})};
+        for (World& world : worlds) {
+            world.add_rope("rope", {.from = {0.1f, from, 0.1f}, .to = {0.1f, from, 0.14f}, .segments = 4});
+            if (&world == &worlds[1]) world.add_collider("ball", Sphere{{0, 0, 0}, 0.1f});
+            rope::State state = world.state();
+            state.displaced_in = state.settings.substep;
+            for (dvec3& moved : state.displacement) moved = {0, -0.6, 0};
+            world = World(state);
+            run_substeps(world, 3, [] {});
+        }
+        for (std::size_t i = 0; i < worlds[0].size(); ++i)
+            EXPECT_LE(glm::length(worlds[0].state().position[i] - worlds[1].state().position[i]), 1e-9) << i;
+        EXPECT_LT(worlds[1].state().position[4].y, -0.5);
     }
-    for (std::size_t i = 0; i < worlds[0].size(); ++i)
-        EXPECT_LE(glm::length(worlds[0].state().position[i] - worlds[1].state().position[i]), 1e-9) << i;
-    EXPECT_LT(worlds[1].state().position[4].y, -0.5);
 }
 
 /// Something fast is stopped on the side that it came from.

@@ -65,6 +65,7 @@ Advance play(rope::World& world, Workspace& workspace, int frames) {
         const Advance done = world.advance(1.0 / 60.0, workspace);
         sum.substeps += done.substeps, sum.passes += done.passes, sum.work += done.work;
         sum.shortened += done.shortened, sum.unresolved += done.unresolved;
+        sum.unconverged += done.unconverged;
     }
     return sum;
 }
@@ -117,7 +118,7 @@ TEST(RopeIslands, NoBodyNoticesOneThatCannotBeSolved) {
 
 bool same(const Advance& a, const Advance& b) {
     return a.substeps == b.substeps && a.passes == b.passes && a.work == b.work &&
-           a.shortened == b.shortened && a.unresolved == b.unresolved;
+           a.shortened == b.shortened && a.unresolved == b.unresolved && a.unconverged == b.unconverged;
 }
 
 TEST(RopeIslands, ThreadsGiveTheSameBits) {

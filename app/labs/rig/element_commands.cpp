@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "app/document/json_complete.hpp"
+#include "app/labs/kit/name_list.hpp"
 #include "app/labs/kit/part_command.hpp"
 #include "app/labs/kit/require.hpp"
 #include "app/labs/rig/definition_json.hpp"
@@ -179,7 +180,7 @@ void add_element_commands(CommandTable& table) {
         "Adds a bone, a null or a control", add_element));
     const Argument name = element_argument("name", false, "of the element"),
                    control = control_argument("name", false, "of the element"),
-                   names = element_list_argument("names", "name");
+                   names = name_list_argument("names", "name");
     table.add(rig_command(
         "rig.element.set", "Set the pose of elements",
         {name, names,

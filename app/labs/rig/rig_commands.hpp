@@ -16,8 +16,6 @@ Command rig_command(const char* name, const char* title, std::vector<Argument> a
 Argument element_argument(const char* name, bool required, const char* help);
 Argument control_argument(const char* name, bool required, const char* help);
 Argument unit_argument(const char* name, bool required, const char* help);
-/// Several elements by name, instead of the one that `instead_of` names.
-Argument element_list_argument(const char* name, const char* instead_of);
 /// The places in the definition. Refuses, with the argument and the value, what is no name of an element.
 std::vector<std::size_t> element_list(const RigPart& part, const Arguments& given, const char* name);
 /// Of one by `name`, or of several by `names`: each once, in the order of the definition. Refuses an empty

@@ -7,6 +7,7 @@
 #include "app/document/refused.hpp"
 #include "app/document/units.hpp"
 #include "app/labs/kit/index_list.hpp"
+#include "app/labs/kit/name_list.hpp"
 #include "app/labs/kit/names.hpp"
 #include "app/labs/kit/part_command.hpp"
 #include "app/labs/rig/code.hpp"
@@ -136,18 +137,10 @@ Argument unit_argument(const char* name, bool required, const char* help) {
     });
 }
 
-Argument element_list_argument(const char* name, const char* instead_of) {
-    return {.name = name,
-            .type = ArgumentType::List,
-            .required = false,
-            .help = std::string("several by name, instead of ") + instead_of};
-}
-
 std::vector<std::size_t> element_list(const RigPart& part, const Arguments& given, const char* name) {
     std::vector<std::size_t> elements;
-    for (const Json& each : given.json(name)) {
-        if (!each.is_string()) throw Refused(std::string(name) + ": " + json_summary(each) + " is no name");
-        const auto at = part.rig.element(each.get<std::string>());
+    for (const std::string& each : name_list(given, name)) {
+        const auto at = part.rig.element(each);
         if (!at) throw Refused(std::string(name) + ": there is no element " + json_summary(each));
         elements.push_back(*at);
     }
@@ -174,7 +167,7 @@ void add_solve_commands(CommandTable& table) {
     table.add(part_command<RigPart>(
         rig_lab, "rig.select", "Select elements or a unit",
         {element_argument("element", false, "none where left out"),
-         element_list_argument("elements", "element; the last one is shown"),
+         name_list_argument("elements", "element; the last one is shown"),
          unit_argument("unit", false, "none where left out"),
          switch_argument("add",
                          "true: adds to what is selected, or with element takes out what is; the "
@@ -183,7 +176,7 @@ void add_solve_commands(CommandTable& table) {
     table.add({.name = "rig.read",
                .title = "Read the pose of elements",
                .arguments = {element_argument("name", false, "of the element"),
-                             element_list_argument("names", "name")},
+                             name_list_argument("names", "name")},
                .help = "Reads the poses of elements, and says how many transforms had to be worked out",
                .effect = Effect::Look,
                .apply = read});

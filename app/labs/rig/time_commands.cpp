@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "app/document/json_complete.hpp"
+#include "app/labs/kit/name_list.hpp"
 #include "app/labs/kit/part_command.hpp"
 #include "app/labs/rig/clip.hpp"
 #include "app/labs/rig/rates.hpp"
@@ -182,7 +183,7 @@ void add_time_commands(CommandTable& table) {
     table.add(rig_command(
         "rig.motion", "Move controls along a path",
         {control_argument("name", false, "of a transform or position control"),
-         element_list_argument("names", "name"),
+         name_list_argument("names", "name"),
          choice_argument("path", true, "the path, flat on the ground", motion_paths.names()),
          point_argument("centre", false,
                         "within the control's space; where left out, the path starts at the control"),
@@ -212,9 +213,8 @@ void add_time_commands(CommandTable& table) {
          .finish = finish_rates});
     table.add(rig_command("rig.rates.cancel", "Stop comparing frame rates", {},
                           "Stops the comparison of frame rates", cancel_rates));
-    table.add(rig_command(
-        "rig.flips", "Set the rule for bone flips", flip_arguments(rig_flip_words),
-        "Sets what counts as a flip of a bone, from the next solve on", set_flips));
+    table.add(rig_command("rig.flips", "Set the rule for bone flips", flip_arguments(rig_flip_words),
+                          "Sets what counts as a flip of a bone, from the next solve on", set_flips));
     add_clip_commands(table);
 }
 

@@ -43,8 +43,9 @@ struct Advance {
     int shortened = 0;             ///< substeps in which max_pass_work cut passes
     std::uint64_t unresolved = 0;  ///< times a particle was left inside colliders: there was no way out, or
                                    ///< the search for one took too long
-    std::uint64_t unconverged = 0;  ///< times a rope among colliders was left with a length that is
-                                    ///< more than 0.1 % wrong
+    std::uint64_t unconverged = 0;  ///< times lengths and contacts of a rope were not brought together to
+                                    ///< 0.1 % in the steps there are; what has no solution is stretched,
+                                    ///< and is none of these
     bool refused = false;           ///< `seconds` was no number from 0 to 1e9: nothing was done
 };
 
