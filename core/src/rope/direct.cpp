@@ -168,7 +168,7 @@ double Substep::solve_batch(const Batch& batch, int iteration) {
         // Chains that share particles undo part of what the others did, and contacts leave length errors to
         // begin with: there the plain direction serves best.
         const std::uint32_t body = plan_.chains[batch.chain + std::min(lane, batch.count - 1)].body;
-        const bool contact = is_pushed_out(body);
+        const bool contact = has_fallback_contact(body);
         order.backward[lane] = first.alone && !contact ? min_backward : 1.0;
         const int max_passes = !first.alone ? 1 : contact ? 4 : 2;
         order.passes[lane] = std::min(max_passes, state_.settings.iterations);
@@ -191,7 +191,8 @@ double Substep::solve_batch(const Batch& batch, int iteration) {
 }
 
 void Substep::solve_again(std::uint32_t chain) {
-    const double enough = is_pushed_out(plan_.chains[chain].body) ? 10.0 * accepted_error : accepted_error;
+    const double enough =
+        has_fallback_contact(plan_.chains[chain].body) ? 10.0 * accepted_error : accepted_error;
     if (scratch_.chain_error[chain] <= enough && !gains_energy(chain, 1e-4)) return;
     const Plan::Chain& it = plan_.chains[chain];
     Block block{local_.block.data() + local_.block_offset, it.links, 1};
@@ -258,7 +259,7 @@ void Substep::scatter(const Block& block, std::uint32_t lane, std::uint32_t numb
 /// and what is in its links; nothing where something else than gravity has worked on it.
 double Substep::energy_gained(std::uint32_t number) const {
     const Plan::Chain& chain = plan_.chains[number];
-    if (!chain.alone || is_pushed_out(chain.body)) return 0.0;
+    if (!chain.alone || has_fallback_contact(chain.body)) return 0.0;
     const double per_square = 1.0 / (h_ * h_);
     double gained = 0.0;
     for (std::uint32_t k = 0; k <= chain.links; ++k) {

@@ -73,7 +73,9 @@ class Substep {
     double energy_scale(std::uint32_t chain) const;
     void limit_energy();
     /// Whether contacts displace a body after its lengths are solved, and not together with them.
-    bool is_pushed_out(std::uint32_t body) const { return !island_.alone && scratch_.body_near[body] != 0; }
+    bool has_fallback_contact(std::uint32_t body) const {
+        return !island_.alone && scratch_.body_near[body] != 0;
+    }
 
     double compliance_of(const Link& link) const {
         return static_cast<double>(state_.settings.compliance) * link.rest + link.compliance;
