@@ -155,19 +155,16 @@ void ChainNewton::begin_plane(ContactScratch::Contact& contact, ContactScratch::
     const double far = detail::length(way), step = 0.5 * moving.size + radius_;
     SurfaceDistance surface = surface_distance(*moving.shape, at);
     plane.active = surface.distance < radius_ + touching;
-    plane.passed = false;
     if (far > step && !plane.active && surface.distance < far + radius_) {
-        plane.passed = true;
         const int samples = static_cast<int>(std::min(64.0, std::ceil(far / std::max(step, 1e-9))));
         local_.done.work += static_cast<std::uint64_t>(samples);
-        for (int k = 1; k <= samples && plane.passed; ++k) {
+        for (int k = 1; k <= samples && !plane.active; ++k) {
             const dvec3 on_the_way = from + (static_cast<double>(k) / samples) * way;
             const SurfaceDistance there = surface_distance(*moving.shape, on_the_way);
             if (there.distance >= radius_) continue;
             at = on_the_way;
             surface = there;
             plane.active = true;
-            plane.passed = false;
         }
     }
     plane.normal = surface.normal;
@@ -192,16 +189,14 @@ bool ChainNewton::update_planes(ContactScratch::Contact& contact) {
         const Scratch::Moving& moving = collider(plane.collider);
         ++local_.done.work;
         const bool was = plane.active;
-        if (!moved_ && plane.passed) continue;
         if (moved_ && !was && moving.far_from(node.x, radius_)) continue;
         plane.gap = dot(plane.normal, node.x - plane.point);
         // What is far behind a plane has come through it: the surface that is nearest there is another one.
-        if (moved_ && (plane.passed || plane.gap > -0.5 * moving.size - radius_)) {
+        if (moved_ && plane.gap > -0.5 * moving.size - radius_) {
             const SurfaceDistance surface = surface_distance(*moving.shape, node.x);
             plane.normal = surface.normal;
             plane.gap = surface.distance - radius_;
             plane.point = node.x - plane.gap * surface.normal;
-            plane.passed = false;
         }
         if (plane.gap < -depth) {
             plane.active = true;

@@ -61,7 +61,6 @@ struct ContactScratch {
     struct Plane {
         std::uint32_t collider = 0;
         bool active = false;
-        bool passed = false;  ///< what goes its free way does not touch it
         double gap = 0.0;
         glm::dvec3 normal{0.0}, point{0.0};  ///< a particle on the plane touches
         glm::dvec3 by{0.0};                  ///< how far the collider has moved there, in the substep
