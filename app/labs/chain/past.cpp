@@ -61,19 +61,22 @@ std::optional<PastCurve> chain_past_curve(const Workspace& workspace) {
     if (!view.plots(workspace.settings)) return std::nullopt;
     const auto what = static_cast<Number>(view.chosen(workspace.settings));
     if (what == Number::Error)
-        return PastCurve{.name = "tip to target",
-                         .of = "error",
-                         .unit = "m",
-                         .lowest_range = 0.01f * std::max(now.chain.reach(), 1e-3f),
-                         .missing = "The chain has no joint: add one.",
-                         .value = [](const SharedPart& part) { return value_of(Number::Error, chain_of(part), 0); }};
+        return PastCurve{
+            .name = "tip to target",
+            .of = "error",
+            .unit = "m",
+            .lowest_range = 0.01f * std::max(now.chain.reach(), 1e-3f),
+            .missing = "The chain has no joint: add one.",
+            .value = [](const SharedPart& part) { return value_of(Number::Error, chain_of(part), 0); }};
     const std::size_t joint = now.selection.active().value_or(1);
-    const std::string name = (what == Number::Swing ? "swing of joint " : "twist of joint ") + std::to_string(joint);
-    return PastCurve{.name = name,
-                     .of = name,
-                     .missing = what == Number::Twist ? "Twist is known within limits only: give a joint one."
-                                                      : "Select a joint with a bone after it.",
-                     .value = [what, joint](const SharedPart& part) { return value_of(what, chain_of(part), joint); }};
+    const std::string name =
+        (what == Number::Swing ? "swing of joint " : "twist of joint ") + std::to_string(joint);
+    return PastCurve{
+        .name = name,
+        .of = name,
+        .missing = what == Number::Twist ? "Twist is known within limits only: give a joint one."
+                                         : "Select a joint with a bone after it.",
+        .value = [what, joint](const SharedPart& part) { return value_of(what, chain_of(part), joint); }};
 }
 
 PoseLines chain_lines(const SharedPart& part) {

@@ -314,8 +314,8 @@ std::vector<LabSetting> HumanoidLab::settings() const {
 }
 
 void HumanoidLab::draw(const View& view, DrawList& list) const {
-    draw_past_ghosts(
-        view, humanoid_past(), [&](const SharedPart& part) { return humanoid_lines(view.workspace, part); }, list);
+    const auto pose = [&](const SharedPart& part) { return humanoid_lines(view.workspace, part); };
+    draw_past_ghosts(view, humanoid_past(), pose, list);
     Drawing(view, list).run();
 }
 

@@ -17,7 +17,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr float plot_height = 130.0f;     ///< pixels at scale 1
+constexpr float plot_height = 130.0f;      ///< pixels at scale 1
 constexpr std::uint64_t half_second = 30;  ///< ticks
 
 struct PastRuntime final : Runtime {
@@ -66,25 +66,25 @@ std::vector<Curve> marks_on(const Curve& line, const Workspace& workspace) {
 
 }  // namespace
 
-PastView past_view(const std::string& lab, const std::string& what,
-                   std::vector<LabSetting::Choice> numbers) {
+PastView past_view(const std::string& lab, const std::string& what, std::vector<LabSetting::Choice> numbers) {
     std::string title = lab;
     title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
     numbers.insert(numbers.begin(), {"nothing", "nothing"});
-    return {.lab = lab,
-            .plot = {.key = lab + " plot",
-                     .command = "view." + lab + "_plot",
-                     .title = "Plot the " + what + "'s last ten seconds",
-                     .argument = "of",
-                     .help = "Plots something of the last ten seconds of the " + title + " lab below the scene",
-                     .choices = std::move(numbers)},
-            .ghosts = {.key = lab + " ghosts",
-                       .command = "view." + lab + "_ghosts",
-                       .title = "Show or hide the " + what + "'s past poses",
-                       .argument = "of",
-                       .help = "Shows the poses of the last ten seconds of the " + title +
-                               " lab, one for each half second",
-                       .choices = {{"nothing", "none"}, {"past", "every half second"}}}};
+    return {
+        .lab = lab,
+        .plot = {.key = lab + " plot",
+                 .command = "view." + lab + "_plot",
+                 .title = "Plot the " + what + "'s last ten seconds",
+                 .argument = "of",
+                 .help = "Plots something of the last ten seconds of the " + title + " lab below the scene",
+                 .choices = std::move(numbers)},
+        .ghosts = {.key = lab + " ghosts",
+                   .command = "view." + lab + "_ghosts",
+                   .title = "Show or hide the " + what + "'s ghosts",
+                   .argument = "of",
+                   .help = "Shows the poses of the last ten seconds of the " + title +
+                           " lab, one for each half second",
+                   .choices = {{"nothing", "none"}, {"past", "every half second"}}}};
 }
 
 void past_view_rows(const Workspace& workspace, const PastView& view, const PastHelp& help, Emit& emit) {
@@ -115,8 +115,7 @@ std::vector<PastValue> past_values(const Workspace& workspace, const PastView& v
     }
     std::vector<PastValue> values;
     const auto add = [&](std::uint64_t tick, const SharedPart& part) {
-        const float value =
-            runtime.values.of(part, [&] { return static_cast<float>(curve.value(part)); });
+        const float value = runtime.values.of(part, [&] { return static_cast<float>(curve.value(part)); });
         if (std::isfinite(value)) values.push_back({tick, value});
     };
     for (const Rewind::Moment& moment : past.moments()) add(moment.tick, moment.part);
@@ -138,7 +137,8 @@ void past_plot(const Workspace& workspace, const PastView& view, const PastCurve
         std::minmax_element(line.points.begin(), line.points.end(),
                             [](const glm::vec2& a, const glm::vec2& b) { return a.y < b.y; });
     constexpr float margin = 1.1f;
-    const float low_y = std::min(margin * low->y, 0.0f), high_y = std::max(margin * high->y, curve.lowest_range);
+    const float low_y = std::min(margin * low->y, 0.0f),
+                high_y = std::max(margin * high->y, curve.lowest_range);
     std::vector<Curve> curves = marks_on(line, workspace);
     curves.insert(curves.begin(), std::move(line));
     plot("past", curves,

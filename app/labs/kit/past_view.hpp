@@ -39,19 +39,20 @@ using SharedPart = std::shared_ptr<const Part>;
 
 /// The number that is plotted.
 struct PastCurve {
-    std::string name;             ///< of which joint it is, too: "swing of joint 2"
-    std::string of;               ///< what tells it from all others
-    std::string unit = "deg";     ///< or "m"
-    float lowest_range = 10.0f;   ///< of the axis, in that unit
-    std::string missing;          ///< how to get one, where it is known at no moment
+    std::string name;                                ///< of which joint it is, too: "swing of joint 2"
+    std::string of;                                  ///< what tells it from all others
+    std::string unit = "deg";                        ///< or "m"
+    float lowest_range = 10.0f;                      ///< of the axis, in that unit
+    std::string missing;                             ///< how to get one, where it is known at no moment
     std::function<double(const SharedPart&)> value;  ///< NaN where it is not known
 };
 
-/// What its angles are of where nothing is selected, and where that is said: rows of a panel.
+/// What a lab's tooltips say.
 struct PastHelp {
     const char* plot;
     const char* ghosts;
 };
+/// The panel: what is plotted, and whether there are ghosts.
 void past_view_rows(const Workspace& workspace, const PastView& view, const PastHelp& help, Emit& emit);
 
 /// Pixels at scale 1, below the strip; 0 where nothing is plotted.
@@ -76,7 +77,6 @@ void draw_past_ghosts(const View& view, const PastView& past,
                       const std::function<PoseLines(const SharedPart&)>& pose, DrawList& list);
 
 /// For --state: {"plot": null or what is plotted, with its values, "ghosts": their ticks}.
-Json past_view_state(const Workspace& workspace, const PastView& view,
-                     const std::optional<PastCurve>& curve);
+Json past_view_state(const Workspace& workspace, const PastView& view, const std::optional<PastCurve>& curve);
 
 }  // namespace tendril::app

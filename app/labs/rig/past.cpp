@@ -1,5 +1,5 @@
-// How an element is turned, over the last ten seconds: within its parent, from its initial pose; and the poses
-// of them.
+// How an element is turned, over the last ten seconds: within its parent, from its initial pose; and the
+// poses of them.
 #include "app/labs/rig/past.hpp"
 
 #include <glm/geometric.hpp>
@@ -69,10 +69,9 @@ double value_of(Number what, const RigPart& part, const std::string& name) {
 }  // namespace
 
 PastView rig_past() {
-    return past_view(rig_lab, "rig",
-                     {{"swing", "swing of a bone"},
-                      {"twist", "twist of a bone"},
-                      {"angle", "angle of an element"}});
+    return past_view(
+        rig_lab, "rig",
+        {{"swing", "swing of a bone"}, {"twist", "twist of a bone"}, {"angle", "angle of an element"}});
 }
 
 std::optional<PastCurve> rig_past_curve(const Workspace& workspace) {
@@ -83,14 +82,14 @@ std::optional<PastCurve> rig_past_curve(const Workspace& workspace) {
     const std::string number = what == Number::Swing   ? "swing of "
                                : what == Number::Twist ? "twist of "
                                                        : "angle of ";
-    return PastCurve{.name = number + element,
-                     .of = number + element,
-                     .missing = element.empty() ? "The rig has no element: add one."
-                                                : element + " has no swing and twist: select a bone, or plot "
-                                                            "the angle.",
-                     .value = [what, element](const SharedPart& part) {
-                         return value_of(what, rig_of(part), element);
-                     }};
+    return PastCurve{
+        .name = number + element,
+        .of = number + element,
+        .missing = element.empty() ? "The rig has no element: add one."
+                                   : element +
+                                         " has no swing and twist: select a bone, or plot "
+                                         "the angle.",
+        .value = [what, element](const SharedPart& part) { return value_of(what, rig_of(part), element); }};
 }
 
 PoseLines rig_lines(const SharedPart& part) {

@@ -75,9 +75,8 @@ TEST(PastViews, AreSettingsAndNothingToUndoOrToSave) {
         EXPECT_TRUE(plain["past"]["plot"].is_null());
         EXPECT_EQ(with["past"]["plot"]["of"], lab.of);
         // Each without an argument is the next choice, and at last the first one.
-        const Json off = state_after(ScriptText(script)
-                                         .command(view(lab, "_ghosts"), {{"of", "past"}})
-                                         .command(view(lab, "_ghosts")));
+        const Json off = state_after(
+            ScriptText(script).command(view(lab, "_ghosts"), {{"of", "past"}}).command(view(lab, "_ghosts")));
         EXPECT_EQ(off["past"], plain["past"]) << lab.lab;
     }
 }

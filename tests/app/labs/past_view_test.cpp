@@ -1,5 +1,5 @@
-// What labs share of their last ten seconds: turns told as swing and twist, what is kept of a moment, and which
-// moments are shown as ghosts.
+// What labs share of their last ten seconds: turns told as swing and twist, what is kept of a moment, and
+// which moments are shown as ghosts.
 #include "app/labs/kit/past_view.hpp"
 
 #include <gtest/gtest.h>
@@ -40,8 +40,8 @@ TEST_F(Turns, AreToldBySwingAndTwist) {
         const glm::dvec3 along = direction();
         const glm::dvec3 across = glm::normalize(glm::cross(along, direction()));
         const double swing = uniform(0.0, 179.0), twist = uniform(-179.9, 179.9);
-        const glm::dquat turn = glm::angleAxis(glm::radians(swing), across) *
-                                glm::angleAxis(glm::radians(twist), along);
+        const glm::dquat turn =
+            glm::angleAxis(glm::radians(swing), across) * glm::angleAxis(glm::radians(twist), along);
         const double length = uniform(0.1, 5.0), scale = uniform(0.5, 2.0);
         const JointTurn told = joint_turn((i % 2 == 0 ? 1.0 : -1.0) * scale * turn, length * along);
         EXPECT_NEAR(told.swing, swing, 1e-6);

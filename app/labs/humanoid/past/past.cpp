@@ -1,5 +1,5 @@
-// How a joint is turned, or how far an effector is from its target, over the last ten seconds; and the poses of
-// them.
+// How a joint is turned, or how far an effector is from its target, over the last ten seconds; and the poses
+// of them.
 #include "app/labs/humanoid/past/past.hpp"
 
 #include <algorithm>
@@ -44,7 +44,8 @@ const PastPose& pose_of(const Workspace& workspace, const SharedPart& part) {
 /// The one that is selected and has a target; nothing where that is none.
 std::optional<Effector> selected_effector(const HumanoidPart& part) {
     for (const Effector each : all_effectors)
-        if (part.ik.target(each) && part.node_of(humanoid::bone_of(each)) == part.selection.active()) return each;
+        if (part.ik.target(each) && part.node_of(humanoid::bone_of(each)) == part.selection.active())
+            return each;
     return std::nullopt;
 }
 
@@ -56,8 +57,8 @@ double error_of(const PastPose& pose, std::optional<Effector> effector) {
     return farthest >= 0.0 ? farthest : nothing;
 }
 
-/// Of a bone from the T-pose, against the bone before it in the body; of any other node within its parent, from
-/// the rest pose.
+/// Of a bone from the T-pose, against the bone before it in the body; of any other node within its parent,
+/// from the rest pose.
 JointTurn turn_of(const HumanoidPart& part, Solvers& solvers, const PastPose& pose, std::size_t node) {
     const auto bone = part.bone_of(node);
     const humanoid::BodyJoints* const joints = bone ? solvers.limits(part).joints() : nullptr;
@@ -112,18 +113,17 @@ std::optional<PastCurve> humanoid_past_curve(const Workspace& workspace) {
     const HumanoidPart& now = humanoid_part(workspace);
     const std::string& node = now.skeleton()[plotted_node(now)].name;
     const std::string name = (what == Number::Swing ? "swing of " : "twist of ") + node;
-    return PastCurve{
-        .name = name,
-        .of = name,
-        .missing = "The character had no " + node + " then.",
-        .value = [&workspace, what, node](const SharedPart& part) {
-            const HumanoidPart& then = humanoid_of(part);
-            const auto at = then.skeleton().find(node);
-            if (!at) return nothing;
-            const JointTurn turn =
-                turn_of(then, humanoid_runtime(workspace).solvers, pose_of(workspace, part), *at);
-            return what == Number::Swing ? turn.swing : turn.twist;
-        }};
+    return PastCurve{.name = name,
+                     .of = name,
+                     .missing = "The character had no " + node + " then.",
+                     .value = [&workspace, what, node](const SharedPart& part) {
+                         const HumanoidPart& then = humanoid_of(part);
+                         const auto at = then.skeleton().find(node);
+                         if (!at) return nothing;
+                         const JointTurn turn = turn_of(then, humanoid_runtime(workspace).solvers,
+                                                        pose_of(workspace, part), *at);
+                         return what == Number::Swing ? turn.swing : turn.twist;
+                     }};
 }
 
 PoseLines humanoid_lines(const Workspace& workspace, const SharedPart& part) {

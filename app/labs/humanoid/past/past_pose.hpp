@@ -1,5 +1,5 @@
-// The character as it was shown at a moment of the last ten seconds. A part has no pose, it follows from it by
-// the whole of a solve: it is worked out once for each moment.
+// The character as it was shown at a moment of the last ten seconds. A part has no pose, it follows from it
+// by the whole of a solve: it is worked out once for each moment.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 namespace tendril::app {
 
 struct PastPose {
-    std::vector<humanoid::Placement> placed;  ///< of every node
+    std::vector<humanoid::Placement> placed;                           ///< of every node
     std::array<std::optional<double>, humanoid::effector_count> left;  ///< to the effectors' targets, metres
 };
 using PastPoses = PartCache<PastPose>;

@@ -1,5 +1,5 @@
-// How a joint was turned and how far an effector was from its target at each moment that is remembered, against
-// what the lab shows when one goes back there.
+// How a joint was turned and how far an effector was from its target at each moment that is remembered,
+// against what the lab shows when one goes back there.
 #include "app/labs/humanoid/past/past.hpp"
 
 #include <glm/trigonometric.hpp>
@@ -33,8 +33,7 @@ class HumanoidPast : public HumanoidTest {
     }
     std::map<std::uint64_t, double> values() const {
         std::map<std::uint64_t, double> by_tick;
-        for (const PastValue& each :
-             past_values(workspace, humanoid_past(), *humanoid_past_curve(workspace)))
+        for (const PastValue& each : past_values(workspace, humanoid_past(), *humanoid_past_curve(workspace)))
             by_tick[each.tick] = static_cast<double>(each.value);
         return by_tick;
     }

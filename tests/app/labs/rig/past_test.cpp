@@ -60,8 +60,8 @@ Counted count(const glm::dquat& turn, const glm::dvec3& along) {
     const glm::dvec3 bone = glm::normalize(along), went = turn * bone;
     const glm::dvec3 axis = glm::cross(went, bone);
     const double sine = glm::length(axis), cosine = glm::dot(went, bone);
-    const glm::dquat back = sine > 1e-12 ? glm::angleAxis(std::atan2(sine, cosine), axis / sine)
-                                         : glm::dquat(1, 0, 0, 0);
+    const glm::dquat back =
+        sine > 1e-12 ? glm::angleAxis(std::atan2(sine, cosine), axis / sine) : glm::dquat(1, 0, 0, 0);
     const glm::dvec3 other = std::abs(bone.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 side = glm::normalize(glm::cross(bone, other)), turned = back * (turn * side);
     return {glm::degrees(std::atan2(sine, cosine)),
@@ -107,7 +107,9 @@ TEST_F(RigPast, ValuesAreThoseOfThePoseAtEachTick) {
             for (std::size_t i = 0; known && i < turns.size(); ++i) {
                 const Counted counted = count(turns[i], along);
                 const double angle = 2.0 * glm::degrees(std::acos(std::min(1.0, std::abs(turns[i].w))));
-                const double expected = what[0] == 's' ? counted.swing : what[0] == 't' ? counted.twist : angle;
+                const double expected = what[0] == 's'   ? counted.swing
+                                        : what[0] == 't' ? counted.twist
+                                                         : angle;
                 EXPECT_NEAR(static_cast<double>(told[i].value), expected, 1e-3) << what << " at " << i;
             }
         }
