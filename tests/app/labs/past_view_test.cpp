@@ -69,6 +69,7 @@ TEST(PartCaches, WorkOutAPartOnceAndForgetWhatIsNoLongerRemembered) {
         EXPECT_EQ(ask(part), static_cast<int>(tick) + 1);
         cache.trim(past);
         EXPECT_LE(cache.size(), 2 * past.size() + 64);
+        EXPECT_TRUE(cache.has(past.moments().front().part)) << "it is still remembered";
     }
     for (const Rewind::Moment& moment : past.moments()) EXPECT_TRUE(cache.has(moment.part));
     EXPECT_EQ(made, 2000) << "none was worked out twice";
