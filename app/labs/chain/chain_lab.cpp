@@ -10,6 +10,7 @@
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/incidents.hpp"
+#include "app/labs/chain/past.hpp"
 #include "app/labs/chain/presets.hpp"
 #include "app/labs/chain/shown.hpp"
 #include "app/labs/kit/guarded_step.hpp"
@@ -256,6 +257,8 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
     if (shown.trace) rows.push_back({"this step", colours.accent, true});
     if (shown.trace) rows.push_back({"start, earlier iterations", colours.ghost});
     if (workspace.ui.incident) rows.push_back({"before it happened", colours.ghost});
+    if (!part.study.open() && chain_past().shows_ghosts(workspace.settings))
+        rows.push_back({ghost_legend, colours.ghost});
     if (part.mode != ChainMode::Reach) return rows;
     if (part.reach.pole) rows.push_back({"pole", pole_colour(colours)});
     if (!part.reach.limits.empty()) rows.push_back({"limit", colours.ghost, true});
@@ -291,7 +294,7 @@ std::vector<Shortcut> ChainLab::shortcuts() const {
 }
 
 std::vector<LabSetting> ChainLab::settings() const {
-    return {segment_style(), reach_sphere(), past_plot_setting(), ghost_setting()};
+    return {segment_style(), reach_sphere(), chain_past().plot, chain_past().ghosts};
 }
 
 std::vector<CommandCall> ChainLab::opening() const {

@@ -5,6 +5,7 @@
 #include "app/document/units.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/draw.hpp"
+#include "app/labs/chain/past.hpp"
 
 namespace tendril::app {
 namespace {
@@ -48,7 +49,7 @@ class Drawing {
             draw_limits(view_, chain_, list_);
             draw_pole(view_, part_, list_);
         }
-        draw_ghosts(view_, part_, list_);
+        if (!part_.study.open()) draw_past_ghosts(view_, chain_past(), chain_lines, list_);
         draw_incident(view_, part_, list_);
         path();
         target();

@@ -14,11 +14,6 @@ LabSetting segment_style();
 /// Whether mode reach shows the sphere of what the chain can reach.
 LabSetting reach_sphere();
 
-/// What of the last ten seconds is plotted below the scene.
-enum class PastPlot { Nothing, Error, Swing, Twist };
-LabSetting past_plot_setting();
-PastPlot past_plot(const Settings& settings);
-
 /// A circle of short lines; `across` and `up` are of length 1 and at right angles. `pixels`: their width.
 void draw_circle(DrawList& list, glm::vec3 centre, float radius, glm::vec3 across, glm::vec3 up, float pixels,
                  glm::vec4 colour);
@@ -41,9 +36,5 @@ std::vector<PaneTitle> race_panes(const ShownChain& shown, const Palette& palett
 /// Under a chain that shows what came of an incident: how it stood before, and how the joint that jumped
 /// went.
 void draw_incident(const View& view, const ChainPart& part, DrawList& list);
-
-/// Whether the poses of the last ten seconds are shown, one for each half second.
-LabSetting ghost_setting();
-void draw_ghosts(const View& view, const ChainPart& part, DrawList& list);
 
 }  // namespace tendril::app

@@ -6,6 +6,7 @@
 
 #include "app/document/units.hpp"
 #include "app/labs/chain/draw.hpp"
+#include "app/labs/chain/past.hpp"
 #include "app/labs/chain/panels.hpp"
 #include "app/labs/chain/presets.hpp"
 #include "app/labs/kit/folding.hpp"
@@ -108,21 +109,9 @@ void target_rows(const ChainPart& part, bool playing, Emit& emit) {
     explain("How long one round takes. Shorter is faster.");
 }
 
-/// What of the last ten seconds is plotted below the scene.
-void plot_choice(const Settings& settings, Emit& emit) {
-    const LabSetting setting = past_plot_setting();
-    std::vector<const char*> titles;
-    for (const LabSetting::Choice& choice : setting.choices) titles.push_back(choice.title.c_str());
-    int chosen = static_cast<int>(setting.chosen(settings));
-    if (choice_field("plot", chosen, titles.data(), static_cast<int>(titles.size())))
-        emit(setting.command, {{setting.argument, setting.choices[static_cast<std::size_t>(chosen)].name}});
-    explain(
-        "What of the last ten seconds is plotted below the scene; angles are those of the selected joint");
-    bool ghosts = ghost_setting().chosen(settings) == 1;
-    if (ImGui::Checkbox("Ghosts of the last ten seconds", &ghosts))
-        emit(ghost_setting().command, {{ghost_setting().argument, ghosts ? "past" : "nothing"}});
-    explain("Where the chain was, at every half second");
-}
+constexpr PastHelp past_help{
+    "What of the last ten seconds is plotted below the scene; angles are those of the selected joint",
+    "Where the chain was, at every half second"};
 
 void preset_rows(Emit& emit) {
     std::vector<PresetButton> buttons;
@@ -149,10 +138,15 @@ void ChainLab::panel(const Workspace& workspace, Emit& emit) const {
     if (open("Target")) target_rows(part, workspace.clock.playing, emit);
     if (open("Analyse")) {
         study_rows(part, emit);
-        plot_choice(workspace.settings, emit);
+        past_view_rows(workspace, chain_past(), past_help, emit);
         if (part.mode == ChainMode::Reach) flip_rows(part.flips, chain_flip_words, emit);
     }
     if (open("Export")) export_rows(emit);
+}
+
+float ChainLab::timeline_height(const Workspace& workspace) const {
+    const bool plots = chain_part(workspace).study.kind != Study::Kind::Microscope;
+    return strip_height + (plots ? past_plot_height(workspace.settings, chain_past()) : 0.0f);
 }
 
 void ChainLab::timeline(const Workspace& workspace, Emit& emit) const {
@@ -174,7 +168,7 @@ void ChainLab::timeline(const Workspace& workspace, Emit& emit) const {
         return;
     }
     past_strip(workspace, emit);
-    past_plot_rows(workspace);
+    if (const auto curve = chain_past_curve(workspace)) past_plot(workspace, chain_past(), *curve);
 }
 
 }  // namespace tendril::app

@@ -14,8 +14,6 @@ void solver_rows(const ChainPart& part, Emit& emit);
 void study_rows(const ChainPart& part, Emit& emit);
 /// The panel: what to copy.
 void export_rows(Emit& emit);
-/// Below the strip of the last ten seconds: what of them is plotted.
-void past_plot_rows(const Workspace& workspace);
 /// The inspector: what became of the last move of the target, and how the last solve went.
 void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, const Palette& palette);
 /// The inspector: what is selected.

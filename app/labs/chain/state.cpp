@@ -2,6 +2,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/chain/chain_lab.hpp"
+#include "app/labs/chain/past.hpp"
 #include "app/labs/chain/shown.hpp"
 #include "app/labs/chain/verdict.hpp"
 
@@ -91,6 +92,7 @@ Json ChainLab::state(const Workspace& workspace) const {
               {"reach", number(part.chain.reach())},
               {"verdict", chain_verdict(part).text},
               {"motion", motion_paths.name(part.motion.path)},
+              {"past", past_view_state(workspace, chain_past(), chain_past_curve(workspace))},
               {"segments", std::move(list)}};
     if (part.mode == ChainMode::Reach) json["solve"] = reach_state(part);
     const ShownChain shown = shown_chain(workspace);

@@ -13,6 +13,7 @@
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/ik/draw_ground.hpp"
 #include "app/labs/humanoid/limits/draw_limits.hpp"
+#include "app/labs/humanoid/past/past.hpp"
 
 namespace tendril::app {
 namespace {
@@ -309,10 +310,12 @@ LabSetting helpers_setting() {
 }
 
 std::vector<LabSetting> HumanoidLab::settings() const {
-    return {bones_setting(), helpers_setting()};
+    return {bones_setting(), helpers_setting(), humanoid_past().plot, humanoid_past().ghosts};
 }
 
 void HumanoidLab::draw(const View& view, DrawList& list) const {
+    const auto pose = [&](const SharedPart& part) { return humanoid_lines(view.workspace, part); };
+    draw_past_ghosts(view, humanoid_past(), pose, list);
     Drawing(view, list).run();
 }
 
@@ -332,6 +335,7 @@ std::vector<LegendRow> HumanoidLab::legend(const Workspace& workspace) const {
     if (!part.springs.empty()) rows.push_back({"on a spring", attached_colour(colours)});
     if (!part.attachments.list.empty()) rows.push_back({"attached", attached_colour(colours)});
     if (part.view.ghost && !shown.before.empty()) rows.push_back({"before", colours.ghost});
+    if (humanoid_past().shows_ghosts(workspace.settings)) rows.push_back({ghost_legend, colours.ghost});
     return rows;
 }
 

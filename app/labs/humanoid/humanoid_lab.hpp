@@ -19,7 +19,7 @@ class HumanoidLab final : public Lab {
     void step(Workspace& workspace) const override;
     bool working(const Workspace& workspace) const override;
     void work(Workspace& workspace) const override;
-    float timeline_height(const Workspace&) const override { return strip_height; }
+    float timeline_height(const Workspace& workspace) const override;
     void timeline(const Workspace& workspace, Emit& emit) const override;
 
     void draw(const View& view, DrawList& list) const override;

@@ -11,6 +11,7 @@
 #include "app/labs/humanoid/character/loading.hpp"
 #include "app/labs/humanoid/clip/clip_lint.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
+#include "app/labs/humanoid/past/past_pose.hpp"
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {
@@ -26,6 +27,7 @@ class HumanoidRuntime final : public Runtime {
     ClipLint lint;
     KeptMaps kept_maps;
     rope::Workspace ropes;
+    PastPoses past;
 
     /// The interface's own: it follows from nothing, and nothing follows from it.
     struct Panel {

@@ -7,11 +7,17 @@
 #include "app/document/units.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/panels.hpp"
+#include "app/labs/humanoid/past/past.hpp"
 #include "app/labs/kit/folding.hpp"
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {
 namespace {
+
+constexpr PastHelp past_help{
+    "What of the last ten seconds is plotted below the scene: how far the selected effector is from its target, "
+    "or how the selected joint is turned, from the T-pose",
+    "Where the body was, at every half second"};
 
 void rest_row(const HumanoidPanel& panel) {
     const HumanoidPart& part = panel.part;
@@ -147,6 +153,7 @@ void look_rows(const HumanoidPanel& panel) {
     explain("How far joints turn: an adult's range, and over it that of the clips.");
     if (ImGui::Checkbox("Ghost", &view.ghost)) panel.emit("humanoid.view", {{"ghost", view.ghost}});
     explain("The pose as it was before anything changed it, in gray.");
+    past_view_rows(panel.workspace, humanoid_past(), past_help, panel.emit);
 }
 
 void HumanoidLab::panel(const Workspace& workspace, Emit& emit) const {

@@ -9,6 +9,7 @@
 #include "app/labs/humanoid/limits/selected_joints.hpp"
 #include "app/labs/humanoid/node_selection.hpp"
 #include "app/labs/humanoid/panels.hpp"
+#include "app/labs/humanoid/past/past.hpp"
 
 namespace tendril::app {
 namespace {
@@ -294,6 +295,7 @@ Json HumanoidLab::state(const Workspace& workspace) const {
                 {"springs", springs_state(workspace, shown)},
                 {"attachments", attachments_state(part)},
                 {"order", {"clip", "IK", "rig", "ropes"}},
+                {"past", past_view_state(workspace, humanoid_past(), humanoid_past_curve(workspace))},
                 {"selected", active_name(part.selection, part.skeleton())},
                 {"selection", names_of(part.selection, part.skeleton())}};
 }

@@ -5,6 +5,7 @@
 
 #include "app/labs/rig/control_shape.hpp"
 #include "app/labs/rig/draw_walks.hpp"
+#include "app/labs/rig/past.hpp"
 #include "app/labs/rig/picture.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rig/rig_runtime.hpp"
@@ -212,6 +213,7 @@ void RigLab::draw(const View& view, DrawList& list) const {
     const RigPicture picture{view, list, part, elements};
     Drawing(picture, view.workspace.settings).run();
     draw_walks(view, list);
+    draw_past_ghosts(view, rig_past(), rig_lines, list);
     draw_incident(picture);
 }
 
@@ -227,6 +229,7 @@ std::vector<LegendRow> RigLab::legend(const Workspace& workspace) const {
                          *selected))
         rows.push_back({before_units, colours.ghost});
     if (workspace.ui.incident) rows.push_back({"before it happened", colours.ghost});
+    if (rig_past().shows_ghosts(workspace.settings)) rows.push_back({ghost_legend, colours.ghost});
     if (rig_pending_setting().chosen(workspace.settings) == 1) {
         rows.push_back({"global pose pending", colours.accent, true});
         rows.push_back({"local pose pending", colours.tail, true});

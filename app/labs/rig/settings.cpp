@@ -1,6 +1,7 @@
 #include "app/labs/rig/settings.hpp"
 
 #include "app/labs/rig/panels.hpp"
+#include "app/labs/rig/past.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 
 namespace tendril::app {
@@ -44,7 +45,7 @@ LabSetting rig_strip_setting() {
 
 std::vector<LabSetting> RigLab::settings() const {
     return {rig_axes_setting(), rig_figures_setting(), pending_marks(), rig_pending_setting(),
-            rig_strip_setting()};
+            rig_strip_setting(), rig_past().plot, rig_past().ghosts};
 }
 
 }  // namespace tendril::app

@@ -4,6 +4,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/labs/rig/clip.hpp"
 #include "app/labs/rig/panels.hpp"
+#include "app/labs/rig/past.hpp"
 #include "app/labs/rig/rig_edit.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rig/rig_runtime.hpp"
@@ -152,6 +153,7 @@ Json RigLab::state(const Workspace& workspace) const {
                 {"selected", {{"element", part.selected_element()}, {"unit", part.selected.unit}}},
                 {"selection", names_of(part, part.selected.elements.all())},
                 {"moving", part.moving},
+                {"past", past_view_state(workspace, rig_past(), rig_past_curve(workspace))},
                 {"take", take_state(part)},
                 {"motions", walks_json(part)},
                 {"clip", clip_state(part)},

@@ -9,6 +9,7 @@
 #include "app/document/units.hpp"
 #include "app/labs/rig/clip.hpp"
 #include "app/labs/rig/panels.hpp"
+#include "app/labs/rig/past.hpp"
 #include "app/labs/rig/rates.hpp"
 #include "app/labs/rig/walk.hpp"
 #include "app/widgets/fields.hpp"
@@ -133,6 +134,11 @@ void rate_rows(const RigPart& part, Emit& emit) {
              " s into the take.");
 }
 
+constexpr PastHelp past_help{
+    "What of the last ten seconds is plotted below the scene, of the selected element: how it is turned "
+    "within its parent, from its initial pose",
+    "Where the bones were, at every half second"};
+
 }  // namespace
 
 void walk_rows(const Workspace& workspace, Emit& emit) {
@@ -162,6 +168,8 @@ void time_rows(const Workspace& workspace, Emit& emit) {
     const RigPart& part = rig_part(workspace);
     if (folding_section(workspace, "Clip", emit)) clip_rows(part, emit);
     if (folding_section(workspace, "Frame rates", emit)) rate_rows(part, emit);
+    if (folding_section(workspace, "Last ten seconds", emit))
+        past_view_rows(workspace, rig_past(), past_help, emit);
     if (folding_section(workspace, "What counts as a flip", emit, false))
         flip_rows(part.flips, rig_flip_words, emit);
 }

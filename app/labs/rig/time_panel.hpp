@@ -8,7 +8,7 @@ namespace tendril::app {
 
 /// What moves a control by itself; nothing where no control can.
 void walk_rows(const Workspace& workspace, Emit& emit);
-/// Clip, frame rates, and what counts as a flip.
+/// Clip, frame rates, what of the last ten seconds is shown, and what counts as a flip.
 void time_rows(const Workspace& workspace, Emit& emit);
 
 }  // namespace tendril::app

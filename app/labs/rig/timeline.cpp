@@ -9,6 +9,7 @@
 #include "app/document/units.hpp"
 #include "app/labs/kit/past_strip.hpp"
 #include "app/labs/rig/clip.hpp"
+#include "app/labs/rig/past.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rig/settings.hpp"
 #include "app/widgets/icons.hpp"
@@ -141,7 +142,8 @@ void take_strip(const Workspace& workspace, Emit& emit) {
 }  // namespace
 
 float RigLab::timeline_height(const Workspace& workspace) const {
-    return rig_part(workspace).state.controls.empty() ? 0.0f : strip_height;
+    if (rig_part(workspace).state.controls.empty()) return 0.0f;
+    return strip_height + past_plot_height(workspace.settings, rig_past());
 }
 
 void RigLab::timeline(const Workspace& workspace, Emit& emit) const {
@@ -151,10 +153,14 @@ void RigLab::timeline(const Workspace& workspace, Emit& emit) const {
     replay_button(workspace, emit);
     if (const LabSetting strip = rig_strip_setting(); other_strip_button(past, "take"))
         emit(strip.command, {{strip.argument, past ? "take" : "past"}});
-    if (past) return past_time_strip(workspace, emit);
-    step_button(part, true, emit);
-    step_button(part, false, emit);
-    take_strip(workspace, emit);
+    if (past) {
+        past_time_strip(workspace, emit);
+    } else {
+        step_button(part, true, emit);
+        step_button(part, false, emit);
+        take_strip(workspace, emit);
+    }
+    if (const auto curve = rig_past_curve(workspace)) past_plot(workspace, rig_past(), *curve);
 }
 
 }  // namespace tendril::app

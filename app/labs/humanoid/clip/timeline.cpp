@@ -6,6 +6,7 @@
 
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/panels.hpp"
+#include "app/labs/humanoid/past/past.hpp"
 #include "app/labs/kit/past_strip.hpp"
 #include "app/widgets/icons.hpp"
 #include "app/widgets/timeline.hpp"
@@ -77,18 +78,26 @@ void clip_strip(const HumanoidPanel& panel) {
     }
 }
 
-}  // namespace
-
-void HumanoidLab::timeline(const Workspace& workspace, Emit& emit) const {
-    const HumanoidPanel panel = humanoid_panel(workspace, emit);
-    if (panel.part.clip() == nullptr) return past_strip(workspace, emit);
+void strip(const HumanoidPanel& panel) {
+    if (panel.part.clip() == nullptr) return past_strip(panel.workspace, panel.emit);
     bool& past = panel.runtime.panel.past;
     buttons(panel);
     if (other_strip_button(past, "clip")) past = !past;
     if (past)
-        past_strip(workspace, emit);
+        past_strip(panel.workspace, panel.emit);
     else
         clip_strip(panel);
+}
+
+}  // namespace
+
+float HumanoidLab::timeline_height(const Workspace& workspace) const {
+    return strip_height + past_plot_height(workspace.settings, humanoid_past());
+}
+
+void HumanoidLab::timeline(const Workspace& workspace, Emit& emit) const {
+    strip(humanoid_panel(workspace, emit));
+    if (const auto curve = humanoid_past_curve(workspace)) past_plot(workspace, humanoid_past(), *curve);
 }
 
 }  // namespace tendril::app

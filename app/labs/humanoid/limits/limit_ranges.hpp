@@ -25,6 +25,9 @@ class LimitRanges {
     /// Those that hold.
     humanoid::BodyLimits in_force(const IkSettings& ik) const;
 
+    /// Null where the map is not one of a body.
+    const humanoid::BodyJoints* joints() const { return joints_ ? &*joints_ : nullptr; }
+
     /// Turned as it is shown, and where its limit lies then. For a joint that adult() has a limit of.
     ik::JointAngles angles(humanoid::Bone bone, const ShownPose& shown) const;
     LimitShape shape(humanoid::Bone bone, const ik::Limit& limit, const ShownPose& shown) const;

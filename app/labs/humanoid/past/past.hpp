@@ -1,0 +1,15 @@
+// What the Humanoid lab shows of its last ten seconds.
+#pragma once
+
+#include "app/labs/kit/past_view.hpp"
+
+namespace tendril::app {
+
+PastView humanoid_past();
+/// Of the active node, or of the left elbow; of the active effector, or of the one that is farthest from its
+/// target. Nothing while nothing is plotted.
+std::optional<PastCurve> humanoid_past_curve(const Workspace& workspace);
+/// A line for each bone of the body, as it was shown then.
+PoseLines humanoid_lines(const Workspace& workspace, const SharedPart& part);
+
+}  // namespace tendril::app

@@ -1,0 +1,203 @@
+#include "app/labs/kit/past_view.hpp"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <utility>
+
+#include "app/document/json_complete.hpp"
+#include "app/labs/kit/part_cache.hpp"
+#include "app/labs/kit/past_strip.hpp"
+#include "app/widgets/fields.hpp"
+#include "app/widgets/fonts.hpp"
+#include "app/widgets/plot.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr float plot_height = 130.0f;      ///< pixels at scale 1
+constexpr std::uint64_t half_second = 30;  ///< ticks
+
+struct PastRuntime final : Runtime {
+    std::string of;  ///< what the values are of
+    PartCache<float> values;
+    PartCache<PoseLines> poses;
+};
+
+PastRuntime& runtime_of(const Workspace& workspace, const PastView& view) {
+    return workspace.runtimes.of<PastRuntime>(view.lab + " past");
+}
+
+/// The oldest tick of all that is shown.
+std::uint64_t first_tick(const Workspace& workspace) {
+    return workspace.rewind.empty() ? workspace.moment : workspace.rewind.oldest();
+}
+
+float seconds(std::uint64_t ticks) {
+    return static_cast<float>(static_cast<double>(ticks) * tick_seconds);
+}
+
+/// Pixels: a plot is written in it.
+float small_font_size() {
+    ImGui::PushFont(small_font());
+    const float size = ImGui::GetFontSize();
+    ImGui::PopFont();
+    return size;
+}
+
+/// Where the line passes the tick of an incident; larger where a joint jumped.
+std::vector<Curve> marks_on(const Curve& line, const Workspace& workspace) {
+    const std::uint64_t first = first_tick(workspace);
+    const Palette& colours = palette(workspace.settings.theme);
+    std::vector<Curve> marks;
+    for (const Incident& incident : workspace.rewind.incidents()) {
+        if (incident.tick + 1 < first) continue;
+        const float at = seconds(incident.tick + 1 - first), value = value_at(line, at);
+        if (!std::isfinite(value)) continue;
+        marks.push_back({.name = incident_title(incident),
+                         .colour = incident_colour(incident, colours),
+                         .points = {{at, value}},
+                         .width = incident.kind == Incident::Kind::Flip ? 1.5f : 1.0f});
+    }
+    return marks;
+}
+
+}  // namespace
+
+PastView past_view(const std::string& lab, const std::string& what, std::vector<LabSetting::Choice> numbers) {
+    std::string title = lab;
+    title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
+    numbers.insert(numbers.begin(), {"nothing", "nothing"});
+    return {
+        .lab = lab,
+        .plot = {.key = lab + " plot",
+                 .command = "view." + lab + "_plot",
+                 .title = "Plot the " + what + "'s last ten seconds",
+                 .argument = "of",
+                 .help = "Plots something of the last ten seconds of the " + title + " lab below the scene",
+                 .choices = std::move(numbers)},
+        .ghosts = {.key = lab + " ghosts",
+                   .command = "view." + lab + "_ghosts",
+                   .title = "Show or hide the " + what + "'s ghosts",
+                   .argument = "of",
+                   .help = "Shows the poses of the last ten seconds of the " + title +
+                           " lab, one for each half second",
+                   .choices = {{"nothing", "none"}, {"past", "every half second"}}}};
+}
+
+void past_view_rows(const Workspace& workspace, const PastView& view, const PastHelp& help, Emit& emit) {
+    const auto choose = [&](const LabSetting& setting, std::size_t choice) {
+        emit(setting.command, {{setting.argument, setting.choices[choice].name}});
+    };
+    std::vector<const char*> titles;
+    for (const LabSetting::Choice& choice : view.plot.choices) titles.push_back(choice.title.c_str());
+    int chosen = static_cast<int>(view.plot.chosen(workspace.settings));
+    if (choice_field("plot", chosen, titles.data(), static_cast<int>(titles.size())))
+        choose(view.plot, static_cast<std::size_t>(chosen));
+    explain(help.plot);
+    bool ghosts = view.shows_ghosts(workspace.settings);
+    if (ImGui::Checkbox("Ghosts of the last ten seconds", &ghosts)) choose(view.ghosts, ghosts ? 1 : 0);
+    explain(help.ghosts);
+}
+
+float past_plot_height(const Settings& settings, const PastView& view) {
+    return view.plots(settings) ? plot_height : 0.0f;
+}
+
+std::vector<PastValue> past_values(const Workspace& workspace, const PastView& view, const PastCurve& curve) {
+    PastRuntime& runtime = runtime_of(workspace, view);
+    const Rewind& past = workspace.rewind;
+    if (runtime.of != curve.of) {
+        runtime.values.clear();
+        runtime.of = curve.of;
+    }
+    std::vector<PastValue> values;
+    const auto add = [&](std::uint64_t tick, const SharedPart& part) {
+        const float value = runtime.values.of(part, [&] { return static_cast<float>(curve.value(part)); });
+        if (std::isfinite(value)) values.push_back({tick, value});
+    };
+    for (const Rewind::Moment& moment : past.moments()) add(moment.tick, moment.part);
+    if (past.empty() || workspace.moment > past.newest())
+        add(workspace.moment, workspace.document.parts().at(view.lab));
+    runtime.values.trim(past);
+    return values;
+}
+
+void past_plot(const Workspace& workspace, const PastView& view, const PastCurve& curve) {
+    const std::uint64_t first = first_tick(workspace);
+    const Palette& colours = palette(workspace.settings.theme);
+    Curve line{.name = curve.name, .colour = colours.accent, .points = {}, .marks = false};
+    for (const PastValue& each : past_values(workspace, view, curve))
+        line.points.emplace_back(seconds(each.tick - first), each.value);
+    if (line.points.empty()) return note(curve.missing);
+    const float lines = ImGui::GetContentRegionAvail().y / small_font_size() - 0.2f;
+    const auto [low, high] =
+        std::minmax_element(line.points.begin(), line.points.end(),
+                            [](const glm::vec2& a, const glm::vec2& b) { return a.y < b.y; });
+    constexpr float margin = 1.1f;
+    const float low_y = std::min(margin * low->y, 0.0f),
+                high_y = std::max(margin * high->y, curve.lowest_range);
+    std::vector<Curve> curves = marks_on(line, workspace);
+    curves.insert(curves.begin(), std::move(line));
+    plot("past", curves,
+         {.x = "time",
+          .x_unit = "s",
+          .y = curve.name.c_str(),
+          .y_unit = curve.unit.c_str(),
+          .min_y = 0.0f,
+          .min_x = 10.0f,
+          .low_y = low_y,
+          .high_y = high_y,
+          .at_x = seconds(std::max(workspace.moment, first) - first)},
+         lines);
+}
+
+std::vector<const Rewind::Moment*> ghost_moments(const Rewind& past) {
+    std::vector<const Rewind::Moment*> shown;
+    std::uint64_t next = 0;  // of a part that is large not every tick is kept: the first one after it counts
+    for (const Rewind::Moment& moment : past.moments()) {
+        const std::uint64_t begin = moment.tick - moment.tick % half_second;
+        if (begin < next || begin < past.oldest()) continue;
+        shown.push_back(&moment);
+        next = begin + half_second;
+    }
+    return shown;
+}
+
+void draw_past_ghosts(const View& view, const PastView& past,
+                      const std::function<PoseLines(const SharedPart&)>& pose, DrawList& list) {
+    if (!past.shows_ghosts(view.workspace.settings)) return;
+    PartCache<PoseLines>& poses = runtime_of(view.workspace, past).poses;
+    const Rewind& rewind = view.workspace.rewind;
+    for (const Rewind::Moment* const moment : ghost_moments(rewind)) {
+        const auto age =
+            static_cast<float>(rewind.newest() - moment->tick) / static_cast<float>(Rewind::most_ticks);
+        const glm::vec4 colour = faded(view.palette, view.palette.ghost, 0.75f - 0.55f * age);
+        const PoseLines& lines = poses.of(moment->part, [&] { return pose(moment->part); });
+        if (lines.size() > most_ghost_lines) continue;
+        for (const auto& [from, to] : lines) list.line(from, to, 1.5f * view.scale, colour);
+    }
+    poses.trim(rewind);
+}
+
+Json past_view_state(const Workspace& workspace, const PastView& view,
+                     const std::optional<PastCurve>& curve) {
+    Json json{{"plot", nullptr}, {"ghosts", Json::array()}};
+    if (curve) {
+        Json values = Json::array();
+        for (const PastValue& each : past_values(workspace, view, *curve))
+            values.push_back({each.tick, number(each.value)});
+        json["plot"] = {{"of", view.plot.choices[view.plot.chosen(workspace.settings)].name},
+                        {"name", curve->name},
+                        {"unit", curve->unit},
+                        {"values", std::move(values)}};
+    }
+    if (view.shows_ghosts(workspace.settings))
+        for (const Rewind::Moment* const moment : ghost_moments(workspace.rewind))
+            json["ghosts"].push_back(moment->tick);
+    return json;
+}
+
+}  // namespace tendril::app

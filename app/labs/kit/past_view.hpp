@@ -1,0 +1,82 @@
+// What a lab shows of its last ten seconds beside the strip: a plot of one number over them, with a mark for
+// each incident, and the poses of them, faint, one for each half second.
+//
+// A lab says which numbers it has (PastView), what the chosen one is in its part as it was at a moment
+// (PastCurve), and which lines show the pose there. All else is here. What is chosen is a setting of the
+// person's; what is worked out of a moment is kept as long as that is remembered, and nothing is worked out
+// while nothing is shown.
+#pragma once
+
+#include <functional>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/document/workspace.hpp"
+#include "app/labs/kit/setting.hpp"
+#include "app/labs/lab.hpp"
+
+namespace tendril::app {
+
+struct PastView {
+    std::string lab;
+    LabSetting plot;    ///< nothing, or one of the lab's numbers
+    LabSetting ghosts;  ///< nothing, or the past
+
+    bool plots(const Settings& settings) const { return plot.chosen(settings) > 0; }
+    bool shows_ghosts(const Settings& settings) const { return ghosts.chosen(settings) > 0; }
+    /// Of the numbers, where it plots.
+    std::size_t chosen(const Settings& settings) const { return plot.chosen(settings) - 1; }
+};
+/// `what` the lab shows, as commands have it: "chain". `numbers`: at least one.
+PastView past_view(const std::string& lab, const std::string& what, std::vector<LabSetting::Choice> numbers);
+
+/// Of a moment of the past, or of the present.
+using SharedPart = std::shared_ptr<const Part>;
+
+/// The number that is plotted.
+struct PastCurve {
+    std::string name;                                ///< of which joint it is, too: "swing of joint 2"
+    std::string of;                                  ///< what tells it from all others
+    std::string unit = "deg";                        ///< or "m"
+    float lowest_range = 10.0f;                      ///< of the axis, in that unit
+    std::string missing;                             ///< how to get one, where it is known at no moment
+    std::function<double(const SharedPart&)> value;  ///< NaN where it is not known
+};
+
+/// What a lab's tooltips say.
+struct PastHelp {
+    const char* plot;
+    const char* ghosts;
+};
+/// The panel: what is plotted, and whether there are ghosts.
+void past_view_rows(const Workspace& workspace, const PastView& view, const PastHelp& help, Emit& emit);
+
+/// Pixels at scale 1, below the strip; 0 where nothing is plotted.
+float past_plot_height(const Settings& settings, const PastView& view);
+void past_plot(const Workspace& workspace, const PastView& view, const PastCurve& curve);
+
+/// A value at each moment where it is known, by tick; the last one may be the present.
+struct PastValue {
+    std::uint64_t tick = 0;
+    float value = 0.0f;
+};
+std::vector<PastValue> past_values(const Workspace& workspace, const PastView& view, const PastCurve& curve);
+
+/// A pose as lines from point to point.
+using PoseLines = std::vector<std::pair<glm::vec3, glm::vec3>>;
+/// The moments that are shown as ghosts, by tick.
+std::vector<const Rewind::Moment*> ghost_moments(const Rewind& past);
+/// A pose of more lines than this is not drawn: twenty of them would drown the picture.
+inline constexpr std::size_t most_ghost_lines = 1000;
+inline constexpr const char* ghost_legend = "past poses";
+void draw_past_ghosts(const View& view, const PastView& past,
+                      const std::function<PoseLines(const SharedPart&)>& pose, DrawList& list);
+
+/// For --state: {"plot": null or what is plotted, with its values, "ghosts": their ticks}.
+Json past_view_state(const Workspace& workspace, const PastView& view, const std::optional<PastCurve>& curve);
+
+}  // namespace tendril::app

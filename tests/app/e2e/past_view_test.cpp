@@ -1,0 +1,106 @@
+// The plot of the last ten seconds and their ghosts in the running program, in every lab that has joints.
+#include "tests/app/support/play.hpp"
+
+namespace tendril::test {
+namespace {
+
+using app::Json;
+
+struct PlottedLab {
+    const char* lab;
+    const char* of;
+    ScriptText scene;  ///< something that moves by itself
+};
+
+std::vector<PlottedLab> plotted_labs() {
+    return {{"chain", "swing",
+             ScriptText()
+                 .command("chain.mode", {{"mode", "reach"}})
+                 .command("chain.motion", {{"path", "circle"}, {"period", 2}})},
+            {"rig", "angle",
+             ScriptText()
+                 .command("lab.open", {{"name", "rig"}})
+                 .command("rig.preset", {{"name", "secondary"}})
+                 .command("rig.motion", {{"name", "head"}, {"path", "figure_eight"}, {"period", 1.5}})
+                 .command("rig.select", {{"element", "left 3"}})},
+            {"humanoid", "swing",
+             ScriptText()
+                 .command("lab.open", {{"name", "humanoid"}})
+                 .command("humanoid.clip", {{"name", "walk"}, {"play", true}})}};
+}
+
+std::string view(const PlottedLab& lab, const char* what) {
+    return "view." + std::string(lab.lab) + what;
+}
+
+ScriptText shown(const PlottedLab& lab) {
+    return ScriptText(lab.scene)
+        .command(view(lab, "_plot"), {{"of", lab.of}})
+        .command(view(lab, "_ghosts"), {{"of", "past"}});
+}
+
+TEST(PastViews, PlotAValueForEveryTickAndAGhostForEveryHalfSecond) {
+    for (const PlottedLab& lab : plotted_labs()) {
+        const Json past = state_after(shown(lab).wait(130))["past"];
+        const Json values = past["plot"]["values"];
+        ASSERT_GE(values.size(), 128u) << lab.lab;
+        double low = 1e9, high = -1e9;
+        for (std::size_t i = 1; i < values.size(); ++i) {
+            EXPECT_EQ(values[i][0].get<int>(), values[i - 1][0].get<int>() + 1) << lab.lab;
+            low = std::min(low, values[i][1].get<double>());
+            high = std::max(high, values[i][1].get<double>());
+        }
+        EXPECT_GT(high - low, 1.0) << lab.lab << ": it moves";
+        EXPECT_GE(past["ghosts"].size(), 4u) << lab.lab;
+    }
+}
+
+TEST(PastViews, StayWhatTheyAreWhenOneGoesBack) {
+    for (const PlottedLab& lab : plotted_labs()) {
+        const Json end = state_after(shown(lab).wait(70))["past"]["plot"]["values"];
+        const Json back =
+            state_after(shown(lab).wait(70).command("time.seek", {{"ticks_back", 30}}).wait(3))["past"];
+        for (std::size_t i = 0; i < 60; ++i) EXPECT_EQ(back["plot"]["values"][i], end[i]) << lab.lab << i;
+    }
+}
+
+TEST(PastViews, AreSettingsAndNothingToUndoOrToSave) {
+    for (const PlottedLab& lab : plotted_labs()) {
+        const ScriptText script = ScriptText(lab.scene).command("time.pause").wait(1);
+        const Json plain = state_after(script);
+        const Json with = state_after(ScriptText(script)
+                                          .command(view(lab, "_plot"), {{"of", lab.of}})
+                                          .command(view(lab, "_ghosts"), {{"of", "past"}}));
+        EXPECT_EQ(with.value("modified", false), plain.value("modified", false)) << lab.lab;
+        EXPECT_TRUE(plain["past"]["plot"].is_null());
+        EXPECT_EQ(with["past"]["plot"]["of"], lab.of);
+        // Each without an argument is the next choice, and at last the first one.
+        const Json off = state_after(
+            ScriptText(script).command(view(lab, "_ghosts"), {{"of", "past"}}).command(view(lab, "_ghosts")));
+        EXPECT_EQ(off["past"], plain["past"]) << lab.lab;
+    }
+}
+
+TEST(PastViews, ChangeNothingOfWhatIsShownBesides) {
+    for (const PlottedLab& lab : plotted_labs()) {
+        Json with = state_after(shown(lab).wait(90).command("time.pause"));
+        Json without = state_after(ScriptText(lab.scene).wait(90).command("time.pause"));
+        for (Json* each : {&with, &without})
+            for (const char* const seen : {"past", "handles", "view"}) each->erase(seen);
+        EXPECT_EQ(with, without) << lab.lab;
+    }
+}
+
+TEST(PastViews, ComeOutTheSameFromARecording) {
+    for (const PlottedLab& lab : plotted_labs()) {
+        const TempFolder folder;
+        const std::string recording = (folder / "r.jsonl").string(), state = (folder / "s.json").string();
+        const ScriptText script = shown(lab).wait(40).command("time.seek", {{"ticks_back", 11}}).wait(2);
+        const Json recorded = play(script, {.more = {"--record", recording}}).state;
+        ASSERT_TRUE(succeeded(run_program({"--headless", "--script", recording, "--state", state})));
+        EXPECT_EQ(app::parse_json(read(state)), recorded) << lab.lab;
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test

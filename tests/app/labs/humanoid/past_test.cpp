@@ -1,0 +1,134 @@
+// How a joint was turned and how far an effector was from its target at each moment that is remembered,
+// against what the lab shows when one goes back there.
+#include "app/labs/humanoid/past/past.hpp"
+
+#include <glm/trigonometric.hpp>
+#include <map>
+
+#include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "app/labs/humanoid/limits/limit_ranges.hpp"
+#include "tests/app/labs/humanoid/humanoid_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+using humanoid::Bone;
+
+class HumanoidPast : public HumanoidTest {
+  protected:
+    /// Walks and reaches, `count` ticks that are remembered.
+    void walk(int count) {
+        run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+        run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.6, 1.5, 0.9}}});
+        run("humanoid.target", {{"effector", "head"}, {"to", {0.1, 1.5, 0.6}}});
+        for (int i = 0; i < count; ++i) {
+            workspace.remember_moment();
+            ++workspace.moment;
+            tick();
+        }
+    }
+    void plot(const std::string& what, const std::string& node) {
+        run("view.humanoid_plot", {{"of", what}});
+        run("humanoid.select", {{"node", node}});
+    }
+    std::map<std::uint64_t, double> values() const {
+        std::map<std::uint64_t, double> by_tick;
+        for (const PastValue& each : past_values(workspace, humanoid_past(), *humanoid_past_curve(workspace)))
+            by_tick[each.tick] = static_cast<double>(each.value);
+        return by_tick;
+    }
+    /// In a copy of the workspace, which makes its own solvers: what is shown after going back to a tick.
+    template <class Read>
+    double back_at(std::uint64_t tick, const Read& read) const {
+        Workspace there = workspace;
+        there.go_to_moment(there.moment - tick);  // the present is remembered first
+        return read(humanoid_part(there), humanoid_runtime(there).solvers, shown_pose(there));
+    }
+};
+
+TEST_F(HumanoidPast, AnglesAreThoseThatTheInspectorHasThere) {
+    walk(40);
+    plot("twist", "LeftUpperArm");
+    const auto twists = values();
+    plot("swing", "LeftLowerLeg");
+    const auto bends = values();
+    ASSERT_EQ(twists.size(), 41u);
+    ASSERT_EQ(bends.size(), 41u);
+    for (std::uint64_t tick = 0; tick < 40; tick += 3) {
+        const auto angles = [](Bone bone) {
+            return [bone](const HumanoidPart& part, Solvers& solvers, const ShownPose& shown) {
+                const ik::JointAngles now = joint_now(part, solvers, shown, bone)->angles;
+                return static_cast<double>(glm::degrees(bone == Bone::LeftUpperArm ? now.twist : now.up));
+            };
+        };
+        EXPECT_NEAR(twists.at(tick), back_at(tick, angles(Bone::LeftUpperArm)), 0.01) << tick;
+        EXPECT_NEAR(bends.at(tick), std::abs(back_at(tick, angles(Bone::LeftLowerLeg))), 1.5) << tick;
+    }
+}
+
+TEST_F(HumanoidPast, ErrorsAreThoseOfTheEffectorThatIsSelectedOrTheFarthest) {
+    using humanoid::Effector;
+    walk(30);
+    const auto residual = [](Effector effector) {
+        return [effector](const HumanoidPart&, Solvers&, const ShownPose& shown) {
+            return shown.residual(effector).value_or(-1.0);
+        };
+    };
+    plot("error", "LeftHand");
+    EXPECT_EQ(humanoid_past_curve(workspace)->name, "left hand to target");
+    const auto hand = values();
+    plot("error", "LeftFoot");
+    EXPECT_EQ(humanoid_past_curve(workspace)->name, "farthest effector to target");
+    const auto farthest = values();
+    for (std::uint64_t tick = 0; tick < 30; tick += 4) {
+        const double left = back_at(tick, residual(Effector::LeftHand)),
+                     head = back_at(tick, residual(Effector::Head));
+        EXPECT_NEAR(hand.at(tick), left, 1e-6) << tick;
+        EXPECT_NEAR(farthest.at(tick), std::max(left, head), 1e-6) << tick;
+    }
+}
+
+TEST_F(HumanoidPast, AMomentIsSolvedOnceWhateverIsPlotted) {
+    walk(50);
+    plot("swing", "LeftLowerLeg");
+    static_cast<void>(values());
+    EXPECT_EQ(humanoid_runtime(workspace).past.size(), 51u);
+    const auto parts = [&] {
+        std::vector<const PastPose*> poses;
+        for (const Rewind::Moment& moment : workspace.rewind.moments())
+            poses.push_back(&humanoid_runtime(workspace).past.of(moment.part, []() -> PastPose {
+                ADD_FAILURE() << "it was not kept";
+                return {};
+            }));
+        return poses;
+    };
+    const auto before = parts();
+    plot("error", "LeftHand");
+    static_cast<void>(values());
+    for (const Rewind::Moment& moment : workspace.rewind.moments())
+        static_cast<void>(humanoid_lines(workspace, moment.part));
+    EXPECT_EQ(parts(), before);
+}
+
+TEST_F(HumanoidPast, NothingIsWorkedOutWhileNothingIsShown) {
+    walk(20);
+    static_cast<void>(state());
+    EXPECT_EQ(humanoid_runtime(workspace).past.size(), 0u);
+}
+
+TEST_F(HumanoidPast, WhatIsNotThereIsRefusedInWords) {
+    expect_refused("view.humanoid_plot", {{"of", "speed"}}, {"of", "speed", "error", "swing", "twist"});
+    expect_refused("view.humanoid_ghosts", {{"of", "future"}}, {"of", "future", "past"});
+    expect_refused("humanoid.select", {{"node", "Wing"}}, {"Wing"});
+}
+
+TEST_F(HumanoidPast, WithoutATargetThereIsNoError) {
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+    run("view.humanoid_plot", {{"of", "error"}});
+    workspace.remember_moment();
+    EXPECT_TRUE(values().empty());
+    EXPECT_EQ(humanoid_past_curve(workspace)->missing, "No effector had a target: drag an orange ball.");
+}
+
+}  // namespace
+}  // namespace tendril::app

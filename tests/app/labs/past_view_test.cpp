@@ -1,0 +1,104 @@
+// What labs share of their last ten seconds: turns told as swing and twist, what is kept of a moment, and
+// which moments are shown as ghosts.
+#include "app/labs/kit/past_view.hpp"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
+#include <random>
+
+#include "app/labs/kit/joint_turn.hpp"
+#include "app/labs/kit/part_cache.hpp"
+#include "tests/app/labs/spring/spring_lab.hpp"
+
+namespace tendril::app {
+namespace {
+
+std::shared_ptr<const Part> some_part() {
+    return std::make_shared<test::SpringPart>();
+}
+
+class Turns : public testing::Test {
+  protected:
+    std::mt19937 random{5};
+    double uniform(double low, double high) {
+        return low + (high - low) * static_cast<double>(random() >> 8) / 16777216.0;
+    }
+    glm::dvec3 direction() {
+        for (;;) {
+            const double x = uniform(-1, 1), y = uniform(-1, 1), z = uniform(-1, 1);
+            const glm::dvec3 way(x, y, z);
+            if (const double length = glm::length(way); length > 0.1 && length < 1.0) return way / length;
+        }
+    }
+};
+
+TEST_F(Turns, AreToldBySwingAndTwist) {
+    for (int i = 0; i < 1000; ++i) {
+        const glm::dvec3 along = direction();
+        const glm::dvec3 across = glm::normalize(glm::cross(along, direction()));
+        const double swing = uniform(0.0, 179.0), twist = uniform(-179.9, 179.9);
+        const glm::dquat turn =
+            glm::angleAxis(glm::radians(swing), across) * glm::angleAxis(glm::radians(twist), along);
+        const double length = uniform(0.1, 5.0), scale = uniform(0.5, 2.0);
+        const JointTurn told = joint_turn((i % 2 == 0 ? 1.0 : -1.0) * scale * turn, length * along);
+        EXPECT_NEAR(told.swing, swing, 1e-6);
+        EXPECT_NEAR(told.twist, twist, 1e-5);
+        EXPECT_NEAR(told.angle, 2.0 * glm::degrees(std::acos(std::min(1.0, std::abs(turn.w)))), 1e-5);
+    }
+    const JointTurn rest = joint_turn(glm::dquat(1, 0, 0, 0), {0, 1, 0});
+    EXPECT_EQ(rest.swing, 0.0);
+    EXPECT_EQ(rest.twist, 0.0);
+    const JointTurn opposite = joint_turn(glm::dquat(0, 1, 0, 0), {0, 1, 0});
+    EXPECT_EQ(opposite.swing, 180.0);
+    EXPECT_EQ(opposite.twist, 0.0);
+}
+
+TEST(PartCaches, WorkOutAPartOnceAndForgetWhatIsNoLongerRemembered) {
+    PartCache<int> cache;
+    Rewind past;
+    int made = 0;
+    const auto ask = [&](const std::shared_ptr<const Part>& part) {
+        return cache.of(part, [&] { return ++made; });
+    };
+    for (std::uint64_t tick = 0; tick < 2000; ++tick) {
+        const auto part = some_part();
+        past.remember(tick, 0, part);
+        EXPECT_EQ(ask(part), static_cast<int>(tick) + 1);
+        cache.trim(past);
+        EXPECT_LE(cache.size(), 2 * past.size() + 64);
+        EXPECT_TRUE(cache.has(past.moments().front().part)) << "it is still remembered";
+    }
+    for (const Rewind::Moment& moment : past.moments()) EXPECT_TRUE(cache.has(moment.part));
+    EXPECT_EQ(made, 2000) << "none was worked out twice";
+    std::weak_ptr<const Part> gone;
+    {
+        const auto part = some_part();
+        gone = part;
+        ask(part);
+    }
+    EXPECT_TRUE(gone.expired()) << "it keeps no part alive";
+    EXPECT_EQ(ask(some_part()), 2002) << "another part, though it may lie at the same place";
+}
+
+TEST(Ghosts, AreThoseOfEveryHalfSecondHoweverFewMomentsAreKept) {
+    for (const std::uint64_t stride : {1u, 2u, 4u, 8u, 16u}) {
+        Rewind past;
+        for (std::uint64_t tick = 3 * stride; tick < 900; tick += stride) past.remember(tick, 0, some_part());
+        const auto shown = ghost_moments(past);
+        ASSERT_GE(shown.size(), 19u) << stride;
+        EXPECT_LE(shown.size(), 21u) << stride;
+        for (std::size_t i = 0; i < shown.size(); ++i) {
+            EXPECT_LT(shown[i]->tick % 30, stride) << "as near to the half second as there is one";
+            if (i > 0) {
+                EXPECT_EQ(shown[i]->tick / 30, shown[i - 1]->tick / 30 + 1);
+            }
+        }
+    }
+    EXPECT_TRUE(ghost_moments(Rewind()).empty());
+}
+
+}  // namespace
+}  // namespace tendril::app

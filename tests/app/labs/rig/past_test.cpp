@@ -1,0 +1,179 @@
+// How an element was turned at each moment that is remembered, against this test's own count.
+#include "app/labs/rig/past.hpp"
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
+#include <random>
+
+#include "app/labs/rig/rig_edit.hpp"
+#include "tests/app/labs/rig/rig_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+class RigPast : public RigTest {
+  protected:
+    std::mt19937 random{23};
+    double uniform(double low, double high) {
+        return low + (high - low) * static_cast<double>(random() >> 8) / 16777216.0;
+    }
+    glm::dquat rotation() {
+        const double w = uniform(-1, 1), x = uniform(-1, 1), y = uniform(-1, 1), z = uniform(-1, 1);
+        return glm::normalize(glm::dquat(w, x, y, z + 1e-3));
+    }
+    glm::dvec3 point() {
+        const double x = uniform(-1, 1), y = uniform(-1, 1), z = uniform(-1, 1);
+        return {x, y, z};
+    }
+
+    /// A tree of bones and nulls, each somewhere below one that was there.
+    rig::Definition tree(std::size_t count) {
+        rig::Definition definition;
+        for (std::size_t i = 0; i < count; ++i) {
+            rig::Element each{.name = "e" + std::to_string(i)};
+            each.kind = random() % 5 == 0 ? rig::ElementKind::Null : rig::ElementKind::Bone;
+            if (i > 0) each.parent = "e" + std::to_string(random() % i);
+            each.initial.translation = point();
+            each.initial.rotation = rotation();
+            definition.elements.push_back(each);
+        }
+        return definition;
+    }
+    void remember() {
+        workspace.remember_moment();
+        ++workspace.moment;
+    }
+    void plot(const std::string& what, const std::string& element) {
+        run("view.rig_plot", {{"of", what}});
+        run("rig.select", {{"element", element}});
+    }
+    std::vector<PastValue> values() const {
+        return past_values(workspace, rig_past(), *rig_past_curve(workspace));
+    }
+};
+
+/// Degrees: of the bone's direction, and about it once that is taken back on the shortest way.
+struct Counted {
+    double swing, twist;
+};
+Counted count(const glm::dquat& turn, const glm::dvec3& along) {
+    const glm::dvec3 bone = glm::normalize(along), went = turn * bone;
+    const glm::dvec3 axis = glm::cross(went, bone);
+    const double sine = glm::length(axis), cosine = glm::dot(went, bone);
+    const glm::dquat back =
+        sine > 1e-12 ? glm::angleAxis(std::atan2(sine, cosine), axis / sine) : glm::dquat(1, 0, 0, 0);
+    const glm::dvec3 other = std::abs(bone.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 side = glm::normalize(glm::cross(bone, other)), turned = back * (turn * side);
+    return {glm::degrees(std::atan2(sine, cosine)),
+            glm::degrees(std::atan2(glm::dot(glm::cross(side, turned), bone), glm::dot(side, turned)))};
+}
+
+TEST_F(RigPast, ValuesAreThoseOfThePoseAtEachTick) {
+    for (int round = 0; round < 20; ++round) {
+        run("rig.clear");
+        workspace.rewind.clear();
+        const rig::Definition definition = tree(3 + random() % 12);
+        workspace.document.edit<RigPart>(rig_lab) = RigPart(definition);
+        const std::size_t chosen = random() % definition.elements.size();
+        const rig::Element& element = definition.elements[chosen];
+        std::vector<glm::dquat> turns;
+        for (int moment = 0; moment < 30; ++moment) {
+            auto& part = workspace.document.edit<RigPart>(rig_lab);
+            for (int i = 0; i < 3; ++i) {
+                rig::Transform to;
+                to.translation = point();
+                to.rotation = rotation();
+                const auto space = random() % 2 == 0 ? rig::Space::Local : rig::Space::Global;
+                const auto down = random() % 2 == 0 ? rig::Propagate::Yes : rig::Propagate::No;
+                const rig::ElementId id = part.rig.id(random() % definition.elements.size());
+                ASSERT_TRUE(part.state.elements.set(id, space, to, down));
+            }
+            rig::Hierarchy resolved = part.state.elements;
+            turns.push_back(glm::conjugate(element.initial.rotation) *
+                            resolved.get(part.rig.id(chosen), rig::Space::Local).rotation);
+            remember();
+        }
+        glm::dvec3 along(0.0);
+        for (const rig::Element& each : definition.elements)
+            if (each.parent == element.name && each.kind == rig::ElementKind::Bone)
+                along += each.initial.translation;
+        const bool leaf = glm::length(along) < 1e-9;
+        if (leaf) along = element.parent.empty() ? glm::dvec3(0, 1, 0) : element.initial.translation;
+        for (const char* const what : {"swing", "twist", "angle"}) {
+            plot(what, element.name);
+            const std::vector<PastValue> told = values();
+            const bool known = element.kind == rig::ElementKind::Bone || what[0] == 'a';
+            ASSERT_EQ(told.size() >= turns.size(), known);
+            for (std::size_t i = 0; known && i < turns.size(); ++i) {
+                const Counted counted = count(turns[i], along);
+                const double angle = 2.0 * glm::degrees(std::acos(std::min(1.0, std::abs(turns[i].w))));
+                const double expected = what[0] == 's'   ? counted.swing
+                                        : what[0] == 't' ? counted.twist
+                                                         : angle;
+                EXPECT_NEAR(static_cast<double>(told[i].value), expected, 1e-3) << what << " at " << i;
+            }
+        }
+    }
+}
+
+TEST_F(RigPast, AnElementIsFoundByItsNameInWhatWasThen) {
+    element("arm");
+    element("hand", "arm", transform(0, 1, 0));
+    remember();
+    run("rig.element.add", {{"name", "base"}, {"kind", "bone"}});
+    remember();
+    plot("angle", "base");
+    EXPECT_EQ(values().size(), 2u) << "of the moment without it there is none; the present is one more";
+    plot("angle", "hand");
+    EXPECT_EQ(values().size(), 3u);
+}
+
+TEST_F(RigPast, WithoutASelectionItIsTheFirstBoneBelowAnother) {
+    run("view.rig_plot", {{"of", "swing"}});
+    EXPECT_EQ(rig_past_curve(workspace)->missing, "The rig has no element: add one.");
+    control("look", "position");
+    EXPECT_EQ(rig_past_curve(workspace)->name, "swing of look");
+    element("arm");
+    EXPECT_EQ(rig_past_curve(workspace)->name, "swing of arm");
+    element("hand", "arm", transform(0, 1, 0));
+    EXPECT_EQ(rig_past_curve(workspace)->name, "swing of hand");
+    run("rig.select", {{"element", "look"}});
+    EXPECT_TRUE(values().empty());
+    EXPECT_EQ(rig_past_curve(workspace)->missing,
+              "look has no swing and twist: select a bone, or plot the angle.");
+}
+
+TEST_F(RigPast, WhatIsNotThereIsRefusedInWords) {
+    element("arm");
+    expect_refused("view.rig_plot", {{"of", "speed"}}, {"of", "speed", "swing", "twist", "angle"});
+    expect_refused("view.rig_ghosts", {{"of", "future"}}, {"of", "future", "past"});
+    expect_refused("rig.select", {{"element", "leg"}}, {"leg"});
+    EXPECT_FALSE(rig_past_curve(workspace)) << "nothing is plotted";
+}
+
+TEST_F(RigPast, StateHasWhatIsShown) {
+    element("arm");
+    remember();
+    EXPECT_EQ(state()["past"], (Json{{"plot", nullptr}, {"ghosts", Json::array()}}));
+    plot("angle", "arm");
+    run("view.rig_ghosts", {{"of", "past"}});
+    const Json past = state()["past"];
+    EXPECT_EQ(past["plot"]["of"], "angle");
+    EXPECT_EQ(past["plot"]["name"], "angle of arm");
+    EXPECT_EQ(past["plot"]["unit"], "deg");
+    EXPECT_EQ(past["plot"]["values"].size(), 2u);
+    EXPECT_EQ(past["ghosts"], Json::array({0}));
+}
+
+TEST_F(RigPast, GhostsAreTheBonesAsTheyWere) {
+    element("arm", "", transform(1, 0, 0));
+    element("hand", "arm", transform(0, 1, 0));
+    const PoseLines lines = rig_lines(workspace.document.parts().at(rig_lab));
+    ASSERT_EQ(lines.size(), 2u);
+    EXPECT_EQ(lines[0].first, glm::vec3(1, 0, 0));
+    EXPECT_EQ(lines[0].second, glm::vec3(1, 1, 0));
+    EXPECT_EQ(lines[1].first, glm::vec3(1, 1, 0));
+}
+
+}  // namespace
+}  // namespace tendril::app
