@@ -113,9 +113,11 @@ TEST_F(HumanoidSelection, TheInspectorSaysHowManyAndWhichIsShown) {
     select({"Hips", "HeadTop_End"});
     EXPECT_EQ(inspector().find("Limits of"), std::string::npos);
     EXPECT_TRUE(state().at("body").at("joint").is_null());
+    EXPECT_EQ(lab().gizmo(workspace)->name, "hips") << "the last that it can drag";
+    select({"Spine", "HeadTop_End"});
     EXPECT_FALSE(lab().gizmo(workspace));
     select({"LeftHand", "RightHand"});
-    EXPECT_FALSE(lab().gizmo(workspace)) << "of several";
+    EXPECT_EQ(lab().gizmo(workspace)->name, "right_hand") << "of several, on the last one";
     select({"LeftHand"});
     EXPECT_TRUE(lab().gizmo(workspace));
     EXPECT_EQ(inspector().find("set on all"), std::string::npos);
