@@ -8,6 +8,15 @@
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {
+namespace {
+
+/// 0, or a size that a picture can have.
+void size_field(const char* name, int& pixels, const char* help) {
+    if (integer_field(name, pixels, 0, largest_picture) && pixels > 0) pixels = std::max(pixels, smallest_picture);
+    explain(help);
+}
+
+}  // namespace
 
 void VideoOptions::start(const Workspace& workspace) {
     const Rewind& past = workspace.rewind;
@@ -26,6 +35,8 @@ void VideoOptions::frame() {
     const char* const why_not[] = {nullptr, why_no_mp4_.empty() ? nullptr : why_no_mp4_.c_str()};
     choice_field("format", format_, formats, 2, why_not);
     explain("Animated PNG loses nothing, can be transparent, and plays in browsers. MP4 plays everywhere.");
+    size_field("width, pixels", width_, "How wide the video is: 16 to 8192 pixels, even for MP4. 0 is as wide as the view.");
+    size_field("height, pixels", height_, "How high the video is: 16 to 8192 pixels, even for MP4. 0 is as high as the view.");
     number_field("from, seconds back", from_, 0.02f, 0.0f, remembered_, "%.2f s");
     explain("Where the video begins: so long before the last moment.");
     number_field("to, seconds back", to_, 0.02f, 0.0f, remembered_, "%.2f s");
@@ -51,6 +62,8 @@ std::filesystem::path VideoOptions::with_ending(std::filesystem::path path) cons
 
 ArgumentList VideoOptions::arguments(const std::filesystem::path& path) const {
     ArgumentList list{{"path", path.string()}, {"every", smooth_ == 0 || (!mp4() && speed_ > 1.0f) ? 2 : 1}};
+    if (width_ > 0) list.push_back({"width", width_});
+    if (height_ > 0) list.push_back({"height", height_});
     if (from_ < remembered_) list.push_back({"from", from_});
     if (to_ > 0.0f) list.push_back({"to", to_});
     if (speed_ != 1.0f) list.push_back({"speed", speed_});
