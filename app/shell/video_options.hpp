@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/vec2.hpp>
 #include <string>
 
 #include "app/document/argument_list.hpp"
@@ -27,7 +28,7 @@ class VideoOptions {
     int format_ = 0, smooth_ = 0;
     float remembered_ = 0.0f;  ///< seconds
     float from_ = 0.0f, to_ = 0.0f, speed_ = 1.0f;
-    int width_ = 0, height_ = 0;  ///< 0: the view's
+    glm::ivec2 view_{0}, size_{0};  ///< pixels; of size_ 0 where it is the view's
     bool transparent_ = false;
     std::string why_no_mp4_;
 };
