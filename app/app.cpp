@@ -209,6 +209,8 @@ void App::take_shortcut(Emit& emit) {
     const bool taken = workspace_.ui.covered() || ui_.wants_text() || ImGui::IsAnyItemActive() ||
                        ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup);
     if (chord.key == Key::Escape && video_ && !taken) return emit("view.end_video");
+    // In a field, a menu or a hand it means that, and leaves the selection alone.
+    if (chord.key == Key::Escape && !workspace_.ui.covered() && (taken || busy())) return;
     const Shortcut* shortcut = shortcuts_.find(chord, workspace_.lab);
     // A key that is held repeats what goes on step by step, but turns nothing on and off again.
     if (shortcut != nullptr && input_.repeated() && !shortcut->repeats) return;

@@ -66,9 +66,11 @@ void App::take_pictures() {
     ui.filming.reset();
 }
 
+/// Off screen nobody waits: there a script finds the file where it expects it.
 void App::write_video() {
+    constexpr double live = 0.002, off_screen = 1e3;
     try {
-        video_->work();
+        video_->work(workspace_.clock.measured ? live : off_screen);
     } catch (const std::exception& error) {
         video_.reset();
         workspace_.ui.filming.reset();

@@ -33,9 +33,10 @@ class VideoTake {
     /// `lab` and `renderer` must outlive it. The workspace must remember something.
     VideoTake(const VideoRequest& wanted, const Workspace& workspace, const Lab& lab, Renderer& renderer,
               const PictureView& view, int frames_a_tick);
-    /// Writes the next frames, as many as a tick has time for.
-    void work();
-    bool done() const { return written_ == wanted_.frames(); }
+    /// Writes the next frames, as many as a tick has time for; after the last one waits `patience` seconds at
+    /// most for the file.
+    void work(double patience);
+    bool done() const { return finished_; }
     VideoProgress progress() const;
     const VideoRequest& wanted() const { return wanted_; }
 
@@ -48,6 +49,7 @@ class VideoTake {
     std::unique_ptr<VideoFile> file_;
     int frames_a_tick_ = 1;
     int written_ = 0;
+    bool finished_ = false;
 };
 
 }  // namespace tendril::app

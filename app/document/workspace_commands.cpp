@@ -224,17 +224,6 @@ void add_window_commands(CommandTable& table) {
     toggle("view.settings", "Show the settings", "Shows the settings",
            [](Workspace& w) -> bool& { return w.ui.settings; });
 
-    table.add({.name = "view.close",
-               .title = "Close or cancel",
-               .arguments = {},
-               .help = "Closes the palette, help, settings or dialog",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments&) {
-                   w.ui.help = w.ui.palette = w.ui.settings = false;
-                   w.ui.file_dialog = UiState::FileDialog::None;
-                   w.ui.asks_to_quit = false;
-                   w.ui.toasts.clear();
-               }});
     table.add(
         {.name = "view.panels",
          .title = "Show or hide the side panels",

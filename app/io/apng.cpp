@@ -216,12 +216,13 @@ void ApngFile::add(const Image& frame) {
     ++frames_;
 }
 
-void ApngFile::finish() {
+bool ApngFile::finish(double) {
     if (frames_ != format_.frames)
         throw std::runtime_error("only " + std::to_string(frames_) + " of " + std::to_string(format_.frames) +
                                  " frames");
     chunk("IEND", {});
     file_.commit();
+    return true;
 }
 
 }  // namespace tendril::app

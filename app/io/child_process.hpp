@@ -27,7 +27,9 @@ class ChildProcess {
 
     /// Gives it bytes to read. Throws where it ended before, or takes none for `seconds`.
     void write(std::string_view bytes, double seconds = 30.0);
-    /// No more bytes come. Waits until it has ended, `seconds` at most; throws where it did not end well.
+    /// No more bytes come. Waits `seconds` at most; whether it has ended. Throws where it did not end well.
+    bool finished(double seconds);
+    /// The same, and throws where it has not ended by then.
     void finish(double seconds);
 
   private:

@@ -69,12 +69,20 @@ void Mp4File::add(const Image& frame) {
     ++frames_;
 }
 
-void Mp4File::finish() {
+bool Mp4File::finish(double seconds) {
     if (frames_ != format_.frames)
         throw std::runtime_error("only " + std::to_string(frames_) + " of " + std::to_string(format_.frames) +
                                  " frames");
-    ffmpeg_.finish(longest_end);
+    using Time = std::chrono::steady_clock;
+    using Seconds = std::chrono::duration<double>;
+    if (!ends_by_) ends_by_ = Time::now() + std::chrono::duration_cast<Time::duration>(Seconds(longest_end));
+    const double left = Seconds(*ends_by_ - Time::now()).count();
+    if (left <= seconds)
+        ffmpeg_.finish(left);
+    else if (!ffmpeg_.finished(seconds))
+        return false;
     file_.commit();
+    return true;
 }
 
 }  // namespace tendril::app

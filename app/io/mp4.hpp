@@ -2,6 +2,9 @@
 // a pipe to it. Colours are halved in resolution (4:2:0), and there is no alpha channel.
 #pragma once
 
+#include <chrono>
+#include <optional>
+
 #include "app/document/atomic_file.hpp"
 #include "app/io/child_process.hpp"
 #include "app/io/video_file.hpp"
@@ -16,13 +19,14 @@ class Mp4File final : public VideoFile {
   public:
     Mp4File(const std::filesystem::path& path, const VideoFormat& format);
     void add(const Image& frame) override;
-    void finish() override;
+    bool finish(double seconds) override;
 
   private:
     AtomicFile file_;  ///< outlives the process that writes it
     VideoFormat format_;
     ChildProcess ffmpeg_;
     int frames_ = 0;
+    std::optional<std::chrono::steady_clock::time_point> ends_by_;  ///< once it has all frames
 };
 
 }  // namespace tendril::app

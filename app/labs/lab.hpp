@@ -48,6 +48,12 @@ struct Handle {
     std::optional<GizmoPart> part{};
 };
 
+/// What one gizmo drags where several are selected.
+struct Together {
+    std::vector<Handle> handles;
+    std::string staying;  ///< which of those selected stay, and why; empty where none does
+};
+
 /// A sphere around what should be in view.
 struct Bounds {
     glm::vec3 centre{0.0f};
@@ -137,10 +143,17 @@ class Lab {
     virtual std::optional<Handle> gizmo(const Workspace&) const { return std::nullopt; }
     /// The handle is dragged to a frame; called each time the pointer moves.
     virtual void drag(const Workspace&, PickId, const Handle::Frame&, Emit&) const {}
+    /// Where several are selected: what an arrow (Drag::Position) or a ring (Drag::Rotation) of the gizmo takes
+    /// along. No handles: the gizmo's own alone is dragged.
+    virtual Together together(const Workspace&, Drag) const { return {}; }
+    /// All of these are dragged, each to the frame that it has here.
+    virtual void drag_together(const Workspace&, const std::vector<Handle>&, Emit&) const {}
     /// The handle that was dragged is let go, wherever it is now.
     virtual void drop(const Workspace&, PickId, Emit&) const {}
     /// The handle, or with no_pick the empty scene, is clicked.
     virtual void click(const Workspace&, PickId, Emit&) const {}
+    /// Esc, where nothing else takes it: nothing is selected any more.
+    virtual void deselect(const Workspace& workspace, Emit& emit) const { click(workspace, no_pick, emit); }
     /// Clicked with Shift held: adds to what is selected, or takes it out, where several can be selected.
     virtual void click_more(const Workspace& workspace, PickId pick, Emit& emit) const {
         click(workspace, pick, emit);

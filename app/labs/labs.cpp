@@ -8,6 +8,7 @@
 #include "app/labs/camera_commands.hpp"
 #include "app/labs/card_commands.hpp"
 #include "app/labs/chain/chain_lab.hpp"
+#include "app/labs/closing_command.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rope/rope_lab.hpp"
@@ -51,6 +52,7 @@ CommandTable make_command_table(const Labs& labs) {
     add_camera_commands(table, labs);
     add_card_commands(table);
     add_video_commands(table, labs);
+    add_closing_command(table, labs);
     for (const auto& lab : labs.all()) {
         table.begin_lab(lab->name());
         lab->add_commands(table);

@@ -17,6 +17,15 @@ bool tells(const Pointer& pointer) {
     return drag != nullptr && (pointer.drags_gizmo() || changed_by(drag->part()) == Drag::Rotation);
 }
 
+/// Of a part that the mouse is over, where several are selected.
+std::string together_hint(const Together& together, Drag what) {
+    if (together.handles.empty()) return {};
+    const std::string count = std::to_string(together.handles.size());
+    const std::string text = what == Drag::Rotation ? "Drag turns " + count + " about the one selected last."
+                                                    : "Drag moves " + count + ", each as far.";
+    return text + (together.staying.empty() ? "" : " " + together.staying);
+}
+
 }  // namespace
 
 void show_gizmo(DrawList& list, const Lab& lab, const View& view, const Pointer& pointer) {
@@ -37,13 +46,18 @@ void show_gizmo(DrawList& list, const Lab& lab, const View& view, const Pointer&
 }
 
 std::string gizmo_hint(const Lab& lab, const Workspace& workspace, const Pointer& pointer) {
+    if (const auto part = pointer.hovered_part(); part && !pointer.busy())
+        return together_hint(lab.together(workspace, changed_by(*part)), changed_by(*part));
     if (!tells(pointer)) return {};
     const auto now = dragged_handle(lab, workspace, pointer);
     if (!now) return {};
     const GizmoDrag& drag = *pointer.dragged_part();
     const Drag what = changed_by(drag.part());
     const char* verb = what == Drag::Position ? "Moving " : what == Drag::Rotation ? "Turning " : "Scaling ";
-    return verb + drag.text(now->frame) + ".";
+    const std::size_t count = pointer.dragged_count();
+    const std::string staying = pointer.drags_gizmo() ? lab.together(workspace, what).staying : std::string();
+    return verb + (count > 1 ? std::to_string(count) + " at once: " : std::string()) + drag.text(now->frame) +
+           "." + (staying.empty() ? "" : " " + staying);
 }
 
 std::vector<NamedGrip> gizmo_grips(const DrawList& drawn, const Lab& lab, const Workspace& workspace,

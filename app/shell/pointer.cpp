@@ -93,6 +93,7 @@ void Pointer::release(const Scene& scene, Emit& emit) {
     doing_ = Doing::Nothing;
     caught_ = caught_handle_ = no_pick;
     by_.reset();
+    together_.clear();
 }
 
 void Pointer::press(const MousePress& press, const Input& input, const Scene& scene) {
@@ -128,6 +129,7 @@ void Pointer::take_hold(const Handle& handle, std::optional<GizmoPart> part, con
     const Gizmo gizmo{handle.frame, handle.drag, scene.scale};
     by_.emplace(*part, handle.frame, scene.camera.ray(caught_at_),
                 gizmo.reach(changed_by(*part), scene.camera), scene.camera.pose().orthographic);
+    if (picked_part(caught_)) together_ = scene.lab.together(scene.workspace, changed_by(*part)).handles;
 }
 
 bool Pointer::clicked_before(const Input& input, const Scene& scene) const {
@@ -209,7 +211,7 @@ void Pointer::drag(const Input& input, const Scene& scene, Emit& emit) {
         picked_part(caught_) ? scene.lab.gizmo(scene.workspace) : scene.lab.handle(scene.workspace, caught_);
     // What carries the handle may have moved it since it was caught: only what is dragged follows the
     // pointer.
-    HandleFrame frame = handle ? handle->frame : caught_frame_;
+    HandleFrame frame = handle && together_.empty() ? handle->frame : caught_frame_;
     if (by_ && !(bound && changed_by(by_->part()) == Drag::Position)) {
         frame = by_->changed(frame, by_->to(scene.camera.ray(input.mouse())));
     } else if (const auto to = dragged_to(input, scene.camera)) {
@@ -217,7 +219,25 @@ void Pointer::drag(const Input& input, const Scene& scene, Emit& emit) {
     } else {
         return;
     }
+    if (!together_.empty()) return drag_together(frame, scene, emit);
     scene.lab.drag(scene.workspace, caught_handle_, frame, emit);
+}
+
+/// From where all were caught: one that stops at a limit is in its place again when the others come back.
+void Pointer::drag_together(const HandleFrame& to, const Scene& scene, Emit& emit) const {
+    const HandleFrame& from = caught_frame_;
+    const bool turns = changed_by(by_->part()) == Drag::Rotation;
+    const glm::quat turn = to.rotation * glm::inverse(by_->from().rotation);
+    std::vector<Handle> handles = together_;
+    for (Handle& each : handles) {
+        const glm::vec3 arm = each.frame.position - from.position;
+        if (has(each.drag, Drag::Position)) each.frame.position = to.position + (turns ? turn * arm : arm);
+        if (turns && has(each.drag, Drag::Rotation))
+            each.frame.rotation = glm::normalize(turn * each.frame.rotation);
+        else
+            each.drag = Drag::Position;
+    }
+    scene.lab.drag_together(scene.workspace, handles, emit);
 }
 
 std::optional<glm::vec3> Pointer::dragged_to(const Input& input, const Camera& camera) const {

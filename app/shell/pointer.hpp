@@ -2,9 +2,11 @@
 // itself: it emits commands.
 #pragma once
 
+#include <algorithm>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <vector>
 
 #include "app/labs/lab.hpp"
 #include "app/shell/input.hpp"
@@ -40,6 +42,10 @@ class Pointer {
     const GizmoDrag* dragged_part() const { return doing_ == Doing::Drag && by_ ? &*by_ : nullptr; }
     /// Whether it is a gizmo's, and not one that the lab has drawn.
     bool drags_gizmo() const { return dragged_part() != nullptr && picked_part(caught_).has_value(); }
+    /// How many handles are dragged; 0 where none is.
+    std::size_t dragged_count() const {
+        return doing_ == Doing::Drag ? std::max<std::size_t>(1, together_.size()) : 0;
+    }
     bool busy() const { return doing_ != Doing::Nothing; }
     /// The axis or plane that a held key binds the drag to; empty for the view plane.
     std::string constraint(const Input& input) const;
@@ -57,6 +63,7 @@ class Pointer {
     void let_go(const Input& input, const Scene& scene, Emit& emit);
     void move(const Input& input, const Scene& scene, Emit& emit);
     void drag(const Input& input, const Scene& scene, Emit& emit);
+    void drag_together(const HandleFrame& to, const Scene& scene, Emit& emit) const;
     void select_in_box(bool add, const Scene& scene, Emit& emit) const;
     std::optional<glm::vec3> dragged_to(const Input& input, const Camera& camera) const;
     void take_hold(const Handle& handle, std::optional<GizmoPart> part, const Scene& scene);
@@ -75,6 +82,7 @@ class Pointer {
     bool draggable_ = false;          ///< what is caught can be dragged
     bool boxing_ = false;             ///< nothing is caught, and a drag draws a box
     std::optional<GizmoDrag> by_;     ///< by a part
+    std::vector<Handle> together_;    ///< what the gizmo takes along, as it was when caught
     int since_click_ = 1000;          ///< ticks
     PickId clicked_ = no_pick;        ///< last
     glm::vec2 clicked_at_{0.0f};

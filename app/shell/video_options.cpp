@@ -3,11 +3,22 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <glm/common.hpp>
 
 #include "app/io/mp4.hpp"
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {
+namespace {
+
+/// `pixels` is 0 while it is the view's.
+void size_field(const char* name, int& pixels, int view, const char* help) {
+    int shown = pixels > 0 ? pixels : view;
+    if (integer_field(name, shown, smallest_picture, largest_picture)) pixels = shown == view ? 0 : shown;
+    explain(help);
+}
+
+}  // namespace
 
 void VideoOptions::start(const Workspace& workspace) {
     const Rewind& past = workspace.rewind;
@@ -16,6 +27,7 @@ void VideoOptions::start(const Workspace& workspace) {
     remembered_ = static_cast<float>(static_cast<double>(ticks) * tick_seconds);
     from_ = remembered_;
     to_ = 0.0f;
+    view_ = glm::clamp(glm::ivec2(workspace.ui.view_size), smallest_picture, largest_picture);
     why_no_mp4_ = why_no_mp4();
     if (!why_no_mp4_.empty()) format_ = 0;
 }
@@ -26,6 +38,10 @@ void VideoOptions::frame() {
     const char* const why_not[] = {nullptr, why_no_mp4_.empty() ? nullptr : why_no_mp4_.c_str()};
     choice_field("format", format_, formats, 2, why_not);
     explain("Animated PNG loses nothing, can be transparent, and plays in browsers. MP4 plays everywhere.");
+    size_field("width, pixels", size_.x, view_.x,
+               "How wide the video is: at first as wide as the view. 16 to 8192, for MP4 an even number.");
+    size_field("height, pixels", size_.y, view_.y,
+               "How high the video is: at first as high as the view. 16 to 8192, for MP4 an even number.");
     number_field("from, seconds back", from_, 0.02f, 0.0f, remembered_, "%.2f s");
     explain("Where the video begins: so long before the last moment.");
     number_field("to, seconds back", to_, 0.02f, 0.0f, remembered_, "%.2f s");
@@ -51,6 +67,8 @@ std::filesystem::path VideoOptions::with_ending(std::filesystem::path path) cons
 
 ArgumentList VideoOptions::arguments(const std::filesystem::path& path) const {
     ArgumentList list{{"path", path.string()}, {"every", smooth_ == 0 || (!mp4() && speed_ > 1.0f) ? 2 : 1}};
+    if (size_.x > 0) list.push_back({"width", size_.x});
+    if (size_.y > 0) list.push_back({"height", size_.y});
     if (from_ < remembered_) list.push_back({"from", from_});
     if (to_ > 0.0f) list.push_back({"to", to_});
     if (speed_ != 1.0f) list.push_back({"speed", speed_});

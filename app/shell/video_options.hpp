@@ -1,7 +1,8 @@
-// What the dialog asks about a video beside its name: format, which seconds, how smooth and how fast.
+// What the dialog asks about a video beside its name: format, size, which seconds, how smooth and how fast.
 #pragma once
 
 #include <filesystem>
+#include <glm/vec2.hpp>
 #include <string>
 
 #include "app/document/argument_list.hpp"
@@ -11,7 +12,7 @@ namespace tendril::app {
 
 class VideoOptions {
   public:
-    static constexpr float rows = 6.0f;  ///< that frame() writes
+    static constexpr float rows = 8.0f;  ///< that frame() writes
 
     /// When the dialog opens. What was chosen before stays, but for the seconds.
     void start(const Workspace& workspace);
@@ -27,6 +28,7 @@ class VideoOptions {
     int format_ = 0, smooth_ = 0;
     float remembered_ = 0.0f;  ///< seconds
     float from_ = 0.0f, to_ = 0.0f, speed_ = 1.0f;
+    glm::ivec2 view_{0}, size_{0};  ///< pixels; of size_ 0 where it is the view's
     bool transparent_ = false;
     std::string why_no_mp4_;
 };

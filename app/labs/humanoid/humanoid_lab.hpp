@@ -29,9 +29,13 @@ class HumanoidLab final : public Lab {
     std::vector<Handle> handles(const Workspace& workspace) const override;
     std::optional<Handle> gizmo(const Workspace& workspace) const override;
     void drag(const Workspace& workspace, PickId pick, const Handle::Frame& to, Emit& emit) const override;
+    Together together(const Workspace& workspace, Drag what) const override;
+    void drag_together(const Workspace& workspace, const std::vector<Handle>& handles,
+                       Emit& emit) const override;
     void double_click(const Workspace& workspace, PickId pick, Emit& emit) const override;
     std::vector<MouseHelp> mouse_help() const override;
     void click(const Workspace& workspace, PickId pick, Emit& emit) const override;
+    void deselect(const Workspace& workspace, Emit& emit) const override;
     void click_more(const Workspace& workspace, PickId pick, Emit& emit) const override;
     bool selects_by_box() const override { return true; }
     std::vector<Handle> selectable(const Workspace& workspace) const override;

@@ -91,10 +91,12 @@ void character_inspector(const HumanoidPanel& panel) {
 void HumanoidLab::inspector(const Workspace& workspace, Emit& emit) const {
     const HumanoidPanel panel = humanoid_panel(workspace, emit);
     show_verdict(humanoid_verdict(workspace), panel.colours);
-    target_inspector(panel);
+    const bool selected = !panel.part.selection.empty();
+    if (selected) node_inspector(panel);  // what was clicked comes first
     limit_inspector(panel);
+    target_inspector(panel);
     character_inspector(panel);
-    node_inspector(panel);
+    if (!selected) node_inspector(panel);
 }
 
 }  // namespace tendril::app

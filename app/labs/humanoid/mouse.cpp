@@ -6,6 +6,8 @@
 #include "app/labs/humanoid/character/figure.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "app/labs/humanoid/ik/quaternion_json.hpp"
+#include "app/labs/kit/name_list.hpp"
 
 namespace tendril::app {
 namespace {
@@ -32,13 +34,21 @@ Handle effector_handle(const Workspace& workspace, Effector effector) {
     return handle;
 }
 
-/// The effector whose bone alone is selected.
-std::optional<Effector> selected_effector(const HumanoidPart& part) {
-    const auto node = part.selection.active();
-    if (!node || part.selection.several()) return std::nullopt;
+std::optional<Effector> effector_at(const HumanoidPart& part, std::size_t node) {
     for (const Effector effector : all_effectors)
-        if (part.node_of(humanoid::bone_of(effector)) == *node) return effector;
+        if (part.node_of(humanoid::bone_of(effector)) == node) return effector;
     return std::nullopt;
+}
+
+/// Whose gizmo is shown: of those whose bone is selected, the active one, or else the last.
+std::optional<Effector> gizmo_effector(const HumanoidPart& part) {
+    const auto active = part.selection.active();
+    if (!active) return std::nullopt;
+    if (const auto effector = effector_at(part, *active)) return effector;
+    std::optional<Effector> last;
+    for (const std::size_t node : part.selection.all())
+        if (const auto effector = effector_at(part, node)) last = effector;
+    return last;
 }
 
 /// The one that is clicked, or whose effector is.
@@ -71,9 +81,43 @@ std::vector<Handle> HumanoidLab::handles(const Workspace& workspace) const {
 }
 
 std::optional<Handle> HumanoidLab::gizmo(const Workspace& workspace) const {
-    const auto effector = selected_effector(humanoid_part(workspace));
+    const auto effector = gizmo_effector(humanoid_part(workspace));
     if (!effector || !has_body(workspace)) return std::nullopt;
     return effector_handle(workspace, *effector);
+}
+
+Together HumanoidLab::together(const Workspace& workspace, Drag) const {
+    const HumanoidPart& part = humanoid_part(workspace);
+    if (!part.selection.several() || !has_body(workspace)) return {};
+    Together together;
+    std::vector<std::string> staying;
+    for (const std::size_t node : part.selection.all()) {
+        if (const auto effector = effector_at(part, node))
+            together.handles.push_back(effector_handle(workspace, *effector));
+        else
+            staying.push_back(part.skeleton()[node].name);
+    }
+    if (!staying.empty())
+        together.staying = "No effectors, so without a target: " + name_list_text(staying) + ".";
+    return together;
+}
+
+void HumanoidLab::drag_together(const Workspace& workspace, const std::vector<Handle>& handles,
+                                Emit& emit) const {
+    if (!has_body(workspace)) return;
+    Json effectors = Json::array(), points = Json::array(), rotations = Json::array();
+    bool turned = false;
+    for (const Handle& each : handles) {
+        const Effector effector = *picked_effector(each.pick);
+        effectors.push_back(humanoid::name(effector));
+        points.push_back(point(each.frame.position));
+        rotations.push_back(quaternion(glm::dquat(each.frame.rotation)));
+        turned |= has(each.drag, Drag::Rotation);
+    }
+    ArgumentList arguments{{"effectors", SharedJson(std::move(effectors))},
+                           {"points", SharedJson(std::move(points))}};
+    if (turned) arguments.push_back({"rotations", SharedJson(std::move(rotations))});
+    emit.continuously("humanoid.target", arguments);
 }
 
 void HumanoidLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame& to, Emit& emit) const {
@@ -106,6 +150,13 @@ void HumanoidLab::click(const Workspace& workspace, PickId pick, Emit& emit) con
     }
     if (part.selection.active() != node || part.selection.several())
         emit("humanoid.select", {{"node", name}});
+}
+
+/// A row that waits for a node waits no more, and what is selected stays.
+void HumanoidLab::deselect(const Workspace& workspace, Emit& emit) const {
+    auto& waiting = humanoid_runtime(workspace).panel.bone;
+    if (!waiting) return click(workspace, no_pick, emit);
+    waiting.reset();
 }
 
 void HumanoidLab::click_more(const Workspace& workspace, PickId pick, Emit& emit) const {
@@ -165,6 +216,7 @@ std::string HumanoidLab::hint(const Workspace& workspace, PickId pick) const {
 std::vector<MouseHelp> HumanoidLab::mouse_help() const {
     return {{"Drag of an orange ball", "gives hand, foot, head or hips a target"},
             {"Double click on an orange ball", "lets it go"},
+            {"Drag of an arrow, a square or a ring", "moves or turns the selected hands, feet, head and hips"},
             {"Shift+click on a bone", "adds it to the selection, or takes it out"},
             {"Ctrl+drag on nothing", "draws a box that selects the nodes in it; with Shift it adds them"}};
 }

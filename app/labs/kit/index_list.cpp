@@ -33,4 +33,18 @@ std::vector<std::size_t> index_list(const Arguments& given, const char* name, st
     return indices;
 }
 
+Argument each_argument(const char* name, const char* of) {
+    return {.name = name,
+            .type = ArgumentType::List,
+            .required = false,
+            .help = std::string("one for each of ") + of};
+}
+
+JsonPlace each_list(const Arguments& given, const char* name, const char* of, std::size_t count) {
+    if (!given.has(of)) throw Refused(std::string(name) + " is for " + of);
+    JsonPlace list(given.json(name), name);
+    list.check_size(count, (std::string(name) + ", one for each of " + of).c_str());
+    return list;
+}
+
 }  // namespace tendril::app

@@ -140,8 +140,8 @@ void NamedWorld::remove_collider(std::string_view name) {
     require_ok(world_.remove_collider(collider_id(name)));
 }
 
-void NamedWorld::drag_pin(rope::Workspace& workspace, std::size_t particle, const glm::vec3& to) {
-    require_ok(rope::drag_pin(world_, workspace, particle, glm::dvec3(to)));
+void NamedWorld::drag_pins(rope::Workspace& workspace, std::span<const rope::PinPlace> pins) {
+    require_ok(rope::drag_pins(world_, workspace, pins));
 }
 void NamedWorld::drag_collider(rope::Workspace& workspace, std::string_view name, const glm::vec3& to) {
     require_ok(rope::drag_collider(world_, workspace, collider_id(name), to));

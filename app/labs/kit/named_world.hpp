@@ -69,7 +69,7 @@ class NamedWorld {
     void remove_collider(std::string_view name);
 
     // Quasi-static drags, for while the simulation is paused.
-    void drag_pin(rope::Workspace& workspace, std::size_t particle, const glm::vec3& to);
+    void drag_pins(rope::Workspace& workspace, std::span<const rope::PinPlace> pins);
     void drag_collider(rope::Workspace& workspace, std::string_view name, const glm::vec3& to);
     void drag_collider(rope::Workspace& workspace, std::string_view name, const rope::Shape& shape);
 

@@ -48,6 +48,19 @@ HandleFrame frame_of(const rig::Transform& pose) {
     return {glm::vec3(pose.translation), glm::quat(pose.rotation), glm::vec3(pose.scale)};
 }
 
+rig::Transform transform_of(const HandleFrame& frame) {
+    return {glm::dvec3(frame.position), glm::dquat(frame.rotation), glm::dvec3(frame.scale)};
+}
+
+Json changed_transform(const rig::Transform& transform, const HandleFrame& from, const HandleFrame& to) {
+    const Json all = transform_json(transform);
+    Json changed = Json::object();
+    if (to.position != from.position) changed["translation"] = all["translation"];
+    if (to.rotation != from.rotation) changed["rotation"] = all["rotation"];
+    if (to.scale != from.scale) changed["scale"] = all["scale"];
+    return changed;
+}
+
 std::optional<ControlShape> ControlShape::of(const RigPart& part, const rig::Hierarchy& elements,
                                              std::size_t element) {
     const rig::Element& made = part.rig.definition().elements[element];
@@ -147,12 +160,7 @@ Json ControlShape::value_at(const HandleFrame& from, const HandleFrame& to) cons
         default:
             break;
     }
-    const Json all = transform_json(local);
-    Json changed = Json::object();
-    if (to.position != from.position) changed["translation"] = all["translation"];
-    if (to.rotation != from.rotation) changed["rotation"] = all["rotation"];
-    if (to.scale != from.scale) changed["scale"] = all["scale"];
-    return changed;
+    return changed_transform(local, from, to);
 }
 
 std::string ControlShape::text() const {

@@ -73,5 +73,8 @@ class ControlShape {
 };
 
 HandleFrame frame_of(const rig::Transform& pose);
+rig::Transform transform_of(const HandleFrame& frame);
+/// Of a transform those members, as JSON, in which `to` differs from `from`.
+Json changed_transform(const rig::Transform& transform, const HandleFrame& from, const HandleFrame& to);
 
 }  // namespace tendril::app

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "app/document/json_complete.hpp"
+#include "app/labs/kit/index_list.hpp"
 #include "app/labs/kit/name_list.hpp"
 #include "app/labs/kit/part_command.hpp"
 #include "app/labs/kit/require.hpp"
@@ -35,19 +36,44 @@ rig::Transform input_pose(RigPart& part, std::size_t at, rig::Space space) {
     return part.state.elements.get(part.rig.id(at), space, control ? rig::Pose::Current : rig::Pose::Input);
 }
 
+/// A value to be set, with its place in the command.
+struct WantedValue {
+    std::size_t element;  ///< its place in the definition
+    JsonPlace value;
+};
+
+/// The same for all that are named, `one`, or a value for each, `each`. In the order of the definition.
+std::vector<WantedValue> wanted_values(const RigPart& part, const Arguments& given, const char* one,
+                                       const char* each) {
+    std::vector<WantedValue> wanted;
+    if (gives_one(given, one, each)) {
+        for (const std::size_t at : elements_given(part, given)) wanted.push_back({at, {given.json(one), one}});
+        return wanted;
+    }
+    const std::size_t count = elements_given(part, given).size();
+    if (given.has("names") && given.json("names").size() != count)
+        throw Refused("names: each once, as each has a value of its own");
+    const JsonPlace values = each_list(given, each, "names", count);
+    for (const std::size_t at : element_list(part, given, "names"))
+        wanted.push_back({at, values.element(wanted.size())});
+    std::ranges::sort(wanted, {}, &WantedValue::element);
+    return wanted;
+}
+
 /// What is left out of the transform stays. Parents come first: their children go with them, and are then
 /// set.
 void set_elements(RigPart& part, const Arguments& given) {
-    const std::vector<std::size_t> elements = elements_given(part, given);
+    const std::vector<WantedValue> elements = wanted_values(part, given, "transform", "transforms");
     const rig::Space space =
         given.has("space") && given.text("space") == "global" ? rig::Space::Global : rig::Space::Local;
     const bool propagate = !given.has("propagate") || given.boolean("propagate");
     const rig::State before = part.state;
     for (const std::size_t at : from_the_roots(part.rig, before.elements)) {
-        if (!std::ranges::binary_search(elements, at)) continue;
+        const auto each = std::ranges::lower_bound(elements, at, {}, &WantedValue::element);
+        if (each == elements.end() || each->element != at) continue;
         const rig::Transform now = input_pose(part, at, space);
-        const Json wanted = filled(given.json("transform"), transform_json(now));
-        require_ok(part.rig.set_element(part.state, at, space, read_transform({wanted, "transform"}, now),
+        const Json wanted = filled(each->value.json(), transform_json(now));
+        require_ok(part.rig.set_element(part.state, at, space, read_transform({wanted, each->value.where()}, now),
                                         propagate ? rig::Propagate::Yes : rig::Propagate::No));
     }
     if (part.state != before) changed(part);
@@ -68,13 +94,10 @@ void remove_selected(RigPart& part, const Arguments&) {
         throw Refused("nothing is selected");
 }
 
-std::vector<std::size_t> controls_given(const RigPart& part, const Arguments& given) {
-    std::vector<std::size_t> controls = elements_given(part, given);
-    for (const std::size_t at : controls) {
-        const rig::Element& element = part.rig.definition().elements[at];
-        if (!element.control) throw std::invalid_argument("\"" + element.name + "\" is no control");
-    }
-    return controls;
+const rig::Element& control_at(const RigPart& part, std::size_t at) {
+    const rig::Element& element = part.rig.definition().elements[at];
+    if (!element.control) throw std::invalid_argument("\"" + element.name + "\" is no control");
+    return element;
 }
 
 struct ControlValue {
@@ -115,33 +138,35 @@ void set_values(RigPart& part, std::vector<ControlValue> values) {
     for (const ControlValue& each : values) key_control(part, each.element);
 }
 
-rig::ControlKind one_kind(const RigPart& part, const std::vector<std::size_t>& controls) {
-    const std::vector<rig::Element>& elements = part.rig.definition().elements;
-    const rig::Element& first = elements[controls.front()];
-    for (const std::size_t at : controls)
-        if (const rig::ControlKind kind = elements[at].control->kind; kind != first.control->kind)
-            throw std::invalid_argument("names: \"" + first.name + "\" is a " +
-                                        control_title(first.control->kind) + ", \"" + elements[at].name +
-                                        "\" a " + control_title(kind) + "; give those of one kind");
-    return first.control->kind;
+/// One value goes on controls of one kind alone.
+void check_one_kind(const RigPart& part, const std::vector<WantedValue>& controls) {
+    const rig::Element& first = control_at(part, controls.front().element);
+    for (const WantedValue& each : controls) {
+        const rig::Element& element = control_at(part, each.element);
+        if (element.control->kind == first.control->kind) continue;
+        throw std::invalid_argument("names: \"" + first.name + "\" is a " + control_title(first.control->kind) +
+                                    ", \"" + element.name + "\" a " + control_title(element.control->kind) +
+                                    "; give those of one kind");
+    }
 }
 
 void set_controls(RigPart& part, const Arguments& given) {
-    const std::vector<std::size_t> controls = controls_given(part, given);
-    const rig::ControlKind kind = one_kind(part, controls);
+    const std::vector<WantedValue> controls = wanted_values(part, given, "value", "values");
+    if (given.has("value")) check_one_kind(part, controls);
     std::vector<ControlValue> values;
-    for (const std::size_t at : controls) {
-        const rig::Value& now = part.state.controls[at];
-        const Json wanted = filled(given.json("value"), control_value_json(kind, now));
-        values.push_back({at, read_control_value({wanted, "value"}, kind, now)});
+    for (const WantedValue& each : controls) {
+        const rig::ControlKind kind = control_at(part, each.element).control->kind;
+        const rig::Value& now = part.state.controls[each.element];
+        const Json wanted = filled(each.value.json(), control_value_json(kind, now));
+        values.push_back({each.element, read_control_value({wanted, each.value.where()}, kind, now)});
     }
     set_values(part, std::move(values));
 }
 
 void reset_controls(RigPart& part, const Arguments& given) {
     std::vector<ControlValue> values;
-    for (const std::size_t at : controls_given(part, given)) {
-        const rig::Element& element = part.rig.definition().elements[at];
+    for (const std::size_t at : elements_given(part, given)) {
+        const rig::Element& element = control_at(part, at);
         values.push_back({at, rig::rest_value(*element.control, element.initial)});
     }
     set_values(part, std::move(values));
@@ -185,9 +210,10 @@ void add_element_commands(CommandTable& table) {
         "rig.element.set", "Set the pose of elements",
         {name, names,
          choice_argument("space", false, "of the transform; local where left out", {"local", "global"}),
-         json_argument("transform", true,
+         json_argument("transform", false,
                        "{translation, rotation, scale}; what is left out stays, and so does a null among "
                        "[x, y, z]"),
+         each_argument("transforms", "names"),
          switch_argument("propagate", "the children move with it; on where left out")},
         "Sets the input poses of elements, from which every solve begins", set_elements));
     table.add(rig_command("rig.element.remove", "Remove elements", {name, names},
@@ -197,10 +223,12 @@ void add_element_commands(CommandTable& table) {
     table.add(
         rig_command("rig.control.set", "Set controls",
                     {control, names,
-                     json_argument("value", true,
+                     json_argument("value", false,
                                    "{translation, rotation, scale}, [x, y, z], [x, y, z, w], a number, "
-                                   "a bool or [a, b], as its kind has it; a null among [x, y, z] stays")},
-                    "Sets controls of one kind, within their limits", set_controls));
+                                   "a bool or [a, b], as its kind has it; a null among [x, y, z] stays"),
+                     each_argument("values", "names")},
+                    "Sets controls, within their limits: one value on those of one kind, or one on each",
+                    set_controls));
     table.add(rig_command("rig.control.reset", "Reset controls", {control, names},
                           "Sets controls to the values that they begin with", reset_controls));
     table.add(rig_command("rig.curve.add", "Add a curve",

@@ -5,6 +5,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/labs/rig/control_shape.hpp"
+#include "app/labs/rig/element_handle.hpp"
 #include "app/labs/rig/figure.hpp"
 #include "app/labs/rig/rig_edit.hpp"
 #include "app/labs/rig/rig_lab.hpp"
@@ -18,33 +19,8 @@ namespace {
 /// Bones and nulls have names among the handles where they are no more than this.
 constexpr std::size_t most_named = 400;
 
-const rig::Hierarchy& elements_of(const Workspace& workspace) {
-    return workspace.runtimes.of<RigRuntime>(rig_lab).resolved(workspace);
-}
-
 bool is_there(const RigPart& part, PickId pick) {
     return pick >= 0 && picked_element(pick) < part.state.controls.size();
-}
-
-/// What is drawn of it: a knob, a joint.
-Handle handle_of(const Workspace& workspace, std::size_t i) {
-    const RigPart& part = rig_part(workspace);
-    const rig::Hierarchy& elements = elements_of(workspace);
-    const rig::Element& element = part.rig.definition().elements[i];
-    if (const auto shape = ControlShape::of(part, elements, i))
-        return {element.name, element_pick(i), frame_of(shape->pose()), shape->drag(), shape->part()};
-    const rig::Transform pose = *elements.known(part.rig.id(i), rig::Space::Global);
-    return {element.name, element_pick(i), frame_of(pose), Drag::Nothing};
-}
-
-/// A bone or a null is set where a solve begins with it, before any unit has moved it.
-Handle input_handle(const Workspace& workspace, std::size_t i) {
-    const RigPart& part = rig_part(workspace);
-    const rig::Element& element = part.rig.definition().elements[i];
-    const rig::Transform pose = part.rig.start_pose(part.state, i);
-    const Drag turn = Drag::Position | Drag::Rotation;
-    return {element.name, element_pick(i), frame_of(pose),
-            element.kind == rig::ElementKind::Null ? turn | Drag::Scale : turn};
 }
 
 /// Who selects elements leaves the unit selected that is.
@@ -85,27 +61,16 @@ std::vector<Handle> RigLab::handles(const Workspace& workspace) const {
     std::vector<Handle> handles;
     for (std::size_t i = 0; i < count; ++i)
         if (count <= most_named || part.rig.definition().elements[i].control)
-            handles.push_back(handle_of(workspace, i));
+            handles.push_back(element_handle(workspace, i));
     return handles;
 }
 
 std::optional<Handle> RigLab::handle(const Workspace& workspace, PickId pick) const {
     if (!is_there(rig_part(workspace), pick)) return std::nullopt;
-    Handle handle = handle_of(workspace, picked_element(pick));
+    Handle handle = element_handle(workspace, picked_element(pick));
     handle.pick = pick;
     if (const int ring = picked_ring(pick); ring >= 0)
         handle.part = static_cast<GizmoPart>(static_cast<int>(GizmoPart::RotateX) + ring);
-    return handle;
-}
-
-std::optional<Handle> RigLab::gizmo(const Workspace& workspace) const {
-    const RigPart& part = rig_part(workspace);
-    const auto selected = part.selected.only_element();
-    if (!selected) return std::nullopt;
-    if (!part.rig.definition().elements[*selected].control) return input_handle(workspace, *selected);
-    // A knob on its rail, or in its rectangle, needs nothing more to be dragged by.
-    const Handle handle = handle_of(workspace, *selected);
-    if (handle.part || handle.drag == Drag::Nothing) return std::nullopt;
     return handle;
 }
 
@@ -120,13 +85,7 @@ void RigLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame& 
         if (value.empty() && value.is_object()) return;
         emit.continuously("rig.control.set", {{"name", name}, {"value", SharedJson(std::move(value))}});
     } else {
-        const HandleFrame from = input_handle(workspace, i).frame;
-        const Json all =
-            transform_json({glm::dvec3(to.position), glm::dquat(to.rotation), glm::dvec3(to.scale)});
-        Json changed = Json::object();
-        if (to.position != from.position) changed["translation"] = all["translation"];
-        if (to.rotation != from.rotation) changed["rotation"] = all["rotation"];
-        if (to.scale != from.scale) changed["scale"] = all["scale"];
+        Json changed = changed_transform(transform_of(to), input_handle(workspace, i).frame, to);
         if (changed.empty()) return;
         emit.continuously(
             "rig.element.set",
@@ -161,7 +120,7 @@ void RigLab::click_more(const Workspace& workspace, PickId pick, Emit& emit) con
 std::vector<Handle> RigLab::selectable(const Workspace& workspace) const {
     std::vector<Handle> all;
     for (std::size_t i = 0; i < rig_part(workspace).state.controls.size(); ++i)
-        all.push_back(handle_of(workspace, i));
+        all.push_back(element_handle(workspace, i));
     return all;
 }
 
@@ -213,7 +172,8 @@ std::vector<MouseHelp> RigLab::mouse_help() const {
     return {{"Shift+click on an element", "adds it to the selection, or takes it out"},
             {"Ctrl+drag on nothing", "draws a box that selects the elements in it; with Shift it adds them"},
             {"Double click on a control", "resets it to its initial value"},
-            {"Drag of an arrow, a square, a ring or a box", "moves, turns or scales what is selected"}};
+            {"Drag of an arrow, a square, a ring or a box",
+             "moves, turns or scales what is selected; several about the one selected last"}};
 }
 
 Bounds RigLab::bounds(const Workspace& workspace, bool selection_only) const {

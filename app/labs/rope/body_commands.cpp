@@ -3,6 +3,7 @@
 #include <tendril/rope/hair_roots.hpp>
 #include <utility>
 
+#include "app/labs/kit/index_list.hpp"
 #include "app/labs/kit/require.hpp"
 #include "app/labs/rope/rope_commands.hpp"
 
@@ -94,13 +95,13 @@ void remove_selected(RopeEdit& edit, const Arguments&) {
 void pin(RopeEdit& edit, const Arguments& given) {
     if (given.has("at") && given.has("particles"))
         throw Refused("at is for one particle: pinned to one point, several would be on top of each other");
-    for (const NamedParticle& named : named_particles(edit.seen(), given)) {
-        if (edit.part.hold == Hold{named.body, named.index}) edit.part.hold.reset();  // now it is held for good
-        if (given.has("at"))
-            edit.move_pin(named.particle, given.point("at"));
-        else
-            edit.world().pin(named.particle, edit.seen().position(named.particle));
-    }
+    if (given.has("points") && !given.has("particles")) throw Refused("points is for particles");
+    const std::vector<NamedParticle> all = named_particles(edit.seen(), given);
+    for (const NamedParticle& named : all) forget_held(edit.part, named);  // now it is held for good
+    if (given.has("at") || given.has("points"))
+        return edit.move_pins(pin_places(given, all, "at", "points"));
+    for (const NamedParticle& named : all)
+        edit.world().pin(named.particle, edit.seen().position(named.particle));
 }
 
 void unpin(RopeEdit& edit, const Arguments& given) {
@@ -109,7 +110,7 @@ void unpin(RopeEdit& edit, const Arguments& given) {
     std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.particle > b.particle; });
     for (const NamedParticle& named : all) {
         if (!edit.seen().pinned(named.particle)) continue;
-        if (edit.part.hold == Hold{named.body, named.index}) edit.part.hold.reset();
+        forget_held(edit.part, named);
         edit.world().unpin(named.particle);
     }
 }
@@ -136,6 +137,16 @@ void follow_cut(RopeSelection& selection, const std::string& cut_rope, std::size
     selection.particles.take(stay, false);
 }
 
+/// All that is held is on one side of the cut.
+void follow_cut(Hold& hold, const std::string& cut_rope, std::size_t segment, const std::string& rest) {
+    std::string body = hold.body;
+    for (std::size_t& each : hold.particles) {
+        body = hold.body;
+        follow_cut(body, each, cut_rope, segment, rest);
+    }
+    hold.body = body;
+}
+
 void cut(RopeEdit& edit, const Arguments& given) {
     const rope::Body& body = body_of(edit.seen(), given.text("rope"));
     const std::string name = given.text("rope");
@@ -144,10 +155,13 @@ void cut(RopeEdit& edit, const Arguments& given) {
         throw Refused("segment " + std::to_string(segment) + " is out of range, \"" + name + "\" has " +
                       std::to_string(body.count == 0 ? 0 : body.count - 1));
     }
-    const std::string rest = edit.world().cut(name, segment);
     RopePart& part = edit.part;
+    if (part.hold && part.hold->body == name && part.hold->particles.front() <= segment &&
+        part.hold->particles.back() > segment)
+        let_go(part);
+    const std::string rest = edit.world().cut(name, segment);
     if (part.selection) follow_cut(*part.selection, name, segment, rest);
-    if (part.hold) follow_cut(part.hold->body, part.hold->particle, name, segment, rest);
+    if (part.hold) follow_cut(*part.hold, name, segment, rest);
     forget_missing(part);
 }
 
@@ -208,8 +222,9 @@ void add_body_commands(CommandTable& table) {
                            remove_selected));
     table.add(rope_command("rope.pin", "Pin particles",
                            {rope_argument(true, "which"), particle_argument(false, "which"),
-                            particles_argument(), point_argument("at", false, "metres; where it is when left out")},
-                           "Pins particles to where they are, or one to a point", pin));
+                            particles_argument(), point_argument("at", false, "metres; where it is when left out"),
+                            each_argument("points", "particles")},
+                           "Pins particles to where they are, or to points", pin));
     table.add(rope_command("rope.unpin", "Unpin particles",
                            {rope_argument(true, "which"), particle_argument(false, "which"), particles_argument()},
                            "Unpins particles", unpin));

@@ -30,7 +30,7 @@ float tension_at(const NamedWorld& world, std::size_t particle) {
 void particle_rows(const RopePart& part, const rope::Body& body, std::size_t index, Emit& emit) {
     const NamedWorld& world = *part.world;
     const std::size_t particle = body.first + index;
-    const bool held = held_particle(part) == particle, pinned = world.pinned(particle) && !held;
+    const bool held = is_held(part, particle), pinned = world.pinned(particle) && !held;
     const ArgumentList which{{"rope", world.name(body)}, {"particle", index}};
     reading("body", "%s", world.name(body).c_str());
     reading("particle", "%zu of %zu%s", index, body.count, pinned ? ", pinned" : held ? ", held" : "");

@@ -1,4 +1,7 @@
 // What is selected, held and shown. But for what a drag does to a rope, it leaves no step to undo.
+#include <algorithm>
+
+#include "app/labs/kit/index_list.hpp"
 #include "app/labs/rope/rope_commands.hpp"
 #include "app/labs/rope/rope_names.hpp"
 
@@ -35,16 +38,22 @@ void select(RopeEdit& edit, const Arguments& given) {
 }
 
 void hold(RopeEdit& edit, const Arguments& given) {
-    const NamedParticle held = named_particle(edit.seen(), given);
-    const Hold wanted{held.body, held.index};
+    const std::vector<NamedParticle> all = named_particles(edit.seen(), given);
+    for (const char* point : {"at", "points"})
+        if (given.has(point) == given.has(point[0] == 'a' ? "particles" : "particle"))
+            throw Refused("needs particle and at, or particles and points");
+    const std::vector<rope::PinPlace> places = pin_places(given, all, "at", "points");
+    Hold wanted{all.front().body, {}};
+    for (const NamedParticle& each : all) wanted.particles.push_back(each.index);
+    std::sort(wanted.particles.begin(), wanted.particles.end());
     if (edit.part.hold != wanted) {
-        if (edit.seen().pinned(held.particle)) {
-            throw Refused("particle " + std::to_string(held.index) + " of \"" + held.body +
-                          "\" is pinned; rope.pin moves it");
-        }
         let_go(edit.part);
+        for (const NamedParticle& each : all)
+            if (edit.seen().pinned(each.particle))
+                throw Refused("particle " + std::to_string(each.index) + " of \"" + each.body +
+                              "\" is pinned; rope.pin moves it");
     }
-    edit.move_pin(held.particle, given.point("at"));
+    edit.move_pins(places);
     edit.part.hold = wanted;
 }
 
@@ -64,12 +73,13 @@ void add_look_commands(CommandTable& table) {
                             switch_argument("add", "true: adds particles of the same rope, or takes one out")},
                            "Selects particles or a collider; nothing when all is left out", select,
                            Effect::Look));
-    table.add(rope_command("rope.hold", "Hold a particle",
-                           {rope_argument(true, "which"), particle_argument(true, "which; a free one"),
-                            point_argument("at", true, "metres")},
-                           "Holds a free particle, as a drag does, until rope.let_go", hold));
+    table.add(rope_command("rope.hold", "Hold particles",
+                           {rope_argument(true, "which"), particle_argument(false, "which; a free one"),
+                            particles_argument(), point_argument("at", false, "metres"),
+                            each_argument("points", "particles")},
+                           "Holds free particles, as a drag does, until rope.let_go", hold));
     table.add(rope_command(
-        "rope.let_go", "Let go of the held particle", {}, "Releases what rope.hold holds",
+        "rope.let_go", "Let go of held particles", {}, "Releases what rope.hold holds",
         [](RopeEdit& edit, const Arguments&) { let_go(edit.part); }, Effect::Look));
     table.add(rope_command(
         "rope.tool", "Choose the click action", {choice_argument("name", true, "which", rope_tools.names())},

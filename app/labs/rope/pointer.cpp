@@ -112,16 +112,6 @@ std::optional<Handle> RopeLab::handle(const Workspace& workspace, PickId pick) c
     return std::nullopt;
 }
 
-/// Of a collider that is selected: a rope has hands enough.
-std::optional<Handle> RopeLab::gizmo(const Workspace& workspace) const {
-    const RopePart& part = rope_part(workspace);
-    if (!part.selection || part.selection->collider.empty()) return std::nullopt;
-    const auto& colliders = part.world->state().colliders;
-    for (std::size_t i = 0; i < colliders.size(); ++i)
-        if (part.world->name(colliders[i]) == part.selection->collider) return handle(workspace, collider_pick(i));
-    return std::nullopt;
-}
-
 void RopeLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const {
     const glm::vec3 to = frame.position;
     const RopePart& part = rope_part(workspace);
@@ -152,8 +142,8 @@ void RopeLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame&
                           {{"name", part.world->name(*holder)}, {"to", rope::centre(holder->shape) + by}});
         return;
     }
-    const bool held = part.hold == Hold{part.world->name(*place->body), place->index};
-    const bool pinned = !held && part.world->pinned(place->body->first + place->index);
+    const std::size_t particle = place->body->first + place->index;
+    const bool pinned = part.world->pinned(particle) && !is_held(part, particle);
     ArgumentList arguments = of_particle(*part.world, *place);
     arguments.push_back({"at", to});
     emit.continuously(pinned ? "rope.pin" : "rope.hold", arguments);
@@ -255,7 +245,7 @@ std::string RopeLab::hint(const Workspace& workspace, PickId pick) const {
     if (const rope::Collider* holder = holder_of(*part.world, place->body->first + place->index))
         return name + " (attached to " + part.world->name(*holder) + "): drag moves both.";
     const std::size_t particle = place->body->first + place->index;
-    const bool pinned = part.world->pinned(particle) && held_particle(part) != particle;
+    const bool pinned = part.world->pinned(particle) && !is_held(part, particle);
     return name + (pinned ? " (pinned): drag moves its pin." : ": drag pulls it. Click selects it.");
 }
 

@@ -22,9 +22,12 @@ NamedWorld& RopeEdit::world() {
     return *copy_;
 }
 
-void RopeEdit::move_pin(std::size_t particle, const glm::vec3& at) {
-    if (seconds_ > 0.0) return world().pin(particle, at, seconds_);
-    world().drag_pin(workspace_, particle, at);
+void RopeEdit::move_pins(const std::vector<rope::PinPlace>& pins) {
+    if (seconds_ > 0.0) {
+        for (const rope::PinPlace& each : pins) world().pin(each.particle, each.to, seconds_);
+        return;
+    }
+    world().drag_pins(workspace_, pins);
     dragged();
 }
 
@@ -125,17 +128,51 @@ std::vector<NamedParticle> named_particles(const NamedWorld& world, const Argume
     return named;
 }
 
-std::optional<std::size_t> held_particle(const RopePart& part) {
+std::vector<rope::PinPlace> pin_places(const Arguments& given, const std::vector<NamedParticle>& named,
+                                       const char* one, const char* each) {
+    std::vector<rope::PinPlace> places;
+    if (given.has("particle")) {
+        places.push_back({named.front().particle, glm::dvec3(given.point(one))});
+        return places;
+    }
+    const JsonPlace points = each_list(given, each, "particles", named.size());
+    for (const NamedParticle& at : named)
+        places.push_back({at.particle, glm::dvec3(points.element(places.size()).point())});
+    std::sort(places.begin(), places.end(),
+              [](const auto& a, const auto& b) { return a.particle < b.particle; });
+    const auto twice = std::adjacent_find(places.begin(), places.end(), [](const auto& a, const auto& b) {
+        return a.particle == b.particle;
+    });
+    if (twice != places.end())
+        throw Refused("particles: " + std::to_string(twice->particle - named.front().particle + named.front().index) +
+                      " stands there twice");
+    return places;
+}
+
+std::vector<std::size_t> held_particles(const RopePart& part) {
+    std::vector<std::size_t> held;
     const rope::Body* body = part.hold ? part.world->find(part.hold->body) : nullptr;
-    if (body == nullptr || part.hold->particle >= body->count) return std::nullopt;
-    const std::size_t particle = body->first + part.hold->particle;
-    return part.world->pinned(particle) ? std::optional(particle) : std::nullopt;
+    if (body == nullptr) return held;
+    for (const std::size_t each : part.hold->particles)
+        if (each < body->count && part.world->pinned(body->first + each)) held.push_back(body->first + each);
+    return held;
+}
+
+bool is_held(const RopePart& part, std::size_t particle) {
+    const std::vector<std::size_t> held = held_particles(part);
+    return std::binary_search(held.begin(), held.end(), particle);
+}
+
+void forget_held(RopePart& part, const NamedParticle& named) {
+    if (!part.hold || part.hold->body != named.body) return;
+    std::erase(part.hold->particles, named.index);
+    if (part.hold->particles.empty()) part.hold.reset();
 }
 
 void let_go(RopePart& part) {
-    if (const auto held = held_particle(part)) {
+    if (const std::vector<std::size_t> held = held_particles(part); !held.empty()) {
         NamedWorld world = *part.world;
-        world.unpin(*held);
+        for (const std::size_t each : held) world.unpin(each);
         part.world = std::make_shared<const NamedWorld>(std::move(world));
     }
     part.hold.reset();
@@ -147,7 +184,10 @@ void forget_missing(RopePart& part) {
         const rope::Body* body = world.find(name);
         return body != nullptr && particle < body->count;
     };
-    if (part.hold && !there(part.hold->body, part.hold->particle)) part.hold.reset();
+    if (part.hold) {
+        std::erase_if(part.hold->particles, [&](std::size_t each) { return !there(part.hold->body, each); });
+        if (part.hold->particles.empty()) part.hold.reset();
+    }
     if (part.selection) {
         RopeSelection& selection = *part.selection;
         const rope::Body* body = world.find(selection.body);

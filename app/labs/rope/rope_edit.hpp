@@ -24,7 +24,7 @@ class RopeEdit {
     NamedWorld& world();
     /// Each gets there in the length of one tick, so that it pushes evenly what it meets; while the
     /// simulation is paused, at once, by a quasi-static drag.
-    void move_pin(std::size_t particle, const glm::vec3& at);
+    void move_pins(const std::vector<rope::PinPlace>& pins);
     void move_collider(const std::string& name, const glm::vec3& to);
     void set_collider(const std::string& name, const rope::Shape& shape);  ///< there at once
 
@@ -57,9 +57,16 @@ NamedParticle named_particle(const NamedWorld& world, const Arguments& given);
 /// Those that `particle` or `particles` names, of one rope. Throws Refused where neither or both are given, or
 /// one is not there.
 std::vector<NamedParticle> named_particles(const NamedWorld& world, const Arguments& given);
+/// Those, with the point that `one` gives for the one, or `each` for each of several. Throws Refused, too,
+/// where a particle stands among them twice.
+std::vector<rope::PinPlace> pin_places(const Arguments& given, const std::vector<NamedParticle>& named,
+                                       const char* one, const char* each);
 
-/// What a drag holds, if it still does.
-std::optional<std::size_t> held_particle(const RopePart& part);
+/// What a drag still holds, by their numbers in the world.
+std::vector<std::size_t> held_particles(const RopePart& part);
+bool is_held(const RopePart& part, std::size_t particle);
+/// Of what a drag holds, this is held no more: it is pinned for good, or free again.
+void forget_held(RopePart& part, const NamedParticle& named);
 /// Lets go of what a drag holds.
 void let_go(RopePart& part);
 /// Whatever is gone is neither chosen nor held nor swings.

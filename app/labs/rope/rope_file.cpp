@@ -100,10 +100,10 @@ RopeView load_view(const JsonPlace& place) {
 
 /// The world without what a drag holds.
 Json save_released(const RopePart& part) {
-    const auto held = held_particle(part);
-    if (!held) return save_world(*part.world);
+    const std::vector<std::size_t> held = held_particles(part);
+    if (held.empty()) return save_world(*part.world);
     NamedWorld released = *part.world;
-    released.unpin(*held);
+    for (const std::size_t each : held) released.unpin(each);
     return save_world(released);
 }
 

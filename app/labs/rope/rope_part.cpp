@@ -53,7 +53,7 @@ std::shared_ptr<const Part> RopePart::at_moment(std::shared_ptr<const Part> then
 std::size_t RopePart::bytes() const {
     const std::size_t selected = selection ? selection->particles.all().size() * sizeof(std::size_t) : 0;
     return sizeof(*this) + sizeof(NamedWorld) + bytes_of(world->state()) + swings.size() * sizeof(Swing) +
-           selected;
+           selected + (hold ? hold->particles.size() * sizeof(std::size_t) : 0);
 }
 
 }  // namespace tendril::app

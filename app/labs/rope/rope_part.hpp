@@ -31,10 +31,10 @@ struct Swing {
     bool operator==(const Swing&) const = default;
 };
 
-/// A particle that a drag holds; it was free before.
+/// The particles of a body that a drag holds; they were free before.
 struct Hold {
     std::string body;
-    std::size_t particle = 0;
+    std::vector<std::size_t> particles;  ///< ascending; one at least
     bool operator==(const Hold&) const = default;
 };
 

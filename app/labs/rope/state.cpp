@@ -60,7 +60,10 @@ Json RopeLab::state(const Workspace& workspace) const {
     }
     for (const rope::Collider& collider : now.colliders) colliders.push_back(collider_state(part, collider));
     Json held = nullptr;
-    if (part.hold) held = {{"rope", part.hold->body}, {"particle", part.hold->particle}};
+    if (part.hold)
+        held = {{"rope", part.hold->body},
+                {"particle", part.hold->particles.front()},
+                {"particles", part.hold->particles}};
     return Json{{"lab", rope_lab},
                 {"verdict", rope_verdict(part).text},
                 {"ropes", std::move(ropes)},

@@ -35,6 +35,9 @@ class SignalLab final : public Lab {
     std::vector<Handle> handles(const Workspace& workspace) const override;
     void drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const override;
     void drop(const Workspace& workspace, PickId pick, Emit& emit) const override;
+    void deselect(const Workspace& workspace, Emit& emit) const override {
+        if (signal_part(workspace).selected) emit("signal.select");
+    }
     std::string hint(const Workspace& workspace, PickId pick) const override;
     Bounds bounds(const Workspace& workspace, bool selection_only) const override;
     bool take_file(const std::string& path, Emit& emit) const override;

@@ -53,10 +53,10 @@ State frozen(const World& world) {
 /// What was not sent anywhere goes on to where it was going.
 void send_on(State& now, const State& still, const State& was) {
     for (Pin& pin : now.pins) {
-        const auto at = std::find_if(still.pins.begin(), still.pins.end(),
-                                     [&](const Pin& other) { return other.particle == pin.particle; });
+        const auto at = std::lower_bound(still.pins.begin(), still.pins.end(), pin.particle,
+                                         [](const Pin& other, std::size_t number) { return other.particle < number; });
         pin.seconds = 0.0;
-        if (at != still.pins.end() && at->goal == pin.goal && at->collider == pin.collider)
+        if (at != still.pins.end() && at->particle == pin.particle && at->goal == pin.goal && at->collider == pin.collider)
             pin = was.pins[static_cast<std::size_t>(at - still.pins.begin())];
     }
     for (std::size_t i = 0; i < now.colliders.size(); ++i) {
@@ -97,9 +97,17 @@ Result drag(World& world, Workspace& workspace, Send send) {
 
 }  // namespace
 
+Result drag_pins(World& world, Workspace& workspace, std::span<const PinPlace> pins) {
+    return drag(world, workspace, [&](World& moved, double seconds) -> Result {
+        for (const PinPlace& each : pins)
+            if (const Result refused = moved.pin(each.particle, each.to, seconds); !refused) return refused;
+        return {};
+    });
+}
+
 Result drag_pin(World& world, Workspace& workspace, std::size_t particle, const glm::dvec3& to) {
-    return drag(world, workspace,
-                [&](World& moved, double seconds) { return moved.pin(particle, to, seconds); });
+    const PinPlace pin{particle, to};
+    return drag_pins(world, workspace, {&pin, 1});
 }
 
 Result drag_collider(World& world, Workspace& workspace, ColliderId collider, const glm::vec3& to) {

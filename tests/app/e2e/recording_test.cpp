@@ -106,6 +106,17 @@ TEST_F(Recording, holds_the_use_of_panels) {
     EXPECT_EQ(state["segments"][8]["length"], 0.75);
 }
 
+TEST_F(Recording, holds_several_that_one_gizmo_drags) {
+    ScriptText script;
+    script.command("lab.open", {{"name", "humanoid"}}).command("time.pause");
+    script.command("humanoid.select", {{"nodes", {"LeftHand", "RightHand"}}}).wait(2);
+    const glm::vec2 arrow = handle(state_after(script), "right_hand.move_y");
+    script.drag({arrow, arrow + glm::vec2(0, -12), arrow + glm::vec2(0, -30)}).key("escape").wait(2);
+    const Json state = state_of(record_and_replay(script));
+    EXPECT_EQ(state["body"]["targets"].size(), 2u);
+    EXPECT_EQ(state["selection"], Json::array());
+}
+
 TEST_F(Recording, holds_text_typed_into_a_field) {
     // A double click on the target's height opens the field.
     const glm::vec2 field = chain_panel::target_y;

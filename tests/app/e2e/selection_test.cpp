@@ -66,6 +66,45 @@ TEST(SelectByMouse, EscapeGivesABoxUp) {
     EXPECT_EQ(state_after(script)["selection"], Json::array({1}));
 }
 
+TEST(SelectByMouse, EscapeSelectsNothingInEveryLab) {
+    struct Case {
+        const char* lab;
+        const char* select;
+        Json arguments;
+    };
+    for (const Case& each : {Case{"chain", "chain.select", {{"joints", {1, 2}}}},
+                             {"chain", "chain.select", {{"point", "target"}}},
+                             {"rope", "rope.select", {{"rope", "rope"}, {"particles", {1, 2}}}},
+                             {"rope", "rope.select", {{"collider", "ball"}}},
+                             {"signal", "signal.select", {{"at", 0}}},
+                             {"rig", "rig.select", {{"elements", {"nose", "head"}}}},
+                             {"rig", "rig.select", {{"unit", "aim"}}},
+                             {"humanoid", "humanoid.select", {{"nodes", {"Head", "Hips"}}}}}) {
+        ScriptText script;
+        script.command("lab.open", {{"name", each.lab}}).command("time.pause");
+        const auto selected = [](const Json& state) {
+            return Json{state.value("selected", Json()), state.value("selection", Json())};
+        };
+        const Json none = selected(state_after(ScriptText(script).command("view.close")));
+        script.command(each.select, each.arguments);
+        const Json before = selected(state_after(script));
+        EXPECT_NE(before, none) << each.lab << each.arguments;
+        // What lies over the scene is closed first.
+        EXPECT_EQ(selected(state_after(ScriptText(script).key("?").key("escape"))), before) << each.lab;
+        EXPECT_EQ(selected(state_after(ScriptText(script).key("ctrl+k").key("escape"))), before) << each.lab;
+        EXPECT_EQ(selected(state_after(ScriptText(script).key("?").key("escape").wait(2).key("escape"))), none);
+        EXPECT_EQ(selected(state_after(script.key("escape"))), none) << each.lab << each.arguments;
+    }
+}
+
+TEST(SelectByMouse, EscapeInADragPutsBackAndKeepsTheSelection) {
+    const Json start = state_after(front());
+    ScriptText script = front().click(joint(start, 3)).move(joint(start, 5)).down();
+    script.move(joint(start, 5) + 40.0f).key("escape").up();
+    EXPECT_EQ(state_after(script)["selection"], Json::array({3}));
+    EXPECT_EQ(state_after(script.key("escape"))["selection"], Json::array());
+}
+
 TEST(SelectByMouse, WithoutCtrlADragOnNothingStillTurnsTheView) {
     const Json start = state_after(front());
     const Json after =

@@ -187,6 +187,20 @@ TEST(Video, IsWrittenWhileOneGoesOn) {
     EXPECT_EQ(read(folder / "tendril-1.png"), alone);
 }
 
+TEST(Video, HasTheSizeThatIsTypedInTheDialog) {
+    const TempFolder folder;
+    ScriptText script = swinging_rope();
+    const glm::vec2 width(757, 348), height(757, 380), record(369, 604);
+    script.key("ctrl+shift+p").wait(4).click(width).key("ctrl+a").text("320").key("enter").wait(2);
+    script.click(height).key("ctrl+a").text("100*2").key("enter").wait(2).click(record).wait(80);
+    EXPECT_TRUE(succeeded(run_script(script, {}, folder.path())));
+    EXPECT_EQ(read_apng(read(folder / "tendril-1.png")).size, glm::ivec2(320, 200));
+    ScriptText unchanged = swinging_rope();
+    unchanged.key("ctrl+shift+p").wait(4).click(record).wait(80);
+    EXPECT_TRUE(succeeded(run_script(unchanged, {}, folder.path())));
+    EXPECT_EQ(read_apng(read(folder / "tendril-2.png")).size, glm::ivec2(736, 602)) << "as the view";
+}
+
 TEST(Video, IsCancelledByEscapeAndLeavesNoFile) {
     const TempFolder folder;
     ScriptText script = recorded_by_hand();

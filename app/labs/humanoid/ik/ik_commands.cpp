@@ -1,4 +1,5 @@
 // What IK does with the character: targets and limits.
+#include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <stdexcept>
@@ -17,22 +18,54 @@ namespace {
 
 using humanoid::Effector;
 
-void set_target(const IkNow& now, HumanoidPart& part, const Arguments& given) {
-    const Effector effector = *humanoid::effector_named(given.text("effector"));
-    std::optional<TargetSetting>& target = part.ik.target(effector);
-    if (given.has("weight") && given.real("weight") <= 0.0) {
-        target.reset();
-        return;
+/// That of "effector", or those of "effectors", each once.
+std::vector<Effector> effectors_named(const Arguments& given) {
+    if (gives_one(given, "effector", "effectors")) return {*humanoid::effector_named(given.text("effector"))};
+    std::vector<Effector> effectors;
+    for (const std::string& name : name_list(given, "effectors")) {
+        const auto effector = humanoid::effector_named(name);
+        if (!effector) throw Refused("effectors: there is no effector " + json_summary(name));
+        if (std::find(effectors.begin(), effectors.end(), *effector) != effectors.end())
+            throw Refused("effectors: " + json_summary(name) + " stands there twice");
+        effectors.push_back(*effector);
     }
-    require_body(now, part);
+    if (effectors.empty()) throw Refused("effectors: [] has no effector in it");
+    return effectors;
+}
+
+/// Where it is now, if it has no target yet.
+TargetSetting& target_begun(const IkNow& now, HumanoidPart& part, Effector effector) {
+    std::optional<TargetSetting>& target = part.ik.target(effector);
     if (!target) {
         const std::size_t node = *part.node_of(humanoid::bone_of(effector));
         target = TargetSetting{.position = now.shown.placed[node].position};
         forget_on_the_way_to(part.ik_state.release, part.skeleton(), node);
     }
-    if (given.has("to")) target->position = exact_point(given.json("to"));
-    if (given.has("rotation")) target->rotation = glm::dquat(given.rotation("rotation"));
-    if (given.has("weight")) target->weight = given.real("weight");
+    return *target;
+}
+
+void set_targets(const IkNow& now, HumanoidPart& part, const Arguments& given) {
+    const std::vector<Effector> effectors = effectors_named(given);
+    std::optional<JsonPlace> points, rotations;
+    if (given.has("points")) points = each_list(given, "points", "effectors", effectors.size());
+    if (given.has("rotations")) rotations = each_list(given, "rotations", "effectors", effectors.size());
+    if (given.has("to") && given.has("effectors"))
+        throw Refused("to is for one effector; points has one for each of effectors");
+    if (given.has("rotation") && rotations) throw Refused("needs rotation, or rotations");
+    const bool lets_go = given.has("weight") && given.real("weight") <= 0.0;
+    if (!lets_go) require_body(now, part);
+    for (std::size_t i = 0; i < effectors.size(); ++i) {
+        if (lets_go) {
+            part.ik.target(effectors[i]).reset();
+            continue;
+        }
+        TargetSetting& target = target_begun(now, part, effectors[i]);
+        if (given.has("to")) target.position = exact_point(given.json("to"));
+        if (points) target.position = points->element(i).dpoint();
+        if (given.has("rotation")) target.rotation = glm::dquat(given.rotation("rotation"));
+        if (rotations) target.rotation = glm::dquat(rotations->element(i).rotation());
+        if (given.has("weight")) target.weight = given.real("weight");
+    }
 }
 
 /// That of "bone", or those of "bones".
@@ -110,14 +143,17 @@ std::vector<std::string> effector_names() {
 void add_ik_commands(CommandTable& table) {
     table.add(
         ik_command("humanoid.target", "Set an effector's target",
-                   {choice_argument("effector", true, "which", effector_names()),
+                   {choice_argument("effector", false, "which", effector_names()),
+                    name_list_argument("effectors", "effector"),
                     point_argument("to", false, "metres; where the effector is when left out"),
+                    each_argument("points", "effectors"),
                     {.name = "rotation",
                      .type = ArgumentType::Rotation,
                      .required = false,
                      .help = "of the bone; free when it was never given"},
+                    each_argument("rotations", "effectors"),
                     number_argument("weight", "against other targets; 0 lets go", 0.0, heaviest_target)},
-                   "Gives an effector a target, or lets it go", set_target));
+                   "Gives effectors targets, or lets them go", set_targets));
     Command ground =
         ik_command("humanoid.ground", "Choose the ground",
                    {choice_argument("kind", false, "which", ground_kinds.names()),

@@ -1,6 +1,7 @@
 // The panel's rows of what the body reaches for.
 #include <imgui.h>
 
+#include "app/document/json_complete.hpp"
 #include "app/labs/humanoid/panels.hpp"
 #include "app/labs/kit/folding.hpp"
 #include "app/widgets/fields.hpp"
@@ -38,11 +39,12 @@ void target_rows(const HumanoidPanel& panel) {
     if (!why.empty()) return note("The body solve is off: " + why + ".");
     for (const humanoid::Effector effector : all_effectors) effector_row(panel, effector);
     const IkSettings& ik = panel.part.ik;
-    if (row_button("Let all go", 1, ik.has_targets(), "No effector has a target then"))
+    if (row_button("Let all go", 1, ik.has_targets(), "No effector has a target then")) {
+        Json all = Json::array();
         for (const humanoid::Effector effector : all_effectors)
-            if (ik.target(effector))
-                panel.emit.continuously("humanoid.target",
-                                        {{"effector", humanoid::name(effector)}, {"weight", 0}});
+            if (ik.target(effector)) all.push_back(humanoid::name(effector));
+        panel.emit("humanoid.target", {{"effectors", SharedJson(std::move(all))}, {"weight", 0}});
+    }
     end_row();
     bool apart = ik.self_collision;
     if (ImGui::Checkbox("Self-collision", &apart)) panel.emit("humanoid.self_collision", {{"on", apart}});

@@ -8,10 +8,21 @@
 // substeps.
 #pragma once
 
+#include <span>
+
 #include "tendril/rope/world.hpp"
 
 namespace tendril::rope {
 
+/// Where a particle is to be pinned, metres.
+struct PinPlace {
+    std::size_t particle = 0;
+    glm::dvec3 to{0.0};
+};
+
+/// Pins the particles where they are not pinned, and moves all at once: as long as one takes. Refused where one
+/// is, and nothing moves then.
+Result drag_pins(World& world, Workspace& workspace, std::span<const PinPlace> pins);
 /// Pins the particle where it is not pinned.
 Result drag_pin(World& world, Workspace& workspace, std::size_t particle, const glm::dvec3& to);
 Result drag_collider(World& world, Workspace& workspace, ColliderId collider, const glm::vec3& to);

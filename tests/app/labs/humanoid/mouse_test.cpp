@@ -84,6 +84,42 @@ TEST_F(HumanoidMouse, TurnsASelectedEffectorByItsGizmo) {
     EXPECT_GT(std::abs(target.at("rotation")[2].get<double>()), 0.05);
 }
 
+TEST_F(HumanoidMouse, DragsSeveralEffectorsByOneGizmo) {
+    app_.run({"humanoid.select", Json{{"nodes", {"LeftHand", "Spine", "RightHand"}}}});
+    const Json before = app_.state().at("character").at("bones");
+    const glm::vec2 arrow = at("right_hand.move_y");
+    const auto pull = [&](glm::vec2 from, glm::vec2 by) {
+        send(MouseMove{from});
+        send(MousePress{MouseButton::Left, true});
+        for (int i = 1; i <= 10; ++i) send(MouseMove{from + 0.1f * static_cast<float>(i) * by});
+        send(MousePress{MouseButton::Left, false});
+    };
+    const std::size_t steps = app_.workspace().history.size();
+    pull(arrow, {0, -30});
+    const auto target = [&](const char* name) { return app_.state().at("body").at("targets").at(name); };
+    const auto moved = [&](const char* name, const char* bone, std::size_t axis) {
+        return target(name).at("position")[axis].get<double>() - before.at(bone).at("position")[axis].get<double>();
+    };
+    const double along = moved("right_hand", "RightHand", 0), up = moved("right_hand", "RightHand", 1);
+    EXPECT_GT(std::hypot(along, up), 0.03);
+    EXPECT_NEAR(moved("left_hand", "LeftHand", 0), along, 1e-5) << "the same way";
+    EXPECT_NEAR(moved("left_hand", "LeftHand", 1), up, 1e-5);
+    EXPECT_TRUE(target("left_hand").at("rotation").is_null());
+    EXPECT_EQ(app_.state().at("body").at("targets").size(), 2u);
+    EXPECT_EQ(app_.workspace().history.size(), steps + 1);
+    const Lab& lab = *app_.labs().find(humanoid_lab);
+    EXPECT_EQ(lab.together(app_.workspace(), Drag::Position).staying,
+              "No effectors, so without a target: Spine.");
+    const Json right = target("right_hand").at("position"), left = target("left_hand").at("position");
+    pull(at("right_hand.rotate_z"), {0, 40});
+    EXPECT_FALSE(target("left_hand").at("rotation").is_null());
+    EXPECT_EQ(target("right_hand").at("position"), right) << "it stands on the one selected last";
+    EXPECT_NE(target("left_hand").at("position"), left) << "which the other goes round";
+    app_.run({"undo"});
+    app_.run({"undo"});
+    EXPECT_TRUE(app_.state().at("body").at("targets").empty());
+}
+
 TEST_F(HumanoidMouse, ReadsAFileThatIsDropped) {
     const TempFolder folder;
     const std::string path = (folder / "figure.bvh").string();

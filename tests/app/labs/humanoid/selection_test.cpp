@@ -1,6 +1,9 @@
 // Several nodes of a character selected: by command, and what is set on all of them.
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <random>
+#include <set>
 
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
@@ -113,12 +116,49 @@ TEST_F(HumanoidSelection, TheInspectorSaysHowManyAndWhichIsShown) {
     select({"Hips", "HeadTop_End"});
     EXPECT_EQ(inspector().find("Limits of"), std::string::npos);
     EXPECT_TRUE(state().at("body").at("joint").is_null());
+    EXPECT_EQ(lab().gizmo(workspace)->name, "hips") << "the last that it can drag";
+    select({"Spine", "HeadTop_End"});
     EXPECT_FALSE(lab().gizmo(workspace));
     select({"LeftHand", "RightHand"});
-    EXPECT_FALSE(lab().gizmo(workspace)) << "of several";
+    EXPECT_EQ(lab().gizmo(workspace)->name, "right_hand") << "of several, on the last one";
     select({"LeftHand"});
     EXPECT_TRUE(lab().gizmo(workspace));
     EXPECT_EQ(inspector().find("set on all"), std::string::npos);
+}
+
+TEST_F(HumanoidSelection, ComesFirstInTheInspectorOnceThereIsOne) {
+    const auto before_character = [&] {
+        const std::string text = inspector();
+        return text.find("Selection") < text.find("Character");
+    };
+    EXPECT_FALSE(before_character());
+    select({"Head"});
+    run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.4, 1.5, 0.7}}});
+    EXPECT_TRUE(before_character());
+    EXPECT_LT(inspector().find("Selection"), inspector().find("Targets"));
+}
+
+/// In how many strengths the colour of what is selected lies behind rows.
+TEST_F(HumanoidSelection, RowsOfTheBoneMapThatAreSelectedStandOut) {
+    const auto filled = [&](glm::vec3 colour) {
+        const ImU32 wanted = ImGui::ColorConvertFloat4ToU32({colour.r, colour.g, colour.b, 0.0f});
+        const ImGuiWindow* const window = ImGui::FindWindowByName("panel");
+        std::set<ImU32> strengths;
+        for (const ImDrawVert& each : window->DrawList->VtxBuffer) {
+            const ImU32 alpha = each.col >> IM_COL32_A_SHIFT;
+            if ((each.col & ~IM_COL32_A_MASK) == wanted && alpha > 40 && alpha < 128) strengths.insert(alpha);
+        }
+        return strengths.size();
+    };
+    const glm::vec3 colour = palette(workspace.settings.theme).selection;
+    reader_.panel(lab(), workspace);
+    EXPECT_EQ(filled(colour), 0u);
+    select({"LeftHand"});
+    reader_.panel(lab(), workspace);
+    EXPECT_EQ(filled(colour), 1u);
+    select({"LeftHand", "RightHand"});
+    reader_.panel(lab(), workspace);
+    EXPECT_EQ(filled(colour), 2u) << "the active one stronger";
 }
 
 TEST_F(HumanoidSelection, AreMarkedTheActiveOneStrongest) {

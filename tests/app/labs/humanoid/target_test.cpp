@@ -96,6 +96,36 @@ TEST_F(HumanoidTargets, WithoutAPlaceKeepTheEffectorWhereItIs) {
     EXPECT_LT(glm::distance(bone("LeftHand"), hand), 1e-3) << "the walk goes on, the hand stays";
 }
 
+TEST_F(HumanoidTargets, GoToSeveralEffectorsAtOnce) {
+    const Json hands{"right_hand", "left_hand"};
+    run("humanoid.target", {{"effectors", hands}, {"points", {{-0.5, 1.2, 0.3}, {0.5, 1.1, 0.3}}}});
+    const auto targets = [&] { return state().at("body").at("targets"); };
+    EXPECT_EQ(targets().at("right_hand").at("position"), (Json{-0.5, 1.2, 0.3}));
+    EXPECT_EQ(targets().at("left_hand").at("position"), (Json{0.5, 1.1, 0.3}));
+    run("humanoid.target",
+        {{"effectors", hands}, {"rotations", {{0, 0, 0, 1}, {0, 1, 0, 0}}}, {"weight", 2.5}});
+    EXPECT_EQ(quaternion(targets().at("left_hand").at("rotation")), glm::dquat(0, 0, 1, 0));
+    EXPECT_EQ(targets().at("right_hand").at("weight"), 2.5);
+    run("humanoid.target", {{"effectors", hands}, {"weight", 0}});
+    EXPECT_TRUE(targets().empty());
+    run("undo");
+    EXPECT_EQ(targets().size(), 2u) << "one step for all";
+    const Json points{{0, 1, 0}, {0, 1, 0}};
+    const auto refuses = [&](Json arguments, const char* what) {
+        expect_refused("humanoid.target", arguments, {what});
+    };
+    refuses({{"weight", 1}}, "needs effector, or effectors");
+    refuses({{"effectors", {"head", "tail"}}, {"points", points}}, "effectors: there is no effector \"tail\"");
+    refuses({{"effectors", {"head", "head"}}, {"points", points}}, "\"head\" stands there twice");
+    refuses({{"effectors", {"head", 3}}, {"points", points}}, "3 is no name");
+    refuses({{"effectors", Json::array()}}, "effectors: []");
+    refuses({{"effectors", Json::array({"head"})}, {"points", points}}, "1 points, one for each of effectors");
+    refuses({{"effectors", hands}, {"points", {{0, 1, 0}, {0, "x", 0}}}}, "points.1");
+    refuses({{"effectors", hands}, {"rotations", {{0, 0, 0, 1}, {0, 0, 0, 9}}}}, "rotations.1");
+    refuses({{"effectors", hands}, {"to", {0, 1, 0}}}, "to is for one effector");
+    refuses({{"effector", "head"}, {"points", points}}, "points is for effectors");
+}
+
 TEST_F(HumanoidTargets, ShareByWeight) {
     target("head", 0.0, 1.6, 1.2);
     run("humanoid.target", {{"effector", "hips"}, {"to", {0, 1.0, -0.8}}, {"weight", 100}});

@@ -176,7 +176,7 @@ TEST_F(RigHostile, ValuesThatAControlDoesNotHave) {
     expect_refused("rig.control.set", {{"name", "place"}, {"value", 1}}, {"value", "[x, y, z]"});
     expect_refused("rig.control.set", {{"name", "place"}, {"value", {1, nan, 3}}}, {"value"});
     expect_refused("rig.control.set", {{"name", "square"}, {"value", {1, 2, 3}}}, {"value", "[a, b]"});
-    expect_refused("rig.control.set", {{"name", "dial"}}, {"value is missing"});
+    expect_refused("rig.control.set", {{"name", "dial"}}, {"needs value, or values"});
 }
 
 TEST_F(RigHostile, UnitsThatAreNone) {
