@@ -6,7 +6,7 @@
 namespace tendril::app {
 namespace {
 
-/// By the lab's own commands, as a click on nothing does it.
+/// By the lab's own commands. They only look: none is a step of undo.
 void select_nothing(Workspace& workspace, const Lab& lab) {
     Emit emit;
     lab.deselect(workspace, emit);

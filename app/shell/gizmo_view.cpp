@@ -19,10 +19,10 @@ bool tells(const Pointer& pointer) {
 
 /// Of a part that the mouse is over, where several are selected.
 std::string together_hint(const Together& together, Drag what) {
-    if (together.handles.empty()) return {};
+    if (together.handles.size() < 2) return together.staying;
     const std::string count = std::to_string(together.handles.size());
-    const std::string text = what == Drag::Rotation ? "Drag turns " + count + " about the one selected last."
-                                                    : "Drag moves " + count + ", each as far.";
+    const std::string text = what == Drag::Rotation ? "Drag turns all " + count + " about this point."
+                                                    : "Drag moves all " + count + " by the same amount.";
     return text + (together.staying.empty() ? "" : " " + together.staying);
 }
 

@@ -143,7 +143,9 @@ class Plot {
         }
         if (nearest == nullptr) return;
         list_->AddCircle({x(point.x), y(point.y)}, 0.3f * ImGui::GetFontSize(), colour_of(nearest->colour));
-        ImGui::SetTooltip("%s\n%s %s\n%s %s", nearest->name.c_str(), axes_.x,
+        // A curve that is named as its axis is not named twice.
+        const std::string title = nearest->name == axes_.y ? std::string() : nearest->name + "\n";
+        ImGui::SetTooltip("%s%s %s\n%s %s", title.c_str(), axes_.x,
                           short_text(static_cast<double>(point.x), axes_.x_unit).c_str(), axes_.y,
                           short_text(static_cast<double>(point.y), axes_.y_unit).c_str());
     }
@@ -201,7 +203,8 @@ class Plot {
             const float half = 0.5f * ImGui::CalcTextSize(text.c_str()).x;
             const float most = to_.x - 2.0f * half + 0.5f * ImGui::GetFontSize();
             const float leftmost = lowest > to_.y + 2.0f ? from_.x - 3.0f : from_.x - half;
-            list_->AddText({std::max(leftmost, std::min(x(value) - half, most)), to_.y + 2.0f}, dim(), text.c_str());
+            list_->AddText({std::max(leftmost, std::min(x(value) - half, most)), to_.y + 2.0f}, dim(),
+                           text.c_str());
         }
         const float text_height = ImGui::GetFontSize();
         list_->AddText({from_.x, from_.y - 1.15f * text_height}, dim(), y_title().c_str());

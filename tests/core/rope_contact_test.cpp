@@ -242,6 +242,26 @@ TEST(RopeContact, AThrownRopeFliesPast) {
     }
 }
 
+/// Past the end of a long bar that lies aslant, whose bounding box it crosses, in as few passes as there are.
+TEST(RopeContact, AThrownRopeFliesPastABar) {
+    for (const int iterations : {1, 2, 3, 16}) {
+        std::array<World, 2> worlds{world_with({.iterations = iterations, .gravity = {0, 0, 0}}),
+                                    world_with({.iterations = iterations, .gravity = {0, 0, 0}})};
+        for (World& world : worlds) {
+            world.add_rope("rope", {.from = {1.4f, 1.3f, 0}, .to = {1.4f, 1.3f, 0.04f}, .segments = 4});
+            if (&world == &worlds[1]) world.add_collider("bar", Capsule{{-1, -1, 0}, {1, 1, 0}, 0.02f});
+            rope::State state = world.state();
+            state.displaced_in = state.settings.substep;
+            for (dvec3& moved : state.displacement) moved = {-0.5, -1.1, 0};
+            world = World(state);
+            run_substeps(world, 1, [] {});
+        }
+        for (std::size_t i = 0; i < worlds[0].size(); ++i)
+            EXPECT_LE(glm::length(worlds[0].state().position[i] - worlds[1].state().position[i]), 1e-9)
+                << iterations << ", " << i;
+    }
+}
+
 /// Something fast is stopped on the side that it came from.
 TEST(RopeContact, AThrownRopeDoesNotFlyThrough) {
     for (const float speed : {10.0f, 50.0f, 100.0f}) {

@@ -1,5 +1,8 @@
 // Ropes cut, pinned, attached, named and removed: numbers follow, and nothing else changes.
+#include <array>
+
 #include "rope_support.hpp"
+#include "tendril/rope/quasi_static.hpp"
 
 namespace tendril::test {
 namespace {
@@ -288,6 +291,31 @@ TEST(RopeEdit, RandomEditsLeaveASoundWorld) {
             ASSERT_TRUE(all_finite(world)) << round << ' ' << i;
         }
     }
+}
+
+/// Several pins that are dragged while the simulation is paused all arrive, or none moves.
+TEST(RopeEdit, DragPinsMovesAllOrNone) {
+    World world = three_ropes();
+    rope::Workspace workspace;
+    const std::array<rope::PinPlace, 2> places{{{0, {0.1, -0.1, 0.0}}, {12, {2.1, 0.4, 0.1}}}};
+    ASSERT_TRUE(rope::drag_pins(world, workspace, places));
+    for (const rope::PinPlace& each : places) {
+        EXPECT_TRUE(world.pinned(each.particle));
+        EXPECT_LE(glm::length(world.state().position[each.particle] - each.to), 1e-9) << each.particle;
+    }
+    const State before = world.state();
+    ASSERT_TRUE(rope::drag_pins(world, workspace, {}));
+    EXPECT_EQ(before, world.state());
+    const auto refused = [&](const rope::PinPlace& second, const char* word) {
+        const std::array<rope::PinPlace, 2> bad{{{0, {0, 0, 0}}, second}};
+        const Result result = rope::drag_pins(world, workspace, bad);
+        ASSERT_FALSE(result);
+        EXPECT_NE(std::string(result.message()).find(word), std::string::npos) << result.message();
+        EXPECT_EQ(before, world.state()) << word;
+    };
+    refused({0, {1, 1, 1}}, "pins");
+    refused({15, {1, 1, 1}}, "15");
+    refused({12, {1, nan, 1}}, "nan");
 }
 
 }  // namespace

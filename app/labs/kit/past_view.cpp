@@ -80,7 +80,7 @@ PastView past_view(const std::string& lab, const std::string& what, std::vector<
                  .choices = std::move(numbers)},
         .ghosts = {.key = lab + " ghosts",
                    .command = "view." + lab + "_ghosts",
-                   .title = "Show or hide the " + what + "'s ghosts",
+                   .title = "Show or hide the " + what + "'s past poses",
                    .argument = "of",
                    .help = "Shows the poses of the last ten seconds of the " + title +
                            " lab, one for each half second",
@@ -98,7 +98,7 @@ void past_view_rows(const Workspace& workspace, const PastView& view, const Past
         choose(view.plot, static_cast<std::size_t>(chosen));
     explain(help.plot);
     bool ghosts = view.shows_ghosts(workspace.settings);
-    if (ImGui::Checkbox("Ghosts of the last ten seconds", &ghosts)) choose(view.ghosts, ghosts ? 1 : 0);
+    if (ImGui::Checkbox("Past poses", &ghosts)) choose(view.ghosts, ghosts ? 1 : 0);
     explain(help.ghosts);
 }
 

@@ -54,7 +54,8 @@ void draw_incident(const RigPicture& picture) {
     if (incident->joint >= picture.part.state.controls.size()) return;
     const rig::ElementId id = picture.part.rig.id(incident->joint);
     const glm::vec3 at = picture.point(incident->joint);
-    if (incident->kind != Incident::Kind::Flip) return draw_incident_mark(picture.view, *incident, at, picture.list);
+    if (incident->kind != Incident::Kind::Flip)
+        return draw_incident_mark(picture.view, *incident, at, picture.list);
     const rig::Transform pose = *was.known(id, rig::Space::Global);
     draw_axes(picture, pose, static_cast<float>(bone_size(was, id)));
     const auto from = bone_ends(was, id), to = bone_ends(picture.elements, id);

@@ -47,7 +47,8 @@ std::vector<WantedValue> wanted_values(const RigPart& part, const Arguments& giv
                                        const char* each) {
     std::vector<WantedValue> wanted;
     if (gives_one(given, one, each)) {
-        for (const std::size_t at : elements_given(part, given)) wanted.push_back({at, {given.json(one), one}});
+        for (const std::size_t at : elements_given(part, given))
+            wanted.push_back({at, {given.json(one), one}});
         return wanted;
     }
     const std::size_t count = elements_given(part, given).size();
@@ -73,7 +74,8 @@ void set_elements(RigPart& part, const Arguments& given) {
         if (each == elements.end() || each->element != at) continue;
         const rig::Transform now = input_pose(part, at, space);
         const Json wanted = filled(each->value.json(), transform_json(now));
-        require_ok(part.rig.set_element(part.state, at, space, read_transform({wanted, each->value.where()}, now),
+        require_ok(part.rig.set_element(part.state, at, space,
+                                        read_transform({wanted, each->value.where()}, now),
                                         propagate ? rig::Propagate::Yes : rig::Propagate::No));
     }
     if (part.state != before) changed(part);
@@ -144,9 +146,9 @@ void check_one_kind(const RigPart& part, const std::vector<WantedValue>& control
     for (const WantedValue& each : controls) {
         const rig::Element& element = control_at(part, each.element);
         if (element.control->kind == first.control->kind) continue;
-        throw std::invalid_argument("names: \"" + first.name + "\" is a " + control_title(first.control->kind) +
-                                    ", \"" + element.name + "\" a " + control_title(element.control->kind) +
-                                    "; give those of one kind");
+        throw std::invalid_argument("names: \"" + first.name + "\" is a " +
+                                    control_title(first.control->kind) + ", \"" + element.name + "\" a " +
+                                    control_title(element.control->kind) + "; give those of one kind");
     }
 }
 
@@ -220,15 +222,14 @@ void add_element_commands(CommandTable& table) {
                           "Removes elements that are no parents of others and that no unit names", remove));
     table.add(rig_command("rig.remove_selected", "Delete selection", {},
                           "Removes the elements or the unit that were selected last", remove_selected));
-    table.add(
-        rig_command("rig.control.set", "Set controls",
-                    {control, names,
-                     json_argument("value", false,
-                                   "{translation, rotation, scale}, [x, y, z], [x, y, z, w], a number, "
-                                   "a bool or [a, b], as its kind has it; a null among [x, y, z] stays"),
-                     each_argument("values", "names")},
-                    "Sets controls, within their limits: one value on those of one kind, or one on each",
-                    set_controls));
+    table.add(rig_command(
+        "rig.control.set", "Set controls",
+        {control, names,
+         json_argument("value", false,
+                       "{translation, rotation, scale}, [x, y, z], [x, y, z, w], a number, "
+                       "a bool or [a, b], as its kind has it; a null among [x, y, z] stays"),
+         each_argument("values", "names")},
+        "Sets controls, within their limits: one value on those of one kind, or one on each", set_controls));
     table.add(rig_command("rig.control.reset", "Reset controls", {control, names},
                           "Sets controls to the values that they begin with", reset_controls));
     table.add(rig_command("rig.curve.add", "Add a curve",

@@ -2,12 +2,17 @@
 
 #include "app/labs/rig/control_shape.hpp"
 #include "app/labs/rig/figure.hpp"
+#include "app/labs/rig/rig_part.hpp"
 #include "app/labs/rig/rig_runtime.hpp"
 
 namespace tendril::app {
 
 const rig::Hierarchy& elements_of(const Workspace& workspace) {
     return workspace.runtimes.of<RigRuntime>(rig_lab).resolved(workspace);
+}
+
+bool is_there(const RigPart& part, PickId pick) {
+    return pick >= 0 && picked_element(pick) < part.state.controls.size();
 }
 
 Handle element_handle(const Workspace& workspace, std::size_t i) {

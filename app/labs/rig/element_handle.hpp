@@ -8,6 +8,10 @@
 
 namespace tendril::app {
 
+struct RigPart;
+
+/// Whether the rig still has the element.
+bool is_there(const RigPart& part, PickId pick);
 /// As they are in the picture, nothing pending.
 const rig::Hierarchy& elements_of(const Workspace& workspace);
 

@@ -93,9 +93,8 @@ std::vector<FlipCause> flip_causes(const RigPart& part, const rig::State& was, c
         std::string who = "unit " + units[*unit].name;
         if (const auto last = after.last_unit(i); last && *last != *unit)
             who += " (unit " + units[*last].name + " wrote it last)";
-        const auto why =
-            unit_cause(units[*unit], solve_of(part, was, *unit, scratch),
-                       solve_of(part, is, *unit, scratch), flips[i].radians);
+        const auto why = unit_cause(units[*unit], solve_of(part, was, *unit, scratch),
+                                    solve_of(part, is, *unit, scratch), flips[i].radians);
         causes.push_back({unit, who + ": " + why.value_or(not_known)});
     }
     return causes;

@@ -29,8 +29,7 @@ bool has_place(rig::ControlKind kind) {
 }
 
 double share_of_range(const rig::Control& control, double from, double to) {
-    const double range =
-        control.minimum && control.maximum ? control.maximum->x - control.minimum->x : 1.0;
+    const double range = control.minimum && control.maximum ? control.maximum->x - control.minimum->x : 1.0;
     return range > 0.0 ? std::abs(to - from) / range : 1.0;
 }
 
@@ -41,9 +40,8 @@ std::vector<Moved> moved_controls(const rig::Rig& rig, const rig::State& was, co
     if (was.controls == is.controls) return moved;
     for (std::size_t i = 0; i < elements.size(); ++i) {
         if (!elements[i].control) continue;
-        Moved each{.kind = elements[i].control->kind,
-                   .from = rig.start_pose(was, i),
-                   .to = rig.start_pose(is, i)};
+        Moved each{
+            .kind = elements[i].control->kind, .from = rig.start_pose(was, i), .to = rig.start_pose(is, i)};
         const bool set = was.controls[i] != is.controls[i];
         if (each.kind == rig::ControlKind::Float && set)
             each.share = share_of_range(*elements[i].control, std::get<double>(was.controls[i]),
@@ -110,8 +108,7 @@ std::vector<BoneFlip> bone_flips(const rig::Rig& rig, const rig::State& was, con
     const std::vector<Moved> controls = moved_controls(rig, before, after);
     const double size = skeleton_size(rig, before);
     std::erase_if(bones, [&](const Bone& bone) {
-        return std::ranges::any_of(controls,
-                                   [&](const Moved& each) { return far(each, bone, size, rule); });
+        return std::ranges::any_of(controls, [&](const Moved& each) { return far(each, bone, size, rule); });
     });
     std::ranges::stable_sort(bones, [](const Bone& a, const Bone& b) {
         constexpr double together = 1e-3;  // radians

@@ -89,6 +89,8 @@ void RigLab::drag_together(const Workspace& workspace, const std::vector<Handle>
     Json controls = Json::array(), values = Json::array(), others = Json::array(), transforms = Json::array();
     for (const Handle& each : handles) {
         const std::size_t i = picked_element(each.pick);
+        // What was caught may have gone since: a drag can be undone while it lasts.
+        if (!is_there(part, each.pick) || part.rig.definition().elements[i].name != each.name) continue;
         const Handle now = gizmo_handle(workspace, i);
         HandleFrame to = now.frame;
         if (has(each.drag, Drag::Position)) to.position = each.frame.position;

@@ -47,7 +47,8 @@ void add_reports(const RigPart& before, const RigPart& after, std::vector<Incide
 
 /// A number, or one of the numbers, of a control.
 std::optional<double> part_of(const rig::Value& value, int axis) {
-    if (const auto* number = std::get_if<double>(&value)) return axis == 0 ? std::optional(*number) : std::nullopt;
+    if (const auto* number = std::get_if<double>(&value))
+        return axis == 0 ? std::optional(*number) : std::nullopt;
     if (const auto* vector = std::get_if<glm::dvec3>(&value)) return (*vector)[axis];
     if (const auto* pose = std::get_if<rig::Transform>(&value)) return pose->translation[axis];
     return std::nullopt;
@@ -72,9 +73,8 @@ std::string limit_text(const rig::Control& control, int axis, bool maximum) {
     const double at = (maximum ? *control.maximum : *control.minimum)[axis];
     std::string text = (maximum ? "its maximum is " : "its minimum is ") + fixed_text(at, 2);
     if (control.kind == rig::ControlKind::Float) return text;
-    const int along = control.kind == rig::ControlKind::Vector2d
-                          ? control.axes[static_cast<std::size_t>(axis)]
-                          : axis;
+    const int along =
+        control.kind == rig::ControlKind::Vector2d ? control.axes[static_cast<std::size_t>(axis)] : axis;
     return text + " m along " + std::array{"x", "y", "z"}[static_cast<std::size_t>(along)];
 }
 

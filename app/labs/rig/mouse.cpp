@@ -19,10 +19,6 @@ namespace {
 /// Bones and nulls have names among the handles where they are no more than this.
 constexpr std::size_t most_named = 400;
 
-bool is_there(const RigPart& part, PickId pick) {
-    return pick >= 0 && picked_element(pick) < part.state.controls.size();
-}
-
 /// Who selects elements leaves the unit selected that is.
 ArgumentList and_the_unit(const RigPart& part, ArgumentList arguments) {
     if (!part.selected.unit.empty()) arguments.push_back({"unit", part.selected.unit});
@@ -173,7 +169,7 @@ std::vector<MouseHelp> RigLab::mouse_help() const {
             {"Ctrl+drag on nothing", "draws a box that selects the elements in it; with Shift it adds them"},
             {"Double click on a control", "resets it to its initial value"},
             {"Drag of an arrow, a square, a ring or a box",
-             "moves, turns or scales what is selected; several about the one selected last"}};
+             "moves, turns or scales what is selected; several are moved, or turned about the gizmo"}};
 }
 
 Bounds RigLab::bounds(const Workspace& workspace, bool selection_only) const {

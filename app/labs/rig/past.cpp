@@ -2,6 +2,7 @@
 // poses of them.
 #include "app/labs/rig/past.hpp"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -38,13 +39,19 @@ std::string plotted_element(const RigPart& part) {
     return first != nullptr ? first->name : std::string();
 }
 
-/// Where a bone points at rest, in its own frame: to the bones below it, else on the way that led to it.
+/// Where a bone points at rest, in its own frame, as it is drawn: to the bones below it, else on the way that
+/// led to it from another bone, else up.
 glm::dvec3 direction(const rig::Definition& definition, const rig::Element& bone) {
     glm::dvec3 sum(0.0);
     for (const rig::Element& each : definition.elements)
         if (each.parent == bone.name && each.kind == rig::ElementKind::Bone) sum += each.initial.translation;
     if (glm::length(sum) > 1e-9) return sum;
-    const bool led = !bone.parent.empty() && glm::length(bone.initial.translation) > 1e-9;
+    const auto is_its_parent = [&](const rig::Element& each) {
+        return each.name == bone.parent && each.kind == rig::ElementKind::Bone;
+    };
+    const auto& elements = definition.elements;
+    const bool led = std::any_of(elements.begin(), elements.end(), is_its_parent) &&
+                     glm::length(bone.initial.translation) > 1e-9;
     return led ? bone.initial.translation : glm::dvec3(0.0, 1.0, 0.0);
 }
 

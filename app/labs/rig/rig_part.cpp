@@ -77,15 +77,16 @@ RigPart first_rig() {
 
 bool RigPart::operator==(const RigPart& other) const {
     return moving == other.moving && backward == other.backward && selected == other.selected &&
-           walks == other.walks && flips == other.flips && rates == other.rates && same_value(clip, other.clip) &&
-           same_value(clip_left, other.clip_left) && rig.definition() == other.rig.definition() &&
-           state == other.state && take == other.take;
+           walks == other.walks && flips == other.flips && rates == other.rates &&
+           same_value(clip, other.clip) && same_value(clip_left, other.clip_left) &&
+           rig.definition() == other.rig.definition() && state == other.state && take == other.take;
 }
 
 /// With what is selected now, and by the rule that there is now.
 std::shared_ptr<const Part> RigPart::at_moment(std::shared_ptr<const Part> then) const {
     const auto& earlier = dynamic_cast<const RigPart&>(*then);
-    if (earlier.selected == RigSelection{} && selected == RigSelection{} && earlier.flips == flips) return then;
+    if (earlier.selected == RigSelection{} && selected == RigSelection{} && earlier.flips == flips)
+        return then;
     auto part = std::make_shared<RigPart>(earlier);
     part->flips = flips;
     select_as_in(*part, selected, rig);  // which goes by place in the definition

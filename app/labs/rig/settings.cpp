@@ -44,8 +44,8 @@ LabSetting rig_strip_setting() {
 }
 
 std::vector<LabSetting> RigLab::settings() const {
-    return {rig_axes_setting(), rig_figures_setting(), pending_marks(), rig_pending_setting(),
-            rig_strip_setting(), rig_past().plot, rig_past().ghosts};
+    return {rig_axes_setting(),  rig_figures_setting(), pending_marks(),  rig_pending_setting(),
+            rig_strip_setting(), rig_past().plot,       rig_past().ghosts};
 }
 
 }  // namespace tendril::app

@@ -96,8 +96,8 @@ Cause by_input(const Both& both) {
     return std::nullopt;
 }
 
-/// Half a turn has no shortest way: near it, the axis that a unit turns about goes round, and the bone with it
-/// by twice as much.
+/// Half a turn has no shortest way: near it, the axis that a unit turns about goes round, and the bone with
+/// it by twice as much.
 Cause by_half_turn(glm::vec3 from_was, glm::vec3 to_was, glm::vec3 from_is, glm::vec3 to_is, double radians) {
     const float furthest = std::max(angle_between(from_was, to_was), angle_between(from_is, to_is));
     const float axis = angle_between(glm::cross(from_was, to_was), glm::cross(from_is, to_is));
@@ -177,7 +177,8 @@ Cause by_reach(const Both& both, const rig::Item& root, const rig::Item& tip) {
                is = reach_pose(both.is, both.after.found, both.after.left, root, tip);
     if (!was || !is) return std::nullopt;
     float reach = 0.0f;
-    for (std::size_t i = 1; i < is->joints.size(); ++i) reach += glm::distance(is->joints[i - 1], is->joints[i]);
+    for (std::size_t i = 1; i < is->joints.size(); ++i)
+        reach += glm::distance(is->joints[i - 1], is->joints[i]);
     if (went_through_root(*was, *is, reach)) return "the target went through the root";
     const PolePassage pole = pole_passage(*was, *is);
     if (pole.passed) return "the target's line passed the pole";
@@ -192,8 +193,10 @@ Cause by_kind(const Both& both) {
         const auto was = item_pose(both.before.found, aim->item), is = item_pose(both.after.found, aim->item);
         return was && is ? by_aim(both, *was, *is, aim->primary, aim->secondary) : std::nullopt;
     }
-    if (const auto* chain = std::get_if<rig::TwoBone>(&operation)) return by_reach(both, chain->root, chain->tip);
-    if (const auto* chain = std::get_if<rig::Fabrik>(&operation)) return by_reach(both, chain->root, chain->tip);
+    if (const auto* chain = std::get_if<rig::TwoBone>(&operation))
+        return by_reach(both, chain->root, chain->tip);
+    if (const auto* chain = std::get_if<rig::Fabrik>(&operation))
+        return by_reach(both, chain->root, chain->tip);
     return std::nullopt;
 }
 

@@ -40,13 +40,15 @@ std::optional<Handle> RopeLab::gizmo(const Workspace& workspace) const {
         if (selected.movable.empty()) return std::nullopt;
         const std::size_t active = part.selection->particle();
         const bool moves = std::ranges::binary_search(selected.movable, active);
-        Handle shown = *handle(workspace, particle_pick(selected.body->first + (moves ? active : selected.movable.back())));
+        Handle shown = *handle(
+            workspace, particle_pick(selected.body->first + (moves ? active : selected.movable.back())));
         shown.drag = Drag::Position | Drag::Rotation;
         return shown;
     }
     const auto& colliders = part.world->state().colliders;
     for (std::size_t i = 0; i < colliders.size(); ++i)
-        if (part.world->name(colliders[i]) == part.selection->collider) return handle(workspace, collider_pick(i));
+        if (part.world->name(colliders[i]) == part.selection->collider)
+            return handle(workspace, collider_pick(i));
     return std::nullopt;
 }
 
@@ -63,14 +65,16 @@ Together RopeLab::together(const Workspace& workspace, Drag) const {
 }
 
 /// Pinned particles by their pins, free ones by holding them.
-void RopeLab::drag_together(const Workspace& workspace, const std::vector<Handle>& handles, Emit& emit) const {
+void RopeLab::drag_together(const Workspace& workspace, const std::vector<Handle>& handles,
+                            Emit& emit) const {
     const RopePart& part = rope_part(workspace);
     const std::vector<std::size_t> held = held_particles(part);
     Json pins = Json::array(), pinned = Json::array(), free = Json::array(), points = Json::array();
     const rope::Body* body = nullptr;
     for (const Handle& each : handles) {
         const auto place = picked_particle(*part.world, each.pick);
-        if (!place) continue;
+        if (!place || (body != nullptr && body != place->body))
+            continue;  // what was caught may have been cut
         body = place->body;
         const std::size_t particle = place->body->first + place->index;
         const bool pin = part.world->pinned(particle) && !std::ranges::binary_search(held, particle);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
+#include "math/checks.hpp"
 #include "rope/geometry.hpp"
 #include "tendril/magnitude.hpp"
 
@@ -53,10 +55,12 @@ State frozen(const World& world) {
 /// What was not sent anywhere goes on to where it was going.
 void send_on(State& now, const State& still, const State& was) {
     for (Pin& pin : now.pins) {
-        const auto at = std::lower_bound(still.pins.begin(), still.pins.end(), pin.particle,
-                                         [](const Pin& other, std::size_t number) { return other.particle < number; });
+        const auto at =
+            std::lower_bound(still.pins.begin(), still.pins.end(), pin.particle,
+                             [](const Pin& other, std::size_t number) { return other.particle < number; });
         pin.seconds = 0.0;
-        if (at != still.pins.end() && at->particle == pin.particle && at->goal == pin.goal && at->collider == pin.collider)
+        if (at != still.pins.end() && at->particle == pin.particle && at->goal == pin.goal &&
+            at->collider == pin.collider)
             pin = was.pins[static_cast<std::size_t>(at - still.pins.begin())];
     }
     for (std::size_t i = 0; i < now.colliders.size(); ++i) {
@@ -98,6 +102,13 @@ Result drag(World& world, Workspace& workspace, Send send) {
 }  // namespace
 
 Result drag_pins(World& world, Workspace& workspace, std::span<const PinPlace> pins) {
+    if (pins.empty()) return {};
+    std::vector<std::size_t> particles;
+    for (const PinPlace& each : pins) particles.push_back(each.particle);
+    std::sort(particles.begin(), particles.end());
+    const auto twice = std::adjacent_find(particles.begin(), particles.end());
+    if (twice != particles.end())
+        return tendril::detail::refused("drag_pins", "pins", "different particles", *twice);
     return drag(world, workspace, [&](World& moved, double seconds) -> Result {
         for (const PinPlace& each : pins)
             if (const Result refused = moved.pin(each.particle, each.to, seconds); !refused) return refused;

@@ -20,10 +20,10 @@ struct PinPlace {
     glm::dvec3 to{0.0};
 };
 
-/// Pins the particles where they are not pinned, and moves all at once: as long as one takes. Refused where one
-/// is, and nothing moves then.
+/// Moves several at once, in the time of one. Pins those that are free, and detaches those that a collider
+/// holds. Refuses a particle that is named twice; where one is refused nothing moves.
 Result drag_pins(World& world, Workspace& workspace, std::span<const PinPlace> pins);
-/// Pins the particle where it is not pinned.
+/// The same with one.
 Result drag_pin(World& world, Workspace& workspace, std::size_t particle, const glm::dvec3& to);
 Result drag_collider(World& world, Workspace& workspace, ColliderId collider, const glm::vec3& to);
 /// Puts another shape in its place.

@@ -1,6 +1,7 @@
 // How an element was turned at each moment that is remembered, against this test's own count.
 #include "app/labs/rig/past.hpp"
 
+#include <algorithm>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 #include <random>
@@ -98,7 +99,11 @@ TEST_F(RigPast, ValuesAreThoseOfThePoseAtEachTick) {
             if (each.parent == element.name && each.kind == rig::ElementKind::Bone)
                 along += each.initial.translation;
         const bool leaf = glm::length(along) < 1e-9;
-        if (leaf) along = element.parent.empty() ? glm::dvec3(0, 1, 0) : element.initial.translation;
+        const auto is_led = [&](const rig::Element& each) {
+            return each.name == element.parent && each.kind == rig::ElementKind::Bone;
+        };
+        const bool led = std::any_of(definition.elements.begin(), definition.elements.end(), is_led);
+        if (leaf) along = led ? element.initial.translation : glm::dvec3(0, 1, 0);
         for (const char* const what : {"swing", "twist", "angle"}) {
             plot(what, element.name);
             const std::vector<PastValue> told = values();

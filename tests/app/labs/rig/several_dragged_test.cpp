@@ -14,7 +14,8 @@ class SeveralValues : public SeveralElements {};
 TEST_F(SeveralValues, EachGetsItsOwnInWhateverOrderTheyStand) {
     controls_and_bones();
     const std::size_t before = steps();
-    run("rig.control.set", {{"names", {"dial", "right", "left"}}, {"values", {0.25, {4, nullptr, 6}, {0, 5, 0.5}}}});
+    run("rig.control.set",
+        {{"names", {"dial", "right", "left"}}, {"values", {0.25, {4, nullptr, 6}, {0, 5, 0.5}}}});
     EXPECT_EQ(steps(), before + 1);
     EXPECT_EQ(value("dial"), 0.25);
     EXPECT_EQ(value("right"), (Json{4.0, 0.0, 6.0})) << "of more than one kind";
@@ -23,9 +24,8 @@ TEST_F(SeveralValues, EachGetsItsOwnInWhateverOrderTheyStand) {
         const double z = parent_first ? 1.0 : 2.0;
         const Json a = transform(1, 2, z), b = transform(3, 4, z + 0.5);
         const Json names = parent_first ? Json{"a", "b"} : Json{"b", "a"};
-        run("rig.element.set", {{"names", names},
-                                {"space", "global"},
-                                {"transforms", parent_first ? Json{a, b} : Json{b, a}}});
+        run("rig.element.set",
+            {{"names", names}, {"space", "global"}, {"transforms", parent_first ? Json{a, b} : Json{b, a}}});
         EXPECT_NEAR(glm::distance(translation("a"), {1, 2, z}), 0.0, 1e-9);
         EXPECT_NEAR(glm::distance(translation("b"), {3, 4, z + 0.5}), 0.0, 1e-9);
     }
@@ -45,7 +45,8 @@ TEST_F(SeveralValues, WhatDoesNotFitIsRefusedAndChangesNothing) {
     expect_refused("rig.control.set", controls({"left", "dial"}, {at, at}), {"values.1"});
     expect_refused("rig.control.set", controls({"left", "a"}, {at, at}), {"\"a\" is no control"});
     expect_refused("rig.control.set", controls({"left", "nobody"}, {at, at}), {"names: ", "nobody"});
-    expect_refused("rig.control.set", {{"name", "left"}, {"values", Json::array({at})}}, {"values is for names"});
+    expect_refused("rig.control.set", {{"name", "left"}, {"values", Json::array({at})}},
+                   {"values is for names"});
     expect_refused("rig.control.set", {{"names", {"left", "right"}}, {"value", at}, {"values", {at, at}}},
                    {"needs value, or values"});
     expect_refused("rig.element.set", {{"names", {"a", "b"}}}, {"needs transform, or transforms"});
@@ -59,12 +60,16 @@ TEST_F(SeveralValues, WhatDoesNotFitIsRefusedAndChangesNothing) {
 class SeveralDragged : public testing::Test {
   protected:
     SeveralDragged() {
-        for (const auto& [name, arguments] : std::initializer_list<std::pair<const char*, Json>>{
-                 {"lab.open", {{"name", rig_lab}}},
-                 {"time.pause", Json::object()},
-                 {"rig.clear", Json::object()},
-                 {"camera.set",
-                  {{"target", {0, 0, 0}}, {"yaw_deg", 30}, {"pitch_deg", 25}, {"distance", 6}, {"orthographic", true}}}})
+        for (const auto& [name, arguments] :
+             std::initializer_list<std::pair<const char*, Json>>{{"lab.open", {{"name", rig_lab}}},
+                                                                 {"time.pause", Json::object()},
+                                                                 {"rig.clear", Json::object()},
+                                                                 {"camera.set",
+                                                                  {{"target", {0, 0, 0}},
+                                                                   {"yaw_deg", 30},
+                                                                   {"pitch_deg", 25},
+                                                                   {"distance", 6},
+                                                                   {"orthographic", true}}}})
             app_.run({name, arguments});
         add("whole", "transform", -1.0);
         add("place", "position", 0.0, {{"maximum", {9, 0.3, 9}}, {"minimum", {-9, -9, -9}}});
@@ -132,6 +137,20 @@ TEST_F(SeveralDragged, AllGoTheSameWayInOneStep) {
     app_.run({"undo"});
     for (std::size_t i = 0; i < all_of_them.size(); ++i)
         EXPECT_NEAR(glm::distance(at(all_of_them[i]), before[i]), 0.0, 1e-9) << all_of_them[i];
+}
+
+/// Undo and removal do not wait for a drag to end.
+TEST_F(SeveralDragged, WhatGoesInMidDragIsLeftOut) {
+    select({"whole", "place"});
+    drag("place.move_x", {{20, 5}}, false);
+    const double x = at("whole").x;
+    app_.run({"rig.element.remove", Json{{"name", "place"}}});
+    for (const char* name : {"dial", "turn", "below", "bone"})
+        app_.run({"rig.element.remove", Json{{"name", name}}});
+    for (int i = 0; i < 3; ++i) send(MouseMove{{600.0f + 10.0f * static_cast<float>(i), 300.0f}});
+    send(MousePress{MouseButton::Left, false});
+    EXPECT_EQ(app_.state().at("elements").size(), 1u);
+    EXPECT_TRUE(std::isfinite(at("whole").x)) << x;
 }
 
 TEST_F(SeveralDragged, WhatStaysIsSaid) {
