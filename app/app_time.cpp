@@ -10,7 +10,7 @@ namespace tendril::app {
 void App::review(const std::shared_ptr<const Part>& before, std::uint64_t moment) {
     const auto& after = workspace_.document.parts().at(workspace_.lab);
     if (before == after) return;
-    for (Incident& incident : lab().review(*before, *after)) {
+    for (Incident& incident : lab().review(workspace_, *before, *after)) {
         incident.tick = moment;
         workspace_.rewind.note(std::move(incident));
     }

@@ -118,9 +118,11 @@ class Lab {
     virtual double seconds(const Workspace& workspace) const {
         return static_cast<double>(workspace.clock.tick) * tick_seconds;
     }
-    /// What a person may ask about that came of a change or a tick: a joint that jumped. Parts of this lab.
-    /// The ticks are filled in by who asks.
-    virtual std::vector<Incident> review(const Part& /*before*/, const Part& /*after*/) const { return {}; }
+    /// What a person may ask about that came of a change or a tick: a joint that jumped. Parts of this lab;
+    /// the workspace is for what is worked out of them. The ticks are filled in by who asks.
+    virtual std::vector<Incident> review(const Workspace&, const Part& /*before*/, const Part& /*after*/) const {
+        return {};
+    }
     /// Whether something long is being worked out, a share of it in every tick, paused or not.
     virtual bool working(const Workspace&) const { return false; }
     virtual void work(Workspace&) const {}

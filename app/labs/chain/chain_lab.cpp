@@ -328,7 +328,7 @@ std::vector<TestScene> ChainLab::test_scenes() const {
     };
 }
 
-std::vector<Incident> ChainLab::review(const Part& before, const Part& after) const {
+std::vector<Incident> ChainLab::review(const Workspace&, const Part& before, const Part& after) const {
     return chain_incidents(dynamic_cast<const ChainPart&>(before), dynamic_cast<const ChainPart&>(after));
 }
 

@@ -29,7 +29,8 @@ class ChainLab final : public Lab {
     bool working(const Workspace& workspace) const override;
     void work(Workspace& workspace) const override;
     std::uint64_t tick_work(const Workspace& workspace) const override;
-    std::vector<Incident> review(const Part& before, const Part& after) const override;
+    std::vector<Incident> review(const Workspace& workspace, const Part& before,
+                                 const Part& after) const override;
     void draw(const View& view, DrawList& list) const override;
 
     std::vector<PaneTitle> panes(const Workspace& workspace) const override;

@@ -317,6 +317,7 @@ void HumanoidLab::draw(const View& view, DrawList& list) const {
     const auto pose = [&](const SharedPart& part) { return humanoid_lines(view.workspace, part); };
     draw_past_ghosts(view, humanoid_past(), pose, list);
     Drawing(view, list).run();
+    draw_humanoid_incident(view, shown_pose(view.workspace), list);
 }
 
 std::vector<LegendRow> HumanoidLab::legend(const Workspace& workspace) const {

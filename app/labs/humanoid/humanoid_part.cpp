@@ -28,10 +28,11 @@ std::optional<Bone> HumanoidPart::bone_of(std::size_t node) const {
     return std::nullopt;
 }
 
-/// What is chosen and how it is shown does not go back in time.
+/// What is chosen, how it is shown and what counts as a flip do not go back in time.
 std::shared_ptr<const Part> HumanoidPart::at_moment(std::shared_ptr<const Part> then) const {
     auto part = std::make_shared<HumanoidPart>(dynamic_cast<const HumanoidPart&>(*then));
     part->view = view;
+    part->flips = flips;
     part->selection = selection_in(part->skeleton(), selection, skeleton());
     return part;
 }
@@ -60,7 +61,7 @@ bool HumanoidPart::operator==(const HumanoidPart& other) const {
     return loaded == other.loaded && (map == other.map || *map == *other.map) && playback == other.playback &&
            t_pose == other.t_pose && ik == other.ik && springs == other.springs &&
            ik_state == other.ik_state && attachments == other.attachments &&
-           quiet_ticks == other.quiet_ticks && selection == other.selection && view == other.view;
+           quiet_ticks == other.quiet_ticks && selection == other.selection && view == other.view && flips == other.flips;
 }
 
 void set_bone(HumanoidPart& part, Bone bone, std::optional<std::size_t> node) {

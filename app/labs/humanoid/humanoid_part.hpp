@@ -12,6 +12,7 @@
 #include "app/labs/humanoid/clip/playback.hpp"
 #include "app/labs/humanoid/ik/ik_settings.hpp"
 #include "app/labs/humanoid/springs/springs.hpp"
+#include "app/labs/kit/flip_rule.hpp"
 #include "app/labs/kit/names.hpp"
 #include "app/labs/kit/selection.hpp"
 
@@ -63,6 +64,7 @@ struct HumanoidPart final : Part {
     int quiet_ticks = 0;  ///< since anything was set or swung: springs come to rest meanwhile
     Selection selection;  ///< of nodes
     HumanoidView view;
+    FlipRule flips;
 
     const humanoid::Skeleton& skeleton() const { return loaded->skeleton(); }
     const humanoid::Clip* clip() const;  ///< null where none is chosen
@@ -76,6 +78,9 @@ struct HumanoidPart final : Part {
     std::size_t bytes() const override;
     bool operator==(const HumanoidPart& other) const;
 };
+
+inline constexpr FlipWords humanoid_flip_words{"humanoid.flips", "target", "the target, as the bone sees it,",
+                                               "height", "the character's height"};
 
 /// Makes a node the bone, or none; a node is one bone at most, and where it was another that one has none
 /// then.

@@ -28,6 +28,10 @@ class HumanoidRuntime final : public Runtime {
     KeptMaps kept_maps;
     rope::Workspace ropes;
     PastPoses past;
+    struct Reviewed {
+        std::shared_ptr<const Part> part;
+        ShownPose shown;
+    } reviewed;  ///< what the last review ended with: the next one begins with it
 
     /// The interface's own: it follows from nothing, and nothing follows from it.
     struct Panel {

@@ -8,6 +8,7 @@
 #include "app/labs/humanoid/ik/chains.hpp"
 #include "app/labs/humanoid/node_selection.hpp"
 #include "app/labs/humanoid/panels.hpp"
+#include "app/labs/kit/incident_rows.hpp"
 #include "app/labs/kit/name_list.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/text.hpp"
@@ -97,6 +98,7 @@ void HumanoidLab::inspector(const Workspace& workspace, Emit& emit) const {
     target_inspector(panel);
     character_inspector(panel);
     if (!selected) node_inspector(panel);
+    incident_rows(workspace, panel.colours, emit);
 }
 
 }  // namespace tendril::app

@@ -1,4 +1,4 @@
-// What is selected and how it is shown; leaves no step to undo.
+// What is selected and how it is shown, which leaves no step to undo, and what counts as a flip.
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/kit/name_list.hpp"
@@ -27,6 +27,10 @@ void set_view(HumanoidPart& part, const Arguments& given) {
     if (given.has("follow")) part.view.follow = given.boolean("follow");
 }
 
+void set_flips(HumanoidPart& part, const Arguments& given) {
+    set_flip_rule(part.flips, given);
+}
+
 }  // namespace
 
 void add_humanoid_look_commands(CommandTable& table) {
@@ -44,6 +48,9 @@ void add_humanoid_look_commands(CommandTable& table) {
          choice_argument("limits", false, "of which joints the limits are drawn", limits_shown.names()),
          switch_argument("follow", "the camera goes along with a walk")},
         "Sets how the character is shown; what is left out stays", set_view, Effect::Look));
+    table.add(part_command<HumanoidPart>(
+        humanoid_lab, "humanoid.flips", "Set the rule for bone flips", flip_arguments(humanoid_flip_words),
+        "Sets what counts as a flip of a bone, from the next tick on", set_flips));
 }
 
 }  // namespace tendril::app

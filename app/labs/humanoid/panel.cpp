@@ -8,6 +8,7 @@
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/panels.hpp"
 #include "app/labs/humanoid/past/past.hpp"
+#include "app/labs/kit/flip_rule.hpp"
 #include "app/labs/kit/folding.hpp"
 #include "app/widgets/fields.hpp"
 
@@ -167,6 +168,8 @@ void HumanoidLab::panel(const Workspace& workspace, Emit& emit) const {
     spring_rows(panel);
     attachment_rows(panel);
     look_rows(panel);
+    if (folding_section(workspace, "What counts as a flip", emit, false))
+        flip_rows(panel.part.flips, humanoid_flip_words, emit);
     export_rows(panel);
     bone_rows(panel);
     map_rows(panel);

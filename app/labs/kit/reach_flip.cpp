@@ -30,6 +30,11 @@ float angle_between(glm::vec3 a, glm::vec3 b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
+double turn_between(const glm::dquat& a, const glm::dquat& b) {
+    const glm::dquat between = glm::conjugate(a) * b;
+    return 2.0 * std::atan2(glm::length(glm::dvec3(between.x, between.y, between.z)), std::abs(between.w));
+}
+
 float distance_to(glm::vec3 point, glm::vec3 a, glm::vec3 b) {
     const glm::vec3 along = b - a;
     const float square = glm::dot(along, along);

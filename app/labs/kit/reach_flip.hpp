@@ -1,6 +1,7 @@
 // What can make a chain of bones flip that reaches for a target: as much as the places of its joints show.
 #pragma once
 
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <vector>
@@ -9,6 +10,8 @@ namespace tendril::app {
 
 /// Radians, 0 to pi; 0 where one of them has no length.
 float angle_between(glm::vec3 a, glm::vec3 b);
+/// Between two rotations, 0 to pi.
+double turn_between(const glm::dquat& a, const glm::dquat& b);
 /// Metres from `point` to the line from `a` to `b`, no further than its ends.
 float distance_to(glm::vec3 point, glm::vec3 a, glm::vec3 b);
 

@@ -74,11 +74,6 @@ bool far(const Moved& control, const Bone& bone, double size, const FlipRule& ru
 
 }  // namespace
 
-double turn_between(const glm::dquat& a, const glm::dquat& b) {
-    const glm::dquat between = glm::conjugate(a) * b;
-    return 2.0 * std::atan2(glm::length(glm::dvec3(between.x, between.y, between.z)), std::abs(between.w));
-}
-
 double skeleton_size(const rig::Rig& rig, rig::State& state) {
     glm::dvec3 low(1e300), high(-1e300);
     for (std::size_t i = 0; i < state.controls.size(); ++i) {

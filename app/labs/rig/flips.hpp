@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "app/labs/kit/reach_flip.hpp"
 #include "app/labs/rig/rig_part.hpp"
 
 namespace tendril::app {
@@ -22,8 +23,5 @@ std::vector<BoneFlip> bone_flips(const rig::Rig& rig, const rig::State& was, con
 
 /// Metres: from corner to corner of a box around all bones; 1 where that has no size.
 double skeleton_size(const rig::Rig& rig, rig::State& state);
-
-/// Between two rotations, 0 to pi.
-double turn_between(const glm::dquat& a, const glm::dquat& b);
 
 }  // namespace tendril::app

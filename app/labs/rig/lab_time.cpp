@@ -34,7 +34,7 @@ double RigLab::seconds(const Workspace& workspace) const {
     return static_cast<double>(rig_part(workspace).take.now()) * tick_seconds;
 }
 
-std::vector<Incident> RigLab::review(const Part& before, const Part& after) const {
+std::vector<Incident> RigLab::review(const Workspace&, const Part& before, const Part& after) const {
     return rig_incidents(dynamic_cast<const RigPart&>(before), dynamic_cast<const RigPart&>(after));
 }
 

@@ -19,7 +19,8 @@ class RigLab final : public Lab {
     void step(Workspace& workspace) const override;
     std::uint64_t tick_work(const Workspace& workspace) const override;
     double seconds(const Workspace& workspace) const override;
-    std::vector<Incident> review(const Part& before, const Part& after) const override;
+    std::vector<Incident> review(const Workspace& workspace, const Part& before,
+                                 const Part& after) const override;
     bool working(const Workspace& workspace) const override;
     void work(Workspace& workspace) const override;
     float timeline_height(const Workspace& workspace) const override;

@@ -81,7 +81,7 @@ class ChainIncidents : public ChainTest {
             gesture.flips += flipped;
             const Incident* mark = nullptr;
             const std::vector<Incident> all =
-                lab().review(*before, *workspace.document.parts().at(chain_lab));
+                lab().review(workspace, *before, *workspace.document.parts().at(chain_lab));
             for (const Incident& each : all)
                 if (each.kind == Incident::Kind::Flip) mark = &each;
             gesture.marked += mark != nullptr;
@@ -231,7 +231,7 @@ TEST_F(ChainIncidents, TheRuleIsSettableAndSaved) {
         target({2.999f, 0, 0});
         const auto before = workspace.document.parts().at(chain_lab);
         target({to, 0, 0});
-        const auto all = lab().review(*before, *workspace.document.parts().at(chain_lab));
+        const auto all = lab().review(workspace, *before, *workspace.document.parts().at(chain_lab));
         return std::count_if(all.begin(), all.end(),
                              [](const Incident& each) { return each.kind == Incident::Kind::Flip; });
     };
@@ -256,7 +256,7 @@ TEST_F(ChainIncidents, NothingIsMarkedForWhatIsNoMoveOfTheTarget) {
     const auto none = [&](const char* name, const Json& arguments) {
         const auto before = workspace.document.parts().at(chain_lab);
         run(name, arguments);
-        return lab().review(*before, *workspace.document.parts().at(chain_lab)).empty();
+        return lab().review(workspace, *before, *workspace.document.parts().at(chain_lab)).empty();
     };
     EXPECT_TRUE(none("chain.limit", {{"index", 1}, {"kind", "hinge"}, {"min_deg", -5}, {"max_deg", 5}}));
     EXPECT_TRUE(none("chain.solver", {{"name", "ccd"}}));

@@ -1,6 +1,7 @@
 // What the Humanoid lab shows of its last ten seconds.
 #pragma once
 
+#include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "app/labs/kit/past_view.hpp"
 
 namespace tendril::app {
@@ -11,5 +12,7 @@ PastView humanoid_past();
 std::optional<PastCurve> humanoid_past_curve(const Workspace& workspace);
 /// A line for each bone of the body, as it was shown then.
 PoseLines humanoid_lines(const Workspace& workspace, const SharedPart& part);
+/// The body as it was before the incident that is shown, over what came of it.
+void draw_humanoid_incident(const View& view, const ShownPose& shown, DrawList& list);
 
 }  // namespace tendril::app

@@ -32,7 +32,7 @@ class RigIncidents : public RigTest {
 
     std::shared_ptr<const Part> now() const { return workspace.document.parts().at(rig_lab); }
     std::vector<Incident> since(const std::shared_ptr<const Part>& before) const {
-        return lab().review(*before, *now());
+        return lab().review(workspace, *before, *now());
     }
     static const Incident* flip_in(const std::vector<Incident>& all) {
         for (const Incident& each : all)

@@ -1,0 +1,205 @@
+// What the Humanoid lab marks on its strip: bones that flip, each with its bone and why, and nothing that
+// moves as it should.
+#include <algorithm>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
+#include <map>
+#include <random>
+
+#include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "tests/app/labs/humanoid/humanoid_support.hpp"
+
+namespace tendril::app {
+namespace {
+
+using Kind = Incident::Kind;
+
+class HumanoidIncidents : public HumanoidTest {
+  protected:
+    std::shared_ptr<const Part> now() const { return workspace.document.parts().at(humanoid_lab); }
+    std::vector<Incident> since(const std::shared_ptr<const Part>& before) const {
+        return lab().review(workspace, *before, *now());
+    }
+    static std::vector<Incident> only(Kind kind, std::vector<Incident> all) {
+        std::erase_if(all, [&](const Incident& each) { return each.kind != kind; });
+        return all;
+    }
+    std::vector<Incident> ticked() {
+        const auto before = now();
+        tick();
+        return since(before);
+    }
+    void target(const char* effector, const glm::dvec3& to) {
+        run("humanoid.target", {{"effector", effector}, {"to", {to.x, to.y, to.z}}});
+    }
+    /// Moves it there, and says what is marked.
+    std::vector<Incident> moved(const char* effector, const glm::dvec3& to) {
+        const auto before = now();
+        target(effector, to);
+        return since(before);
+    }
+    /// How far each bone has turned, in the scene, in degrees; by this test's own count.
+    static std::map<std::string, double> turns(const Json& was, const Json& is) {
+        std::map<std::string, double> turns;
+        for (const auto& [name, bone] : is.items()) {
+            const glm::dquat a = quaternion(was.at(name).at("rotation")), b = quaternion(bone.at("rotation"));
+            turns[name] = glm::degrees(2.0 * std::acos(std::min(1.0, std::abs(glm::dot(a, b)))));
+        }
+        return turns;
+    }
+    /// Left hand in front of the shoulder, so close that a hair's breadth takes it behind it.
+    glm::dvec3 fold_left_arm() {
+        const glm::dvec3 shoulder = bone("LeftUpperArm");
+        target("left_hand", shoulder + glm::dvec3(0, 0, 0.012));
+        run("humanoid.hand_ik", {{"on", true}, {"view_deg", 180}});
+        for (int i = 0; i < 60; ++i) tick();
+        return shoulder;
+    }
+};
+
+TEST_F(HumanoidIncidents, AnArmThatTurnsOverIsMarkedWithItsBoneAndWhy) {
+    const glm::dvec3 shoulder = fold_left_arm();
+    EXPECT_TRUE(only(Kind::Flip, ticked()).empty());
+    const Json was = bones();
+    const auto flips = only(Kind::Flip, moved("left_hand", shoulder - glm::dvec3(0, 0, 0.012)));
+    const auto turned = turns(was, bones());
+    EXPECT_NEAR(turned.at("LeftHand"), 180.0, 1.0) << "it goes along with the arm";
+    EXPECT_LT(turned.at("RightUpperArm"), 1.0);
+    ASSERT_EQ(flips.size(), 1u) << "one of what turned together";
+    EXPECT_EQ(flips[0].name, "LeftUpperArm") << "the one nearest to the hips";
+    EXPECT_EQ(flips[0].joint, *part().node_of(humanoid::Bone::LeftUpperArm));
+    EXPECT_NEAR(static_cast<double>(flips[0].degrees), turned.at("LeftUpperArm"), 0.1);
+    EXPECT_EQ(flips[0].cause, "the target went through the left shoulder");
+}
+
+/// Whatever makes a body's memory another one: what turned the furthest is marked, and no other limb is.
+TEST_F(HumanoidIncidents, PlantedFlipsAreMarkedWithTheBoneThatTurnedTheFurthest) {
+    target("left_hand", {0.35, 1.3, 0.35});
+    target("right_foot", {-0.15, 0.25, 0.3});
+    for (int i = 0; i < 60; ++i) tick();
+    const std::shared_ptr<const Part> calm = now();
+    const Json was = bones();
+    const humanoid::Body* const body = humanoid_runtime(workspace).solvers.body(part());
+    const std::vector<humanoid::Bone> order = body->bones();
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> degrees(60.0, 170.0);
+    int marked = 0;
+    for (int round = 0; round < 150; ++round) {
+        HumanoidPart& edited = workspace.document.edit<HumanoidPart>(humanoid_lab);
+        edited = dynamic_cast<const HumanoidPart&>(*calm);
+        const std::size_t at = random() % order.size();
+        edited.ik_state.body.turns[at] = glm::angleAxis(glm::radians(degrees(random)), glm::dvec3(0, 1, 0)) *
+                                         edited.ik_state.body.turns[at];
+        const auto turned = turns(was, bones());
+        const auto furthest = std::ranges::max_element(
+            turned, [](const auto& a, const auto& b) { return a.second < b.second; });
+        const auto flips = only(Kind::Flip, since(calm));
+        const std::string where = std::to_string(round) + ": " + furthest->first;
+        if (furthest->second < 29.9) {
+            EXPECT_TRUE(flips.empty()) << where;
+        } else if (furthest->second > 30.1) {
+            ++marked;
+            const bool told = std::ranges::any_of(flips, [&](const Incident& each) {
+                return std::abs(turned.at(each.name) - furthest->second) < 0.1;
+            });
+            EXPECT_TRUE(told) << where << " turned " << furthest->second;
+        }
+        for (const Incident& each : flips) {
+            EXPECT_GT(turned.at(each.name), 29.9) << where;
+            EXPECT_NEAR(static_cast<double>(each.degrees), turned.at(each.name), 0.1) << where;
+            EXPECT_FALSE(each.cause.empty());
+        }
+    }
+    EXPECT_GT(marked, 15);
+}
+
+TEST_F(HumanoidIncidents, NothingThatMovesAsItShouldIsAFlip) {
+    for (const TestScene& scene : lab().test_scenes()) {
+        workspace = make_blank_workspace(labs);
+        for (const CommandCall& call : scene.commands) run(call.name.c_str(), to_json(call.arguments));
+        std::size_t others = 0;
+        for (int i = 0; i < 600; ++i) {
+            const auto marks = ticked();
+            EXPECT_TRUE(only(Kind::Flip, marks).empty()) << scene.name << ", tick " << i;
+            others += marks.size();
+        }
+        EXPECT_LE(others, 30u) << scene.name;
+    }
+}
+
+TEST_F(HumanoidIncidents, GesturesAndTargetsThatAreLetGoAreNoFlips) {
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}, {"in_place", true}});
+    for (int i = 0; i < 120; ++i) {
+        const double t = 0.05 * i;
+        EXPECT_TRUE(only(Kind::Flip, moved("left_hand", {0.35 + 0.2 * std::cos(t), 1.3 + 0.25 * std::sin(t), 0.35}))
+                        .empty())
+            << i;
+        EXPECT_TRUE(only(Kind::Flip, ticked()).empty()) << i;
+    }
+    const auto before = now();
+    run("humanoid.target", {{"effector", "left_hand"}, {"weight", 0}});
+    EXPECT_TRUE(since(before).empty());
+    for (int i = 0; i < 30; ++i) EXPECT_TRUE(only(Kind::Flip, ticked()).empty()) << i;
+}
+
+TEST_F(HumanoidIncidents, AChangeOfAnythingButATargetsPlaceIsNone) {
+    const glm::dvec3 shoulder = fold_left_arm();
+    target("left_hand", shoulder + glm::dvec3(0.3, 0, 0.3));
+    const auto none = [&](const char* command, const Json& arguments) {
+        const auto before = now();
+        run(command, arguments);
+        return since(before).empty();
+    };
+    EXPECT_TRUE(none("humanoid.hand_ik", {{"on", false}}));
+    EXPECT_TRUE(none("humanoid.t_pose", {{"on", true}}));
+    EXPECT_TRUE(none("humanoid.clip", {{"name", "walk"}, {"time", 0.4}}));
+    EXPECT_TRUE(none("humanoid.clip", {{"time", 0.9}}));
+    EXPECT_TRUE(none("humanoid.load", Json::object()));
+}
+
+TEST_F(HumanoidIncidents, AnEffectorThatFallsShortAndALimitAreTold) {
+    target("left_hand", bone("LeftHand"));
+    const auto all = moved("left_hand", {1.5, 2.2, 0.5});
+    const auto falls = only(Kind::Status, all), limits = only(Kind::Limit, all);
+    ASSERT_EQ(falls.size(), 1u);
+    EXPECT_EQ(falls[0].cause.find("left hand fell short of its target: "), 0u) << falls[0].cause;
+    EXPECT_EQ(falls[0].joint, *part().node_of(humanoid::Bone::LeftHand));
+    const Json chains = state().at("chains");
+    ASSERT_FALSE(limits.empty());
+    for (const Incident& each : limits) {
+        const bool active = std::ranges::any_of(chains, [&](const Json& chain) {
+            const Json& names = chain.at("active_limits");
+            return std::ranges::find(names, Json(each.name)) != names.end();
+        });
+        EXPECT_TRUE(active) << each.name;
+    }
+    EXPECT_TRUE(only(Kind::Status, moved("left_hand", {1.6, 2.2, 0.5})).empty()) << "it was short before";
+}
+
+TEST_F(HumanoidIncidents, TheRuleIsSettableAndSaved) {
+    const glm::dvec3 shoulder = fold_left_arm();
+    double side = -1.0;
+    const auto flips = [&] {
+        const auto all = only(Kind::Flip, moved("left_hand", shoulder + glm::dvec3(0, 0, 0.012 * side)));
+        side = -side;
+        return all.size();
+    };
+    EXPECT_EQ(flips(), 1u);
+    run("humanoid.flips", {{"degrees", 180}});
+    EXPECT_EQ(flips(), 0u);
+    run("humanoid.flips", {{"degrees", 5}, {"reach_share", 0.001}});
+    EXPECT_EQ(flips(), 0u) << "the target has moved by more than that";
+    run("humanoid.flips", {{"reach_share", 0.5}});
+    EXPECT_EQ(flips(), 1u);
+    const FlipRule rule = part().flips;
+    EXPECT_EQ(humanoid_part(reopened()).flips, rule);
+    run("humanoid.flips", {{"degrees", 30}});
+    EXPECT_NE(part().flips, rule);
+    run("undo");
+    EXPECT_EQ(part().flips, rule);
+    expect_refused("humanoid.flips", {{"degrees", 0}}, {"degrees", "0"});
+    expect_refused("humanoid.flips", {{"angle_share", 1.5}}, {"angle_share", "1.5"});
+}
+
+}  // namespace
+}  // namespace tendril::app
