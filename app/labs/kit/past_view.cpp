@@ -80,7 +80,7 @@ PastView past_view(const std::string& lab, const std::string& what, std::vector<
                  .choices = std::move(numbers)},
         .ghosts = {.key = lab + " ghosts",
                    .command = "view." + lab + "_ghosts",
-                   .title = "Show or hide the " + what + "'s past poses",
+                   .title = "Show the " + what + "'s past poses",
                    .argument = "of",
                    .help = "Shows the poses of the last ten seconds of the " + title +
                            " lab, one for each half second",
