@@ -142,6 +142,28 @@ TEST_F(HumanoidIncidents, GesturesAndTargetsThatAreLetGoAreNoFlips) {
     for (int i = 0; i < 30; ++i) EXPECT_TRUE(only(Kind::Flip, ticked()).empty()) << i;
 }
 
+TEST_F(HumanoidIncidents, WhatAClipOrALetGoTargetTurnsQuicklyIsNoFlip) {
+    double fastest = 0.0;
+    const auto none = [&](int ticks) {
+        for (int i = 0; i < ticks; ++i) {
+            const Json was = bones();
+            EXPECT_TRUE(only(Kind::Flip, ticked()).empty()) << i;
+            for (const auto& [name, degrees] : turns(was, bones())) fastest = std::max(fastest, degrees);
+        }
+    };
+    run("humanoid.clip", {{"name", "punch"}, {"play", true}, {"speed", 10}});
+    none(30);
+    EXPECT_GT(fastest, 31.0);
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}, {"speed", 0.1}, {"in_place", true}});
+    target("left_hand", bone("LeftUpperArm") + glm::dvec3(0.1, 0.6, 0.1));
+    tick();
+    run("humanoid.target", {{"effector", "left_hand"}, {"weight", 0}});
+    workspace.clock.speed = 4.0f;
+    fastest = 0.0;
+    none(5);
+    EXPECT_GT(fastest, 31.0);
+}
+
 TEST_F(HumanoidIncidents, AChangeOfAnythingButATargetsPlaceIsNone) {
     const glm::dvec3 shoulder = fold_left_arm();
     target("left_hand", shoulder + glm::dvec3(0.3, 0, 0.3));
