@@ -47,8 +47,10 @@ void App::begin_video(const VideoRequest& wanted) {
         view = picture_view(size - size % 2);
     try {
         // By the size of the view in the window, which a recording has: so it is done at the same tick again.
-        const glm::ivec2 counted = wanted.size.x > 0 && wanted.size.y > 0 ? wanted.size : glm::ivec2(layout_.view.size());
-        video_ = std::make_unique<VideoTake>(wanted, workspace_, lab(), renderer_, view, frames_a_tick(counted));
+        const glm::ivec2 counted =
+            wanted.size.x > 0 && wanted.size.y > 0 ? wanted.size : glm::ivec2(layout_.view.size());
+        video_ =
+            std::make_unique<VideoTake>(wanted, workspace_, lab(), renderer_, view, frames_a_tick(counted));
     } catch (const std::exception& error) {
         throw Refused(std::string("view.video: ") + error.what());
     }

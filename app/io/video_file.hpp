@@ -31,8 +31,8 @@ class VideoFile {
     virtual ~VideoFile() = default;
     /// Throws where the frame has another size than the video, or is one too many.
     virtual void add(const Image& frame) = 0;
-    /// After the last frame, until it says that the file is there; waits `seconds` at most for what is left to
-    /// do. Throws where a frame is missing.
+    /// After the last frame, until it says that the file is there; waits `seconds` at most for what is left
+    /// to do. Throws where a frame is missing.
     virtual bool finish(double seconds) = 0;
 };
 

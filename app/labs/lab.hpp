@@ -120,7 +120,8 @@ class Lab {
     }
     /// What a person may ask about that came of a change or a tick: a joint that jumped. Parts of this lab;
     /// the workspace is for what is worked out of them. The ticks are filled in by who asks.
-    virtual std::vector<Incident> review(const Workspace&, const Part& /*before*/, const Part& /*after*/) const {
+    virtual std::vector<Incident> review(const Workspace&, const Part& /*before*/,
+                                         const Part& /*after*/) const {
         return {};
     }
     /// Whether something long is being worked out, a share of it in every tick, paused or not.
@@ -145,8 +146,8 @@ class Lab {
     virtual std::optional<Handle> gizmo(const Workspace&) const { return std::nullopt; }
     /// The handle is dragged to a frame; called each time the pointer moves.
     virtual void drag(const Workspace&, PickId, const Handle::Frame&, Emit&) const {}
-    /// Where several are selected: what an arrow (Drag::Position) or a ring (Drag::Rotation) of the gizmo takes
-    /// along. No handles: the gizmo's own alone is dragged.
+    /// Where several are selected: what an arrow (Drag::Position) or a ring (Drag::Rotation) of the gizmo
+    /// takes along. No handles: the gizmo's own alone is dragged.
     virtual Together together(const Workspace&, Drag) const { return {}; }
     /// All of these are dragged, each to the frame that it has here.
     virtual void drag_together(const Workspace&, const std::vector<Handle>&, Emit&) const {}

@@ -27,7 +27,8 @@ void show_filming(const ShellFrame& frame, Emit& emit) {
     const float part = static_cast<float>(filming->done) / static_cast<float>(std::max(1, filming->frames));
     const bool all = filming->done == filming->frames;
     const std::string count =
-        all ? "finishing the file" : "frame " + std::to_string(filming->done) + " of " + std::to_string(filming->frames);
+        all ? "finishing the file"
+            : "frame " + std::to_string(filming->done) + " of " + std::to_string(filming->frames);
     const float button = ImGui::CalcTextSize("Cancel").x + 2.0f * ImGui::GetStyle().FramePadding.x;
     ImGui::PushStyleColor(ImGuiCol_PlotHistogram, imgui_colour(frame.colours().accent, 0.5f));
     ImGui::ProgressBar(part, {-button - ImGui::GetStyle().ItemSpacing.x, 0.0f}, count.c_str());

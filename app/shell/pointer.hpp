@@ -1,5 +1,5 @@
-// The mouse in the 3D view: hover, click, drag a handle, select by a box, turn and shift the camera. It changes nothing
-// itself: it emits commands.
+// The mouse in the 3D view: hover, click, drag a handle, select by a box, turn and shift the camera. It
+// changes nothing itself: it emits commands.
 #pragma once
 
 #include <algorithm>

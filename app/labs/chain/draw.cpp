@@ -114,10 +114,10 @@ class Drawing {
         ball.pick = pick;
         ball.rank = 1;
         if (part_.selection.has(i)) {
-            list_.ring(at(i), grown + px(4.0f), px(part_.selection.active() == i ? 2.5f : 1.5f),
-                       glm::vec4(view_.palette.selection, 1.0f))
-                .layer =
-                Layer::Overlay;
+            list_
+                .ring(at(i), grown + px(4.0f), px(part_.selection.active() == i ? 2.5f : 1.5f),
+                      glm::vec4(view_.palette.selection, 1.0f))
+                .layer = Layer::Overlay;
         } else if (hovered) {
             list_.ring(at(i), grown + px(3.0f), px(1.5f), glm::vec4(view_.palette.text, 0.55f)).layer =
                 Layer::Overlay;

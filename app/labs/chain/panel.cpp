@@ -6,8 +6,8 @@
 
 #include "app/document/units.hpp"
 #include "app/labs/chain/draw.hpp"
-#include "app/labs/chain/past.hpp"
 #include "app/labs/chain/panels.hpp"
+#include "app/labs/chain/past.hpp"
 #include "app/labs/chain/presets.hpp"
 #include "app/labs/kit/folding.hpp"
 #include "app/labs/kit/past_strip.hpp"
@@ -76,8 +76,8 @@ void segment_rows(const ChainPart& part, Emit& emit) {
                    several ? "Removes the selected joints" : "Removes the selected joint"))
         emit("chain.remove_selected");
     if (selected) {
-        const std::string name =
-            several ? count_text(part.selection.all().size(), "bone") : "bone of joint " + std::to_string(*selected);
+        const std::string name = several ? count_text(part.selection.all().size(), "bone")
+                                         : "bone of joint " + std::to_string(*selected);
         length_field(name.c_str(), part, emit);
     } else {
         note(part.chain.empty() ? "Add a joint, or take a preset." : "Click a joint to select it.");

@@ -61,7 +61,8 @@ bool HumanoidPart::operator==(const HumanoidPart& other) const {
     return loaded == other.loaded && (map == other.map || *map == *other.map) && playback == other.playback &&
            t_pose == other.t_pose && ik == other.ik && springs == other.springs &&
            ik_state == other.ik_state && attachments == other.attachments &&
-           quiet_ticks == other.quiet_ticks && selection == other.selection && view == other.view && flips == other.flips;
+           quiet_ticks == other.quiet_ticks && selection == other.selection && view == other.view &&
+           flips == other.flips;
 }
 
 void set_bone(HumanoidPart& part, Bone bone, std::optional<std::size_t> node) {

@@ -214,11 +214,12 @@ std::string HumanoidLab::hint(const Workspace& workspace, PickId pick) const {
 }
 
 std::vector<MouseHelp> HumanoidLab::mouse_help() const {
-    return {{"Drag of an orange ball", "gives hand, foot, head or hips a target"},
-            {"Double click on an orange ball", "lets it go"},
-            {"Drag of an arrow, a square or a ring", "moves or turns the selected hands, feet, head and hips"},
-            {"Shift+click on a bone", "adds it to the selection, or takes it out"},
-            {"Ctrl+drag on nothing", "draws a box that selects the nodes in it; with Shift it adds them"}};
+    return {
+        {"Drag of an orange ball", "gives hand, foot, head or hips a target"},
+        {"Double click on an orange ball", "lets it go"},
+        {"Drag of an arrow, a square or a ring", "moves or turns the selected hands, feet, head and hips"},
+        {"Shift+click on a bone", "adds it to the selection, or takes it out"},
+        {"Ctrl+drag on nothing", "draws a box that selects the nodes in it; with Shift it adds them"}};
 }
 
 Bounds HumanoidLab::bounds(const Workspace& workspace, bool selection_only) const {

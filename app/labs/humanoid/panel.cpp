@@ -16,7 +16,8 @@ namespace tendril::app {
 namespace {
 
 constexpr PastHelp past_help{
-    "What of the last ten seconds is plotted below the scene: how far the selected effector is from its target, "
+    "What of the last ten seconds is plotted below the scene: how far the selected effector is from its "
+    "target, "
     "or how the selected joint is turned, from the T-pose",
     "Where the body was, at every half second"};
 

@@ -15,8 +15,7 @@ Argument index_list_argument(const char* name, const char* instead_of) {
 }
 
 bool gives_one(const Arguments& given, const char* index, const char* list) {
-    if (given.has(index) == given.has(list))
-        throw Refused(std::string("needs ") + index + ", or " + list);
+    if (given.has(index) == given.has(list)) throw Refused(std::string("needs ") + index + ", or " + list);
     return given.has(index);
 }
 

@@ -1,5 +1,5 @@
-// Several of many things, for a command that does the same to all: a list of indices, counted from 0; and what
-// is not the same for all, another list.
+// Several of many things, for a command that does the same to all: a list of indices, counted from 0; and
+// what is not the same for all, another list.
 #pragma once
 
 #include <cstddef>

@@ -98,8 +98,7 @@ void pin(RopeEdit& edit, const Arguments& given) {
     if (given.has("points") && !given.has("particles")) throw Refused("points is for particles");
     const std::vector<NamedParticle> all = named_particles(edit.seen(), given);
     for (const NamedParticle& named : all) forget_held(edit.part, named);  // now it is held for good
-    if (given.has("at") || given.has("points"))
-        return edit.move_pins(pin_places(given, all, "at", "points"));
+    if (given.has("at") || given.has("points")) return edit.move_pins(pin_places(given, all, "at", "points"));
     for (const NamedParticle& named : all)
         edit.world().pin(named.particle, edit.seen().position(named.particle));
 }
@@ -220,14 +219,16 @@ void add_body_commands(CommandTable& table) {
                            "Removes a rope, cloth or hair", remove));
     table.add(rope_command("rope.remove_selected", "Delete selection", {}, "Deletes the selection",
                            remove_selected));
-    table.add(rope_command("rope.pin", "Pin particles",
-                           {rope_argument(true, "which"), particle_argument(false, "which"),
-                            particles_argument(), point_argument("at", false, "metres; where it is when left out"),
-                            each_argument("points", "particles")},
-                           "Pins particles to where they are, or to points", pin));
-    table.add(rope_command("rope.unpin", "Unpin particles",
-                           {rope_argument(true, "which"), particle_argument(false, "which"), particles_argument()},
-                           "Unpins particles", unpin));
+    table.add(
+        rope_command("rope.pin", "Pin particles",
+                     {rope_argument(true, "which"), particle_argument(false, "which"), particles_argument(),
+                      point_argument("at", false, "metres; where it is when left out"),
+                      each_argument("points", "particles")},
+                     "Pins particles to where they are, or to points", pin));
+    table.add(
+        rope_command("rope.unpin", "Unpin particles",
+                     {rope_argument(true, "which"), particle_argument(false, "which"), particles_argument()},
+                     "Unpins particles", unpin));
     table.add(rope_command("rope.cut", "Cut a rope",
                            {rope_argument(true, "which"),
                             {.name = "segment",

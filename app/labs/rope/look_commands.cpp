@@ -67,17 +67,17 @@ void set_view(RopeEdit& edit, const Arguments& given) {
 }  // namespace
 
 void add_look_commands(CommandTable& table) {
-    table.add(rope_command("rope.select", "Select particles or a collider",
-                           {rope_argument(false, "of the particle"), particle_argument(false, "which"),
-                            collider_argument("collider", false, "instead of a particle"), particles_argument(),
-                            switch_argument("add", "true: adds particles of the same rope, or takes one out")},
-                           "Selects particles or a collider; nothing when all is left out", select,
-                           Effect::Look));
-    table.add(rope_command("rope.hold", "Hold particles",
-                           {rope_argument(true, "which"), particle_argument(false, "which; a free one"),
-                            particles_argument(), point_argument("at", false, "metres"),
-                            each_argument("points", "particles")},
-                           "Holds free particles, as a drag does, until rope.let_go", hold));
+    table.add(
+        rope_command("rope.select", "Select particles or a collider",
+                     {rope_argument(false, "of the particle"), particle_argument(false, "which"),
+                      collider_argument("collider", false, "instead of a particle"), particles_argument(),
+                      switch_argument("add", "true: adds particles of the same rope, or takes one out")},
+                     "Selects particles or a collider; nothing when all is left out", select, Effect::Look));
+    table.add(rope_command(
+        "rope.hold", "Hold particles",
+        {rope_argument(true, "which"), particle_argument(false, "which; a free one"), particles_argument(),
+         point_argument("at", false, "metres"), each_argument("points", "particles")},
+        "Holds free particles, as a drag does, until rope.let_go", hold));
     table.add(rope_command(
         "rope.let_go", "Let go of held particles", {}, "Releases what rope.hold holds",
         [](RopeEdit& edit, const Arguments&) { let_go(edit.part); }, Effect::Look));

@@ -32,7 +32,8 @@ glm::quat turn_of(const rope::Shape& shape) {
         return length > 1e-6f ? glm::quat(axis, direction / length) : glm::quat(1, 0, 0, 0);
     };
     if (const auto* box = std::get_if<rope::Box>(&shape)) return box->rotation;
-    if (const auto* capsule = std::get_if<rope::Capsule>(&shape)) return from(along_x, capsule->b - capsule->a);
+    if (const auto* capsule = std::get_if<rope::Capsule>(&shape))
+        return from(along_x, capsule->b - capsule->a);
     if (const auto* plane = std::get_if<rope::Plane>(&shape)) return from(upright, plane->normal);
     return {1.0f, 0.0f, 0.0f, 0.0f};
 }
@@ -106,8 +107,7 @@ std::vector<Handle> RopeLab::handles(const Workspace& workspace) const {
 
 std::optional<Handle> RopeLab::handle(const Workspace& workspace, PickId pick) const {
     const NamedWorld& world = *rope_part(workspace).world;
-    if (const auto* collider = picked_collider(world, pick))
-        return collider_handle(world, *collider, pick);
+    if (const auto* collider = picked_collider(world, pick)) return collider_handle(world, *collider, pick);
     if (const auto place = picked_particle(world, pick)) return particle_handle(world, *place);
     return std::nullopt;
 }
@@ -215,9 +215,11 @@ void RopeLab::select(const Workspace& workspace, const std::vector<PickId>& pick
         inside = std::move(here);
         if (added_to) break;
     }
-    const bool replaces = add && part.selection && most != nullptr && part.selection->body != world.name(*most);
+    const bool replaces =
+        add && part.selection && most != nullptr && part.selection->body != world.name(*most);
     if (most != nullptr && !replaces) {
-        emit("rope.select", {{"rope", world.name(*most)}, {"particles", SharedJson(Json(inside))}, {"add", add}});
+        emit("rope.select",
+             {{"rope", world.name(*most)}, {"particles", SharedJson(Json(inside))}, {"add", add}});
     } else if (!add && part.selection) {
         emit("rope.select");
     }

@@ -140,12 +140,12 @@ std::vector<rope::PinPlace> pin_places(const Arguments& given, const std::vector
         places.push_back({at.particle, glm::dvec3(points.element(places.size()).point())});
     std::sort(places.begin(), places.end(),
               [](const auto& a, const auto& b) { return a.particle < b.particle; });
-    const auto twice = std::adjacent_find(places.begin(), places.end(), [](const auto& a, const auto& b) {
-        return a.particle == b.particle;
-    });
+    const auto twice = std::adjacent_find(
+        places.begin(), places.end(), [](const auto& a, const auto& b) { return a.particle == b.particle; });
     if (twice != places.end())
-        throw Refused("particles: " + std::to_string(twice->particle - named.front().particle + named.front().index) +
-                      " stands there twice");
+        throw Refused(
+            "particles: " + std::to_string(twice->particle - named.front().particle + named.front().index) +
+            " stands there twice");
     return places;
 }
 

@@ -54,8 +54,8 @@ struct NamedParticle {
     std::size_t particle = 0;  ///< in the world
 };
 NamedParticle named_particle(const NamedWorld& world, const Arguments& given);
-/// Those that `particle` or `particles` names, of one rope. Throws Refused where neither or both are given, or
-/// one is not there.
+/// Those that `particle` or `particles` names, of one rope. Throws Refused where neither or both are given,
+/// or one is not there.
 std::vector<NamedParticle> named_particles(const NamedWorld& world, const Arguments& given);
 /// Those, with the point that `one` gives for the one, or `each` for each of several. Throws Refused, too,
 /// where a particle stands among them twice.

@@ -191,8 +191,8 @@ bool ChainNewton::update_planes(ContactScratch::Contact& contact) {
         const bool was = plane.active;
         if (moved_ && !was && moving.far_from(node.x, radius_)) continue;
         plane.gap = dot(plane.normal, node.x - plane.point);
-        // What is far behind a plane that it touched has come through it: the surface that is nearest there is
-        // another one. One that it did not touch it may as well have gone round.
+        // What is far behind a plane that it touched has come through it: the surface that is nearest there
+        // is another one. One that it did not touch it may as well have gone round.
         if (moved_ && (!was || plane.gap > -0.5 * moving.size - radius_)) {
             const SurfaceDistance surface = surface_distance(*moving.shape, node.x);
             plane.normal = surface.normal;

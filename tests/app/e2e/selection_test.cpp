@@ -92,7 +92,8 @@ TEST(SelectByMouse, EscapeSelectsNothingInEveryLab) {
         // What lies over the scene is closed first.
         EXPECT_EQ(selected(state_after(ScriptText(script).key("?").key("escape"))), before) << each.lab;
         EXPECT_EQ(selected(state_after(ScriptText(script).key("ctrl+k").key("escape"))), before) << each.lab;
-        EXPECT_EQ(selected(state_after(ScriptText(script).key("?").key("escape").wait(2).key("escape"))), none);
+        EXPECT_EQ(selected(state_after(ScriptText(script).key("?").key("escape").wait(2).key("escape"))),
+                  none);
         EXPECT_EQ(selected(state_after(script.key("escape"))), none) << each.lab << each.arguments;
     }
 }

@@ -1,4 +1,5 @@
-// What ffmpeg does after the last frame takes no time of the window: it goes on, can be cancelled, and is told.
+// What ffmpeg does after the last frame takes no time of the window: it goes on, can be cancelled, and is
+// told.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -30,7 +31,8 @@ class VideoFinish : public testing::Test {
         write(program, "#!/bin/sh\nfor last; do :; done\ncat > \"${last#file:}\"\n" + end);
         std::filesystem::permissions(program, std::filesystem::perms::owner_all);
         ::setenv("PATH", (tools_.path().string() + ":" + path_).c_str(), 1);
-        app_.workspace().ui.video = VideoRequest{.path = folder_ / "a.mp4", .size = {64, 64}, .from = 20, .to = 0};
+        app_.workspace().ui.video =
+            VideoRequest{.path = folder_ / "a.mp4", .size = {64, 64}, .from = 20, .to = 0};
         const Event any = KeyTap{*chord_from_name("l")};
         tick(&any);
     }

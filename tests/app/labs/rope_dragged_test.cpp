@@ -46,7 +46,8 @@ TEST_F(RopeDragged, PinsAndFreeParticlesGoTheSameWayInOneStep) {
         if (workspace.clock.playing) wait(1);
         std::size_t which = 0;
         for (const std::size_t i : {0u, 3u, 4u, 8u}) {
-            EXPECT_LT(glm::distance(at(i), before[which++] + glm::vec3(0.02f, 0.05f, 0.03f)), 1e-4f) << time << i;
+            EXPECT_LT(glm::distance(at(i), before[which++] + glm::vec3(0.02f, 0.05f, 0.03f)), 1e-4f)
+                << time << i;
             EXPECT_TRUE(pinned(i)) << i;
         }
         EXPECT_EQ(state()["held"]["particles"], Json({3, 4}));
@@ -97,7 +98,9 @@ TEST_F(RopeDragged, AnyParticlesFollowAnyWayAndNothingElseIsHeldAfterwards) {
             for (Handle& each : goals) each.frame.position.y += 0.01f * static_cast<float>(step + 1);
             drag(goals);
             for (const Handle& each : goals)
-                ASSERT_LT(glm::distance(world().position(static_cast<std::size_t>(each.pick)), each.frame.position), 1e-4f);
+                ASSERT_LT(
+                    glm::distance(world().position(static_cast<std::size_t>(each.pick)), each.frame.position),
+                    1e-4f);
         }
         drop();
         EXPECT_EQ(world().state().pins.size(), pins.size());
@@ -108,7 +111,8 @@ TEST_F(RopeDragged, AnyParticlesFollowAnyWayAndNothingElseIsHeldAfterwards) {
 TEST_F(RopeDragged, ACutThroughWhatIsHeldLetsGoOfIt) {
     single_rope(8);
     const auto hold = [&](const Json& particles) {
-        run("rope.hold", {{"rope", "rope"}, {"particles", particles}, {"points", {{0.2, 2.1, 0}, {0.8, 2.1, 0}}}});
+        run("rope.hold",
+            {{"rope", "rope"}, {"particles", particles}, {"points", {{0.2, 2.1, 0}, {0.8, 2.1, 0}}}});
     };
     hold({2, 6});
     run("rope.cut", {{"rope", "rope"}, {"segment", 4}});
@@ -132,12 +136,14 @@ TEST_F(RopeDragged, WhatDoesNotGoTogetherIsRefused) {
         EXPECT_NE(why.find(what), std::string::npos) << why;
     };
     refuses("rope.hold", {{"particles", {2, 0}}, {"points", {at, at}}}, "particle 0 of \"rope\" is pinned");
-    refuses("rope.hold", {{"particles", {2, 3}}, {"points", Json::array({at})}}, "2 points, one for each of particles");
+    refuses("rope.hold", {{"particles", {2, 3}}, {"points", Json::array({at})}},
+            "2 points, one for each of particles");
     refuses("rope.hold", {{"particles", {2, 3}}, {"at", at}}, "particles and points");
     refuses("rope.hold", {{"particle", 2}, {"points", Json::array({at})}}, "particles and points");
     refuses("rope.hold", {{"particle", 2}}, "particle and at");
     refuses("rope.hold", {{"particles", {3, 3}}, {"points", {at, at}}}, "particles: 3 stands there twice");
-    refuses("rope.pin", {{"particles", {3, 4, 3}}, {"points", {at, at, at}}}, "particles: 3 stands there twice");
+    refuses("rope.pin", {{"particles", {3, 4, 3}}, {"points", {at, at, at}}},
+            "particles: 3 stands there twice");
     refuses("rope.pin", {{"particles", {3, 99}}, {"points", {at, at}}}, "99");
     refuses("rope.pin", {{"particle", 3}, {"points", Json::array({at})}}, "points is for particles");
     refuses("rope.pin", {{"particles", {3, 4}}, {"points", {at, {1, 2}}}}, "points.1");

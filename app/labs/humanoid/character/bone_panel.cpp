@@ -64,7 +64,8 @@ void bone_row(const HumanoidPanel& panel, Bone bone) {
     if (match.node >= 0 && panel.part.selection.has(static_cast<std::size_t>(match.node))) {
         const bool active = panel.part.selection.active() == static_cast<std::size_t>(match.node);
         ImGui::GetWindowDrawList()->AddRectFilled(corner, {corner.x + width, corner.y + line},
-                                                  colour_of(panel.colours.selection, active ? 0.45f : 0.22f), 3.0f);
+                                                  colour_of(panel.colours.selection, active ? 0.45f : 0.22f),
+                                                  3.0f);
     }
     if (ImGui::Selectable("##row", waiting == bone, 0, {width, line})) {
         const bool more = ImGui::GetIO().KeyShift;

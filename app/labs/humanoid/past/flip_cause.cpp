@@ -19,23 +19,22 @@ struct Limb {
     humanoid::Effector effector;
     const char *root, *middle;  ///< what a person calls its joints
 };
-constexpr std::array<Limb, 4> limbs{
-    {{{Bone::LeftUpperArm, Bone::LeftLowerArm, Bone::LeftHand},
-      humanoid::Effector::LeftHand,
-      "left shoulder",
-      "left elbow"},
-     {{Bone::RightUpperArm, Bone::RightLowerArm, Bone::RightHand},
-      humanoid::Effector::RightHand,
-      "right shoulder",
-      "right elbow"},
-     {{Bone::LeftUpperLeg, Bone::LeftLowerLeg, Bone::LeftFoot},
-      humanoid::Effector::LeftFoot,
-      "left hip",
-      "left knee"},
-     {{Bone::RightUpperLeg, Bone::RightLowerLeg, Bone::RightFoot},
-      humanoid::Effector::RightFoot,
-      "right hip",
-      "right knee"}}};
+constexpr std::array<Limb, 4> limbs{{{{Bone::LeftUpperArm, Bone::LeftLowerArm, Bone::LeftHand},
+                                      humanoid::Effector::LeftHand,
+                                      "left shoulder",
+                                      "left elbow"},
+                                     {{Bone::RightUpperArm, Bone::RightLowerArm, Bone::RightHand},
+                                      humanoid::Effector::RightHand,
+                                      "right shoulder",
+                                      "right elbow"},
+                                     {{Bone::LeftUpperLeg, Bone::LeftLowerLeg, Bone::LeftFoot},
+                                      humanoid::Effector::LeftFoot,
+                                      "left hip",
+                                      "left knee"},
+                                     {{Bone::RightUpperLeg, Bone::RightLowerLeg, Bone::RightFoot},
+                                      humanoid::Effector::RightFoot,
+                                      "right hip",
+                                      "right knee"}}};
 
 /// What it reaches for, or, where it has no target, where it ends.
 ReachPose reach_pose(const HumanoidMoment& moment, const Limb& limb) {

@@ -86,7 +86,8 @@ class Drivers {
 
     bool looks_elsewhere(const Turned& bone, double enough) const {
         if (!was_.shown.look || !is_.shown.look) return false;
-        if (std::abs(is_.shown.look->weight - was_.shown.look->weight) >= std::max(share(), 1e-9)) return true;
+        if (std::abs(is_.shown.look->weight - was_.shown.look->weight) >= std::max(share(), 1e-9))
+            return true;
         return moved(bone.node, was_.part.ik.look_at.target, is_.part.ik.look_at.target, enough);
     }
 
@@ -122,8 +123,8 @@ std::vector<BodyFlip> body_flips(const HumanoidMoment& was, const HumanoidMoment
     const Drivers drivers(was, is);
     std::vector<std::size_t> driven;  // nodes: what hangs on them goes along
     std::erase_if(flipped, [&](const Turned& bone) {
-        const bool along = std::ranges::any_of(
-            driven, [&](std::size_t each) { return skeleton.is_below(bone.node, each); });
+        const bool along =
+            std::ranges::any_of(driven, [&](std::size_t each) { return skeleton.is_below(bone.node, each); });
         if (!along && !drivers.far(bone)) return false;
         driven.push_back(bone.node);
         return true;

@@ -24,8 +24,9 @@ bool comparable(const HumanoidPart& was, const HumanoidPart& is) {
     const Playback &before = was.playback, &after = is.playback;
     const bool plays = before.playing || (before.time == after.time && before.rounds == after.rounds);
     return was.loaded == is.loaded && (was.map == is.map || *was.map == *is.map) &&
-           before.clip == after.clip && before.in_place == after.in_place && plays && was.t_pose == is.t_pose &&
-           was.springs == is.springs && without_places(was.ik) == without_places(is.ik);
+           before.clip == after.clip && before.in_place == after.in_place && plays &&
+           was.t_pose == is.t_pose && was.springs == is.springs &&
+           without_places(was.ik) == without_places(is.ik);
 }
 
 std::string node_name(const HumanoidPart& part, humanoid::Bone bone) {
@@ -96,7 +97,8 @@ std::vector<Incident> HumanoidLab::review(const Workspace& workspace, const Part
     const ShownPose first = known ? std::move(runtime.reviewed.shown) : pose_of(was_part);
     const auto& present = workspace.document.parts().at(humanoid_lab);
     const bool now = present.get() == &after;
-    HumanoidRuntime::Reviewed second{now ? present : nullptr, now ? runtime.shown(workspace) : pose_of(is_part)};
+    HumanoidRuntime::Reviewed second{now ? present : nullptr,
+                                     now ? runtime.shown(workspace) : pose_of(is_part)};
     const HumanoidMoment was{was_part, first}, is{is_part, second.shown};
     std::vector<Incident> incidents;
     add_flips(was, is, runtime.solvers, incidents);

@@ -131,8 +131,9 @@ TEST_F(HumanoidIncidents, GesturesAndTargetsThatAreLetGoAreNoFlips) {
     run("humanoid.clip", {{"name", "walk"}, {"play", true}, {"in_place", true}});
     for (int i = 0; i < 120; ++i) {
         const double t = 0.05 * i;
-        EXPECT_TRUE(only(Kind::Flip, moved("left_hand", {0.35 + 0.2 * std::cos(t), 1.3 + 0.25 * std::sin(t), 0.35}))
-                        .empty())
+        EXPECT_TRUE(
+            only(Kind::Flip, moved("left_hand", {0.35 + 0.2 * std::cos(t), 1.3 + 0.25 * std::sin(t), 0.35}))
+                .empty())
             << i;
         EXPECT_TRUE(only(Kind::Flip, ticked()).empty()) << i;
     }

@@ -98,7 +98,8 @@ TEST_F(HumanoidMouse, DragsSeveralEffectorsByOneGizmo) {
     pull(arrow, {0, -30});
     const auto target = [&](const char* name) { return app_.state().at("body").at("targets").at(name); };
     const auto moved = [&](const char* name, const char* bone, std::size_t axis) {
-        return target(name).at("position")[axis].get<double>() - before.at(bone).at("position")[axis].get<double>();
+        return target(name).at("position")[axis].get<double>() -
+               before.at(bone).at("position")[axis].get<double>();
     };
     const double along = moved("right_hand", "RightHand", 0), up = moved("right_hand", "RightHand", 1);
     EXPECT_GT(std::hypot(along, up), 0.03);

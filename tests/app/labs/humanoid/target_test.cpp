@@ -115,11 +115,13 @@ TEST_F(HumanoidTargets, GoToSeveralEffectorsAtOnce) {
         expect_refused("humanoid.target", arguments, {what});
     };
     refuses({{"weight", 1}}, "needs effector, or effectors");
-    refuses({{"effectors", {"head", "tail"}}, {"points", points}}, "effectors: there is no effector \"tail\"");
+    refuses({{"effectors", {"head", "tail"}}, {"points", points}},
+            "effectors: there is no effector \"tail\"");
     refuses({{"effectors", {"head", "head"}}, {"points", points}}, "\"head\" stands there twice");
     refuses({{"effectors", {"head", 3}}, {"points", points}}, "3 is no name");
     refuses({{"effectors", Json::array()}}, "effectors: []");
-    refuses({{"effectors", Json::array({"head"})}, {"points", points}}, "1 points, one for each of effectors");
+    refuses({{"effectors", Json::array({"head"})}, {"points", points}},
+            "1 points, one for each of effectors");
     refuses({{"effectors", hands}, {"points", {{0, 1, 0}, {0, "x", 0}}}}, "points.1");
     refuses({{"effectors", hands}, {"rotations", {{0, 0, 0, 1}, {0, 0, 0, 9}}}}, "rotations.1");
     refuses({{"effectors", hands}, {"to", {0, 1, 0}}}, "to is for one effector");

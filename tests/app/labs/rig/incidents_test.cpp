@@ -87,7 +87,8 @@ class RigIncidents : public RigTest {
                 gesture.problem = where + (mark ? "marked" : "not marked") + " at " + std::to_string(most);
             } else if (mark && !bone.empty() && mark->name != bone) {
                 gesture.problem = where + mark->name + " instead of " + bone;
-            } else if (mark && (mark->joint != part().rig.element(mark->name) || turned[mark->joint] < most - 0.1)) {
+            } else if (mark &&
+                       (mark->joint != part().rig.element(mark->name) || turned[mark->joint] < most - 0.1)) {
                 gesture.problem = where + mark->name + " turned " + std::to_string(turned[mark->joint]);
             } else if (mark && std::abs(static_cast<double>(mark->degrees) - turned[mark->joint]) > 0.1) {
                 gesture.problem = where + std::to_string(mark->degrees) + " degrees";
@@ -126,7 +127,8 @@ class RigIncidents : public RigTest {
     /// Straight on, in steps that hit no round number.
     Path line(const glm::dvec3& centre, const glm::dvec3& along, double half, double step) {
         Path path;
-        for (double x = half + uniform(0.2, 0.4) * step; x > -half; x -= step) path.push_back(centre + x * along);
+        for (double x = half + uniform(0.2, 0.4) * step; x > -half; x -= step)
+            path.push_back(centre + x * along);
         return path;
     }
 };
@@ -177,7 +179,11 @@ TEST_F(RigIncidents, TheTargetWentThroughTheRoot) {
         element("lower", "upper", transform(0, length, 0));
         element("hand", "lower", {{"translation", {0.4 * length, 0.9 * length, 0}}});
         control("target", "position");
-        unit({{"unit", "two_bone"}, {"name", "arm"}, {"root", "upper"}, {"tip", "hand"}, {"target", "target"}});
+        unit({{"unit", "two_bone"},
+              {"name", "arm"},
+              {"root", "upper"},
+              {"tip", "hand"},
+              {"target", "target"}});
         const glm::dvec3 off = uniform(0.0, 0.004) * length * across(along);
         const Path path = line(glm::dvec3(0, 1, 0) + off, along, 0.5 * length, 0.012 * length);
         return drag("target", path, "", {"unit arm: the target went through the root"});
@@ -250,10 +256,10 @@ TEST_F(RigIncidents, TheLastUnitToWriteTheBoneIsNamed) {
           {"item", "head"},
           {"offset", {{"rotation", {0.1, 0, 0, 1}}}}});
     set("look", json(at + 2.0 * way));
-    const Gesture gesture =
-        drag("tilt", line(at + way + glm::dvec3(0, 0.001, 0), {1, 0, 0}, 0.1, 0.015), "head",
-             {"unit aim (unit nod wrote it last): the second target passed the line that the first is on",
-              "unit aim (unit nod wrote it last): the second target came close to the line that the first is on"});
+    const Gesture gesture = drag(
+        "tilt", line(at + way + glm::dvec3(0, 0.001, 0), {1, 0, 0}, 0.1, 0.015), "head",
+        {"unit aim (unit nod wrote it last): the second target passed the line that the first is on",
+         "unit aim (unit nod wrote it last): the second target came close to the line that the first is on"});
     EXPECT_EQ(gesture.problem, "");
     EXPECT_GE(gesture.flips, 1);
 }
@@ -300,8 +306,9 @@ TEST_F(RigIncidents, NothingIsMarkedForWhatIsNoMoveOfAControl) {
         tick();
         return at_once && since(before).empty();
     };
-    EXPECT_TRUE(none("rig.element.set",
-                     {{"name", "head"}, {"transform", {{"rotation", {0, std::sqrt(0.5), 0, std::sqrt(0.5)}}}}}));
+    EXPECT_TRUE(
+        none("rig.element.set",
+             {{"name", "head"}, {"transform", {{"rotation", {0, std::sqrt(0.5), 0, std::sqrt(0.5)}}}}}));
     EXPECT_TRUE(none("rig.unit.enable", {{"name", "aim"}, {"on", false}}));
     EXPECT_TRUE(none("rig.unit.enable", {{"name", "aim"}, {"on", true}}));
     EXPECT_TRUE(none("rig.control.set", {{"name", "look"}, {"value", {0, 1, -2}}}));
@@ -324,7 +331,8 @@ TEST_F(RigIncidents, WhatAUnitReportsIsToldOnce) {
         for (const Incident& each : since(before)) {
             if (each.kind != Incident::Kind::Status) continue;
             ++reports;
-            EXPECT_EQ(each.cause, std::string("unit aim has a problem: ") + rig::message(rig::Warning::TargetAtItem));
+            EXPECT_EQ(each.cause,
+                      std::string("unit aim has a problem: ") + rig::message(rig::Warning::TargetAtItem));
             EXPECT_EQ(each.name, "aim");
             EXPECT_EQ(each.joint, no_joint);
         }
