@@ -64,33 +64,28 @@ Together RopeLab::together(const Workspace& workspace, Drag) const {
     return together;
 }
 
-/// Pinned particles by their pins, free ones by holding them.
+/// All by one command: what is dragged while the simulation is paused then moves at once.
 void RopeLab::drag_together(const Workspace& workspace, const std::vector<Handle>& handles,
                             Emit& emit) const {
     const RopePart& part = rope_part(workspace);
     const std::vector<std::size_t> held = held_particles(part);
-    Json pins = Json::array(), pinned = Json::array(), free = Json::array(), points = Json::array();
+    Json particles = Json::array(), points = Json::array();
     const rope::Body* body = nullptr;
+    bool free = false;
     for (const Handle& each : handles) {
         const auto place = picked_particle(*part.world, each.pick);
         if (!place || (body != nullptr && body != place->body))
             continue;  // what was caught may have been cut
         body = place->body;
         const std::size_t particle = place->body->first + place->index;
-        const bool pin = part.world->pinned(particle) && !std::ranges::binary_search(held, particle);
-        (pin ? pins : free).push_back(place->index);
-        (pin ? pinned : points).push_back(point(each.frame.position));
+        free = free || !part.world->pinned(particle) || std::ranges::binary_search(held, particle);
+        particles.push_back(place->index);
+        points.push_back(point(each.frame.position));
     }
     if (body == nullptr) return;
-    const std::string rope = part.world->name(*body);
-    const auto send = [&](const char* command, Json& particles, Json& to) {
-        if (particles.empty()) return;
-        emit.continuously(command, {{"rope", rope},
-                                    {"particles", SharedJson(std::move(particles))},
-                                    {"points", SharedJson(std::move(to))}});
-    };
-    send("rope.pin", pins, pinned);
-    send("rope.hold", free, points);
+    emit.continuously(free ? "rope.hold" : "rope.pin", {{"rope", part.world->name(*body)},
+                                                        {"particles", SharedJson(std::move(particles))},
+                                                        {"points", SharedJson(std::move(points))}});
 }
 
 }  // namespace tendril::app

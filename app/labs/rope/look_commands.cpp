@@ -43,16 +43,16 @@ void hold(RopeEdit& edit, const Arguments& given) {
         if (given.has(point) == given.has(point[0] == 'a' ? "particles" : "particle"))
             throw Refused("needs particle and at, or particles and points");
     const std::vector<rope::PinPlace> places = pin_places(given, all, "at", "points");
+    const std::vector<std::size_t> held = held_particles(edit.part);
     Hold wanted{all.front().body, {}};
-    for (const NamedParticle& each : all) wanted.particles.push_back(each.index);
+    for (const NamedParticle& each : all)
+        if (!edit.seen().pinned(each.particle) || std::ranges::binary_search(held, each.particle))
+            wanted.particles.push_back(each.index);
     std::sort(wanted.particles.begin(), wanted.particles.end());
-    if (edit.part.hold != wanted) {
-        let_go(edit.part);
-        for (const NamedParticle& each : all)
-            if (edit.seen().pinned(each.particle))
-                throw Refused("particle " + std::to_string(each.index) + " of \"" + each.body +
-                              "\" is pinned; rope.pin moves it");
-    }
+    if (wanted.particles.empty())
+        throw Refused("particle " + std::to_string(all.front().index) + " of \"" + all.front().body +
+                      "\" is pinned; rope.pin moves it");
+    if (edit.part.hold != wanted) let_go(edit.part);
     edit.move_pins(places);
     edit.part.hold = wanted;
 }
@@ -75,9 +75,9 @@ void add_look_commands(CommandTable& table) {
                      "Selects particles or a collider; nothing when all is left out", select, Effect::Look));
     table.add(rope_command(
         "rope.hold", "Hold particles",
-        {rope_argument(true, "which"), particle_argument(false, "which; a free one"), particles_argument(),
-         point_argument("at", false, "metres"), each_argument("points", "particles")},
-        "Holds free particles, as a drag does, until rope.let_go", hold));
+        {rope_argument(true, "which"), particle_argument(false, "which; one of them a free one"),
+         particles_argument(), point_argument("at", false, "metres"), each_argument("points", "particles")},
+        "Holds free particles until rope.let_go, as a drag does, and moves pinned ones along", hold));
     table.add(rope_command(
         "rope.let_go", "Let go of held particles", {}, "Releases what rope.hold holds",
         [](RopeEdit& edit, const Arguments&) { let_go(edit.part); }, Effect::Look));

@@ -108,6 +108,23 @@ TEST_F(RopeDragged, AnyParticlesFollowAnyWayAndNothingElseIsHeldAfterwards) {
     }
 }
 
+/// However the lengths are solved: what lies between a pin and a free particle goes with them.
+TEST_F(RopeDragged, PausedWhatLiesBetweenGoesAlong) {
+    for (const char* solver : {"direct", "xpbd", "relaxation"}) {
+        single_rope(10);
+        run("time.pause");
+        run("rope.settings", {{"solver", solver}});
+        run("rope.pin", {{"rope", "rope"}, {"particle", 0}});
+        select({0, 10});
+        std::vector<glm::vec3> before;
+        for (std::size_t i = 0; i <= 10; ++i) before.push_back(at(i));
+        drag(moved({0.0f, 0.3f, 0.0f}));
+        for (std::size_t i = 0; i < 10; ++i)
+            EXPECT_NEAR(glm::distance(at(i), at(i + 1)), glm::distance(before[i], before[i + 1]), 1e-3f)
+                << solver << i;
+    }
+}
+
 TEST_F(RopeDragged, ACutThroughWhatIsHeldLetsGoOfIt) {
     single_rope(8);
     const auto hold = [&](const Json& particles) {
@@ -135,7 +152,7 @@ TEST_F(RopeDragged, WhatDoesNotGoTogetherIsRefused) {
         const std::string why = refused(command, arguments);
         EXPECT_NE(why.find(what), std::string::npos) << why;
     };
-    refuses("rope.hold", {{"particles", {2, 0}}, {"points", {at, at}}}, "particle 0 of \"rope\" is pinned");
+    refuses("rope.hold", {{"particle", 0}, {"at", at}}, "particle 0 of \"rope\" is pinned");
     refuses("rope.hold", {{"particles", {2, 3}}, {"points", Json::array({at})}},
             "2 points, one for each of particles");
     refuses("rope.hold", {{"particles", {2, 3}}, {"at", at}}, "particles and points");
