@@ -7,6 +7,7 @@
 #include "app/shell/gizmo_view.hpp"
 #include "app/shell/labels_view.hpp"
 #include "app/shell/panes_view.hpp"
+#include "app/video_take.hpp"
 
 namespace tendril::app {
 
@@ -17,6 +18,7 @@ void App::divide_view() {
     panes_.resize(rects.size());
     for (std::size_t i = 0; i < rects.size(); ++i) panes_[i].rect = rects[i];
     workspace_.ui.view_size = rects.front().size();
+    workspace_.ui.picture_size = picture_view({0, 0}).size;
     if (pane_ >= panes_.size()) pane_ = 0;
 }
 

@@ -46,7 +46,8 @@ void App::begin_video(const VideoRequest& wanted) {
     if (const glm::ivec2 size = view.size; wanted.path.extension() == ".mp4" && size % 2 != glm::ivec2(0))
         view = picture_view(size - size % 2);
     try {
-        // By the size of the view in the window, which a recording has: so it is done at the same tick again.
+        // By the size of the view in the window, which a recording has: so its frames are drawn at the same
+        // ticks again.
         const glm::ivec2 counted =
             wanted.size.x > 0 && wanted.size.y > 0 ? wanted.size : glm::ivec2(layout_.view.size());
         video_ =

@@ -69,7 +69,8 @@ struct UiState {
     enum class FileDialog { None, Open, SaveAs, SaveAndQuit, Video } file_dialog = FileDialog::None;
     std::vector<Toast> toasts;
     std::vector<Recoverable> recoverable;  ///< until it is answered
-    glm::vec2 view_size{1000.0f, 700.0f};  ///< the 3D view, in window coordinates
+    glm::vec2 view_size{1000.0f, 700.0f};  ///< the 3D view, or its first pane, in window coordinates
+    glm::ivec2 picture_size{1000, 700};    ///< pixels of a picture of the whole view
     std::optional<std::string> copied;     ///< text on its way to the clipboard
     std::optional<PictureRequest> picture;
     std::optional<VideoRequest> video;     ///< asked for, and not begun

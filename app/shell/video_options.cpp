@@ -3,7 +3,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <glm/common.hpp>
 
 #include "app/io/mp4.hpp"
 #include "app/widgets/fields.hpp"
@@ -27,7 +26,7 @@ void VideoOptions::start(const Workspace& workspace) {
     remembered_ = static_cast<float>(static_cast<double>(ticks) * tick_seconds);
     from_ = remembered_;
     to_ = 0.0f;
-    view_ = glm::clamp(glm::ivec2(workspace.ui.view_size), smallest_picture, largest_picture);
+    view_ = workspace.ui.picture_size;
     why_no_mp4_ = why_no_mp4();
     if (!why_no_mp4_.empty()) format_ = 0;
 }
