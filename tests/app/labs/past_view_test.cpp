@@ -7,11 +7,11 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
-#include <random>
 
 #include "app/labs/kit/joint_turn.hpp"
 #include "app/labs/kit/part_cache.hpp"
 #include "tests/app/labs/spring/spring_lab.hpp"
+#include "tests/app/support/random_numbers.hpp"
 
 namespace tendril::app {
 namespace {
@@ -20,19 +20,9 @@ std::shared_ptr<const Part> some_part() {
     return std::make_shared<test::SpringPart>();
 }
 
-class Turns : public testing::Test {
+class Turns : public testing::Test, protected test::RandomNumbers {
   protected:
-    std::mt19937 random{5};
-    double uniform(double low, double high) {
-        return low + (high - low) * static_cast<double>(random() >> 8) / 16777216.0;
-    }
-    glm::dvec3 direction() {
-        for (;;) {
-            const double x = uniform(-1, 1), y = uniform(-1, 1), z = uniform(-1, 1);
-            const glm::dvec3 way(x, y, z);
-            if (const double length = glm::length(way); length > 0.1 && length < 1.0) return way / length;
-        }
-    }
+    Turns() : RandomNumbers(5) {}
 };
 
 TEST_F(Turns, AreToldBySwingAndTwist) {

@@ -1,10 +1,10 @@
 // Why did the bone flip? Gestures with a planted cause, and smooth ones; units that fail, controls at limits.
 #include <glm/gtc/quaternion.hpp>
-#include <random>
 
 #include "app/labs/rig/presets.hpp"
 #include "app/labs/rig/value_json.hpp"
 #include "tests/app/labs/rig/rig_support.hpp"
+#include "tests/app/support/random_numbers.hpp"
 
 namespace tendril::app {
 namespace {
@@ -15,19 +15,10 @@ Json json(const glm::dvec3& point) {
     return Json::array({point.x, point.y, point.z});
 }
 
-class RigIncidents : public RigTest {
+class RigIncidents : public RigTest, protected test::RandomNumbers {
   protected:
-    std::mt19937 random{11};
-    double uniform(double low, double high) {
-        return low + (high - low) * static_cast<double>(random() >> 8) / 16777216.0;
-    }
-    glm::dvec3 direction() {
-        for (;;) {
-            const double x = uniform(-1, 1), y = uniform(-1, 1), z = uniform(-1, 1);
-            const glm::dvec3 way(x, y, z);
-            if (const double length = glm::length(way); length > 0.1 && length < 1.0) return way / length;
-        }
-    }
+    RigIncidents() : RandomNumbers(11) {}
+
     glm::dvec3 across(const glm::dvec3& line) { return glm::normalize(glm::cross(line, direction())); }
 
     std::shared_ptr<const Part> now() const { return workspace.document.parts().at(rig_lab); }

@@ -4,20 +4,18 @@
 #include <algorithm>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
-#include <random>
 
 #include "app/labs/rig/rig_edit.hpp"
 #include "tests/app/labs/rig/rig_support.hpp"
+#include "tests/app/support/random_numbers.hpp"
 
 namespace tendril::app {
 namespace {
 
-class RigPast : public RigTest {
+class RigPast : public RigTest, protected test::RandomNumbers {
   protected:
-    std::mt19937 random{23};
-    double uniform(double low, double high) {
-        return low + (high - low) * static_cast<double>(random() >> 8) / 16777216.0;
-    }
+    RigPast() : RandomNumbers(23) {}
+
     glm::dquat rotation() {
         const double w = uniform(-1, 1), x = uniform(-1, 1), y = uniform(-1, 1), z = uniform(-1, 1);
         return glm::normalize(glm::dquat(w, x, y, z + 1e-3));
