@@ -11,10 +11,6 @@ namespace {
 constexpr std::size_t coarsest = 2;
 constexpr int coarsest_passes = 6;
 
-std::size_t whole_registers(std::size_t count) {
-    return (count + grid_lanes - 1) / grid_lanes * grid_lanes;
-}
-
 /// Gives arrays for levels out of one memory; first it only counts.
 class Arrays {
   public:
@@ -27,8 +23,7 @@ class Arrays {
         for (std::size_t s = 0; s < level.steps; ++s) take(level, level.links[s]);
         for (GridVector* vector : {&level.right, &level.x, &level.product}) take(level, *vector);
     }
-    template <std::size_t n>
-    void take(const GridLevel& level, std::array<float*, n>& arrays) {
+    void take(const GridLevel& level, std::span<float*> arrays) {
         for (float*& each : arrays) take(level, each);
     }
     std::size_t taken() const { return taken_; }
@@ -47,12 +42,12 @@ class Arrays {
 
 }  // namespace
 
-void GridSystem::resize(std::size_t columns, std::size_t rows) {
+void GridSystem::resize(std::size_t columns, std::size_t rows, std::span<float*> others) {
     levels_.clear();
     for (;;) {
         GridLevel level;
         level.columns = columns, level.rows = rows;
-        level.stride = whole_registers(columns);
+        level.stride = grid_stride(columns);
         level.steps = levels_.empty() ? fine_steps : coarse_steps;
         levels_.push_back(level);
         if (std::max(columns, rows) <= coarsest) break;
@@ -62,6 +57,7 @@ void GridSystem::resize(std::size_t columns, std::size_t rows) {
         Arrays arrays(memory);
         for (GridLevel& level : levels_) arrays.of(level);
         for (GridVector* vector : {&solution_, &direction_, &product_}) arrays.take(levels_.front(), *vector);
+        arrays.take(levels_.front(), others);
         return arrays.taken();
     };
     constexpr std::size_t line = 16;

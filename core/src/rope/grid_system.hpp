@@ -17,6 +17,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -31,6 +32,10 @@ inline constexpr std::size_t fine_steps = grid_steps.size(), coarse_steps = 4;
 
 /// Rows and arrays are whole registers of so many numbers.
 inline constexpr std::size_t grid_lanes = 8;
+
+inline std::size_t grid_stride(std::size_t columns) {
+    return (columns + grid_lanes - 1) / grid_lanes * grid_lanes;
+}
 
 using GridVector = std::array<float*, 3>;
 /// xx, xy, xz, yy, yz, zz
@@ -80,8 +85,8 @@ GridUnit grid_unit(std::string_view name) noexcept;
 
 class GridSystem {
   public:
-    /// Makes room for a grid; all zero.
-    void resize(std::size_t columns, std::size_t rows);
+    /// Makes room for a grid, all zero, and for `others`, arrays like those of its finest level.
+    void resize(std::size_t columns, std::size_t rows, std::span<float*> others = {});
     /// To be filled: `free`, the diagonal, the blocks of links and the right side; of a cell that is not
     /// free the diagonal is 1 and all else 0, blocks of its links too. solve() changes the right side.
     GridLevel& finest() { return levels_.front(); }

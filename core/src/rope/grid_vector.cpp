@@ -12,57 +12,11 @@
 #include <hwy/foreach_target.h>  // before highway.h
 #include <hwy/highway.h>
 
+#include "rope/grid_lanes-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace tendril::rope::detail {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using Tag = hn::CappedTag<float, grid_lanes>;
-using V = hn::Vec<Tag>;
-
-struct V3 {
-    V x, y, z;
-};
-/// xx, xy, xz, yy, yz, zz
-struct Block {
-    V xx, xy, xz, yy, yz, zz;
-};
-
-V load(const float* from) {
-    return hn::LoadU(Tag(), from);
-}
-V3 load(const GridVector& from, std::ptrdiff_t i) {
-    return {load(from[0] + i), load(from[1] + i), load(from[2] + i)};
-}
-Block load(const GridBlocks& from, std::ptrdiff_t i) {
-    return {load(from[0] + i), load(from[1] + i), load(from[2] + i),
-            load(from[3] + i), load(from[4] + i), load(from[5] + i)};
-}
-void store(const V3& value, const GridVector& to, std::ptrdiff_t i) {
-    hn::StoreU(value.x, Tag(), to[0] + i);
-    hn::StoreU(value.y, Tag(), to[1] + i);
-    hn::StoreU(value.z, Tag(), to[2] + i);
-}
-V3 operator*(const Block& m, const V3& v) {
-    return {hn::Add(hn::Add(hn::Mul(m.xx, v.x), hn::Mul(m.xy, v.y)), hn::Mul(m.xz, v.z)),
-            hn::Add(hn::Add(hn::Mul(m.xy, v.x), hn::Mul(m.yy, v.y)), hn::Mul(m.yz, v.z)),
-            hn::Add(hn::Add(hn::Mul(m.xz, v.x), hn::Mul(m.yz, v.y)), hn::Mul(m.zz, v.z))};
-}
-V3 operator+(const V3& a, const V3& b) {
-    return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
-}
-V3 operator-(const V3& a, const V3& b) {
-    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-V3 operator*(V s, const V3& v) {
-    return {hn::Mul(s, v.x), hn::Mul(s, v.y), hn::Mul(s, v.z)};
-}
-
-template <class Visit>
-void each_register(std::size_t cells, Visit visit) {
-    for (std::size_t i = 0; i < cells; i += hn::Lanes(Tag())) visit(static_cast<std::ptrdiff_t>(i));
-}
-
 /// L d L^T of each block: 1 / d in xx, yy and zz, and L's numbers in the others.
 void factorize(const GridLevel& level, float floor) {
     const V least = hn::Set(Tag(), floor), one = hn::Set(Tag(), 1.0f);
