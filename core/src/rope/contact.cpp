@@ -46,6 +46,25 @@ dvec3 Scratch::Moving::by_at(const dvec3& at) const {
     return by + (2.0 * t - 1.0) * turn;
 }
 
+SurfaceDistance Scratch::Moving::entered(const dvec3& was, dvec3& place, double radius,
+                                         std::uint64_t& work) const {
+    const SurfaceDistance surface = surface_distance(*shape, place);
+    // As the collider sees it.
+    const dvec3 from = was + by_at(place), way = place - from;
+    const double far = detail::length(way), stride = 0.5 * size + radius;
+    if (!(far > stride && surface.distance < far + radius)) return surface;
+    const int samples = static_cast<int>(std::min(64.0, std::ceil(far / std::max(stride, 1e-9))));
+    work += static_cast<std::uint64_t>(samples);
+    for (int k = 0; k < samples; ++k) {
+        const dvec3 on_the_way = from + (static_cast<double>(k) / samples) * way;
+        const SurfaceDistance there = surface_distance(*shape, on_the_way);
+        if (there.distance >= radius) continue;
+        place = on_the_way;
+        return there;
+    }
+    return surface;
+}
+
 void Substep::find_near() {
     local_.near.clear();
     for (const std::uint32_t body : Plan::part(plan_.bodies, island_.bodies)) scratch_.body_near[body] = 0;
@@ -132,25 +151,9 @@ void Substep::resolve_particle(std::uint32_t i, std::uint32_t number, double rad
     dvec3& place = scratch_.place[i];
     const double travelled = first ? detail::length(place - state_.position[i]) : 0.0;
     if (collider.far_from(place, radius + travelled)) return;
-    SurfaceDistance surface = surface_distance(*collider.shape, place);
-    if (first) {
-        // As the collider sees it, from where it came. Something fast is stopped on the side that it came
-        // from.
-        const dvec3 from = state_.position[i] + collider.by_at(place), way = place - from;
-        const double far = detail::length(way), step = 0.5 * collider.size + radius;
-        if (far > step && surface.distance < far + radius) {
-            const int samples = static_cast<int>(std::min(64.0, std::ceil(far / std::max(step, 1e-9))));
-            report_.work += static_cast<std::uint64_t>(samples);
-            for (int k = 0; k < samples; ++k) {
-                const dvec3 on_the_way = from + (static_cast<double>(k) / samples) * way;
-                const SurfaceDistance there = surface_distance(*collider.shape, on_the_way);
-                if (there.distance >= radius) continue;
-                place = on_the_way;
-                surface = there;
-                break;
-            }
-        }
-    }
+    const SurfaceDistance surface =
+        first ? collider.entered(state_.position[i], place, radius, report_.work)
+              : surface_distance(*collider.shape, place);
     const double depth = radius - surface.distance;
     if (!(depth > 0.0)) return;
     place += depth * surface.normal;

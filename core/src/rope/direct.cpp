@@ -13,6 +13,7 @@
 #include <cmath>
 
 #include "rope/chain_newton.hpp"
+#include "rope/cloth_solver.hpp"
 #include "rope/geometry.hpp"
 #include "rope/substep.hpp"
 
@@ -70,8 +71,18 @@ int Substep::direct_alone() {
     return 1;
 }
 
+int Substep::direct_grid() {
+    ClothSolver cloth(state_, plan_, island_, scratch_, local_);
+    const int allowed = passes_allowed(), passes = cloth.solve(allowed);
+    report_.work += static_cast<std::uint64_t>(passes) * island_.links.count;
+    if (!cloth.converged() && allowed < state_.settings.iterations) report_.shortened = 1;
+    measure();
+    return passes;
+}
+
 int Substep::direct() {
     if (island_.alone) return direct_alone();
+    if (island_.grid != 0) return direct_grid();
     for (const std::uint32_t i : Plan::part(plan_.soft, island_.soft)) scratch_.multiplier[i] = 0.0;
     for (const Plan::Chain& chain : Plan::part(plan_.chains, island_.chains)) {
         if (!chain.alone) std::fill_n(scratch_.multiplier.begin() + chain.first_link, chain.links, 0.0);

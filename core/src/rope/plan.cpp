@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "rope/cloth_plan.hpp"
 #include "rope/islands.hpp"
 
 namespace tendril::rope {
@@ -26,6 +27,7 @@ Plan::Plan(const State& state) {
     find_chains(state);
     cut_into_chunks(state);
     detail::divide_into_islands(state, *this);
+    detail::find_grids(state, *this);
     group_chains(state.position.size());
     particles_ = state.position.size();
     joined_.reserve(state.links.size());

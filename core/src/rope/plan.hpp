@@ -23,6 +23,7 @@ struct Plan {
         Range bodies{}, links{}, soft{}, chains{}, groups{}, chunks{};
         std::uint32_t particles = 0;
         bool alone = false;  ///< every chain is, and there is no soft link
+        std::uint32_t grid = 0;  ///< one that all its links are of, in `grids`, counted from 1; 0: none
     };
     /// Stretch links that follow each other: each begins at the particle where the one before ended.
     struct Chain {
@@ -42,6 +43,16 @@ struct Plan {
         float reach = 0.0f;                       ///< the longest of them
     };
 
+    /// A cloth that is linked to nothing else, by links that its grid has.
+    struct Grid {
+        std::uint32_t body = 0, columns = 0, rows = 0;
+        Range links{};  ///< in `grid_links`
+    };
+    /// Where a link is among the arrays of its grid's system.
+    struct GridLink {
+        std::uint32_t link = 0, cell = 0, step = 0;
+    };
+
     Plan() = default;
     explicit Plan(const State& state);
     /// Whether another plan of this state would be the same.
@@ -58,6 +69,8 @@ struct Plan {
     std::vector<Chain> chains;
     std::vector<Group> groups;
     std::vector<Chunk> chunks;
+    std::vector<Grid> grids;
+    std::vector<GridLink> grid_links;
 
     std::vector<std::uint32_t> nodes;
     std::vector<std::uint32_t> chunk_links;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rope/chain_system.hpp"
+#include "rope/cloth_grid.hpp"
 #include "rope/direct_block.hpp"
 #include "rope/plan.hpp"
 #include "tendril/rope/world.hpp"
@@ -40,6 +41,10 @@ struct Scratch {
 
         /// How far the shape has moved at the point of it that is nearest to `at`.
         glm::dvec3 by_at(const glm::dvec3& at) const;
+        /// The distance of `place`, where a particle came from `was` in the substep. Something fast is put
+        /// back to where it touches first, on the side that it came from.
+        SurfaceDistance entered(const glm::dvec3& was, glm::dvec3& place, double radius,
+                                std::uint64_t& work) const;
         /// Whether a ball is wholly beyond where the shape is or was in the substep.
         bool far_from(const glm::dvec3& at, double radius) const {
             return at.x + radius < low.x || at.y + radius < low.y || at.z + radius < low.z ||
@@ -52,7 +57,10 @@ struct Scratch {
     std::vector<double> chain_gain;          ///< of each chain: energy it has more of than before, joules
     std::vector<double> chain_scale;  ///< of each chain: what its motion keeps, so that no energy is gained
     std::vector<std::uint32_t> collider_at;  ///< where a slot's collider is in the list
+    std::vector<detail::Cloth> cloths;       ///< of the plan's grids
     detail::VectorUnit unit;
+    detail::GridUnit grid_unit;
+    detail::ClothUnit cloth_unit;
 };
 
 /// What solving a chain among colliders takes.
@@ -92,6 +100,14 @@ struct ContactScratch {
     std::vector<double> kept_contacts;
 };
 
+/// Of a particle of a cloth that a collider holds.
+struct ClothContact {
+    std::uint32_t near = 0, particle = 0;  ///< `near`: in IslandScratch's
+    double force = 0.0;                    ///< in the last solve; over 0: it presses
+    double gap = 0.0;                      ///< from the collider's surface, less the particle's radius
+    glm::dvec3 normal{0.0};
+};
+
 /// What solving one island takes; each thread has its own.
 struct IslandScratch {
     struct Near {
@@ -103,6 +119,7 @@ struct IslandScratch {
     std::vector<double> block;           ///< memory of a block
     std::size_t block_offset = 0;
     ContactScratch contact;
+    std::vector<ClothContact> cloth_contacts, earlier_contacts;
     Advance done;  ///< in this substep; `passes` of the island that took most
 };
 

@@ -62,6 +62,7 @@ class Substep {
     struct Batch;
     int direct();
     int direct_alone();
+    int direct_grid();
     double solve_group(const Plan::Group& group, int iteration);
     double solve_batch(const Batch& batch, int iteration);
     void solve_again(std::uint32_t chain);

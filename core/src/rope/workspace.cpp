@@ -24,12 +24,18 @@ void size(Scratch& scratch, const State& state, const Plan& plan) {
     scratch.chain_error.assign(plan.chains.size(), 0.0);
     scratch.chain_gain.assign(plan.chains.size(), 0.0);
     scratch.chain_scale.assign(plan.chains.size(), 1.0);
+    scratch.cloths.resize(plan.grids.size());
+    for (std::size_t i = 0; i < plan.grids.size(); ++i)
+        scratch.cloths[i].resize(plan.grids[i].columns, plan.grids[i].rows);
 }
 
 void size(IslandScratch& scratch, const State& state, const Plan& plan, std::size_t lanes) {
     scratch.touched.clear();
     scratch.touched.reserve(state.position.size());
     scratch.near.reserve(4 * plan.chunks.size());
+    const std::size_t cells = plan.grids.empty() ? 0 : state.position.size();
+    scratch.cloth_contacts.reserve(cells);
+    scratch.earlier_contacts.reserve(cells);
     const std::size_t nodes = plan.longest + 1;
     ContactScratch& contact = scratch.contact;
     contact.nodes.reserve(nodes), contact.bonds.reserve(nodes), contact.kept.reserve(nodes);
@@ -46,6 +52,8 @@ void size(IslandScratch& scratch, const State& state, const Plan& plan, std::siz
 
 Workspace::Workspace() : parts_(std::make_unique<Parts>()) {
     parts_->scratch.unit = detail::vector_unit("");
+    parts_->scratch.grid_unit = detail::grid_unit("");
+    parts_->scratch.cloth_unit = detail::cloth_unit("");
 }
 Workspace::Workspace(Workspace&&) noexcept = default;
 Workspace& Workspace::operator=(Workspace&&) noexcept = default;
@@ -59,6 +67,8 @@ Result Workspace::use_vector_unit(std::string_view name) {
                                         name);
     }
     parts_->scratch.unit = single ? detail::VectorUnit{unit.single, unit.single, 1} : unit;
+    parts_->scratch.grid_unit = detail::grid_unit(single ? "" : name);
+    parts_->scratch.cloth_unit = detail::cloth_unit(single ? "" : name);
     parts_->prepared = false;
     return {};
 }

@@ -1,0 +1,169 @@
+#include "rope/cloth_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rope/build.hpp"
+#include "rope/geometry.hpp"
+
+namespace tendril::rope {
+namespace {
+
+using glm::dvec3;
+
+/// What a link is stretched by where the whole weight of its cloth hangs on it.
+constexpr double strain_by_weight = 2e-3;
+/// Of a link, in m / h^2.
+constexpr double min_stiffness = 1e4, max_stiffness = 1e6;
+constexpr double tolerance = 1e-3;  ///< of the residual
+/// Of a stretch link, with which a solve is good enough.
+constexpr double accepted_strain = 0.01;
+
+}  // namespace
+
+void detail::Cloth::resize(std::size_t columns, std::size_t rows) {
+    std::array<float*, 3 * fine_steps + 7> all{};
+    system.resize(columns, rows, all);
+    auto next = all.begin();
+    for (auto* links : {&arrays.rest, &arrays.stiffness, &arrays.pull})
+        for (float*& each : *links) each = *next++;
+    for (GridVector* vector : {&arrays.place, &arrays.lag})
+        for (float*& each : *vector) each = *next++;
+    arrays.mass = *next;
+}
+
+ClothSolver::ClothSolver(const State& state, const Plan& plan, const Plan::Island& island, Scratch& scratch,
+                         IslandScratch& local)
+    : state_(state),
+      plan_(plan),
+      island_(island),
+      scratch_(scratch),
+      local_(local),
+      grid_(plan.grids[island.grid - 1]),
+      cloth_(scratch.cloths[island.grid - 1]),
+      level_(cloth_.system.finest()),
+      first_(state.bodies[grid_.body].first),
+      h_(state.settings.substep) {
+    const std::size_t count = state.bodies[grid_.body].count;
+    double whole = 0.0, shortest = 1e30;
+    for (std::size_t i = first_; i < first_ + count; ++i) whole += state.mass[i];
+    for (const std::uint32_t i : Plan::part(plan.links, island.links)) {
+        const Link& link = state.links[i];
+        if (link.kind == Link::Kind::Stretch && link.rest > 0.0f)
+            shortest = std::min(shortest, static_cast<double>(link.rest));
+    }
+    mass_ = whole / static_cast<double>(count);
+    unit_ = mass_ / (h_ * h_);
+    const double weight = whole * detail::length(detail::acceleration(state.settings));
+    stiffness_ = std::clamp(weight / (strain_by_weight * shortest * unit_), min_stiffness, max_stiffness);
+}
+
+/// Calls with each particle and its cell.
+template <class Visit>
+void ClothSolver::each_cell(Visit visit) const {
+    const std::size_t stride = detail::grid_stride(grid_.columns);
+    for (std::size_t row = 0; row < grid_.rows; ++row)
+        for (std::size_t column = 0; column < grid_.columns; ++column)
+            visit(first_ + row * grid_.columns + column, row * stride + column);
+}
+
+double ClothSolver::stiffness_of(const Link& link) const {
+    const double own = link.kind == Link::Kind::Stretch ? static_cast<double>(state_.settings.compliance) * link.rest
+                                                        : 0.0;
+    const double compliance = (own + link.compliance) * unit_;
+    return compliance * stiffness_ > 1.0 ? 1.0 / compliance : stiffness_;
+}
+
+/// What stays the same however often it is solved.
+void ClothSolver::load() {
+    detail::ClothArrays& to = cloth_.arrays;
+    const std::size_t cells = level_.cells();
+    std::fill_n(to.mass, cells, 1.0f);
+    std::fill_n(level_.free, cells, 0.0f);
+    lightest_ = 1.0f;
+    each_cell([&](std::size_t i, std::size_t cell) {
+        to.mass[cell] = static_cast<float>(state_.mass[i] / mass_);
+        lightest_ = std::min(lightest_, to.mass[cell]);
+        level_.free[cell] = scratch_.weight[i] == 0.0 ? 0.0f : 1.0f;
+    });
+    for (float* each : to.stiffness) std::fill_n(each, cells, 0.0f);
+    for (const Plan::GridLink& each : Plan::part(plan_.grid_links, grid_.links)) {
+        const Link& link = state_.links[each.link];
+        to.rest[each.step][each.cell] = link.rest;
+        to.stiffness[each.step][each.cell] = static_cast<float>(stiffness_of(link));
+    }
+}
+
+/// The system where everything is now.
+void ClothSolver::assemble() {
+    detail::ClothArrays& to = cloth_.arrays;
+    const dvec3 origin = scratch_.place[first_];
+    each_cell([&](std::size_t i, std::size_t cell) {
+        const dvec3 place = scratch_.place[i] - origin, lag = scratch_.base[i] - scratch_.place[i];
+        to.place[0][cell] = static_cast<float>(place.x), to.lag[0][cell] = static_cast<float>(lag.x);
+        to.place[1][cell] = static_cast<float>(place.y), to.lag[1][cell] = static_cast<float>(lag.y);
+        to.place[2][cell] = static_cast<float>(place.z), to.lag[2][cell] = static_cast<float>(lag.z);
+    });
+    scratch_.cloth_unit.links(level_, to);
+    scratch_.cloth_unit.cells(level_, to);
+}
+
+/// Takes pinned particles out of it.
+void ClothSolver::pin() {
+    each_cell([&](std::size_t, std::size_t cell) {
+        if (level_.free[cell] != 0.0f) return;
+        for (std::size_t k = 0; k < 6; ++k) level_.diagonal[k][cell] = k == 0 || k == 3 || k == 5 ? 1.0f : 0.0f;
+        for (float* each : level_.right) each[cell] = 0.0f;
+        for (std::size_t s = 0; s < detail::fine_steps; ++s)
+            for (float* each : level_.links[s]) {
+                each[cell] = 0.0f;
+                *(each + cell - level_.step(s)) = 0.0f;  // before the first cell there is memory, too
+            }
+    });
+}
+
+int ClothSolver::step(int iterations) {
+    assemble();
+    add_contacts();
+    pin();
+    const auto solved = cloth_.system.solve(scratch_.grid_unit, lightest_, tolerance, iterations);
+    converged_ = solved.converged;
+    const detail::GridVector& by = cloth_.system.solution();
+    each_cell([&](std::size_t i, std::size_t cell) {
+        scratch_.place[i] += dvec3(by[0][cell], by[1][cell], by[2][cell]);
+    });
+    return solved.iterations;
+}
+
+/// Multipliers of links: what pulls in them where their ends are now. The largest strain of a stretch link.
+double ClothSolver::note_tensions() {
+    double worst = 0.0;
+    for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
+        const Link& link = state_.links[i];
+        const double length = detail::length(scratch_.place[link.b] - scratch_.place[link.a]);
+        const double stiffness = stiffness_of(link);
+        scratch_.multiplier[i] = stiffness * mass_ * (length - link.rest);
+        if (link.kind == Link::Kind::Stretch && stiffness == stiffness_)
+            worst = std::max(worst, std::abs(length - link.rest) / link.rest);
+    }
+    return worst;
+}
+
+int ClothSolver::solve(int iterations) {
+    // More than one where the first was not near enough to the end: among colliders, and where links turn by
+    // much.
+    constexpr int max_rounds = 3;
+    load();
+    local_.cloth_contacts.clear();
+    int most = 0;
+    for (int round = 0; round < max_rounds; ++round) {
+        find_contacts(round == 0);
+        most = std::max(most, step(iterations));
+        note_forces();
+        const double strain = note_tensions();
+        if (local_.near.empty() && strain <= accepted_strain) break;
+    }
+    return most;
+}
+
+}  // namespace tendril::rope

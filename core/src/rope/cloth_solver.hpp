@@ -1,0 +1,57 @@
+// A cloth that is a grid, solved as a whole together with what it touches: one implicit step (cloth_grid.hpp)
+// in which a contact is as stiff as a link, and friction is a drag along the surface (Coulomb's law, by the
+// force and the slip of the solve before: M. Li et al., "Incremental Potential Contact", 2020). Near colliders
+// it is solved again from where it came to, with the contacts found there. Not installed.
+#pragma once
+
+#include "rope/scratch.hpp"
+
+namespace tendril::rope {
+
+class ClothSolver {
+  public:
+    ClothSolver(const State& state, const Plan& plan, const Plan::Island& island, Scratch& scratch,
+                IslandScratch& local);
+
+    /// Of the island's particles, from `base`. At most so many iterations each time; how many it took most.
+    int solve(int iterations);
+    bool converged() const { return converged_; }
+
+  private:
+    // cloth_solver.cpp
+    void load();
+    void assemble();
+    void pin();
+    int step(int iterations);
+    double note_tensions();
+
+    // cloth_contact.cpp
+    void find_contacts(bool first);
+    void find_contact(ClothContact contact, double radius, bool first);
+    void add_contacts();
+    void note_forces();
+
+    double stiffness_of(const Link& link) const;
+    std::size_t cell_of(std::size_t particle) const {
+        const std::size_t number = particle - first_;
+        return number / grid_.columns * detail::grid_stride(grid_.columns) + number % grid_.columns;
+    }
+    template <class Visit>
+    void each_cell(Visit visit) const;
+
+    const State& state_;
+    const Plan& plan_;
+    const Plan::Island& island_;
+    Scratch& scratch_;
+    IslandScratch& local_;
+    const Plan::Grid& grid_;
+    detail::Cloth& cloth_;
+    const detail::GridLevel& level_;
+    std::size_t first_;
+    double h_, mass_ = 0.0, unit_ = 0.0;  ///< the mean of a particle, kg; its m / h^2
+    double stiffness_ = 0.0;              ///< the most that a link has, in that unit
+    float lightest_ = 1.0f;
+    bool converged_ = true;
+};
+
+}  // namespace tendril::rope

@@ -1,0 +1,99 @@
+// The system of a cloth, for each vector unit. Highway compiles this file once for each: it includes it again
+// and again, each time with another HWY_NAMESPACE.
+#include <cstdint>
+#include <string_view>
+
+#include "math/dispatch.hpp"
+#include "rope/cloth_grid.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "rope/cloth_vector.cpp"
+#include <hwy/foreach_target.h>  // before highway.h
+#include <hwy/highway.h>
+
+#include "rope/grid_lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace tendril::rope::detail {
+namespace HWY_NAMESPACE {
+
+void links(const GridLevel& level, const ClothArrays& cloth) {
+    const V zero = hn::Zero(Tag()), one = hn::Set(Tag(), 1.0f), shortest = hn::Set(Tag(), 1e-18f);
+    for (std::size_t s = 0; s < fine_steps; ++s) {
+        const std::ptrdiff_t step = level.step(s);
+        const GridBlocks& blocks = level.links[s];
+        each_register(level.cells(), [&](std::ptrdiff_t i) {
+            const V stiffness = load(cloth.stiffness[s] + i), rest = load(cloth.rest[s] + i);
+            V3 by = load(cloth.place, i + step) - load(cloth.place, i);
+            const V length = hn::Sqrt(
+                hn::Add(hn::Add(hn::Mul(by.x, by.x), hn::Mul(by.y, by.y)), hn::Mul(by.z, by.z)));
+            // Particles in one place: any direction will do.
+            const auto some = hn::Gt(length, shortest);
+            const V inverse = hn::Div(one, hn::IfThenElse(some, length, one));
+            const V3 n = {hn::IfThenElse(some, hn::Mul(by.x, inverse), one), hn::Mul(by.y, inverse),
+                          hn::Mul(by.z, inverse)};
+            const V pull = hn::Mul(hn::Mul(stiffness, hn::Sub(length, rest)), inverse);
+            const V sideways = hn::Max(pull, zero), along = hn::Sub(stiffness, sideways);
+            const V3 a = along * n;
+            hn::StoreU(pull, Tag(), cloth.pull[s] + i);
+            hn::StoreU(hn::Add(hn::Mul(a.x, n.x), sideways), Tag(), blocks[0] + i);
+            hn::StoreU(hn::Mul(a.x, n.y), Tag(), blocks[1] + i);
+            hn::StoreU(hn::Mul(a.x, n.z), Tag(), blocks[2] + i);
+            hn::StoreU(hn::Add(hn::Mul(a.y, n.y), sideways), Tag(), blocks[3] + i);
+            hn::StoreU(hn::Mul(a.y, n.z), Tag(), blocks[4] + i);
+            hn::StoreU(hn::Add(hn::Mul(a.z, n.z), sideways), Tag(), blocks[5] + i);
+        });
+    }
+}
+
+void cells(const GridLevel& level, const ClothArrays& cloth) {
+    std::ptrdiff_t step[fine_steps];
+    for (std::size_t s = 0; s < fine_steps; ++s) step[s] = level.step(s);
+    each_register(level.cells(), [&](std::ptrdiff_t i) {
+        const V3 at = load(cloth.place, i);
+        V3 right = load(cloth.mass + i) * load(cloth.lag, i);
+        for (std::size_t s = 0; s < fine_steps; ++s) {
+            const float* pull = cloth.pull[s] + i;
+            right = right + load(pull) * (load(cloth.place, i + step[s]) - at);
+            right = right - load(pull - step[s]) * (at - load(cloth.place, i - step[s]));
+        }
+        store(right, level.right, i);
+    });
+    for (std::size_t k = 0; k < 6; ++k) {
+        const bool diagonal = k == 0 || k == 3 || k == 5;
+        each_register(level.cells(), [&](std::ptrdiff_t i) {
+            V sum = diagonal ? load(cloth.mass + i) : hn::Zero(Tag());
+            for (std::size_t s = 0; s < fine_steps; ++s) {
+                const float* block = level.links[s][k] + i;
+                sum = hn::Add(sum, hn::Add(load(block), load(block - step[s])));
+            }
+            hn::StoreU(sum, Tag(), level.diagonal[k] + i);
+        });
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tendril::rope::detail
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tendril::rope::detail {
+namespace {
+
+HWY_EXPORT(links);
+HWY_EXPORT(cells);
+
+}  // namespace
+
+ClothUnit cloth_unit(std::string_view name) noexcept {
+    ClothUnit unit;
+    tendril::detail::for_each_target([&](std::int64_t target) {
+        const bool asked = name.empty() || name == hwy::TargetName(target);
+        if (unit.links != nullptr || !asked) return;
+        unit = {TENDRIL_COMPILED_FOR(links, target), TENDRIL_COMPILED_FOR(cells, target)};
+    });
+    return unit;
+}
+
+}  // namespace tendril::rope::detail
+#endif
