@@ -182,8 +182,7 @@ void number_rows(const Workspace& workspace, const Palette& palette) {
     reading("length error", "%.4f %%", 100.0 * static_cast<double>(last.error));
     explain("How far the worst segment is from its length, as one sees it: after contact.");
     reading("as solved", "%.4f %%", 100.0 * static_cast<double>(last.stretch));
-    explain(
-        "The length error as the solver left it: of cloth and hair, before colliders displaced anything.");
+    explain("The length error as the solver left it: of hair, before colliders displaced anything.");
     reading("energy", "%.3f J", static_cast<double>(last.energy));
     reading("substeps dropped", "%llu", static_cast<unsigned long long>(state.dropped));
     explain(

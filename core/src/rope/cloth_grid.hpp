@@ -5,10 +5,10 @@
 //
 //     sum of m |x - x0|^2 / (2 h^2)  +  sum over links of k (length - rest)^2 / 2
 //
-// is least: the backward Euler method (D. Baraff, A. Witkin, "Large Steps in Cloth Simulation", 1998). One step
-// of Newton's method from x0 comes close enough. With f = k (length - rest), n the direction of a link and
-// g = max(f, 0) / length, the block of a link is (k - g) n n^T + g I: what tension adds sideways keeps a taut
-// cloth smooth, and what compression would take away is left out, so the system stays positive definite.
+// is least: the backward Euler method (D. Baraff, A. Witkin, "Large Steps in Cloth Simulation", 1998). One
+// step of Newton's method from x0 comes close enough. With f = k (length - rest), n the direction of a link
+// and g = max(f, 0) / length, the block of a link is (k - g) n n^T + g I: what tension adds sideways keeps a
+// taut cloth smooth, and what compression would take away is left out, so the system stays positive definite.
 //
 // Stiffness and force are in units of m / h^2, with m the mean mass of the cloth: numbers stay in range
 // whatever its scale.

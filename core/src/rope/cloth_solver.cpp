@@ -16,7 +16,7 @@ constexpr double strain_by_weight = 2e-3;
 /// Of a link, in m / h^2.
 constexpr double min_stiffness = 1e4, max_stiffness = 1e6;
 constexpr double tolerance = 1e-3;  ///< of the residual
-/// Of a stretch link, with which a solve is good enough.
+/// Of a stretch link, where it is good enough.
 constexpr double accepted_strain = 0.01;
 
 }  // namespace
@@ -68,8 +68,8 @@ void ClothSolver::each_cell(Visit visit) const {
 }
 
 double ClothSolver::stiffness_of(const Link& link) const {
-    const double own = link.kind == Link::Kind::Stretch ? static_cast<double>(state_.settings.compliance) * link.rest
-                                                        : 0.0;
+    const double own =
+        link.kind == Link::Kind::Stretch ? static_cast<double>(state_.settings.compliance) * link.rest : 0.0;
     const double compliance = (own + link.compliance) * unit_;
     return compliance * stiffness_ > 1.0 ? 1.0 / compliance : stiffness_;
 }
@@ -83,7 +83,7 @@ void ClothSolver::load() {
     lightest_ = 1.0f;
     each_cell([&](std::size_t i, std::size_t cell) {
         to.mass[cell] = static_cast<float>(state_.mass[i] / mass_);
-        lightest_ = std::min(lightest_, to.mass[cell]);
+        lightest_ = std::clamp(to.mass[cell], 1e-12f, lightest_);
         level_.free[cell] = scratch_.weight[i] == 0.0 ? 0.0f : 1.0f;
     });
     for (float* each : to.stiffness) std::fill_n(each, cells, 0.0f);
@@ -112,7 +112,8 @@ void ClothSolver::assemble() {
 void ClothSolver::pin() {
     each_cell([&](std::size_t, std::size_t cell) {
         if (level_.free[cell] != 0.0f) return;
-        for (std::size_t k = 0; k < 6; ++k) level_.diagonal[k][cell] = k == 0 || k == 3 || k == 5 ? 1.0f : 0.0f;
+        for (std::size_t k = 0; k < 6; ++k)
+            level_.diagonal[k][cell] = k == 0 || k == 3 || k == 5 ? 1.0f : 0.0f;
         for (float* each : level_.right) each[cell] = 0.0f;
         for (std::size_t s = 0; s < detail::fine_steps; ++s)
             for (float* each : level_.links[s]) {
@@ -150,18 +151,18 @@ double ClothSolver::note_tensions() {
 }
 
 int ClothSolver::solve(int iterations) {
-    // More than one where the first was not near enough to the end: among colliders, and where links turn by
-    // much.
+    // More than one where the first was not near enough to the end: where it touches something, and where
+    // links turn by much.
     constexpr int max_rounds = 3;
     load();
-    local_.cloth_contacts.clear();
     int most = 0;
+    double strain = 0.0;
     for (int round = 0; round < max_rounds; ++round) {
         find_contacts(round == 0);
+        if (round > 0 && local_.cloth_contacts.empty() && strain <= accepted_strain) break;
         most = std::max(most, step(iterations));
         note_forces();
-        const double strain = note_tensions();
-        if (local_.near.empty() && strain <= accepted_strain) break;
+        strain = note_tensions();
     }
     return most;
 }

@@ -1,7 +1,7 @@
 // A cloth that is a grid, solved as a whole together with what it touches: one implicit step (cloth_grid.hpp)
 // in which a contact is as stiff as a link, and friction is a drag along the surface (Coulomb's law, by the
-// force and the slip of the solve before: M. Li et al., "Incremental Potential Contact", 2020). Near colliders
-// it is solved again from where it came to, with the contacts found there. Not installed.
+// force and the slip of the solve before: M. Li et al., "Incremental Potential Contact", 2020). Near
+// colliders it is solved again from where it came to, with the contacts found there. Not installed.
 #pragma once
 
 #include "rope/scratch.hpp"
@@ -27,9 +27,15 @@ class ClothSolver {
 
     // cloth_contact.cpp
     void find_contacts(bool first);
-    void find_contact(ClothContact contact, double radius, bool first);
+    void find_at_particle(ClothContact contact, double radius, bool first);
+    void find_at_link(ClothContact contact, double radius);
+    void keep(ClothContact contact, const SurfaceDistance& surface, double radius);
     void add_contacts();
+    void add_contact(const ClothContact& contact);
     void note_forces();
+    const Scratch::Moving& collider_of(const ClothContact& contact) const {
+        return scratch_.colliders[local_.near[contact.near].collider];
+    }
 
     double stiffness_of(const Link& link) const;
     std::size_t cell_of(std::size_t particle) const {

@@ -25,8 +25,8 @@ void links(const GridLevel& level, const ClothArrays& cloth) {
         each_register(level.cells(), [&](std::ptrdiff_t i) {
             const V stiffness = load(cloth.stiffness[s] + i), rest = load(cloth.rest[s] + i);
             V3 by = load(cloth.place, i + step) - load(cloth.place, i);
-            const V length = hn::Sqrt(
-                hn::Add(hn::Add(hn::Mul(by.x, by.x), hn::Mul(by.y, by.y)), hn::Mul(by.z, by.z)));
+            const V length =
+                hn::Sqrt(hn::Add(hn::Add(hn::Mul(by.x, by.x), hn::Mul(by.y, by.y)), hn::Mul(by.z, by.z)));
             // Particles in one place: any direction will do.
             const auto some = hn::Gt(length, shortest);
             const V inverse = hn::Div(one, hn::IfThenElse(some, length, one));

@@ -151,9 +151,8 @@ void Substep::resolve_particle(std::uint32_t i, std::uint32_t number, double rad
     dvec3& place = scratch_.place[i];
     const double travelled = first ? detail::length(place - state_.position[i]) : 0.0;
     if (collider.far_from(place, radius + travelled)) return;
-    const SurfaceDistance surface =
-        first ? collider.entered(state_.position[i], place, radius, report_.work)
-              : surface_distance(*collider.shape, place);
+    const SurfaceDistance surface = first ? collider.entered(state_.position[i], place, radius, report_.work)
+                                          : surface_distance(*collider.shape, place);
     const double depth = radius - surface.distance;
     if (!(depth > 0.0)) return;
     place += depth * surface.normal;

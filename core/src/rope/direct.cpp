@@ -5,9 +5,10 @@
 // it is solved again from the tension that was found, which now acts along the links' new directions: that
 // converges, and costs energy.
 //
-// A chain that touches colliders is solved with its contacts, by Newton's method (chain_newton.hpp). Where
-// chains share particles, as in a cloth, contacts are resolved last: what tension draws into a collider shows
-// as depth, and bounds friction. The length errors that this causes are corrected in the next substep.
+// A chain that touches colliders is solved with its contacts, by Newton's method (chain_newton.hpp). A
+// cloth that is a grid is one system with its contacts (cloth_solver.hpp). Where chains share particles
+// otherwise, as in hair, contacts are resolved last: what tension draws into a collider shows as depth, and
+// bounds friction. The length errors that this causes are corrected in the next substep.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -4,8 +4,8 @@
 //     (D_i x_i) - sum over links ij of H_ij x_j = r_i
 //
 // H_ij is symmetric and positive semidefinite, and D_i is the sum of the H_ij of its links, plus something
-// that is positive definite. Links lead to the neighbours of a particle and to the next but one in its row and
-// column. The preconditioner is one multigrid cycle, V(1,1), with damped block Jacobi as smoother: 2 x 2
+// that is positive definite. Links lead to the neighbours of a particle and to the next but one in its row
+// and column. The preconditioner is one multigrid cycle, V(1,1), with damped block Jacobi as smoother: 2 x 2
 // particles make one of the next level, whose blocks are sums of theirs, so the number of iterations hardly
 // grows with the grid (W. Briggs, V. Henson, S. McCormick, "A Multigrid Tutorial", 2000; Y. Notay, "An
 // aggregation-based algebraic multigrid method", 2010).

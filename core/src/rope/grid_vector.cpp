@@ -1,5 +1,5 @@
-// What is done to a grid, for each vector unit. Highway compiles this file once for each: it includes it again
-// and again, each time with another HWY_NAMESPACE.
+// What is done to a grid, for each vector unit. Highway compiles this file once for each: it includes it
+// again and again, each time with another HWY_NAMESPACE.
 #include <algorithm>
 #include <cstdint>
 #include <string_view>
@@ -38,8 +38,8 @@ V3 solve(const Block& factor, const V3& right) {
     const V z = hn::Sub(hn::Sub(right.z, hn::Mul(factor.xz, right.x)), hn::Mul(factor.yz, y));
     const V to_z = hn::Mul(factor.zz, z);
     const V to_y = hn::Sub(hn::Mul(factor.yy, y), hn::Mul(factor.yz, to_z));
-    const V to_x = hn::Sub(hn::Sub(hn::Mul(factor.xx, right.x), hn::Mul(factor.xy, to_y)),
-                           hn::Mul(factor.xz, to_z));
+    const V to_x =
+        hn::Sub(hn::Sub(hn::Mul(factor.xx, right.x), hn::Mul(factor.xy, to_y)), hn::Mul(factor.xz, to_z));
     return {to_x, to_y, to_z};
 }
 
@@ -146,9 +146,8 @@ void coarsen_blocks(const GridLevel& fine, const GridLevel& coarse, std::size_t 
         const Pairs down_i = load_pairs(down + i), down_j = load_pairs(down + j);
         const Pairs falling_i = load_pairs(falling + i), falling_j = load_pairs(falling + j);
         const Pairs rising_i = load_pairs(rising + i), rising_j = load_pairs(rising + j);
-        const V own = hn::Add(
-            hn::Add(hn::Mul(free_i.even, own_i.even), hn::Mul(free_i.odd, own_i.odd)),
-            hn::Add(hn::Mul(free_j.even, own_j.even), hn::Mul(free_j.odd, own_j.odd)));
+        const V own = hn::Add(hn::Add(hn::Mul(free_i.even, own_i.even), hn::Mul(free_i.odd, own_i.odd)),
+                              hn::Add(hn::Mul(free_j.even, own_j.even), hn::Mul(free_j.odd, own_j.odd)));
         const V inner = hn::Add(hn::Add(hn::Add(right_i.even, right_j.even), sum(down_i)),
                                 hn::Add(falling_i.even, rising_i.odd));
         V to_right = hn::Add(hn::Add(right_i.odd, right_j.odd), falling_i.odd);
@@ -157,14 +156,13 @@ void coarsen_blocks(const GridLevel& fine, const GridLevel& coarse, std::size_t 
         V to_down = hn::Add(hn::Add(sum(down_j), falling_j.even), rising_j.odd);
         if (fine.steps == fine_steps) {
             const float *far_right = fine.links[4][k], *far_down = fine.links[5][k];
-            to_right = hn::Add(to_right, hn::Add(sum(load_pairs(far_right + i)), sum(load_pairs(far_right + j))));
+            to_right =
+                hn::Add(to_right, hn::Add(sum(load_pairs(far_right + i)), sum(load_pairs(far_right + j))));
             to_down = hn::Add(to_down, hn::Add(sum(load_pairs(far_down + i)), sum(load_pairs(far_down + j))));
         }
         const V free = load(coarse.free + to), zero = hn::Zero(Tag());
         const V pinned = k == 0 || k == 3 || k == 5 ? hn::Sub(hn::Set(Tag(), 1.0f), free) : zero;
-        const auto keep = [&](V value, float* where) {
-            hn::StoreU(hn::Mul(free, value), Tag(), where + to);
-        };
+        const auto keep = [&](V value, float* where) { hn::StoreU(hn::Mul(free, value), Tag(), where + to); };
         hn::StoreU(hn::Add(hn::Mul(free, hn::Sub(own, hn::Mul(two, inner))), pinned), Tag(),
                    coarse.diagonal[k] + to);
         keep(to_right, coarse.links[0][k]);

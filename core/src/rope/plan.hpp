@@ -22,7 +22,7 @@ struct Plan {
     struct Island {
         Range bodies{}, links{}, soft{}, chains{}, groups{}, chunks{};
         std::uint32_t particles = 0;
-        bool alone = false;  ///< every chain is, and there is no soft link
+        bool alone = false;      ///< every chain is, and there is no soft link
         std::uint32_t grid = 0;  ///< one that all its links are of, in `grids`, counted from 1; 0: none
     };
     /// Stretch links that follow each other: each begins at the particle where the one before ended.

@@ -100,12 +100,17 @@ struct ContactScratch {
     std::vector<double> kept_contacts;
 };
 
-/// Of a particle of a cloth that a collider holds.
+/// Where a collider holds a particle of a cloth, or a link between its ends.
 struct ClothContact {
-    std::uint32_t near = 0, particle = 0;  ///< `near`: in IslandScratch's
-    double force = 0.0;                    ///< in the last solve; over 0: it presses
-    double gap = 0.0;                      ///< from the collider's surface, less the particle's radius
+    std::uint32_t near = 0;      ///< in IslandScratch's
+    std::uint32_t a = 0, b = 0;  ///< particles; one and the same, or a link's
+    std::uint32_t link = 0;      ///< of a link: its number
+    double t = 0.0;              ///< where it is between them, 0: at a
+    double force = 0.0;          ///< in the last solve; over 0: it presses
+    double gap = 0.0;            ///< from the collider's surface, less the radius of the cloth
     glm::dvec3 normal{0.0};
+
+    bool is_link() const { return a != b; }
 };
 
 /// What solving one island takes; each thread has its own.

@@ -25,7 +25,7 @@ struct Body {
     /// links tear at 0.5 more.
     float tear = 0.0f;
     /// The largest relative length error of its stretch links, |length / rest - 1| (or the length, where a
-    /// rest is 0), as the solver left it last: of cloth and hair before contact. World::length_error() has it
+    /// rest is 0), as the solver left it last: of hair before contact. World::length_error() has it
     /// after.
     float stretch = 0.0f;
     bool operator==(const Body&) const = default;
