@@ -16,9 +16,9 @@
 //   holonomic constraints", 1999). A rope that touches colliders is solved together with its contacts and
 //   their friction, by Newton's method: it keeps its length on a ball as it does in the air, with any number
 //   of segments. A cloth is one system with its contacts: a backward Euler step (D. Baraff, A. Witkin, "Large
-//   Steps in Cloth Simulation", 1998) in which the weight of the whole cloth stretches a link by 0.2 %, solved
-//   by conjugate gradients with a multigrid cycle, so that the iterations hardly grow with its resolution. Hair
-//   is solved strand by strand, and its contacts and bending between the passes.
+//   Steps in Cloth Simulation", 1998) in which the weight of the whole cloth stretches a link by 0.2 %. It is
+//   solved by conjugate gradients with a multigrid cycle, so that the iterations hardly grow with its
+//   resolution. Hair is solved strand by strand, and its contacts and bending between the passes.
 #pragma once
 
 #include <cstddef>
@@ -36,8 +36,8 @@ const char* name(Solver solver) noexcept;
 struct Settings {
     /// Seconds, min_substep to max_substep.
     double substep = 1.0 / 240.0;
-    /// Passes in a substep, 1 to max_iterations. Direct ends as soon as it has converged; for a cloth it takes
-    /// so many iterations of conjugate gradients for each of 1 to 3 steps of Newton's method.
+    /// Passes in a substep, 1 to max_iterations. Direct ends as soon as it has converged; for a cloth it
+    /// takes so many iterations of conjugate gradients in each of 1 to 3 steps of Newton's method.
     int iterations = 16;
     Solver solver = Solver::Direct;
     /// How fast motion dies away, 1/s, 0 to max_rate.
@@ -50,8 +50,8 @@ struct Settings {
     /// Strain per newton, 1/N, 0 to max_compliance: how much longer a metre of rope gets under one newton.
     /// Relaxation ignores it.
     float compliance = 0.0f;
-    /// Coulomb's coefficient between rope and colliders, 0 to max_friction. What it holds of a cloth on a slope
-    /// still creeps, by some millimetres a second.
+    /// Coulomb's coefficient between rope and colliders, 0 to max_friction. A cloth that it holds on a
+    /// slope still creeps, by some millimetres a second.
     float friction = 0.5f;
     /// Seconds that one call of advance() simulates at most; what is over is dropped. Over 0, to 10.
     float longest_frame = 0.25f;
