@@ -46,11 +46,11 @@ dvec3 Scratch::Moving::by_at(const dvec3& at) const {
     return by + (2.0 * t - 1.0) * turn;
 }
 
-SurfaceDistance Scratch::Moving::entered(const dvec3& was, dvec3& place, double radius,
+SurfaceDistance Scratch::Moving::entered(const dvec3& was, dvec3& at, double radius,
                                          std::uint64_t& work) const {
-    const SurfaceDistance surface = surface_distance(*shape, place);
+    const SurfaceDistance surface = surface_distance(*shape, at);
     // As the collider sees it.
-    const dvec3 from = was + by_at(place), way = place - from;
+    const dvec3 from = was + by_at(at), way = at - from;
     const double far = detail::length(way), stride = 0.5 * size + radius;
     if (!(far > stride && surface.distance < far + radius)) return surface;
     const int samples = static_cast<int>(std::min(64.0, std::ceil(far / std::max(stride, 1e-9))));
@@ -59,7 +59,7 @@ SurfaceDistance Scratch::Moving::entered(const dvec3& was, dvec3& place, double 
         const dvec3 on_the_way = from + (static_cast<double>(k) / samples) * way;
         const SurfaceDistance there = surface_distance(*shape, on_the_way);
         if (there.distance >= radius) continue;
-        place = on_the_way;
+        at = on_the_way;
         return there;
     }
     return surface;

@@ -41,9 +41,9 @@ struct Scratch {
 
         /// How far the shape has moved at the point of it that is nearest to `at`.
         glm::dvec3 by_at(const glm::dvec3& at) const;
-        /// The distance of `place`, where a particle came from `was` in the substep. Something fast is put
+        /// The distance of `at`, where a particle came from `was` in the substep. Something fast is put
         /// back to where it touches first, on the side that it came from.
-        SurfaceDistance entered(const glm::dvec3& was, glm::dvec3& place, double radius,
+        SurfaceDistance entered(const glm::dvec3& was, glm::dvec3& at, double radius,
                                 std::uint64_t& work) const;
         /// Whether a ball is wholly beyond where the shape is or was in the substep.
         bool far_from(const glm::dvec3& at, double radius) const {
