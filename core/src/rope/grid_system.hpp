@@ -85,7 +85,7 @@ GridUnit grid_unit(std::string_view name) noexcept;
 
 class GridSystem {
   public:
-    /// Makes room for a grid, all zero, and for `others`, arrays like those of its finest level.
+    /// Takes memory for a grid, all zero, and for `others`, arrays like those of its finest level.
     void resize(std::size_t columns, std::size_t rows, std::span<float*> others = {});
     /// To be filled: `free`, the diagonal, the blocks of links and the right side; of a cell that is not
     /// free the diagonal is 1 and all else 0, blocks of its links too. solve() changes the right side.
