@@ -168,7 +168,7 @@ void ChainLab::timeline(const Workspace& workspace, Emit& emit) const {
         return;
     }
     past_strip(workspace, emit);
-    if (const auto curve = chain_past_curve(workspace)) past_plot(workspace, chain_past(), *curve);
+    past_plot(workspace, chain_past(), chain_past_curve(workspace));
 }
 
 }  // namespace tendril::app

@@ -19,10 +19,13 @@ namespace {
 
 constexpr float plot_height = 130.0f;      ///< pixels at scale 1
 constexpr std::uint64_t half_second = 30;  ///< ticks
+/// That a frame works out. A count and not a time, so that the same is drawn in every run.
+constexpr std::size_t moments_a_frame = 16;
 
 struct PastRuntime final : Runtime {
     std::string of;  ///< what the values are of
     PartCache<float> values;
+    bool waits = false;  ///< some of them are missing
     PartCache<PoseLines> poses;
 };
 
@@ -106,30 +109,52 @@ float past_plot_height(const Settings& settings, const PastView& view) {
     return view.plots(settings) ? plot_height : 0.0f;
 }
 
-std::vector<PastValue> past_values(const Workspace& workspace, const PastView& view, const PastCurve& curve) {
+std::vector<PastValue> past_values(const Workspace& workspace, const PastView& view, const PastCurve& curve,
+                                   std::size_t most_made) {
     PastRuntime& runtime = runtime_of(workspace, view);
     const Rewind& past = workspace.rewind;
     if (runtime.of != curve.of) {
         runtime.values.clear();
         runtime.of = curve.of;
     }
+    runtime.waits = false;
     std::vector<PastValue> values;
     const auto add = [&](std::uint64_t tick, const SharedPart& part) {
+        const bool costs = curve.at_hand && !runtime.values.has(part) && !curve.at_hand(part);
+        if (costs && most_made == 0) {
+            runtime.waits = true;
+            return;
+        }
+        if (costs) --most_made;
         const float value = runtime.values.of(part, [&] { return static_cast<float>(curve.value(part)); });
         if (std::isfinite(value)) values.push_back({tick, value});
     };
-    for (const Rewind::Moment& moment : past.moments()) add(moment.tick, moment.part);
     if (past.empty() || workspace.moment > past.newest())
         add(workspace.moment, workspace.document.parts().at(view.lab));
+    for (auto moment = past.moments().rbegin(); moment != past.moments().rend(); ++moment)
+        add(moment->tick, moment->part);
+    std::reverse(values.begin(), values.end());
     runtime.values.trim(past);
     return values;
 }
 
-void past_plot(const Workspace& workspace, const PastView& view, const PastCurve& curve) {
+bool past_plot_waits(const Workspace& workspace, const PastView& view) {
+    return runtime_of(workspace, view).waits;
+}
+
+void past_plot(const Workspace& workspace, const PastView& view, const std::optional<PastCurve>& plotted) {
+    if (!plotted) {
+        PastRuntime& runtime = runtime_of(workspace, view);
+        runtime.values.clear();
+        runtime.waits = false;
+        return;
+    }
+    const PastCurve& curve = *plotted;
     const std::uint64_t first = first_tick(workspace);
     const Palette& colours = palette(workspace.settings.theme);
     Curve line{.name = curve.name, .colour = colours.accent, .points = {}, .marks = false};
-    for (const PastValue& each : past_values(workspace, view, curve))
+    const std::size_t most_made = workspace.clock.measured ? moments_a_frame : all_moments;
+    for (const PastValue& each : past_values(workspace, view, curve, most_made))
         line.points.emplace_back(seconds(each.tick - first), each.value);
     if (line.points.empty()) return note(curve.missing);
     const float lines = ImGui::GetContentRegionAvail().y / small_font_size() - 0.2f;
@@ -168,8 +193,8 @@ std::vector<const Rewind::Moment*> ghost_moments(const Rewind& past) {
 
 void draw_past_ghosts(const View& view, const PastView& past,
                       const std::function<PoseLines(const SharedPart&)>& pose, DrawList& list) {
-    if (!past.shows_ghosts(view.workspace.settings)) return;
     PartCache<PoseLines>& poses = runtime_of(view.workspace, past).poses;
+    if (!past.shows_ghosts(view.workspace.settings)) return poses.clear();
     const Rewind& rewind = view.workspace.rewind;
     for (const Rewind::Moment* const moment : ghost_moments(rewind)) {
         const auto age =

@@ -10,6 +10,7 @@
 #include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -45,6 +46,8 @@ struct PastCurve {
     float lowest_range = 10.0f;                      ///< of the axis, in that unit
     std::string missing;                             ///< how to get one, where it is known at no moment
     std::function<double(const SharedPart&)> value;  ///< NaN where it is not known
+    /// Whether the value of a moment costs next to nothing. Null: at every moment.
+    std::function<bool(const SharedPart&)> at_hand{};
 };
 
 /// What a lab's tooltips say.
@@ -57,14 +60,21 @@ void past_view_rows(const Workspace& workspace, const PastView& view, const Past
 
 /// Pixels at scale 1, below the strip; 0 where nothing is plotted.
 float past_plot_height(const Settings& settings, const PastView& view);
-void past_plot(const Workspace& workspace, const PastView& view, const PastCurve& curve);
+/// Nothing, where no curve is given. In a live window not all is there at once: a frame works out a few
+/// moments that are not at hand, the last ones first.
+void past_plot(const Workspace& workspace, const PastView& view, const std::optional<PastCurve>& curve);
+/// Whether the next frame has more of it.
+bool past_plot_waits(const Workspace& workspace, const PastView& view);
 
 /// A value at each moment where it is known, by tick; the last one may be the present.
 struct PastValue {
     std::uint64_t tick = 0;
     float value = 0.0f;
 };
-std::vector<PastValue> past_values(const Workspace& workspace, const PastView& view, const PastCurve& curve);
+inline constexpr std::size_t all_moments = std::numeric_limits<std::size_t>::max();
+/// Works out `most_made` of those at most that are not at hand; what is left, is left out.
+std::vector<PastValue> past_values(const Workspace& workspace, const PastView& view, const PastCurve& curve,
+                                   std::size_t most_made = all_moments);
 
 /// A pose as lines from point to point.
 using PoseLines = std::vector<std::pair<glm::vec3, glm::vec3>>;

@@ -160,7 +160,7 @@ void RigLab::timeline(const Workspace& workspace, Emit& emit) const {
         step_button(part, false, emit);
         take_strip(workspace, emit);
     }
-    if (const auto curve = rig_past_curve(workspace)) past_plot(workspace, rig_past(), *curve);
+    past_plot(workspace, rig_past(), rig_past_curve(workspace));
 }
 
 }  // namespace tendril::app

@@ -1,4 +1,6 @@
 // The plot of the last ten seconds and their ghosts in the running program, in every lab that has joints.
+#include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "app/live_loop.hpp"
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {
@@ -100,6 +102,59 @@ TEST(PastViews, ComeOutTheSameFromARecording) {
         ASSERT_TRUE(succeeded(run_program({"--headless", "--script", recording, "--state", state})));
         EXPECT_EQ(app::parse_json(read(state)), recorded) << lab.lab;
     }
+}
+
+class LivePlot : public testing::Test {
+  protected:
+    LivePlot() {
+        app_.workspace().clock.measured = true;
+        app_.run({"lab.open", Json{{"name", "humanoid"}}});
+        app_.run({"humanoid.clip", Json{{"name", "walk"}, {"play", true}}});
+        for (int i = 0; i < 300; ++i) app_.tick(nullptr);
+        app_.run({"time.pause", Json::object()});
+        turns(30);
+    }
+    void turns(int count) {
+        for (int i = 0; i < count; ++i) loop_.turn({}, app::tick_seconds, player_);
+    }
+    std::size_t poses() { return app::humanoid_runtime(app_.workspace()).past.size(); }
+
+    /// With the present.
+    std::size_t moments() { return app_.workspace().rewind.size() + 1; }
+
+    std::unique_ptr<app::Window> window_ = app::open_offscreen({1000, 700});
+    app::App app_{*window_};
+    std::atomic<bool> ending_{false};
+    app::LiveLoop loop_{app_, *window_, {.config = false, .ending = ending_}};
+    app::Player player_{app::Script{}};
+};
+
+TEST_F(LivePlot, ComesInSharesWhileThePausedWindowGoesOnDrawing) {
+    EXPECT_FALSE(app_.restless());
+    app_.run({"view.humanoid_plot", Json{{"of", "swing"}}});
+    std::size_t before = poses();
+    EXPECT_LE(before, 32u);
+    for (int i = 0; i < 100 && app_.restless(); ++i) {
+        turns(1);
+        EXPECT_LE(poses(), before + 32) << "a turn has two ticks at most";
+        before = poses();
+    }
+    EXPECT_EQ(poses(), moments());
+    EXPECT_FALSE(app_.restless());
+    app_.run({"view.humanoid_plot", Json{{"of", "nothing"}}});
+    EXPECT_EQ(poses(), 0u);
+}
+
+TEST_F(LivePlot, IsWholeInAPictureAndInTheState) {
+    app_.run({"view.humanoid_plot", Json{{"of", "swing"}}});
+    ASSERT_LT(poses(), 100u);
+    const auto at_once = app_.screenshot();
+    EXPECT_EQ(poses(), moments());
+    app_.run({"view.humanoid_plot", Json{{"of", "nothing"}}});
+    app_.run({"view.humanoid_plot", Json{{"of", "swing"}}});
+    EXPECT_EQ(app_.state()["past"]["plot"]["values"].size(), moments());
+    turns(100);
+    EXPECT_EQ(app_.screenshot().rgba, at_once.rgba);
 }
 
 }  // namespace

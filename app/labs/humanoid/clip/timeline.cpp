@@ -97,7 +97,8 @@ float HumanoidLab::timeline_height(const Workspace& workspace) const {
 
 void HumanoidLab::timeline(const Workspace& workspace, Emit& emit) const {
     strip(humanoid_panel(workspace, emit));
-    if (const auto curve = humanoid_past_curve(workspace)) past_plot(workspace, humanoid_past(), *curve);
+    past_plot(workspace, humanoid_past(), humanoid_past_curve(workspace));
+    forget_past_poses(workspace);
 }
 
 }  // namespace tendril::app
