@@ -33,11 +33,6 @@ PastRuntime& runtime_of(const Workspace& workspace, const PastView& view) {
     return workspace.runtimes.of<PastRuntime>(view.lab + " past");
 }
 
-/// The oldest tick of all that is shown.
-std::uint64_t first_tick(const Workspace& workspace) {
-    return workspace.rewind.empty() ? workspace.moment : workspace.rewind.oldest();
-}
-
 float seconds(std::uint64_t ticks) {
     return static_cast<float>(static_cast<double>(ticks) * tick_seconds);
 }
@@ -52,7 +47,7 @@ float small_font_size() {
 
 /// Where the line passes the tick of an incident; larger where a joint jumped.
 std::vector<Curve> marks_on(const Curve& line, const Workspace& workspace) {
-    const std::uint64_t first = first_tick(workspace);
+    const std::uint64_t first = past_ticks(workspace).first;
     const Palette& colours = palette(workspace.settings.theme);
     std::vector<Curve> marks;
     for (const Incident& incident : workspace.rewind.incidents()) {
@@ -142,7 +137,8 @@ bool past_plot_waits(const Workspace& workspace, const PastView& view) {
     return runtime_of(workspace, view).waits;
 }
 
-void past_plot(const Workspace& workspace, const PastView& view, const std::optional<PastCurve>& plotted) {
+void past_plot(const Workspace& workspace, const PastView& view, const std::optional<PastCurve>& plotted,
+               const std::optional<StripLine>& strip, Emit& emit) {
     if (!plotted) {
         PastRuntime& runtime = runtime_of(workspace, view);
         runtime.values.clear();
@@ -150,7 +146,7 @@ void past_plot(const Workspace& workspace, const PastView& view, const std::opti
         return;
     }
     const PastCurve& curve = *plotted;
-    const std::uint64_t first = first_tick(workspace);
+    const std::uint64_t first = past_ticks(workspace).first;
     const Palette& colours = palette(workspace.settings.theme);
     Curve line{.name = curve.name, .colour = colours.accent, .points = {}, .marks = false};
     const std::size_t most_made = workspace.clock.measured ? moments_a_frame : all_moments;
@@ -164,19 +160,29 @@ void past_plot(const Workspace& workspace, const PastView& view, const std::opti
     constexpr float margin = 1.1f;
     const float low_y = std::min(margin * low->y, 0.0f),
                 high_y = std::max(margin * high->y, curve.lowest_range);
+    const float now = seconds(std::max(workspace.moment, first) - first);
     std::vector<Curve> curves = marks_on(line, workspace);
+    if (const float value = value_at(line, now); std::isfinite(value))
+        curves.push_back(
+            {.name = curve.name, .colour = colours.accent, .points = {{now, value}}, .width = 1.7f});
     curves.insert(curves.begin(), std::move(line));
-    plot("past", curves,
-         {.x = "time",
-          .x_unit = "s",
-          .y = curve.name.c_str(),
-          .y_unit = curve.unit.c_str(),
-          .min_y = 0.0f,
-          .min_x = 10.0f,
-          .low_y = low_y,
-          .high_y = high_y,
-          .at_x = seconds(std::max(workspace.moment, first) - first)},
-         lines);
+    const StripLine axis = strip.value_or(StripLine{});
+    const PlotStroke stroke = plot("past", curves,
+                                   {.x = "time",
+                                    .x_unit = "s",
+                                    .y = curve.name.c_str(),
+                                    .y_unit = curve.unit.c_str(),
+                                    .min_y = 0.0f,
+                                    .min_x = seconds(past_strip_ticks),
+                                    .low_y = low_y,
+                                    .high_y = high_y,
+                                    .at_x = now,
+                                    .left = axis.left,
+                                    .right = axis.right},
+                                   lines);
+    if (stroke.drawn)
+        go_to_past(workspace, static_cast<int>(std::lround(static_cast<double>(stroke.to.x) / tick_seconds)),
+                   emit);
 }
 
 std::vector<const Rewind::Moment*> ghost_moments(const Rewind& past) {

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "app/document/workspace.hpp"
+#include "app/labs/kit/past_strip.hpp"
 #include "app/labs/kit/setting.hpp"
 #include "app/labs/lab.hpp"
 
@@ -61,8 +62,10 @@ void past_view_rows(const Workspace& workspace, const PastView& view, const Past
 /// Pixels at scale 1, below the strip; 0 where nothing is plotted.
 float past_plot_height(const Settings& settings, const PastView& view);
 /// Nothing, where no curve is given. In a live window not all is there at once: a frame works out a few
-/// moments that are not at hand, the last ones first.
-void past_plot(const Workspace& workspace, const PastView& view, const std::optional<PastCurve>& curve);
+/// moments that are not at hand, the last ones first. `strip`: of the last ten seconds, where that is above
+/// it: a moment is at the same place in both. A click or a drag goes to a moment, as on the strip.
+void past_plot(const Workspace& workspace, const PastView& view, const std::optional<PastCurve>& curve,
+               const std::optional<StripLine>& strip, Emit& emit);
 /// Whether the next frame has more of it.
 bool past_plot_waits(const Workspace& workspace, const PastView& view);
 

@@ -104,6 +104,50 @@ TEST(PastViews, ComeOutTheSameFromARecording) {
     }
 }
 
+/// Each lab with its strip of the last ten seconds above the plot, stopped.
+ScriptText below_the_strip(const PlottedLab& lab) {
+    ScriptText script = shown(lab).wait(200).command("time.pause");
+    if (std::string(lab.lab) == "rig") script.command("view.rig_strip", {{"of", "past"}});
+    return script.wait(2);
+}
+
+ScriptText& press_at(ScriptText& script, glm::vec2 at) {
+    return script.move(at).wait(1).down().wait(2);
+}
+
+TEST(PastViews, AClickInThePlotGoesToTheMomentThatTheStripHasAtThatPlace) {
+    constexpr float strip = 546.0f, plot = 615.0f;
+    for (const PlottedLab& lab : plotted_labs()) {
+        std::uint64_t before = 0;
+        for (const float x : {600.0f, 607.0f, 633.0f, 641.0f}) {
+            const auto moment = [&](float y) {
+                ScriptText script = below_the_strip(lab);
+                if (std::string(lab.lab) == "humanoid") script.click({405.0f, 534.0f});  // Past
+                return state_after(press_at(script, {x, y}))["time"]["moment"].get<std::uint64_t>();
+            };
+            const std::uint64_t by_strip = moment(strip);
+            EXPECT_EQ(moment(plot), by_strip) << lab.lab << " at " << x;
+            EXPECT_GT(by_strip, before) << lab.lab << " at " << x;
+            before = by_strip;
+        }
+    }
+}
+
+TEST(PastViews, ADragInThePlotIsOneStepAsOnTheStrip) {
+    for (const PlottedLab& lab : plotted_labs()) {
+        ScriptText script = below_the_strip(lab);
+        press_at(script, {480.0f, 615.0f}).move({560.0f, 600.0f}).move({1000.0f, 640.0f}).wait(2);
+        const Json end = state_after(script)["time"];
+        EXPECT_EQ(end["ticks_back"], 0) << lab.lab << ": to the right of the present there is nothing";
+        script.move({400.0f, 640.0f}).up().wait(2);
+        const Json back = state_after(script)["time"];
+        EXPECT_GT(back["ticks_back"].get<int>(), 50) << lab.lab;
+        EXPECT_FALSE(back["playing"].get<bool>());
+        script.move({800.0f, 640.0f}).wait(2);
+        EXPECT_EQ(state_after(script)["time"], back) << lab.lab << ": nothing is held any more";
+    }
+}
+
 class LivePlot : public testing::Test {
   protected:
     LivePlot() {
