@@ -64,12 +64,14 @@ std::vector<Curve> marks_on(const Curve& line, const Workspace& workspace) {
 
 }  // namespace
 
-PastView past_view(const std::string& lab, const std::string& what, std::vector<LabSetting::Choice> numbers) {
+PastView past_view(const std::string& lab, const std::string& what, std::vector<LabSetting::Choice> numbers,
+                   std::function<bool(const Part&, const Part&)> same_joints) {
     std::string title = lab;
     title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
     numbers.insert(numbers.begin(), {"nothing", "nothing"});
     return {
         .lab = lab,
+        .same_joints = std::move(same_joints),
         .plot = {.key = lab + " plot",
                  .command = "view." + lab + "_plot",
                  .title = "Plot the " + what + "'s last ten seconds",
@@ -185,14 +187,16 @@ void past_plot(const Workspace& workspace, const PastView& view, const std::opti
                    emit);
 }
 
-std::vector<const Rewind::Moment*> ghost_moments(const Rewind& past) {
+std::vector<const Rewind::Moment*> ghost_moments(const Workspace& workspace, const PastView& view) {
+    const Rewind& past = workspace.rewind;
+    const Part& now = *workspace.document.parts().at(view.lab);
     std::vector<const Rewind::Moment*> shown;
     std::uint64_t next = 0;  // of a part that is large not every tick is kept: the first one after it counts
     for (const Rewind::Moment& moment : past.moments()) {
         const std::uint64_t begin = moment.tick - moment.tick % half_second;
         if (begin < next || begin < past.oldest()) continue;
-        shown.push_back(&moment);
         next = begin + half_second;
+        if (!view.same_joints || view.same_joints(*moment.part, now)) shown.push_back(&moment);
     }
     return shown;
 }
@@ -202,7 +206,7 @@ void draw_past_ghosts(const View& view, const PastView& past,
     PartCache<PoseLines>& poses = runtime_of(view.workspace, past).poses;
     if (!past.shows_ghosts(view.workspace.settings)) return poses.clear();
     const Rewind& rewind = view.workspace.rewind;
-    for (const Rewind::Moment* const moment : ghost_moments(rewind)) {
+    for (const Rewind::Moment* const moment : ghost_moments(view.workspace, past)) {
         const auto age =
             static_cast<float>(rewind.newest() - moment->tick) / static_cast<float>(Rewind::most_ticks);
         const glm::vec4 colour = faded(view.palette, view.palette.ghost, 0.75f - 0.55f * age);
@@ -226,7 +230,7 @@ Json past_view_state(const Workspace& workspace, const PastView& view,
                         {"values", std::move(values)}};
     }
     if (view.shows_ghosts(workspace.settings))
-        for (const Rewind::Moment* const moment : ghost_moments(workspace.rewind))
+        for (const Rewind::Moment* const moment : ghost_moments(workspace, view))
             json["ghosts"].push_back(moment->tick);
     return json;
 }

@@ -23,8 +23,13 @@
 
 namespace tendril::app {
 
+/// Of a moment of the past, or of the present.
+using SharedPart = std::shared_ptr<const Part>;
+
 struct PastView {
     std::string lab;
+    /// Whether two parts have the same joints: the poses of one are none of the other's.
+    std::function<bool(const Part&, const Part&)> same_joints;
     LabSetting plot;    ///< nothing, or one of the lab's numbers
     LabSetting ghosts;  ///< nothing, or the past
 
@@ -33,11 +38,10 @@ struct PastView {
     /// Of the numbers, where it plots.
     std::size_t chosen(const Settings& settings) const { return plot.chosen(settings) - 1; }
 };
-/// `what` the lab shows, as commands have it: "chain". `numbers`: at least one.
-PastView past_view(const std::string& lab, const std::string& what, std::vector<LabSetting::Choice> numbers);
-
-/// Of a moment of the past, or of the present.
-using SharedPart = std::shared_ptr<const Part>;
+/// `what` the lab shows, as commands have it: "chain". `numbers`: at least one. Without `same_joints` all
+/// parts have the same.
+PastView past_view(const std::string& lab, const std::string& what, std::vector<LabSetting::Choice> numbers,
+                   std::function<bool(const Part&, const Part&)> same_joints = {});
 
 /// The number that is plotted.
 struct PastCurve {
@@ -81,8 +85,8 @@ std::vector<PastValue> past_values(const Workspace& workspace, const PastView& v
 
 /// A pose as lines from point to point.
 using PoseLines = std::vector<std::pair<glm::vec3, glm::vec3>>;
-/// The moments that are shown as ghosts, by tick.
-std::vector<const Rewind::Moment*> ghost_moments(const Rewind& past);
+/// The moments that are shown as ghosts, by tick: of what has the joints that there are now.
+std::vector<const Rewind::Moment*> ghost_moments(const Workspace& workspace, const PastView& view);
 /// A pose of more lines than this is not drawn: twenty of them would drown the picture.
 inline constexpr std::size_t most_ghost_lines = 1000;
 inline constexpr const char* ghost_legend = "past poses";

@@ -104,9 +104,40 @@ TEST(PastViews, ComeOutTheSameFromARecording) {
     }
 }
 
+TEST(PastViews, GhostsAreOfWhatHasTheJointsThatThereAreNow) {
+    struct Change {
+        ScriptText to;
+        bool other_joints;
+    };
+    const std::vector<Change> changes[] = {
+        {{ScriptText().command("chain.preset", {{"name", "arm"}}), true},
+         {ScriptText().command("chain.set_length", {{"index", 2}, {"length", 1.5}}), true},
+         {ScriptText().command("chain.add", {{"length", 1.0}}), true},
+         {ScriptText().command("chain.mode", {{"mode", "forward"}}), false},
+         {ScriptText().command("chain.target", {{"to", {2, 3, 1}}}), false}},
+        {{ScriptText().command("rig.preset", {{"name", "fk"}}), true},
+         {ScriptText().command("rig.element.add", {{"name", "more"}, {"kind", "bone"}}), true},
+         {ScriptText().command("rig.select", {{"element", "right 3"}}), false}},
+        {{ScriptText().command("humanoid.load",
+                               {{"path", TENDRIL_SOURCE_DIR "/tests/app/golden/antennae.bvh"}}),
+          true},
+         {ScriptText().command("humanoid.clip", {{"name", "punch"}, {"play", true}}), false}}};
+    const auto labs = plotted_labs();
+    for (std::size_t lab = 0; lab < labs.size(); ++lab) {
+        for (const Change& change : changes[lab]) {
+            const ScriptText script =
+                shown(labs[lab]).wait(100).command("time.pause").wait(1).lines(change.to).wait(2);
+            const Json ghosts = state_after(script)["past"]["ghosts"];
+            EXPECT_EQ(ghosts.empty(), change.other_joints) << labs[lab].lab << "\n" << change.to.text();
+            const Json back = state_after(ScriptText(script).command("undo").wait(1))["past"]["ghosts"];
+            EXPECT_GE(back.size(), 3u) << labs[lab].lab << " as it was before\n" << change.to.text();
+        }
+    }
+}
+
 /// Each lab with its strip of the last ten seconds above the plot, stopped.
 ScriptText below_the_strip(const PlottedLab& lab) {
-    ScriptText script = shown(lab).wait(200).command("time.pause");
+    ScriptText script = shown(lab).wait(420).command("time.pause");
     if (std::string(lab.lab) == "rig") script.command("view.rig_strip", {{"of", "past"}});
     return script.wait(2);
 }

@@ -10,6 +10,7 @@
 
 #include "app/labs/kit/joint_turn.hpp"
 #include "app/labs/kit/part_cache.hpp"
+#include "tests/app/labs/lab_support.hpp"
 #include "tests/app/labs/spring/spring_lab.hpp"
 #include "tests/app/support/random_numbers.hpp"
 
@@ -109,21 +110,31 @@ TEST(PartCaches, CountTheirBytesThroughAllThatIsForgotten) {
     }
 }
 
-TEST(Ghosts, AreThoseOfEveryHalfSecondHoweverFewMomentsAreKept) {
+class Ghosts : public LabTest {
+  protected:
+    Ghosts() : LabTest("chain") {}
+    std::vector<const Rewind::Moment*> shown() const {
+        return ghost_moments(workspace, past_view("chain", "chain", {{"swing", "swing"}}));
+    }
+};
+
+TEST_F(Ghosts, AreThoseOfEveryHalfSecondHoweverFewMomentsAreKept) {
     for (const std::uint64_t stride : {1u, 2u, 4u, 8u, 16u}) {
-        Rewind past;
-        for (std::uint64_t tick = 3 * stride; tick < 900; tick += stride) past.remember(tick, 0, some_part());
-        const auto shown = ghost_moments(past);
-        ASSERT_GE(shown.size(), 19u) << stride;
-        EXPECT_LE(shown.size(), 21u) << stride;
-        for (std::size_t i = 0; i < shown.size(); ++i) {
-            EXPECT_LT(shown[i]->tick % 30, stride) << "as near to the half second as there is one";
+        workspace.rewind.clear();
+        for (std::uint64_t tick = 3 * stride; tick < 900; tick += stride)
+            workspace.rewind.remember(tick, 0, some_part());
+        const auto moments = shown();
+        ASSERT_GE(moments.size(), 19u) << stride;
+        EXPECT_LE(moments.size(), 21u) << stride;
+        for (std::size_t i = 0; i < moments.size(); ++i) {
+            EXPECT_LT(moments[i]->tick % 30, stride) << "as near to the half second as there is one";
             if (i > 0) {
-                EXPECT_EQ(shown[i]->tick / 30, shown[i - 1]->tick / 30 + 1);
+                EXPECT_EQ(moments[i]->tick / 30, moments[i - 1]->tick / 30 + 1);
             }
         }
     }
-    EXPECT_TRUE(ghost_moments(Rewind()).empty());
+    workspace.rewind.clear();
+    EXPECT_TRUE(shown().empty());
 }
 
 }  // namespace

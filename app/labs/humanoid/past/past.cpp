@@ -128,7 +128,11 @@ PastCurve error_curve(const Workspace& workspace) {
 PastView humanoid_past() {
     return past_view(
         humanoid_lab, "character",
-        {{"error", "effector to target"}, {"swing", "swing of a joint"}, {"twist", "twist of a joint"}});
+        {{"error", "effector to target"}, {"swing", "swing of a joint"}, {"twist", "twist of a joint"}},
+        [](const Part& then, const Part& now) {
+            return dynamic_cast<const HumanoidPart&>(then).loaded ==
+                   dynamic_cast<const HumanoidPart&>(now).loaded;
+        });
 }
 
 std::optional<PastCurve> humanoid_past_curve(const Workspace& workspace) {
