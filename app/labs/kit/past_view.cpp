@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "app/document/json_complete.hpp"
@@ -163,14 +164,16 @@ void past_plot(const Workspace& workspace, const PastView& view, const std::opti
     const float low_y = std::min(margin * low->y, 0.0f),
                 high_y = std::max(margin * high->y, curve.lowest_range);
     const float now = seconds(std::max(workspace.moment, first) - first);
-    std::vector<Curve> curves = marks_on(line, workspace);
+    std::vector<Curve> marks = marks_on(line, workspace);
+    // What happened lies over where one is.
     if (const float value = value_at(line, now); std::isfinite(value))
-        curves.push_back(
-            {.name = curve.name, .colour = colours.accent, .points = {{now, value}}, .width = 1.7f});
-    curves.insert(curves.begin(), std::move(line));
+        marks.insert(marks.begin(),
+                     {.name = curve.name, .colour = colours.accent, .points = {{now, value}}, .width = 1.7f});
+    std::vector<Curve> curves{std::move(line)};
+    std::move(marks.begin(), marks.end(), std::back_inserter(curves));
     const StripLine axis = strip.value_or(StripLine{});
     const PlotStroke stroke = plot("past", curves,
-                                   {.x = "time",
+                                   {.x = strip ? "time" : "time of the last ten seconds",
                                     .x_unit = "s",
                                     .y = curve.name.c_str(),
                                     .y_unit = curve.unit.c_str(),
