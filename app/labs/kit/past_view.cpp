@@ -172,7 +172,7 @@ void past_plot(const Workspace& workspace, const PastView& view, const std::opti
     std::vector<Curve> curves{std::move(line)};
     std::move(marks.begin(), marks.end(), std::back_inserter(curves));
     const StripLine axis = strip.value_or(StripLine{});
-    const PlotStroke stroke = plot("past", curves,
+    const PlotStroke stroke = plot("past plot", curves,
                                    {.x = strip ? "time" : "time of the last ten seconds",
                                     .x_unit = "s",
                                     .y = curve.name.c_str(),
