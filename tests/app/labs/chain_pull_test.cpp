@@ -47,7 +47,8 @@ class ChainPull : public ChainTest, protected test::RandomNumbers {
 TEST_F(ChainPull, AllGoWhereTheyAreMovedOrTurnedInEveryMode) {
     for (int round = 0; round < 150; ++round) {
         random_chain(3 + random() % 9);
-        const std::string mode = chain_modes.names()[round % chain_modes.names().size()];
+        const auto modes = chain_modes.names();
+        const std::string mode = modes[static_cast<std::size_t>(round) % modes.size()];
         run("chain.mode", {{"mode", mode}});
         // In reach the root stays unless it is dragged too: then all can go along.
         const auto joints = some_joints(mode == "reach");
