@@ -98,6 +98,8 @@ PastTicks past_ticks(const Workspace& workspace) {
 void go_to_past(const Workspace& workspace, int place, Emit& emit) {
     const PastTicks past = past_ticks(workspace);
     if (workspace.rewind.empty() || place == past.place(workspace.moment)) return;
+    // What undo changes under a hand that keeps still, it does not change back.
+    if (!ImGui::IsItemActivated() && ImGui::GetIO().MouseDelta.x == 0.0f) return;
     emit.continuously("time.seek", {{"ticks_back", std::max(0, past.place(past.last) - place)}});
 }
 

@@ -104,6 +104,25 @@ TEST(PastViews, ComeOutTheSameFromARecording) {
     }
 }
 
+ScriptText& press_at(ScriptText& script, glm::vec2 at) {
+    return script.move(at).wait(1).down().wait(2);
+}
+
+TEST(PastViews, UndoUnderAHandThatKeepsStillIsNotDraggedBack) {
+    for (const float y : {546.0f, 615.0f}) {
+        ScriptText script = plotted_labs()[0].scene;
+        script.command("view.chain_plot", {{"of", "swing"}}).wait(400).command("time.pause").wait(2);
+        for (int i = 0; i < 3; ++i) script.command("chain.add", {{"length", 0.5}}).wait(1);
+        const Json before = state_after(script);
+        press_at(script, {500.0f, y}).move({480.0f, y}).wait(2);
+        EXPECT_GT(state_after(script)["time"]["ticks_back"], 50);
+        EXPECT_EQ(state_after(script)["segments"].size(), before["segments"].size() - 3);
+        EXPECT_EQ(state_after(script.command("undo").wait(2))["segments"], before["segments"]) << y;
+        EXPECT_GT(state_after(script.move({400.0f, y}).wait(2))["time"]["ticks_back"], 100)
+            << "a drag goes on";
+    }
+}
+
 TEST(PastViews, GhostsAreOfWhatHasTheJointsThatThereAreNow) {
     struct Change {
         ScriptText to;
@@ -140,10 +159,6 @@ ScriptText below_the_strip(const PlottedLab& lab) {
     ScriptText script = shown(lab).wait(420).command("time.pause");
     if (std::string(lab.lab) == "rig") script.command("view.rig_strip", {{"of", "past"}});
     return script.wait(2);
-}
-
-ScriptText& press_at(ScriptText& script, glm::vec2 at) {
-    return script.move(at).wait(1).down().wait(2);
 }
 
 TEST(PastViews, AClickInThePlotGoesToTheMomentThatTheStripHasAtThatPlace) {
