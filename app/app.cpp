@@ -61,6 +61,7 @@ App::App(Window& window, bool complain, Labs labs)
 App::~App() = default;
 
 void App::start_from(const RecordingStart& start) {
+    replays_ = start.live;
     load_scene(workspace_, start.scene);
     if (labs_.find(start.lab) == nullptr)
         throw std::runtime_error("lab: there is no lab \"" + start.lab + "\"");
@@ -81,7 +82,7 @@ void App::settle() {
     for (int i = 0; i < settling_ticks; ++i) compose(nullptr, Pass::Settle);
 }
 
-void App::start_recording() {
+void App::start_recording(bool live) {
     // Who plays it has no past to go back to, and of the open lab what a scene holds.
     const std::shared_ptr<const Part> part = workspace_.document.parts().at(workspace_.lab);
     if (part != workspace_.blank.parts().at(workspace_.lab)) {
@@ -99,7 +100,8 @@ void App::start_recording() {
                                      .settings = save_settings(workspace_.settings),
                                      .path = workspace_.path.string(),
                                      .modified = workspace_.modified(),
-                                     .scale = base_scale_});
+                                     .scale = base_scale_,
+                                     .live = live || replays_});
 }
 
 void App::tick(const Event* event) {
@@ -173,6 +175,8 @@ void App::take_event(const Event& event, Emit& emit) {
                           lab().canvas_share(workspace_));
     } else if (const auto* drop = std::get_if<Drop>(&event)) {
         if (!drop->paths.empty()) take_file(drop->paths.front(), emit);
+    } else if (std::holds_alternative<VideoEnd>(event)) {
+        pass_video(true);
     } else if (std::holds_alternative<CloseRequest>(event)) {
         emit("quit", {{"unsaved", "ask"}});
     }
@@ -252,7 +256,7 @@ void App::run(const RunCommand& command) {
         workspace_.pass_change();
         if (const auto& finish = commands_->find(command.name)->finish) finish(workspace_);
         take_pictures();
-        while (video_) write_video();
+        while (video_) write_video(true);
         if (recorder_) recorder_->command(command.name, command.arguments, false);
     } catch (const Refused& refusal) {
         if (recorder_) recorder_->command(command.name, command.arguments, true);
@@ -289,7 +293,10 @@ void App::draw() {
 }
 
 Image App::screenshot() {
+    // As off screen: nothing in it depends on how fast this machine is, and nothing is still to come.
+    const bool measured = std::exchange(workspace_.clock.measured, false);
     for (int i = 0; i < settling_ticks; ++i) compose(nullptr, Pass::Picture);
+    workspace_.clock.measured = measured;
     draw();
     return read_framebuffer(window_.framebuffer(), window_.framebuffer_size());
 }

@@ -43,7 +43,8 @@ class App final : public Stage {
     void settle();
     /// What a recording starts from: taken on from there, and written down from now on.
     void start_from(const RecordingStart& start);
-    void start_recording();
+    /// `live`: in a window.
+    void start_recording(bool live = false);
     /// The script so far; empty unless recording.
     std::string recording() const { return recorder_ ? recorder_->text() : std::string(); }
 
@@ -61,6 +62,10 @@ class App final : public Stage {
     /// Whether the next tick may look different from this one without any event.
     bool restless() const;
     bool quit() const { return workspace_.ui.quit; }
+    /// It started from what was recorded in a window.
+    bool replays() const { return replays_; }
+    /// Whether it is time for a VideoEnd.
+    bool video_ended() const;
     /// A person is in the middle of a drag.
     bool busy() const;
     int draw_calls() const { return renderer_.draw_calls(); }
@@ -90,9 +95,12 @@ class App final : public Stage {
     void take_pictures();
     void take_picture(const PictureRequest& wanted);
     void begin_video(const VideoRequest& wanted);
-    /// The next frames of the video. Throws Refused where they cannot be written: then there is none.
-    void write_video();
-    void pass_video();
+    /// The next frames of the video. `ends`: waits for the file after the last one. Throws Refused where it
+    /// cannot be written: then there is none.
+    void write_video(bool ends);
+    /// `ended`: what writes the file says that it is done.
+    void pass_video(bool ended = false);
+    void drop_video();
     /// How a picture of that many pixels, or with 0 as many as the view has, shows the view.
     PictureView picture_view(glm::ivec2 size) const;
     void advance_time();
@@ -124,6 +132,7 @@ class App final : public Stage {
     std::size_t pane_ = 0;     ///< where the hand is, or was
     Layout layout_;
     std::optional<Recorder> recorder_;
+    bool replays_ = false;
     std::unique_ptr<VideoTake> video_;  ///< the one that is being written
     glm::ivec2 size_{0};  ///< the window's; changed by events alone, so that a recording has every change
     float base_scale_ = 1.0f;  ///< the window's wish for the size of text and widgets

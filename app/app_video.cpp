@@ -65,31 +65,39 @@ void App::take_pictures() {
     if (const auto wanted = std::exchange(ui.video, std::nullopt)) begin_video(*wanted);
     if (!std::exchange(ui.ends_filming, false) || !video_) return;
     workspace_.toast("Cancelled: " + ui.filming->name + " is not written");
-    video_.reset();
-    ui.filming.reset();
+    drop_video();
 }
 
-/// Off screen nobody waits: there a script finds the file where it expects it.
-void App::write_video() {
-    constexpr double live = 0.002, off_screen = 1e3;
+void App::write_video(bool ends) {
     try {
-        video_->work(workspace_.clock.measured ? live : off_screen);
+        video_->work();
+        workspace_.ui.filming = video_->progress();
+        if (!ends || !video_->has_all_frames()) return;
+        video_->finish();
+        workspace_.toast("Written: " + video_->wanted().path.string());
+        drop_video();
     } catch (const std::exception& error) {
-        video_.reset();
-        workspace_.ui.filming.reset();
+        drop_video();
         throw Refused(std::string("view.video: ") + error.what());
     }
-    workspace_.ui.filming = video_->progress();
-    if (!video_->done()) return;
-    workspace_.toast("Written: " + video_->wanted().path.string());
+}
+
+void App::drop_video() {
     video_.reset();
     workspace_.ui.filming.reset();
 }
 
-void App::pass_video() {
+bool App::video_ended() const {
+    return video_ && video_->has_all_frames() && !video_->waits();
+}
+
+/// When another program is done with it nobody can tell: in a window that is an event, and so it is where
+/// what was recorded in one is played. A script finds the file where it expects it.
+void App::pass_video(bool ended) {
     if (!video_) return;
+    const bool by_event = video_->by_another_program() && (workspace_.clock.measured || replays_);
     try {
-        write_video();
+        write_video(ended || !by_event);
     } catch (const Refused& refusal) {
         refuse(refusal.what());
     }

@@ -126,6 +126,10 @@ void LiveLoop::turn(std::vector<Event> events, double elapsed, Player& player) {
     // ticks.
     const bool resting = queue_.empty() && player.done() && !app_.restless();
     credit_ = resting ? tick_seconds : std::min(credit_ + elapsed, most_credit);
+    // Where a recording is played, it has that.
+    const auto is_end = [](const Event& event) { return std::holds_alternative<VideoEnd>(event); };
+    if (app_.video_ended() && (player.done() || !app_.replays()) && std::ranges::none_of(queue_, is_end))
+        events.push_back(VideoEnd{});
     sample(std::move(events));
     if (take_ticks(player) || frames_drawn_ == 0) {
         app_.draw();

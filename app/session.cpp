@@ -94,7 +94,7 @@ int run(const SessionOptions& options) {
     if (!options.headless && options.script.empty()) offer_cards(app);
     open_scene(app, options);
     if (script.start) app.start_from(*script.start);
-    if (!options.record.empty()) app.start_recording();
+    if (!options.record.empty()) app.start_recording(!options.headless);
 
     int exit_code = 0;
     Player player(std::move(script));

@@ -48,13 +48,12 @@ VideoTake::VideoTake(const VideoRequest& wanted, const Workspace& workspace, con
     workspace_.pass_change();
 }
 
-void VideoTake::work(double patience) {
+void VideoTake::work() {
     for (int i = frames_a_tick_; i > 0 && written_ < wanted_.frames(); --i) {
         workspace_.go_to_moment(static_cast<std::uint64_t>(wanted_.from - written_ * wanted_.every));
         file_->add(picture_of(workspace_, lab_, renderer_, view_, wanted_.transparent));
         ++written_;
     }
-    if (written_ == wanted_.frames()) finished_ = file_->finish(patience);
 }
 
 VideoProgress VideoTake::progress() const {

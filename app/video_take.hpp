@@ -33,10 +33,14 @@ class VideoTake {
     /// `lab` and `renderer` must outlive it. The workspace must remember something.
     VideoTake(const VideoRequest& wanted, const Workspace& workspace, const Lab& lab, Renderer& renderer,
               const PictureView& view, int frames_a_tick);
-    /// Writes the next frames, as many as a tick has time for; after the last one waits `patience` seconds at
-    /// most for the file.
-    void work(double patience);
-    bool done() const { return finished_; }
+    /// Writes the next frames, as many as a tick has time for.
+    void work();
+    bool has_all_frames() const { return written_ == wanted_.frames(); }
+    bool by_another_program() const { return file_->by_another_program(); }
+    /// After the last frame: whether that program still writes what it was given.
+    bool waits() const { return file_->waits(); }
+    /// After the last frame. Waits for that program.
+    void finish() { file_->finish(); }
     VideoProgress progress() const;
     const VideoRequest& wanted() const { return wanted_; }
 
@@ -49,7 +53,6 @@ class VideoTake {
     std::unique_ptr<VideoFile> file_;
     int frames_a_tick_ = 1;
     int written_ = 0;
-    bool finished_ = false;
 };
 
 }  // namespace tendril::app

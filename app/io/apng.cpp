@@ -216,13 +216,12 @@ void ApngFile::add(const Image& frame) {
     ++frames_;
 }
 
-bool ApngFile::finish(double) {
+void ApngFile::finish() {
     if (frames_ != format_.frames)
         throw std::runtime_error("only " + std::to_string(frames_) + " of " + std::to_string(format_.frames) +
                                  " frames");
     chunk("IEND", {});
     file_.commit();
-    return true;
 }
 
 }  // namespace tendril::app

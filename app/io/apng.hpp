@@ -18,7 +18,7 @@ class ApngFile final : public VideoFile {
   public:
     ApngFile(const std::filesystem::path& path, const VideoFormat& format);
     void add(const Image& frame) override;
-    bool finish(double seconds) override;
+    void finish() override;
 
   private:
     /// A part of the picture; never empty.

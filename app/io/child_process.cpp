@@ -185,21 +185,20 @@ void ChildProcess::write(std::string_view bytes, double seconds) {
     }
 }
 
-bool ChildProcess::finished(double seconds) {
+bool ChildProcess::ended_after_input() {
     close_input();
+    return ended();
+}
+
+void ChildProcess::finish(double seconds) {
     using Time = std::chrono::steady_clock;
     const auto end = Time::now() + std::chrono::duration<double>(seconds);
-    while (!ended()) {
-        if (Time::now() >= end) return false;
+    while (!ended_after_input()) {
+        if (Time::now() >= end) fail("it does not end");
         std::this_thread::sleep_for(look_again);
     }
     if (WIFSIGNALED(status_)) fail("signal " + std::to_string(WTERMSIG(status_)) + " ended it");
     if (WEXITSTATUS(status_) != 0) fail("exit code " + std::to_string(WEXITSTATUS(status_)));
-    return true;
-}
-
-void ChildProcess::finish(double seconds) {
-    if (!finished(seconds)) fail("it does not end");
 }
 
 }  // namespace tendril::app

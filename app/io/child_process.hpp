@@ -27,9 +27,9 @@ class ChildProcess {
 
     /// Gives it bytes to read. Throws where it ended before, or takes none for `seconds`.
     void write(std::string_view bytes, double seconds = 30.0);
-    /// No more bytes come. Waits `seconds` at most; whether it has ended. Throws where it did not end well.
-    bool finished(double seconds);
-    /// The same, and throws where it has not ended by then.
+    /// No more bytes come: whether it has ended, well or not.
+    bool ended_after_input();
+    /// The same, but waits `seconds` at most, and throws where it has not ended by then, or not well.
     void finish(double seconds);
 
   private:

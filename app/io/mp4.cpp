@@ -1,5 +1,6 @@
 #include "app/io/mp4.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -69,20 +70,24 @@ void Mp4File::add(const Image& frame) {
     ++frames_;
 }
 
-bool Mp4File::finish(double seconds) {
-    if (frames_ != format_.frames)
-        throw std::runtime_error("only " + std::to_string(frames_) + " of " + std::to_string(format_.frames) +
-                                 " frames");
+/// Until ffmpeg is no longer waited for.
+double Mp4File::seconds_left() {
     using Time = std::chrono::steady_clock;
     using Seconds = std::chrono::duration<double>;
     if (!ends_by_) ends_by_ = Time::now() + std::chrono::duration_cast<Time::duration>(Seconds(longest_end));
-    const double left = Seconds(*ends_by_ - Time::now()).count();
-    if (left <= seconds)
-        ffmpeg_.finish(left);
-    else if (!ffmpeg_.finished(seconds))
-        return false;
+    return std::max(0.0, Seconds(*ends_by_ - Time::now()).count());
+}
+
+bool Mp4File::waits() {
+    return !ffmpeg_.ended_after_input() && seconds_left() > 0.0;
+}
+
+void Mp4File::finish() {
+    if (frames_ != format_.frames)
+        throw std::runtime_error("only " + std::to_string(frames_) + " of " + std::to_string(format_.frames) +
+                                 " frames");
+    ffmpeg_.finish(seconds_left());
     file_.commit();
-    return true;
 }
 
 }  // namespace tendril::app

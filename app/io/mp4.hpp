@@ -19,7 +19,9 @@ class Mp4File final : public VideoFile {
   public:
     Mp4File(const std::filesystem::path& path, const VideoFormat& format);
     void add(const Image& frame) override;
-    bool finish(double seconds) override;
+    bool by_another_program() const override { return true; }
+    bool waits() override;
+    void finish() override;
 
   private:
     AtomicFile file_;  ///< outlives the process that writes it
@@ -27,6 +29,8 @@ class Mp4File final : public VideoFile {
     ChildProcess ffmpeg_;
     int frames_ = 0;
     std::optional<std::chrono::steady_clock::time_point> ends_by_;  ///< once it has all frames
+
+    double seconds_left();
 };
 
 }  // namespace tendril::app

@@ -24,16 +24,20 @@ struct FrameTime {
 };
 FrameTime frame_time(const VideoFormat& format);
 
-/// What throws does so with std::runtime_error, which says why. The file is there once finish() says so;
+/// What throws does so with std::runtime_error, which says why. The file is there after finish();
 /// destroyed before that, it leaves nothing behind.
 class VideoFile {
   public:
     virtual ~VideoFile() = default;
     /// Throws where the frame has another size than the video, or is one too many.
     virtual void add(const Image& frame) = 0;
-    /// After the last frame, until it says that the file is there; waits `seconds` at most for what is left
-    /// to do. Throws where a frame is missing.
-    virtual bool finish(double seconds) = 0;
+    /// How long that takes for the last of the file is its own business.
+    virtual bool by_another_program() const { return false; }
+    /// After the last frame: whether finish() would still have to wait for it.
+    virtual bool waits() { return false; }
+    /// After the last frame. Waits for what is left to do; then the file is there. Throws where a frame is
+    /// missing.
+    virtual void finish() = 0;
 };
 
 /// Why a video of this name can't be written; empty where it can. The ending decides: .png, or .mp4 where

@@ -43,6 +43,7 @@ struct LineOf {
     Json operator()(const Drop& e) const { return Json{{"drop", Json(e.paths)}}; }
     Json operator()(const Focus& e) const { return Json{{"focus", e.focused}}; }
     Json operator()(const CloseRequest&) const { return nullptr; }
+    Json operator()(const VideoEnd&) const { return Json{{"video", "end"}}; }
 };
 
 /// File names need not be UTF-8, but JSON is.
@@ -73,6 +74,7 @@ Recorder::Recorder(const RecordingStart& start) {
     if (!start.path.empty()) first["path"] = start.path;
     if (start.modified) first["modified"] = true;
     if (start.scale != 1.0f) first["scale"] = number(start.scale);
+    if (start.live) first["live"] = true;
     line(first);
 }
 

@@ -115,6 +115,12 @@ Action focus_line(const Json& line) {
     return Event(Focus{json_bool(line["focus"], "focus")});
 }
 
+Action video_line(const Json& line) {
+    check_members(line, {"video"});
+    if (line["video"] != "end") fail("video: expected \"end\", found " + json_summary(line["video"]));
+    return Event(VideoEnd{});
+}
+
 Action wait_line(const Json& line) {
     check_members(line, {"wait"});
     return Wait{json_integer(line["wait"], "wait", 0, max_wait_ticks)};
@@ -140,8 +146,8 @@ RecordingStart recording_start(const Json& line) {
         fail("recording: version " + version.dump() + " is newer than this program, which reads " +
              std::to_string(recording_version));
     json_integer(version, "recording", 1, recording_version);
-    check_members(line,
-                  {"recording", "version", "size", "lab", "scene", "settings", "path", "modified", "scale"});
+    check_members(line, {"recording", "version", "size", "lab", "scene", "settings", "path", "modified",
+                         "scale", "live"});
     RecordingStart start{.version = json_text(json_member(line, "version", ""), "version"),
                          .size = window_size(json_member(line, "size", ""), "size"),
                          .lab = json_text(json_member(line, "lab", ""), "lab"),
@@ -153,6 +159,7 @@ RecordingStart recording_start(const Json& line) {
     if (line.contains("path")) start.path = json_text(line["path"], "path");
     if (line.contains("modified")) start.modified = json_bool(line["modified"], "modified");
     if (line.contains("scale")) start.scale = json_number(line["scale"], "scale", 0.25f, 8.0f);
+    if (line.contains("live")) start.live = json_bool(line["live"], "live");
     return start;
 }
 
@@ -160,13 +167,14 @@ struct Form {
     const char* member;  ///< tells the line's form
     Action (*parse)(const Json& line);
 };
-constexpr std::array<Form, 10> forms{{{"expect", expect_line},
+constexpr std::array<Form, 11> forms{{{"expect", expect_line},
                                       {"mouse", mouse_line},
                                       {"key", key_line},
                                       {"text", text_line},
                                       {"resize", resize_line},
                                       {"drop", drop_line},
                                       {"focus", focus_line},
+                                      {"video", video_line},
                                       {"wait", wait_line},
                                       {"screenshot", screenshot_line},
                                       {"state", state_line}}};

@@ -57,6 +57,7 @@ struct RecordingStart {
     std::string path{};     ///< the scene's file, empty while it had none
     bool modified = false;  ///< it had changes that were not saved
     float scale = 1.0f;     ///< the window's own wish for the size of text and widgets
+    bool live = false;      ///< made in a window: of what another program does the end is an event
 };
 
 struct Script {

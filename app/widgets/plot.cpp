@@ -59,6 +59,7 @@ class Plot {
         for (const Mark& mark : y_marks())
             widest = std::max(widest, ImGui::CalcTextSize(mark.text.c_str()).x);
         from_.x = at.x + widest + 0.5f * text;
+        if (axes.left < axes.right) from_.x = axes.left, to_.x = axes.right;
     }
 
     void draw() {

@@ -29,9 +29,12 @@ struct PlotAxes {
     float from_x = 0.0f;                ///< where the x axis begins
     float min_x = 1.0f;                 ///< and where it ends at least
     float low_y = 0.0f, high_y = 0.0f;  ///< of an even y axis: what it shows at least, where low < high
-    bool fixed_y = false;    ///< it shows that and no more: a mark says where a curve leaves it, and which
-    float level = 0.0f;      ///< a dashed line at this y, where it is over 0
-    float at_x = -1.0f;      ///< a line at this x, where it is not negative
+    bool fixed_y = false;  ///< it shows that and no more: a mark says where a curve leaves it, and which
+    float level = 0.0f;    ///< a dashed line at this y, where it is over 0
+    float at_x = -1.0f;    ///< a line at this x, where it is not negative
+    /// Where the x axis begins and ends, pixels of the window: below something that has the same axis. Where
+    /// left < right; else it is as long as there is room.
+    float left = 0.0f, right = 0.0f;
     bool whole_x = false;    ///< x counts something: marks at whole numbers only
     bool reads_all = false;  ///< the mouse reads every curve at its x, rather than the nearest point
     bool named = false;      ///< curves of one point have their name beside it, as far as there is room

@@ -39,6 +39,7 @@ class Strip {
                        2.0f * unit());
     }
 
+    float left() const { return from_; }
     float span() const { return span_; }
     static float unit() { return ImGui::GetFontSize() / 15.0f; }  ///< a pixel at the size that the text has
 
@@ -162,7 +163,7 @@ TimeStripUse time_strip(const char* id, int& tick, const TimeStrip& content) {
     const auto share = [&](int at) { return static_cast<float>(at) / whole; };
     const auto tick_at = [&](float part) { return static_cast<int>(std::lround(part * whole)); };
     const int before = tick;
-    TimeStripUse use;
+    TimeStripUse use{.left = strip.left(), .right = strip.left() + strip.span()};
     // A click on a mark is a click on that, and moves nothing.
     const ImGuiID held = ImGui::GetID((std::string(id) + " mark").c_str());
     ImGuiStorage& kept = *ImGui::GetStateStorage();

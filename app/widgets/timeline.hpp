@@ -36,7 +36,8 @@ struct TimeStripUse {
     bool moved = false;  ///< in this frame a person moved the head
     int hovered = -1;    ///< the tick that the mouse is on; -1 where it is not
     int on_mark = -1;    ///< the mark that the mouse is on, a large one before others; -1 where it is on none
-    bool mark_clicked = false;  ///< in this frame; the head stays where it is
+    bool mark_clicked = false;        ///< in this frame; the head stays where it is
+    float left = 0.0f, right = 0.0f;  ///< where its line runs, pixels of the window
 };
 TimeStripUse time_strip(const char* id, int& tick, const TimeStrip& strip);
 

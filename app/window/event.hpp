@@ -54,8 +54,11 @@ struct Focus {
     bool focused = true;
 };
 struct CloseRequest {};
+/// The program that writes a video has come to its end, well or not. How long that takes is its own business:
+/// so that a recording has it, it is an event.
+struct VideoEnd {};
 
 using Event = std::variant<MouseMove, MousePress, MouseWheel, KeyChange, KeyTap, TextInput, Resize, Drop,
-                           Focus, CloseRequest>;
+                           Focus, CloseRequest, VideoEnd>;
 
 }  // namespace tendril::app

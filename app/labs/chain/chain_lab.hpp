@@ -44,6 +44,9 @@ class ChainLab final : public Lab {
     void select(const Workspace& workspace, const std::vector<PickId>& picks, bool add,
                 Emit& emit) const override;
     std::optional<Handle> gizmo(const Workspace& workspace) const override;
+    Together together(const Workspace& workspace, Drag what) const override;
+    void drag_together(const Workspace& workspace, const std::vector<Handle>& handles,
+                       Emit& emit) const override;
     void click(const Workspace& workspace, PickId pick, Emit& emit) const override;
     std::string hint(const Workspace& workspace, PickId pick) const override;
 

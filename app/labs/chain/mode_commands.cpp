@@ -1,6 +1,9 @@
 // How the chain follows, and where to.
+#include <algorithm>
+
 #include "app/labs/chain/command_support.hpp"
 #include "app/labs/chain/reach_drag.hpp"
+#include "app/labs/kit/index_list.hpp"
 #include "app/labs/kit/require.hpp"
 
 namespace tendril::app {
@@ -26,13 +29,34 @@ void set_mode(ChainPart& part, const Arguments& given) {
     }
 }
 
+/// Ascending.
+std::vector<JointPull> pulls_of(const ChainPart& part, const Arguments& given) {
+    const std::vector<std::size_t> joints = joints_of(given, part);
+    if (given.has("index") != given.has("to"))
+        throw Refused(given.has("to") ? "to is for index; joints have points" : "index needs to");
+    if (given.has("index")) {
+        if (given.has("points")) throw Refused("points is for joints");
+        return {{joints.front(), given.point("to")}};
+    }
+    if (joints.empty()) throw Refused("joints is empty");
+    if (!given.has("points")) throw Refused("joints needs points");
+    const JsonPlace points = each_list(given, "points", "joints", joints.size());
+    std::vector<JointPull> pulls;
+    for (const std::size_t joint : joints) pulls.push_back({joint, points.element(pulls.size()).point()});
+    std::ranges::sort(pulls, {}, &JointPull::joint);
+    const auto twice = std::ranges::adjacent_find(pulls, {}, &JointPull::joint);
+    if (twice != pulls.end())
+        throw Refused("joints: " + std::to_string(twice->joint) + " stands there twice");
+    return pulls;
+}
+
 void pull(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
-    const glm::vec3 to = given.point("to");
+    const std::vector<JointPull> pulls = pulls_of(part, given);
     if (part.mode == ChainMode::Reach) {
-        drag_joint(part.chain, part.reach, index_of(given), to, part.target, runtime);
+        drag_joints(part.chain, part.reach, pulls, part.target, runtime);
     } else {
-        require_ok(part.chain.with_index(index_of(given), to));
-        part.target = to;
+        require_ok(trail_joints(part.chain, pulls));
+        part.target = pulls.front().to;
     }
     part.result.reset();
     const Study::Kind kind = part.study.kind;
@@ -104,9 +128,10 @@ void add_mode_commands(CommandTable& table) {
     table.add(chain_command("chain.target", "Move the target", {point_argument("to", true, "metres")},
                             "Moves the target and applies the mode once", set_target));
     table.add(chain_command("chain.pull", "Pull a joint",
-                            {index_argument(true, "which segment"), point_argument("to", true, "metres")},
-                            "Pulls one segment, and the target with it; the mode stays as it is. In mode "
-                            "reach: drags one joint, the root and the target stay",
+                            {index_argument(false, "which segment"), point_argument("to", false, "metres"),
+                             joints_argument(), each_argument("points", "joints")},
+                            "Pulls one segment or several, and the target with the first of them; the mode "
+                            "stays as it is. In mode reach: drags joints, the root and the target stay",
                             pull));
     table.add(chain_command(
         "chain.select", "Select joints",
@@ -124,9 +149,9 @@ void add_mode_commands(CommandTable& table) {
         "chain.seek", "Place the target on its path",
         {{.name = "tick", .type = ArgumentType::Integer, .help = "tick of the round", .low = 0}},
         "Moves the target to a tick of its round", seek));
-    table.add(chain_command(
-        "chain.flips", "Set what counts as a flip", flip_arguments(chain_flip_words),
-        "Sets what counts as a flip in mode reach, from the next move of the target on", set_flips));
+    table.add(chain_command("chain.flips", "Set what counts as a flip", flip_arguments(chain_flip_words),
+                            "Sets what counts as a flip in mode reach, from the next move of the target on",
+                            set_flips));
 }
 
 }  // namespace tendril::app

@@ -167,8 +167,8 @@ void ChainLab::timeline(const Workspace& workspace, Emit& emit) const {
             tell_strip("The steps of the solve. Drag shows the chain after one of them.");
         return;
     }
-    past_strip(workspace, emit);
-    if (const auto curve = chain_past_curve(workspace)) past_plot(workspace, chain_past(), *curve);
+    const StripLine strip = past_strip(workspace, emit);
+    past_plot(workspace, chain_past(), chain_past_curve(workspace), strip, emit);
 }
 
 }  // namespace tendril::app

@@ -47,12 +47,23 @@ const ChainPart& chain_of(const SharedPart& part) {
     return dynamic_cast<const ChainPart&>(*part);
 }
 
+/// And bones of the same lengths between them.
+bool same_joints(const Part& then, const Part& now) {
+    const auto a = dynamic_cast<const ChainPart&>(then).chain.segments(),
+               b = dynamic_cast<const ChainPart&>(now).chain.segments();
+    if (a.size() != b.size()) return false;
+    for (std::size_t i = 1; i < a.size(); ++i)
+        if (a[i].length != b[i].length) return false;
+    return true;
+}
+
 }  // namespace
 
 PastView chain_past() {
     return past_view(
         chain_lab, "chain",
-        {{"error", "tip to target"}, {"swing", "swing of a joint"}, {"twist", "twist of a joint"}});
+        {{"error", "tip to target"}, {"swing", "swing of a joint"}, {"twist", "twist of a joint"}},
+        same_joints);
 }
 
 std::optional<PastCurve> chain_past_curve(const Workspace& workspace) {

@@ -1,6 +1,8 @@
 #include "app/labs/chain/reach_drag.hpp"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
+#include <optional>
 #include <stdexcept>
 #include <tendril/ik/solver.hpp>
 
@@ -61,19 +63,10 @@ ik::Options section_options(const ReachSettings& settings, float tolerance) {
     return options;
 }
 
-/// From the root to the dragged joint.
-void solve_before(Section& section, const Chain& chain, const ReachSettings& settings, glm::vec3 to,
-                  ChainRuntime& runtime) {
-    float reach = 0.0f;
-    for (const float length : section.lengths) reach += length;
-    const float tolerance = std::min(drag_tolerance * reach, reach_tolerance(settings, chain.reach()));
-    solve_section(section, chain, settings, to, section_options(settings, tolerance), runtime);
-}
-
-/// From the dragged joint to the tip. Its first limit is relative to the bone before it, which is turned by
-/// `parent` from rest, so the section is solved in that bone's frame, where that limit is a root's.
+/// From a dragged joint on. Its first limit is relative to the bone before it, which is turned by `parent`
+/// from rest, so the section is solved in that bone's frame, where that limit is a root's.
 void solve_beyond(Section& section, const Chain& chain, const ReachSettings& settings, glm::vec3 target,
-                  glm::quat parent, ChainRuntime& runtime) {
+                  const ik::Options& options, glm::quat parent, ChainRuntime& runtime) {
     const glm::vec3 root = section.joints.front();
     const glm::quat inverse = glm::conjugate(parent);
     const auto turn = [&](const glm::quat& by) {
@@ -85,15 +78,14 @@ void solve_beyond(Section& section, const Chain& chain, const ReachSettings& set
     };
     shift(-root);
     turn(inverse);
-    solve_section(section, chain, settings, inverse * (target - root),
-                  section_options(settings, reach_tolerance(settings, chain.reach())), runtime);
+    solve_section(section, chain, settings, inverse * (target - root), options, runtime);
     turn(parent);
     shift(root);
     section.joints.front() = root;
 }
 
-/// Takes the bones beyond the dragged joint along with it; with limits as one stiff body with the bone
-/// before it, so that its own limit goes on holding.
+/// Takes the bones beyond a dragged joint along with it; with limits as one stiff body with the bone before
+/// it, so that its own limit goes on holding.
 void move_along(Section& beyond, glm::vec3 to, glm::quat by) {
     const glm::vec3 from = beyond.joints.front();
     for (glm::vec3& joint : beyond.joints) joint = to + by * (joint - from);
@@ -123,45 +115,87 @@ void drag_tip(Chain& chain, ReachSettings& settings, glm::vec3 to, ChainRuntime&
     settings.state = exact.state;
 }
 
-void drag_middle(Chain& chain, ReachSettings& settings, std::size_t index, glm::vec3 to, glm::vec3 target,
-                 ChainRuntime& runtime) {
-    const std::size_t bones = chain.size() - 1;
-    Section before = section_of(chain, settings, 0, index);
-    Section beyond = section_of(chain, settings, index, bones - index);
-    glm::quat turned(1, 0, 0, 0), parent(1, 0, 0, 0);
-    if (!before.rotations.empty()) turned = glm::conjugate(before.rotations.back());
-    solve_before(before, chain, settings, to, runtime);
-    if (!before.rotations.empty()) {
-        parent = before.rotations.back();
-        turned = glm::normalize(parent * turned);
+/// From joint to joint, the root first: each section in its turn.
+class SectionDrag {
+  public:
+    SectionDrag(const Chain& chain, ReachSettings& settings, ChainRuntime& runtime)
+        : chain_(chain), settings_(settings), runtime_(runtime), joints_(positions(chain)) {}
+
+    void move_root(glm::vec3 to) {
+        at_ = to;
+        root_moved_ = true;
     }
-    move_along(beyond, before.joints.back(), turned);
-    solve_beyond(beyond, chain, settings, target, parent, runtime);
-    std::vector<glm::vec3> joints = positions(chain);
-    put_back(before, joints, settings);
-    put_back(beyond, joints, settings);
-    require_ok(chain.set_positions(joints));
-}
+    /// As near as comes within a fraction of a pixel.
+    void drag(const JointPull& pull) {
+        Section section = section_of(chain_, settings_, first_, pull.joint - first_);
+        float reach = 0.0f;
+        for (const float length : section.lengths) reach += length;
+        const float tolerance = std::min(drag_tolerance * reach, whole_tolerance());
+        // Without limits what lies between two dragged joints turns along with them, and keeps its shape.
+        const bool between = first_ > 0 || root_moved_;
+        if (between && section.rotations.empty())
+            turned_ = least_rotation(direction(section.joints.front(), section.joints.back()),
+                                     direction(at_.value_or(joints_.front()), pull.to));
+        solve(section, pull.to, tolerance);
+        turned_ = section.rotations.empty() ? glm::quat(1, 0, 0, 0) : turned_;
+    }
+    void reach(glm::vec3 target) {
+        Section section = section_of(chain_, settings_, first_, chain_.size() - 1 - first_);
+        solve(section, target, whole_tolerance());
+    }
+    const std::vector<glm::vec3>& joints() const { return joints_; }
+
+  private:
+    glm::vec3 direction(glm::vec3 from, glm::vec3 to) const {
+        const float length = glm::distance(from, to);
+        return length > 1e-6f ? (to - from) / length : chain_.default_direction();
+    }
+    float whole_tolerance() const { return reach_tolerance(settings_, chain_.reach()); }
+
+    void solve(Section& section, glm::vec3 to, float tolerance) {
+        const ik::Options options = section_options(settings_, tolerance);
+        const glm::quat was = section.rotations.empty() ? glm::quat(1, 0, 0, 0) : section.rotations.back();
+        if (at_) move_along(section, *at_, turned_);
+        if (first_ > 0)
+            solve_beyond(section, chain_, settings_, to, options, parent_, runtime_);
+        else
+            solve_section(section, chain_, settings_, to, options, runtime_);
+        if (!section.rotations.empty()) {
+            parent_ = section.rotations.back();
+            turned_ = glm::normalize(parent_ * glm::conjugate(was));
+        }
+        at_ = section.joints.back();
+        put_back(section, joints_, settings_);
+        first_ += section.count;
+    }
+
+    const Chain& chain_;
+    ReachSettings& settings_;
+    ChainRuntime& runtime_;
+    std::vector<glm::vec3> joints_;
+    std::size_t first_ = 0;        // of the next section
+    std::optional<glm::vec3> at_;  // where it begins, once that has moved
+    bool root_moved_ = false;
+    glm::quat parent_{1, 0, 0, 0}, turned_{1, 0, 0, 0};  // the bone before it, and how that has turned
+};
 
 }  // namespace
 
-void drag_joint(Chain& chain, ReachSettings& settings, std::size_t index, glm::vec3 to, glm::vec3 target,
-                ChainRuntime& runtime) {
-    if (index >= chain.size()) {
-        throw std::out_of_range("index " + std::to_string(index) + " is out of range, the chain has " +
-                                std::to_string(chain.size()) + " segments");
-    }
+void drag_joints(Chain& chain, ReachSettings& settings, std::span<const JointPull> pulls, glm::vec3 target,
+                 ChainRuntime& runtime) {
     if (!settings.limits.empty()) {  // other modes move a chain and leave its rotations behind
         std::vector<glm::quat>& rotations = state_for(settings, chain.size() - 1).rotations;
         rotations = rotations_at(positions(chain), rotations, chain.default_direction());
     }
-    if (index == 0) {
-        drag_root(chain, settings, to, target, runtime);
-    } else if (index + 1 == chain.size()) {
-        drag_tip(chain, settings, to, runtime);
-    } else {
-        drag_middle(chain, settings, index, to, target, runtime);
-    }
+    const std::size_t tip = chain.size() - 1;
+    if (pulls.size() == 1 && pulls.front().joint == 0)
+        return drag_root(chain, settings, pulls.front().to, target, runtime);
+    if (pulls.size() == 1 && pulls.front().joint == tip)
+        return drag_tip(chain, settings, pulls.front().to, runtime);
+    SectionDrag drag(chain, settings, runtime);
+    for (const JointPull& pull : pulls) pull.joint == 0 ? drag.move_root(pull.to) : drag.drag(pull);
+    if (pulls.back().joint < tip) drag.reach(target);
+    require_ok(chain.set_positions(drag.joints()));
 }
 
 }  // namespace tendril::app

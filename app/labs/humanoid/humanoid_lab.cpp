@@ -6,6 +6,7 @@
 #include "app/labs/humanoid/attachments/wearing.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "app/labs/humanoid/past/past.hpp"
 #include "app/labs/humanoid/springs/swing.hpp"
 
 namespace tendril::app {
@@ -68,7 +69,7 @@ void HumanoidLab::step(Workspace& workspace) const {
 }
 
 bool HumanoidLab::working(const Workspace& workspace) const {
-    return humanoid_runtime(workspace).loading.running();
+    return humanoid_runtime(workspace).loading.running() || past_plot_waits(workspace, humanoid_past());
 }
 
 void HumanoidLab::work(Workspace& workspace) const {

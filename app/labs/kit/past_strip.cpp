@@ -89,10 +89,24 @@ void tell_incident(const Incident& incident) {
                    .c_str());
 }
 
-void past_strip(const Workspace& workspace, Emit& emit) {
+PastTicks past_ticks(const Workspace& workspace) {
+    const Rewind& past = workspace.rewind;
+    const std::uint64_t now = workspace.moment;
+    return past.empty() ? PastTicks{now, now} : PastTicks{past.oldest(), std::max(past.newest(), now)};
+}
+
+void go_to_past(const Workspace& workspace, int place, Emit& emit) {
+    const PastTicks past = past_ticks(workspace);
+    if (workspace.rewind.empty() || place == past.place(workspace.moment)) return;
+    // What undo changes under a hand that keeps still, it does not change back.
+    if (!ImGui::IsItemActivated() && ImGui::GetIO().MouseDelta.x == 0.0f) return;
+    emit.continuously("time.seek", {{"ticks_back", std::max(0, past.place(past.last) - place)}});
+}
+
+StripLine past_strip(const Workspace& workspace, Emit& emit) {
     record_button(workspace, emit);
     replay_button(workspace, emit);
-    past_time_strip(workspace, emit);
+    return past_time_strip(workspace, emit);
 }
 
 bool other_strip_button(bool shown, const std::string& other) {
@@ -103,24 +117,16 @@ bool other_strip_button(bool shown, const std::string& other) {
     return asked;
 }
 
-void past_time_strip(const Workspace& workspace, Emit& emit) {
-    const Rewind& past = workspace.rewind;
+StripLine past_time_strip(const Workspace& workspace, Emit& emit) {
+    const PastTicks past = past_ticks(workspace);
     const Palette& colours = palette(workspace.settings.theme);
     // The strip is ten seconds long from the beginning: what is not there yet is to its right.
-    const std::uint64_t now = workspace.moment;
-    const std::uint64_t first = past.empty() ? now : past.oldest();
-    const std::uint64_t last = past.empty() ? now : std::max(past.newest(), now);
-    const auto place = [&](std::uint64_t tick) {
-        return static_cast<int>(std::clamp(tick, first, last) - first);
-    };
-    TimeStrip strip{.ticks = static_cast<int>(Rewind::most_ticks) + 1,
-                    .seconds = tick_seconds,
-                    .known = place(last),
-                    .bars = {}};
-    const auto& incidents = past.incidents();
+    TimeStrip strip{
+        .ticks = past_strip_ticks, .seconds = tick_seconds, .known = past.place(past.last), .bars = {}};
+    const auto& incidents = workspace.rewind.incidents();
     for (const Incident& incident : incidents)
-        strip.marks.push_back(incident_mark(incident, place(incident.tick + 1), colours));
-    int tick = place(now);
+        strip.marks.push_back(incident_mark(incident, past.place(incident.tick + 1), colours));
+    int tick = past.place(workspace.moment);
     const TimeStripUse use = time_strip("past", tick, strip);
     if (use.on_mark >= 0)
         tell_incident(incidents[static_cast<std::size_t>(use.on_mark)]);
@@ -128,9 +134,10 @@ void past_time_strip(const Workspace& workspace, Emit& emit) {
         tell_strip("The last ten seconds. Drag goes back to how it was then.");
     if (use.mark_clicked) {
         emit("time.incident", {{"number", use.on_mark}});
-    } else if (use.moved && !past.empty()) {
-        emit.continuously("time.seek", {{"ticks_back", std::max(0, strip.known - tick)}});
+    } else if (use.moved) {
+        go_to_past(workspace, tick, emit);
     }
+    return {use.left, use.right};
 }
 
 }  // namespace tendril::app

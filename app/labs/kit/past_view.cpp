@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "app/document/json_complete.hpp"
@@ -19,20 +20,18 @@ namespace {
 
 constexpr float plot_height = 130.0f;      ///< pixels at scale 1
 constexpr std::uint64_t half_second = 30;  ///< ticks
+/// That a frame works out. A count and not a time, so that the same is drawn in every run.
+constexpr std::size_t moments_a_frame = 16;
 
 struct PastRuntime final : Runtime {
     std::string of;  ///< what the values are of
     PartCache<float> values;
+    bool waits = false;  ///< some of them are missing
     PartCache<PoseLines> poses;
 };
 
 PastRuntime& runtime_of(const Workspace& workspace, const PastView& view) {
     return workspace.runtimes.of<PastRuntime>(view.lab + " past");
-}
-
-/// The oldest tick of all that is shown.
-std::uint64_t first_tick(const Workspace& workspace) {
-    return workspace.rewind.empty() ? workspace.moment : workspace.rewind.oldest();
 }
 
 float seconds(std::uint64_t ticks) {
@@ -49,7 +48,7 @@ float small_font_size() {
 
 /// Where the line passes the tick of an incident; larger where a joint jumped.
 std::vector<Curve> marks_on(const Curve& line, const Workspace& workspace) {
-    const std::uint64_t first = first_tick(workspace);
+    const std::uint64_t first = past_ticks(workspace).first;
     const Palette& colours = palette(workspace.settings.theme);
     std::vector<Curve> marks;
     for (const Incident& incident : workspace.rewind.incidents()) {
@@ -66,12 +65,14 @@ std::vector<Curve> marks_on(const Curve& line, const Workspace& workspace) {
 
 }  // namespace
 
-PastView past_view(const std::string& lab, const std::string& what, std::vector<LabSetting::Choice> numbers) {
+PastView past_view(const std::string& lab, const std::string& what, std::vector<LabSetting::Choice> numbers,
+                   std::function<bool(const Part&, const Part&)> same_joints) {
     std::string title = lab;
     title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
     numbers.insert(numbers.begin(), {"nothing", "nothing"});
     return {
         .lab = lab,
+        .same_joints = std::move(same_joints),
         .plot = {.key = lab + " plot",
                  .command = "view." + lab + "_plot",
                  .title = "Plot the " + what + "'s last ten seconds",
@@ -106,30 +107,53 @@ float past_plot_height(const Settings& settings, const PastView& view) {
     return view.plots(settings) ? plot_height : 0.0f;
 }
 
-std::vector<PastValue> past_values(const Workspace& workspace, const PastView& view, const PastCurve& curve) {
+std::vector<PastValue> past_values(const Workspace& workspace, const PastView& view, const PastCurve& curve,
+                                   std::size_t most_made) {
     PastRuntime& runtime = runtime_of(workspace, view);
     const Rewind& past = workspace.rewind;
     if (runtime.of != curve.of) {
         runtime.values.clear();
         runtime.of = curve.of;
     }
+    runtime.waits = false;
     std::vector<PastValue> values;
     const auto add = [&](std::uint64_t tick, const SharedPart& part) {
+        const bool costs = curve.at_hand && !runtime.values.has(part) && !curve.at_hand(part);
+        if (costs && most_made == 0) {
+            runtime.waits = true;
+            return;
+        }
+        if (costs) --most_made;
         const float value = runtime.values.of(part, [&] { return static_cast<float>(curve.value(part)); });
         if (std::isfinite(value)) values.push_back({tick, value});
     };
-    for (const Rewind::Moment& moment : past.moments()) add(moment.tick, moment.part);
     if (past.empty() || workspace.moment > past.newest())
         add(workspace.moment, workspace.document.parts().at(view.lab));
+    for (auto moment = past.moments().rbegin(); moment != past.moments().rend(); ++moment)
+        add(moment->tick, moment->part);
+    std::reverse(values.begin(), values.end());
     runtime.values.trim(past);
     return values;
 }
 
-void past_plot(const Workspace& workspace, const PastView& view, const PastCurve& curve) {
-    const std::uint64_t first = first_tick(workspace);
+bool past_plot_waits(const Workspace& workspace, const PastView& view) {
+    return runtime_of(workspace, view).waits;
+}
+
+void past_plot(const Workspace& workspace, const PastView& view, const std::optional<PastCurve>& plotted,
+               const std::optional<StripLine>& strip, Emit& emit) {
+    if (!plotted) {
+        PastRuntime& runtime = runtime_of(workspace, view);
+        runtime.values.clear();
+        runtime.waits = false;
+        return;
+    }
+    const PastCurve& curve = *plotted;
+    const std::uint64_t first = past_ticks(workspace).first;
     const Palette& colours = palette(workspace.settings.theme);
     Curve line{.name = curve.name, .colour = colours.accent, .points = {}, .marks = false};
-    for (const PastValue& each : past_values(workspace, view, curve))
+    const std::size_t most_made = workspace.clock.measured ? moments_a_frame : all_moments;
+    for (const PastValue& each : past_values(workspace, view, curve, most_made))
         line.points.emplace_back(seconds(each.tick - first), each.value);
     if (line.points.empty()) return note(curve.missing);
     const float lines = ImGui::GetContentRegionAvail().y / small_font_size() - 0.2f;
@@ -139,39 +163,53 @@ void past_plot(const Workspace& workspace, const PastView& view, const PastCurve
     constexpr float margin = 1.1f;
     const float low_y = std::min(margin * low->y, 0.0f),
                 high_y = std::max(margin * high->y, curve.lowest_range);
-    std::vector<Curve> curves = marks_on(line, workspace);
-    curves.insert(curves.begin(), std::move(line));
-    plot("past", curves,
-         {.x = "time",
-          .x_unit = "s",
-          .y = curve.name.c_str(),
-          .y_unit = curve.unit.c_str(),
-          .min_y = 0.0f,
-          .min_x = 10.0f,
-          .low_y = low_y,
-          .high_y = high_y,
-          .at_x = seconds(std::max(workspace.moment, first) - first)},
-         lines);
+    const float now = seconds(std::max(workspace.moment, first) - first);
+    std::vector<Curve> marks = marks_on(line, workspace);
+    // What happened lies over where one is.
+    if (const float value = value_at(line, now); std::isfinite(value))
+        marks.insert(marks.begin(),
+                     {.name = curve.name, .colour = colours.accent, .points = {{now, value}}, .width = 1.7f});
+    std::vector<Curve> curves{std::move(line)};
+    std::move(marks.begin(), marks.end(), std::back_inserter(curves));
+    const StripLine axis = strip.value_or(StripLine{});
+    const PlotStroke stroke = plot("past plot", curves,
+                                   {.x = strip ? "time" : "time of the last ten seconds",
+                                    .x_unit = "s",
+                                    .y = curve.name.c_str(),
+                                    .y_unit = curve.unit.c_str(),
+                                    .min_y = 0.0f,
+                                    .min_x = seconds(past_strip_ticks),
+                                    .low_y = low_y,
+                                    .high_y = high_y,
+                                    .at_x = now,
+                                    .left = axis.left,
+                                    .right = axis.right},
+                                   lines);
+    if (stroke.drawn)
+        go_to_past(workspace, static_cast<int>(std::lround(static_cast<double>(stroke.to.x) / tick_seconds)),
+                   emit);
 }
 
-std::vector<const Rewind::Moment*> ghost_moments(const Rewind& past) {
+std::vector<const Rewind::Moment*> ghost_moments(const Workspace& workspace, const PastView& view) {
+    const Rewind& past = workspace.rewind;
+    const Part& now = *workspace.document.parts().at(view.lab);
     std::vector<const Rewind::Moment*> shown;
     std::uint64_t next = 0;  // of a part that is large not every tick is kept: the first one after it counts
     for (const Rewind::Moment& moment : past.moments()) {
         const std::uint64_t begin = moment.tick - moment.tick % half_second;
         if (begin < next || begin < past.oldest()) continue;
-        shown.push_back(&moment);
         next = begin + half_second;
+        if (!view.same_joints || view.same_joints(*moment.part, now)) shown.push_back(&moment);
     }
     return shown;
 }
 
 void draw_past_ghosts(const View& view, const PastView& past,
                       const std::function<PoseLines(const SharedPart&)>& pose, DrawList& list) {
-    if (!past.shows_ghosts(view.workspace.settings)) return;
     PartCache<PoseLines>& poses = runtime_of(view.workspace, past).poses;
+    if (!past.shows_ghosts(view.workspace.settings)) return poses.clear();
     const Rewind& rewind = view.workspace.rewind;
-    for (const Rewind::Moment* const moment : ghost_moments(rewind)) {
+    for (const Rewind::Moment* const moment : ghost_moments(view.workspace, past)) {
         const auto age =
             static_cast<float>(rewind.newest() - moment->tick) / static_cast<float>(Rewind::most_ticks);
         const glm::vec4 colour = faded(view.palette, view.palette.ghost, 0.75f - 0.55f * age);
@@ -195,7 +233,7 @@ Json past_view_state(const Workspace& workspace, const PastView& view,
                         {"values", std::move(values)}};
     }
     if (view.shows_ghosts(workspace.settings))
-        for (const Rewind::Moment* const moment : ghost_moments(workspace.rewind))
+        for (const Rewind::Moment* const moment : ghost_moments(workspace, view))
             json["ghosts"].push_back(moment->tick);
     return json;
 }

@@ -10,19 +10,26 @@
 #include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/document/workspace.hpp"
+#include "app/labs/kit/past_strip.hpp"
 #include "app/labs/kit/setting.hpp"
 #include "app/labs/lab.hpp"
 
 namespace tendril::app {
 
+/// Of a moment of the past, or of the present.
+using SharedPart = std::shared_ptr<const Part>;
+
 struct PastView {
     std::string lab;
+    /// Whether two parts have the same joints: the poses of one are none of the other's.
+    std::function<bool(const Part&, const Part&)> same_joints;
     LabSetting plot;    ///< nothing, or one of the lab's numbers
     LabSetting ghosts;  ///< nothing, or the past
 
@@ -31,11 +38,10 @@ struct PastView {
     /// Of the numbers, where it plots.
     std::size_t chosen(const Settings& settings) const { return plot.chosen(settings) - 1; }
 };
-/// `what` the lab shows, as commands have it: "chain". `numbers`: at least one.
-PastView past_view(const std::string& lab, const std::string& what, std::vector<LabSetting::Choice> numbers);
-
-/// Of a moment of the past, or of the present.
-using SharedPart = std::shared_ptr<const Part>;
+/// `what` the lab shows, as commands have it: "chain". `numbers`: at least one. Without `same_joints` all
+/// parts have the same.
+PastView past_view(const std::string& lab, const std::string& what, std::vector<LabSetting::Choice> numbers,
+                   std::function<bool(const Part&, const Part&)> same_joints = {});
 
 /// The number that is plotted.
 struct PastCurve {
@@ -45,6 +51,8 @@ struct PastCurve {
     float lowest_range = 10.0f;                      ///< of the axis, in that unit
     std::string missing;                             ///< how to get one, where it is known at no moment
     std::function<double(const SharedPart&)> value;  ///< NaN where it is not known
+    /// Whether the value of a moment costs next to nothing. Null: at every moment.
+    std::function<bool(const SharedPart&)> at_hand{};
 };
 
 /// What a lab's tooltips say.
@@ -57,19 +65,28 @@ void past_view_rows(const Workspace& workspace, const PastView& view, const Past
 
 /// Pixels at scale 1, below the strip; 0 where nothing is plotted.
 float past_plot_height(const Settings& settings, const PastView& view);
-void past_plot(const Workspace& workspace, const PastView& view, const PastCurve& curve);
+/// Nothing, where no curve is given. In a live window not all is there at once: a frame works out a few
+/// moments that are not at hand, the last ones first. `strip`: of the last ten seconds, where that is above
+/// it: a moment is at the same place in both. A click or a drag goes to a moment, as on the strip.
+void past_plot(const Workspace& workspace, const PastView& view, const std::optional<PastCurve>& curve,
+               const std::optional<StripLine>& strip, Emit& emit);
+/// Whether the next frame has more of it.
+bool past_plot_waits(const Workspace& workspace, const PastView& view);
 
 /// A value at each moment where it is known, by tick; the last one may be the present.
 struct PastValue {
     std::uint64_t tick = 0;
     float value = 0.0f;
 };
-std::vector<PastValue> past_values(const Workspace& workspace, const PastView& view, const PastCurve& curve);
+inline constexpr std::size_t all_moments = std::numeric_limits<std::size_t>::max();
+/// Works out `most_made` of those at most that are not at hand; what is left, is left out.
+std::vector<PastValue> past_values(const Workspace& workspace, const PastView& view, const PastCurve& curve,
+                                   std::size_t most_made = all_moments);
 
 /// A pose as lines from point to point.
 using PoseLines = std::vector<std::pair<glm::vec3, glm::vec3>>;
-/// The moments that are shown as ghosts, by tick.
-std::vector<const Rewind::Moment*> ghost_moments(const Rewind& past);
+/// The moments that are shown as ghosts, by tick: of what has the joints that there are now.
+std::vector<const Rewind::Moment*> ghost_moments(const Workspace& workspace, const PastView& view);
 /// A pose of more lines than this is not drawn: twenty of them would drown the picture.
 inline constexpr std::size_t most_ghost_lines = 1000;
 inline constexpr const char* ghost_legend = "past poses";

@@ -73,12 +73,23 @@ double value_of(Number what, const RigPart& part, const std::string& name) {
     return what == Number::Swing ? turn.swing : what == Number::Twist ? turn.twist : turn.angle;
 }
 
+bool same_elements(const Part& then, const Part& now) {
+    const auto elements = [](const Part& part) -> const auto& {
+        return dynamic_cast<const RigPart&>(part).rig.definition().elements;
+    };
+    return std::equal(elements(then).begin(), elements(then).end(), elements(now).begin(),
+                      elements(now).end(), [](const rig::Element& a, const rig::Element& b) {
+                          return a.kind == b.kind && a.name == b.name && a.parent == b.parent;
+                      });
+}
+
 }  // namespace
 
 PastView rig_past() {
     return past_view(
         rig_lab, "rig",
-        {{"swing", "swing of a bone"}, {"twist", "twist of a bone"}, {"angle", "angle of an element"}});
+        {{"swing", "swing of a bone"}, {"twist", "twist of a bone"}, {"angle", "angle of an element"}},
+        same_elements);
 }
 
 std::optional<PastCurve> rig_past_curve(const Workspace& workspace) {

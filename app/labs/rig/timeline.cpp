@@ -153,14 +153,15 @@ void RigLab::timeline(const Workspace& workspace, Emit& emit) const {
     replay_button(workspace, emit);
     if (const LabSetting strip = rig_strip_setting(); other_strip_button(past, "take"))
         emit(strip.command, {{strip.argument, past ? "take" : "past"}});
+    std::optional<StripLine> past_line;
     if (past) {
-        past_time_strip(workspace, emit);
+        past_line = past_time_strip(workspace, emit);
     } else {
         step_button(part, true, emit);
         step_button(part, false, emit);
         take_strip(workspace, emit);
     }
-    if (const auto curve = rig_past_curve(workspace)) past_plot(workspace, rig_past(), *curve);
+    past_plot(workspace, rig_past(), rig_past_curve(workspace), past_line, emit);
 }
 
 }  // namespace tendril::app

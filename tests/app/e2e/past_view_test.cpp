@@ -1,4 +1,6 @@
 // The plot of the last ten seconds and their ghosts in the running program, in every lab that has joints.
+#include "app/labs/humanoid/humanoid_runtime.hpp"
+#include "app/live_loop.hpp"
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {
@@ -100,6 +102,149 @@ TEST(PastViews, ComeOutTheSameFromARecording) {
         ASSERT_TRUE(succeeded(run_program({"--headless", "--script", recording, "--state", state})));
         EXPECT_EQ(app::parse_json(read(state)), recorded) << lab.lab;
     }
+}
+
+ScriptText& press_at(ScriptText& script, glm::vec2 at) {
+    return script.move(at).wait(1).down().wait(2);
+}
+
+TEST(PastViews, UndoUnderAHandThatKeepsStillIsNotDraggedBack) {
+    for (const float y : {546.0f, 615.0f}) {
+        ScriptText script = plotted_labs()[0].scene;
+        script.command("view.chain_plot", {{"of", "swing"}}).wait(400).command("time.pause").wait(2);
+        for (int i = 0; i < 3; ++i) script.command("chain.add", {{"length", 0.5}}).wait(1);
+        const Json before = state_after(script);
+        press_at(script, {500.0f, y}).move({480.0f, y}).wait(2);
+        EXPECT_GT(state_after(script)["time"]["ticks_back"], 50);
+        EXPECT_EQ(state_after(script)["segments"].size(), before["segments"].size() - 3);
+        EXPECT_EQ(state_after(script.command("undo").wait(2))["segments"], before["segments"]) << y;
+        EXPECT_GT(state_after(script.move({400.0f, y}).wait(2))["time"]["ticks_back"], 100)
+            << "a drag goes on";
+    }
+}
+
+TEST(PastViews, GhostsAreOfWhatHasTheJointsThatThereAreNow) {
+    struct Change {
+        ScriptText to;
+        bool other_joints;
+    };
+    const std::vector<Change> changes[] = {
+        {{ScriptText().command("chain.preset", {{"name", "arm"}}), true},
+         {ScriptText().command("chain.set_length", {{"index", 2}, {"length", 1.5}}), true},
+         {ScriptText().command("chain.add", {{"length", 1.0}}), true},
+         {ScriptText().command("chain.mode", {{"mode", "forward"}}), false},
+         {ScriptText().command("chain.target", {{"to", {2, 3, 1}}}), false}},
+        {{ScriptText().command("rig.preset", {{"name", "fk"}}), true},
+         {ScriptText().command("rig.element.add", {{"name", "more"}, {"kind", "bone"}}), true},
+         {ScriptText().command("rig.select", {{"element", "right 3"}}), false}},
+        {{ScriptText().command("humanoid.load",
+                               {{"path", TENDRIL_SOURCE_DIR "/tests/app/golden/antennae.bvh"}}),
+          true},
+         {ScriptText().command("humanoid.clip", {{"name", "punch"}, {"play", true}}), false}}};
+    const auto labs = plotted_labs();
+    for (std::size_t lab = 0; lab < labs.size(); ++lab) {
+        for (const Change& change : changes[lab]) {
+            const ScriptText script =
+                shown(labs[lab]).wait(100).command("time.pause").wait(1).lines(change.to).wait(2);
+            const Json ghosts = state_after(script)["past"]["ghosts"];
+            EXPECT_EQ(ghosts.empty(), change.other_joints) << labs[lab].lab << "\n" << change.to.text();
+            const Json back = state_after(ScriptText(script).command("undo").wait(1))["past"]["ghosts"];
+            EXPECT_GE(back.size(), 3u) << labs[lab].lab << " as it was before\n" << change.to.text();
+        }
+    }
+}
+
+/// Each lab with its strip of the last ten seconds above the plot, stopped.
+ScriptText below_the_strip(const PlottedLab& lab) {
+    ScriptText script = shown(lab).wait(420).command("time.pause");
+    if (std::string(lab.lab) == "rig") script.command("view.rig_strip", {{"of", "past"}});
+    return script.wait(2);
+}
+
+TEST(PastViews, AClickInThePlotGoesToTheMomentThatTheStripHasAtThatPlace) {
+    constexpr float strip = 546.0f, plot = 615.0f;
+    for (const PlottedLab& lab : plotted_labs()) {
+        std::uint64_t before = 0;
+        for (const float x : {600.0f, 607.0f, 633.0f, 641.0f}) {
+            const auto moment = [&](float y) {
+                ScriptText script = below_the_strip(lab);
+                if (std::string(lab.lab) == "humanoid") script.click({405.0f, 534.0f});  // Past
+                return state_after(press_at(script, {x, y}))["time"]["moment"].get<std::uint64_t>();
+            };
+            const std::uint64_t by_strip = moment(strip);
+            EXPECT_EQ(moment(plot), by_strip) << lab.lab << " at " << x;
+            EXPECT_GT(by_strip, before) << lab.lab << " at " << x;
+            before = by_strip;
+        }
+    }
+}
+
+TEST(PastViews, ADragInThePlotIsOneStepAsOnTheStrip) {
+    for (const PlottedLab& lab : plotted_labs()) {
+        ScriptText script = below_the_strip(lab);
+        press_at(script, {480.0f, 615.0f}).move({560.0f, 600.0f}).move({1000.0f, 640.0f}).wait(2);
+        const Json end = state_after(script)["time"];
+        EXPECT_EQ(end["ticks_back"], 0) << lab.lab << ": to the right of the present there is nothing";
+        script.move({400.0f, 640.0f}).up().wait(2);
+        const Json back = state_after(script)["time"];
+        EXPECT_GT(back["ticks_back"].get<int>(), 50) << lab.lab;
+        EXPECT_FALSE(back["playing"].get<bool>());
+        script.move({800.0f, 640.0f}).wait(2);
+        EXPECT_EQ(state_after(script)["time"], back) << lab.lab << ": nothing is held any more";
+    }
+}
+
+class LivePlot : public testing::Test {
+  protected:
+    LivePlot() {
+        app_.workspace().clock.measured = true;
+        app_.run({"lab.open", Json{{"name", "humanoid"}}});
+        app_.run({"humanoid.clip", Json{{"name", "walk"}, {"play", true}}});
+        for (int i = 0; i < 300; ++i) app_.tick(nullptr);
+        app_.run({"time.pause", Json::object()});
+        turns(30);
+    }
+    void turns(int count) {
+        for (int i = 0; i < count; ++i) loop_.turn({}, app::tick_seconds, player_);
+    }
+    std::size_t poses() { return app::humanoid_runtime(app_.workspace()).past.size(); }
+
+    /// With the present.
+    std::size_t moments() { return app_.workspace().rewind.size() + 1; }
+
+    std::unique_ptr<app::Window> window_ = app::open_offscreen({1000, 700});
+    app::App app_{*window_};
+    std::atomic<bool> ending_{false};
+    app::LiveLoop loop_{app_, *window_, {.config = false, .ending = ending_}};
+    app::Player player_{app::Script{}};
+};
+
+TEST_F(LivePlot, ComesInSharesWhileThePausedWindowGoesOnDrawing) {
+    EXPECT_FALSE(app_.restless());
+    app_.run({"view.humanoid_plot", Json{{"of", "swing"}}});
+    std::size_t before = poses();
+    EXPECT_LE(before, 32u);
+    for (int i = 0; i < 100 && app_.restless(); ++i) {
+        turns(1);
+        EXPECT_LE(poses(), before + 32) << "a turn has two ticks at most";
+        before = poses();
+    }
+    EXPECT_EQ(poses(), moments());
+    EXPECT_FALSE(app_.restless());
+    app_.run({"view.humanoid_plot", Json{{"of", "nothing"}}});
+    EXPECT_EQ(poses(), 0u);
+}
+
+TEST_F(LivePlot, IsWholeInAPictureAndInTheState) {
+    app_.run({"view.humanoid_plot", Json{{"of", "swing"}}});
+    ASSERT_LT(poses(), 100u);
+    const auto at_once = app_.screenshot();
+    EXPECT_EQ(poses(), moments());
+    app_.run({"view.humanoid_plot", Json{{"of", "nothing"}}});
+    app_.run({"view.humanoid_plot", Json{{"of", "swing"}}});
+    EXPECT_EQ(app_.state()["past"]["plot"]["values"].size(), moments());
+    turns(100);
+    EXPECT_EQ(app_.screenshot().rgba, at_once.rgba);
 }
 
 }  // namespace

@@ -227,5 +227,26 @@ TEST(ChainGizmo, AnArrowOfAJointPullsThatJoint) {
     EXPECT_EQ(after["selected"], 4);
 }
 
+TEST(ChainGizmo, AnArrowOfSeveralJointsMovesAllOfThemInOneStep) {
+    for (const char* const mode : {"reach", "backward"}) {
+        ScriptText script;
+        script.command("chain.mode", {{"mode", mode}}).command("chain.target", {{"to", {4, 2, 1}}});
+        script.command("chain.select", {{"joints", {0, 2, 4}}}).wait(2);
+        const Json before = state_after(script);
+        const glm::vec2 grip = handle(before, "segment.4.move_y");
+        script.drag({grip, grip - glm::vec2(0, 5), grip - glm::vec2(0, 18)}).wait(2);
+        const Json after = state_after(script);
+        const auto moved = [&](std::size_t i) {
+            return point_of(after["segments"][i]["position"]) - point_of(before["segments"][i]["position"]);
+        };
+        EXPECT_GT(moved(2).y, 0.1f) << mode;
+        for (const std::size_t i : {0u, 1u, 3u, 4u})
+            EXPECT_LT(glm::distance(moved(i), moved(2)), 2e-3f) << mode << i;
+        EXPECT_NEAR(moved(2).x, 0.0f, 2e-3f) << mode;
+        EXPECT_EQ(after["selection"], before["selection"]);
+        EXPECT_EQ(state_after(script.key("ctrl+z"))["segments"], before["segments"]) << mode;
+    }
+}
+
 }  // namespace
 }  // namespace tendril::test

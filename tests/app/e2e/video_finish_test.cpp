@@ -7,7 +7,9 @@
 
 #include "app/app.hpp"
 #include "app/document/json_complete.hpp"
+#include "app/live_loop.hpp"
 #include "app/window/offscreen_window.hpp"
+#include "tests/app/support/program.hpp"
 #include "tests/app/support/temp_folder.hpp"
 
 namespace tendril::test {
@@ -27,18 +29,20 @@ class VideoFinish : public testing::Test {
 
     /// Something else called ffmpeg, which does this after it has read all frames.
     void film_with(const std::string& end) {
+        install(end);
+        app_.workspace().ui.video =
+            VideoRequest{.path = folder_ / "a.mp4", .size = {64, 64}, .from = 20, .to = 0};
+        tick(KeyTap{*chord_from_name("l")});
+    }
+    void install(const std::string& end) {
         const std::string program = (tools_ / "ffmpeg").string();
         write(program, "#!/bin/sh\nfor last; do :; done\ncat > \"${last#file:}\"\n" + end);
         std::filesystem::permissions(program, std::filesystem::perms::owner_all);
         ::setenv("PATH", (tools_.path().string() + ":" + path_).c_str(), 1);
-        app_.workspace().ui.video =
-            VideoRequest{.path = folder_ / "a.mp4", .size = {64, 64}, .from = 20, .to = 0};
-        const Event any = KeyTap{*chord_from_name("l")};
-        tick(&any);
     }
-    void tick(const Event* event = nullptr) {
+    void tick(std::optional<Event> event = {}) {
         const auto begin = Time::now();
-        app_.tick(event);
+        loop_.turn(event ? std::vector<Event>{*event} : std::vector<Event>{}, tick_seconds, player_);
         longest_ = std::max(longest_, std::chrono::duration<double>(Time::now() - begin).count());
     }
     /// Until the last frame is written.
@@ -56,6 +60,9 @@ class VideoFinish : public testing::Test {
     double longest_ = 0.0;  ///< seconds, of any tick
     std::unique_ptr<Window> window_ = open_offscreen({800, 600});
     App app_{*window_, false};
+    std::atomic<bool> ending_{false};
+    LiveLoop loop_{app_, *window_, {.config = false, .ending = ending_}};
+    Player player_{Script{}};
 };
 
 TEST_F(VideoFinish, GoesOnWhileTheWindowDoes) {
@@ -78,12 +85,102 @@ TEST_F(VideoFinish, IsCancelledByEscapeAndLeavesNoFile) {
     for (int i = 0; i < 3; ++i) tick();
     ASSERT_TRUE(filming());
     EXPECT_FALSE(folder_.names().empty()) << "a part of it is there";
-    const Event escape = KeyTap{*chord_from_name("escape")};
-    tick(&escape);
+    tick(KeyTap{*chord_from_name("escape")});
     EXPECT_FALSE(filming());
     EXPECT_EQ(toast(), "Cancelled: a.mp4 is not written");
     EXPECT_EQ(folder_.names(), std::vector<std::string>{});
     EXPECT_LT(longest_, 1.0);
+}
+
+/// What a person did is played again with an ffmpeg that is faster or slower than it was then.
+class VideoReplay : public VideoFinish {
+  protected:
+    void press(const char* chord) { tick(KeyTap{*chord_from_name(chord)}); }
+    void begin(const std::string& end) {
+        install(end);
+        app_.run({"lab.open", Json{{"name", "chain"}}});
+        app_.run({"chain.select", Json{{"index", 2}}});
+        app_.workspace().clock.tick = 0;  // who plays it counts from there
+        app_.start_recording(true);
+        app_.run({"chain.motion", Json{{"path", "circle"}}});
+        for (int i = 0; i < 30; ++i) tick();
+        press("ctrl+k");
+        tick();
+        tick(TextInput{"view.video path=" + (folder_ / "a.mp4").string() +
+                       " width=64 height=64 from=0.3 every=1"});
+        press("enter");
+        ASSERT_TRUE(filming());
+        write_frames();
+    }
+    /// Of the session, and of the recording of it played with another ffmpeg: state and files are the same.
+    void expect_same_again(const std::string& end) {
+        for (int i = 0; i < 5; ++i) tick();
+        write(folder_ / "r.jsonl", app_.recording());
+        app_.write_state((folder_ / "was.json").string());
+        const auto files = folder_.names();
+        std::filesystem::remove(folder_ / "a.mp4");
+        install(end);
+        ASSERT_TRUE(succeeded(run_program({"--headless", "--script", (folder_ / "r.jsonl").string(),
+                                           "--state", (folder_ / "again.json").string()})));
+        EXPECT_EQ(parse_json(read(folder_ / "again.json")), parse_json(read(folder_ / "was.json")));
+        std::filesystem::remove(folder_ / "again.json");
+        EXPECT_EQ(folder_.names(), files);
+    }
+};
+
+TEST_F(VideoReplay, IsCancelledAgainThoughFfmpegIsDoneAtOnce) {
+    begin("exec sleep 30\n");
+    for (int i = 0; i < 40; ++i) tick();
+    press("escape");
+    EXPECT_EQ(app_.state()["selected"], 2) << "Esc was for the video";
+    expect_same_again("");
+}
+
+TEST_F(VideoReplay, IsWrittenAgainThoughFfmpegTakesLonger) {
+    begin("");
+    for (int i = 0; i < 3000 && filming(); ++i) tick();
+    EXPECT_FALSE(filming());
+    for (int i = 0; i < 3; ++i) tick();
+    press("escape");
+    EXPECT_TRUE(app_.state()["selected"].is_null()) << "there is no video that Esc could be for";
+    expect_same_again("sleep 1\n");
+}
+
+TEST_F(VideoReplay, IsNotWrittenWhereTheSessionEndedBefore) {
+    begin("exec sleep 30\n");
+    for (int i = 0; i < 10; ++i) tick();
+    EXPECT_TRUE(filming());
+    write(folder_ / "r.jsonl", app_.recording());
+    install("");
+    ASSERT_TRUE(succeeded(run_program({"--headless", "--script", (folder_ / "r.jsonl").string()})));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "a.mp4"));
+}
+
+/// A script is on its own: it is no window in which a person waits.
+TEST_F(VideoReplay, OfAHeadlessRecordingFindsTheFileAfterTheLastFrame) {
+    install("sleep 0.2\n");
+    const std::string recording = (folder_ / "r.jsonl").string();
+    write(folder_ / "s.jsonl", R"({"command": "chain.motion", "path": "circle"})"
+                               "\n"
+                               R"({"wait": 30})"
+                               "\n"
+                               R"({"key": "ctrl+k"})"
+                               "\n"
+                               R"({"text": "view.video path=)" +
+                                   (folder_ / "a.mp4").string() +
+                                   R"( width=64 height=64 from=0.3"})"
+                                   "\n"
+                                   R"({"key": "enter"})"
+                                   "\n"
+                                   R"({"wait": 40})"
+                                   "\n");
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"--headless", "--script", (folder_ / "s.jsonl").string(), "--record",
+                                   recording},
+          {"--headless", "--script", recording}}) {
+        ASSERT_TRUE(succeeded(run_program(arguments)));
+        EXPECT_TRUE(std::filesystem::remove(folder_ / "a.mp4"));
+    }
 }
 
 TEST_F(VideoFinish, TellsWhatWentWrong) {

@@ -38,7 +38,7 @@ std::string written(const std::vector<Image>& frames, app::VideoFormat format) {
     format.frames = static_cast<int>(frames.size());
     ApngFile file(folder / "a.png", format);
     for (const Image& frame : frames) file.add(frame);
-    file.finish(0.0);
+    file.finish();
     EXPECT_EQ(folder.names(), std::vector<std::string>{"a.png"});
     return read(folder / "a.png");
 }
@@ -121,7 +121,7 @@ TEST(AnimatedPng, LeavesTheOldFileUnlessItIsFinished) {
         return message_of([&] { then(file); });
     };
     begin(2, [](ApngFile&) {});
-    EXPECT_TRUE(has(begin(2, [](ApngFile& file) { file.finish(0.0); }), "only 1 of 2 frames"));
+    EXPECT_TRUE(has(begin(2, [](ApngFile& file) { file.finish(); }), "only 1 of 2 frames"));
     EXPECT_TRUE(has(begin(1, [](ApngFile& file) { file.add(picture({8, 8}, 1)); }), "frame 2 of 1"));
     EXPECT_TRUE(has(begin(2, [](ApngFile& file) { file.add(picture({9, 8}, 1)); }), "9x8"));
     EXPECT_EQ(read(folder / "a.png"), "old");

@@ -10,6 +10,7 @@
 
 #include "app/labs/kit/joint_turn.hpp"
 #include "app/labs/kit/part_cache.hpp"
+#include "tests/app/labs/lab_support.hpp"
 #include "tests/app/labs/spring/spring_lab.hpp"
 #include "tests/app/support/random_numbers.hpp"
 
@@ -73,21 +74,67 @@ TEST(PartCaches, WorkOutAPartOnceAndForgetWhatIsNoLongerRemembered) {
     EXPECT_EQ(ask(some_part()), 2002) << "another part, though it may lie at the same place";
 }
 
-TEST(Ghosts, AreThoseOfEveryHalfSecondHoweverFewMomentsAreKept) {
-    for (const std::uint64_t stride : {1u, 2u, 4u, 8u, 16u}) {
+TEST(PartCaches, ForgetWhatWasWorkedOutFirstBeyondTheirBound) {
+    const std::size_t bound = 100'000;
+    PartCache<std::vector<double>> cache(bound);
+    std::vector<std::shared_ptr<const Part>> parts;
+    for (std::size_t i = 0; i < 300; ++i) {
+        parts.push_back(some_part());
+        const std::size_t size = (37 * i) % 200;
+        EXPECT_EQ(cache.of(parts.back(), [&] { return std::vector<double>(size, 0.5); }).size(), size);
+        EXPECT_LE(cache.bytes(), bound);
+        EXPECT_TRUE(cache.has(parts.back()));
+    }
+    EXPECT_FALSE(cache.has(parts.front()));
+    EXPECT_GT(cache.size(), 50u) << "there is space for so many";
+    for (std::size_t i = 0; i < 300; ++i) EXPECT_EQ(cache.has(parts[i]), i >= 300 - cache.size()) << i;
+    const std::vector<double>& large = cache.of(some_part(), [] { return std::vector<double>(20'000, 1.0); });
+    EXPECT_EQ(large.back(), 1.0) << "one that is too large by itself is there until the next";
+    EXPECT_EQ(cache.size(), 1u);
+    cache.clear();
+    EXPECT_EQ(cache.bytes(), 0u);
+}
+
+TEST(PartCaches, CountTheirBytesThroughAllThatIsForgotten) {
+    PartCache<std::vector<double>> cache;
+    for (int round = 0; round < 3; ++round) {
         Rewind past;
-        for (std::uint64_t tick = 3 * stride; tick < 900; tick += stride) past.remember(tick, 0, some_part());
-        const auto shown = ghost_moments(past);
-        ASSERT_GE(shown.size(), 19u) << stride;
-        EXPECT_LE(shown.size(), 21u) << stride;
-        for (std::size_t i = 0; i < shown.size(); ++i) {
-            EXPECT_LT(shown[i]->tick % 30, stride) << "as near to the half second as there is one";
+        for (std::uint64_t tick = 0; tick < 1500; ++tick) {
+            const auto part = some_part();
+            past.remember(tick, 0, part);
+            static_cast<void>(cache.of(part, [] { return std::vector<double>(10); }));
+            cache.trim(past);
+        }
+        EXPECT_EQ(cache.bytes() % cache.size(), 0u) << "each is as large as any other";
+        EXPECT_LT(cache.bytes() / cache.size(), 200u);
+    }
+}
+
+class Ghosts : public LabTest {
+  protected:
+    Ghosts() : LabTest("chain") {}
+    std::vector<const Rewind::Moment*> shown() const {
+        return ghost_moments(workspace, past_view("chain", "chain", {{"swing", "swing"}}));
+    }
+};
+
+TEST_F(Ghosts, AreThoseOfEveryHalfSecondHoweverFewMomentsAreKept) {
+    for (const std::uint64_t stride : {1u, 2u, 4u, 8u, 16u}) {
+        workspace.rewind.clear();
+        for (std::uint64_t tick = 3 * stride; tick < 900; tick += stride)
+            workspace.rewind.remember(tick, 0, some_part());
+        const auto moments = shown();
+        ASSERT_GE(moments.size(), 19u) << stride;
+        EXPECT_LE(moments.size(), 21u) << stride;
+        for (std::size_t i = 0; i < moments.size(); ++i) {
+            EXPECT_LT(moments[i]->tick % 30, stride) << "as near to the half second as there is one";
             if (i > 0) {
-                EXPECT_EQ(shown[i]->tick / 30, shown[i - 1]->tick / 30 + 1);
+                EXPECT_EQ(moments[i]->tick / 30, moments[i - 1]->tick / 30 + 1);
             }
         }
     }
-    EXPECT_TRUE(ghost_moments(Rewind()).empty());
+    workspace.rewind.clear();
+    EXPECT_TRUE(shown().empty());
 }
 
 }  // namespace

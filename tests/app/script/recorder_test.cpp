@@ -43,12 +43,14 @@ TEST(Recorder, says_which_file_and_which_scale_it_started_from_where_there_is_an
                              .settings = Json::object(),
                              .path = "walk.json",
                              .modified = true,
-                             .scale = 2.0f};
+                             .scale = 2.0f,
+                             .live = true};
     const Script script = parse(Recorder(beginning).text());
     ASSERT_TRUE(script.start);
     EXPECT_EQ(script.start->path, "walk.json");
     EXPECT_TRUE(script.start->modified);
     EXPECT_EQ(script.start->scale, 2.0f);
+    EXPECT_TRUE(script.start->live);
 }
 
 TEST(Recorder, writes_events_commands_and_the_ticks_between) {
@@ -134,6 +136,9 @@ bool same(const Focus& a, const Focus& b) {
     return a.focused == b.focused;
 }
 bool same(const CloseRequest&, const CloseRequest&) {
+    return true;
+}
+bool same(const VideoEnd&, const VideoEnd&) {
     return true;
 }
 

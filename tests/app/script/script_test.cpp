@@ -150,7 +150,7 @@ TEST(Script, that_has_a_wrong_line_is_refused_with_the_reason) {
     const std::string no_form =
         "expected one of the members \"command\", \"expect\", \"mouse\", \"key\", \"text\", \"resize\", "
         "\"drop\", "
-        "\"focus\", \"wait\", \"screenshot\", \"state\"";
+        "\"focus\", \"video\", \"wait\", \"screenshot\", \"state\"";
     const std::string one_measure = "expected exactly one of \"equals\", \"near\", \"below\", \"above\"";
     const std::vector<std::pair<std::string, std::string>> bad{
         {"nonsense", "invalid literal"},
@@ -208,6 +208,7 @@ TEST(Script, that_has_a_wrong_line_is_refused_with_the_reason) {
         {R"({"drop": "a.json"})", "drop: expected a list of paths, found \"a.json\""},
         {R"({"drop": [1]})", "drop: expected a text, found 1"},
         {R"({"focus": 1})", "focus: expected true or false, found 1"},
+        {R"({"video": "begin"})", "video: expected \"end\", found \"begin\""},
 
         {R"({"wait": 1.5})", "wait: expected a whole number from 0 to 1000000, found 1.5"},
         {R"({"wait": 1000001})", "wait: expected a whole number from 0 to 1000000, found 1000001"},
@@ -243,7 +244,7 @@ TEST(Script, that_has_a_member_too_many_is_refused) {
          {R"({"mouse": "move", "at": [1, 2]})", R"({"mouse": "down", "button": "left"})",
           R"({"mouse": "wheel", "by": 1})", R"({"key": "x"})", R"({"key": "x", "action": "up"})",
           R"({"text": "a"})", R"({"resize": [8, 6]})", R"({"drop": ["a"]})", R"({"focus": true})",
-          R"({"wait": 1})", R"({"screenshot": "a"})", R"({"state": "a"})",
+          R"({"video": "end"})", R"({"wait": 1})", R"({"screenshot": "a"})", R"({"state": "a"})",
           R"({"expect": "a", "equals": 1})"}) {
         EXPECT_EQ(refusal(line), "");
         Json more = parse_json(line);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/panels.hpp"
@@ -78,15 +79,15 @@ void clip_strip(const HumanoidPanel& panel) {
     }
 }
 
-void strip(const HumanoidPanel& panel) {
+/// Where the strip is that of the last ten seconds, its line.
+std::optional<StripLine> strip(const HumanoidPanel& panel) {
     if (panel.part.clip() == nullptr) return past_strip(panel.workspace, panel.emit);
     bool& past = panel.runtime.panel.past;
     buttons(panel);
     if (other_strip_button(past, "clip")) past = !past;
-    if (past)
-        past_strip(panel.workspace, panel.emit);
-    else
-        clip_strip(panel);
+    if (past) return past_strip(panel.workspace, panel.emit);
+    clip_strip(panel);
+    return std::nullopt;
 }
 
 }  // namespace
@@ -96,8 +97,9 @@ float HumanoidLab::timeline_height(const Workspace& workspace) const {
 }
 
 void HumanoidLab::timeline(const Workspace& workspace, Emit& emit) const {
-    strip(humanoid_panel(workspace, emit));
-    if (const auto curve = humanoid_past_curve(workspace)) past_plot(workspace, humanoid_past(), *curve);
+    const std::optional<StripLine> past = strip(humanoid_panel(workspace, emit));
+    past_plot(workspace, humanoid_past(), humanoid_past_curve(workspace), past, emit);
+    forget_past_poses(workspace);
 }
 
 }  // namespace tendril::app

@@ -10,6 +10,8 @@ PastView humanoid_past();
 /// Of the active node, or of the left elbow; of the active effector, or of the one that is farthest from its
 /// target. Nothing while nothing is plotted.
 std::optional<PastCurve> humanoid_past_curve(const Workspace& workspace);
+/// Once nothing of the past is shown any more.
+void forget_past_poses(const Workspace& workspace);
 /// A line for each bone of the body, as it was shown then.
 PoseLines humanoid_lines(const Workspace& workspace, const SharedPart& part);
 /// The body as it was before the incident that is shown, over what came of it.

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <array>
-#include <optional>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
 #include <tendril/humanoid/body.hpp>
-#include <tendril/humanoid/skeleton.hpp>
 #include <vector>
 
 #include "app/labs/kit/part_cache.hpp"
@@ -13,9 +13,17 @@
 namespace tendril::app {
 
 struct PastPose {
-    std::vector<humanoid::Placement> placed;                           ///< of every node
-    std::array<std::optional<double>, humanoid::effector_count> left;  ///< to the effectors' targets, metres
+    struct Node {
+        glm::vec3 position{0.0f};
+        glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
+    };
+    std::vector<Node> nodes;
+    /// To the effectors' targets, metres; NaN of one that has none.
+    std::array<float, humanoid::effector_count> left{};
 };
+inline std::size_t bytes_beyond(const PastPose& pose) {
+    return pose.nodes.size() * sizeof(PastPose::Node);
+}
 using PastPoses = PartCache<PastPose>;
 
 }  // namespace tendril::app

@@ -110,6 +110,44 @@ TEST_F(HumanoidPast, AMomentIsSolvedOnceWhateverIsPlotted) {
     EXPECT_EQ(parts(), before);
 }
 
+TEST_F(HumanoidPast, AFewMomentsAreWorkedOutAtATimeTheLastOnesFirst) {
+    walk(100);
+    plot("swing", "LeftLowerLeg");
+    const auto some = [&] {
+        return past_values(workspace, humanoid_past(), *humanoid_past_curve(workspace), 16);
+    };
+    for (std::size_t frame = 1; frame <= 6; ++frame) {
+        const auto known = some();
+        ASSERT_EQ(known.size(), 16 * frame);
+        EXPECT_EQ(known.back().tick, 100u);
+        EXPECT_EQ(known.front().tick, 101u - 16 * frame);
+        EXPECT_TRUE(past_plot_waits(workspace, humanoid_past()));
+        EXPECT_TRUE(lab().working(workspace));
+    }
+    EXPECT_EQ(some().size(), 101u);
+    EXPECT_FALSE(lab().working(workspace));
+    const std::uint64_t moment = workspace.moment;
+    lab().work(workspace);
+    EXPECT_EQ(workspace.moment, moment);
+    plot("twist", "LeftUpperArm");
+    EXPECT_EQ(some().size(), 101u) << "no pose is solved again for another number";
+}
+
+TEST_F(HumanoidPast, WhatWasWorkedOutIsForgottenOnceNothingIsShown) {
+    walk(20);
+    plot("swing", "LeftLowerLeg");
+    static_cast<void>(values());
+    forget_past_poses(workspace);
+    EXPECT_EQ(humanoid_runtime(workspace).past.size(), 21u) << "it is still plotted";
+    run("view.humanoid_plot", {{"of", "nothing"}});
+    run("view.humanoid_ghosts", {{"of", "past"}});
+    forget_past_poses(workspace);
+    EXPECT_EQ(humanoid_runtime(workspace).past.size(), 21u) << "there are ghosts";
+    run("view.humanoid_ghosts", {{"of", "nothing"}});
+    forget_past_poses(workspace);
+    EXPECT_EQ(humanoid_runtime(workspace).past.size(), 0u);
+}
+
 TEST_F(HumanoidPast, NothingIsWorkedOutWhileNothingIsShown) {
     walk(20);
     static_cast<void>(state());
