@@ -47,7 +47,7 @@ PastView past_view(const std::string& lab, const std::string& what, std::vector<
 struct PastCurve {
     std::string name;                                ///< of which joint it is, too: "swing of joint 2"
     std::string of;                                  ///< what tells it from all others
-    std::string unit = "deg";                        ///< or "m"
+    std::string unit = "deg";                        ///< or "m", "N", ...
     float lowest_range = 10.0f;                      ///< of the axis, in that unit
     std::string missing;                             ///< how to get one, where it is known at no moment
     std::function<double(const SharedPart&)> value;  ///< NaN where it is not known

@@ -55,16 +55,20 @@ std::vector<glm::vec3> particle_colours(const NamedWorld& world, const Palette& 
     return colours;
 }
 
-std::vector<std::uint8_t> whole_cells(const NamedWorld& world, const rope::Body& cloth) {
-    const std::size_t columns = cloth.row, rows = cloth.count / cloth.row;
-    // A link of the grid by the particle that it begins at: along the row, or down the column.
-    std::vector<std::uint8_t> along(cloth.count, 0), down(cloth.count, 0);
+GridLinks grid_links(const NamedWorld& world, const rope::Body& cloth) {
+    GridLinks links{std::vector<std::uint8_t>(cloth.count, 0), std::vector<std::uint8_t>(cloth.count, 0)};
     for (const rope::Link& link : world.state().links) {
         if (link.kind != rope::Link::Kind::Stretch || link.a < cloth.first) continue;
         const std::size_t from = link.a - cloth.first;
         if (from >= cloth.count) continue;
-        (link.b == link.a + 1 ? along : down)[from] = 1;
+        (link.b == link.a + 1 ? links.along : links.down)[from] = 1;
     }
+    return links;
+}
+
+std::vector<std::uint8_t> whole_cells(const NamedWorld& world, const rope::Body& cloth) {
+    const std::size_t columns = cloth.row, rows = cloth.count / cloth.row;
+    const auto [along, down] = grid_links(world, cloth);
     std::vector<std::uint8_t> cells((columns - 1) * (rows - 1), 0);
     for (std::size_t r = 0; r + 1 < rows; ++r) {
         for (std::size_t c = 0; c + 1 < columns; ++c) {

@@ -21,6 +21,11 @@ glm::vec3 cloth_front(const Palette& palette);
 /// One for each particle of a world: what its body is, or how its links are strained.
 std::vector<glm::vec3> particle_colours(const NamedWorld& world, const Palette& palette, bool by_strain);
 
+/// Which particles of a cloth have a link to the next one in their row, and in their column.
+struct GridLinks {
+    std::vector<std::uint8_t> along, down;
+};
+GridLinks grid_links(const NamedWorld& world, const rope::Body& cloth);
 /// What is left of each cell of a cloth, as ClothGrid has it: a triangle goes with either of its links.
 std::vector<std::uint8_t> whole_cells(const NamedWorld& world, const rope::Body& cloth);
 

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/labs/kit/world_drawing.hpp"
+#include "app/labs/rope/past.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/view/surfaces.hpp"
 
@@ -216,12 +217,14 @@ class Drawing {
 }  // namespace
 
 void RopeLab::draw(const View& view, DrawList& list) const {
+    draw_past_ghosts(view, rope_past(), rope_lines, list);
     Drawing(view, list).run();
 }
 
 std::vector<LegendRow> RopeLab::legend(const Workspace& workspace) const {
     const Palette& colours = palette(workspace.settings.theme);
     std::vector<LegendRow> rows{{"pinned", colours.target}, {"selection", colours.selection}};
+    if (rope_past().shows_ghosts(workspace.settings)) rows.push_back({ghost_legend, colours.ghost});
     if (rope_part(workspace).view.strain) {
         rows.push_back({"its length", strain_colour(0.0f, colours)});
         rows.push_back({"1 % too long", strain_colour(0.01f, colours)});

@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/document/json_complete.hpp"
+#include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/panels.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_names.hpp"
@@ -16,16 +17,6 @@
 
 namespace tendril::app {
 namespace {
-
-/// The strongest pull of the links at a particle, newtons.
-float tension_at(const NamedWorld& world, std::size_t particle) {
-    float strongest = 0.0f;
-    for (const rope::Link& link : world.state().links) {
-        if (link.kind == rope::Link::Kind::Stretch && (link.a == particle || link.b == particle))
-            strongest = std::max(strongest, link.tension);
-    }
-    return strongest;
-}
 
 void particle_rows(const RopePart& part, const rope::Body& body, std::size_t index, Emit& emit) {
     const NamedWorld& world = *part.world;
@@ -47,7 +38,8 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
                 static_cast<double>(at.z));
     }
     reading("speed", "%.3f m/s", static_cast<double>(glm::length(world.velocity(particle))));
-    reading("tension", "%.2f N", static_cast<double>(tension_at(world, particle)));
+    reading("tension", "%.2f N",
+            static_cast<double>(strongest_tension(world, measured_particles(world, part.selection))));
     reading(body.kind == rope::Body::Kind::Rope ? "rope's length" : "length of a row", "%.3f m",
             world.length(body));
     if (row_button(pinned ? "Unpin" : "Pin", 3, true,

@@ -9,6 +9,7 @@
 #include "app/labs/kit/past_strip.hpp"
 #include "app/labs/kit/preset_rows.hpp"
 #include "app/labs/rope/panels.hpp"
+#include "app/labs/rope/past.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/rope/rope_names.hpp"
 #include "app/labs/rope/scenes.hpp"
@@ -144,6 +145,11 @@ void view_rows(const RopePart& part, Emit& emit) {
     explain("How many sides ropes have in the picture. More look rounder and take longer to draw.");
 }
 
+constexpr PastHelp past_help{
+    "What of the last ten seconds is plotted below the scene: of the selected particles or their body, or of "
+    "all ropes where none is selected",
+    "Where the ropes were, at every half second"};
+
 }  // namespace
 
 void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
@@ -156,6 +162,7 @@ void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
     if (open("World")) world_rows(part, emit);
     if (open("Time")) time_rows(workspace, emit);
     if (open("Show")) view_rows(part, emit);
+    if (open("Last ten seconds")) past_view_rows(workspace, rope_past(), past_help, emit);
 }
 
 void RopeLab::inspector(const Workspace& workspace, Emit& emit) const {
@@ -164,8 +171,13 @@ void RopeLab::inspector(const Workspace& workspace, Emit& emit) const {
     number_rows(workspace, palette(workspace.settings.theme));
 }
 
+float RopeLab::timeline_height(const Workspace& workspace) const {
+    return strip_height + past_plot_height(workspace.settings, rope_past());
+}
+
 void RopeLab::timeline(const Workspace& workspace, Emit& emit) const {
-    past_strip(workspace, emit);
+    const StripLine strip = past_strip(workspace, emit);
+    past_plot(workspace, rope_past(), rope_past_curve(workspace), strip, emit);
 }
 
 }  // namespace tendril::app

@@ -5,6 +5,7 @@
 
 #include "app/labs/kit/index_list.hpp"
 #include "app/labs/kit/part_command.hpp"
+#include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/rope_time.hpp"
 
 namespace tendril::app {

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 
 #include "app/labs/kit/guarded_step.hpp"
+#include "app/labs/rope/numbers.hpp"
+#include "app/labs/rope/past.hpp"
 #include "app/labs/rope/rope_commands.hpp"
 #include "app/labs/rope/rope_time.hpp"
 #include "app/labs/rope/scenes.hpp"
@@ -121,14 +123,19 @@ std::uint64_t RopeLab::tick_work(const Workspace& workspace) const {
     return work_of_substep(world) * static_cast<std::uint64_t>(std::ceil(substeps));
 }
 
+std::vector<LabSetting> RopeLab::settings() const {
+    return {rope_past().plot, rope_past().ghosts};
+}
+
 std::vector<Shortcut> RopeLab::shortcuts() const {
     return {delete_shortcut("rope.remove_selected")};
 }
 
 std::vector<MouseHelp> RopeLab::mouse_help() const {
-    return {{"Left click", "selects, pins or unpins, or cuts, as the panel says"},
-            {"Shift+click on a rope", "adds a particle to the selection, or takes it out"},
-            {"Ctrl+drag on nothing", "draws a box that selects particles of one rope; with Shift it adds them"}};
+    return {
+        {"Left click", "selects, pins or unpins, or cuts, as the panel says"},
+        {"Shift+click on a rope", "adds a particle to the selection, or takes it out"},
+        {"Ctrl+drag on nothing", "draws a box that selects particles of one rope; with Shift it adds them"}};
 }
 
 std::vector<TestScene> RopeLab::test_scenes() const {

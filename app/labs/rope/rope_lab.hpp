@@ -68,8 +68,9 @@ class RopeLab final : public Lab {
     Bounds bounds(const Workspace& workspace, bool selection_only) const override;
     void panel(const Workspace& workspace, Emit& emit) const override;
     void inspector(const Workspace& workspace, Emit& emit) const override;
-    float timeline_height(const Workspace&) const override { return strip_height; }
+    float timeline_height(const Workspace& workspace) const override;
     void timeline(const Workspace& workspace, Emit& emit) const override;
+    std::vector<LabSetting> settings() const override;
     std::vector<Shortcut> shortcuts() const override;
     std::vector<MouseHelp> mouse_help() const override;
     std::vector<TestScene> test_scenes() const override;

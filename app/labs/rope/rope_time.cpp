@@ -86,15 +86,6 @@ void pass_time(RopePart& part, double seconds, rope::Workspace& workspace) {
     part.world = std::move(world);
 }
 
-RopeSample sample_of(const NamedWorld& world) {
-    RopeSample sample;
-    for (const rope::Body& body : world.state().bodies)
-        sample.stretch = std::max(sample.stretch, body.stretch);
-    sample.error = static_cast<float>(world.length_error());
-    sample.energy = static_cast<float>(world.energy());
-    return sample;
-}
-
 std::uint64_t work_of_substep(const NamedWorld& world) {
     const rope::State& state = world.state();
     const auto attached = static_cast<std::uint64_t>(

@@ -20,8 +20,6 @@ void pass_time(RopePart& part, double seconds, rope::Workspace& workspace);
 /// Of a world's substep, for max_lab_work: counted, not measured, so that every machine drops the same.
 std::uint64_t work_of_substep(const NamedWorld& world);
 
-RopeSample sample_of(const NamedWorld& world);
-
 /// Seconds of the jittered frame of that number: a tick at dial 0, anything from 1 to 250 ms at 1.
 double jitter_frame(float dial, std::uint32_t number);
 

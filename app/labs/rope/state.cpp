@@ -2,6 +2,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/labs/kit/world_file.hpp"
 #include "app/labs/rope/panels.hpp"
+#include "app/labs/rope/past.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/rope/rope_names.hpp"
 
@@ -79,7 +80,8 @@ Json RopeLab::state(const Workspace& workspace) const {
                 {"selected", selection_state(part.selection)},
                 {"held", std::move(held)},
                 {"jitter", number(part.jitter.dial)},
-                {"moving", moving(workspace)}};
+                {"moving", moving(workspace)},
+                {"past", past_view_state(workspace, rope_past(), rope_past_curve(workspace))}};
 }
 
 }  // namespace tendril::app

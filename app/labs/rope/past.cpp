@@ -1,0 +1,175 @@
+// How ropes pull, stretch and move over the last ten seconds, and their past poses.
+#include "app/labs/rope/past.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "app/labs/kit/world_drawing.hpp"
+#include "app/labs/rope/numbers.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t most_threads = 200;  ///< of a past pose
+constexpr std::size_t most_lines = 400;    ///< of a past pose
+
+enum class Number { Tension, Error, Energy, Speed };  // in the order of rope_past()
+
+const RopePart& ropes_of(const SharedPart& part) {
+    return dynamic_cast<const RopePart&>(*part);
+}
+
+double value_of(Number what, const NamedWorld& world, const std::optional<RopeSelection>& selection) {
+    const Particles particles = measured_particles(world, selection);
+    if (particles.empty()) return nothing;
+    const rope::Body* const body = selection ? world.find(selection->body) : nullptr;
+    switch (what) {
+        case Number::Tension:
+            return static_cast<double>(strongest_tension(world, particles));
+        case Number::Error:
+            return 100.0 * (body != nullptr ? world.length_error(*body) : world.length_error());
+        case Number::Energy:
+            return body != nullptr ? world.energy(*body) : world.energy();
+        case Number::Speed:
+            return static_cast<double>(highest_speed(world, particles));
+    }
+    return nothing;
+}
+
+/// "rope 2, particle 7", "3 particles of rope 2", or "rope 2" where it is asked of a whole body.
+std::string measured_name(Number what, const RopeSelection& selection) {
+    if (what == Number::Error || what == Number::Energy) return selection.body;
+    if (!selection.particles.several())
+        return selection.body + ", particle " + std::to_string(selection.particle());
+    return std::to_string(selection.particles.all().size()) + " particles of " + selection.body;
+}
+
+struct Told {
+    const char* of_some;
+    const char* of_all;
+    const char* unit;
+    float lowest_range;
+};
+Told told(Number what) {
+    switch (what) {
+        case Number::Tension:
+            return {"tension at ", "strongest tension", "N", 0.1f};
+        case Number::Error:
+            return {"length error of ", "length error", "%", 0.01f};
+        case Number::Energy:
+            return {"energy of ", "energy", "J", 0.01f};
+        default:
+            return {"speed of ", "highest speed", "m/s", 0.1f};
+    }
+}
+
+bool same_particles(const Part& then, const Part& now) {
+    const auto masses = [](const Part& part) -> const auto& {
+        return dynamic_cast<const RopePart&>(part).world->state().mass;
+    };
+    return masses(then) == masses(now);
+}
+
+/// Places in a list of `count`, from its first to its last.
+std::set<std::size_t> spread(std::size_t count, std::size_t wanted) {
+    std::set<std::size_t> places;
+    for (std::size_t i = 0; i < wanted; ++i) places.insert(i * (count - 1) / (wanted - 1));
+    return places;
+}
+
+/// Particles that follow one another in the list of a world's, each `step` after the one before it.
+struct Thread {
+    std::size_t first = 0, step = 1, count = 0;
+    /// Which have a link to the next; all, where it is empty.
+    std::vector<bool> linked{};
+
+    bool whole(std::size_t from, std::size_t to) const {
+        return linked.empty() ||
+               std::all_of(linked.begin() + static_cast<std::ptrdiff_t>(from),
+                           linked.begin() + static_cast<std::ptrdiff_t>(to), [](bool each) { return each; });
+    }
+};
+
+void add_cloth(const NamedWorld& world, const rope::Body& cloth, std::vector<Thread>& threads) {
+    constexpr std::size_t shown = 5;
+    const std::size_t columns = cloth.row, rows = cloth.count / cloth.row;
+    const GridLinks links = grid_links(world, cloth);
+    for (const std::size_t row : spread(rows, shown)) {
+        Thread thread{cloth.first + row * columns, 1, columns};
+        for (std::size_t i = 0; i < columns; ++i)
+            thread.linked.push_back(links.along[row * columns + i] != 0);
+        threads.push_back(std::move(thread));
+    }
+    for (const std::size_t column : spread(columns, shown)) {
+        Thread thread{cloth.first + column, columns, rows};
+        for (std::size_t i = 0; i < rows; ++i) thread.linked.push_back(links.down[i * columns + column] != 0);
+        threads.push_back(std::move(thread));
+    }
+}
+
+std::vector<Thread> threads_of(const NamedWorld& world) {
+    std::vector<Thread> threads;
+    for (const rope::Body& body : world.state().bodies) {
+        if (body.kind == rope::Body::Kind::Cloth) {
+            add_cloth(world, body, threads);
+            continue;
+        }
+        for (std::size_t i = 0; i < body.count; i += body.row)
+            threads.push_back({body.first + i, 1, body.row});
+    }
+    return threads;
+}
+
+}  // namespace
+
+PastView rope_past() {
+    return past_view(
+        rope_lab, "ropes",
+        {{"tension", "tension"}, {"error", "length error"}, {"energy", "energy"}, {"speed", "speed"}},
+        same_particles);
+}
+
+std::optional<PastCurve> rope_past_curve(const Workspace& workspace) {
+    const PastView view = rope_past();
+    if (!view.plots(workspace.settings)) return std::nullopt;
+    const auto what = static_cast<Number>(view.chosen(workspace.settings));
+    std::optional<RopeSelection> selection = rope_part(workspace).selection;
+    if (selection && !selection->collider.empty()) selection.reset();
+    const Told words = told(what);
+    const std::string name = selection ? words.of_some + measured_name(what, *selection) : words.of_all;
+    std::string of = name;
+    if (selection)
+        for (const std::size_t each : selection->particles.all()) of += " " + std::to_string(each);
+    return PastCurve{.name = name,
+                     .of = of,
+                     .unit = words.unit,
+                     .lowest_range = words.lowest_range,
+                     .missing = "There was no rope: add one.",
+                     .value = [what, selection](const SharedPart& part) {
+                         return value_of(what, *ropes_of(part).world, selection);
+                     }};
+}
+
+PoseLines rope_lines(const SharedPart& part) {
+    const NamedWorld& world = *ropes_of(part).world;
+    const std::vector<Thread> threads = threads_of(world);
+    PoseLines lines;
+    if (threads.empty()) return lines;
+    const std::size_t every = (threads.size() + most_threads - 1) / most_threads;
+    const std::size_t each = most_lines / ((threads.size() + every - 1) / every);
+    for (std::size_t t = 0; t < threads.size(); t += every) {
+        const Thread& thread = threads[t];
+        const std::size_t links = thread.count - 1, strokes = std::min(links, each);
+        for (std::size_t i = 0; i < strokes; ++i) {
+            const std::size_t from = i * links / strokes, to = (i + 1) * links / strokes;
+            if (thread.whole(from, to))
+                lines.emplace_back(world.position(thread.first + from * thread.step),
+                                   world.position(thread.first + to * thread.step));
+        }
+    }
+    return lines;
+}
+
+}  // namespace tendril::app
