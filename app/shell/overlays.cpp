@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -118,8 +119,10 @@ static void lab_settings(const ShellFrame& frame, Emit& emit) {
     for (const LabSetting& setting : settings) {
         std::vector<const char*> titles;
         for (const LabSetting::Choice& choice : setting.choices) titles.push_back(choice.title.c_str());
+        std::string name = setting.key;
+        std::replace(name.begin(), name.end(), '_', ' ');
         int chosen = static_cast<int>(setting.chosen(frame.workspace.settings));
-        if (choice_field(setting.key.c_str(), chosen, titles.data(), static_cast<int>(titles.size())))
+        if (choice_field(name.c_str(), chosen, titles.data(), static_cast<int>(titles.size())))
             emit(setting.command,
                  {{setting.argument, setting.choices[static_cast<std::size_t>(chosen)].name}});
         explain(setting.help.c_str());
