@@ -147,6 +147,43 @@ TEST(RopeIslands, ThreadsGiveTheSameBits) {
     }
 }
 
+/// Threads help with cloth that is large enough, whoever comes first and whether or not anybody comes.
+TEST(RopeIslands, ThreadsThatShareACloth) {
+    rope::World start = world_with({.iterations = 5});
+    add_ground(start);
+    for (const float high : {0.2f, 0.6f}) {
+        const rope::ClothShape sheet{.corner = {-1, high, -1},
+                                     .along = {2, 0.1f, 0},
+                                     .down = {0, 0, 2},
+                                     .columns = 97,
+                                     .rows = 90,
+                                     .pins = rope::ClothShape::Pins::Corners};
+        allow(start.add_cloth(sheet).error());
+        add_body(start, 1, 20), add_body(start, 3, 20);
+    }
+    rope::World expected = start;
+    Workspace one;
+    const Advance done = play(expected, one, 2);
+    for (const int threads : {2, 3, 7}) {
+        rope::World world = start;
+        Workspace workspace;
+        allow(workspace.use_threads(threads));
+        EXPECT_TRUE(same(play(world, workspace, 2), done)) << threads;
+        EXPECT_TRUE(same_bits(world.state(), expected.state())) << threads;
+    }
+    for (const bool backwards : {false, true}) {
+        for (const bool aside : {false, true}) {
+            rope::World world = start;
+            Workspace workspace;
+            Jobs jobs{.backwards = backwards, .aside = aside};
+            allow(workspace.use_threads(4, {run_on_jobs, &jobs}));
+            EXPECT_TRUE(same(play(world, workspace, 2), done)) << backwards << aside;
+            EXPECT_TRUE(same_bits(world.state(), expected.state())) << backwards << aside;
+            EXPECT_EQ(jobs.pieces, 4 * jobs.calls);
+        }
+    }
+}
+
 /// A small world is not worth a second thread.
 TEST(RopeIslands, LittleWorkNeedsNoCallback) {
     rope::World world = some_world({}, 6, 4);

@@ -8,6 +8,7 @@
 #include <glm/vector_relational.hpp>
 #include <stdexcept>
 #include <tendril/chain/segment.hpp>
+#include <thread>
 #include <utility>
 
 #include "app/labs/kit/motion.hpp"
@@ -64,6 +65,11 @@ void pass_frame(RopePart& part, NamedWorld& world, double seconds, rope::Workspa
 }
 
 }  // namespace
+
+RopeRuntime::RopeRuntime() {
+    const unsigned cores = std::thread::hardware_concurrency();
+    (void)workspace.use_threads(static_cast<int>(std::clamp(cores, 1u, 4u)));  // in range
+}
 
 void pass_time(RopePart& part, double seconds, rope::Workspace& workspace) {
     auto world = std::make_shared<NamedWorld>(*part.world);

@@ -10,7 +10,8 @@ namespace tendril::app {
 
 /// What worlds are advanced and dragged with, kept from tick to tick.
 struct RopeRuntime final : Runtime {
-    rope::Workspace workspace;
+    RopeRuntime();
+    rope::Workspace workspace;  ///< with threads where the machine has them
 };
 
 /// Lets `seconds` pass in the lab. The world that comes of it does not depend on how they are cut, as long as

@@ -16,7 +16,7 @@
 
 namespace tendril {
 
-/// One piece of a call's work. It does not throw, and never waits for another piece.
+/// One piece of a call's work. It does not throw, and waits for no piece that has not begun.
 using TaskFunction = void (*)(void* context, std::uint32_t index) noexcept;
 
 struct Tasks {

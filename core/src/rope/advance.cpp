@@ -3,6 +3,7 @@
 #include <atomic>
 #include <glm/common.hpp>
 
+#include "math/fork_join.hpp"
 #include "math/tasks.hpp"
 #include "rope/contact_shape.hpp"
 #include "rope/geometry.hpp"
@@ -71,20 +72,47 @@ void move_colliders(State& state, Scratch& scratch) {
 
 /// Less than this is not worth another thread: some 60 us on one.
 constexpr std::size_t links_a_thread = 1024;
+/// Whether threads without an island help with this one: a large cloth.
+bool is_shared(const Plan& plan, const Plan::Island& island) {
+    if (island.grid == 0) return false;
+    const Plan::Grid& grid = plan.grids[island.grid - 1];
+    return std::size_t{grid.columns} * grid.rows >= detail::min_shared_cells;
+}
+
+/// How many threads have something to do.
+std::size_t useful_threads(const State& state, const Plan& plan) {
+    std::size_t useful = plan.islands.size();
+    for (const Plan::Island& island : plan.islands)
+        if (is_shared(plan, island)) useful += island.particles / detail::min_shared_cells;
+    return std::min(useful, state.links.size() / links_a_thread);
+}
 
 }  // namespace
 
 void Workspace::Parts::solve_islands(State& state, bool measures) {
     const std::vector<Plan::Island>& islands = plan.islands;
-    const std::size_t useful = std::min(islands.size(), state.links.size() / links_a_thread);
+    const std::size_t useful = useful_threads(state, plan);
     const auto count = static_cast<std::uint32_t>(std::clamp<std::size_t>(useful, 1, threads.size()));
-    std::atomic<std::size_t> next{0};
-    const auto piece = [&](std::uint32_t index) noexcept {
+    std::atomic<std::size_t> next{0}, shared_left{0};
+    if (count > 1)
+        for (const Plan::Island& island : islands) shared_left += is_shared(plan, island) ? 1 : 0;
+    const auto solve = [&](std::uint32_t index) noexcept {
         IslandScratch& local = threads[index];
-        for (std::size_t i; (i = next.fetch_add(1)) < islands.size();)
+        for (std::size_t i; (i = next.fetch_add(1)) < islands.size();) {
+            const bool shared = count > 1 && is_shared(plan, islands[i]);
+            if (shared) local.loops.begin();
             Substep(state, plan, islands[i], scratch, local).run(measures);
+            if (!shared) continue;
+            local.loops.end();
+            shared_left.fetch_sub(1, std::memory_order_release);
+        }
+        for (std::uint32_t looked = 0; shared_left.load(std::memory_order_acquire) > 0; ++looked) {
+            for (std::uint32_t other = 0; other < count; ++other)
+                if (threads[other].loops.help()) looked = 0;
+            tendril::detail::pause(looked);
+        }
     };
-    tendril::detail::run_pieces(tasks, count, count, piece);
+    tendril::detail::run_pieces(tasks, count, count, solve);
 }
 
 void Workspace::Parts::add_up(Advance& done) {

@@ -127,7 +127,8 @@ int ClothSolver::step(int iterations) {
     assemble();
     add_contacts();
     pin();
-    const auto solved = cloth_.system.solve(scratch_.grid_unit, lightest_, tolerance, iterations);
+    const auto solved =
+        cloth_.system.solve(scratch_.grid_unit, lightest_, tolerance, iterations, local_.loops);
     converged_ = solved.converged;
     const detail::GridVector& by = cloth_.system.solution();
     each_cell([&](std::size_t i, std::size_t cell) {

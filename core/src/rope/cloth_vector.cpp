@@ -22,7 +22,7 @@ void links(const GridLevel& level, const ClothArrays& cloth) {
     for (std::size_t s = 0; s < fine_steps; ++s) {
         const std::ptrdiff_t step = level.step(s);
         const GridBlocks& blocks = level.links[s];
-        each_register(level.cells(), [&](std::ptrdiff_t i) {
+        each_register({0, level.cells()}, [&](std::ptrdiff_t i) {
             const V stiffness = load(cloth.stiffness[s] + i), rest = load(cloth.rest[s] + i);
             V3 by = load(cloth.place, i + step) - load(cloth.place, i);
             const V length =
@@ -49,7 +49,7 @@ void links(const GridLevel& level, const ClothArrays& cloth) {
 void cells(const GridLevel& level, const ClothArrays& cloth) {
     std::ptrdiff_t step[fine_steps];
     for (std::size_t s = 0; s < fine_steps; ++s) step[s] = level.step(s);
-    each_register(level.cells(), [&](std::ptrdiff_t i) {
+    each_register({0, level.cells()}, [&](std::ptrdiff_t i) {
         const V3 at = load(cloth.place, i);
         V3 right = load(cloth.mass + i) * load(cloth.lag, i);
         for (std::size_t s = 0; s < fine_steps; ++s) {
@@ -61,7 +61,7 @@ void cells(const GridLevel& level, const ClothArrays& cloth) {
     });
     for (std::size_t k = 0; k < 6; ++k) {
         const bool diagonal = k == 0 || k == 3 || k == 5;
-        each_register(level.cells(), [&](std::ptrdiff_t i) {
+        each_register({0, level.cells()}, [&](std::ptrdiff_t i) {
             V sum = diagonal ? load(cloth.mass + i) : hn::Zero(Tag());
             for (std::size_t s = 0; s < fine_steps; ++s) {
                 const float* block = level.links[s][k] + i;

@@ -58,8 +58,9 @@ inline V3 operator*(V s, const V3& v) {
 }
 
 template <class Visit>
-void each_register(std::size_t cells, Visit visit) {
-    for (std::size_t i = 0; i < cells; i += hn::Lanes(Tag())) visit(static_cast<std::ptrdiff_t>(i));
+void each_register(GridRange cells, Visit visit) {
+    for (std::size_t i = cells.first; i < cells.end; i += hn::Lanes(Tag()))
+        visit(static_cast<std::ptrdiff_t>(i));
 }
 
 }  // namespace HWY_NAMESPACE

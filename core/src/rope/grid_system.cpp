@@ -10,6 +10,8 @@ namespace {
 /// Of a level that is not made coarser.
 constexpr std::size_t coarsest = 2;
 constexpr int coarsest_passes = 6;
+/// What threads share a loop by.
+constexpr std::size_t part_cells = 16 * dot_cells;
 
 /// Gives arrays for levels out of one memory; first it only counts.
 class Arrays {
@@ -60,59 +62,107 @@ void GridSystem::resize(std::size_t columns, std::size_t rows, std::span<float*>
         arrays.take(levels_.front(), others);
         return arrays.taken();
     };
+    sums_.resize((levels_.front().cells() + dot_cells - 1) / dot_cells);
     constexpr std::size_t line = 16;
     memory_.assign(share(nullptr) + line, 0.0f);
     const std::size_t off = reinterpret_cast<std::uintptr_t>(memory_.data()) / sizeof(float) % line;
     share(memory_.data() + (line - off) % line);
 }
 
+/// What is done to levels, in parts where threads help.
+class GridSystem::Loops {
+  public:
+    Loops(const GridUnit& of, tendril::detail::ForkJoin& loops) : unit(of), loops_(loops) {}
+
+    template <class Work>
+    void cells(const GridLevel& level, Work work) const {
+        run(level.cells(), part_cells, level.cells() >= min_shared_cells, work);
+    }
+    /// Of the next level, of which a cell is four of this one.
+    template <class Work>
+    void rows(const GridLevel& next, Work work) const {
+        run(next.rows, std::max<std::size_t>(1, part_cells / 4 / next.stride),
+            4 * next.cells() >= min_shared_cells, work);
+    }
+    void multiply(const GridLevel& level, const GridVector& x, const GridVector& product) const {
+        cells(level, [&](GridRange part) { unit.multiply(level, x, product, part); });
+    }
+
+    const GridUnit& unit;
+
+  private:
+    template <class Work>
+    void run(std::size_t count, std::size_t size, bool large, Work work) const {
+        constexpr std::size_t most = tendril::detail::ForkJoin::max_parts;
+        if (!large || !loops_.shared() || count > most * size) return work(GridRange{0, count});
+        const auto parts = static_cast<std::uint32_t>((count + size - 1) / size);
+        loops_.run(parts, [&](std::uint32_t part) {
+            const std::size_t first = part * size;
+            work(GridRange{first, std::min(count, first + size)});
+        });
+    }
+
+    tendril::detail::ForkJoin& loops_;
+};
+
 /// One cycle: x from the right side.
-void GridSystem::precondition(const GridUnit& unit, std::size_t index) {
+void GridSystem::precondition(const Loops& loops, std::size_t index) {
+    const GridUnit& unit = loops.unit;
     const GridLevel& level = levels_[index];
-    unit.smooth_first(level);
+    loops.cells(level, [&](GridRange part) { unit.smooth_first(level, part); });
+    const auto smooth = [&] {
+        loops.multiply(level, level.x, level.product);
+        loops.cells(level, [&](GridRange part) { unit.smooth(level, part); });
+    };
     if (index + 1 == levels_.size()) {
-        for (int pass = 0; pass < coarsest_passes; ++pass) {
-            unit.multiply(level, level.x, level.product);
-            unit.smooth(level);
-        }
+        for (int pass = 0; pass < coarsest_passes; ++pass) smooth();
         return;
     }
     const GridLevel& next = levels_[index + 1];
-    unit.multiply(level, level.x, level.product);
-    unit.restrict_to(level, next);
-    precondition(unit, index + 1);
-    unit.prolong(level, next);
-    unit.multiply(level, level.x, level.product);
-    unit.smooth(level);
+    loops.multiply(level, level.x, level.product);
+    loops.rows(next, [&](GridRange part) { unit.restrict_to(level, next, part); });
+    precondition(loops, index + 1);
+    loops.rows(next, [&](GridRange part) { unit.prolong(level, next, part); });
+    smooth();
 }
 
-GridSystem::Solved GridSystem::solve(const GridUnit& unit, float floor, double tolerance, int iterations) {
+GridSystem::Solved GridSystem::solve(const GridUnit& unit, float floor, double tolerance, int iterations,
+                                     tendril::detail::ForkJoin& with) {
+    const Loops loops(unit, with);
     const GridLevel& fine = finest();
-    const std::size_t cells = fine.cells();
     for (std::size_t i = 0; i < levels_.size(); ++i) {
-        if (i > 0) unit.coarsen(levels_[i - 1], levels_[i]);
-        unit.factorize(levels_[i], floor);
+        const GridLevel& level = levels_[i];
+        if (i > 0) loops.rows(level, [&](GridRange part) { unit.coarsen(levels_[i - 1], level, part); });
+        loops.cells(level, [&](GridRange part) { unit.factorize(level, floor, part); });
     }
-    for (float* array : solution_) std::fill_n(array, cells, 0.0f);
-    for (float* array : direction_) std::fill_n(array, cells, 0.0f);
+    for (float* array : solution_) std::fill_n(array, fine.cells(), 0.0f);
+    for (float* array : direction_) std::fill_n(array, fine.cells(), 0.0f);
+    const auto dot = [&](const GridVector& a, const GridVector& b) {
+        loops.cells(fine, [&](GridRange part) { unit.dot(a, b, sums_.data(), part); });
+        double all = 0.0;
+        for (const double sum : sums_) all += sum;
+        return all;
+    };
     Solved solved;
     double first = 0.0, before = 0.0;
     for (;; ++solved.iterations) {
-        precondition(unit, 0);
-        const double now = unit.dot(cells, fine.right, fine.x);
+        precondition(loops, 0);
+        const double now = dot(fine.right, fine.x);
         if (solved.iterations == 0) first = now;
         if (!std::isfinite(now)) return solved;
         solved.converged = now <= tolerance * tolerance * first;
         if (solved.converged || solved.iterations >= iterations) return solved;
-        unit.scale_and_add(cells, solved.iterations == 0 ? 0.0f : static_cast<float>(now / before), fine.x,
-                           direction_);
+        const float kept = solved.iterations == 0 ? 0.0f : static_cast<float>(now / before);
+        loops.cells(fine, [&](GridRange part) { unit.scale_and_add(kept, fine.x, direction_, part); });
         before = now;
-        unit.multiply(fine, direction_, product_);
-        const double curvature = unit.dot(cells, direction_, product_);
+        loops.multiply(fine, direction_, product_);
+        const double curvature = dot(direction_, product_);
         if (!(curvature > 0.0)) return solved;
         const auto length = static_cast<float>(now / curvature);
-        unit.add(cells, length, direction_, solution_);
-        unit.add(cells, -length, product_, fine.right);
+        loops.cells(fine, [&](GridRange part) {
+            unit.add(length, direction_, solution_, part);
+            unit.add(-length, product_, fine.right, part);
+        });
     }
 }
 

@@ -21,6 +21,8 @@
 #include <string_view>
 #include <vector>
 
+#include "math/fork_join.hpp"
+
 namespace tendril::rope::detail {
 
 /// To the other end of a link. A coarser level has the first four only.
@@ -57,28 +59,41 @@ struct GridLevel {
     }
 };
 
-/// What is done to a level, compiled for each vector unit.
+/// From the first up to the end: cells, by whole registers, or rows.
+struct GridRange {
+    std::size_t first = 0, end = 0;
+};
+
+/// Of so many cells a dot product is summed up in single precision.
+inline constexpr std::size_t dot_cells = 8 * grid_lanes;
+
+/// Of a level that threads share: with less they wait longer for each other than they help.
+inline constexpr std::size_t min_shared_cells = 8192;
+
+/// What is done to a part of a level, compiled for each vector unit. Parts can be done side by side.
 struct GridUnit {
     /// Of the diagonal, where no pivot is less than `floor`.
-    void (*factorize)(const GridLevel&, float floor) = nullptr;
-    /// The blocks of the next level and which of its cells are free.
-    void (*coarsen)(const GridLevel&, const GridLevel&) = nullptr;
+    void (*factorize)(const GridLevel&, float floor, GridRange cells) = nullptr;
+    /// The blocks of the next level and which of its cells are free, for rows of that.
+    void (*coarsen)(const GridLevel&, const GridLevel&, GridRange rows) = nullptr;
     /// product = A x, of any two vectors
-    void (*multiply)(const GridLevel&, const GridVector& x, const GridVector& product) = nullptr;
+    void (*multiply)(const GridLevel&, const GridVector& x, const GridVector& product,
+                     GridRange cells) = nullptr;
     /// x = damping D^-1 right
-    void (*smooth_first)(const GridLevel&) = nullptr;
+    void (*smooth_first)(const GridLevel&, GridRange cells) = nullptr;
     /// x += damping D^-1 (right - product)
-    void (*smooth)(const GridLevel&) = nullptr;
-    /// The next level's right side: sums of right - product
-    void (*restrict_to)(const GridLevel&, const GridLevel&) = nullptr;
-    /// x += the next level's, where it is free
-    void (*prolong)(const GridLevel&, const GridLevel&) = nullptr;
-    double (*dot)(std::size_t cells, const GridVector&, const GridVector&) = nullptr;
+    void (*smooth)(const GridLevel&, GridRange cells) = nullptr;
+    /// The next level's right side: sums of right - product, for rows of that level.
+    void (*restrict_to)(const GridLevel&, const GridLevel&, GridRange rows) = nullptr;
+    /// x += the next level's, where it is free, from rows of that level.
+    void (*prolong)(const GridLevel&, const GridLevel&, GridRange rows) = nullptr;
+    /// One sum for each dot_cells, which the range begins with a multiple of.
+    void (*dot)(const GridVector&, const GridVector&, double* sums, GridRange cells) = nullptr;
     /// to += factor from
-    void (*add)(std::size_t cells, float factor, const GridVector& from, const GridVector& to) = nullptr;
+    void (*add)(float factor, const GridVector& from, const GridVector& to, GridRange cells) = nullptr;
     /// to = from + factor to
-    void (*scale_and_add)(std::size_t cells, float factor, const GridVector& from,
-                          const GridVector& to) = nullptr;
+    void (*scale_and_add)(float factor, const GridVector& from, const GridVector& to,
+                          GridRange cells) = nullptr;
 };
 /// As vector_unit().
 GridUnit grid_unit(std::string_view name) noexcept;
@@ -96,14 +111,17 @@ class GridSystem {
         bool converged = false;
     };
     /// Until the residual, in the norm of the preconditioner, is `tolerance` of what it was. `floor`: the
-    /// least eigenvalue that a block of the diagonal can have.
-    Solved solve(const GridUnit& unit, float floor, double tolerance, int iterations);
+    /// least eigenvalue that a block of the diagonal can have. `loops`: who may help, which changes no bit.
+    Solved solve(const GridUnit& unit, float floor, double tolerance, int iterations,
+                 tendril::detail::ForkJoin& loops);
     const GridVector& solution() const { return solution_; }
 
   private:
-    void precondition(const GridUnit& unit, std::size_t level);
+    class Loops;
+    void precondition(const Loops& loops, std::size_t level);
 
     std::vector<float> memory_;
+    std::vector<double> sums_;  ///< of a dot product
     std::vector<GridLevel> levels_;
     GridVector solution_{}, direction_{}, product_{};
 };

@@ -18,9 +18,9 @@ HWY_BEFORE_NAMESPACE();
 namespace tendril::rope::detail {
 namespace HWY_NAMESPACE {
 /// L d L^T of each block: 1 / d in xx, yy and zz, and L's numbers in the others.
-void factorize(const GridLevel& level, float floor) {
+void factorize(const GridLevel& level, float floor, GridRange cells) {
     const V least = hn::Set(Tag(), floor), one = hn::Set(Tag(), 1.0f);
-    each_register(level.cells(), [&](std::ptrdiff_t i) {
+    each_register(cells, [&](std::ptrdiff_t i) {
         const Block m = load(level.diagonal, i);
         const V x = hn::Div(one, hn::Max(m.xx, least));
         const V xy = hn::Mul(m.xy, x), xz = hn::Mul(m.xz, x);
@@ -44,10 +44,10 @@ V3 solve(const Block& factor, const V3& right) {
 }
 
 template <std::size_t steps>
-void multiply_steps(const GridLevel& level, const GridVector& x, const GridVector& product) {
+void multiply_steps(const GridLevel& level, const GridVector& x, const GridVector& product, GridRange cells) {
     std::ptrdiff_t by[steps];
     for (std::size_t s = 0; s < steps; ++s) by[s] = level.step(s);
-    each_register(level.cells(), [&](std::ptrdiff_t i) {
+    each_register(cells, [&](std::ptrdiff_t i) {
         V3 sum = load(level.diagonal, i) * load(x, i);
         for (std::size_t s = 0; s < steps; ++s) {
             const GridBlocks& link = level.links[s];
@@ -56,22 +56,22 @@ void multiply_steps(const GridLevel& level, const GridVector& x, const GridVecto
         store(sum, product, i);
     });
 }
-void multiply(const GridLevel& level, const GridVector& x, const GridVector& product) {
-    level.steps == fine_steps ? multiply_steps<fine_steps>(level, x, product)
-                              : multiply_steps<coarse_steps>(level, x, product);
+void multiply(const GridLevel& level, const GridVector& x, const GridVector& product, GridRange cells) {
+    level.steps == fine_steps ? multiply_steps<fine_steps>(level, x, product, cells)
+                              : multiply_steps<coarse_steps>(level, x, product, cells);
 }
 
 constexpr float damping = 0.6f;
 
-void smooth_first(const GridLevel& level) {
+void smooth_first(const GridLevel& level, GridRange cells) {
     const V part = hn::Set(Tag(), damping);
-    each_register(level.cells(), [&](std::ptrdiff_t i) {
+    each_register(cells, [&](std::ptrdiff_t i) {
         store(part * solve(load(level.factor, i), load(level.right, i)), level.x, i);
     });
 }
-void smooth(const GridLevel& level) {
+void smooth(const GridLevel& level, GridRange cells) {
     const V part = hn::Set(Tag(), damping);
-    each_register(level.cells(), [&](std::ptrdiff_t i) {
+    each_register(cells, [&](std::ptrdiff_t i) {
         const V3 residual = load(level.right, i) - load(level.product, i);
         store(load(level.x, i) + part * solve(load(level.factor, i), residual), level.x, i);
     });
@@ -90,31 +90,31 @@ V sum(const Pairs& pairs) {
     return hn::Add(pairs.even, pairs.odd);
 }
 
-/// Calls with where a register of a row of the coarse level is, its column, and where the first of its cells
+/// For rows of the coarse level: calls with where a register is, its column, and where the first of its cells
 /// of the fine level is.
 template <class Visit>
-void each_coarse(const GridLevel& fine, const GridLevel& coarse, Visit visit) {
-    for (std::size_t row = 0; row < coarse.rows; ++row)
+void each_coarse(const GridLevel& fine, const GridLevel& coarse, GridRange rows, Visit visit) {
+    for (std::size_t row = rows.first; row < rows.end; ++row)
         for (std::size_t column = 0; column < coarse.stride; column += hn::Lanes(Tag()))
             visit(static_cast<std::ptrdiff_t>(row * coarse.stride + column), column,
                   static_cast<std::ptrdiff_t>(2 * row * fine.stride + 2 * column));
 }
 
-void restrict_to(const GridLevel& fine, const GridLevel& coarse) {
+void restrict_to(const GridLevel& fine, const GridLevel& coarse, GridRange rows) {
     const auto below = static_cast<std::ptrdiff_t>(fine.stride);
     for (std::size_t c = 0; c < 3; ++c) {
         const float *right = fine.right[c], *product = fine.product[c];
         const auto residual = [&](std::ptrdiff_t i) {
             return hn::Sub(sum(load_pairs(right + i)), sum(load_pairs(product + i)));
         };
-        each_coarse(fine, coarse, [&](std::ptrdiff_t to, std::size_t, std::ptrdiff_t from) {
+        each_coarse(fine, coarse, rows, [&](std::ptrdiff_t to, std::size_t, std::ptrdiff_t from) {
             const V all = hn::Add(residual(from), residual(from + below));
             hn::StoreU(hn::Mul(all, load(coarse.free + to)), Tag(), coarse.right[c] + to);
         });
     }
 }
 
-void prolong(const GridLevel& fine, const GridLevel& coarse) {
+void prolong(const GridLevel& fine, const GridLevel& coarse, GridRange rows) {
     const auto below = static_cast<std::ptrdiff_t>(fine.stride);
     const std::size_t lanes = hn::Lanes(Tag());
     alignas(64) float twice[2 * grid_lanes];
@@ -122,7 +122,7 @@ void prolong(const GridLevel& fine, const GridLevel& coarse) {
         hn::StoreU(hn::Add(load(at), hn::Mul(load(value), load(free))), Tag(), at);
     };
     for (std::size_t c = 0; c < 3; ++c)
-        each_coarse(fine, coarse, [&](std::ptrdiff_t from, std::size_t column, std::ptrdiff_t to) {
+        each_coarse(fine, coarse, rows, [&](std::ptrdiff_t from, std::size_t column, std::ptrdiff_t to) {
             const V value = load(coarse.x[c] + from);
             hn::StoreInterleaved2(value, value, Tag(), twice);
             // The rows of the fine level may end first.
@@ -133,12 +133,12 @@ void prolong(const GridLevel& fine, const GridLevel& coarse) {
 }
 
 /// Blocks of links that stay within a cell of the coarse level leave its diagonal; others are added up.
-void coarsen_blocks(const GridLevel& fine, const GridLevel& coarse, std::size_t k) {
+void coarsen_blocks(const GridLevel& fine, const GridLevel& coarse, std::size_t k, GridRange rows) {
     const auto below = static_cast<std::ptrdiff_t>(fine.stride);
     const V two = hn::Set(Tag(), 2.0f);
     const float *diagonal = fine.diagonal[k], *right = fine.links[0][k], *down = fine.links[1][k],
                 *falling = fine.links[2][k], *rising = fine.links[3][k];
-    each_coarse(fine, coarse, [&](std::ptrdiff_t to, std::size_t, std::ptrdiff_t i) {
+    each_coarse(fine, coarse, rows, [&](std::ptrdiff_t to, std::size_t, std::ptrdiff_t i) {
         const std::ptrdiff_t j = i + below;
         const Pairs free_i = load_pairs(fine.free + i), free_j = load_pairs(fine.free + j);
         const Pairs own_i = load_pairs(diagonal + i), own_j = load_pairs(diagonal + j);
@@ -172,42 +172,39 @@ void coarsen_blocks(const GridLevel& fine, const GridLevel& coarse, std::size_t 
     });
 }
 
-void coarsen(const GridLevel& fine, const GridLevel& coarse) {
-    for (std::size_t row = 0; row < coarse.rows; ++row)
+void coarsen(const GridLevel& fine, const GridLevel& coarse, GridRange rows) {
+    for (std::size_t row = rows.first; row < rows.end; ++row)
         for (std::size_t column = 0; column < coarse.columns; ++column) {
             const float* of = fine.free + 2 * row * fine.stride + 2 * column;
             // Behind the last row and column there is nothing that is free.
             coarse.free[row * coarse.stride + column] =
                 std::max(std::max(of[0], of[1]), std::max(of[fine.stride], of[fine.stride + 1]));
         }
-    for (std::size_t k = 0; k < 6; ++k) coarsen_blocks(fine, coarse, k);
+    for (std::size_t k = 0; k < 6; ++k) coarsen_blocks(fine, coarse, k, rows);
 }
 
-/// Sums of so many registers are taken in single precision before they are added up in double.
-constexpr std::size_t partial = 8 * grid_lanes;
-
-double dot(std::size_t cells, const GridVector& a, const GridVector& b) {
-    double all = 0.0;
+void dot(const GridVector& a, const GridVector& b, double* sums, GridRange cells) {
     alignas(64) float lanes[grid_lanes];
-    for (std::size_t first = 0; first < cells; first += partial) {
-        const std::size_t end = std::min(cells, first + partial);
+    for (std::size_t first = cells.first; first < cells.end; first += dot_cells) {
+        const std::size_t end = std::min(cells.end, first + dot_cells);
         for (std::size_t k = 0; k < grid_lanes; k += hn::Lanes(Tag())) {
-            V sums = hn::Zero(Tag());
+            V sum = hn::Zero(Tag());
             for (std::size_t i = first + k; i < end; i += grid_lanes)
                 for (std::size_t c = 0; c < 3; ++c)
-                    sums = hn::Add(sums, hn::Mul(load(a[c] + i), load(b[c] + i)));
-            hn::StoreU(sums, Tag(), lanes + k);
+                    sum = hn::Add(sum, hn::Mul(load(a[c] + i), load(b[c] + i)));
+            hn::StoreU(sum, Tag(), lanes + k);
         }
+        double& all = sums[first / dot_cells];
+        all = 0.0;
         for (const float lane : lanes) all += static_cast<double>(lane);
     }
-    return all;
 }
 
-void add(std::size_t cells, float factor, const GridVector& from, const GridVector& to) {
+void add(float factor, const GridVector& from, const GridVector& to, GridRange cells) {
     const V by = hn::Set(Tag(), factor);
     each_register(cells, [&](std::ptrdiff_t i) { store(load(to, i) + by * load(from, i), to, i); });
 }
-void scale_and_add(std::size_t cells, float factor, const GridVector& from, const GridVector& to) {
+void scale_and_add(float factor, const GridVector& from, const GridVector& to, GridRange cells) {
     const V by = hn::Set(Tag(), factor);
     each_register(cells, [&](std::ptrdiff_t i) { store(load(from, i) + by * load(to, i), to, i); });
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "math/fork_join.hpp"
 #include "rope/chain_system.hpp"
 #include "rope/cloth_grid.hpp"
 #include "rope/direct_block.hpp"
@@ -125,7 +126,8 @@ struct IslandScratch {
     std::size_t block_offset = 0;
     ContactScratch contact;
     std::vector<ClothContact> cloth_contacts, earlier_contacts;
-    Advance done;  ///< in this substep; `passes` of the island that took most
+    tendril::detail::ForkJoin loops;  ///< of a cloth; threads without an island help
+    Advance done;                     ///< in this substep; `passes` of the island that took most
 };
 
 struct Workspace::Parts {

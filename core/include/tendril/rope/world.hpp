@@ -22,9 +22,9 @@
 // advance() allocates nothing once the workspace has seen the world in its shape, unless more colliders are
 // near than ever before.
 //
-// Bodies that no link joins do not notice each other, and threads can share them: Workspace::use_threads. A
-// rope of 16 000 segments or a cloth is solved on one thread. Two bounds they share: max_pass_work and that
-// on the search for a way out of colliders, of which each has its part by size.
+// Bodies that no link joins do not notice each other, and threads can share them, and a cloth of 8 192
+// particles or more: Workspace::use_threads. A rope is solved on one thread. Two bounds they share:
+// max_pass_work and that on the search for a way out of colliders, of which each has its part by size.
 #pragma once
 
 #include "tendril/result.hpp"
