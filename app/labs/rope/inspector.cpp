@@ -2,6 +2,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -148,6 +149,24 @@ Curve curve(const char* name, glm::vec3 colour, const std::vector<RopeSample>& s
     return drawn;
 }
 
+/// While frame-time jitter is on, and as long as its frames are among the last ten seconds.
+void frame_times(const std::vector<RopeSample>& samples, const Palette& palette) {
+    constexpr float even = 1e3f * static_cast<float>(tick_seconds);
+    const auto uneven = [](const RopeSample& sample) { return std::abs(sample.frame - even) > 1e-3f; };
+    if (std::none_of(samples.begin(), samples.end(), uneven)) return;
+    const Curve times[] = {curve("frame time", palette.selection, samples, &RopeSample::frame, 1.0f)};
+    plot("frame time", times,
+         {.x = "time",
+          .x_unit = "s",
+          .y = "frame time",
+          .y_unit = "ms",
+          .min_y = 0.0f,
+          .high_y = 2.0f * even,
+          .level = even},
+         7.0f);
+    explain("How long each frame is that time is cut into. The dashed line is an even frame, 16.7 ms.");
+}
+
 }  // namespace
 
 void selection_rows(const Workspace& workspace, Emit& emit) {
@@ -197,6 +216,7 @@ void number_rows(const Workspace& workspace, const Palette& palette) {
     plot("length error", errors, {.x = "time", .x_unit = "s", .y = "", .y_unit = "%", .min_y = 1e-4f}, 9.0f);
     const Curve energy[] = {curve("energy", palette.accent, part.samples, &RopeSample::energy, 1.0f)};
     plot("energy", energy, {.x = "time", .x_unit = "s", .y = "energy", .y_unit = "J", .min_y = 0.0f}, 9.0f);
+    frame_times(part.samples, palette);
 }
 
 }  // namespace tendril::app

@@ -33,12 +33,15 @@ float highest_speed(const NamedWorld& world, const Particles& particles) {
     return highest;
 }
 
-RopeSample sample_of(const NamedWorld& world) {
+RopeSample sample_of(const RopePart& part) {
+    const NamedWorld& world = *part.world;
     RopeSample sample;
     for (const rope::Body& body : world.state().bodies)
         sample.stretch = std::max(sample.stretch, body.stretch);
     sample.error = static_cast<float>(world.length_error());
     sample.energy = static_cast<float>(world.energy());
+    const double frame = part.jitter.dial > 0.0f ? part.jitter.frame : tick_seconds;
+    sample.frame = static_cast<float>(1e3 * frame);
     return sample;
 }
 

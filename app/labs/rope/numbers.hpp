@@ -18,6 +18,6 @@ float strongest_tension(const NamedWorld& world, const Particles& particles);
 float highest_speed(const NamedWorld& world, const Particles& particles);
 
 /// Of a whole world, after a tick.
-RopeSample sample_of(const NamedWorld& world);
+RopeSample sample_of(const RopePart& part);
 
 }  // namespace tendril::app

@@ -54,7 +54,7 @@ void include(const rope::Shape& shape, glm::vec3& low, glm::vec3& high) {
 
 void take_sample(RopePart& part) {
     if (part.samples.size() >= most_rope_samples) part.samples.erase(part.samples.begin());
-    part.samples.push_back(sample_of(*part.world));
+    part.samples.push_back(sample_of(part));
 }
 
 std::optional<Bounds> selection_bounds(const RopePart& part) {

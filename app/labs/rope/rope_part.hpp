@@ -69,6 +69,7 @@ struct RopeSample {
     float stretch = 0.0f;  ///< the largest relative length error of all ropes, as the solver left it
     float error = 0.0f;    ///< the same after contact: with what depenetration added
     float energy = 0.0f;   ///< joules, of all bodies
+    float frame = 0.0f;    ///< milliseconds: how long the frame is that the tick ends in
     bool operator==(const RopeSample&) const = default;
 };
 inline constexpr std::size_t most_rope_samples = 600;  ///< ten seconds of them

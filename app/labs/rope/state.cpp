@@ -80,6 +80,7 @@ Json RopeLab::state(const Workspace& workspace) const {
                 {"selected", selection_state(part.selection)},
                 {"held", std::move(held)},
                 {"jitter", number(part.jitter.dial)},
+                {"frame_ms", part.samples.empty() ? Json(nullptr) : number(part.samples.back().frame)},
                 {"moving", moving(workspace)},
                 {"past", past_view_state(workspace, rope_past(), rope_past_curve(workspace))}};
 }

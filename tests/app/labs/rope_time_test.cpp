@@ -75,6 +75,26 @@ TEST_F(RopeTime, FramesAreFrom1To250Milliseconds) {
     EXPECT_GT(longest, 0.24);
 }
 
+/// What the plot of frame times shows is what time was cut into.
+TEST_F(RopeTime, ThePlotHasTheFramesThatTimeIsCutInto) {
+    wait(3);
+    EXPECT_NEAR(part().samples.back().frame, 1e3 * tick_seconds, 1e-4);
+    run("rope.jitter", {{"dial", 1}});
+    float shortest = 1e3f, longest = 0.0f;
+    for (int i = 0; i < 300; ++i) {
+        wait(1);
+        const float frame = part().samples.back().frame;
+        EXPECT_NEAR(frame, 1e3 * jitter_frame(1.0f, part().jitter.frames), 1e-3);
+        EXPECT_NEAR(state().at("frame_ms").get<float>(), frame, 1e-3f);
+        shortest = std::min(shortest, frame), longest = std::max(longest, frame);
+    }
+    EXPECT_LT(shortest, 10.0f);
+    EXPECT_GT(longest, 200.0f);
+    run("rope.jitter", {{"dial", 0}});
+    wait(1);
+    EXPECT_NEAR(part().samples.back().frame, 1e3 * tick_seconds, 1e-4);
+}
+
 TEST_F(RopeTime, TheDialTurnedBackOwesNothing) {
     run("rope.jitter", {{"dial", 1}});
     wait(33);
