@@ -38,6 +38,8 @@ struct Argument {
     std::vector<std::string> choices{};  ///< for texts; empty: any
     /// For the palette. Names (or numbers) of the things that are there to be named; others may do as well.
     std::function<std::vector<std::string>(const Workspace&)> known{};
+    /// Of a list: the argument of the same command that each of it could be given to.
+    std::string list_of{};
     /// What it is set to now.
     std::function<std::string(const Workspace&)> present{};
 };

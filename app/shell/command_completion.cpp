@@ -6,6 +6,7 @@
 
 #include "app/document/argument_check.hpp"
 #include "app/document/command.hpp"
+#include "app/document/json_complete.hpp"
 
 namespace tendril::app {
 namespace {
@@ -29,34 +30,92 @@ std::string bare(const std::string& value) {
     return value.starts_with('"') ? value.substr(1) : value;
 }
 
-std::vector<CompletionRow> value_rows(const TypedLine& typed, const Argument& argument,
-                                      const std::string& line, const Workspace& workspace) {
+/// What of a value is being typed, behind what stands before it: all of it, or the last element of a list.
+struct TypedValue {
+    std::string before{}, text{};
+    bool element = false, closed = false;  ///< closed: a list that has its "]"
+};
+
+TypedValue typed_value(const Argument& argument, const std::string& value) {
+    if (argument.list_of.empty()) return {.text = value};
+    if (value.empty()) return {.before = "[", .element = true};
+    bool quoted = false, escaped = false;
+    std::size_t from = 0;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        const char c = value[i];
+        if (c == '"' && !escaped) quoted = !quoted;
+        escaped = quoted && c == '\\' && !escaped;
+        if (!quoted && (c == '[' || c == ',')) from = i + 1;
+        if (!quoted && c == ']') return {.text = value, .element = true, .closed = true};
+    }
+    while (from < value.size() && value[from] == ' ') ++from;
+    return {value.substr(0, from), value.substr(from), true};
+}
+
+/// A name or a number, as it stands in a list.
+std::string as_element(const std::string& value, const Argument& of) {
+    return of.type == ArgumentType::Text ? Json(value).dump() : value;
+}
+
+std::vector<std::string> known_values(const Argument& argument, const Workspace& workspace) {
     std::vector<std::string> values = argument.choices;
     if (argument.type == ArgumentType::Boolean) values = {"true", "false"};
     if (values.empty() && argument.known) values = argument.known(workspace);
     const std::string now = argument.present ? argument.present(workspace) : std::string();
     if (values.empty() && !now.empty()) values = {now};
-    const bool text = argument.type == ArgumentType::Text;
-    // Of half a million joints few are looked at.
-    if (values.size() > most_rows) {
-        const std::string typed_now = lower(bare(typed.last.value));
-        const auto place = [&](const std::string& value) { return lower(value).find(typed_now); };
-        std::vector<std::string> first, rest;
-        for (std::string& value : values) {
-            const std::size_t at = place(value);
-            if (at == 0 && first.size() < most_rows) first.push_back(std::move(value));
-            if (at != 0 && at != std::string::npos && rest.size() < most_rows) rest.push_back(std::move(value));
-        }
-        first.insert(first.end(), std::make_move_iterator(rest.begin()), std::make_move_iterator(rest.end()));
-        values = std::move(first);
+    return values;
+}
+
+/// Those that have what is typed, and of half a million joints only the first.
+std::vector<std::string> first_of(std::vector<std::string> values, const std::string& typed) {
+    if (values.size() <= most_rows) return values;
+    const std::string wanted = lower(typed);
+    std::vector<std::string> first, rest;
+    for (std::string& value : values) {
+        const std::size_t at = lower(value).find(wanted);
+        if (at == 0 && first.size() < most_rows) first.push_back(std::move(value));
+        if (at != 0 && at != std::string::npos && rest.size() < most_rows) rest.push_back(std::move(value));
     }
+    first.insert(first.end(), std::make_move_iterator(rest.begin()), std::make_move_iterator(rest.end()));
+    return first;
+}
+
+/// How a list can go on behind an element.
+void offer_ends(std::vector<CompletionRow>& rows, const std::string& line) {
+    rows.insert(rows.begin(),
+                {{"]", "ends the list", "", line + "] "}, {",", "and another", "", line + ","}});
+}
+
+std::vector<CompletionRow> value_rows(const TypedLine& typed, const Argument& argument,
+                                      const std::string& line, const Workspace& workspace) {
+    const TypedValue value = typed_value(argument, typed.last.value);
+    const Argument* of = value.element ? find_argument(*typed.command, argument.list_of) : &argument;
+    if (of == nullptr || value.closed) return {};
+    std::vector<std::string> values = known_values(*of, workspace);
+    const auto stands = [&](const std::string& each) { return as_element(each, *of) == value.text; };
+    const bool whole = value.element && std::any_of(values.begin(), values.end(), stands);
+    if (value.element && value.before.size() > 1) {
+        const Json given =
+            Json::parse(value.before.substr(0, value.before.find_last_of(',')) + "]", nullptr, false);
+        std::erase_if(values, [&](const std::string& each) {
+            const Json element = Json::parse(as_element(each, *of), nullptr, false);
+            return given.is_array() && std::find(given.begin(), given.end(), element) != given.end();
+        });
+    }
+    values = first_of(std::move(values), bare(value.text));
+    const std::string now = argument.present ? argument.present(workspace) : std::string();
+    const bool text = argument.type == ArgumentType::Text;
     std::vector<CompletionRow> rows;
-    for (const std::string& value : values)
-        rows.push_back(
-            {value, value == now ? "now" : "", argument.help,
-             line.substr(0, typed.last_at) + argument.name + "=" + (text ? quoted(value) : value) + " "});
-    sort_by(rows, bare(typed.last.value));
+    for (const std::string& each : values) {
+        const std::string whole_value = value.element ? value.before + as_element(each, *of)
+                                        : text        ? quoted(each) + " "
+                                                      : each + " ";
+        rows.push_back({each, each == now ? "now" : "", argument.help,
+                        line.substr(0, typed.last_at) + argument.name + "=" + whole_value});
+    }
+    sort_by(rows, bare(value.text));
     if (rows.size() > most_rows) rows.erase(rows.begin() + most_rows, rows.end());
+    if (whole) offer_ends(rows, line);
     return rows;
 }
 
@@ -133,15 +192,20 @@ std::vector<CompletionRow> completions(const TypedLine& typed, const std::string
 std::string completed(const TypedLine& typed, const std::string& line, const std::vector<CompletionRow>& rows,
                       std::size_t chosen) {
     if (chosen >= rows.size()) return line;
-    const std::string as_typed = typed.last.assigned ? typed.last.value : typed.last.name;
+    const Argument* argument = typed.last.assigned ? find_argument(*typed.command, typed.last.name) : nullptr;
+    const TypedValue value = argument ? typed_value(*argument, typed.last.value) : TypedValue{};
+    const std::string as_typed = argument              ? value.text
+                                 : typed.last.assigned ? typed.last.value
+                                                       : typed.last.name;
     const std::string text = bare(as_typed);
     std::vector<std::string> beginning;
     for (const CompletionRow& row : rows)
         if (!row.given && !text.empty() && row.text.starts_with(text)) beginning.push_back(row.text);
     const std::string common = common_prefix(beginning);
     if (beginning.size() < 2 || common.size() <= text.size()) return rows[chosen].line;
-    // A name with a blank needs its quote, which ends once the name does.
-    std::string inserted = typed.last.assigned ? quoted(common) : common;
+    // A name with a blank, or in a list, needs its quote, which ends once the name does.
+    const Argument* of = value.element ? find_argument(*typed.command, argument->list_of) : nullptr;
+    std::string inserted = of ? as_element(common, *of) : typed.last.assigned ? quoted(common) : common;
     if (inserted != common) inserted.pop_back();
     return line.substr(0, line.size() - as_typed.size()) + inserted;
 }

@@ -60,6 +60,8 @@ bool may_become(const Argument& argument, const std::string& text) {
         case ArgumentType::Any:
         case ArgumentType::ListOrText:
             return true;
+        case ArgumentType::List:
+            return text[0] == '[' && Json::parse(text, nullptr, false).is_discarded();
         default:  // an unfinished number or list is not yet JSON
             return Json::parse(text, nullptr, false).is_discarded() &&
                    text.find_first_not_of("0123456789+-.eE[], ") == std::string::npos;

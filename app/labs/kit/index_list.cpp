@@ -11,7 +11,8 @@ Argument index_list_argument(const char* name, const char* instead_of) {
     return {.name = name,
             .type = ArgumentType::List,
             .required = false,
-            .help = std::string("several, counted from 0, instead of ") + instead_of};
+            .help = std::string("several, counted from 0, instead of ") + instead_of,
+            .list_of = instead_of};
 }
 
 bool gives_one(const Arguments& given, const char* index, const char* list) {

@@ -7,11 +7,12 @@
 
 namespace tendril::app {
 
-Argument name_list_argument(const char* name, const char* instead_of) {
+Argument name_list_argument(const char* name, const char* instead_of, const char* more) {
     return {.name = name,
             .type = ArgumentType::List,
             .required = false,
-            .help = std::string("several, by name, instead of ") + instead_of};
+            .help = std::string("several, by name, instead of ") + instead_of + more,
+            .list_of = instead_of};
 }
 
 std::vector<std::string> name_list(const Arguments& given, const char* name) {

@@ -9,8 +9,8 @@
 
 namespace tendril::app {
 
-/// May be left out: `instead_of` names the one that is given then.
-Argument name_list_argument(const char* name, const char* instead_of);
+/// May be left out: `instead_of` names the one that is given then. `more` is said of it in addition.
+Argument name_list_argument(const char* name, const char* instead_of, const char* more = "");
 /// As they are given. Throws Refused, with the argument and the value, for what is no text.
 std::vector<std::string> name_list(const Arguments& given, const char* name);
 

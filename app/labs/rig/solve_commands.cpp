@@ -167,7 +167,7 @@ void add_solve_commands(CommandTable& table) {
     table.add(part_command<RigPart>(
         rig_lab, "rig.select", "Select elements or a unit",
         {element_argument("element", false, "none where left out"),
-         name_list_argument("elements", "element; the last one is shown"),
+         name_list_argument("elements", "element", "; the last one is shown"),
          unit_argument("unit", false, "none where left out"),
          switch_argument("add",
                          "true: adds to what is selected, or with element takes out what is; the "

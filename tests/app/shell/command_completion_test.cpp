@@ -146,6 +146,49 @@ TEST_F(Completion, NamesWithABlankKeepTheirQuote) {
     EXPECT_EQ(wrong(tab(begun + "r")), "");
 }
 
+TEST_F(Completion, OffersWhatAListCanHaveElementByElement) {
+    table_.run(workspace_, "chain.preset", {{"name", "coil"}, {"count", 12}});
+    EXPECT_EQ(rows("chain.select joints=").front().line, "chain.select joints=[0");
+    EXPECT_EQ(texts("chain.select joints=[1"), (Strings{"]", ",", "1", "10", "11"}));
+    EXPECT_EQ(tab("chain.select joints=[1"), "chain.select joints=[1] ");
+    EXPECT_EQ(texts("chain.select joints=[10,1"), (Strings{"]", ",", "1", "11"})) << "what is not in it yet";
+    EXPECT_EQ(tab("chain.select joints=[3, 1", 1), "chain.select joints=[3, 1,");
+    EXPECT_TRUE(rows("chain.select joints=[1]").front().given) << "nothing more to say of it";
+    EXPECT_EQ(tab("humanoid.limits bones=[\"LeftUpp"), "humanoid.limits bones=[\"LeftUpper");
+    EXPECT_EQ(texts("humanoid.limits bones=[\"LeftUpper"), (Strings{"LeftUpperArm", "LeftUpperLeg"}));
+    EXPECT_EQ(tab("humanoid.limits bones=[\"LeftUpper"), "humanoid.limits bones=[\"LeftUpperArm\"");
+    EXPECT_EQ(tab("humanoid.limits bones=[\"LeftUpperArm\""), "humanoid.limits bones=[\"LeftUpperArm\"] ");
+    EXPECT_FALSE(has(texts("humanoid.limits bones=[\"LeftUpperArm\","), "LeftUpperArm"));
+    EXPECT_EQ(wrong("humanoid.limits bones=[\"LeftUpp"), "");
+    EXPECT_NE(wrong("humanoid.limits bones=LeftUpperArm"), "") << "is no list and becomes none";
+}
+
+/// Names with what ends an element, or a list, in them; however it is typed, what is offered is no mistake.
+TEST_F(Completion, ListsOfNamesThatLookLikeLists) {
+    for (const char* name : {"a, b", "c]", "d \"e\"", "\\", "[f"})
+        table_.run(workspace_, "rig.element.add", {{"name", name}, {"kind", "bone"}});
+    std::string line = "rig.read names=[";
+    for (int i = 0; i < 5; ++i) {
+        const Strings offered = texts(line);
+        ASSERT_FALSE(offered.empty());
+        line = rows(line).front().line;
+        EXPECT_EQ(wrong(line), "") << line;
+        ASSERT_EQ(texts(line).front(), "]") << line;
+        if (i < 4) line += ",";
+    }
+    line = tab(line);
+    const Json names = *read_typed_command(line).arguments;
+    EXPECT_EQ(names.at("names").size(), 5u) << line;
+    EXPECT_EQ(texts("rig.read names=[\"c]"), (Strings{"c]"}));
+    std::mt19937 random(5);
+    for (int i = 0; i < 2000; ++i) {
+        std::string hostile = "rig.read names=";
+        for (std::size_t k = random() % 12; k > 0; --k) hostile += "[]\",\\ acd"[random() % 9];
+        for (const CompletionRow& row : rows(hostile)) EXPECT_GE(row.line.size(), 1u);
+        tab(hostile, random() % 3);
+    }
+}
+
 TEST_F(Completion, SaysWhatIsWrongWhileItIsTyped) {
     EXPECT_EQ(wrong("chain.add length=1"), "");
     EXPECT_EQ(wrong("chain.add len"), "");
