@@ -83,39 +83,58 @@ std::vector<std::string> first_of(std::vector<std::string> values, const std::st
 /// How a list can go on behind an element.
 void offer_ends(std::vector<CompletionRow>& rows, const std::string& line) {
     rows.insert(rows.begin(),
-                {{"]", "ends the list", "", line + "] "}, {",", "and another", "", line + ","}});
+                {{"]", "ends the list", "", line + "] "}, {",", "adds another", "", line + ","}});
+}
+
+/// The names or numbers of a list that is whole; of any other text none.
+std::vector<std::string> elements_of(const std::string& list) {
+    const Json parsed = Json::parse(list, nullptr, false);
+    std::vector<std::string> elements;
+    if (!parsed.is_array()) return elements;
+    for (const Json& each : parsed)
+        elements.push_back(each.is_string() ? each.get<std::string>() : each.dump());
+    return elements;
+}
+
+bool contains(const std::vector<std::string>& list, const std::string& value) {
+    return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+/// For the last element of a list: what the list has not yet.
+std::vector<CompletionRow> element_rows(const TypedLine& typed, const TypedValue& value, const Argument& list,
+                                        const std::string& line, const Workspace& workspace) {
+    const Argument* of = find_argument(*typed.command, list.list_of);
+    if (of == nullptr || value.closed) return {};
+    std::vector<std::string> values = known_values(*of, workspace);
+    const std::vector<std::string> last = elements_of("[" + value.text + "]");
+    const bool whole = last.size() == 1 && contains(values, last.front());
+    const std::vector<std::string> given =
+        elements_of(value.before.substr(0, value.before.find_last_of(',')) + "]");
+    if (!given.empty()) std::erase_if(values, [&](const auto& each) { return contains(given, each); });
+    std::vector<CompletionRow> rows;
+    for (const std::string& each : first_of(std::move(values), bare(value.text)))
+        rows.push_back(
+            {each, "", list.help,
+             line.substr(0, typed.last_at) + list.name + "=" + value.before + as_element(each, *of)});
+    sort_by(rows, bare(value.text));
+    if (rows.size() > most_rows) rows.erase(rows.begin() + most_rows, rows.end());
+    if (whole) offer_ends(rows, line);
+    return rows;
 }
 
 std::vector<CompletionRow> value_rows(const TypedLine& typed, const Argument& argument,
                                       const std::string& line, const Workspace& workspace) {
     const TypedValue value = typed_value(argument, typed.last.value);
-    const Argument* of = value.element ? find_argument(*typed.command, argument.list_of) : &argument;
-    if (of == nullptr || value.closed) return {};
-    std::vector<std::string> values = known_values(*of, workspace);
-    const auto stands = [&](const std::string& each) { return as_element(each, *of) == value.text; };
-    const bool whole = value.element && std::any_of(values.begin(), values.end(), stands);
-    if (value.element && value.before.size() > 1) {
-        const Json given =
-            Json::parse(value.before.substr(0, value.before.find_last_of(',')) + "]", nullptr, false);
-        std::erase_if(values, [&](const std::string& each) {
-            const Json element = Json::parse(as_element(each, *of), nullptr, false);
-            return given.is_array() && std::find(given.begin(), given.end(), element) != given.end();
-        });
-    }
-    values = first_of(std::move(values), bare(value.text));
+    if (value.element) return element_rows(typed, value, argument, line, workspace);
     const std::string now = argument.present ? argument.present(workspace) : std::string();
     const bool text = argument.type == ArgumentType::Text;
     std::vector<CompletionRow> rows;
-    for (const std::string& each : values) {
-        const std::string whole_value = value.element ? value.before + as_element(each, *of)
-                                        : text        ? quoted(each) + " "
-                                                      : each + " ";
-        rows.push_back({each, each == now ? "now" : "", argument.help,
-                        line.substr(0, typed.last_at) + argument.name + "=" + whole_value});
-    }
+    for (const std::string& each : first_of(known_values(argument, workspace), bare(value.text)))
+        rows.push_back(
+            {each, each == now ? "now" : "", argument.help,
+             line.substr(0, typed.last_at) + argument.name + "=" + (text ? quoted(each) : each) + " "});
     sort_by(rows, bare(value.text));
     if (rows.size() > most_rows) rows.erase(rows.begin() + most_rows, rows.end());
-    if (whole) offer_ends(rows, line);
     return rows;
 }
 

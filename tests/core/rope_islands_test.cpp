@@ -121,26 +121,32 @@ bool same(const Advance& a, const Advance& b) {
            a.shortened == b.shortened && a.unresolved == b.unresolved && a.unconverged == b.unconverged;
 }
 
+/// A world, and what becomes of it on one thread.
+struct Played {
+    Played(rope::World world, int count) : start(std::move(world)), end(start), frames(count) {
+        Workspace workspace;
+        done = play(end, workspace, frames);
+    }
+    void expect_the_same_on(int threads, const Tasks& tasks, const std::string& how) const {
+        Workspace workspace;
+        allow(workspace.use_threads(threads, tasks));
+        rope::World world = start;
+        EXPECT_TRUE(same(play(world, workspace, frames), done)) << how << " on " << threads;
+        EXPECT_TRUE(same_bits(world.state(), end.state())) << how << " on " << threads;
+    }
+
+    rope::World start, end;
+    int frames;
+    Advance done;
+};
+
 TEST(RopeIslands, ThreadsGiveTheSameBits) {
     for (const rope::Solver solver : all_solvers) {
-        const rope::World start = some_world({.solver = solver}, 24, 16);
-        rope::World expected = start;
-        Workspace one;
-        const Advance done = play(expected, one, 6);
-        for (const int threads : {1, 2, 3}) {
-            rope::World world = start;
-            Workspace workspace;
-            allow(workspace.use_threads(threads));
-            EXPECT_TRUE(same(play(world, workspace, 6), done)) << threads;
-            EXPECT_TRUE(same_bits(world.state(), expected.state())) << name(solver) << ' ' << threads;
-        }
+        const Played played(some_world({.solver = solver}, 24, 16), 6);
+        for (const int threads : {1, 2, 3}) played.expect_the_same_on(threads, {}, name(solver));
         for (const bool aside : {false, true}) {
-            rope::World world = start;
-            Workspace workspace;
             Jobs jobs{.backwards = true, .aside = aside};
-            allow(workspace.use_threads(3, {run_on_jobs, &jobs}));
-            EXPECT_TRUE(same(play(world, workspace, 6), done)) << aside;
-            EXPECT_TRUE(same_bits(world.state(), expected.state())) << name(solver) << ' ' << aside;
+            played.expect_the_same_on(3, {run_on_jobs, &jobs}, name(solver));
             EXPECT_EQ(jobs.calls, 24u);  // one a substep
             EXPECT_EQ(jobs.pieces, 72u);
         }
@@ -161,25 +167,14 @@ TEST(RopeIslands, ThreadsThatShareACloth) {
         allow(start.add_cloth(sheet).error());
         add_body(start, 1, 20), add_body(start, 3, 20);
     }
-    rope::World expected = start;
-    Workspace one;
-    const Advance done = play(expected, one, 2);
-    for (const int threads : {2, 3, 7}) {
-        rope::World world = start;
-        Workspace workspace;
-        allow(workspace.use_threads(threads));
-        EXPECT_TRUE(same(play(world, workspace, 2), done)) << threads;
-        EXPECT_TRUE(same_bits(world.state(), expected.state())) << threads;
-    }
+    const Played played(start, 2);
+    for (const int threads : {2, 3, 7}) played.expect_the_same_on(threads, {}, "cloth");
     for (const bool backwards : {false, true}) {
         for (const bool aside : {false, true}) {
-            rope::World world = start;
-            Workspace workspace;
             Jobs jobs{.backwards = backwards, .aside = aside};
-            allow(workspace.use_threads(4, {run_on_jobs, &jobs}));
-            EXPECT_TRUE(same(play(world, workspace, 2), done)) << backwards << aside;
-            EXPECT_TRUE(same_bits(world.state(), expected.state())) << backwards << aside;
+            played.expect_the_same_on(4, {run_on_jobs, &jobs}, backwards ? "backwards" : "forwards");
             EXPECT_EQ(jobs.pieces, 4 * jobs.calls);
+            EXPECT_EQ(jobs.calls, 8u);  // one a substep
         }
     }
 }
