@@ -21,6 +21,7 @@ void Input::take(const Event* event) {
     } else if (const auto* key = std::get_if<KeyChange>(event)) {
         repeated_ = key->down && held(key->key);
         hold(key->key, key->down);
+        if (key->down && !repeated_) in_chord_[static_cast<std::size_t>(key->key)] = ctrl() || alt();
         if (key->down) pressed_ = {key->key, ctrl(), shift(), alt()};
         // "?" is known by what it writes, whatever is held to write it.
         if (key->key == Key::Question) pressed_.shift = pressed_.alt = false;

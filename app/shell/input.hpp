@@ -19,6 +19,8 @@ class Input {
     glm::vec2 mouse() const { return mouse_; }
     bool button(MouseButton b) const { return buttons_[static_cast<std::size_t>(b)]; }
     bool held(Key key) const { return keys_[static_cast<std::size_t>(key)]; }
+    /// It is held and was not pressed as part of a chord, with Ctrl or Alt.
+    bool held_alone(Key key) const { return held(key) && !in_chord_[static_cast<std::size_t>(key)]; }
     bool ctrl() const { return held(Key::Ctrl); }
     bool shift() const { return held(Key::Shift); }
     bool alt() const { return held(Key::Alt); }
@@ -32,7 +34,7 @@ class Input {
     void hold(Key key, bool down) { keys_[static_cast<std::size_t>(key)] = down; }
     glm::vec2 mouse_{-1.0f};
     std::array<bool, 3> buttons_{};
-    std::bitset<static_cast<std::size_t>(Key::Count)> keys_;
+    std::bitset<static_cast<std::size_t>(Key::Count)> keys_, in_chord_;
     Chord pressed_;
     bool tapped_ = false, repeated_ = false;
     std::bitset<static_cast<std::size_t>(Key::Count)> before_tap_;

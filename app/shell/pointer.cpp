@@ -20,9 +20,9 @@ constexpr float pixels_per_scroll =
 
 /// The axis of the first axis key held.
 std::optional<glm::vec3> held_axis(const Input& input) {
-    if (input.held(Key::X)) return glm::vec3(1, 0, 0);
-    if (input.held(Key::Y)) return glm::vec3(0, 1, 0);
-    if (input.held(Key::Z)) return glm::vec3(0, 0, 1);
+    if (input.held_alone(Key::X)) return glm::vec3(1, 0, 0);
+    if (input.held_alone(Key::Y)) return glm::vec3(0, 1, 0);
+    if (input.held_alone(Key::Z)) return glm::vec3(0, 0, 1);
     return std::nullopt;
 }
 
@@ -78,7 +78,8 @@ void Pointer::take(const Event* event, const Input& input, const Scene& scene, E
         } else if (const auto* focus = std::get_if<Focus>(event); focus != nullptr && !focus->focused) {
             release(scene, emit);
         } else if (std::holds_alternative<KeyChange>(*event) && doing_ == Doing::Drag) {
-            drag(input, scene, emit);  // an axis key takes hold at once
+            // An axis key takes hold at once; what any other does, as Ctrl+Z, stays until the mouse moves.
+            if (constraint(input) != constrained_) drag(input, scene, emit);
         }
     }
     last_ = input.mouse();
@@ -206,7 +207,8 @@ void Pointer::select_in_box(bool add, const Scene& scene, Emit& emit) const {
 }
 
 void Pointer::drag(const Input& input, const Scene& scene, Emit& emit) {
-    const bool bound = !constraint(input).empty();
+    constrained_ = constraint(input);
+    const bool bound = !constrained_.empty();
     const auto handle =
         picked_part(caught_) ? scene.lab.gizmo(scene.workspace) : scene.lab.handle(scene.workspace, caught_);
     // What carries the handle may have moved it since it was caught: only what is dragged follows the
@@ -245,7 +247,7 @@ std::optional<glm::vec3> Pointer::dragged_to(const Input& input, const Camera& c
     std::optional<glm::vec3> to;
     if (const auto axis = held_axis(input)) {
         to = on_line(camera.ray(pixel), caught_frame_.position, *axis);
-    } else if (input.shift()) {
+    } else if (input.held_alone(Key::Shift)) {
         to = camera.on_plane(pixel, caught_frame_.position, {0, 1, 0});
         if (to) to->y = caught_frame_.position.y;  // in the plane exactly, not but for rounding
     } else {
@@ -260,10 +262,10 @@ std::optional<glm::vec3> Pointer::dragged_to(const Input& input, const Camera& c
 }
 
 std::string Pointer::constraint(const Input& input) const {
-    if (input.held(Key::X)) return "along X";
-    if (input.held(Key::Y)) return "along Y";
-    if (input.held(Key::Z)) return "along Z";
-    if (input.shift()) return "in the ground plane";
+    if (input.held_alone(Key::X)) return "along X";
+    if (input.held_alone(Key::Y)) return "along Y";
+    if (input.held_alone(Key::Z)) return "along Z";
+    if (input.held_alone(Key::Shift)) return "in the ground plane";
     return {};
 }
 

@@ -77,6 +77,7 @@ class Pointer {
     const Lab* caught_in_ = nullptr;  ///< what it means there
     glm::vec2 caught_at_{0.0f};       ///< where the button went down
     glm::vec2 last_{0.0f};            ///< the mouse a tick ago
+    std::string constrained_;         ///< constraint() of the last drag()
     glm::vec2 offset_{0.0f};          ///< from the mouse to the handle's pixel when caught
     Handle::Frame caught_frame_;      ///< the handle's when caught
     bool draggable_ = false;          ///< what is caught can be dragged

@@ -183,6 +183,27 @@ TEST(Undo, takes_back_a_whole_drag_at_once) {
     EXPECT_EQ(state_after(script)["segments"], start()["segments"]);
 }
 
+/// Ctrl, then Z, as a person presses them: Z is an axis key too, but not in a chord.
+TEST(Undo, in_mid_drag_stays_undone_until_the_mouse_moves) {
+    const glm::vec2 at = target_pixel();
+    const auto dragging = [&] {
+        return ScriptText().move(at).down().move(at + glm::vec2(-50, -60)).wait(2);
+    };
+    const Json dragged = state_after(dragging());
+    ASSERT_NE(dragged["target"], start()["target"]);
+    const auto pressed = [&] { return dragging().hold("ctrl").wait(2).hold("z").wait(2); };
+    EXPECT_EQ(state_after(pressed())["target"], start()["target"]);
+    for (const bool ctrl_first : {false, true}) {
+        ScriptText script = pressed();
+        script.release(ctrl_first ? "ctrl" : "z").wait(2).release(ctrl_first ? "z" : "ctrl").wait(2);
+        EXPECT_EQ(state_after(script)["target"], start()["target"]) << ctrl_first;
+        const Json along = state_after(script.hold("z").wait(2));
+        EXPECT_NE(along["target"], start()["target"]) << "alone it holds the axis";
+        EXPECT_EQ(along["target"][0], start()["target"][0]);
+        EXPECT_EQ(along["target"][1], start()["target"][1]);
+    }
+}
+
 TEST(Undo, two_drags_are_two_steps) {
     ScriptText script;
     script.drag({target_pixel(), {700, 250}, {650, 200}});
