@@ -40,7 +40,7 @@ Json finding_json(const Finding& finding, const humanoid::Skeleton& skeleton) {
             {"cure", finding.has_cure}};
 }
 
-Json report_json(const LintReport& report, const Clip& clip, const humanoid::Skeleton& skeleton) {
+Json lint_json(const LintReport& report, const Clip& clip, const humanoid::Skeleton& skeleton) {
     Json findings = Json::array();
     for (const Finding& each : report.findings) findings.push_back(finding_json(each, skeleton));
     return {{"name", clip.name},
@@ -94,7 +94,7 @@ std::size_t run_lint(const LintOptions& options) {
         const LintReport report = lint(character.skeleton, map, all[i]);
         findings += report.findings.size();
         if (options.json)
-            clips.push_back(report_json(report, all[i], character.skeleton));
+            clips.push_back(lint_json(report, all[i], character.skeleton));
         else
             print_lines(report, all[i], out);
     }

@@ -36,10 +36,10 @@ Filters read_filters(const std::string& path) {
     }
 }
 
-/// Rows go out until `ending` is set.
-class Rows {
+/// SampleRows go out until `ending` is set.
+class SampleRows {
   public:
-    Rows(const TimedSamples& rows, const std::atomic<bool>& ending)
+    SampleRows(const TimedSamples& rows, const std::atomic<bool>& ending)
         : rows_(rows), ending_(ending), out_(progress_) {}
 
     void write(const std::string& outputs, auto output_of) {
@@ -60,7 +60,7 @@ class Rows {
 
 void print_outputs(const Filters& filters, const TimedSamples& rows, const std::atomic<bool>& ending) {
     std::vector<signal::FilterState> states(filters.size());
-    Rows(rows, ending).write("output", [&](std::size_t i) {
+    SampleRows(rows, ending).write("output", [&](std::size_t i) {
         return decimal(signal::step(filters, states, rows.samples[i].input, rows.samples[i].dt));
     });
 }
@@ -77,7 +77,7 @@ void print_rates(const Filters& filters, const TimedSamples& rows, const std::at
         names.append(names.empty() ? "" : ",").append(column_name(rate));
     const std::vector<std::vector<double>> outputs =
         signal::outputs_at(filters, samples, signal::times_of(samples));
-    Rows(rows, ending).write(names, [&](std::size_t i) {
+    SampleRows(rows, ending).write(names, [&](std::size_t i) {
         std::string text;
         for (const auto& each : outputs) text.append(text.empty() ? "" : ",").append(decimal(each[i]));
         return text;

@@ -10,7 +10,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr double longest_end = 10.0;  ///< seconds: both go on in the background, and end at once otherwise
+constexpr double max_copy_end = 10.0;  ///< seconds: both go on in the background, and end at once otherwise
 
 std::vector<std::string> command() {
     const std::string wayland = find_program("wl-copy").string(), x11 = find_program("xclip").string();
@@ -28,7 +28,7 @@ void copy_picture(const Image& image) {
     const std::string png = encode_png(image);
     ChildProcess program(words);
     program.write(png);
-    program.finish(longest_end);
+    program.finish(max_copy_end);
 }
 
 }  // namespace tendril::app

@@ -8,7 +8,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr double longest_end = 120.0;  ///< seconds that ffmpeg may take for what it still holds back
+constexpr double max_encoder_end = 120.0;  ///< seconds that ffmpeg may take for what it still holds back
 
 std::vector<std::string> command(const VideoFormat& format, const std::filesystem::path& file) {
     const FrameTime time = frame_time(format);
@@ -74,7 +74,7 @@ void Mp4File::add(const Image& frame) {
 double Mp4File::seconds_left() {
     using Time = std::chrono::steady_clock;
     using Seconds = std::chrono::duration<double>;
-    if (!ends_by_) ends_by_ = Time::now() + std::chrono::duration_cast<Time::duration>(Seconds(longest_end));
+    if (!ends_by_) ends_by_ = Time::now() + std::chrono::duration_cast<Time::duration>(Seconds(max_encoder_end));
     return std::max(0.0, Seconds(*ends_by_ - Time::now()).count());
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr float most_of_panel = 0.5f;
 /// The handles of a larger part are not searched for the one that lights up.
-constexpr std::size_t most_bytes = 1u << 20;
+constexpr std::size_t max_shown_bytes = 1u << 20;
 
 enum class Fold { Steps, Current, Title };
 
@@ -128,7 +128,7 @@ std::optional<Handle> handle_named(const ShellFrame& frame, const std::string& n
         if (handle && handle->name == name) return handle;
     }
     known = no_pick;
-    if (workspace.document.parts().at(workspace.lab)->bytes() > most_bytes) return std::nullopt;
+    if (workspace.document.parts().at(workspace.lab)->bytes() > max_shown_bytes) return std::nullopt;
     for (Handle& each : frame.lab.handles(workspace)) {
         if (each.name != name) continue;
         known = each.pick;

@@ -10,7 +10,7 @@ namespace {
 /// The state of a large part takes long to write: one byte of it in so many waits a tick.
 constexpr std::size_t bytes_a_tick = 8192;
 /// And that of one that is larger still is not looked at.
-constexpr std::size_t most_bytes = 1u << 20;
+constexpr std::size_t max_watched_bytes = 1u << 20;
 
 constexpr const char* events_path = "events";
 
@@ -67,7 +67,7 @@ void begin(CardProgress& progress, const Card& card, const Json& state) {
 void watch_card(CardProgress& progress, const Card& card, const std::shared_ptr<const Part>& part,
                 const std::function<Json()>& state) {
     if (progress.ticks_to_wait > 0) --progress.ticks_to_wait;
-    if (part->bytes() > most_bytes) return;
+    if (part->bytes() > max_watched_bytes) return;
     const bool fresh = progress.done.empty();
     if (!fresh && (!card_waits(progress, part) || progress.ticks_to_wait > 0)) return;
     const Json now = state();
@@ -85,7 +85,7 @@ void watch_card(CardProgress& progress, const Card& card, const std::shared_ptr<
 
 bool card_waits(const CardProgress& progress, const std::shared_ptr<const Part>& part) {
     const bool all = std::all_of(progress.done.begin(), progress.done.end(), [](bool done) { return done; });
-    return progress.seen != part && part->bytes() <= most_bytes && (!all || progress.done.empty());
+    return progress.seen != part && part->bytes() <= max_watched_bytes && (!all || progress.done.empty());
 }
 
 std::size_t current_step(const CardProgress& progress, const Card& card) {

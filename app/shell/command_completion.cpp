@@ -1,25 +1,20 @@
 #include "app/shell/command_completion.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <iterator>
 
 #include "app/document/argument_check.hpp"
 #include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
+#include "app/document/text.hpp"
 
 namespace tendril::app {
 namespace {
 
-std::string lower(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
-
 /// In that order: those that begin with what is typed, then those that have it elsewhere.
 void sort_by(std::vector<CompletionRow>& rows, const std::string& typed) {
-    const std::string wanted = lower(typed);
-    const auto place = [&](const CompletionRow& row) { return lower(row.text).find(wanted); };
+    const std::string wanted = lower_case(typed);
+    const auto place = [&](const CompletionRow& row) { return lower_case(row.text).find(wanted); };
     std::erase_if(rows, [&](const CompletionRow& row) { return place(row) == std::string::npos; });
     std::stable_partition(rows.begin(), rows.end(),
                           [&](const CompletionRow& row) { return place(row) == 0; });
@@ -69,10 +64,10 @@ std::vector<std::string> known_values(const Argument& argument, const Workspace&
 /// Those that have what is typed, and of half a million joints only the first.
 std::vector<std::string> first_of(std::vector<std::string> values, const std::string& typed) {
     if (values.size() <= most_rows) return values;
-    const std::string wanted = lower(typed);
+    const std::string wanted = lower_case(typed);
     std::vector<std::string> first, rest;
     for (std::string& value : values) {
-        const std::size_t at = lower(value).find(wanted);
+        const std::size_t at = lower_case(value).find(wanted);
         if (at == 0 && first.size() < most_rows) first.push_back(std::move(value));
         if (at != 0 && at != std::string::npos && rest.size() < most_rows) rest.push_back(std::move(value));
     }

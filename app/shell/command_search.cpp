@@ -8,14 +8,10 @@
 #include <utility>
 
 #include "app/document/command.hpp"
+#include "app/document/text.hpp"
 
 namespace tendril::app {
 namespace {
-
-std::string lower(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
 
 /// Whether it begins a word of the text: at its start, or behind what is no letter and no digit.
 bool begins_word(const std::string& text, const std::string& word) {
@@ -26,7 +22,7 @@ bool begins_word(const std::string& text, const std::string& word) {
 
 /// How far from what is meant, 0 the nearest; nothing where a word is not there at all.
 std::optional<int> distance(const Command& command, const std::vector<std::string>& words) {
-    const std::string title = lower(command.title), name = lower(command.name), help = lower(command.help);
+    const std::string title = lower_case(command.title), name = lower_case(command.name), help = lower_case(command.help);
     int sum = 0;
     for (const std::string& word : words) {
         const int of_word = begins_word(title, word)               ? 0
@@ -45,7 +41,7 @@ std::optional<int> distance(const Command& command, const std::vector<std::strin
 
 std::vector<const Command*> search_commands(const CommandTable& table, const std::string& query,
                                             std::string_view open_lab, std::span<const std::string> recent) {
-    std::istringstream stream(lower(query.substr(0, query.find('='))));
+    std::istringstream stream(lower_case(query.substr(0, query.find('='))));
     std::vector<std::string> words;
     for (std::string word; stream >> word;) words.push_back(word);
     // With "chain.add length=..." typed, the last word is an argument's name.
@@ -62,7 +58,7 @@ std::vector<const Command*> search_commands(const CommandTable& table, const std
     for (const Command& command : table.all()) {
         const auto far = distance(command, words);
         if (!far) continue;
-        const bool other = words.size() != 1 || lower(command.name) != words.front();
+        const bool other = words.size() != 1 || lower_case(command.name) != words.front();
         found.push_back({{other, age(command), scope(command) == 2, *far, scope(command)}, &command});
     }
     std::stable_sort(found.begin(), found.end(),

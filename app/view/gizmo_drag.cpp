@@ -23,7 +23,7 @@ glm::quat sound(const glm::quat& rotation) {
     return length > 1e-6f && length < 1e6f ? rotation / length : glm::quat(1.0f, 0.0f, 0.0f, 0.0f);
 }
 
-glm::vec3 unit(int axis) {
+glm::vec3 unit_axis(int axis) {
     glm::vec3 v(0.0f);
     v[axis] = 1.0f;
     return v;
@@ -45,9 +45,9 @@ GizmoDrag::GizmoDrag(GizmoPart part, const HandleFrame& frame, const Ray& caught
     if (!finite(from_.position)) from_.position = glm::vec3(0.0f);
     last_ = from_;
     const int axis = axis_of(part);
-    axis_ = from_.rotation * unit(axis);
-    u_ = from_.rotation * unit((axis + 1) % 3);
-    v_ = from_.rotation * unit((axis + 2) % 3);
+    axis_ = from_.rotation * unit_axis(axis);
+    u_ = from_.rotation * unit_axis((axis + 1) % 3);
+    v_ = from_.rotation * unit_axis((axis + 2) % 3);
     const glm::vec3 way = from_.position - caught.origin;
     const float direction = glm::length(caught.direction);
     sight_ = finite(caught.direction) && direction > 1e-6f ? caught.direction / direction
@@ -147,7 +147,7 @@ HandleFrame GizmoDrag::to(const Ray& ray) {
         turned_ += edge_on_ ? step : std::remainder(step, round);
         last_angle_ = now.x;
         const auto angle = static_cast<float>(std::remainder(turned_, round));
-        frame.rotation = glm::normalize(from_.rotation * glm::angleAxis(angle, unit(axis_of(part_))));
+        frame.rotation = glm::normalize(from_.rotation * glm::angleAxis(angle, unit_axis(axis_of(part_))));
     }
     if (finite(frame.position) && finite(frame.scale)) last_ = frame;
     return last_;

@@ -23,7 +23,7 @@ GridPlane grid_plane(const Camera& camera) {
     return f.z > f.x ? GridPlane{0, 1, aligned} : GridPlane{2, 1, aligned};
 }
 
-glm::vec3 unit(int axis) {
+glm::vec3 axis_direction(int axis) {
     glm::vec3 result{0.0f};
     result[axis] = 1.0f;
     return result;
@@ -65,9 +65,9 @@ int GridPass::draw(const Camera& camera, const Palette& palette, const Frame& fr
 
     program_.use();
     program_.set("to_clip", camera.projection() * camera.view());
-    program_.set("centre", crossing.x * unit(plane.u) + crossing.y * unit(plane.v));
-    program_.set("axis_u", unit(plane.u));
-    program_.set("axis_v", unit(plane.v));
+    program_.set("centre", crossing.x * axis_direction(plane.u) + crossing.y * axis_direction(plane.v));
+    program_.set("axis_u", axis_direction(plane.u));
+    program_.set("axis_v", axis_direction(plane.v));
     program_.set("target", looked_at - crossing);
     program_.set("reach", 16.0f * scale);
     program_.set("per_metre", 1.0f / spacing);

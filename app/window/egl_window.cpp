@@ -34,12 +34,12 @@ struct Egl {
 };
 
 /// As in osmesa_window.cpp: glad's loader takes no argument of its own.
-decltype(&eglGetProcAddress) loading = nullptr;
+decltype(&eglGetProcAddress) egl_loading = nullptr;
 
 /// The display and the context; one object, so that whatever step fails, the steps before it are undone.
-class Context {
+class EglContext {
   public:
-    Context() {
+    EglContext() {
         const auto get_platform_display = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
             egl_.get_proc_address("eglGetPlatformDisplayEXT"));
         if (get_platform_display == nullptr) throw std::runtime_error("EGL: no eglGetPlatformDisplayEXT");
@@ -55,9 +55,9 @@ class Context {
             throw;
         }
     }
-    ~Context() { close(); }
-    Context(const Context&) = delete;
-    Context& operator=(const Context&) = delete;
+    ~EglContext() { close(); }
+    EglContext(const EglContext&) = delete;
+    EglContext& operator=(const EglContext&) = delete;
 
   private:
     void make_current() {
@@ -74,8 +74,8 @@ class Context {
         if (egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE) {
             throw std::runtime_error("EGL: the context can't be made current without a surface");
         }
-        loading = egl_.get_proc_address;
-        load_gl([](const char* name) { return reinterpret_cast<GLADapiproc>(loading(name)); }, "EGL");
+        egl_loading = egl_.get_proc_address;
+        load_gl([](const char* name) { return reinterpret_cast<GLADapiproc>(egl_loading(name)); }, "EGL");
     }
     /// The display stays initialised for whoever opens it next: terminating it unloads the driver, which does
     /// not free all it has allocated.
@@ -93,7 +93,7 @@ class Context {
 }  // namespace
 
 std::unique_ptr<Window> open_egl_window(glm::ivec2 size) {
-    return std::make_unique<OffscreenWindow<Context>>(size);
+    return std::make_unique<OffscreenWindow<EglContext>>(size);
 }
 
 #else

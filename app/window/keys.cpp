@@ -4,11 +4,13 @@
 #include <array>
 #include <cstddef>
 
+#include "app/document/text.hpp"
+
 namespace tendril::app {
 namespace {
 
 struct KeyText {
-    std::string_view name;   ///< in scripts: lower case
+    std::string_view name;   ///< in scripts: lower_case case
     std::string_view label;  ///< for people
 };
 
@@ -36,15 +38,6 @@ constexpr std::array<KeyText, static_cast<std::size_t>(Key::Count)> texts{{
 const KeyText& text_of(Key key) {
     const auto index = static_cast<std::size_t>(key);
     return index < texts.size() ? texts[index] : texts[0];
-}
-
-std::string lower(std::string_view text) {
-    std::string result(text);
-    // Not std::tolower, which asks the locale.
-    for (char& c : result) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
-    return result;
 }
 
 template <typename Text>
@@ -75,7 +68,7 @@ std::string_view key_name(Key key) {
 
 std::optional<Key> key_from_name(std::string_view name) {
     if (name.empty()) return std::nullopt;
-    const std::string wanted = lower(name);
+    const std::string wanted = lower_case(name);
     const auto found =
         std::find_if(texts.begin(), texts.end(), [&](const KeyText& t) { return t.name == wanted; });
     if (found == texts.end()) return std::nullopt;
@@ -91,7 +84,7 @@ std::string chord_label(const Chord& chord) {
 }
 
 std::optional<Chord> chord_from_name(std::string_view name) {
-    std::string rest = lower(name);
+    std::string rest = lower_case(name);
     Chord chord;
     for (std::size_t plus = rest.find('+'); plus != std::string::npos; plus = rest.find('+')) {
         if (!add_modifier(chord, std::string_view(rest).substr(0, plus))) return std::nullopt;

@@ -32,12 +32,12 @@ struct OsMesa {
 };
 
 /// glad's loader is a plain function without an argument of its own, so what it calls has to be reachable
-/// from one. Set only while loading.
-decltype(&OSMesaGetProcAddress) loading = nullptr;
+/// from one. Set only while osmesa_loading.
+decltype(&OSMesaGetProcAddress) osmesa_loading = nullptr;
 
-class Context {
+class OsMesaContext {
   public:
-    Context() {
+    OsMesaContext() {
         // A forward-compatible context is refused, so it is not asked for.
         const std::array<int, 13> attributes{OSMESA_FORMAT,
                                              OSMESA_RGBA,
@@ -59,17 +59,17 @@ class Context {
             throw;
         }
     }
-    ~Context() { osmesa_.destroy_context(context_); }
-    Context(const Context&) = delete;
-    Context& operator=(const Context&) = delete;
+    ~OsMesaContext() { osmesa_.destroy_context(context_); }
+    OsMesaContext(const OsMesaContext&) = delete;
+    OsMesaContext& operator=(const OsMesaContext&) = delete;
 
   private:
     void make_current() {
         if (osmesa_.make_current(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1) != GL_TRUE) {
             throw std::runtime_error("OSMesa: the context can't be made current");
         }
-        loading = osmesa_.get_proc_address;
-        load_gl([](const char* name) { return reinterpret_cast<GLADapiproc>(loading(name)); }, "OSMesa");
+        osmesa_loading = osmesa_.get_proc_address;
+        load_gl([](const char* name) { return reinterpret_cast<GLADapiproc>(osmesa_loading(name)); }, "OSMesa");
     }
 
     OsMesa osmesa_;
@@ -80,7 +80,7 @@ class Context {
 }  // namespace
 
 std::unique_ptr<Window> open_osmesa_window(glm::ivec2 size) {
-    return std::make_unique<OffscreenWindow<Context>>(size);
+    return std::make_unique<OffscreenWindow<OsMesaContext>>(size);
 }
 
 #else

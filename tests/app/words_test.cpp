@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Places = std::vector<std::string>;
 
-const fs::path top = TENDRIL_SOURCE_DIR;
+const fs::path project_top = TENDRIL_SOURCE_DIR;
 
 // Folders and files from the top of the project that are clean.
 const Places program{"app", "README.md"};
@@ -149,9 +149,9 @@ bool is_text(const fs::path& file) {
 }
 
 std::vector<fs::path> files_of(const std::string& place) {
-    if (fs::is_regular_file(top / place)) return {top / place};
+    if (fs::is_regular_file(project_top / place)) return {project_top / place};
     std::vector<fs::path> files;
-    for (const auto& entry : fs::recursive_directory_iterator(top / place))
+    for (const auto& entry : fs::recursive_directory_iterator(project_top / place))
         if (entry.is_regular_file() && is_text(entry.path())) files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;
@@ -165,7 +165,7 @@ TEST_P(Words, DoNotComeBack) {
         const std::vector<fs::path> files = files_of(place);
         ASSERT_FALSE(files.empty()) << place;
         for (const fs::path& file : files) {
-            const std::string name = file.lexically_relative(top).generic_string();
+            const std::string name = file.lexically_relative(project_top).generic_string();
             for (const Found& each : find(rule, read(file)))
                 ADD_FAILURE() << name << ':' << each.line << " says \"" << each.word
                               << "\"; the glossary has: " << rule.write;

@@ -14,9 +14,9 @@ namespace {
 constexpr Effector five[]{Effector::LeftHand, Effector::RightHand, Effector::Head, Effector::LeftFoot,
                           Effector::RightFoot};
 
-class Random {
+class RandomPoses {
   public:
-    explicit Random(unsigned seed) : engine_(seed) {}
+    explicit RandomPoses(unsigned seed) : engine_(seed) {}
     double from(double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(engine_);
     }
@@ -39,7 +39,7 @@ class HumanoidBody : public testing::TestWithParam<bool> {
     HumanoidBody() { place(skeleton, rest, placements); }
     std::size_t node(Bone bone) const { return static_cast<std::size_t>(map[bone].node); }
     /// Within the default limits; `amount` is about how far limbs turn, radians.
-    std::vector<rig::Transform> random_pose(Random& random, double amount) {
+    std::vector<rig::Transform> random_pose(RandomPoses& random, double amount) {
         std::vector<rig::Transform> pose;
         do {
             pose = rest;
@@ -101,7 +101,7 @@ double farthest(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>&
 }
 
 TEST_P(HumanoidBody, reaches_five_targets_within_a_millimetre) {
-    Random random(1);
+    RandomPoses random(1);
     for (int i = 0; i < 400; ++i) {
         const auto targets = targets_of(random_pose(random, 0.5));
         auto pose = rest;
@@ -117,7 +117,7 @@ TEST_P(HumanoidBody, reaches_five_targets_within_a_millimetre) {
 }
 
 TEST_P(HumanoidBody, is_finite_keeps_lengths_and_limits_for_any_targets) {
-    Random random(2);
+    RandomPoses random(2);
     const double sizes[]{0.3, 1.0, 5.0, 1e3, 1e9};
     for (int i = 0; i < 10000; ++i) {
         const auto start = positions_of(skeleton, rest);
@@ -145,7 +145,7 @@ TEST_P(HumanoidBody, is_finite_keeps_lengths_and_limits_for_any_targets) {
 }
 
 TEST_P(HumanoidBody, a_slow_target_gives_a_slow_pose_and_a_still_one_a_still_pose) {
-    Random random(3);
+    RandomPoses random(3);
     for (const double step : {5e-3, 1e-3, 2e-4}) {
         for (int i = 0; i < (step < 1e-3 ? 4 : 12); ++i) {
             const auto from = targets_of(rest), to = targets_of(random_pose(random, 0.5));
@@ -178,7 +178,7 @@ TEST_P(HumanoidBody, a_slow_target_gives_a_slow_pose_and_a_still_one_a_still_pos
 }
 
 TEST_P(HumanoidBody, follows_targets_in_and_out_of_reach_without_a_leap) {
-    Random random(4);
+    RandomPoses random(4);
     for (int i = 0; i < 12; ++i) {
         const std::size_t count = i % 3 == 0 ? 1 : i % 3 == 1 ? 2 : 5;
         std::vector<glm::dvec3> size(count), speed(count);
@@ -234,7 +234,7 @@ TEST_P(HumanoidBody, conflicting_targets_are_shared_by_weight_and_still) {
 }
 
 TEST_P(HumanoidBody, targets_where_the_clip_has_the_effectors_change_nothing) {
-    Random random(5);
+    RandomPoses random(5);
     for (int i = 0; i < 50; ++i) {
         const auto clip = random_pose(random, 1.0);
         const auto targets = targets_of(clip);
@@ -246,7 +246,7 @@ TEST_P(HumanoidBody, targets_where_the_clip_has_the_effectors_change_nothing) {
 }
 
 TEST_P(HumanoidBody, without_a_target_the_pose_stays_to_the_bit) {
-    Random random(6);
+    RandomPoses random(6);
     const auto clip = random_pose(random, 1.0);
     auto pose = clip;
     BodyState state;
@@ -335,7 +335,7 @@ TEST_P(HumanoidBody, nodes_between_bones_and_above_them_turn_along) {
 }
 
 TEST_P(HumanoidBody, a_copy_of_the_state_goes_on_as_the_original) {
-    Random random(7);
+    RandomPoses random(7);
     const auto targets = targets_of(random_pose(random, 0.5));
     BodyState state;
     for (int i = 0; i < 5; ++i) {

@@ -12,7 +12,7 @@
 namespace tendril::test {
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180.0;
+constexpr double one_degree = 3.14159265358979323846 / 180.0;
 const glm::dvec3 along{1.0, 0.0, 0.0};
 
 /// The figure with nodes added to its left arm: half way along the lower arm and at its end, the second on
@@ -46,7 +46,7 @@ class HumanoidTwist : public testing::Test {
         place(skeleton, pose, now);
         return twist_about(along,
                            now[node(name)].rotation() * glm::conjugate(before[node(name)].rotation())) /
-               degree;
+               one_degree;
     }
 
     Skeleton skeleton = with_twist_nodes();
@@ -62,7 +62,7 @@ TEST(HumanoidTwistAngle, is_what_was_turned_about_the_axis_before_any_swing) {
         const double x = any(engine), y = any(engine), z = any(engine), part = any(engine);
         const glm::dvec3 axis = glm::normalize(glm::dvec3(x, y, z));
         const glm::dvec3 across = glm::normalize(glm::cross(axis, glm::dvec3(z, x, y + 2.0)));
-        const double twist = 179.9 * degree * part, swing = 159.0 * degree * any(engine);
+        const double twist = 179.9 * one_degree * part, swing = 159.0 * one_degree * any(engine);
         const glm::dquat turn = glm::angleAxis(swing, across) * glm::angleAxis(twist, axis);
         EXPECT_NEAR(twist_about(axis, turn), twist, 1e-9);
         EXPECT_NEAR(twist_about(axis, -turn), twist, 1e-9) << "the same rotation";
@@ -74,11 +74,11 @@ TEST(HumanoidTwistAngle, goes_to_nothing_evenly_where_the_swing_nears_half_a_tur
     double last = 0.0;
     for (int i = 0; i <= 18000; ++i) {
         const glm::dquat turn =
-            glm::angleAxis(i * 0.01 * degree, glm::dvec3(0.0, 1.0, 0.0)) * glm::angleAxis(2.0, along);
+            glm::angleAxis(i * 0.01 * one_degree, glm::dvec3(0.0, 1.0, 0.0)) * glm::angleAxis(2.0, along);
         const double now = twist_about(along, turn);
         ASSERT_TRUE(std::isfinite(now));
         if (i > 0) {
-            ASSERT_LT(std::abs(now - last), 0.01 * degree * 15.0) << i;
+            ASSERT_LT(std::abs(now - last), 0.01 * one_degree * 15.0) << i;
         }
         last = now;
     }
@@ -108,8 +108,8 @@ TEST_F(HumanoidTwist, only_twist_nodes_that_hang_on_an_arm_are_found) {
 TEST_F(HumanoidTwist, nodes_turn_by_their_place_along_the_bone) {
     auto pose = rest;
     const auto before = nodes.turns(pose);
-    pose[node("LeftHand")].rotation = glm::angleAxis(170.0 * degree, along);
-    pose[node("LeftUpperArm")].rotation = glm::angleAxis(80.0 * degree, along);
+    pose[node("LeftHand")].rotation = glm::angleAxis(170.0 * one_degree, along);
+    pose[node("LeftUpperArm")].rotation = glm::angleAxis(80.0 * one_degree, along);
     nodes.follow(before, pose);
     EXPECT_NEAR(turned(pose, "upperarm_twist_01_l"), 20.0, 1e-9);
     EXPECT_NEAR(turned(pose, "LeftLowerArm"), 80.0, 1e-9);
@@ -139,7 +139,7 @@ TEST_F(HumanoidTwist, a_body_whose_hand_is_twisted_takes_its_twist_nodes_along) 
     Body body = *Body::make(skeleton, map);
     BodyState state;
     auto pose = rest;
-    const glm::dquat wanted = glm::angleAxis(170.0 * degree, along);
+    const glm::dquat wanted = glm::angleAxis(170.0 * one_degree, along);
     const std::vector<BodyTarget> targets{{Effector::LeftHand, {0.72, 1.45, 0.0}, wanted}};
     for (int i = 0; i < 20; ++i) {
         pose = rest;
@@ -157,7 +157,7 @@ TEST_F(HumanoidTwist, and_so_does_hand_ik) {
     auto pose = rest;
     HandTargets targets{};
     targets[0] = {
-        .position = {0.718, 1.45, 0.0}, .rotation = glm::angleAxis(120.0 * degree, along), .weight = 1.0};
+        .position = {0.718, 1.45, 0.0}, .rotation = glm::angleAxis(120.0 * one_degree, along), .weight = 1.0};
     for (int i = 0; i < 300; ++i) {
         pose = rest;
         ASSERT_TRUE(hands.step(pose, targets, 1.0 / 60.0, state, {.view = 3.14}).valid);

@@ -1,7 +1,7 @@
 // Cyclic coordinate descent against the textbook: O(n^2), in double, each joint's turn carried out at once.
 #include "ik_hostile.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_ccd_test {
 namespace {
 
 using ik::Method;
@@ -124,4 +124,4 @@ TEST(IkCcd, BearsAnything) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_ccd_test

@@ -3,7 +3,7 @@
 #include "ik_hostile.hpp"
 #include "ik_limited_support.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_drag_test {
 namespace {
 
 using ik::Method;
@@ -212,4 +212,4 @@ TEST(IkDrag, FromACopyOfTheStateTheBitsAreTheSame) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_drag_test

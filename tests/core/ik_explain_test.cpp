@@ -2,7 +2,7 @@
 #include "ik_hostile.hpp"
 #include "ik_limited_support.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_explain_test {
 namespace {
 
 using ik::ActiveLimit;
@@ -188,4 +188,4 @@ TEST(IkExplain, WhatIsNamedHelps) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_explain_test

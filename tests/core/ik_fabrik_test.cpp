@@ -5,7 +5,7 @@
 
 #include "ik_support.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_fabrik_test {
 namespace {
 
 using ik::Method;
@@ -255,4 +255,4 @@ TEST(IkFabrik, AChainIsSolvedAsItsJointsAre) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_fabrik_test

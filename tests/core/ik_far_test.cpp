@@ -4,11 +4,9 @@
 #include "ik_tree_support.hpp"
 #include "tendril/ik/two_bone.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_far_test {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float far_away[] = {1e3f, 1e6f, 1e8f, 1e9f};
 constexpr float refused[] = {1.1e9f, 1e30f, infinity, -infinity, nan};
 
@@ -47,7 +45,7 @@ TEST(IkFar, ATreeKeepsItsLengths) {
 }
 
 TEST(IkFar, ATreeWithOneEffectorLiesStraightTowardsIt) {
-    Joints joints = only_root();
+    TreeJointList joints = only_root();
     const std::size_t tip = grow(joints, 0, {1.0f, 0.3f, 2.0f, 0.01f, 0.7f});
     Tree tree = tree_of(joints);
     for (const float far : far_away) {
@@ -109,4 +107,4 @@ TEST(IkFar, TwoBonesRefuseWhatIsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_far_test

@@ -2,7 +2,7 @@
 #include "ik_hostile.hpp"
 #include "ik_limited_support.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_finite_test {
 namespace {
 
 using ik::Method;
@@ -124,4 +124,4 @@ TEST(IkFinite, FarTargetsKeepLengths) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_finite_test

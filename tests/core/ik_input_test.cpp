@@ -4,7 +4,7 @@
 
 #include "ik_support.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_input_test {
 namespace {
 
 using ik::Limit;
@@ -168,4 +168,4 @@ TEST(IkInput, HostileButValidInputNeverMakesNoNumber) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_input_test

@@ -6,7 +6,7 @@
 
 #include "ik_hostile.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_jacobian_test {
 namespace {
 
 using ik::Method;
@@ -252,4 +252,4 @@ TEST(IkJacobian, BearsAnything) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_jacobian_test

@@ -1,7 +1,7 @@
 // A limit by itself: presets, what is wrong with one, angles, excess.
 #include "ik_limit_support.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_limit_test {
 namespace {
 
 using ik::JointKind;
@@ -130,4 +130,4 @@ TEST(IkLimit, AnglesAndExcessAreThoseMeasuredIndependently) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_limit_test

@@ -3,7 +3,7 @@
 #include "ik_limited_support.hpp"
 #include "memory.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_limited_test {
 namespace {
 
 using ik::Method;
@@ -335,4 +335,4 @@ TEST(IkLimited, NeedsNoMemory) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_limited_test

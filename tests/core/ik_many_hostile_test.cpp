@@ -1,7 +1,7 @@
 // solve_many with what is loose, on the move, hostile or out of range; and the batch that it works on.
 #include "ik_many_scalar.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_many_hostile_test {
 namespace {
 
 TEST(SolveMany, LooseJointsAreLaidToTheirLengthsFirst) {
@@ -257,4 +257,4 @@ TEST(Batch, RefusesWhatIsOutOfRangeAndKeepsWhatItWas) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_many_hostile_test

@@ -2,7 +2,7 @@
 #include "ik_limit_support.hpp"
 #include "ik_many_support.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_many_joints_test {
 namespace {
 
 /// Of all chains, one after the other.
@@ -116,4 +116,4 @@ TEST(SolveManyJoints, OfTheWrongNumberAreRefused) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_many_joints_test

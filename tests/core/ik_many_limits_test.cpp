@@ -3,7 +3,7 @@
 #include "ik_limited_support.hpp"
 #include "ik_many_scalar.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_many_limits_test {
 namespace {
 
 using ik::Limit;
@@ -332,4 +332,4 @@ TEST(SolveManyWithinLimits, LimitsWithOtherRestDirectionsCountAnew) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_many_limits_test

@@ -2,7 +2,7 @@
 // the company that a chain is in.
 #include "ik_many_scalar.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_many_test {
 namespace {
 
 TEST(SolveMany, TenThousandChainsAsTheScalarSolverWithForcedIterations) {
@@ -269,4 +269,4 @@ TEST(SolveMany, ATargetThatComesAndGoesOnOneLineIsFollowed) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_many_test

@@ -2,7 +2,7 @@
 #include "ik_support.hpp"
 #include "memory.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_memory_test {
 namespace {
 
 using ik::Limit;
@@ -49,4 +49,4 @@ TEST(IkMemory, NorForAChain) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_memory_test

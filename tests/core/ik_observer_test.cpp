@@ -4,7 +4,7 @@
 
 #include "ik_support.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_observer_test {
 namespace {
 
 using ik::Limit;
@@ -103,4 +103,4 @@ TEST(IkObserver, OutOfReachIsOneAnswer) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_observer_test

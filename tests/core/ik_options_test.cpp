@@ -4,7 +4,7 @@
 
 #include "ik_limited_support.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_options_test {
 namespace {
 
 using ik::Method;
@@ -254,4 +254,4 @@ TEST(IkReport, SaysWhatRan) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_options_test

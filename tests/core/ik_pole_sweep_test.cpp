@@ -3,7 +3,7 @@
 
 #include "ik_support.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_pole_sweep_test {
 namespace {
 
 using ik::Method;
@@ -86,4 +86,4 @@ TEST(IkPoleSweep, NorForTheOtherMethods) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_pole_sweep_test

@@ -1,7 +1,7 @@
 // The bend faces its pole, moves neither root nor tip, and never jumps.
 #include "ik_hostile.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_pole_test {
 namespace {
 
 using ik::Method;
@@ -301,4 +301,4 @@ TEST(IkPole, BearsAnything) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_pole_test

@@ -7,7 +7,7 @@
 
 #include "ik_support.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_reference_test {
 namespace {
 
 using ik::Method;
@@ -135,4 +135,4 @@ TEST(IkReference, PlainFabrikSaysThatItStallsOnALine) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_reference_test

@@ -4,7 +4,7 @@
 
 #include "ik_support.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_rim_test {
 namespace {
 
 using ik::Method;
@@ -102,4 +102,4 @@ TEST(IkRim, ATargetThatIsJustNotTooClose) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_rim_test

@@ -3,7 +3,7 @@
 #include "ik_hostile.hpp"
 #include "ik_limited_support.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_singular_test {
 namespace {
 
 using ik::Limit;
@@ -212,4 +212,4 @@ TEST(IkSingular, TheSameWayEveryTimeAndWatched) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_singular_test

@@ -1,7 +1,7 @@
 // Soft reach: the chain eases off before it is straight, without a jump and without pretending.
 #include "ik_support.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_soft_test {
 namespace {
 
 using ik::Method;
@@ -81,4 +81,4 @@ TEST(IkSoftReach, TheWholeReachMayBeSoftAndNothingFoldsTooFar) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_soft_test

@@ -3,7 +3,7 @@
 
 #include "ik_limited_support.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_state_test {
 namespace {
 
 using ik::Method;
@@ -155,4 +155,4 @@ TEST(IkState, ABadOneIsRefused) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_state_test

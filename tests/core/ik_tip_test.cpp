@@ -3,7 +3,7 @@
 #include "ik_limited_support.hpp"
 #include "memory.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_tip_test {
 namespace {
 
 using ik::Method;
@@ -168,4 +168,4 @@ TEST(IkTip, WatchedItGoesTheSameWayWithoutMemory) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_tip_test

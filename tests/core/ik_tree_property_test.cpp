@@ -6,7 +6,7 @@
 #include "ik_tree_support.hpp"
 #include "memory.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_tree_property_test {
 namespace {
 
 struct Tally {
@@ -169,7 +169,7 @@ TEST(IkTreeProperty, ThirtyThousandHostileSolves) {
     Random random(27);
     int refused = 0, solved = 0;
     for (int i = 0; i < 30'000; ++i) {
-        Joints joints = only_root();
+        TreeJointList joints = only_root();
         const std::size_t count = 1 + random.below(12);
         for (std::size_t k = 1; k < count; ++k) joints.push_back({random.below(k), hostile_length(random)});
         Tree tree = tree_of(joints);
@@ -243,7 +243,7 @@ TEST(IkTreeProperty, RefusesEachBadArgument) {
 }
 
 TEST(IkTreeProperty, ThousandsOfEffectorsAndALongChain) {
-    Joints joints = only_root();
+    TreeJointList joints = only_root();
     grow(joints, 0, std::vector<float>(20'000, 0.01f));
     Tree tree = tree_of(joints);
     Random random(28);
@@ -258,4 +258,4 @@ TEST(IkTreeProperty, ThousandsOfEffectorsAndALongChain) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_tree_property_test

@@ -1,7 +1,7 @@
 // A tree keeps nothing from solve to solve: what goes on are the caller's joints and rotations.
 #include "ik_tree_support.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_tree_state_test {
 namespace {
 
 struct Posture {
@@ -59,4 +59,4 @@ TEST(IkTreeState, BadRotationsAreRefused) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_tree_state_test

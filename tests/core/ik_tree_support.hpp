@@ -24,7 +24,7 @@ using ik::TreeJoint;
 using ik::TreeOptions;
 using ik::TreeReport;
 
-using Joints = std::vector<TreeJoint>;
+using TreeJointList = std::vector<TreeJoint>;
 using Places = std::vector<glm::vec3>;
 
 /// The joints must be good: a bad one ends the program.
@@ -33,7 +33,7 @@ inline Tree tree_of(std::span<const ik::TreeJoint> joints) {
 }
 
 /// Appends a chain of bones that hangs on `parent`; gives its last joint.
-inline std::size_t grow(Joints& joints, std::size_t parent, const std::vector<float>& lengths) {
+inline std::size_t grow(TreeJointList& joints, std::size_t parent, const std::vector<float>& lengths) {
     for (const float length : lengths) {
         joints.push_back({parent, length});
         parent = joints.size() - 1;
@@ -41,12 +41,12 @@ inline std::size_t grow(Joints& joints, std::size_t parent, const std::vector<fl
     return parent;
 }
 
-inline Joints only_root() {
+inline TreeJointList only_root() {
     return {{no_joint, 0.0f}};
 }
 
 struct Figure {
-    Joints joints = only_root();
+    TreeJointList joints = only_root();
     std::vector<Effector> effectors;  ///< targets are set later
 };
 
@@ -103,7 +103,7 @@ inline glm::vec3 random_direction(Random& random) {
 }
 
 /// `straight`: 0 every bone somewhere, towards 1 more and more along its parent's bone.
-inline Places random_pose(const Joints& joints, Random& random, float straight) {
+inline Places random_pose(const TreeJointList& joints, Random& random, float straight) {
     Places places(joints.size(), glm::vec3(0.0f)), along(joints.size(), random_direction(random));
     for (std::size_t k = 1; k < joints.size(); ++k) {
         const std::size_t parent = joints[k].parent;
@@ -117,7 +117,7 @@ inline Places random_pose(const Joints& joints, Random& random, float straight) 
 }
 
 /// All bones along one direction.
-inline Places straight_pose(const Joints& joints, glm::vec3 direction = {1, 0, 0}) {
+inline Places straight_pose(const TreeJointList& joints, glm::vec3 direction = {1, 0, 0}) {
     Places places(joints.size(), glm::vec3(0.0f));
     for (std::size_t k = 1; k < joints.size(); ++k) {
         places[k] = places[joints[k].parent] + direction * joints[k].length;
@@ -130,7 +130,7 @@ inline void aim(std::vector<Effector>& effectors, const Places& at) {
 }
 
 /// Every coordinate is finite, every bone at its length; further out than 1e3 m, to the spacing of floats.
-inline testing::AssertionResult Holds(const Joints& joints, const Places& places) {
+inline testing::AssertionResult Holds(const TreeJointList& joints, const Places& places) {
     for (std::size_t k = 0; k < joints.size(); ++k) {
         double furthest = 0.0;
         for (int axis = 0; axis < 3; ++axis) {

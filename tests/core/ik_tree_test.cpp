@@ -4,10 +4,10 @@
 #include "ik_tree_support.hpp"
 #include "kept_solver.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_tree_test {
 namespace {
 
-std::string refusal(const Joints& joints) {
+std::string refusal(const TreeJointList& joints) {
     return Tree::make(joints).message();
 }
 
@@ -34,8 +34,8 @@ TEST(IkTree, KnowsItsSizeAndReach) {
     EXPECT_NEAR(tree.reach(), 4 * 0.15 + 0.18 + 0.3 + 0.27 + 0.1, 1e-6);
 }
 
-Joints chain_of(std::size_t bones, float length = 1.0f) {
-    Joints joints = only_root();
+TreeJointList chain_of(std::size_t bones, float length = 1.0f) {
+    TreeJointList joints = only_root();
     grow(joints, 0, std::vector<float>(bones, length));
     return joints;
 }
@@ -43,7 +43,7 @@ Joints chain_of(std::size_t bones, float length = 1.0f) {
 TEST(IkTree, PlainOnOneChainIsPlainFabrik) {
     Random random(3);
     for (int i = 0; i < 200; ++i) {
-        const Joints joints = chain_of(10, 0.1f);
+        const TreeJointList joints = chain_of(10, 0.1f);
         Tree tree = tree_of(joints);
         KeptSolver solver(std::vector<float>(10, 0.1f));
         Places a = random_pose(joints, random, 0.5f), b = a;
@@ -60,7 +60,7 @@ TEST(IkTree, PlainOnOneChainIsPlainFabrik) {
 TEST(IkTree, OneChainComesWhereTheChainSolverComes) {
     Random random(4);
     for (int i = 0; i < 500; ++i) {
-        const Joints joints = chain_of(10, 0.1f);
+        const TreeJointList joints = chain_of(10, 0.1f);
         Tree tree = tree_of(joints);
         Places places = random_pose(joints, random, 0.5f);
         const glm::vec3 direction = random_direction(random);
@@ -88,7 +88,7 @@ TEST(IkTree, OutOfReachItLiesStraight) {
 }
 
 TEST(IkTree, TooCloseItFolds) {
-    Joints joints = only_root();
+    TreeJointList joints = only_root();
     grow(joints, 0, {1.0f, 5.0f, 1.0f});
     Tree tree = tree_of(joints);
     for (const glm::vec3 target : {glm::vec3(0.0f), glm::vec3(0, 0.5f, 0), glm::vec3(-2, 1, 1)}) {
@@ -202,7 +202,7 @@ TEST(IkTree, WeightsDoNotMatterWhereAllCanBeHad) {
 }
 
 TEST(IkTree, AnInnerJointMovesTheWayToItAndTheRestGoesAlong) {
-    const Joints joints = chain_of(6);
+    const TreeJointList joints = chain_of(6);
     Tree tree = tree_of(joints);
     Random random(10);
     for (int i = 0; i < 100; ++i) {
@@ -212,7 +212,7 @@ TEST(IkTree, AnInnerJointMovesTheWayToItAndTheRestGoesAlong) {
         const TreeReport report = tree.solve(places, std::vector<Effector>{{3, target}});
         EXPECT_EQ(report.status, Status::Converged);
         EXPECT_TRUE(Holds(joints, places));
-        // Joints 2 to 6 are one rigid piece: all distances among them are as they were.
+        // TreeJointList 2 to 6 are one rigid piece: all distances among them are as they were.
         for (std::size_t a = 2; a <= 6; ++a) {
             for (std::size_t b = a + 1; b <= 6; ++b) {
                 ASSERT_NEAR(distance(places[a], places[b]), distance(before[a], before[b]), 1e-5);
@@ -274,7 +274,7 @@ TEST(IkTree, TheRootDoesNotMoveForAnybody) {
 }
 
 TEST(IkTree, BonesOfNoLengthTieTheirJoints) {
-    Joints joints = only_root();
+    TreeJointList joints = only_root();
     grow(joints, 0, {0.0f, 1.0f, 0.0f, 1.0f, 1.0f, 0.0f, 0.0f});
     Tree tree = tree_of(joints);
     Places places = straight_pose(joints);
@@ -311,7 +311,7 @@ TEST(IkTree, TellsTheWorstResidualOfEveryIteration) {
 
 TEST(IkTree, StraightLinesAreLeft) {
     for (const std::size_t bones : {2u, 3u, 4u, 10u, 30u}) {
-        const Joints joints = chain_of(bones, 0.5f);
+        const TreeJointList joints = chain_of(bones, 0.5f);
         const float reach = 0.5f * static_cast<float>(bones);
         Tree tree = tree_of(joints);
         for (const glm::vec3 along : {glm::vec3(1, 0, 0), glm::vec3(0, -1, 0), glm::vec3(0.6f, 0, 0.8f)}) {
@@ -373,4 +373,4 @@ TEST(IkTree, SizeDoesNotMatter) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_tree_test

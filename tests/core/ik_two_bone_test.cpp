@@ -2,7 +2,7 @@
 #include "ik_hostile.hpp"
 #include "tendril/ik/two_bone.hpp"
 
-namespace tendril::test {
+namespace tendril::test::ik_two_bone_test {
 namespace {
 
 using ik::Method;
@@ -302,4 +302,4 @@ TEST(IkTwoBone, BearsAnything) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::ik_two_bone_test

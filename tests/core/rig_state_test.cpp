@@ -6,7 +6,7 @@
 #include "memory.hpp"
 #include "rig_rigs.hpp"
 
-namespace tendril::rig {
+namespace tendril::rig::rig_state_test {
 namespace {
 
 void expect_near(const glm::dvec3& a, const glm::dvec3& b, double within = 1e-9) {
@@ -376,4 +376,4 @@ TEST(RigState, WithoutPropagationChildrenStayAfterTheSolve) {
 }
 
 }  // namespace
-}  // namespace tendril::rig
+}  // namespace tendril::rig::rig_state_test

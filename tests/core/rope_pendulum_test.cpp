@@ -7,7 +7,7 @@ namespace {
 using rope::Settings;
 using rope::Solver;
 
-constexpr double gravity = 9.81;
+constexpr double earth_gravity = 9.81;
 
 World pendulum(float length, float amplitude, const Settings& settings) {
     World world = world_with(settings);
@@ -37,13 +37,13 @@ double period(World& world, int swings) {
 
 /// Energy over that at rest.
 double swing(const World& world, double length) {
-    return energy(world) + world.state().mass[1] * gravity * length;
+    return energy(world) + world.state().mass[1] * earth_gravity * length;
 }
 
 TEST(RopePendulum, SwingsInTheTimeThatItMust) {
     for (const float length : {0.5f, 1.0f, 2.0f}) {
         World world = pendulum(length, 0.1f, {.damping = 0.0f});
-        const double expected = 2.0 * pi * std::sqrt(length / gravity);
+        const double expected = 2.0 * pi * std::sqrt(length / earth_gravity);
         EXPECT_NEAR(period(world, 10) / expected, 1.0, 0.005) << length;
     }
 }
@@ -53,14 +53,14 @@ TEST(RopePendulum, SwingsLongerTheWider) {
     for (const float amplitude : {0.3f, 0.5f, 1.0f}) {
         World world = pendulum(1.0f, amplitude, {.damping = 0.0f});
         const double a = amplitude, longer = 1.0 + a * a / 16.0 + 11.0 * a * a * a * a / 3072.0;
-        EXPECT_NEAR(period(world, 3) / (2.0 * pi * std::sqrt(1.0 / gravity)), longer, 0.002) << amplitude;
+        EXPECT_NEAR(period(world, 3) / (2.0 * pi * std::sqrt(1.0 / earth_gravity)), longer, 0.002) << amplitude;
     }
 }
 
 TEST(RopePendulum, ThePeriodDoesNotHangOnTheSubstep) {
     for (const double substep : {1.0 / 960.0, 1.0 / 120.0, 1.0 / 60.0}) {
         World world = pendulum(1.0f, 0.1f, {.substep = substep, .damping = 0.0f});
-        EXPECT_NEAR(period(world, 5) / (2.0 * pi * std::sqrt(1.0 / gravity)), 1.0, 0.005) << substep;
+        EXPECT_NEAR(period(world, 5) / (2.0 * pi * std::sqrt(1.0 / earth_gravity)), 1.0, 0.005) << substep;
     }
 }
 

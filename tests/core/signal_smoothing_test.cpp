@@ -6,7 +6,7 @@
 #include "tendril/signal/inertialize.hpp"
 #include "tendril/signal/shaping.hpp"
 
-namespace tendril::test {
+namespace tendril::test::signal_smoothing_test {
 namespace {
 
 TEST(SignalSmoothing, ExponentialDecayHalvesEveryHalflife) {
@@ -183,4 +183,4 @@ TEST(SignalInertialize, NoiseThatAlwaysJumpsStaysWithinBounds) {
 }
 
 }  // namespace
-}  // namespace tendril::test
+}  // namespace tendril::test::signal_smoothing_test

@@ -89,7 +89,7 @@ class Words {
     std::size_t at_ = 0, line_ = 1;
 };
 
-struct Joint {
+struct BvhJoint {
     glm::dvec3 offset{0.0};
     std::vector<int> channels;  // 0 to 2: position x to z; 3 to 5: rotation
 };
@@ -97,7 +97,7 @@ struct Joint {
 /// The first part of the file: joints, and as many nodes.
 struct Hierarchy {
     std::vector<Node> nodes;
-    std::vector<Joint> joints;
+    std::vector<BvhJoint> joints;
     UniqueNames names;
     std::size_t channels = 0;
 
@@ -122,7 +122,7 @@ void read_offset(Words& words, Hierarchy& hierarchy, std::size_t node) {
     hierarchy.joints[node].offset = hierarchy.nodes[node].rest.translation = offset;
 }
 
-void read_channels(Words& words, Joint& joint, std::size_t& all) {
+void read_channels(Words& words, BvhJoint& joint, std::size_t& all) {
     const double count = words.number();
     if (count < 0 || count > 6 || count != std::floor(count)) words.fail("a joint has 0 to 6 channels");
     for (int i = 0; i < static_cast<int>(count); ++i) {
@@ -169,7 +169,7 @@ glm::dquat turned_about(int axis, double degrees) {
 }
 
 /// One joint's values of one frame.
-rig::Transform local_of(const Joint& joint, bool is_root, const double* values) {
+rig::Transform local_of(const BvhJoint& joint, bool is_root, const double* values) {
     rig::Transform local;
     bool has_position = false;
     glm::dvec3 position(0.0);
@@ -225,7 +225,7 @@ humanoid::Clip read_motion(Words& words, const Hierarchy& hierarchy, LoadProgres
         if (frame % 64 == 0)
             report(progress, 0.1 + 0.8 * static_cast<double>(frame) / static_cast<double>(frames));
         for (humanoid::Channel& channel : clip.channels) {
-            const Joint& joint = hierarchy.joints[channel.node];
+            const BvhJoint& joint = hierarchy.joints[channel.node];
             row.clear();
             for (std::size_t i = 0; i < joint.channels.size(); ++i) row.push_back(words.number());
             const rig::Transform local =

@@ -9,6 +9,7 @@
 #include <tendril/humanoid/lint.hpp>
 
 #include "app/document/atomic_file.hpp"
+#include "app/document/text.hpp"
 #include "app/io/character/bvh.hpp"
 #include "app/io/character/gltf.hpp"
 #include "app/io/character/gltf_write.hpp"
@@ -21,15 +22,8 @@ namespace fs = std::filesystem;
 using humanoid::Placement;
 using humanoid::Skeleton;
 
-std::string ending_of(const fs::path& path) {
-    std::string ending = path.extension().string();
-    std::ranges::transform(ending, ending.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return ending;
-}
-
 GltfOrigin origin_of(const std::string& file) {
-    const std::string ending = ending_of(file);
+    const std::string ending = lower_case(fs::path(file).extension().string());
     if (ending != ".gltf" && ending != ".glb" && ending != ".vrm") return {};
     return {character_bytes(file), fs::path(file).parent_path()};
 }
@@ -134,12 +128,12 @@ std::string ExportReport::text() const {
 }
 
 bool ends_as_export(const fs::path& path) {
-    const std::string ending = ending_of(path);
+    const std::string ending = lower_case(path.extension().string());
     return ending == ".gltf" || ending == ".glb" || ending == ".bvh";
 }
 
 ExportReport export_clip(const Export& what, const fs::path& path) {
-    const std::string name = path.filename().string(), ending = ending_of(path);
+    const std::string name = path.filename().string(), ending = lower_case(path.extension().string());
     if (!ends_as_export(path))
         throw std::runtime_error(name + ": expected a name that ends in .gltf, .glb or .bvh");
     if (!(what.rate >= smallest_rate && what.rate <= largest_rate))

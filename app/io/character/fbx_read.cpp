@@ -40,9 +40,9 @@ class AssimpProgress final : public Assimp::ProgressHandler {
     LoadProgress* progress_;
 };
 
-class Reader {
+class FbxReader {
   public:
-    Reader(const aiScene& scene, const FbxObjects& objects) : scene_(scene), objects_(objects) {}
+    FbxReader(const aiScene& scene, const FbxObjects& objects) : scene_(scene), objects_(objects) {}
 
     Character read() {
         find_what_is_no_body();
@@ -179,7 +179,7 @@ Character parse_fbx(std::string_view bytes, const std::string& name, LoadProgres
         const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "fbx");
         if (!scene || !scene->mRootNode) throw std::runtime_error(importer.GetErrorString());
         report(progress, 0.7);
-        return Reader(*scene, objects).read();
+        return FbxReader(*scene, objects).read();
     } catch (const std::exception& error) {
         throw std::runtime_error(name + ": " + error.what());
     }

@@ -23,9 +23,9 @@ std::vector<glm::vec3> vectors_of(const aiVector3D* from, unsigned count) {
     return result;
 }
 
-class SkinReader {
+class FbxSkinReader {
   public:
-    SkinReader(const aiScene& scene, const std::vector<FbxJoint>& joints, double scale,
+    FbxSkinReader(const aiScene& scene, const std::vector<FbxJoint>& joints, double scale,
                std::vector<std::string>& notes)
         : scene_(scene), scale_(scale), notes_(notes) {
         for (std::size_t i = 0; i < joints.size(); ++i) {
@@ -173,7 +173,7 @@ class SkinReader {
 
 Skin fbx_skin(const aiScene& scene, const std::vector<FbxJoint>& joints, double scale,
               std::vector<std::string>& notes) {
-    return SkinReader(scene, joints, scale, notes).read();
+    return FbxSkinReader(scene, joints, scale, notes).read();
 }
 
 }  // namespace tendril::app

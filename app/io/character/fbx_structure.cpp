@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t most_nested = 64;  // records in records; files have up to 10
 constexpr std::size_t most_deep = 1000;  // models on models: Assimp goes down by recursion
 constexpr std::size_t most_models = 100'000;
-constexpr std::size_t most_keys = 50'000'000;
+constexpr std::size_t max_curve_keys = 50'000'000;
 constexpr std::uint64_t most_array_bytes = std::uint64_t{1} << 30;  // of all arrays together
 constexpr std::uint64_t most_packed = 1032;                         // bytes that zlib can make of one
 
@@ -254,7 +254,7 @@ void FbxObjects::check() const {
         below[each.parent].push_back(each.child);
         ++open[each.child];
     }
-    if (keys > most_keys) throw std::runtime_error("has more than " + to_string(most_keys) + " keys");
+    if (keys > max_curve_keys) throw std::runtime_error("has more than " + to_string(max_curve_keys) + " keys");
 
     // From the root down, a model after all that it hangs on: how deep, and how often Assimp would make it.
     struct Seen {

@@ -10,7 +10,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t deepest_json = 100;
-constexpr std::uintmax_t largest_file = std::uintmax_t{1} << 30;
+constexpr std::uintmax_t max_gltf_bytes = std::uintmax_t{1} << 30;
 
 /// Of brackets outside of strings.
 void check_depth(std::string_view json) {
@@ -76,7 +76,7 @@ void check_buffers(std::string_view text) {
                &images = list(file, "images");
     for (std::size_t i = 0; i < buffers.size(); ++i) {
         const std::uint64_t size = count(buffers[i], "byteLength", 1);
-        if (size == 0 || size > largest_file)
+        if (size == 0 || size > max_gltf_bytes)
             throw std::runtime_error("buffers[" + std::to_string(i) + "] claims " + std::to_string(size) +
                                      " bytes, expected 1 to 1 GB");
     }
@@ -103,7 +103,7 @@ std::string as_it_is(const std::string& path, void*) {
 bool read_whole(std::vector<unsigned char>* out, std::string* error, const std::string& path, void*) {
     std::error_code unknown;
     const std::uintmax_t size = fs::file_size(path, unknown);
-    if (unknown || size > largest_file) {
+    if (unknown || size > max_gltf_bytes) {
         if (error) *error += unknown ? "cannot be read" : "is larger than 1 GB";
         return false;
     }
@@ -144,7 +144,7 @@ std::string_view gltf_json(std::string_view bytes) {
 
 tinygltf::Model gltf_model(std::string_view bytes, const fs::path& folder) {
     if (bytes.empty()) throw std::runtime_error("is empty");
-    if (bytes.size() > largest_file) throw std::runtime_error("is larger than 1 GB");
+    if (bytes.size() > max_gltf_bytes) throw std::runtime_error("is larger than 1 GB");
     const bool is_binary = bytes.starts_with("glTF");
     if (!is_binary && bytes.find('{') == bytes.npos) throw std::runtime_error("is no glTF file");
     const std::string_view text = gltf_json(bytes);

@@ -19,7 +19,7 @@ using humanoid::Interpolation;
 using humanoid::Node;
 
 /// Of all clips together: keys may be shared, so that a small file can claim any number.
-constexpr std::size_t most_keys = 20'000'000;
+constexpr std::size_t max_clip_keys = 20'000'000;
 
 /// Translation, rotation and scale of a matrix, column by column as glTF has it; shear is lost.
 rig::Transform decomposed(const std::vector<double>& m) {
@@ -59,9 +59,9 @@ rig::Transform local_of(const tinygltf::Node& node, std::size_t index) {
     return local;
 }
 
-class Reader {
+class GltfReader {
   public:
-    explicit Reader(const tinygltf::Model& model, LoadProgress* progress = nullptr)
+    explicit GltfReader(const tinygltf::Model& model, LoadProgress* progress = nullptr)
         : model_(model), progress_(progress), parents_(model_.nodes.size(), -1) {}
 
     Character read() {
@@ -180,8 +180,8 @@ class Reader {
         humanoid::Track<T> track;
         keys_ += accessor_count(model_, sampler.input, what + ".input") +
                  accessor_count(model_, sampler.output, what + ".output");
-        if (keys_ > most_keys)
-            throw std::runtime_error(what + ": more than " + std::to_string(most_keys) + " keys together");
+        if (keys_ > max_clip_keys)
+            throw std::runtime_error(what + ": more than " + std::to_string(max_clip_keys) + " keys together");
         track.interpolation = interpolation_of(sampler.interpolation, what);
         track.times = accessor_rows(model_, sampler.input, 1, what + ".input");
         const std::vector<double> rows = accessor_rows(model_, sampler.output, T::length(), what + ".output");
@@ -257,7 +257,7 @@ class Reader {
 }  // namespace
 
 std::vector<std::size_t> gltf_nodes(const tinygltf::Model& model) {
-    return Reader(model).nodes();
+    return GltfReader(model).nodes();
 }
 
 Character parse_gltf(std::string_view bytes, const std::string& name, const std::filesystem::path& folder,
@@ -265,7 +265,7 @@ Character parse_gltf(std::string_view bytes, const std::string& name, const std:
     try {
         const tinygltf::Model model = gltf_model(bytes, folder);
         report(progress, 0.5);
-        return Reader(model, progress).read();
+        return GltfReader(model, progress).read();
     } catch (const std::exception& error) {
         throw std::runtime_error(name + ": " + error.what());
     }

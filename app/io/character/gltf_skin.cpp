@@ -11,7 +11,7 @@ namespace tendril::app {
 namespace {
 
 using humanoid::Placement;
-using Rows = std::vector<double>;
+using Values = std::vector<double>;
 
 std::string indexed(const char* list, std::size_t index) {
     return std::string(list) + '[' + std::to_string(index) + ']';
@@ -23,16 +23,16 @@ const T* at(const std::vector<T>& list, int index) {
                : nullptr;
 }
 
-std::vector<glm::vec3> vectors(const Rows& rows) {
+std::vector<glm::vec3> vectors(const Values& rows) {
     std::vector<glm::vec3> result(rows.size() / 3);
     for (std::size_t i = 0; i < result.size(); ++i)
         result[i] = glm::vec3(rows[3 * i], rows[3 * i + 1], rows[3 * i + 2]);
     return result;
 }
 
-class SkinReader {
+class GltfSkinReader {
   public:
-    SkinReader(const tinygltf::Model& model, const GltfNodes& nodes, const std::vector<Placement>& local,
+    GltfSkinReader(const tinygltf::Model& model, const GltfNodes& nodes, const std::vector<Placement>& local,
                std::vector<std::string>& notes)
         : model_(model), nodes_(nodes), local_(local), notes_(notes) {}
 
@@ -81,7 +81,7 @@ class SkinReader {
         const tinygltf::Skin* skin = at(model_.skins, index);
         if (!skin) throw std::runtime_error(what + ": there is no skin " + std::to_string(index));
         const std::string place = indexed("skins", static_cast<std::size_t>(index));
-        Rows matrices;
+        Values matrices;
         if (skin->inverseBindMatrices >= 0) {
             matrices = accessor_rows(model_, skin->inverseBindMatrices, 16, place + ".inverseBindMatrices");
             if (matrices.size() < 16 * skin->joints.size())
@@ -128,12 +128,12 @@ class SkinReader {
         const auto found = attributes.find(name);
         return found == attributes.end() ? nullptr : &found->second;
     }
-    Rows rows(const std::map<std::string, int>& attributes, const std::string& name, int components,
+    Values rows(const std::map<std::string, int>& attributes, const std::string& name, int components,
               std::size_t count, const std::string& what) const {
         const int* accessor = attribute(attributes, name);
         if (!accessor) return {};
         check_size(*accessor, what + '.' + name);
-        Rows result = accessor_rows(model_, *accessor, components, what + '.' + name);
+        Values result = accessor_rows(model_, *accessor, components, what + '.' + name);
         if (count > 0 && result.size() != count * static_cast<std::size_t>(components))
             throw std::runtime_error(what + '.' + name + ": " +
                                      std::to_string(result.size() / static_cast<std::size_t>(components)) +
@@ -196,7 +196,7 @@ class SkinReader {
         if (!accessor || !at(model_.accessors, *accessor)) return {};
         const bool has_alpha = at(model_.accessors, *accessor)->type == TINYGLTF_TYPE_VEC4;
         const std::size_t width = has_alpha ? 4 : 3;
-        const Rows values = rows(primitive.attributes, "COLOR_0", static_cast<int>(width), count, what);
+        const Values values = rows(primitive.attributes, "COLOR_0", static_cast<int>(width), count, what);
         std::vector<glm::u8vec4> result(count);
         for (std::size_t i = 0; i < count; ++i) {
             const double* row = &values[i * width];
@@ -211,8 +211,8 @@ class SkinReader {
         corners.influences.resize(count);
         for (int set = 0; attribute(primitive.attributes, "JOINTS_" + std::to_string(set)); ++set) {
             const std::string number = std::to_string(set);
-            const Rows joints = rows(primitive.attributes, "JOINTS_" + number, 4, count, what);
-            const Rows weights = rows(primitive.attributes, "WEIGHTS_" + number, 4, count, what);
+            const Values joints = rows(primitive.attributes, "JOINTS_" + number, 4, count, what);
+            const Values weights = rows(primitive.attributes, "WEIGHTS_" + number, 4, count, what);
             if (weights.empty()) throw std::runtime_error(what + ": JOINTS_" + number + " without WEIGHTS");
             for (std::size_t i = 0; i < 4 * count; ++i) {
                 if (!(weights[i] > 0.0)) continue;
@@ -241,7 +241,7 @@ class SkinReader {
         part.picture = picture(base.baseColorTexture.index);
         if (part.picture < 0) return part;
         const std::string name = "TEXCOORD_" + std::to_string(base.baseColorTexture.texCoord);
-        const Rows values = rows(primitive.attributes, name, 2, count, what);
+        const Values values = rows(primitive.attributes, name, 2, count, what);
         for (std::size_t i = 0; i + 1 < values.size(); i += 2)
             corners.uvs.push_back(glm::vec2(values[i], values[i + 1]));
         if (values.empty()) part.picture = -1;
@@ -341,7 +341,7 @@ class SkinReader {
 
 Skin gltf_skin(const tinygltf::Model& model, const GltfNodes& nodes, const std::vector<Placement>& local,
                std::vector<std::string>& notes) {
-    return SkinReader(model, nodes, local, notes).read();
+    return GltfSkinReader(model, nodes, local, notes).read();
 }
 
 }  // namespace tendril::app

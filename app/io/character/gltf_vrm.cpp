@@ -13,9 +13,9 @@ const Value* member(const Value& object, const char* name) {
     return object.IsObject() && object.Has(name) ? &object.Get(name) : nullptr;
 }
 
-class Reader {
+class VrmReader {
   public:
-    Reader(const char* extension, std::size_t count) : count_(count) {
+    VrmReader(const char* extension, std::size_t count) : count_(count) {
         bones_.extension = extension;
         bones_.nodes.fill(-1);
     }
@@ -51,7 +51,7 @@ std::optional<VrmBones> vrm_bones(const tinygltf::Model& model) {
         const Value* human = member(found->second, "humanoid");
         const Value* bones = human ? member(*human, "humanBones") : nullptr;
         if (!bones) continue;
-        Reader reader(name, model.nodes.size());
+        VrmReader reader(name, model.nodes.size());
         if (bones->IsObject()) {  // 1.0: by name
             for (const std::string& key : bones->Keys()) reader.add(key, member(bones->Get(key), "node"));
         } else if (bones->IsArray()) {  // 0.x: a list

@@ -1,11 +1,10 @@
 #include "app/io/character/read.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <fstream>
 #include <stdexcept>
 #include <string>
 
+#include "app/document/text.hpp"
 #include "app/io/character/bvh.hpp"
 #include "app/io/character/fbx.hpp"
 #include "app/io/character/gltf.hpp"
@@ -13,21 +12,14 @@
 namespace tendril::app {
 namespace {
 
-std::string ending_of(const std::filesystem::path& path) {
-    std::string ending = path.extension().string();
-    std::ranges::transform(ending, ending.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return ending;
-}
-
-constexpr std::uintmax_t largest_file = std::uintmax_t{1} << 30;
+constexpr std::uintmax_t max_file_bytes = std::uintmax_t{1} << 30;
 
 std::string read_bytes(const std::filesystem::path& path) {
     std::error_code unknown;
     const std::uintmax_t size = std::filesystem::file_size(path, unknown);
     std::ifstream file(path, std::ios::binary);
     if (unknown || !file) throw std::runtime_error("cannot be opened");
-    if (size > largest_file) throw std::runtime_error("is larger than 1 GB");
+    if (size > max_file_bytes) throw std::runtime_error("is larger than 1 GB");
     std::string bytes(static_cast<std::size_t>(size), '\0');
     file.read(bytes.data(), static_cast<std::streamsize>(size));
     if (static_cast<std::size_t>(file.gcount()) != bytes.size())
@@ -50,7 +42,7 @@ std::string character_bytes(const std::filesystem::path& path) {
 }
 
 bool ends_as_character(const std::filesystem::path& path) {
-    const std::string ending = ending_of(path);
+    const std::string ending = lower_case(path.extension().string());
     return ending == ".gltf" || ending == ".glb" || ending == ".vrm" || ending == ".fbx" || ending == ".bvh";
 }
 
@@ -60,7 +52,7 @@ Character read_character(const std::filesystem::path& path, LoadProgress* progre
         throw std::runtime_error(name + ": expected a file that ends in .gltf, .glb, .vrm, .fbx or .bvh");
     const std::string bytes = character_bytes(path);
     if (progress && progress->cancelled()) throw std::runtime_error(name + ": cancelled");
-    const std::string ending = ending_of(path);
+    const std::string ending = lower_case(path.extension().string());
     if (ending == ".fbx") return parse_fbx(bytes, name, progress);
     if (ending == ".bvh") return parse_bvh(bytes, name, progress);
     return parse_gltf(bytes, name, path.parent_path(), progress);

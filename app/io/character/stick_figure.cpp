@@ -17,17 +17,17 @@ using humanoid::Skeleton;
 constexpr double pi = 3.14159265358979323846;
 constexpr double frame_rate = 60.0;
 
-struct Joint {
+struct FigureJoint {
     const char* name;
     const char* parent;
     dvec3 at;
 };
-constexpr Joint middle[]{{"Hips", "", {0, 1.0, 0}},           {"Spine", "Hips", {0, 1.1, 0}},
+constexpr FigureJoint middle[]{{"Hips", "", {0, 1.0, 0}},           {"Spine", "Hips", {0, 1.1, 0}},
                          {"Chest", "Spine", {0, 1.2, 0}},     {"UpperChest", "Chest", {0, 1.33, 0}},
                          {"Neck", "UpperChest", {0, 1.5, 0}}, {"Head", "Neck", {0, 1.6, 0}},
                          {"HeadTop_End", "Head", {0, 1.8, 0}}};
 /// Of the left side, which is that of +X.
-constexpr Joint side[]{
+constexpr FigureJoint side[]{
     {"Shoulder", "UpperChest", {0.04, 1.45, 0}},  {"UpperArm", "Shoulder", {0.18, 1.45, 0}},
     {"LowerArm", "UpperArm", {0.46, 1.45, 0}},    {"Hand", "LowerArm", {0.72, 1.45, 0}},
     {"Hand_End", "Hand", {0.9, 1.45, 0}},         {"UpperLeg", "Hips", {0.1, 0.94, 0}},
@@ -42,9 +42,9 @@ Skeleton make_skeleton() {
         placed[name] = {static_cast<std::int32_t>(nodes.size()), at};
         nodes.push_back({name, above, {.translation = at - from}});
     };
-    for (const Joint& joint : middle) add(joint.name, joint.parent, joint.at);
+    for (const FigureJoint& joint : middle) add(joint.name, joint.parent, joint.at);
     for (const auto& [prefix, sign] : {std::pair("Left", 1.0), std::pair("Right", -1.0)}) {
-        for (const Joint& joint : side) {
+        for (const FigureJoint& joint : side) {
             const std::string parent = joint.parent;
             const bool on_middle = parent == "UpperChest" || parent == "Hips";
             add(std::string(prefix) + joint.name, on_middle ? parent : prefix + parent,

@@ -105,7 +105,7 @@ void set_motion(ChainPart& part, const Arguments& given) {
 }
 
 /// Time goes to a tick of the round: the target jumps there, and the mode is applied once.
-void seek(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
+void seek_on_path(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     if (part.motion.path == Motion::Path::Still) throw Refused("the target follows no path");
     part.motion.ticks = static_cast<std::uint32_t>(given.integer("tick")) % ticks_per_round(part.motion);
     reach_for(part, motion_point(part.motion, part.motion.ticks), runtime);
@@ -148,7 +148,7 @@ void add_mode_commands(CommandTable& table) {
     table.add(chain_command(
         "chain.seek", "Place the target on its path",
         {{.name = "tick", .type = ArgumentType::Integer, .help = "tick of the round", .low = 0}},
-        "Moves the target to a tick of its round", seek));
+        "Moves the target to a tick of its round", seek_on_path));
     table.add(chain_command("chain.flips", "Set what counts as a flip", flip_arguments(chain_flip_words),
                             "Sets what counts as a flip in mode reach, from the next move of the target on",
                             set_flips));

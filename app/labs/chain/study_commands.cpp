@@ -41,7 +41,7 @@ void check_race(const ChainPart& part) {
     if (part.study.kind != Study::Kind::Race) throw Refused("no race is open");
 }
 
-void seek(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
+void seek_step(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     check_microscope(part);
     part.study.step = static_cast<std::size_t>(given.integer("step"));
     part.study.pace = 0.0f;
@@ -118,7 +118,7 @@ void add_microscope_commands(CommandTable& table) {
                               .help = "how many steps are shown",
                               .low = 0,
                               .high = max_trace_steps}},
-                            "Goes to a step of the solve", seek, Effect::Look));
+                            "Goes to a step of the solve", seek_step, Effect::Look));
     table.add(chain_command(
         "microscope.step", "Step through the solve",
         {integer_argument("by", "steps forward, or back when negative; 1 when left out", -max_trace_steps,

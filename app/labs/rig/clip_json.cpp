@@ -12,7 +12,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::uint64_t latest = 1'000'000'000'000;  ///< ticks
+constexpr std::uint64_t max_clip_tick = 1'000'000'000'000;  ///< ticks
 
 using Numbers = std::vector<float>;
 
@@ -135,7 +135,7 @@ Json clip_json(const RigPart& part) {
 
 void load_clip(const JsonPlace& place, RigPart& part) {
     check_members(place, {"began", "frames", "bones", "solve"});
-    RigClip clip{.bones = {}, .poses = {}, .began = place["began"].count(latest)};
+    RigClip clip{.bones = {}, .poses = {}, .began = place["began"].count(max_clip_tick)};
     const std::size_t frames = place["frames"].index(most_clip_frames + 1);
     const JsonPlace bones = place["bones"];
     if (!bones.json().is_object() || bones.json().empty()) bones.fail("expected an object of bones");

@@ -11,7 +11,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr float most = 1e9f;
+constexpr float max_control = 1e9f;
 
 /// The limits of a control as a drag ends at them.
 glm::vec3 end_of(const std::optional<glm::dvec3>& limit, float none) {
@@ -82,8 +82,8 @@ class ControlFields {
     }
 
   private:
-    glm::vec3 low() const { return end_of(control_.minimum, -most); }
-    glm::vec3 high() const { return end_of(control_.maximum, most); }
+    glm::vec3 low() const { return end_of(control_.minimum, -max_control); }
+    glm::vec3 high() const { return end_of(control_.maximum, max_control); }
     void set(Json value) const {
         value = touched(std::move(value), control_value_json(control_.kind, value_));
         panel_.edit("rig.control.set", {which(panel_.part, alike_), {"value", SharedJson(std::move(value))}});

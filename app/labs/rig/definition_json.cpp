@@ -13,7 +13,7 @@ namespace {
 constexpr const char* axis_names[] = {"x", "y", "z"};
 
 /// How many numbers an end of its range has; 0 where it has no range.
-std::size_t parts_of(rig::ControlKind kind) {
+std::size_t axes_of(rig::ControlKind kind) {
     switch (kind) {
         case rig::ControlKind::Transform:
         case rig::ControlKind::Position:
@@ -30,9 +30,9 @@ std::size_t parts_of(rig::ControlKind kind) {
 }
 
 Json end_json(rig::ControlKind kind, const glm::dvec3& end) {
-    if (parts_of(kind) == 1) return end.x;
+    if (axes_of(kind) == 1) return end.x;
     Json json = Json::array({end.x, end.y});
-    if (parts_of(kind) == 3) json.push_back(end.z);
+    if (axes_of(kind) == 3) json.push_back(end.z);
     return json;
 }
 
@@ -40,7 +40,7 @@ void read_end(const JsonPlace& place, const char* key, rig::ControlKind kind,
               std::optional<glm::dvec3>& end) {
     if (!place.has(key)) return;
     const JsonPlace found = place[key];
-    const std::size_t parts = parts_of(kind);
+    const std::size_t parts = axes_of(kind);
     if (parts == 0) found.fail("a " + std::string(control_title(kind)) + " has no range");
     end.emplace(0.0);
     if (parts == 1) {
@@ -96,7 +96,7 @@ Json element_json(const rig::Element& element) {
     json["control"] = rig::name(control.kind);
     if (control.kind == rig::ControlKind::Vector2d)
         for (const int axis : control.axes) json["axes"].push_back(axis_names[axis]);
-    if (parts_of(control.kind) > 0) {
+    if (axes_of(control.kind) > 0) {
         if (control.minimum) json["minimum"] = end_json(control.kind, *control.minimum);
         if (control.maximum) json["maximum"] = end_json(control.kind, *control.maximum);
     }

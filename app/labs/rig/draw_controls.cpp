@@ -14,13 +14,13 @@
 namespace tendril::app {
 namespace {
 
-constexpr glm::vec4 unseen{0.0f};  ///< of strokes that can be caught, but are drawn otherwise
+constexpr glm::vec4 catch_only{0.0f};  ///< of strokes that can be caught, but are drawn otherwise
 constexpr float shape_size = 0.14f, switch_size = 0.075f;  ///< metres, half of what they take
 constexpr float smallest = 11.0f;                          ///< pixels
 
-class Drawing {
+class ControlDrawing {
   public:
-    Drawing(const RigPicture& picture, std::size_t element, const ControlShape& shape)
+    ControlDrawing(const RigPicture& picture, std::size_t element, const ControlShape& shape)
         : p_(picture),
           i_(element),
           shape_(shape),
@@ -112,7 +112,7 @@ class Drawing {
         twelve_edges(corner,
                      [&](glm::vec3 a, glm::vec3 b, glm::vec3, int) { line(a, b, width(), colour()); });
         if (half > size_) {  // what it goes around is not to be hidden, but can be caught by its middle
-            Stroke& grip = p_.list.sphere(at_, p_.px(14.0f), Unit::Pixels, unseen);
+            Stroke& grip = p_.list.sphere(at_, p_.px(14.0f), Unit::Pixels, catch_only);
             grip.pick = pick_;
             grip.rank = 3;
             return;
@@ -240,7 +240,7 @@ class Drawing {
         twelve_edges(corner, [&](glm::vec3 a, glm::vec3 b, glm::vec3, int) {
             if (!shape_.on() || p_.is_selected(i_)) line(a, b, width(), colour());
         });
-        Stroke& grip = p_.list.sphere(at_, 1.3f * half, Unit::Metres, unseen);
+        Stroke& grip = p_.list.sphere(at_, 1.3f * half, Unit::Metres, catch_only);
         grip.pick = pick_;
         grip.rank = 2;
     }
@@ -333,7 +333,7 @@ class Drawing {
 
 void draw_control(const RigPicture& picture, std::size_t element) {
     if (const auto shape = ControlShape::of(picture.part, picture.elements, element))
-        Drawing(picture, element, *shape).run();
+        ControlDrawing(picture, element, *shape).run();
 }
 
 }  // namespace tendril::app

@@ -152,7 +152,7 @@ void marks_legend(const Palette& colours) {
     note("local, global: filled while pending");
 }
 
-void add_menu(const RigPanel& panel) {
+void add_element_menu(const RigPanel& panel) {
     if (row_button("Add", 2, true, "A bone, a null or a control, below the selected element"))
         ImGui::OpenPopup("add element");
     if (ImGui::BeginPopup("add element")) {
@@ -213,7 +213,7 @@ void element_tree(const RigPanel& panel) {
     if (marks && !rows.empty()) marks_legend(panel.colours);
     if (count == 0) note("No elements.");
     if (count > 0 && rows.empty()) note("No element has this in its name.");
-    add_menu(panel);
+    add_element_menu(panel);
     const Selection& selected = panel.part.selected.elements;
     if (row_button("Remove", 2, !selected.empty(),
                    selected.several() ? "Removes the selected elements" : "Removes the selected element"))

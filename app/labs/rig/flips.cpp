@@ -12,7 +12,7 @@
 namespace tendril::app {
 namespace {
 
-double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
+double angle_of(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
@@ -67,7 +67,7 @@ bool far(const Moved& control, const Bone& bone, double size, const FlipRule& ru
     if (turn_between(control.from.rotation, control.to.rotation) >= std::max(enough, 1e-9)) return true;
     if (!has_place(control.kind)) return false;
     const double distance = glm::distance(control.from.translation, control.to.translation);
-    const double angle = angle_between(control.from.translation - bone.from.translation,
+    const double angle = angle_of(control.from.translation - bone.from.translation,
                                        control.to.translation - bone.to.translation);
     return distance > 0.0 && angle >= enough && distance >= share * size;
 }

@@ -54,7 +54,7 @@ std::optional<double> part_of(const rig::Value& value, int axis) {
     return std::nullopt;
 }
 
-int parts_of(rig::ControlKind kind) {
+int axis_count(rig::ControlKind kind) {
     switch (kind) {
         case rig::ControlKind::Float:
             return 1;
@@ -95,7 +95,7 @@ void add_limits(const RigPart& before, const RigPart& after, std::vector<Inciden
     for (std::size_t i = 0; i < elements.size(); ++i) {
         if (!elements[i].control) continue;
         const rig::Control& control = *elements[i].control;
-        for (int axis = 0; axis < parts_of(control.kind); ++axis)
+        for (int axis = 0; axis < axis_count(control.kind); ++axis)
             for (const bool maximum : {false, true}) {
                 const bool was = at_limit(control, before.state.controls[i], axis, maximum),
                            is = at_limit(control, after.state.controls[i], axis, maximum);

@@ -82,7 +82,7 @@ constexpr Help helps[] = {
 };
 
 /// The path without the number of a parent: "/parents/0/weight" has "parents/weight".
-bool names(std::string_view path, std::string_view input) {
+bool is_path_of(std::string_view path, std::string_view input) {
     const std::size_t slash = input.find('/');
     if (slash == input.npos) return path.ends_with(input) && path[path.size() - input.size() - 1] == '/';
     const std::string_view group = input.substr(0, slash);
@@ -116,7 +116,7 @@ constexpr struct {
 
 const char* input_help(std::string_view operation, std::string_view path) {
     for (const Help& help : helps)
-        if (names(path, help.input) && (*help.operation == '\0' || operation == help.operation))
+        if (is_path_of(path, help.input) && (*help.operation == '\0' || operation == help.operation))
             return help.text;
     return "";
 }

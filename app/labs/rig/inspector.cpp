@@ -19,7 +19,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr float most = 1e9f;
+constexpr float max_coordinate = 1e9f;
 
 void text_line(const char* name, const std::string& value, const char* what = "") {
     ImGui::TextDisabled("%s", name);
@@ -82,7 +82,7 @@ std::optional<SharedJson> transform_fields(const RigPanel& panel, const rig::Tra
     glm::dquat rotation = transform.rotation;
     if (rotation_field(panel, "rotation, degrees", rotation)) changed["rotation"] = rotation_json(rotation);
     edited = by;
-    if (vector_field("scale", edited, 0.01f, glm::vec3(-most), glm::vec3(most), "%.3f"))
+    if (vector_field("scale", edited, 0.01f, glm::vec3(-max_coordinate), glm::vec3(max_coordinate), "%.3f"))
         changed["scale"] = dpoint(edited_vector(transform.scale, by, edited));
     explain("By how much it is larger along X, Y and Z. 1 leaves its size; 0 is not allowed.");
     if (changed.empty()) return std::nullopt;
@@ -121,7 +121,7 @@ void pose_rows(const RigPanel& panel) {
         explain("Every solve begins with it, before the first unit runs.");
         const std::vector<std::size_t> alike = selected_alike(panel.part);
         const rig::Transform input = *panel.now.known(id, rig::Space::Local, rig::Pose::Input);
-        if (const auto changed = transform_fields(panel, input, glm::vec3(-most), glm::vec3(most)))
+        if (const auto changed = transform_fields(panel, input, glm::vec3(-max_coordinate), glm::vec3(max_coordinate)))
             panel.edit("rig.element.set",
                        {which(panel.part, alike),
                         {"transform", SharedJson(touched(**changed, transform_json(input)))}});

@@ -7,7 +7,7 @@
 namespace tendril::app {
 namespace {
 
-RigRuntime& runtime_of(const Workspace& workspace) {
+RigRuntime& rig_runtime(const Workspace& workspace) {
     return workspace.runtimes.of<RigRuntime>(rig_lab);
 }
 
@@ -22,7 +22,7 @@ void RigLab::step(Workspace& workspace) const {
     if (due == 0) return;
     const bool modified = workspace.modified();
     RigPart& part = workspace.document.edit<RigPart>(rig_lab);
-    for (int i = 0; i < due; ++i) pass_tick(part, runtime_of(workspace), workspace.clock.measured);
+    for (int i = 0; i < due; ++i) pass_tick(part, rig_runtime(workspace), workspace.clock.measured);
     if (!modified) workspace.saved = workspace.document;  // that time passes is nothing that wants saving
 }
 
@@ -46,7 +46,7 @@ bool RigLab::working(const Workspace& workspace) const {
 void RigLab::work(Workspace& workspace) const {
     const bool modified = workspace.modified();
     RigPart& part = workspace.document.edit<RigPart>(rig_lab);
-    RigRuntime& runtime = runtime_of(workspace);
+    RigRuntime& runtime = rig_runtime(workspace);
     continue_clip_solve(part, runtime.workspace(part.rig));
     runtime.rates.advance(part);
     if (!modified) workspace.saved = workspace.document;

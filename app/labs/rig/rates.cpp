@@ -12,7 +12,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::uint64_t most_work = 20'000'000, tick_budget = 300'000;  ///< steps of some 30 ns
+constexpr std::uint64_t most_work = 20'000'000, rates_work_per_tick = 300'000;  ///< steps of some 30 ns
 constexpr double rounding = 1e-9;
 
 /// The take at one frame rate, stopped at the end of each frame of the slowest.
@@ -138,7 +138,7 @@ void RatesWork::advance(RigPart& part) {
     const std::size_t frames = part.rates->frames;
     const std::uint64_t each = std::max<std::uint64_t>(solves_of(takes_->rates) / frames, 1);
     const std::uint64_t work = each * std::max<std::uint64_t>(part.rig.work(), 1);
-    for (std::uint64_t spent = 0; spent < tick_budget && takes_->done < frames; spent += work)
+    for (std::uint64_t spent = 0; spent < rates_work_per_tick && takes_->done < frames; spent += work)
         takes_->frame();
     const RateDifference& most = takes_->most;
     RateDifference now = most;

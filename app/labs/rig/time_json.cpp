@@ -15,7 +15,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::uint64_t latest = 1'000'000'000'000;  ///< ticks
+constexpr std::uint64_t max_recording_tick = 1'000'000'000'000;  ///< ticks
 
 /// [tick, name, value], or [tick] where the rig was solved.
 Json keys_json(const RigPart& part) {
@@ -60,7 +60,7 @@ Json take_json(const RigPart& part) {
 RigTake read_take(const JsonPlace& place, const RigPart& part) {
     check_members(place, {"began", "tick", "last", "start", "keys"});
     RigTake take{
-        .start = nullptr, .keys = nullptr, .tick = 0, .last = 0, .began = place["began"].count(latest)};
+        .start = nullptr, .keys = nullptr, .tick = 0, .last = 0, .began = place["began"].count(max_recording_tick)};
     if (!place.has("start")) return take;
     check_members(place["start"], {"controls", "curves", "poses", "units"});
     take.start = std::make_shared<const rig::State>(read_rig_state(place["start"], part.rig));

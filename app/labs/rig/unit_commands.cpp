@@ -34,7 +34,7 @@ void set(RigPart& part, const Arguments& given) {
     set_unit(part, now.name, read_unit(JsonPlace(unit, "")));
 }
 
-void remove(RigPart& part, const Arguments& given) {
+void remove_unit(RigPart& part, const Arguments& given) {
     remove_unit(part, given.text("name"));
 }
 
@@ -67,7 +67,7 @@ void add_unit_commands(CommandTable& table) {
                           unit_arguments({unit_name_argument(true)}),
                           "Changes inputs of a unit; those that are not given stay", set));
     table.add(rig_command("rig.unit.remove", "Remove a unit", {unit_name_argument(true)},
-                          "Removes a unit from which no other takes an output", remove));
+                          "Removes a unit from which no other takes an output", remove_unit));
     table.add(rig_command("rig.unit.move", "Move a unit in the order",
                           {unit_name_argument(true),
                            {.name = "at",

@@ -19,7 +19,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr float most = 1e9f;
+constexpr float max_literal = 1e9f;
 
 bool is_weight(const UnitInput& input) {
     // Weights among the parents of a constraint are relative, and may be over 1.
@@ -115,9 +115,9 @@ class Fields {
     }
     void field(const InputRange& range) const {
         float low = static_cast<float>(range.low), high = static_cast<float>(range.high);
-        const bool first = number_field((input_->title + " low").c_str(), low, 0.01f, -most, most, "%.3f");
+        const bool first = number_field((input_->title + " low").c_str(), low, 0.01f, -max_literal, max_literal, "%.3f");
         explain(help().c_str());
-        const bool second = number_field((input_->title + " high").c_str(), high, 0.01f, -most, most, "%.3f");
+        const bool second = number_field((input_->title + " high").c_str(), high, 0.01f, -max_literal, max_literal, "%.3f");
         explain(help().c_str());
         if (first) set({number(low), range.high});
         if (second) set({range.low, number(high)});
@@ -144,7 +144,7 @@ class Fields {
         note("Drag a key. Double-click adds one, right-click removes it.");
         const auto end = [&](const char* name, double& value, const char* what) {
             float shown = static_cast<float>(value);
-            const bool changed = number_field(name, shown, 0.01f, -most, most, "%.3f");
+            const bool changed = number_field(name, shown, 0.01f, -max_literal, max_literal, "%.3f");
             explain(what);
             if (!changed) return;
             value = static_cast<double>(shown);
@@ -168,7 +168,7 @@ class Fields {
                                    : unit.empty()          ? "%.3f"
                                                            : "%.3f " + unit;
         if (number_field(input_->title.c_str(), shown, weight ? 0.005f : 0.01f,
-                         weight || *input_->unit != '\0' ? 0.0f : -most, weight ? 1.0f : most,
+                         weight || *input_->unit != '\0' ? 0.0f : -max_literal, weight ? 1.0f : max_literal,
                          format.c_str()))
             set(number(shown));
         explain(help().c_str());
@@ -176,7 +176,7 @@ class Fields {
     void literal_field(const glm::dvec3& value) const {
         const glm::vec3 shown(value);
         glm::vec3 edited = shown;
-        if (vector_field(input_->title.c_str(), edited, 0.01f, glm::vec3(-most), glm::vec3(most), "%.3f"))
+        if (vector_field(input_->title.c_str(), edited, 0.01f, glm::vec3(-max_literal), glm::vec3(max_literal), "%.3f"))
             set(dpoint(edited_vector(value, shown, edited)));
         explain((help() + (*input_->unit != '\0' ? std::string(" In ") + input_->unit + '.' : "")).c_str());
     }
@@ -187,7 +187,7 @@ class Fields {
     }
     void literal_field(const rig::Transform& value) const {
         ImGui::TextDisabled("%s", input_->title.c_str());
-        if (const auto changed = transform_fields(panel_, value, glm::vec3(-most), glm::vec3(most))) {
+        if (const auto changed = transform_fields(panel_, value, glm::vec3(-max_literal), glm::vec3(max_literal))) {
             Json whole = transform_json(value);
             whole.update(**changed);
             set(whole);

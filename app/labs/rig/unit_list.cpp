@@ -119,7 +119,7 @@ void live_lines(const RigPanel& panel, const UnitRow& row) {
                   output_text(row.unit->operation, state.outputs[i]), margin);
 }
 
-void add_menu(const RigPanel& panel) {
+void add_unit_menu(const RigPanel& panel) {
     if (row_button("Add a unit", 1, true, "A list of every kind of unit; the new one runs last"))
         ImGui::OpenPopup("add unit");
     if (!ImGui::BeginPopup("add unit")) return;
@@ -205,7 +205,7 @@ void unit_list(const RigPanel& panel) {
     if (many) ImGui::EndChild();
     if (rows.empty()) note("No units: bones stay where they are.");
     order_buttons(panel, rows);
-    add_menu(panel);
+    add_unit_menu(panel);
 }
 
 }  // namespace tendril::app

@@ -21,7 +21,7 @@ std::size_t count_of(int particles) {
     return static_cast<std::size_t>(particles);
 }
 
-void add(RopeEdit& edit, const Arguments& given) {
+void add_rope(RopeEdit& edit, const Arguments& given) {
     rope::RopeShape shape{.from = given.point("from"), .to = given.point("to")};
     if (given.has("segments")) shape.segments = given.integer("segments");
     if (given.has("length")) shape.length = given.number("length");
@@ -76,7 +76,7 @@ void add_hair(RopeEdit& edit, const Arguments& given) {
     edit.world().add_hair(name_of(given), std::move(shape), attach);
 }
 
-void remove(RopeEdit& edit, const Arguments& given) {
+void remove_body(RopeEdit& edit, const Arguments& given) {
     body_of(edit.seen(), given.text("name"));
     edit.world().remove(given.text("name"));
     forget_missing(edit.part);
@@ -177,7 +177,7 @@ void add_adding_commands(CommandTable& table) {
                             number_argument("radius", "metres; 0.02 when left out", 0.0, 1e9),
                             switch_argument("pin_start", "pins its first particle"),
                             switch_argument("pin_end", "pins its last particle")},
-                           "Adds a rope: straight, or hanging where it is longer than the distance", add));
+                           "Adds a rope: straight, or hanging where it is longer than the distance", add_rope));
     table.add(
         rope_command("rope.cloth.add", "Add a cloth",
                      {point_argument("corner", true, "metres"),
@@ -216,7 +216,7 @@ void add_body_commands(CommandTable& table) {
     add_adding_commands(table);
     table.add(rope_command("rope.remove", "Remove a rope, cloth or hair",
                            {body_argument("name", true, "of a rope, cloth or hair")},
-                           "Removes a rope, cloth or hair", remove));
+                           "Removes a rope, cloth or hair", remove_body));
     table.add(rope_command("rope.remove_selected", "Delete selection", {}, "Deletes the selection",
                            remove_selected));
     table.add(

@@ -78,7 +78,7 @@ void centre_on(Swing& swing, glm::vec3 at, double time) {
     require(swing);
 }
 
-void add(RopeEdit& edit, const Arguments& given) {
+void add_collider(RopeEdit& edit, const Arguments& given) {
     const std::string name = given.text("name");
     if (name.empty()) throw Refused("name must not be empty");
     const Kind& kind = kind_of(given.text("kind"));
@@ -106,7 +106,7 @@ void move(RopeEdit& edit, const Arguments& given) {
     edit.move_collider(name, to);
 }
 
-void remove(RopeEdit& edit, const Arguments& given) {
+void remove_collider(RopeEdit& edit, const Arguments& given) {
     collider_of(edit.seen(), given.text("name"));
     edit.world().remove_collider(given.text("name"));
     forget_missing(edit.part);
@@ -163,14 +163,14 @@ void add_collider_commands(CommandTable& table) {
                                                  "sphere: centre, radius; capsule: a, b, radius; "
                                                  "plane: point, normal; box: centre, half_extents, rotation",
                                                  names(kinds(), [](const Kind& k) { return k.name; }))}),
-                     "Adds a body that ropes cannot enter", add));
+                     "Adds a body that ropes cannot enter", add_collider));
     table.add(rope_command("rope.collider.set", "Change a collider", with_shape({name_argument()}),
                            "Sets the place, size or rotation of a collider", set));
     table.add(rope_command("rope.collider.move", "Move a collider",
                            {name_argument(), point_argument("to", true, "where its centre goes, metres")},
                            "Moves a collider; it pushes what it meets", move));
     table.add(rope_command("rope.collider.remove", "Remove a collider", {name_argument()},
-                           "Removes a collider", remove));
+                           "Removes a collider", remove_collider));
     table.add(rope_command("rope.collider.swing", "Swing a collider",
                            {name_argument(), point_argument("by", true, "metres to each side; 0: off"),
                             number_argument("period", "seconds", shortest_decimal(shortest_period),

@@ -12,7 +12,7 @@ namespace tendril::app {
 namespace {
 
 constexpr float beside = 0.45f, ball_radius = 0.16f;
-constexpr float farthest = 1000.0f;
+constexpr float max_ball_distance = 1000.0f;
 
 glm::vec3 place(float x, double value) {
     return {x, ball_level + static_cast<float>(std::clamp(value, -1e3, 1e3)), 0.0f};
@@ -64,7 +64,7 @@ void SignalLab::draw(const View& view, DrawList& list) const {
     axis(view, list, std::abs(part.input.amplitude));
     const auto ball = [&](glm::vec3 at, glm::vec3 colour, PickId pick) {
         const bool lit = view.hovered == pick || view.dragged == pick;
-        if (std::abs(at.y - ball_level) < farthest) {
+        if (std::abs(at.y - ball_level) < max_ball_distance) {
             Stroke& sphere = list.sphere(at, ball_radius, Unit::Metres, glm::vec4(colour, 1.0f));
             sphere.pick = pick;
             sphere.shadow = true;

@@ -46,10 +46,10 @@ Line regression(const FitProblem& problem, const FitFacts& facts, double low, do
 
 /// What is searched: which of the stages are on, and whether the levels at both ends of a clamp follow from
 /// the rest by least squares.
-struct Part {
+struct BentPart {
     bool clamp = false, interp = false, levels_follow = false;
 };
-constexpr Part parts[] = {{false, false, false}, {true, false, true}, {true, false, false},
+constexpr BentPart parts[] = {{false, false, false}, {true, false, true}, {true, false, false},
                           {false, true, false},  {true, true, true},  {true, true, false}};
 
 /// A clamped line by its bends: up to the input `at` it is `low`, from at + width on `high`. A slope and an
@@ -69,7 +69,7 @@ class ScaleFit final : public FitTask {
 
     /// One search after the other, the simplest first, until one leaves nothing.
     bool advance() override {
-        const Part& part = parts[part_];
+        const BentPart& part = parts[part_];
         if (!minimiser_) minimiser_.emplace(search(part));
         if (minimiser_->advance()) return true;
         const Minimum& found = minimiser_->best();
@@ -132,7 +132,7 @@ class ScaleFit final : public FitTask {
         return {bend_dimension().at(bends.at), width_dimension().at(bends.width), level.at(bends.low),
                 level.at(bends.high)};
     }
-    Bends bends_at(std::span<const double> at, const Part& part) const {
+    Bends bends_at(std::span<const double> at, const BentPart& part) const {
         Bends bends{.at = bend_dimension().value(at[0]), .width = width_dimension().value(at[1])};
         if (part.levels_follow) {
             set_levels(bends, at.subspan(2));
@@ -168,7 +168,7 @@ class ScaleFit final : public FitTask {
         bends.high = std::clamp(bends.low + slope, level.low, level.high);
     }
 
-    signal::Filter filter_at(std::span<const double> at, const Part& part) const {
+    signal::Filter filter_at(std::span<const double> at, const BentPart& part) const {
         signal::ScaleBiasClamp filter;
         const double most = max_magnitude;
         std::size_t speeds = 2;
@@ -208,7 +208,7 @@ class ScaleFit final : public FitTask {
     }
 
     /// Lines through all rows, and through those that no clamp would have cut, each at several speeds.
-    std::vector<std::vector<double>> starts(const Part& part) const {
+    std::vector<std::vector<double>> starts(const BentPart& part) const {
         const double margin = 0.02 * scale();
         const Line lines[] = {
             regression(problem_, facts_, facts_.response_low, facts_.response_high),
@@ -241,7 +241,7 @@ class ScaleFit final : public FitTask {
                                           speed.at(falling)});
     }
 
-    Minimiser search(const Part& part) {
+    Minimiser search(const BentPart& part) {
         const std::size_t line = part.clamp && !part.levels_follow ? 4 : 2;
         return {
             [this, &part](std::span<const double> at) { return trial_.residual_of(filter_at(at, part)); },

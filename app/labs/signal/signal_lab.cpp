@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/document/json_complete.hpp"
+#include "app/document/text.hpp"
 #include "app/labs/kit/past_strip.hpp"
 #include "app/labs/signal/analysis.hpp"
 #include "app/labs/signal/code.hpp"
@@ -102,9 +103,7 @@ void SignalLab::drag(const Workspace& workspace, PickId pick, const Handle::Fram
 /// Rows of a CSV become the input.
 bool SignalLab::take_file(const std::string& path, Emit& emit) const {
     const std::size_t dot = path.rfind('.');
-    std::string ending = dot == path.npos ? "" : path.substr(dot);
-    for (char& each : ending) each = static_cast<char>(std::tolower(static_cast<unsigned char>(each)));
-    if (ending != ".csv") return false;
+    if (dot == path.npos || lower_case(path.substr(dot)) != ".csv") return false;
     emit("signal.input", {{"kind", "csv"}, {"path", path}});
     return true;
 }

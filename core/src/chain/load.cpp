@@ -6,20 +6,17 @@
 
 #include "chain/checks.hpp"
 #include "chain/pull.hpp"
+#include "math/vector.hpp"
 #include "tendril/chain/chain.hpp"
 
 namespace tendril {
 namespace {
 
-double largest_coordinate(const glm::vec3& p) {
-    return static_cast<double>(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}));
-}
-
 /// How far a bone may be from its length. Within 1e3 m that is the invariant. Further out, rounding a placed
 /// point costs up to half the spacing of floats per axis, so up to 0.87 of the spacing in all.
 double allowed_error(const glm::vec3& from, const Segment& to) {
     const double allowed = 1e-4 * std::max(1.0, static_cast<double>(to.length));
-    const double furthest = std::max(largest_coordinate(from), largest_coordinate(to.position));
+    const double furthest = std::max<double>(math::largest_coordinate(from), math::largest_coordinate(to.position));
     if (furthest <= 1e3) return allowed;
     return allowed + furthest * static_cast<double>(std::numeric_limits<float>::epsilon());
 }

@@ -11,9 +11,9 @@ namespace {
 
 using namespace rig::detail;
 
-class Defaults {
+class DefaultCapsules {
   public:
-    Defaults(const Skeleton& skeleton, const BoneMap& map) : map_(map), placements_(skeleton.size()) {
+    DefaultCapsules(const Skeleton& skeleton, const BoneMap& map) : map_(map), placements_(skeleton.size()) {
         place(skeleton, rest_pose(skeleton), placements_);
         // Of a figure of 1.8 m: from the hips to the head and down one leg.
         size_ =
@@ -83,7 +83,7 @@ class Defaults {
 }  // namespace
 
 std::vector<BodyCapsule> default_capsules(const Skeleton& skeleton, const BoneMap& map) {
-    return Defaults(skeleton, map).all();
+    return DefaultCapsules(skeleton, map).all();
 }
 
 PlacedCapsule place(const BodyCapsule& capsule, const BoneMap& map,

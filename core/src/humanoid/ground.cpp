@@ -12,7 +12,7 @@ namespace {
 using tendril::detail::Argument;
 using tendril::detail::refused;
 
-constexpr double far = 1e6;
+constexpr double max_extent = 1e6;
 
 bool is_point(const glm::dvec3& p) noexcept {
     return std::abs(p.x) <= 1e9 && std::abs(p.y) <= std::numeric_limits<double>::max() &&
@@ -27,7 +27,7 @@ const char* name(GroundKind kind) noexcept {
 }
 
 Expected<Ground> Ground::flat(double height) {
-    if (!(std::abs(height) <= far)) return refused("flat", "height", "from -1e6 to 1e6 m", height);
+    if (!(std::abs(height) <= max_extent)) return refused("flat", "height", "from -1e6 to 1e6 m", height);
     return Ground(Shape(Flat{height}));
 }
 
@@ -49,7 +49,7 @@ Expected<Ground> Ground::terrain(HeightField field) {
     constexpr const char* operation = "terrain";
     if (const Result bad = rig::detail::check_number(operation, "x", field.x); !bad) return bad;
     if (const Result bad = rig::detail::check_number(operation, "z", field.z); !bad) return bad;
-    if (!(field.cell >= 0.001 && field.cell <= far))
+    if (!(field.cell >= 0.001 && field.cell <= max_extent))
         return refused(operation, "cell", "from 0.001 to 1e6 m", field.cell);
     const std::size_t count = field.heights.size();
     if (field.columns < 2 || field.columns > count)
@@ -57,7 +57,7 @@ Expected<Ground> Ground::terrain(HeightField field) {
     if (count > 100'000'000 || count % field.columns != 0 || count / field.columns < 2)
         return refused(operation, "heights", "at least 2 whole rows, of 1e8 heights at most", count);
     for (std::size_t i = 0; i < count; ++i)
-        if (!(std::abs(field.heights[i]) <= far))
+        if (!(std::abs(field.heights[i]) <= max_extent))
             return refused(operation, Argument("heights", i), "from -1e6 to 1e6 m", field.heights[i]);
     const std::size_t rows = count / field.columns;
     return Ground(Shape(Terrain{std::move(field), rows}));
@@ -110,7 +110,7 @@ std::optional<GroundHit> Ground::below(const glm::dvec3& from) const noexcept {
 }
 
 std::optional<GroundHit> Ground::highest(double x, double z) const noexcept {
-    return below({x, 2.0 * far, z});
+    return below({x, 2.0 * max_extent, z});
 }
 
 }  // namespace tendril::humanoid

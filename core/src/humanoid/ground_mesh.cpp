@@ -14,7 +14,7 @@ using tendril::detail::Argument;
 using tendril::detail::refused;
 
 constexpr std::size_t max_triangles = 20'000'000, max_side = 4096;
-constexpr double far = 1e6;
+constexpr double max_coordinate = 1e6;  ///< metres
 
 /// Twice the area of a, b, p seen from above, positive where p is to the left of a to b.
 double side(const glm::dvec3& a, const glm::dvec3& b, double x, double z) noexcept {
@@ -30,7 +30,7 @@ Expected<Ground> Ground::mesh(std::span<const glm::dvec3> vertices,
         return refused(operation, "triangles", "three places each, of 1 to 2e7 triangles", triangles.size());
     for (std::size_t i = 0; i < vertices.size(); ++i)
         for (const double number : {vertices[i].x, vertices[i].y, vertices[i].z})
-            if (!(std::abs(number) <= far))
+            if (!(std::abs(number) <= max_coordinate))
                 return refused(operation, Argument("vertices", i), "from -1e6 to 1e6 m", number);
     for (std::size_t i = 0; i < triangles.size(); ++i)
         if (triangles[i] >= vertices.size())

@@ -21,9 +21,9 @@ struct Ball {
     double forward, back, out, in, twist;
 };
 
-class Defaults {
+class DefaultLimits {
   public:
-    Defaults(const Skeleton& skeleton, const BoneMap& map)
+    DefaultLimits(const Skeleton& skeleton, const BoneMap& map)
         : map_(map),
           facing_(facing(skeleton, map)),
           across_(cross(facing_.up, facing_.forward)),
@@ -178,7 +178,7 @@ BodyLimits no_limits() noexcept {
 }
 
 BodyLimits default_limits(const Skeleton& skeleton, const BoneMap& map) {
-    return Defaults(skeleton, map).all();
+    return DefaultLimits(skeleton, map).all();
 }
 
 BodyLimits learned_limits(const Skeleton& skeleton, const BoneMap& map, std::span<const Clip> clips,

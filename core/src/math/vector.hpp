@@ -2,6 +2,7 @@
 // sums and closed forms in which floats would lose what counts. Not installed.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -35,6 +36,10 @@ static inline Vec<T> cross(const Vec<T>& a, const Vec<T>& b) noexcept {
 template <class T>
 static inline T length(const Vec<T>& a) noexcept {
     return std::sqrt(dot(a, a));
+}
+template <class T>
+static inline T largest_coordinate(const Vec<T>& a) noexcept {
+    return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
 }
 /// What of `a` is at right angles to the unit vector `axis`.
 template <class T>

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int parts = 9;  ///< numbers that are left of a bone: translation, rotation, scale
 // Of the work that is counted: a step is some 30 ns.
-constexpr std::uint64_t work_a_bone = 4, multiplications_a_step = 48;
+constexpr std::uint64_t work_a_solved_bone = 4, multiplications_a_step = 48;
 
 /// The rotation vector from one rotation to another, the short way round.
 glm::dvec3 turn_between(const glm::dquat& from, const glm::dquat& to) noexcept {
@@ -56,7 +56,7 @@ class Descent {
             bones_.push_back(rig.id(i));
             wanted_.push_back(state.elements.get(rig.id(i), Space::Global));
         }
-        solve_work_ = rig.work() + work_a_bone * bones_.size();
+        solve_work_ = rig.work() + work_a_solved_bone * bones_.size();
     }
 
     /// From the control values of the state to the nearest minimum, as far as the work goes; they are left

@@ -15,7 +15,7 @@ using glm::dvec3;
 constexpr double strain_by_weight = 2e-3;
 /// Of a link, in m / h^2.
 constexpr double min_stiffness = 1e4, max_stiffness = 1e6;
-constexpr double tolerance = 1e-3;  ///< of the residual
+constexpr double residual_tolerance = 1e-3;  ///< of the residual
 /// Of a stretch link, where it is good enough.
 constexpr double accepted_strain = 0.01;
 
@@ -128,7 +128,7 @@ int ClothSolver::step(int iterations) {
     add_contacts();
     pin();
     const auto solved =
-        cloth_.system.solve(scratch_.grid_unit, lightest_, tolerance, iterations, local_.loops);
+        cloth_.system.solve(scratch_.grid_unit, lightest_, residual_tolerance, iterations, local_.loops);
     converged_ = solved.converged;
     const detail::GridVector& by = cloth_.system.solution();
     each_cell([&](std::size_t i, std::size_t cell) {

@@ -19,7 +19,7 @@ namespace {
 using glm::dvec3;
 
 /// How far a particle may come in a substep beside what it moves freely, metres.
-constexpr double slack = 1e-3;
+constexpr double extra_way = 1e-3;
 
 struct Bounds {
     dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
@@ -81,7 +81,7 @@ void Substep::find_near() {
             bounds.add(scratch_.place[i]);
             bounds.add(state_.position[i]);
         }
-        bounds.grow(std::sqrt(farthest) + state_.bodies[chunk.body].radius + chunk.reach + slack);
+        bounds.grow(std::sqrt(farthest) + state_.bodies[chunk.body].radius + chunk.reach + extra_way);
         scratch_.chunk_low[c] = bounds.low;
         scratch_.chunk_high[c] = bounds.high;
         whole.add(bounds.low);

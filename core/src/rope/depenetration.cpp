@@ -14,7 +14,7 @@ namespace {
 using glm::dvec3;
 
 /// How far inside a particle may stay, metres: far less than what anybody may rely on.
-constexpr double tolerance = 1e-6;
+constexpr double depth_tolerance = 1e-6;
 constexpr int rounds = 12;
 /// Distances that searches for a way out may take in a substep: what is not found by then is left inside and
 /// counted. Each island has so many a particle, and its part by particles of what they share. A particle
@@ -97,8 +97,8 @@ double way_out_of(const Shape& shape, const dvec3& from, const dvec3& along, dou
         ++distances_taken;
         const SurfaceDistance surface = surface_distance(shape, from + way * along);
         const double over = surface.distance - radius, slope = detail::dot(surface.normal, along);
-        if (over <= tolerance || slope <= 0.0) break;
-        way -= (over - 0.5 * tolerance) / slope;
+        if (over <= depth_tolerance || slope <= 0.0) break;
+        way -= (over - 0.5 * depth_tolerance) / slope;
     }
     return way;
 }
@@ -139,10 +139,10 @@ bool search(const Neighbours& neighbours, const dvec3& from, double thickness, d
 bool bring_out(const Neighbours& neighbours, dvec3& place, double radius) {
     for (const double thickness : {radius, 0.0}) {
         dvec3 at = place;
-        bool out = neighbours.depth(at, thickness) <= tolerance;
+        bool out = neighbours.depth(at, thickness) <= depth_tolerance;
         for (int i = 0; i < rounds && !out; ++i) {
             at += smallest_displacement(neighbours, at, thickness);
-            out = neighbours.depth(at, thickness) <= tolerance;
+            out = neighbours.depth(at, thickness) <= depth_tolerance;
         }
         if (!out && !search(neighbours, place, thickness, at)) continue;
         place = at;
@@ -171,7 +171,7 @@ void Substep::depenetrate() {
         const double radius = state_.bodies[chunk.body].radius;
         for (std::uint32_t i = chunk.first; i < chunk.first + chunk.count; ++i) {
             dvec3& place = scratch_.place[i];
-            if (scratch_.weight[i] == 0.0 || neighbours.depth(place, radius) <= tolerance) continue;
+            if (scratch_.weight[i] == 0.0 || neighbours.depth(place, radius) <= depth_tolerance) continue;
             if (!bring_out(neighbours, place, radius)) ++report_.unresolved;
         }
     }

@@ -26,7 +26,7 @@ using detail::Order;
 using detail::Row;
 using glm::dvec3;
 
-constexpr double tolerance = 1e-7;              ///< relative length error that is not improved
+constexpr double length_tolerance = 1e-7;              ///< relative length error that is not improved
 constexpr double accepted_error = 1e-4;         ///< a chain with more is solved again
 constexpr double accepted_shared_error = 1e-3;  ///< the same where chains share particles
 constexpr double fallback_error = 0.02;         ///< a chain with more in the end: its body is relaxed
@@ -186,7 +186,7 @@ double Substep::solve_batch(const Batch& batch, int iteration) {
         order.passes[lane] = std::min(max_passes, state_.settings.iterations);
     }
     if (!first.alone) order.damping = shared_damping;
-    order.tolerance = tolerance;
+    order.tolerance = length_tolerance;
     (batch.single ? scratch_.unit.single : scratch_.unit.solve)(block, order);
     double worst = 0.0;
     for (std::uint32_t lane = 0; lane < batch.count; ++lane) {
@@ -218,7 +218,7 @@ void Substep::solve_again(std::uint32_t chain) {
         order.implicit = true;
         order.backward[0] = 1.0;
         order.passes[0] = i + 1 < restarts ? 2.0 : 8.0;
-        order.tolerance = tolerance;
+        order.tolerance = length_tolerance;
         scratch_.unit.single(block, order);
         scratch_.chain_error[chain] = order.worst[0];
         scatter(block, 0, chain);

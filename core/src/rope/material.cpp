@@ -13,10 +13,6 @@ using detail::missing;
 using tendril::detail::check_length;
 using tendril::detail::refused;
 
-bool within(const Body& body, const Link& link) {
-    return link.a >= body.first && link.a - body.first < body.count;
-}
-
 }  // namespace
 
 Result World::set_radius(BodyId body, float metres) noexcept {
@@ -57,7 +53,7 @@ Result World::set_compliance(BodyId body, Link::Kind kind, float compliance) noe
     if (changed == nullptr) return missing("set_compliance", "body", "body", body.index);
     if (const Result bad = check_length("set_compliance", "compliance", compliance); !bad) return bad;
     for (Link& link : state_.links)
-        if (link.kind == kind && within(*changed, link)) link.compliance = compliance;
+        if (link.kind == kind && detail::owns(*changed, link)) link.compliance = compliance;
     return {};
 }
 
@@ -69,11 +65,11 @@ Result World::set_length(BodyId body, float metres) noexcept {
     if (!(now > 0.0)) return refused("set_length", "body", "one of some length", now);
     const double factor = metres / now;
     for (const Link& link : state_.links) {
-        if (within(*changed, link) && !(factor * link.rest <= static_cast<double>(max_magnitude)))
+        if (detail::owns(*changed, link) && !(factor * link.rest <= static_cast<double>(max_magnitude)))
             return refused("set_length", "metres", "such that no link is longer than 1e9 m", metres);
     }
     for (Link& link : state_.links)
-        if (within(*changed, link)) link.rest = static_cast<float>(factor * link.rest);
+        if (detail::owns(*changed, link)) link.rest = static_cast<float>(factor * link.rest);
     take_stretch(*changed);
     return {};
 }

@@ -4,14 +4,11 @@
 
 #include "rope/build.hpp"
 #include "rope/geometry.hpp"
+#include "rope/slots.hpp"
 #include "tendril/rope/world.hpp"
 
 namespace tendril::rope {
 namespace {
-
-bool within(const Body& body, const Link& link) {
-    return link.a >= body.first && link.a - body.first < body.count;
-}
 
 /// Of a stretch link, relative to its rest; 0 of the others.
 double error_of(const State& state, const Link& link) {
@@ -52,7 +49,7 @@ glm::dvec3 World::velocity(std::size_t particle) const noexcept {
 double World::length_error(const Body& body) const noexcept {
     double worst = 0.0;
     for (const Link& link : state_.links)
-        if (within(body, link)) worst = std::max(worst, error_of(state_, link));
+        if (detail::owns(body, link)) worst = std::max(worst, error_of(state_, link));
     return worst;
 }
 
@@ -65,7 +62,7 @@ double World::length_error() const noexcept {
 double World::energy(const Body& body) const noexcept {
     double energy = particle_energy(state_, body.first, body.count);
     for (const Link& link : state_.links)
-        if (within(body, link)) energy += link_energy(state_.settings, link);
+        if (detail::owns(body, link)) energy += link_energy(state_.settings, link);
     return energy;
 }
 
@@ -79,7 +76,7 @@ double World::length(const Body& body) const noexcept {
     double sum = 0.0;
     for (const Link& link : state_.links) {
         const bool row = link.a - body.first + 1 < body.row && link.b == link.a + 1;
-        if (link.kind == Link::Kind::Stretch && within(body, link) && row) sum += link.rest;
+        if (link.kind == Link::Kind::Stretch && detail::owns(body, link) && row) sum += link.rest;
     }
     return sum;
 }

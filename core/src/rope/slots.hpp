@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "math/checks.hpp"
+#include "tendril/rope/body.hpp"
 #include "tendril/rope/handle.hpp"
 
 namespace tendril::rope::detail {
@@ -32,6 +33,10 @@ auto* find_in(List& list, const Id& id) noexcept {
     const auto found =
         std::find_if(list.begin(), list.end(), [&](const auto& each) { return each.id == id; });
     return found == list.end() || !id ? nullptr : &*found;
+}
+
+inline bool owns(const Body& body, const Link& link) noexcept {
+    return link.a >= body.first && link.a - body.first < body.count;
 }
 
 /// `remove: body must be the handle of a body that is there, got slot 7`

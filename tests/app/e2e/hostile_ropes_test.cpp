@@ -9,7 +9,7 @@ namespace {
 
 using namespace app;
 
-Monkey monkey_in(App& app, unsigned seed) {
+Monkey rope_monkey(App& app, unsigned seed) {
     std::vector<std::string> names{"time.step",  "time.seek", "time.play",  "time.pause",
                                    "time.speed", "undo",      "redo",       "camera.frame",
                                    "lab.open",   "chain.add", "chain.pull", "scene.new"};
@@ -48,7 +48,7 @@ TEST_P(HostileRopes, events_and_commands_break_nothing) {
     app.run({"lab.open", Json{{"name", "rope"}}});
     app.start_recording();
     const Json start = lasting(app);
-    Monkey monkey = monkey_in(app, GetParam());
+    Monkey monkey = rope_monkey(app, GetParam());
     for (int i = 0; i < 400 && !HasFatalFailure(); ++i) {
         monkey.act();
         expect_finite_world(*rope_part(app.workspace()).world);
@@ -70,7 +70,7 @@ TEST(HostileRopesReplay, ends_where_the_recording_did) {
     expect_replay_ends_the_same([](App& app) {
         app.run({"lab.open", Json{{"name", "rope"}}});
         app.start_recording();
-        Monkey monkey = monkey_in(app, 7);
+        Monkey monkey = rope_monkey(app, 7);
         for (int i = 0; i < 300; ++i) monkey.act();
     });
 }

@@ -22,7 +22,7 @@ void expect_whole(const Chain& chain) {
     }
 }
 
-Monkey monkey_in(App& app, unsigned seed) {
+Monkey chain_monkey(App& app, unsigned seed) {
     return Monkey(app, seed,
                   {"chain.add", "chain.insert", "chain.remove", "chain.set_length", "chain.mode",
                    "chain.target", "chain.pull", "chain.select", "chain.clear", "chain.motion", "chain.seek",
@@ -41,7 +41,7 @@ TEST_P(Hostile, events_and_commands_break_nothing) {
     App app(*window);
     app.start_recording();
     const std::string start = document_text(app);
-    Monkey monkey = monkey_in(app, GetParam());
+    Monkey monkey = chain_monkey(app, GetParam());
     for (int i = 0; i < 1000 && !HasFailure(); ++i) {
         monkey.act();
         expect_whole(chain_part(app.workspace()).chain);
@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, Hostile, testing::Values(1u, 2u, 3u));
 TEST(HostileReplay, ends_where_the_recording_did) {
     expect_replay_ends_the_same([](App& app) {
         app.start_recording();
-        Monkey monkey = monkey_in(app, 7);
+        Monkey monkey = chain_monkey(app, 7);
         for (int i = 0; i < 1000; ++i) monkey.act();
     });
 }

@@ -29,7 +29,7 @@ ScriptText& drag_joint(ScriptText& script, glm::vec2 from, glm::vec2 by) {
     return script.up();
 }
 
-void expect_lengths_kept(const Json& state) {
+void expect_bones_kept(const Json& state) {
     for (std::size_t i = 1; i < state.at("segments").size(); ++i) {
         const float length = state["segments"][i]["length"].get<float>();
         EXPECT_NEAR(glm::distance(joint(state, i), joint(state, i - 1)), length, 1e-4f) << i;
@@ -57,7 +57,7 @@ TEST(ReachDrag, a_joint_follows_the_mouse_while_root_target_and_tip_stay) {
         if (index < 5) {
             EXPECT_EQ(missing, 0.0f) << index;
         }
-        expect_lengths_kept(after);
+        expect_bones_kept(after);
         EXPECT_EQ(state_after(script.key("ctrl+z"))["segments"], before["segments"]) << "one step to undo";
         script.key("ctrl+y").command("undo").command("undo").command("undo").command("undo", {}, true);
         EXPECT_EQ(state_after(script)["mode"], "backward") << "the drag was one step";
@@ -72,7 +72,7 @@ TEST(ReachDrag, where_the_tip_cannot_stay_it_stays_as_near_as_it_can) {
     const glm::vec3 dragged = joint(after, 3), target = point_of(after["target"]);
     EXPECT_GT(dragged.y, 1.0f);
     EXPECT_NEAR(glm::distance(joint(after, 7), target), glm::distance(dragged, target) - 4.0f, 1e-3f);
-    expect_lengths_kept(after);
+    expect_bones_kept(after);
 }
 
 TEST(ReachDrag, the_root_takes_the_chain_along_which_reaches_again) {
@@ -83,7 +83,7 @@ TEST(ReachDrag, the_root_takes_the_chain_along_which_reaches_again) {
     EXPECT_LT(glm::distance(handle(after, "segment.0"), at + by), 0.02f);
     EXPECT_EQ(after["target"], before["target"]);
     EXPECT_LT(glm::distance(point_of(after["tail"]), point_of(after["target"])), 7e-3f);
-    expect_lengths_kept(after);
+    expect_bones_kept(after);
 }
 
 TEST(ReachDrag, the_tip_leaves_the_target_where_it_is) {
@@ -96,7 +96,7 @@ TEST(ReachDrag, the_tip_leaves_the_target_where_it_is) {
     EXPECT_EQ(after["head"], before["head"]);
     EXPECT_EQ(after["target"], before["target"]);
     EXPECT_LT(glm::distance(handle(after, "segment.7"), at + by), 0.5f);
-    expect_lengths_kept(after);
+    expect_bones_kept(after);
 }
 
 TEST(ReachDrag, limits_hold_on_both_sides_of_the_hand) {
@@ -122,7 +122,7 @@ TEST(ReachDrag, limits_hold_on_both_sides_of_the_hand) {
                 << "joint " << i << " dragged by " << by.x << ", " << by.y;
         }
         EXPECT_EQ(after["head"], Json::array({0.0, 0.0, 0.0}));
-        expect_lengths_kept(after);
+        expect_bones_kept(after);
     }
 }
 

@@ -45,7 +45,7 @@ Json state_of(const Left& left) {
     return app::parse_json(left.state);
 }
 
-const Json& start() {
+const Json& start_state() {
     static const Json state = state_after(ScriptText().wait(1));
     return state;
 }
@@ -63,7 +63,7 @@ TEST_F(Recording, begins_with_what_it_started_from) {
 }
 
 TEST_F(Recording, holds_drags_and_commands) {
-    const glm::vec2 target = handle(start(), "target");
+    const glm::vec2 target = handle(start_state(), "target");
     ScriptText script;
     script.drag({target, {700.5f, 250.25f}, {600.125f, 200}})
         .command("chain.mode", {{"mode", "fixed"}, {"iterations", 7}})
@@ -74,13 +74,13 @@ TEST_F(Recording, holds_drags_and_commands) {
         .drag({{640, 660}, {600, 610}}, "right")
         .wheel(1.5f);
     const Json state = state_of(record_and_replay(script));
-    EXPECT_NE(state["segments"], start()["segments"]);
+    EXPECT_NE(state["segments"], start_state()["segments"]);
     EXPECT_EQ(state["mode"], "fixed");
 }
 
 // Everything of the window that is no scene: panels, palette, help, keys, wheel over a list, resizing.
 TEST_F(Recording, holds_the_use_of_panels) {
-    const glm::vec2 forward_radio = chain_panel::forward, target = handle(start(), "target");
+    const glm::vec2 forward_radio = chain_panel::forward, target = handle(start_state(), "target");
     ScriptText script;
     script.click(forward_radio).wait(2);
     script.key("ctrl+k").text("chain.add length=0.75").key("enter").wait(2);

@@ -23,7 +23,7 @@ ScriptText tilt_past_the_look(int steps = 40) {
     return script;
 }
 
-std::vector<Json> flips_of(const Json& state) {
+std::vector<Json> rig_flips(const Json& state) {
     std::vector<Json> flips;
     for (const Json& event : state.at("events"))
         if (event.at("kind") == "flip") flips.push_back(event);
@@ -44,7 +44,7 @@ std::size_t number_of(const Json& state, const Json& event) {
 
 TEST(RigsPast, AFlipIsMarkedAtItsTickWithBoneUnitAndCause) {
     const Json state = state_after(tilt_past_the_look());
-    const std::vector<Json> flips = flips_of(state);
+    const std::vector<Json> flips = rig_flips(state);
     ASSERT_GE(flips.size(), 1u) << state["events"].dump(2);
     double turned = 0.0;
     for (const Json& flip : flips) {
@@ -78,7 +78,7 @@ TEST(RigsPast, APausedDragIsRememberedAndMarkedToo) {
             .command("rig.control.set", {{"name", "tilt"}, {"value", {0.303 - 0.015 * i, 0.3145, 0.5}}})
             .command("rig.solve")
             .wait(1);
-    const std::vector<Json> flips = flips_of(state_after(script));
+    const std::vector<Json> flips = rig_flips(state_after(script));
     ASSERT_GE(flips.size(), 1u);
     EXPECT_EQ(flips[0]["name"], "head");
 }
@@ -106,15 +106,15 @@ TEST(RigsPast, WhatIsSelectedDoesNotGoBackInTime) {
 
 TEST(RigsPast, WhatIsDoneAfterGoingBackTakesThePlaceOfWhatWas) {
     const Json state = state_after(tilt_past_the_look());
-    ASSERT_GE(flips_of(state).size(), 1u);
+    ASSERT_GE(rig_flips(state).size(), 1u);
     const ScriptText script = tilt_past_the_look()
                                   .command("time.seek", {{"ticks_back", 75}})
                                   .command("rig.control.set", {{"name", "tilt"}, {"value", {0.5, 0.8, 0}}})
                                   .command("time.play")
                                   .wait(2);
-    const std::size_t before = flips_of(state_after(tilt_past_the_look(0))).size();
-    EXPECT_LT(before, flips_of(state).size());
-    EXPECT_EQ(flips_of(state_after(script)).size(), before) << "it never came to the others";
+    const std::size_t before = rig_flips(state_after(tilt_past_the_look(0))).size();
+    EXPECT_LT(before, rig_flips(state).size());
+    EXPECT_EQ(rig_flips(state_after(script)).size(), before) << "it never came to the others";
 }
 
 TEST(RigsPast, ARecordingOfItAllEndsInTheSameState) {

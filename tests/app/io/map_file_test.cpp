@@ -27,7 +27,7 @@ std::string refusal(const std::string& text) {
 }
 
 TEST(MapFile, comes_back_as_it_was) {
-    test::Random random(3);
+    tendril::test::Random random(3);
     for (int i = 0; i < 50; ++i) {
         BoneMap map = humanoid::match_bones(skeleton());
         for (humanoid::BoneMatch& each : map.bones)
@@ -81,7 +81,7 @@ TEST(MapFile, what_is_no_map_is_refused_and_says_where) {
 
 TEST(MapFile, random_bytes_and_cut_texts_are_refused_with_words) {
     const std::string text = map_text(saved_map(humanoid::match_bones(skeleton()), skeleton()));
-    test::Random random(8);
+    tendril::test::Random random(8);
     for (int i = 0; i < 2000; ++i) {
         std::string bad = text.substr(0, random.below(text.size()));
         for (std::size_t k = random.below(6); k > 0 && !bad.empty(); --k) {
@@ -94,12 +94,12 @@ TEST(MapFile, random_bytes_and_cut_texts_are_refused_with_words) {
 }
 
 TEST(MapFile, is_kept_for_a_skeleton_of_the_same_names_and_no_other) {
-    const test::TempFolder folder;
+    const tendril::test::TempFolder folder;
     EXPECT_FALSE(find_kept_map(folder.path(), skeleton()));
     const SavedMap saved = saved_map(humanoid::match_bones(skeleton()), skeleton());
     const auto path = kept_map(folder.path(), skeleton());
     keep_map(folder.path(), saved, skeleton());
-    EXPECT_EQ(test::read(path), map_text(saved));
+    EXPECT_EQ(tendril::test::read(path), map_text(saved));
     EXPECT_EQ(find_kept_map(folder.path(), skeleton()), saved);
     std::vector<humanoid::Node> nodes = skeleton().nodes();
     nodes.back().rest.translation *= 2.0;  // of another size, but of the same names
@@ -113,31 +113,31 @@ TEST(MapFile, is_kept_for_a_skeleton_of_the_same_names_and_no_other) {
 }
 
 TEST(MapFile, that_is_kept_is_refused_with_its_name_where_it_cannot_be_the_characters) {
-    const test::TempFolder folder;
+    const tendril::test::TempFolder folder;
     const SavedMap saved = saved_map(humanoid::match_bones(skeleton()), skeleton());
     keep_map(folder.path(), saved, skeleton());
     const auto path = kept_map(folder.path(), skeleton());
     const auto why = [&](const std::string& text) {
-        test::write(path, text);
-        return test::message_of([&] { find_kept_map(folder.path(), skeleton()); });
+        tendril::test::write(path, text);
+        return tendril::test::message_of([&] { find_kept_map(folder.path(), skeleton()); });
     };
     SavedMap other = saved;
     other.nodes.back() = "other";
-    EXPECT_TRUE(test::has(why(map_text(other)), "nodes: they are not those of the character"));
+    EXPECT_TRUE(tendril::test::has(why(map_text(other)), "nodes: they are not those of the character"));
     other = saved;
     other.bones[0] = "nobody's";
-    EXPECT_TRUE(test::has(why(map_text(other)), "bones: Hips is node \"nobody's\""));
-    EXPECT_TRUE(test::has(why("{"), path.filename().string()));
-    EXPECT_TRUE(test::has(why(std::string(5000, '[')), path.filename().string()));
-    EXPECT_TRUE(test::has(why(""), path.filename().string()));
+    EXPECT_TRUE(tendril::test::has(why(map_text(other)), "bones: Hips is node \"nobody's\""));
+    EXPECT_TRUE(tendril::test::has(why("{"), path.filename().string()));
+    EXPECT_TRUE(tendril::test::has(why(std::string(5000, '[')), path.filename().string()));
+    EXPECT_TRUE(tendril::test::has(why(""), path.filename().string()));
     std::filesystem::remove(path);
     std::filesystem::create_directories(path);
     EXPECT_TRUE(
-        test::has(test::message_of([&] { find_kept_map(folder.path(), skeleton()); }), "is not a file"));
+        tendril::test::has(tendril::test::message_of([&] { find_kept_map(folder.path(), skeleton()); }), "is not a file"));
     // Where the folder cannot be made.
-    test::write(folder / "file", "");
+    tendril::test::write(folder / "file", "");
     EXPECT_TRUE(
-        test::has(test::message_of([&] { keep_map(folder / "file", saved, skeleton()); }), "cannot write"));
+        tendril::test::has(tendril::test::message_of([&] { keep_map(folder / "file", saved, skeleton()); }), "cannot write"));
 }
 
 }  // namespace

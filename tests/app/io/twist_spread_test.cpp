@@ -79,7 +79,7 @@ class TwistedTube : public testing::Test {
         return static_cast<double>(most);
     }
 
-    humanoid::Skeleton skeleton = test::make_figure({});
+    humanoid::Skeleton skeleton = tendril::test::make_figure({});
     humanoid::BoneMap map = humanoid::match_bones(skeleton);
     std::vector<rig::Transform> pose = humanoid::rest_pose(skeleton);
     Skin skin;

@@ -14,7 +14,7 @@
 #include "app/view/gizmo_drag.hpp"
 #include "app/view/picking.hpp"
 
-namespace tendril::app {
+namespace tendril::app::gizmo_test {
 namespace {
 
 const Rect viewport{{0.0f, 0.0f}, {800.0f, 600.0f}};
@@ -332,4 +332,4 @@ TEST(Gizmo, DrawsNothingOfWhatIsNowhere) {
 }
 
 }  // namespace
-}  // namespace tendril::app
+}  // namespace tendril::app::gizmo_test

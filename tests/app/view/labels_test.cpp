@@ -13,7 +13,7 @@
 #include <cmath>
 #include <random>
 
-namespace tendril::app {
+namespace tendril::app::labels_test {
 namespace {
 
 const Rect viewport{{100.0f, 50.0f}, {900.0f, 650.0f}};
@@ -128,4 +128,4 @@ TEST(Labels, TenThousandAreNoBurden) {
 }
 
 }  // namespace
-}  // namespace tendril::app
+}  // namespace tendril::app::labels_test

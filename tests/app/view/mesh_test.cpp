@@ -16,7 +16,7 @@
 #include "app/window/gl.hpp"
 #include "app/window/window.hpp"
 
-namespace tendril::app {
+namespace tendril::app::mesh_test {
 namespace {
 
 using Points = std::vector<glm::vec3>;
@@ -367,4 +367,4 @@ INSTANTIATE_TEST_SUITE_P(Backends, Meshes, testing::Values(Backend::OsMesa, Back
                          [](const auto& test) { return test.param == Backend::Egl ? "Egl" : "OsMesa"; });
 
 }  // namespace
-}  // namespace tendril::app
+}  // namespace tendril::app::mesh_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace tendril::app {
+namespace tendril::app::picking_test {
 namespace {
 
 const Rect viewport{{0.0f, 0.0f}, {800.0f, 600.0f}};
@@ -94,4 +94,4 @@ TEST(Picking, BrokenStrokesAreNotPicked) {
 }
 
 }  // namespace
-}  // namespace tendril::app
+}  // namespace tendril::app::picking_test

@@ -13,7 +13,7 @@
 #include "app/window/gl.hpp"
 #include "app/window/window.hpp"
 
-namespace tendril::app {
+namespace tendril::app::renderer_test {
 namespace {
 
 constexpr glm::ivec2 size{320, 240};
@@ -264,4 +264,4 @@ TEST(Drawings, OsMesaAndEglDifferByOneInAFewPixels) {
 }
 
 }  // namespace
-}  // namespace tendril::app
+}  // namespace tendril::app::renderer_test

@@ -9,7 +9,7 @@
 #include "app/window/gl.hpp"
 #include "app/window/window.hpp"
 
-namespace tendril::app {
+namespace tendril::app::skin_test {
 namespace {
 
 constexpr glm::ivec2 size{200, 200};
@@ -194,4 +194,4 @@ INSTANTIATE_TEST_SUITE_P(Backends, SkinDrawing, testing::Values(Backend::OsMesa,
                          [](const auto& test) { return test.param == Backend::Egl ? "Egl" : "OsMesa"; });
 
 }  // namespace
-}  // namespace tendril::app
+}  // namespace tendril::app::skin_test

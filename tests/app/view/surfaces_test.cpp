@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-namespace tendril::app {
+namespace tendril::app::surfaces_test {
 namespace {
 
 using Points = std::vector<glm::vec3>;
@@ -362,4 +362,4 @@ TEST(PlanePatch, IsFlatAndOnTheGroundOnlyARim) {
 }
 
 }  // namespace
-}  // namespace tendril::app
+}  // namespace tendril::app::surfaces_test

@@ -16,7 +16,7 @@ using humanoid::Finding;
 
 constexpr std::size_t most_rows = 20;
 
-const char* title(humanoid::Fault fault) {
+const char* fault_title(humanoid::Fault fault) {
     constexpr const char* titles[] = {"skates",    "floats",         "sinks",
                                       "knee pops", "key flips sign", "beyond its limit",
                                       "jumps",     "wrong size",     "lies on its side"};
@@ -62,7 +62,7 @@ void finding_row(const HumanoidPanel& panel, const Finding& finding, int id) {
     const ImVec2 after = ImGui::GetCursorPos();
     const std::string value = amount(finding);
     ImGui::SetCursorPos(at);
-    ImGui::TextUnformatted(title(finding.fault));
+    ImGui::TextUnformatted(fault_title(finding.fault));
     ImGui::SetCursorPos({at.x + width - ImGui::CalcTextSize(value.c_str()).x, at.y});
     ImGui::TextUnformatted(value.c_str());
     std::string where = "frame " + std::to_string(finding.frame);

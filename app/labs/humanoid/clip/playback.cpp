@@ -33,11 +33,11 @@ OnGround hips_at(const humanoid::Skeleton& skeleton, const std::vector<rig::Tran
 }
 
 /// What takes the character from the first round to this one: z -> turn * z + move.
-struct Ground {
+struct RoundTurn {
     Complex turn{1.0, 0.0}, move{0.0, 0.0};
 };
 
-Ground of_rounds(const OnGround& first, const OnGround& last, double rounds) {
+RoundTurn of_rounds(const OnGround& first, const OnGround& last, double rounds) {
     const double angle = std::remainder(last.angle - first.angle, 2.0 * 3.14159265358979323846);
     const Complex once = std::polar(1.0, angle), move = last.at - once * first.at;
     if (std::abs(angle) < 1e-9) return {Complex(1.0, 0.0), rounds * move};
@@ -45,7 +45,7 @@ Ground of_rounds(const OnGround& first, const OnGround& last, double rounds) {
     return {all, move * (all - 1.0) / (once - 1.0)};
 }
 
-rig::Transform transform(const Ground& ground) {
+rig::Transform transform(const RoundTurn& ground) {
     const double half = 0.5 * std::arg(ground.turn);
     return {.translation = {ground.move.imag(), 0.0, ground.move.real()},
             .rotation = {std::cos(half), 0.0, std::sin(half), 0.0}};
@@ -95,7 +95,7 @@ std::vector<rig::Transform> animated_pose(const Playback& playback, const Loaded
     std::vector<rig::Transform> pose = sampled(clip, skeleton, playback.time);
     if (!hips || (playback.rounds == 0 && !playback.in_place)) return pose;
     const OnGround first = hips_at(skeleton, sampled(clip, skeleton, 0.0), *hips);
-    Ground ground;
+    RoundTurn ground;
     if (playback.in_place)
         ground.move = first.at - hips_at(skeleton, pose, *hips).at;
     else

@@ -9,7 +9,7 @@ namespace tendril::ik::detail {
 namespace {
 
 /// Half-angles under this are left to the scalar solver: its cone is then flat.
-constexpr float flat = 1e-3f;
+constexpr float min_half_angle = 1e-3f;
 
 HalfRange half_range(float min, float max) noexcept {
     const bool whole = max - min >= 2.0f * pi - at_bound;
@@ -33,7 +33,7 @@ std::optional<BatchLimit> ready(const Limit& limit, const glm::vec3& rest_direct
         to.range = half_range(joint.min, joint.max);
         return to;
     }
-    if (std::min({joint.up, joint.down, joint.left, joint.right}) < flat) return std::nullopt;
+    if (std::min({joint.up, joint.down, joint.left, joint.right}) < min_half_angle) return std::nullopt;
     to.kind = BatchLimit::Kind::Cone;
     to.range = half_range(joint.twist_min, joint.twist_max);
     to.up = inverse_square(joint.up), to.down = inverse_square(joint.down);

@@ -24,13 +24,9 @@ void gather_chains(const Block& from, const LaneList& lanes, const Block& to, st
     }
 }
 
-float residual_of(const Problem& problem) noexcept {
-    return distance(problem.joints.back(), problem.target);
-}
-
 /// After a perturbation: as Convergence::restart (convergence.hpp).
 void restart(const Block& block, std::size_t lane, const Problem& problem) noexcept {
-    const float residual = residual_of(problem);
+    const float residual = problem.residual();
     block.save_best(lane);
     for (std::size_t i = 1; i < problem.joints.size(); ++i) block.set_point(i, lane, problem.joints[i]);
     block.at(Row::Nearest, lane) = block.at(Row::Last, lane) = residual;

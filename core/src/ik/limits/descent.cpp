@@ -21,7 +21,7 @@ void LimitedDescent::restart(const Problem& problem) noexcept {
 }
 
 void LimitedDescent::continue_from(float damping, bool stalled) noexcept {
-    damping_ = std::max(damping, min_damping);
+    damping_ = std::max(damping, tune::limits::min_damping);
     reaches_ = false;
     if (stalled) convergence_.resume_stalled();
 }
@@ -62,11 +62,11 @@ void LimitedDescent::step(Problem& problem, Watch watch) noexcept {
         if (then < error_ && may_take(problem)) {
             accept_trial(problem, Phase::Gradient, watch);
             error_ = then;
-            damping_ = std::max(damping_falls * damping_, min_damping);
+            damping_ = std::max(tune::limits::damping_falls * damping_, tune::limits::min_damping);
             ++problem.least_squares_steps;
             return;
         }
-        damping_ = std::min(damping_grows * damping_, max_damping);
+        damping_ = std::min(tune::limits::damping_grows * damping_, tune::limits::max_damping);
     }
 }
 

@@ -8,7 +8,7 @@
 namespace tendril::ik::detail {
 namespace {
 
-constexpr float flat = 1e-5f;  ///< half-angles under this leave no freedom
+constexpr float min_freedom = 1e-5f;  ///< half-angles under this leave no freedom
 
 HalfAngle half_of(float angle) noexcept {
     return {std::max(std::cos(0.5f * angle), 0.0f), std::sin(0.5f * angle)};
@@ -80,9 +80,9 @@ float half_axis_left(const LimitedJoint& joint, const Swing& swing) noexcept {
 Swing within_cone(const LimitedJoint& joint, const Swing& swing) noexcept {
     const float a = half_axis_up(joint, swing), b = half_axis_left(joint, swing);
     float x = std::abs(swing.up), y = std::abs(swing.left);
-    if (a < flat || b < flat) {
-        x = a < flat ? 0.0f : std::min(x, a);
-        y = b < flat ? 0.0f : std::min(y, b);
+    if (a < min_freedom || b < min_freedom) {
+        x = a < min_freedom ? 0.0f : std::min(x, a);
+        y = b < min_freedom ? 0.0f : std::min(y, b);
     } else if ((x / a) * (x / a) + (y / b) * (y / b) > 1.0f) {
         nearest_on_ellipse(a, b, x, y);
     }
@@ -150,15 +150,15 @@ void add_swing_bounds(const LimitedJoint& joint, const Split& parts, Bounds& bou
         const bool over = angle >= positive - at_bound, under = -angle >= negative - at_bound;
         if (over || under) add(over ? up : -up, over ? left : -left, over && under);
     };
-    if (a >= flat && b >= flat) {
+    if (a >= min_freedom && b >= min_freedom) {
         const float x = swing.up / a, y = swing.left / b, size = std::sqrt(x * x / (a * a) + y * y / (b * b));
         if (x * x + y * y > 1.0f - 2.0f * at_bound) return add(x / (a * size), y / (b * size), false);
     }
     // Quarters without freedom have edges instead of a rim.
-    if (a < flat || b < flat || std::min(joint.up, joint.down) < flat) {
+    if (a < min_freedom || b < min_freedom || std::min(joint.up, joint.down) < min_freedom) {
         add_edges(swing.up, joint.up, joint.down, 1.0f, 0.0f);
     }
-    if (a < flat || b < flat || std::min(joint.left, joint.right) < flat) {
+    if (a < min_freedom || b < min_freedom || std::min(joint.left, joint.right) < min_freedom) {
         add_edges(swing.left, joint.left, joint.right, 0.0f, 1.0f);
     }
 }

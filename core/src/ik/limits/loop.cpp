@@ -33,7 +33,7 @@ Reachable reachable(const Problem& problem) noexcept {
     return {can.status(far, 1e-6 * can.furthest), static_cast<float>(can.residual(far))};
 }
 
-float residual_of(const Problem& problem) noexcept {
+float limited_residual(const Problem& problem) noexcept {
     return distance(problem.scratch.limited.pose.joints[problem.bones()], problem.target);
 }
 
@@ -44,7 +44,7 @@ bool is_turned(const Problem& problem) noexcept {
 
 /// The tip is where it should be, or as near as any pose brings it.
 bool arrived(const Problem& problem, const Reachable& can) noexcept {
-    const float residual = residual_of(problem);
+    const float residual = limited_residual(problem);
     const float more = can.status == Status::Converged ? 0.0f : straight_tolerance * problem.scratch.reach;
     return residual <= std::max(problem.tolerance, can.residual + more) && is_turned(problem);
 }
@@ -117,11 +117,11 @@ void detect_drag(Method method, const Problem& problem, bool as_left, Attempt& a
     if (method != Method::Fabrik || !memory.valid || !as_left || problem.options.restarts) return;
     const float step = distance(minus(problem.target, problem.root()), memory.target);
     attempt.dragged = step <= tune::limits::dragged * problem.scratch.reach;
-    if (attempt.dragged) attempt.allowance = follow * (step + problem.tolerance);
+    if (attempt.dragged) attempt.allowance = tune::limits::follow * (step + problem.tolerance);
 }
 
 template <class Watch>
-Attempt prepare(Method method, Problem& problem, Watch watch) noexcept {
+Attempt prepare_attempt(Method method, Problem& problem, Watch watch) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
     set_pole_allowance(problem);
     const bool as_left = load_pose(problem, watch);
@@ -228,14 +228,14 @@ Report run_limited(Method method, Problem& problem, Watch watch) noexcept {
         load_pose(problem, watch);
         report_iteration(problem, watch);
         commit(problem);
-        const bool there = residual_of(problem) <= problem.tolerance;
-        return {there ? Status::Converged : Status::Stretched, 0, residual_of(problem)};
+        const bool there = limited_residual(problem) <= problem.tolerance;
+        return {there ? Status::Converged : Status::Stretched, 0, limited_residual(problem)};
     }
-    Attempt attempt = prepare(method, problem, watch);
+    Attempt attempt = prepare_attempt(method, problem, watch);
     report_iteration(problem, watch);
     const End end = method == Method::Fabrik ? solve_with_restarts(problem, attempt, watch)
                                              : continue_from(method, problem, attempt, watch);
-    const bool there = residual_of(problem) <= problem.tolerance && is_turned(problem);
+    const bool there = limited_residual(problem) <= problem.tolerance && is_turned(problem);
     if (!there && error_of(problem, problem.scratch.limited.pose) != attempt.best) {
         problem.scratch.limited.trial = problem.scratch.limited.best;
         accept_trial(problem, Phase::RestoreBest, watch);
@@ -244,7 +244,7 @@ Report run_limited(Method method, Problem& problem, Watch watch) noexcept {
     face_pole_within_limits(problem, watch);
     const Status status = status_of(problem, attempt.can, end);
     problem.state.limits.limited = status == Status::Limited || status == Status::Stalled;
-    return problem.report(status, residual_of(problem));
+    return problem.report(status, limited_residual(problem));
 }
 
 template Report run_limited(Method, Problem&, Unwatched) noexcept;

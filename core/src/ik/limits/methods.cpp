@@ -21,7 +21,7 @@ void place(const Problem& problem, Phase phase, std::size_t joint, std::size_t n
 
 /// From the tip, which goes to the target, to the root, which is left.
 template <class Watch>
-void forward_reaching(Problem& problem, Watch watch) noexcept {
+void limited_forward_reaching(Problem& problem, Watch watch) noexcept {
     const LimitedPose& from = problem.scratch.limited.pose;
     LimitedPose& to = problem.scratch.limited.trial;
     const std::size_t last = problem.bones() - 1;
@@ -51,7 +51,7 @@ void forward_reaching(Problem& problem, Watch watch) noexcept {
 }
 
 template <class Watch>
-void backward_reaching(Problem& problem, Watch watch) noexcept {
+void limited_backward_reaching(Problem& problem, Watch watch) noexcept {
     LimitedPose& pose = problem.scratch.limited.trial;
     const std::optional<glm::quat> asked = asked_orientation(problem);
     place(problem, Phase::BackwardReaching, 0, no_joint, pose.joints[0], pose.joints[0], problem.root(),
@@ -125,8 +125,8 @@ void solve_closed_form(Problem& problem, Watch watch) noexcept {
 
 template <class Watch>
 void limited_reaching(Problem& problem, Watch watch) noexcept {
-    forward_reaching(problem, watch);
-    backward_reaching(problem, watch);
+    limited_forward_reaching(problem, watch);
+    limited_backward_reaching(problem, watch);
 }
 
 template <class Watch>

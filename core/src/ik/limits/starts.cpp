@@ -59,16 +59,16 @@ float random_unit(std::uint64_t& state) noexcept {
     return static_cast<float>(z >> 40) * (1.0f / 16777216.0f);
 }
 
-float between(float a, float b, float part) noexcept {
+float interpolated(float a, float b, float part) noexcept {
     return a + (b - a) * part;
 }
 
 JointAngles sampled_angles(const LimitedJoint& joint, std::uint64_t& state) noexcept {
     const float a = random_unit(state), b = random_unit(state), c = random_unit(state);
-    if (joint.hinge()) return {between(joint.min, joint.max, a), 0.0f, 0.0f};
-    if (joint.free()) return {between(-2.0f, 2.0f, a), between(-2.0f, 2.0f, b), between(-2.0f, 2.0f, c)};
-    return within(joint, {between(-joint.down, joint.up, a), between(-joint.right, joint.left, b),
-                          between(joint.twist_min, joint.twist_max, c)});
+    if (joint.hinge()) return {interpolated(joint.min, joint.max, a), 0.0f, 0.0f};
+    if (joint.free()) return {interpolated(-2.0f, 2.0f, a), interpolated(-2.0f, 2.0f, b), interpolated(-2.0f, 2.0f, c)};
+    return within(joint, {interpolated(-joint.down, joint.up, a), interpolated(-joint.right, joint.left, b),
+                          interpolated(joint.twist_min, joint.twist_max, c)});
 }
 
 }  // namespace

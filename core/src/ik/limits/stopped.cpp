@@ -23,7 +23,7 @@ bool all_free(const Problem& problem) noexcept {
 /// Down the error within the limits, until it stalls.
 float descend_to_stall(Problem& problem, float there) noexcept {
     LimitedDescent descent(problem, std::numeric_limits<float>::infinity());
-    descent.continue_from(first_damping, false);
+    descent.continue_from(tune::limits::first_damping, false);
     for (int step = 0; step < blame_steps && !descent.stalled() && descent.error() > there; ++step) {
         descent.iterate(problem, Unwatched());
     }

@@ -44,7 +44,7 @@ struct Family {
     float now = 0.0f;           ///< at t = 1
 };
 
-struct Fit {
+struct FamilyFit {
     float t = 1.0f;
     glm::vec3 span{0.0f};
     float size = 0.0f;       ///< of the span
@@ -78,10 +78,10 @@ glm::vec3 shape(Problem& problem, const Family& family, float t) noexcept {
 }
 
 /// The best of a few tries at the t^2 where the span is as wanted: regula falsi.
-Fit fit(Problem& problem, const Family& family, float near) noexcept {
+FamilyFit fit_family(Problem& problem, const Family& family, float near) noexcept {
     float low = 0.0f, at_low = family.straight - family.wanted;
     float high = 1.0f, at_high = family.now - family.wanted;
-    Fit best;
+    FamilyFit best;
     best.found = (at_low < 0.0f) != (at_high < 0.0f);
     float next = at_low / (at_low - at_high);
     for (int i = 0; i < tries; ++i) {
@@ -188,10 +188,10 @@ void accelerate(Problem& problem, float residual, Watch watch) noexcept {
     const float near = std::max(0.25f * problem.tolerance, 1e-6f * reach);
     const glm::vec3 span = minus(problem.joints.back(), problem.root());
     Family family = blend_of(span, minus(problem.target, problem.root()), reach, problem.bones());
-    Fit best = fit(problem, family, near);
+    FamilyFit best = fit_family(problem, family, near);
     if (!best.found || best.error > 0.5f * residual) {
         const Family other = family_around_longest(problem, span, family);
-        const Fit with_other = fit(problem, other, near);
+        const FamilyFit with_other = fit_family(problem, other, near);
         best.is_shaped = false;
         if (with_other.error < best.error) family = other, best = with_other;
     }

@@ -210,7 +210,7 @@ double pole_allowance(const Problem& problem) noexcept {
     const double reach = static_cast<double>(problem.scratch.reach);
     const double twisted = std::abs(static_cast<double>(problem.options.twist - last.twist)) * reach;
     const double all = changed + twisted;
-    return all <= jump * reach ? free_part * reach + follow * all : unlimited;
+    return all <= jump * reach ? free_part * reach + tune::pole::follow * all : unlimited;
 }
 
 void remember_pose(Problem& problem) noexcept {

@@ -10,7 +10,7 @@
 namespace tendril::ik::detail {
 namespace {
 
-JointAngles between(const JointAngles& a, const JointAngles& b, float part) noexcept {
+JointAngles blended_angles(const JointAngles& a, const JointAngles& b, float part) noexcept {
     return {a.up + part * (b.up - a.up), a.left + part * (b.left - a.left),
             a.twist + part * (b.twist - a.twist)};
 }
@@ -19,7 +19,7 @@ JointAngles between(const JointAngles& a, const JointAngles& b, float part) noex
 glm::quat blended_rotation(const LimitedJoint& joint, const glm::quat& from, const glm::quat& to,
                            float part) noexcept {
     if (joint.free()) return math::slerp(from, to, part);
-    return rotation_of(joint, within(joint, between(angles_of(joint, from), angles_of(joint, to), part)));
+    return rotation_of(joint, within(joint, blended_angles(angles_of(joint, from), angles_of(joint, to), part)));
 }
 
 /// Within limits, into scratch.trial.

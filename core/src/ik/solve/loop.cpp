@@ -55,10 +55,6 @@ void restore(Problem& problem, Watch watch) noexcept {
     watch.next_step();
 }
 
-float residual_of(const Problem& problem) noexcept {
-    return distance(problem.joints.back(), problem.target);
-}
-
 /// `goal` is the target that was asked for; where the reach is soft the chain follows another.
 template <class Watch>
 void report_iteration(const Problem& problem, const glm::vec3& goal, float residual, Watch watch) noexcept {
@@ -71,10 +67,10 @@ void report_iteration(const Problem& problem, const glm::vec3& goal, float resid
 }
 
 template <class Watch>
-void prepare(Method method, Problem& problem, Watch watch) noexcept {
+void prepare_iterations(Method method, Problem& problem, Watch watch) noexcept {
     save(problem);
     snap_back(problem, problem.options.snap_back, watch);
-    if (residual_of(problem) <= problem.tolerance) return;
+    if (problem.residual() <= problem.tolerance) return;
     bool bent = bend_to_pole(problem, watch);
     if (!bent && method != Method::FabrikPlain && is_collinear(problem)) {
         bend_collinear_chain(problem, watch);
@@ -87,26 +83,26 @@ template <class Watch>
 Report iterations(Method method, Problem& problem, const glm::vec3& goal, Watch watch) noexcept {
     const Options& options = problem.options;
     const float reach = problem.scratch.reach;
-    Convergence convergence({.window = stall_window, .moves = stall_moves * reach}, residual_of(problem),
+    Convergence convergence({.window = tune::chain::stall_window, .moves = stall_moves * reach}, problem.residual(),
                             reach);
-    prepare(method, problem, watch);
-    float residual = residual_of(problem);
+    prepare_iterations(method, problem, watch);
+    float residual = problem.residual();
     convergence.restart(residual);
     report_iteration(problem, goal, residual, watch);
-    int slow = 0, perturbations = method == Method::FabrikPlain ? max_perturbations : 0;
+    int slow = 0, perturbations = method == Method::FabrikPlain ? tune::chain::max_perturbations : 0;
     while (problem.iteration < options.max_iterations) {
         const bool there = residual <= problem.tolerance;
         const bool waits = convergence.stalled() || (method == Method::Fabrik && slow >= slow_window);
-        if (!there && waits && perturbations < max_perturbations) {
+        if (!there && waits && perturbations < tune::chain::max_perturbations) {
             ++problem.perturbations;
             perturb(problem, perturbations++, watch);
-            convergence.restart(residual_of(problem));
+            convergence.restart(problem.residual());
             slow = 0;
         }
         if ((there || convergence.stalled()) && !options.every_iteration) break;
         ++problem.iteration;
         iterate(method, problem, watch);
-        residual = residual_of(problem);
+        residual = problem.residual();
         report_iteration(problem, goal, residual, watch);
         slow = residual > slow_part * convergence.last() ? slow + 1 : 0;
         const bool goes_on = residual > problem.tolerance || options.every_iteration;
@@ -124,7 +120,7 @@ Report iterations(Method method, Problem& problem, const glm::vec3& goal, Watch 
 
 template <class Watch>
 Report closed_form(Problem& problem, const glm::vec3& goal, Watch watch) noexcept {
-    report_iteration(problem, goal, residual_of(problem), watch);
+    report_iteration(problem, goal, problem.residual(), watch);
     problem.iteration = 1;
     const Report report = two_bone_solve(problem, watch);
     report_iteration(problem, goal, report.residual, watch);

@@ -10,10 +10,6 @@
 namespace tendril::ik::detail {
 namespace {
 
-double largest_coordinate(const glm::vec3& p) noexcept {
-    return static_cast<double>(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}));
-}
-
 /// As exactly as a Chain keeps it: to the invariant of chain.hpp, further out to the spacing of floats.
 bool is_at_length(const glm::vec3& from, const glm::vec3& to, float length) noexcept {
     const double x = static_cast<double>(to.x) - static_cast<double>(from.x);
@@ -23,7 +19,7 @@ bool is_at_length(const glm::vec3& from, const glm::vec3& to, float length) noex
     const double error = std::abs(std::sqrt(x * x + y * y + z * z) - wanted);
     const double allowed = 1e-4 * std::max(1.0, wanted);
     if (error <= allowed) return true;
-    const double furthest = std::max(largest_coordinate(from), largest_coordinate(to));
+    const double furthest = std::max<double>(largest_coordinate(from), largest_coordinate(to));
     constexpr auto spacing = static_cast<double>(std::numeric_limits<float>::epsilon());
     return furthest > 1e3 && error <= allowed + furthest * spacing;
 }

@@ -13,6 +13,7 @@
 
 #include "ik/limits/workspace.hpp"
 #include "ik/pole/workspace.hpp"
+#include "math/point.hpp"
 #include "tendril/ik/observer.hpp"
 #include "tendril/ik/report.hpp"
 #include "tendril/ik/state.hpp"
@@ -76,8 +77,9 @@ struct Problem {
         return std::span<const float>(scratch.lengths).first(bones());
     }
     glm::vec3 root() const noexcept { return joints.front(); }
-    Report report(Status status, float residual) const noexcept {
-        return {status, iteration, residual, closed_form, perturbations, least_squares_steps, restarts};
+    float residual() const noexcept { return math::distance(joints.back(), target); }
+    Report report(Status status, float left) const noexcept {
+        return {status, iteration, left, closed_form, perturbations, least_squares_steps, restarts};
     }
 };
 

@@ -49,10 +49,10 @@ class Iteration {
                     damping_ * scratch_.lightest / static_cast<double>(scratch_.used));
         const Fit tried = fit(scratch_, scratch_.trial);
         if (tried.cost < before) {
-            damping_ = std::max(damping_falls * damping_, min_damping);
+            damping_ = std::max(tune::tree::damping_falls * damping_, tune::tree::min_damping);
             return take(scratch_.trial, tried);
         }
-        damping_ = std::min(damping_grows * damping_, max_damping);
+        damping_ = std::min(tune::tree::damping_grows * damping_, tune::tree::max_damping);
         if (nearer) take(scratch_.next, reached);
     }
 
@@ -60,7 +60,7 @@ class Iteration {
         save_best();
         perturb_all(scratch_);
         now_ = fit(scratch_, scratch_.at);
-        damping_ = first_damping;
+        damping_ = tune::tree::first_damping;
     }
 
     /// What would end worse than it once was goes back there.
@@ -89,7 +89,7 @@ class Iteration {
     bool plain_;
     Fit now_, best_;
     bool saved_ = false;  ///< scratch.best holds something
-    double damping_ = first_damping;
+    double damping_ = tune::tree::first_damping;
 };
 
 }  // namespace
@@ -108,13 +108,13 @@ TreeRun iterate(TreeScratch& scratch, std::span<const Effector> effectors, const
     TreeRun run;
     Iteration iteration(scratch, options, tolerance);
     // The effectors may come nearer taken together, or the one that is furthest off.
-    const StallRule rule{.window = stall_window,
+    const StallRule rule{.window = tune::tree::stall_window,
                          .absolute = static_cast<float>(std::max(0.01 * tolerance, 1e-6 * scratch.reach))};
     const auto cost = [&] { return static_cast<float>(std::sqrt(iteration.now().cost)); };
     const auto worst = [&] { return static_cast<float>(iteration.now().worst); };
     const auto reach = static_cast<float>(scratch.reach);
     Convergence together(rule, cost(), reach), furthest(rule, worst(), reach);
-    int perturbations = options.plain ? max_perturbations : 0;
+    int perturbations = options.plain ? tune::tree::max_perturbations : 0;
     while (run.iterations < options.max_iterations) {
         if (!options.every_iteration && iteration.now().worst <= tolerance) break;
         iteration.step(++run.iterations);
@@ -126,7 +126,7 @@ TreeRun iterate(TreeScratch& scratch, std::span<const Effector> effectors, const
         furthest.record(worst());
         if (options.every_iteration || !together.stalled() || !furthest.stalled()) continue;
         if (iteration.now().worst <= tolerance) break;
-        if ((run.stalled = perturbations++ == max_perturbations)) break;
+        if ((run.stalled = perturbations++ == tune::tree::max_perturbations)) break;
         iteration.perturb();
         together.restart(cost());
         furthest.restart(worst());

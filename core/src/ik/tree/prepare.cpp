@@ -12,15 +12,11 @@ namespace {
 
 using namespace tune::tree;
 
-double largest_coordinate(const glm::vec3& p) noexcept {
-    return static_cast<double>(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}));
-}
-
 /// Whether the bone is at its length but for rounding, so that it can be left as it is. The same as a chain
 /// allows, but for bones under a metre, which are held to their own scale.
 bool holds(const glm::vec3& from, const glm::vec3& to, float length) noexcept {
     const double wanted = static_cast<double>(length);
-    const double furthest = std::max(largest_coordinate(from), largest_coordinate(to));
+    const double furthest = std::max<double>(largest_coordinate(from), largest_coordinate(to));
     double allowed = 1e-4 * wanted + furthest * static_cast<double>(FLT_EPSILON);
     if (furthest <= 1e3) allowed = std::min(allowed, 1e-4 * std::max(1.0, wanted));
     return std::abs(gap(from, to) - wanted) <= allowed;

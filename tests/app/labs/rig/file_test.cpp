@@ -147,8 +147,8 @@ TEST_F(RigFile, InputsAreReadAsTheyAreMeant) {
     const auto& units = part().rig.definition().units;
     const auto operation = [&]<class T>(std::size_t at) { return std::get<T>(units[at].operation); };
     const auto aim = operation.operator()<Aim>(0);
-    EXPECT_EQ(aim.primary.target, Input<glm::dvec3>(FromElement{"position"}));
-    EXPECT_EQ(aim.primary.weight, Input<double>(FromElement{.element = "float", .of = Of::ControlValue}));
+    EXPECT_EQ(aim.primary.target, rig::Input<glm::dvec3>(FromElement{"position"}));
+    EXPECT_EQ(aim.primary.weight, rig::Input<double>(FromElement{.element = "float", .of = Of::ControlValue}));
     EXPECT_EQ(aim.secondary->kind, AimTarget::Direction);
     const auto constraint = operation.operator()<ParentConstraint>(2);
     EXPECT_EQ(constraint.filter.translation, (std::array<bool, 3>{true, false, true}));
@@ -158,21 +158,21 @@ TEST_F(RigFile, InputsAreReadAsTheyAreMeant) {
     EXPECT_EQ(offset->rotation, glm::dquat(0.8, 0, 0, 0.6)) << "[x, y, z, w]";
     EXPECT_EQ(offset->scale, glm::dvec3(1)) << "left out";
     EXPECT_EQ(operation.operator()<SetTransform>(4).transform,
-              Input<Transform>(FromElement{.element = "transform", .of = Of::Transform}));
+              rig::Input<Transform>(FromElement{.element = "transform", .of = Of::Transform}));
     EXPECT_EQ(operation.operator()<SetRotation>(5).rotation,
-              Input<glm::dquat>(FromElement{.element = "rotation", .of = Of::Rotation}));
+              rig::Input<glm::dquat>(FromElement{.element = "rotation", .of = Of::Rotation}));
     EXPECT_EQ(units[7].name, "arc");
     const auto location = operation.operator()<TransformLocation>(8);
-    EXPECT_EQ(location.transform, Input<Transform>(FromUnit{"aim_math"}));
+    EXPECT_EQ(location.transform, rig::Input<Transform>(FromUnit{"aim_math"}));
     EXPECT_EQ(location.location,
-              Input<glm::dvec3>(FromElement{
+              rig::Input<glm::dvec3>(FromElement{
                   .element = "tip", .of = Of::Scale, .space = Space::Local, .pose = Pose::Initial}));
-    EXPECT_EQ(units[9].when, Input<bool>(FromElement{.element = "bool", .of = Of::ControlValue}));
+    EXPECT_EQ(units[9].when, rig::Input<bool>(FromElement{.element = "bool", .of = Of::ControlValue}));
     const auto& body = std::get<ForEach>(units[10].operation).body.units();
-    EXPECT_EQ(body[0].weight, Input<double>(Each::Ratio));
+    EXPECT_EQ(body[0].weight, rig::Input<double>(Each::Ratio));
     EXPECT_EQ(std::get<SetRotation>(body[0].operation).item, Item(ThisElement()));
     EXPECT_EQ(std::get<EvaluateCurve>(body[1].operation).value,
-              Input<double>(FromElement{.element = ThisElement(), .of = Of::X, .space = Space::Local}));
+              rig::Input<double>(FromElement{.element = ThisElement(), .of = Of::X, .space = Space::Local}));
     EXPECT_EQ(operation.operator()<EvaluateCurve>(15).curve.keys[0].piece, signal::Piece::Cubic);
     EXPECT_FALSE(units[18].enabled);
 }
