@@ -282,13 +282,14 @@ void App::update_window() {
     if (title != title_) window_.set_title(title_ = title);
 }
 
-void App::draw() {
+void App::draw(bool dither) {
     const glm::ivec2 pixels = window_.framebuffer_size();
     renderer_.draw(
         panes_, workspace_.camera, palette(workspace_.settings.theme),
         {.framebuffer = window_.framebuffer(),
          .framebuffer_size = pixels,
-         .pixel_ratio = static_cast<float>(pixels.x) / static_cast<float>(std::max(1, window_.size().x))});
+         .pixel_ratio = static_cast<float>(pixels.x) / static_cast<float>(std::max(1, window_.size().x)),
+         .dither = dither});
     ui_.draw();
 }
 
@@ -297,7 +298,7 @@ Image App::screenshot() {
     const bool measured = std::exchange(workspace_.clock.measured, false);
     for (int i = 0; i < settling_ticks; ++i) compose(nullptr, Pass::Picture);
     workspace_.clock.measured = measured;
-    draw();
+    draw(false);
     return read_framebuffer(window_.framebuffer(), window_.framebuffer_size());
 }
 
@@ -350,6 +351,8 @@ Json App::state() {
     for (const NamedGrip& grip : gizmo_grips(first.drawn, lab(), workspace_, camera, layout_.scale))
         handles.push_back({{"name", grip.name}, {"pixel", pixel(grip.pixel)}});
     state["handles"] = std::move(handles);
+    for (const auto& [name, rect] : {std::pair{"view", layout_.view}, {"canvas", layout_.canvas}, {"strip", layout_.timeline}})
+        state["layout"][name] = {{"min", pixel(rect.min)}, {"max", pixel(rect.max)}};
     if (panes_.size() > 1) state["panes"] = panes_state();
     if (shown_card() != nullptr) state["card"] = card_state();
     return state;

@@ -56,8 +56,8 @@ class App final : public Stage {
     Json state() override;
 
     /// Draws the last tick's picture into the window's framebuffer.
-    void draw();
-    /// The picture as it is when everything has come to rest.
+    void draw(bool dither = true);
+    /// The picture as it is when everything has come to rest, without dither, which a file would have to hold.
     Image screenshot();
     /// Whether the next tick may look different from this one without any event.
     bool restless() const;

@@ -126,10 +126,13 @@ int run_session(const SessionOptions& options) {
     }
 }
 
-const std::atomic<bool>& end_session_on_signals() {
+void end_session_on_signals() {
     const auto end = [](int) { ending = true; };
     std::signal(SIGINT, end);
     std::signal(SIGTERM, end);
+}
+
+const std::atomic<bool>& session_ending() {
     return ending;
 }
 

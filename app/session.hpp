@@ -28,8 +28,9 @@ struct SessionOptions {
 /// not be read, written, known or opened. What is wrong goes to stderr, in one line.
 int run_session(const SessionOptions& options);
 
-/// Lets SIGINT and SIGTERM end the session as Ctrl+Q does: cleanly, and with everything written. What it
-/// gives back becomes true then, for those who run something else than a session.
-const std::atomic<bool>& end_session_on_signals();
+/// Lets SIGINT and SIGTERM end the session as Ctrl+Q does: cleanly, and with everything written.
+void end_session_on_signals();
+/// True from then on, for those who run something else than a session.
+const std::atomic<bool>& session_ending();
 
 }  // namespace tendril::app

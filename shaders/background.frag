@@ -5,11 +5,12 @@
 uniform vec3 top;
 uniform vec3 bottom;
 uniform float height;
+uniform float dither;  // 1, or 0 for pictures that are to be small as files
 
 out vec4 colour;
 
 void main() {
     float up = gl_FragCoord.y / height;
     float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
-    colour = vec4(mix(bottom, top, up * up * (3.0 - 2.0 * up)) + (noise - 0.5) / 255.0, 1.0);
+    colour = vec4(mix(bottom, top, up * up * (3.0 - 2.0 * up)) + dither * (noise - 0.5) / 255.0, 1.0);
 }

@@ -24,6 +24,7 @@ struct Frame {
     glm::ivec2 framebuffer_size{0};  ///< pixels
     float pixel_ratio = 1.0f;        ///< framebuffer pixels to a window coordinate
     bool grid = true;
+    bool dither = true;  ///< hides the bands of the background; without it pictures are a third of the size as PNG
 };
 
 class Renderer {

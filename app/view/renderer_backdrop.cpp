@@ -22,7 +22,7 @@ Backdrop::~Backdrop() {
 int Backdrop::draw_directly(const Key& key, const Palette& palette, const Frame& frame) const {
     glDisable(GL_SCISSOR_TEST);
     glViewport(0, 0, frame.framebuffer_size.x, frame.framebuffer_size.y);
-    int calls = background_.draw(palette, frame.framebuffer_size);
+    int calls = background_.draw(palette, frame);
     if (!frame.grid) return calls;
     glEnable(GL_SCISSOR_TEST);
     for (const Rect& each : key.viewports) {
@@ -54,7 +54,8 @@ int Backdrop::draw(const CameraPose& pose, std::span<const Rect> viewports, cons
                    palette.axis_y, palette.axis_z},
                   frame.framebuffer_size,
                   frame.pixel_ratio,
-                  frame.grid};
+                  frame.grid,
+                  frame.dither};
     const bool still = last_ == key;
     last_ = key;
     if (!still) {

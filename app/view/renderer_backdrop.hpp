@@ -44,7 +44,7 @@ class Backdrop {
         std::array<glm::vec3, 6> colours;
         glm::ivec2 size;
         float pixel_ratio;
-        bool grid;
+        bool grid, dither;
         bool operator==(const Key&) const = default;
     };
     int draw_directly(const Key& key, const Palette& palette, const Frame& frame) const;

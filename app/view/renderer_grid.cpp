@@ -38,13 +38,14 @@ glm::vec3 line_strengths(float faded, float all) {
 
 }  // namespace
 
-int BackgroundPass::draw(const Palette& palette, glm::ivec2 framebuffer_size) const {
+int BackgroundPass::draw(const Palette& palette, const Frame& frame) const {
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);
     program_.use();
     program_.set("top", palette.background_top);
     program_.set("bottom", palette.background_bottom);
-    program_.set("height", static_cast<float>(framebuffer_size.y));
+    program_.set("height", static_cast<float>(frame.framebuffer_size.y));
+    program_.set("dither", frame.dither ? 1.0f : 0.0f);
     whole_.draw(0, 1);
     return 1;
 }

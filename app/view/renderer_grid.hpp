@@ -9,7 +9,7 @@ namespace tendril::app {
 class BackgroundPass {
   public:
     /// Covers the whole framebuffer. Like all passes, returns the number of draw calls.
-    int draw(const Palette& palette, glm::ivec2 framebuffer_size) const;
+    int draw(const Palette& palette, const Frame& frame) const;
 
   private:
     Program program_{"background.vert", "background.frag"};

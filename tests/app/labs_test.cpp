@@ -11,6 +11,7 @@
 #include "app/document/command.hpp"
 #include "app/labs/labs.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::test {
 namespace {
@@ -67,7 +68,7 @@ bool may_name(const std::string& path, const std::string& lab) {
 
 TEST(LabsAreFolders, NothingOutsideALabNamesIt) {
     const std::vector<LabNames> labs = names_of_labs();
-    const fs::path top = TENDRIL_SOURCE_DIR;
+    const fs::path top = source_path("");
     int looked_at = 0, in_own_folder = 0;
     for (const auto& entry : fs::recursive_directory_iterator(top / "app")) {
         if (entry.path().extension() != ".cpp" && entry.path().extension() != ".hpp") continue;
@@ -86,7 +87,7 @@ TEST(LabsAreFolders, NothingOutsideALabNamesIt) {
 }
 
 TEST(LabsAreFolders, TheTableIsOneLineALab) {
-    const fs::path top = TENDRIL_SOURCE_DIR;
+    const fs::path top = source_path("");
     const std::string table = read(top / "app/labs/labs.cpp");
     const app::Labs labs;
     for (const auto& lab : labs.all()) {

@@ -1,21 +1,16 @@
 // Numeric cases of an independent implementation in double precision. Skipped where they are not at hand; the
 // other files here hold without them.
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "chain_support.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::test {
 namespace {
 
 using Json = nlohmann::json;
-
-std::filesystem::path reference_file(const char* name) {
-    const char* folder = std::getenv("TENDRIL_REFERENCE_DIR");
-    return std::filesystem::path(folder ? folder : TENDRIL_REFERENCE_DIR) / name;
-}
 
 glm::vec3 point(const Json& json) {
     return {json.at(0).get<float>(), json.at(1).get<float>(), json.at(2).get<float>()};
@@ -42,7 +37,7 @@ Result apply(Chain& chain, const Json& op) {
 }
 
 TEST(ChainReference, AgreesWithAnIndependentImplementation) {
-    const std::filesystem::path path = reference_file("chain.json");
+    const std::filesystem::path path = reference_path("chain.json");
     std::ifstream file(path);
     if (!file) GTEST_SKIP() << path << " is not there";
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ik_hostile.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::test::ik_jacobian_test {
 namespace {
@@ -185,8 +186,7 @@ TEST(IkJacobian, AllJointsTurnAtOnce) {
 }
 
 TEST(IkJacobian, TheDampedOnesReachEverythingInTheReference) {
-    const char* folder = std::getenv("TENDRIL_REFERENCE_DIR");
-    const auto path = std::filesystem::path(folder ? folder : TENDRIL_REFERENCE_DIR) / "solve.json";
+    const auto path = reference_path("solve.json");
     std::ifstream file(path);
     if (!file) GTEST_SKIP() << path << " is not there";
     const Json cases = Json::parse(file);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ik_support.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::test::ik_reference_test {
 namespace {
@@ -114,8 +115,7 @@ TEST(IkReference, OwnCases) {
 }
 
 TEST(IkReference, CasesOfAnIndependentSource) {
-    const char* folder = std::getenv("TENDRIL_REFERENCE_DIR");
-    const auto path = std::filesystem::path(folder ? folder : TENDRIL_REFERENCE_DIR) / "solve.json";
+    const auto path = reference_path("solve.json");
     std::ifstream file(path);
     if (!file) GTEST_SKIP() << path << " is not there";
     const std::vector<Case> cases = read_cases(file);

@@ -1,19 +1,18 @@
 // Numeric cases of an independent implementation in double precision. Skipped where they are not at hand; the
 // other files here hold without them.
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include "rig_script.hpp"
 #include "tendril/rig/aim.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::test {
 namespace {
 
 /// The cases of a file; none where it is not at hand.
 Json cases_of(const char* name) {
-    const char* folder = std::getenv("TENDRIL_REFERENCE_DIR");
-    std::ifstream file(std::filesystem::path(folder ? folder : TENDRIL_REFERENCE_DIR) / name);
+    std::ifstream file(reference_path(name));
     return file ? Json::parse(file) : Json::array();
 }
 

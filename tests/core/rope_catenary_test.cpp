@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "rope_support.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::test {
 namespace {
@@ -57,8 +58,7 @@ TEST(RopeCatenary, OfTheSpec) {
 }
 
 TEST(RopeCatenary, OfAnIndependentSource) {
-    const char* folder = std::getenv("TENDRIL_REFERENCE_DIR");
-    const auto path = std::filesystem::path(folder ? folder : TENDRIL_REFERENCE_DIR) / "rope.json";
+    const auto path = reference_path("rope.json");
     std::ifstream file(path);
     if (!file) GTEST_SKIP() << path << " is not there";
     std::vector<Hung> cases;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "signal_support.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::test {
 namespace {
@@ -16,8 +17,7 @@ using signal::Filter;
 using signal::FilterState;
 
 Json reference(const char* name) {
-    const char* folder = std::getenv("TENDRIL_REFERENCE_DIR");
-    std::ifstream file(std::filesystem::path(folder ? folder : TENDRIL_REFERENCE_DIR) / name);
+    std::ifstream file(reference_path(name));
     return file ? Json::parse(file) : Json();
 }
 

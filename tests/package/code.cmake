@@ -35,6 +35,7 @@ foreach(name IN LISTS names)
     run(${program} code ${folder}/${name}.json)
     file(WRITE ${folder}/${name}.cpp "${output}")
 endforeach()
+set(build_type None)  # only the library has to be optimised
 build_project(${folder} ${work}/code -D CMAKE_PREFIX_PATH=${prefix})
 
 set(told "")

@@ -11,7 +11,11 @@
 
 // Adds nothing for floats and doubles, and some versions do not compile with it as the baseline
 // (-march=native).
+#ifdef TENDRIL_FEW_VECTOR_UNITS  // one wide and one narrow, for builds in which each takes minutes
+#define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_AVX3 | HWY_SSE4 | HWY_SSSE3)
+#else
 #define HWY_DISABLED_TARGETS HWY_AVX3_DL
+#endif
 #include <hwy/targets.h>
 
 namespace tendril::detail {

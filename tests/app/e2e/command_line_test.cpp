@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "tests/app/support/play.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::test {
 namespace {
@@ -61,7 +62,7 @@ TEST_F(CommandLine, lists_the_chain_commands_with_exactly_these_arguments) {
 
 // The README's tables and the program's shortcuts are the same text.
 TEST_F(CommandLine, the_readme_has_the_shortcuts) {
-    const fs::path readme = fs::path(TENDRIL_SOURCE_DIR) / "README.md";
+    const fs::path readme = source_path("README.md");
     ASSERT_TRUE(fs::exists(readme));
     const std::string text = read(readme), begin = "<!-- shortcuts -->\n", end = "<!-- /shortcuts -->";
     const auto from = text.find(begin), to = text.find(end);

@@ -2,6 +2,7 @@
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/live_loop.hpp"
 #include "tests/app/support/play.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::test {
 namespace {
@@ -138,7 +139,7 @@ TEST(PastViews, GhostsAreOfWhatHasTheJointsThatThereAreNow) {
          {ScriptText().command("rig.element.add", {{"name", "more"}, {"kind", "bone"}}), true},
          {ScriptText().command("rig.select", {{"element", "right 3"}}), false}},
         {{ScriptText().command("humanoid.load",
-                               {{"path", TENDRIL_SOURCE_DIR "/tests/app/golden/antennae.bvh"}}),
+                               {{"path", source_path("tests/app/golden/antennae.bvh")}}),
           true},
          {ScriptText().command("humanoid.clip", {{"name", "punch"}, {"play", true}}), false}}};
     const auto labs = plotted_labs();

@@ -2,6 +2,8 @@
 // it.
 #include <sstream>
 
+#include "tests/places.hpp"
+
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {
@@ -78,7 +80,7 @@ TEST(OnceWrong, a_target_that_moves_to_the_end_of_the_world_ends_nothing) {
 
 TEST(OnceWrong, the_script_in_the_readme_runs) {
     const TempFolder folder;
-    std::istringstream readme(read(std::filesystem::path(TENDRIL_SOURCE_DIR) / "README.md"));
+    std::istringstream readme(read(source_path("README.md")));
     std::string script;
     for (std::string line; std::getline(readme, line);) {
         if (line.starts_with("    {\"") && line.find("screenshot") == std::string::npos)

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "tests/app/support/program.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::test {
 namespace {
@@ -14,7 +15,7 @@ namespace fs = std::filesystem;
 class RunScript : public testing::Test {
   protected:
     RunScript() {
-        const fs::path source(TENDRIL_SOURCE_DIR);
+        const fs::path source(source_path(""));
         for (const char* file : {"app/run", "third_party/install", "third_party/progress"}) {
             fs::create_directories((folder_ / file).parent_path());
             fs::copy_file(source / file, folder_ / file);

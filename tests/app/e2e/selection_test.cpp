@@ -1,6 +1,8 @@
 // Selecting with the mouse: Shift, a box, and what the gizmo moves then.
 #include <glm/geometric.hpp>
 
+#include "tests/places.hpp"
+
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {
@@ -179,7 +181,7 @@ TEST(SelectByMouse, ABoxSelectsTheNodesOfTheFigureThatAreSeen) {
 
 TEST(SelectByMouse, ABoxLeavesOutHelperNodesThatAreHidden) {
     ScriptText script = figure();
-    script.command("humanoid.load", {{"path", TENDRIL_SOURCE_DIR "/tests/app/golden/antennae.bvh"}}).wait(2);
+    script.command("humanoid.load", {{"path", source_path("tests/app/golden/antennae.bvh")}}).wait(2);
     const glm::vec2 tip = handle(state_after(script), "node.antenna_l_5"), margin(25.0f, 25.0f);
     ScriptText hidden = script;
     hidden.command("view.character_helpers", {{"nodes", "hidden"}}).wait(2);

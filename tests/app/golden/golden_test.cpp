@@ -1,7 +1,8 @@
 // The pictures that the program draws, held against the golden ones; with both backends that need no display.
 #include "tests/app/golden/golden.hpp"
 
-#include "tests/app/golden/compare.hpp"
+#include <map>
+
 #include "tests/app/support/program.hpp"
 
 namespace tendril::test {
@@ -11,20 +12,33 @@ namespace fs = std::filesystem;
 
 /// Why a backend is not there; empty where it is.
 std::string missing(const std::string& backend) {
-    const Outcome outcome = run_program({"--headless", "--backend", backend, "--frames", "0"});
-    return outcome.exit_code == 0 ? std::string() : outcome.err;
+    static std::map<std::string, std::string> known;
+    const auto [found, is_new] = known.try_emplace(backend);
+    if (is_new) {
+        const Outcome outcome = run_here({"--headless", "--backend", backend, "--frames", "0"});
+        found->second = outcome.exit_code == 0 ? "" : outcome.err;
+    }
+    return found->second;
 }
 
-app::Image draw(const fs::path& script, const std::string& backend) {
+struct Drawn {
+    app::Image picture;
+    std::string panels;
+};
+
+Drawn draw(const fs::path& script, const std::string& backend) {
+    const FrameRecorder recorder;
     const TempFolder folder;
-    const fs::path picture = folder / "picture.png";
+    const fs::path picture = folder / "picture.png", state = folder / "state.json";
     // Beside the script lie the files that it names.
-    const Outcome outcome = run_program(
-        {"--headless", "--backend", backend, "--script", script.string(), "--screenshot", picture.string()},
-        {}, script.parent_path());
+    const Outcome outcome = run_here({"--headless", "--backend", backend, "--script", script.string(),
+                                      "--screenshot", picture.string(), "--state", state.string()},
+                                     script.parent_path());
     // What a script expects to be refused is told all the same.
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    return outcome.exit_code == 0 ? app::read_png(picture) : app::Image{};
+    if (outcome.exit_code != 0) return {};
+    return {golden_part(script.stem().string(), app::read_png(picture), app::parse_json(read(state))),
+            panel_texts(recorder.frame())};
 }
 
 class Golden : public testing::TestWithParam<fs::path> {
@@ -35,19 +49,22 @@ class Golden : public testing::TestWithParam<fs::path> {
 
 TEST_P(Golden, osmesa_draws) {
     if (const std::string why = missing("osmesa"); !why.empty()) GTEST_SKIP() << why;
-    const app::Image actual = draw(GetParam(), "osmesa");
-    ASSERT_FALSE(actual.rgba.empty()) << GetParam() << " did not lead where it should";
+    const Drawn actual = draw(GetParam(), "osmesa");
+    ASSERT_FALSE(actual.picture.rgba.empty()) << GetParam() << " did not lead where it should";
+    const fs::path texts = fs::path(GetParam()).replace_extension(".txt");
     const Renewal renewal = wanted_renewal();
     const bool keep = renewal == Renewal::Failing && fs::exists(picture()) &&
-                      compare(app::read_png(picture()), actual).same;
-    if (renewal != Renewal::None && !keep) renew_golden(picture(), actual);
-    EXPECT_TRUE(looks_like(actual, picture(), name() + ".osmesa"));
+                      compare_with_golden(app::read_png(picture()), actual.picture).same;
+    if (renewal != Renewal::None && !keep) renew_golden(picture(), actual.picture);
+    if (renewal != Renewal::None) write(texts, actual.panels);
+    EXPECT_TRUE(looks_like(actual.picture, picture(), name() + ".osmesa"));
+    EXPECT_EQ(read(texts), actual.panels) << "the panels' texts; tests/app/golden/renew";
 }
 
 TEST_P(Golden, egl_draws) {
     if (const std::string why = missing("egl"); !why.empty()) GTEST_SKIP() << why;
     if (wanted_renewal() != Renewal::None) GTEST_SKIP() << "OSMesa draws the golden pictures";
-    EXPECT_TRUE(looks_like(draw(GetParam(), "egl"), picture(), name() + ".egl"));
+    EXPECT_TRUE(looks_like(draw(GetParam(), "egl").picture, picture(), name() + ".egl"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Pictures, Golden, testing::ValuesIn(golden_scripts()),

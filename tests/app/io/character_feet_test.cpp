@@ -6,6 +6,7 @@
 #include "app/io/character/read.hpp"
 #include "app/io/character/stick_figure.hpp"
 #include "tests/core/humanoid_feet_support.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
@@ -62,9 +63,9 @@ TEST(CharacterFeet, TheFiguresSolesAreWhereItsMakerHasThem) {
 }
 
 TEST(CharacterFeet, ClipsThatOthersMadeStandToo) {
-    if (!fs::is_directory(TENDRIL_CHARACTERS_DIR)) GTEST_SKIP() << TENDRIL_CHARACTERS_DIR << " is not there";
+    if (!fs::is_directory(tendril::test::characters_folder())) GTEST_SKIP() << tendril::test::characters_folder() << " is not there";
     int walked = 0;
-    for (const auto& entry : fs::directory_iterator(TENDRIL_CHARACTERS_DIR)) {
+    for (const auto& entry : fs::directory_iterator(tendril::test::characters_folder())) {
         if (!entry.is_regular_file() || !ends_as_character(entry.path())) continue;
         const Character character = read_character(entry.path());
         const auto soles =

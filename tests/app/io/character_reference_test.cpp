@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <random>
 #include <tendril/humanoid/clip.hpp>
@@ -11,13 +10,14 @@
 #include "app/document/json_complete.hpp"
 #include "app/io/character/read.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path scripts = fs::path(TENDRIL_SOURCE_DIR) / "tests/app/io/reference";
+const fs::path scripts = tendril::test::source_path("tests/app/io/reference");
 
 std::string quoted(const fs::path& path) {
     return '\'' + path.string() + '\'';
@@ -114,9 +114,9 @@ TEST(CharacterReference, joints_of_random_files_are_where_another_reader_puts_th
 }
 
 TEST(CharacterReference, joints_of_files_of_others_are_within_2_mm) {
-    if (!fs::is_directory(TENDRIL_CHARACTERS_DIR)) GTEST_SKIP() << TENDRIL_CHARACTERS_DIR << " is not there";
+    if (!fs::is_directory(tendril::test::characters_folder())) GTEST_SKIP() << tendril::test::characters_folder() << " is not there";
     if (!has_python()) GTEST_SKIP() << "python3 is not there";
-    check_all(TENDRIL_CHARACTERS_DIR, 0.002);
+    check_all(tendril::test::characters_folder(), 0.002);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "app/io/character/gltf.hpp"
 #include "app/io/character/read.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
@@ -205,9 +206,9 @@ TEST(CharacterSkin, wrong_numbers_are_refused_with_their_place) {
 
 TEST(CharacterSkin, those_of_others_stay_around_their_bones) {
     namespace fs = std::filesystem;
-    if (!fs::is_directory(TENDRIL_CHARACTERS_DIR)) GTEST_SKIP() << TENDRIL_CHARACTERS_DIR << " is not there";
+    if (!fs::is_directory(tendril::test::characters_folder())) GTEST_SKIP() << tendril::test::characters_folder() << " is not there";
     int worn = 0;
-    for (const auto& entry : fs::directory_iterator(TENDRIL_CHARACTERS_DIR)) {
+    for (const auto& entry : fs::directory_iterator(tendril::test::characters_folder())) {
         if (!ends_as_character(entry.path())) continue;
         SCOPED_TRACE(entry.path().filename().string());
         const Character character = read_character(entry.path());

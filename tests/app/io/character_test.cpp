@@ -6,6 +6,7 @@
 
 #include "app/io/character/read.hpp"
 #include "app/io/character/stick_figure.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
@@ -41,9 +42,9 @@ TEST(StickFigure, walks_and_punches) {
 }
 
 TEST(CharacterFiles, those_of_others_are_read_and_their_clips_hold) {
-    if (!fs::is_directory(TENDRIL_CHARACTERS_DIR)) GTEST_SKIP() << TENDRIL_CHARACTERS_DIR << " is not there";
+    if (!fs::is_directory(tendril::test::characters_folder())) GTEST_SKIP() << tendril::test::characters_folder() << " is not there";
     int read = 0;
-    for (const auto& entry : fs::directory_iterator(TENDRIL_CHARACTERS_DIR)) {
+    for (const auto& entry : fs::directory_iterator(tendril::test::characters_folder())) {
         if (!ends_as_character(entry.path())) continue;
         SCOPED_TRACE(entry.path().filename().string());
         const Character character = read_character(entry.path());
@@ -57,7 +58,7 @@ TEST(CharacterFiles, those_of_others_are_read_and_their_clips_hold) {
 }
 
 TEST(CharacterFiles, broken_ones_are_refused_and_named) {
-    const fs::path broken = fs::path(TENDRIL_CHARACTERS_DIR) / "broken";
+    const fs::path broken = fs::path(tendril::test::characters_folder()) / "broken";
     if (!fs::is_directory(broken)) GTEST_SKIP() << broken << " is not there";
     for (const auto& entry : fs::directory_iterator(broken)) {
         const std::string name = entry.path().filename().string();

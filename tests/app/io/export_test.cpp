@@ -14,6 +14,7 @@
 #include "app/io/character/stick_figure.hpp"
 #include "tests/app/io/gltf_structure.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::app::test {
 namespace {
@@ -178,7 +179,7 @@ void expect_kept(const nlohmann::json& before, const nlohmann::json& after) {
 }
 
 TEST_F(Exports, files_of_others_keep_what_they_have_and_move_as_they_did) {
-    const fs::path folder = TENDRIL_CHARACTERS_DIR;
+    const fs::path folder = tendril::test::characters_folder();
     if (!fs::is_directory(folder)) GTEST_SKIP() << folder << " is not there";
     for (const auto& entry : fs::directory_iterator(folder)) {
         if (!ends_as_character(entry.path())) continue;

@@ -7,6 +7,7 @@
 #include <tendril/humanoid/body.hpp>
 
 #include "app/io/character/read.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
@@ -14,8 +15,8 @@ namespace {
 using namespace humanoid;
 
 std::vector<std::filesystem::path> character_files() {
-    std::vector<std::filesystem::path> files{TENDRIL_SOURCE_DIR "/tests/app/golden/body.glb"};
-    const std::filesystem::path folder = TENDRIL_CHARACTERS_DIR;
+    std::vector<std::filesystem::path> files{tendril::test::source_path("tests/app/golden/body.glb")};
+    const std::filesystem::path folder = tendril::test::characters_folder();
     if (std::filesystem::exists(folder))
         for (const auto& entry : std::filesystem::directory_iterator(folder))
             if (entry.is_regular_file() && entry.path().extension() != ".md") files.push_back(entry.path());

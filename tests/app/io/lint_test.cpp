@@ -6,6 +6,7 @@
 #include "app/io/character/read.hpp"
 #include "tests/app/io/lint_support.hpp"
 #include "tests/core/random.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::app::test {
 namespace {
@@ -264,7 +265,7 @@ TEST_F(LintTest, finds_a_figure_that_rests_on_its_side_or_is_a_giant) {
 }
 
 TEST(LintFiles, those_of_others_are_what_they_were_found_to_be) {
-    const std::filesystem::path folder = TENDRIL_CHARACTERS_DIR;
+    const std::filesystem::path folder = tendril::test::characters_folder();
     if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << folder << " is not there";
     const auto faults = [&](const char* file) {
         const Character character = read_character(folder / file);

@@ -11,6 +11,7 @@
 
 #include "app/io/character/read.hpp"
 #include "tests/core/humanoid_figure.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
@@ -187,7 +188,7 @@ TEST_F(TwistedTube, leaves_bones_with_worn_twist_nodes_to_those) {
 }
 
 TEST(TwistedCharacters, are_the_linear_ones_as_they_were_bound) {
-    const std::filesystem::path folder = TENDRIL_CHARACTERS_DIR;
+    const std::filesystem::path folder = tendril::test::characters_folder();
     if (!std::filesystem::exists(folder)) GTEST_SKIP();
     int worn = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {

@@ -4,6 +4,7 @@
 #include <regex>
 
 #include "tests/app/labs/rope_support.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
@@ -38,7 +39,7 @@ TEST_F(RopeDrag, ThrowingTheRuntimeAwayChangesNoBitOfAPausedDrag) {
 TEST_F(RopeDrag, OnlyRuntimesMakeAWorkspaceOfTheLibrarys) {
     const std::regex made(R"(rope::Workspace\s+\w+\s*[;{=(]|rope::Workspace\s*[({])");
     int found = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(TENDRIL_SOURCE_DIR) / "app")) {
+    for (const auto& entry : fs::recursive_directory_iterator(tendril::test::source_path("app"))) {
         if (!entry.is_regular_file() || !entry.path().string().ends_with("pp")) continue;
         std::ifstream in(entry.path());
         for (std::string line; std::getline(in, line);) {

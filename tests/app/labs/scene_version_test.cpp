@@ -3,12 +3,13 @@
 
 #include "tests/app/labs/chain_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
 
 /// Written by version 1: a chain with limits under the microscope, and a rope beside a box that is turned.
-const std::string version_1 = std::string(TENDRIL_SOURCE_DIR) + "/tests/app/labs/scene_version_1.json";
+const std::string version_1 = tendril::test::source_path("tests/app/labs/scene_version_1.json");
 
 /// A bone's rotation takes its rest direction, +X here, to where it points.
 void expect_rotations_of(const std::vector<glm::quat>& rotations, const std::vector<glm::vec3>& joints) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/document/json_complete.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::test {
 
@@ -166,7 +167,7 @@ std::vector<Shown> full_humanoids() {
                    {walk, call("humanoid.spring", {{"node", "HeadTop_End"}}),
                     call("humanoid.select", {{"node", "HeadTop_End"}})},
                    20});
-    const std::string golden = std::string(TENDRIL_SOURCE_DIR) + "/tests/app/golden/";
+    const std::string golden = source_path("tests/app/golden/");
     all.push_back({"a file with a skin", {call("humanoid.load", {{"path", golden + "body.glb"}})}});
     all.push_back({"a clip with faults",
                    {call("humanoid.load", {{"path", golden + "faulty_walk.bvh"}}),

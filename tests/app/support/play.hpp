@@ -1,4 +1,4 @@
-// Plays a script in the built program, off screen, and reads back what it left.
+// Plays a script off screen, in this process, and reads back what it left.
 #pragma once
 
 #include "app/io/image.hpp"
@@ -29,7 +29,7 @@ inline Played play(const ScriptText& script, const PlayOptions& options = {}) {
     arguments.insert(arguments.end(), options.more.begin(), options.more.end());
 
     Played played;
-    played.outcome = run_program(arguments);
+    played.outcome = run_here(arguments);
     EXPECT_TRUE(succeeded(played.outcome)) << script.text();
     played.state = app::parse_json(read(folder / "state.json"));
     if (options.picture) played.picture = app::read_png(folder / "picture.png");

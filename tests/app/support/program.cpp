@@ -12,6 +12,8 @@
 #include <sstream>
 #include <thread>
 
+#include "app/command_line.hpp"
+
 namespace tendril::test {
 namespace {
 
@@ -123,6 +125,29 @@ Outcome run_program(const std::vector<std::string>& arguments, const Environment
     Environment environment{{"XDG_CONFIG_HOME", config.path().string()}};
     environment.insert(environment.end(), changes.begin(), changes.end());
     return Process(program_command(arguments), environment, folder).wait();
+}
+
+Outcome run_here(const std::vector<std::string>& arguments, const std::filesystem::path& folder) {
+    const std::filesystem::path started_in = std::filesystem::current_path();
+    const TempFolder config;
+    const char* const configured = std::getenv("XDG_CONFIG_HOME");
+    const std::optional<std::string> before = configured ? std::optional<std::string>(configured) : std::nullopt;
+    ::setenv("XDG_CONFIG_HOME", config.path().c_str(), 1);
+    std::vector<const char*> words{"tendril"};
+    for (const std::string& argument : arguments) words.push_back(argument.c_str());
+
+    Outcome outcome;
+    const double began = now();
+    if (!folder.empty()) std::filesystem::current_path(folder);
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    outcome.exit_code = app::run_command_line(static_cast<int>(words.size()), words.data());
+    outcome.err = testing::internal::GetCapturedStderr();
+    outcome.out = testing::internal::GetCapturedStdout();
+    outcome.seconds = now() - began;
+    std::filesystem::current_path(started_in);
+    before ? ::setenv("XDG_CONFIG_HOME", before->c_str(), 1) : ::unsetenv("XDG_CONFIG_HOME");
+    return outcome;
 }
 
 int count_lines(const std::string& text) {

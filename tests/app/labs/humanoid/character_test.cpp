@@ -3,6 +3,7 @@
 
 #include "humanoid_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
@@ -138,7 +139,7 @@ TEST_F(HumanoidCharacter, HasTheSizeThatItsUnitGives) {
 }
 
 TEST_F(HumanoidCharacter, ThatOthersMadeAreShownAsTheyStand) {
-    const std::filesystem::path folder = TENDRIL_CHARACTERS_DIR;
+    const std::filesystem::path folder = tendril::test::characters_folder();
     if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << folder << " is not there";
     int read = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {

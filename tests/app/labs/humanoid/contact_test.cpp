@@ -6,6 +6,7 @@
 
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
@@ -60,7 +61,7 @@ TEST_F(HumanoidContacts, AHandDraggedIntoTheBodyStaysOutOfItWhereTheBodyIsHeld) 
 }
 
 TEST_F(HumanoidContacts, WhatACharacterWearsIsKeptApart) {
-    run("humanoid.load", {{"path", TENDRIL_SOURCE_DIR "/tests/app/golden/body.glb"}});
+    run("humanoid.load", {{"path", tendril::test::source_path("tests/app/golden/body.glb")}});
     run("humanoid.self_collision", {{"on", true}});
     const std::vector<humanoid::BodyCapsule> capsules = humanoid_runtime(workspace).solvers.capsules(part());
     const auto usual = humanoid::default_capsules(part().skeleton(), *part().map);

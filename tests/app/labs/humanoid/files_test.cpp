@@ -7,6 +7,7 @@
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
@@ -122,7 +123,7 @@ TEST_F(HumanoidFiles, FaultsAreFoundAndMendedAndTheCuresAreSaved) {
 }
 
 TEST_F(HumanoidFiles, AFootThatSlidesStandsAfterTheClick) {
-    run("humanoid.load", {{"path", TENDRIL_SOURCE_DIR "/tests/app/golden/faulty_walk.bvh"}});
+    run("humanoid.load", {{"path", tendril::test::source_path("tests/app/golden/faulty_walk.bvh")}});
     run("humanoid.clip", {{"name", "motion"}});
     ASSERT_EQ(report().findings.size(), 2u);
     EXPECT_EQ(report().findings[0].fault, humanoid::Fault::Skating);

@@ -11,6 +11,7 @@
 #include "humanoid_support.hpp"
 #include "tests/app/support/panel_text.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
@@ -181,7 +182,7 @@ TEST_F(HumanoidSelection, AreMarkedTheActiveOneStrongest) {
 }
 
 TEST_F(HumanoidSelection, SpringsAreSetOnAll) {
-    run("humanoid.load", {{"path", TENDRIL_SOURCE_DIR "/tests/app/golden/antennae.bvh"}});
+    run("humanoid.load", {{"path", tendril::test::source_path("tests/app/golden/antennae.bvh")}});
     // The body, and what hangs on another one that is selected, gets none.
     select({"Head", "antenna_l_1", "antenna_l_3", "antenna_r_2", "tail_1"});
     const auto names = [&](const std::vector<std::size_t>& nodes) {
@@ -257,7 +258,7 @@ TEST_F(HumanoidSelection, OnAnotherCharacterWhatIsThereStaysSelected) {
     EXPECT_EQ(active(), "Head");
     run("undo");
     EXPECT_EQ(part().selection, before);
-    run("humanoid.load", {{"path", TENDRIL_SOURCE_DIR "/tests/app/golden/antennae.bvh"}});
+    run("humanoid.load", {{"path", tendril::test::source_path("tests/app/golden/antennae.bvh")}});
     select({"antenna_l_1", "tail_1"});
     run("humanoid.load");
     EXPECT_TRUE(selected().empty());
@@ -269,7 +270,7 @@ TEST_F(HumanoidSelection, StaysOverTheSecondsAndThroughOtherCharacters) {
     select({"Head", "LeftHand"});
     const auto shown = part().at_moment(then);
     EXPECT_EQ(dynamic_cast<const HumanoidPart&>(*shown).selection, part().selection);
-    const HumanoidPart other(load_character(TENDRIL_SOURCE_DIR "/tests/app/golden/antennae.bvh"));
+    const HumanoidPart other(load_character(tendril::test::source_path("tests/app/golden/antennae.bvh")));
     HumanoidPart now = other;
     now.selection.take({*now.skeleton().find("Head"), *now.skeleton().find("tail_1")}, false);
     const auto earlier = now.at_moment(then);

@@ -9,6 +9,7 @@
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 class HumanoidSkinning : public HumanoidTest {
   protected:
     HumanoidSkinning() {
-        run("humanoid.load", {{"path", TENDRIL_SOURCE_DIR "/tests/app/golden/body.glb"}});
+        run("humanoid.load", {{"path", tendril::test::source_path("tests/app/golden/body.glb")}});
         run("humanoid.clip", {{"name", "twist"}, {"time", 1}});
     }
     SkinDraw drawn() const {

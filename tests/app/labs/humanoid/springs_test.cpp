@@ -6,6 +6,7 @@
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 class HumanoidSprings : public HumanoidTest {
   protected:
     HumanoidSprings() {
-        run("humanoid.load", {{"path", TENDRIL_SOURCE_DIR "/tests/app/golden/antennae.bvh"}});
+        run("humanoid.load", {{"path", tendril::test::source_path("tests/app/golden/antennae.bvh")}});
     }
 
     void put_on_springs() {

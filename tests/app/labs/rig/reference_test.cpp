@@ -1,18 +1,16 @@
 // Numeric cases of an independent implementation, through the lab's own commands. Skipped where they are not
 // at hand; the other files here hold without them.
-#include <cstdlib>
 #include <filesystem>
 #include <glm/gtc/quaternion.hpp>
 
 #include "rig_support.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
 
 Json cases_of(const char* name) {
-    const char* folder = std::getenv("TENDRIL_REFERENCE_DIR");
-    const std::filesystem::path file =
-        std::filesystem::path(folder ? folder : TENDRIL_SOURCE_DIR "/../shared/reference") / name;
+    const std::filesystem::path file = tendril::test::reference_path(name);
     return std::filesystem::exists(file) ? read_json_file(file) : Json::array();
 }
 

@@ -1,0 +1,286 @@
+#include "app/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <tendril/chain/segment.hpp>
+#include <tendril/version.hpp>
+
+#include "app/batch/code.hpp"
+#include "app/batch/motion.hpp"
+#include "app/batch/paper_table.hpp"
+#include "app/batch/signal.hpp"
+#include "app/batch/solve.hpp"
+#include "app/document/command.hpp"
+#include "app/document/text.hpp"
+#include "app/io/solver_json.hpp"
+#include "app/labs/labs.hpp"
+#include "app/session.hpp"
+#include "app/shell/shortcuts.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// "1280x720"; throws CLI::ValidationError for what is no size or one that no window has.
+glm::ivec2 read_size(const std::string& text) {
+    int width = 0, height = 0, used = 0;
+    const int read = std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &used);
+    if (read != 2 || used != static_cast<int>(text.size()) || width < 1 || height < 1 || width > 16384 ||
+        height > 16384) {
+        throw CLI::ValidationError("--size: must be WIDTHxHEIGHT, each 1 to 16384, got \"" + text + "\"");
+    }
+    return {width, height};
+}
+
+void list_commands() {
+    const Labs labs;
+    const auto type_text = [](ArgumentType type) {
+        switch (type) {
+            case ArgumentType::Number:
+                return "number";
+            case ArgumentType::Integer:
+                return "integer";
+            case ArgumentType::Boolean:
+                return "boolean";
+            case ArgumentType::Text:
+                return "text";
+            case ArgumentType::Point:
+                return "[x, y, z]";
+            case ArgumentType::NumberOrPoint:
+                return "number or [x, y, z]";
+            case ArgumentType::Rotation:
+                return "[x, y, z, w] or [x, y, z] in degrees";
+            case ArgumentType::List:
+                return "list";
+            case ArgumentType::ListOrText:
+                return "list or text";
+            case ArgumentType::Any:
+                return "JSON";
+        }
+        return "";
+    };
+    const CommandTable table = make_command_table(labs);
+    for (const Command& command : table.all()) {
+        std::printf("%s\n    %s\n    %s\n", usage(command).c_str(), command.title.c_str(),
+                    command.help.c_str());
+        for (const Argument& argument : command.arguments) {
+            std::string choices;
+            for (const auto& choice : argument.choices) choices += (choices.empty() ? ": " : ", ") + choice;
+            std::printf("    %-18s %s%s; %s%s\n", argument.name.c_str(), type_text(argument.type),
+                        argument.required ? "" : ", optional", argument.help.c_str(), choices.c_str());
+        }
+    }
+}
+
+void list_labs() {
+    for (const Labs labs; const auto& lab : labs.all()) std::printf("%s\n", lab->name().c_str());
+}
+
+/// What the program is asked to do with a window, or a picture in its stead.
+struct SessionLine {
+    SessionOptions options;
+    std::string size;
+    bool no_config = false, labs = false, commands = false, shortcuts = false;
+
+    void add_to(CLI::App& line);
+    void check();
+    int run();
+};
+
+void SessionLine::add_to(CLI::App& line) {
+    static const std::map<std::string, Backend> backends{
+        {"glfw", Backend::Glfw}, {"osmesa", Backend::OsMesa}, {"egl", Backend::Egl}};
+    line.add_option("SCENE", options.scene, "A scene file to open");
+    line.add_option("--lab", options.lab, "Open this lab")->option_text("NAME");
+    line.add_option("--size", size, "Size of the window, or of the picture")->option_text("WxH");
+    line.add_flag("--headless", options.headless, "Without a window or a display");
+    line.add_option_function<std::string>(
+            "--backend", [this](const std::string& name) { options.backend = backends.at(name); },
+            "What draws: a window, or one of the two that need no display")
+        ->check(CLI::IsMember({"glfw", "osmesa", "egl"}))
+        ->option_text("glfw|osmesa|egl");
+    line.add_option("--script", options.script, "Play a script or a recording")->option_text("FILE");
+    line.add_option("--frames", options.frames, "Run that many ticks of 1/60 s more, then end")
+        ->check(CLI::Range(0, 1'000'000))
+        ->option_text("N");
+    line.add_option("--screenshot", options.screenshot, "Write the last picture")->option_text("PNG");
+    line.add_option("--state", options.state, "Write the last state")->option_text("JSON");
+    line.add_option("--record", options.record, "Write down what is done, as a script")->option_text("FILE");
+    line.add_flag("--no-config", no_config, "Neither read nor write settings and kept bone maps");
+    line.add_flag("--list-labs", labs, "Print the labs");
+    line.add_flag("--list-commands", commands, "Print every command with its arguments");
+    line.add_flag("--list-shortcuts", shortcuts, "Print keys and mouse, as the README has them");
+    line.set_version_flag("--version", std::string("tendril ") + tendril::version_string);
+}
+
+void SessionLine::check() {
+    if (!size.empty()) options.size = read_size(size);
+    if (options.backend && *options.backend != Backend::Glfw) options.headless = true;
+    if (options.headless && options.backend == Backend::Glfw) {
+        throw CLI::ValidationError("--backend glfw opens a window, --headless wants none");
+    }
+    options.config = !no_config;
+}
+
+int SessionLine::run() {
+    if (labs) list_labs();
+    if (commands) list_commands();
+    if (shortcuts) {
+        const Labs all;
+        std::fputs(Shortcuts(all, make_command_table(all)).markdown().c_str(), stdout);
+    }
+    if (labs || commands || shortcuts) return 0;
+    return run_session(options);
+}
+
+struct SolveLine {
+    SolveOptions options;
+    std::string solver = "fabrik";
+    bool csv = false, json = false;
+
+    CLI::App* add_to(CLI::App& line);
+    const SolveOptions& checked();
+};
+
+CLI::App* SolveLine::add_to(CLI::App& line) {
+    CLI::App* solve = line.add_subcommand("solve", "Solve the cases of a file and print the answers");
+    solve->add_option("CASES", options.cases, "A list of cases as JSON; see below")->required();
+    solve->add_option("--solver", solver, "Which one, or all; fabrik if left out")->option_text("NAME|all");
+    solve->add_option("--max-iterations", options.max_iterations, "1 to 1000000; 100 if left out")
+        ->check(CLI::Range(1, 1'000'000))
+        ->option_text("N");
+    solve->add_option("--tolerance", options.tolerance, "1e-3 of the reach if left out")
+        ->option_text("METRES");
+    const auto csv_flag = solve->add_flag("--csv", csv, "Print rows of comma-separated values");
+    solve->add_flag("--json", json, "Print one JSON array, with the positions of the joints")
+        ->excludes(csv_flag);
+    solve->footer("Solvers: " + method_names() + ".\n" + solve_help);
+    return solve;
+}
+
+const SolveOptions& SolveLine::checked() {
+    options.format = csv ? RowFormat::Csv : json ? RowFormat::Json : RowFormat::Table;
+    options.methods = methods_named(solver);
+    // Range would let what is no number at all through.
+    if (const auto& t = options.tolerance; t && !(*t >= 0.0f && *t <= tendril::max_magnitude))
+        throw CLI::ValidationError("--tolerance: must be 0 to 1e9 metres, got " + std::to_string(*t));
+    return options;
+}
+
+CLI::App* add_signal(CLI::App& line, SignalOptions& options) {
+    CLI::App* signal =
+        line.add_subcommand(signal_subcommand, "Run filters over samples, or fit them to a response");
+    signal->add_option("FILTER", options.filters, "A filter as JSON, or a list of them; see below")
+        ->required();
+    signal->add_option("SAMPLES", options.samples, "A CSV file: dt,input")->required();
+    const auto rates = signal->add_flag("--rates", options.rates, "Print an output for each frame rate");
+    signal->add_option("--fit", options.fit, "Fit every kind of filter to this CSV file")
+        ->option_text("RESPONSE")
+        ->excludes(rates);
+    signal->footer(signal_help());
+    return signal;
+}
+
+CLI::App* add_lint(CLI::App& line, LintOptions& options) {
+    CLI::App* lint = line.add_subcommand("lint", "Say what is wrong with a character's clips");
+    lint->add_option("FILE", options.file, "A character: .gltf, .glb, .vrm, .fbx or .bvh")->required();
+    lint->add_flag("--json", options.json, "Print one JSON object");
+    lint->footer(lint_help);
+    return lint;
+}
+
+CLI::App* add_bake(CLI::App& line, BakeOptions& options) {
+    CLI::App* bake = line.add_subcommand("bake", "Write a character's clip to a file, feet on the ground");
+    bake->add_option("FILE", options.file, "A character: .gltf, .glb, .vrm, .fbx or .bvh")->required();
+    bake->add_option("--clip", options.clip, "Which one; the first if left out")->option_text("NAME");
+    bake->add_option("--ground", options.ground, "What its feet stand on; none, and uncorrected, if left out")
+        ->check(CLI::IsMember(bake_grounds()))
+        ->option_text("KIND");
+    bake->add_option("--fps", options.fps, "Frames a second, 1 to 1000; 60 if left out")
+        ->check(CLI::Range(1.0, 1000.0))
+        ->option_text("N");
+    bake->add_option("--out", options.out, "A .gltf, .glb or .bvh file; see below")->option_text("FILE");
+    bake->footer(bake_help);
+    return bake;
+}
+
+int complain(const std::string& what) {
+    std::fprintf(stderr, "tendril: %s\n", single_line(what).c_str());
+    return 2;
+}
+
+/// Options before a subcommand are for the window, which a subcommand does not open.
+void refuse_options_before(const CLI::App& line, const CLI::App& subcommand) {
+    for (const CLI::Option* option : line.get_options()) {
+        if (option->count() > 0) {
+            throw CLI::ValidationError(subcommand.get_name() + " does not take " + option->get_name() +
+                                       "; a scene file of that name is opened as ./" + subcommand.get_name());
+        }
+    }
+}
+
+/// What needs no picture; each has its own help.
+class BatchLine {
+  public:
+    explicit BatchLine(CLI::App& line)
+        : line_(line),
+          solve_(solve_options_.add_to(line)),
+          signal_(add_signal(line, signal_options_)),
+          paper_(line.add_subcommand("paper", "Measure the solvers and print a table")),
+          code_(line.add_subcommand("code", "Print a scene as a C++ program against the library")),
+          lint_(add_lint(line, lint_options_)),
+          bake_(add_bake(line, bake_options_)) {
+        paper_->add_flag("--csv", paper_csv_, "Print rows of comma-separated values");
+        paper_->footer(paper_help);
+        code_->add_option("SCENE", scene_, "A scene file; its open lab is printed")->required();
+    }
+    bool asked() const { return !line_.get_subcommands().empty(); }
+    /// The program's exit code.
+    int run() {
+        refuse_options_before(line_, *line_.get_subcommands().front());
+        const std::atomic<bool>& ending = session_ending();
+        if (solve_->parsed()) solve_cases(solve_options_.checked(), ending);
+        if (signal_->parsed()) run_signal(signal_options_, ending);
+        if (paper_->parsed()) print_paper(paper_csv_, ending);
+        if (code_->parsed()) print_code(scene_);
+        if (bake_->parsed()) run_bake(bake_options_);
+        return lint_->parsed() && run_lint(lint_options_) > 0 ? 1 : 0;
+    }
+
+  private:
+    CLI::App& line_;
+    SolveLine solve_options_;
+    SignalOptions signal_options_;
+    LintOptions lint_options_;
+    BakeOptions bake_options_;
+    CLI::App *solve_, *signal_, *paper_, *code_, *lint_, *bake_;
+    bool paper_csv_ = false;
+    std::string scene_;
+};
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv) {
+    CLI::App line("Tendril: see, tune and export procedural animation.", "tendril");
+    SessionLine session;
+    session.add_to(line);
+    BatchLine batch(line);
+    line.require_subcommand(0, 1);
+    try {
+        line.parse(argc, argv);
+        if (!batch.asked()) {
+            session.check();
+            return session.run();
+        }
+        return batch.run();
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return line.exit(error);
+        return complain(error.what());
+    } catch (const std::exception& error) {
+        return complain(error.what());
+    }
+}
+
+}  // namespace tendril::app
