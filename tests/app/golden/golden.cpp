@@ -86,6 +86,7 @@ std::string panel_texts(const FrameRecord& frame) {
     std::string lines;
     for (const DrawnText& each : frame.texts) {
         if (each.window == nullptr) continue;  // on the scene: in the picture
+        if (each.text == "Debug") continue;    // the title of Dear ImGui's own window, which is never shown
         const app::Rect& box = each.box;
         const bool seen = box.max.x > each.clip.min.x && box.max.y > each.clip.min.y &&
                           box.min.x < each.clip.max.x && box.min.y < each.clip.max.y;
