@@ -351,7 +351,8 @@ Json App::state() {
     for (const NamedGrip& grip : gizmo_grips(first.drawn, lab(), workspace_, camera, layout_.scale))
         handles.push_back({{"name", grip.name}, {"pixel", pixel(grip.pixel)}});
     state["handles"] = std::move(handles);
-    for (const auto& [name, rect] : {std::pair{"view", layout_.view}, {"canvas", layout_.canvas}, {"strip", layout_.timeline}})
+    for (const auto& [name, rect] :
+         {std::pair{"view", layout_.view}, {"canvas", layout_.canvas}, {"strip", layout_.timeline}})
         state["layout"][name] = {{"min", pixel(rect.min)}, {"max", pixel(rect.max)}};
     if (panes_.size() > 1) state["panes"] = panes_state();
     if (shown_card() != nullptr) state["card"] = card_state();

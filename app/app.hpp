@@ -57,7 +57,8 @@ class App final : public Stage {
 
     /// Draws the last tick's picture into the window's framebuffer.
     void draw(bool dither = true);
-    /// The picture as it is when everything has come to rest, without dither, which a file would have to hold.
+    /// The picture as it is when everything has come to rest, without dither, which a file would have to
+    /// hold.
     Image screenshot();
     /// Whether the next tick may look different from this one without any event.
     bool restless() const;

@@ -1,5 +1,5 @@
-// Where things are on this machine. Compiled into one small source, so that all others are the same in every clone
-// and a compiler cache knows them again.
+// Where things are on this machine. Compiled into one small source, so that all others are the same in every
+// clone and a compiler cache knows them again.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,8 @@ std::string source_path(const std::string& name);
 /// Characters that others made; may be missing.
 std::filesystem::path characters_folder();
 
-/// Numeric cases of an independent implementation: $TENDRIL_REFERENCE_DIR, else as configured; may be missing.
+/// Numeric cases of an independent implementation: $TENDRIL_REFERENCE_DIR, else as configured; may be
+/// missing.
 std::filesystem::path reference_path(const std::string& name);
 
 }  // namespace tendril::test

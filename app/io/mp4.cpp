@@ -74,7 +74,8 @@ void Mp4File::add(const Image& frame) {
 double Mp4File::seconds_left() {
     using Time = std::chrono::steady_clock;
     using Seconds = std::chrono::duration<double>;
-    if (!ends_by_) ends_by_ = Time::now() + std::chrono::duration_cast<Time::duration>(Seconds(max_encoder_end));
+    if (!ends_by_)
+        ends_by_ = Time::now() + std::chrono::duration_cast<Time::duration>(Seconds(max_encoder_end));
     return std::max(0.0, Seconds(*ends_by_ - Time::now()).count());
 }
 

@@ -22,7 +22,8 @@ bool begins_word(const std::string& text, const std::string& word) {
 
 /// How far from what is meant, 0 the nearest; nothing where a word is not there at all.
 std::optional<int> distance(const Command& command, const std::vector<std::string>& words) {
-    const std::string title = lower_case(command.title), name = lower_case(command.name), help = lower_case(command.help);
+    const std::string title = lower_case(command.title), name = lower_case(command.name),
+                      help = lower_case(command.help);
     int sum = 0;
     for (const std::string& word : words) {
         const int of_word = begins_word(title, word)               ? 0

@@ -1,8 +1,8 @@
 // Draws a DrawList with GL 3.3 core: background, ground grid, contact shadows, meshes, skins, strokes.
-// Eight draw calls at the most in a pane, however much is in the list, and those of skins: one or two for each
-// material. Edges are anti-aliased by coverage, without multisampling, so that a software rasteriser is fast
-// and every backend gives the same picture. (Where two solids run through each other, the line between them
-// is not.)
+// Eight draw calls at the most in a pane, however much is in the list, and those of skins: one or two for
+// each material. Edges are anti-aliased by coverage, without multisampling, so that a software rasteriser is
+// fast and every backend gives the same picture. (Where two solids run through each other, the line between
+// them is not.)
 //
 // Cost, on two cores without a graphics card at 1280 x 720: 20 000 strokes about 20 ms; the background about
 // 5 ms, and next to nothing while the camera stands still.
@@ -24,7 +24,8 @@ struct Frame {
     glm::ivec2 framebuffer_size{0};  ///< pixels
     float pixel_ratio = 1.0f;        ///< framebuffer pixels to a window coordinate
     bool grid = true;
-    bool dither = true;  ///< hides the bands of the background; without it pictures are a third of the size as PNG
+    bool dither =
+        true;  ///< hides the bands of the background; without it pictures are a third of the size as PNG
 };
 
 class Renderer {

@@ -31,8 +31,9 @@ class Backdrop {
     Backdrop(const Backdrop&) = delete;
     Backdrop& operator=(const Backdrop&) = delete;
 
-    /// Fills frame.framebuffer, and leaves it bound; the grid is in each of the viewports. Returns the number of draw calls; a copy counts as one
-    /// for each that it saves, so that the number tells of the picture and not of the frame before.
+    /// Fills frame.framebuffer, and leaves it bound; the grid is in each of the viewports. Returns the number
+    /// of draw calls; a copy counts as one for each that it saves, so that the number tells of the picture
+    /// and not of the frame before.
     int draw(const CameraPose& pose, std::span<const Rect> viewports, const Palette& palette,
              const Frame& frame);
 

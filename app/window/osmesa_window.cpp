@@ -69,7 +69,8 @@ class OsMesaContext {
             throw std::runtime_error("OSMesa: the context can't be made current");
         }
         osmesa_loading = osmesa_.get_proc_address;
-        load_gl([](const char* name) { return reinterpret_cast<GLADapiproc>(osmesa_loading(name)); }, "OSMesa");
+        load_gl([](const char* name) { return reinterpret_cast<GLADapiproc>(osmesa_loading(name)); },
+                "OSMesa");
     }
 
     OsMesa osmesa_;

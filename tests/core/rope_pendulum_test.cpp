@@ -53,7 +53,8 @@ TEST(RopePendulum, SwingsLongerTheWider) {
     for (const float amplitude : {0.3f, 0.5f, 1.0f}) {
         World world = pendulum(1.0f, amplitude, {.damping = 0.0f});
         const double a = amplitude, longer = 1.0 + a * a / 16.0 + 11.0 * a * a * a * a / 3072.0;
-        EXPECT_NEAR(period(world, 3) / (2.0 * pi * std::sqrt(1.0 / earth_gravity)), longer, 0.002) << amplitude;
+        EXPECT_NEAR(period(world, 3) / (2.0 * pi * std::sqrt(1.0 / earth_gravity)), longer, 0.002)
+            << amplitude;
     }
 }
 

@@ -26,7 +26,7 @@ std::vector<glm::vec3> vectors_of(const aiVector3D* from, unsigned count) {
 class FbxSkinReader {
   public:
     FbxSkinReader(const aiScene& scene, const std::vector<FbxJoint>& joints, double scale,
-               std::vector<std::string>& notes)
+                  std::vector<std::string>& notes)
         : scene_(scene), scale_(scale), notes_(notes) {
         for (std::size_t i = 0; i < joints.size(); ++i) {
             nodes_[joints[i].chain.back()] = i;

@@ -254,7 +254,8 @@ void FbxObjects::check() const {
         below[each.parent].push_back(each.child);
         ++open[each.child];
     }
-    if (keys > max_curve_keys) throw std::runtime_error("has more than " + to_string(max_curve_keys) + " keys");
+    if (keys > max_curve_keys)
+        throw std::runtime_error("has more than " + to_string(max_curve_keys) + " keys");
 
     // From the root down, a model after all that it hangs on: how deep, and how often Assimp would make it.
     struct Seen {

@@ -33,7 +33,7 @@ std::vector<glm::vec3> vectors(const Values& rows) {
 class GltfSkinReader {
   public:
     GltfSkinReader(const tinygltf::Model& model, const GltfNodes& nodes, const std::vector<Placement>& local,
-               std::vector<std::string>& notes)
+                   std::vector<std::string>& notes)
         : model_(model), nodes_(nodes), local_(local), notes_(notes) {}
 
     Skin read() {
@@ -129,7 +129,7 @@ class GltfSkinReader {
         return found == attributes.end() ? nullptr : &found->second;
     }
     Values rows(const std::map<std::string, int>& attributes, const std::string& name, int components,
-              std::size_t count, const std::string& what) const {
+                std::size_t count, const std::string& what) const {
         const int* accessor = attribute(attributes, name);
         if (!accessor) return {};
         check_size(*accessor, what + '.' + name);

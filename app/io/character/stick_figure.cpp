@@ -23,9 +23,9 @@ struct FigureJoint {
     dvec3 at;
 };
 constexpr FigureJoint middle[]{{"Hips", "", {0, 1.0, 0}},           {"Spine", "Hips", {0, 1.1, 0}},
-                         {"Chest", "Spine", {0, 1.2, 0}},     {"UpperChest", "Chest", {0, 1.33, 0}},
-                         {"Neck", "UpperChest", {0, 1.5, 0}}, {"Head", "Neck", {0, 1.6, 0}},
-                         {"HeadTop_End", "Head", {0, 1.8, 0}}};
+                               {"Chest", "Spine", {0, 1.2, 0}},     {"UpperChest", "Chest", {0, 1.33, 0}},
+                               {"Neck", "UpperChest", {0, 1.5, 0}}, {"Head", "Neck", {0, 1.6, 0}},
+                               {"HeadTop_End", "Head", {0, 1.8, 0}}};
 /// Of the left side, which is that of +X.
 constexpr FigureJoint side[]{
     {"Shoulder", "UpperChest", {0.04, 1.45, 0}},  {"UpperArm", "Shoulder", {0.18, 1.45, 0}},

@@ -14,7 +14,8 @@ namespace tendril::app {
 namespace {
 
 // Steps of some 30 ns, as Rig::work counts them.
-constexpr std::uint64_t most_record_work = 40'000'000, most_frame_work = 20'000'000, clip_work_per_tick = 300'000;
+constexpr std::uint64_t most_record_work = 40'000'000, most_frame_work = 20'000'000,
+                        clip_work_per_tick = 300'000;
 constexpr std::size_t most_frames_a_tick = 16;
 constexpr double farthest = 1e9;
 
@@ -153,7 +154,8 @@ void continue_clip_solve(RigPart& part, rig::Workspace& scratch) {
     rig::State state = part.state;
     state.controls = solve.controls;
     const std::vector<ClipBone> bones = clip_bones(part.rig, state.elements);
-    const std::size_t frames = std::clamp<std::size_t>(clip_work_per_tick / frame_work(part), 1, most_frames_a_tick);
+    const std::size_t frames =
+        std::clamp<std::size_t>(clip_work_per_tick / frame_work(part), 1, most_frames_a_tick);
     for (std::size_t i = 0; i < frames && solve.done() < part.clip->frames(); ++i) {
         pose_bones(&part.clip->poses[solve.done() * bones.size()], bones, state.elements);
         solve.left.push_back(

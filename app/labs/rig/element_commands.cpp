@@ -219,7 +219,8 @@ void add_element_commands(CommandTable& table) {
          switch_argument("propagate", "the children move with it; on where left out")},
         "Sets the input poses of elements, from which every solve begins", set_elements));
     table.add(rig_command("rig.element.remove", "Remove elements", {name, names},
-                          "Removes elements that are no parents of others and that no unit names", remove_elements));
+                          "Removes elements that are no parents of others and that no unit names",
+                          remove_elements));
     table.add(rig_command("rig.remove_selected", "Delete selection", {},
                           "Removes the elements or the unit that were selected last", remove_selected));
     table.add(rig_command(

@@ -68,7 +68,7 @@ bool far(const Moved& control, const Bone& bone, double size, const FlipRule& ru
     if (!has_place(control.kind)) return false;
     const double distance = glm::distance(control.from.translation, control.to.translation);
     const double angle = angle_of(control.from.translation - bone.from.translation,
-                                       control.to.translation - bone.to.translation);
+                                  control.to.translation - bone.to.translation);
     return distance > 0.0 && angle >= enough && distance >= share * size;
 }
 

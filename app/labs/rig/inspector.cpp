@@ -121,7 +121,8 @@ void pose_rows(const RigPanel& panel) {
         explain("Every solve begins with it, before the first unit runs.");
         const std::vector<std::size_t> alike = selected_alike(panel.part);
         const rig::Transform input = *panel.now.known(id, rig::Space::Local, rig::Pose::Input);
-        if (const auto changed = transform_fields(panel, input, glm::vec3(-max_coordinate), glm::vec3(max_coordinate)))
+        if (const auto changed =
+                transform_fields(panel, input, glm::vec3(-max_coordinate), glm::vec3(max_coordinate)))
             panel.edit("rig.element.set",
                        {which(panel.part, alike),
                         {"transform", SharedJson(touched(**changed, transform_json(input)))}});

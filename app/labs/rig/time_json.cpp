@@ -59,8 +59,11 @@ Json take_json(const RigPart& part) {
 
 RigTake read_take(const JsonPlace& place, const RigPart& part) {
     check_members(place, {"began", "tick", "last", "start", "keys"});
-    RigTake take{
-        .start = nullptr, .keys = nullptr, .tick = 0, .last = 0, .began = place["began"].count(max_recording_tick)};
+    RigTake take{.start = nullptr,
+                 .keys = nullptr,
+                 .tick = 0,
+                 .last = 0,
+                 .began = place["began"].count(max_recording_tick)};
     if (!place.has("start")) return take;
     check_members(place["start"], {"controls", "curves", "poses", "units"});
     take.start = std::make_shared<const rig::State>(read_rig_state(place["start"], part.rig));

@@ -115,9 +115,11 @@ class Fields {
     }
     void field(const InputRange& range) const {
         float low = static_cast<float>(range.low), high = static_cast<float>(range.high);
-        const bool first = number_field((input_->title + " low").c_str(), low, 0.01f, -max_literal, max_literal, "%.3f");
+        const bool first =
+            number_field((input_->title + " low").c_str(), low, 0.01f, -max_literal, max_literal, "%.3f");
         explain(help().c_str());
-        const bool second = number_field((input_->title + " high").c_str(), high, 0.01f, -max_literal, max_literal, "%.3f");
+        const bool second =
+            number_field((input_->title + " high").c_str(), high, 0.01f, -max_literal, max_literal, "%.3f");
         explain(help().c_str());
         if (first) set({number(low), range.high});
         if (second) set({range.low, number(high)});
@@ -176,7 +178,8 @@ class Fields {
     void literal_field(const glm::dvec3& value) const {
         const glm::vec3 shown(value);
         glm::vec3 edited = shown;
-        if (vector_field(input_->title.c_str(), edited, 0.01f, glm::vec3(-max_literal), glm::vec3(max_literal), "%.3f"))
+        if (vector_field(input_->title.c_str(), edited, 0.01f, glm::vec3(-max_literal),
+                         glm::vec3(max_literal), "%.3f"))
             set(dpoint(edited_vector(value, shown, edited)));
         explain((help() + (*input_->unit != '\0' ? std::string(" In ") + input_->unit + '.' : "")).c_str());
     }
@@ -187,7 +190,8 @@ class Fields {
     }
     void literal_field(const rig::Transform& value) const {
         ImGui::TextDisabled("%s", input_->title.c_str());
-        if (const auto changed = transform_fields(panel_, value, glm::vec3(-max_literal), glm::vec3(max_literal))) {
+        if (const auto changed =
+                transform_fields(panel_, value, glm::vec3(-max_literal), glm::vec3(max_literal))) {
             Json whole = transform_json(value);
             whole.update(**changed);
             set(whole);

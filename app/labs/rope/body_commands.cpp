@@ -177,7 +177,8 @@ void add_adding_commands(CommandTable& table) {
                             number_argument("radius", "metres; 0.02 when left out", 0.0, 1e9),
                             switch_argument("pin_start", "pins its first particle"),
                             switch_argument("pin_end", "pins its last particle")},
-                           "Adds a rope: straight, or hanging where it is longer than the distance", add_rope));
+                           "Adds a rope: straight, or hanging where it is longer than the distance",
+                           add_rope));
     table.add(
         rope_command("rope.cloth.add", "Add a cloth",
                      {point_argument("corner", true, "metres"),

@@ -50,7 +50,7 @@ struct BentPart {
     bool clamp = false, interp = false, levels_follow = false;
 };
 constexpr BentPart parts[] = {{false, false, false}, {true, false, true}, {true, false, false},
-                          {false, true, false},  {true, true, true},  {true, true, false}};
+                              {false, true, false},  {true, true, true},  {true, true, false}};
 
 /// A clamped line by its bends: up to the input `at` it is `low`, from at + width on `high`. A slope and an
 /// offset say the same, but where a steep line is cut short they lie far beyond what the response shows.

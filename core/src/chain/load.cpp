@@ -16,7 +16,8 @@ namespace {
 /// point costs up to half the spacing of floats per axis, so up to 0.87 of the spacing in all.
 double allowed_error(const glm::vec3& from, const Segment& to) {
     const double allowed = 1e-4 * std::max(1.0, static_cast<double>(to.length));
-    const double furthest = std::max<double>(math::largest_coordinate(from), math::largest_coordinate(to.position));
+    const double furthest =
+        std::max<double>(math::largest_coordinate(from), math::largest_coordinate(to.position));
     if (furthest <= 1e3) return allowed;
     return allowed + furthest * static_cast<double>(std::numeric_limits<float>::epsilon());
 }

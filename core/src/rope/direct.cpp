@@ -26,7 +26,7 @@ using detail::Order;
 using detail::Row;
 using glm::dvec3;
 
-constexpr double length_tolerance = 1e-7;              ///< relative length error that is not improved
+constexpr double length_tolerance = 1e-7;       ///< relative length error that is not improved
 constexpr double accepted_error = 1e-4;         ///< a chain with more is solved again
 constexpr double accepted_shared_error = 1e-3;  ///< the same where chains share particles
 constexpr double fallback_error = 0.02;         ///< a chain with more in the end: its body is relaxed

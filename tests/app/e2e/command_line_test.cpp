@@ -48,9 +48,10 @@ TEST_F(CommandLine, lists_the_chain_commands_with_exactly_these_arguments) {
     const std::string list = run_program({"--list-commands"}).out;
     for (const char* usage :
          {"chain.clear [default_direction]", "chain.add length [position]",
-          "chain.insert index length [position]", "chain.remove index", "chain.set_length length [index] [joints]",
-          "chain.mode mode [index] [iterations] [tolerance]", "chain.target to", "undo", "redo", "scene.new",
-          "scene.open path", "time.play", "time.pause", "time.step"}) {
+          "chain.insert index length [position]", "chain.remove index",
+          "chain.set_length length [index] [joints]", "chain.mode mode [index] [iterations] [tolerance]",
+          "chain.target to", "undo", "redo", "scene.new", "scene.open path", "time.play", "time.pause",
+          "time.step"}) {
         const Strings lines = lines_of(list);
         EXPECT_NE(std::find(lines.begin(), lines.end(), usage), lines.end()) << usage;
     }

@@ -138,8 +138,7 @@ TEST(PastViews, GhostsAreOfWhatHasTheJointsThatThereAreNow) {
         {{ScriptText().command("rig.preset", {{"name", "fk"}}), true},
          {ScriptText().command("rig.element.add", {{"name", "more"}, {"kind", "bone"}}), true},
          {ScriptText().command("rig.select", {{"element", "right 3"}}), false}},
-        {{ScriptText().command("humanoid.load",
-                               {{"path", source_path("tests/app/golden/antennae.bvh")}}),
+        {{ScriptText().command("humanoid.load", {{"path", source_path("tests/app/golden/antennae.bvh")}}),
           true},
          {ScriptText().command("humanoid.clip", {{"name", "punch"}, {"play", true}}), false}}};
     const auto labs = plotted_labs();

@@ -61,11 +61,12 @@ TEST(RigsPast, AFlipIsMarkedAtItsTickWithBoneUnitAndCause) {
     const int back = after["time"]["ticks_back"].get<int>();
     EXPECT_EQ(after["time"]["moment"].get<int>(), flips[0]["tick"].get<int>() + 1);
     const Json before = state_after(ScriptText(there).command("time.seek", {{"ticks_back", back + 1}}));
-    const Json &a = element(before, "head")["global"]["rotation"], &b = element(after, "head")["global"]["rotation"];
+    const Json &a = element(before, "head")["global"]["rotation"],
+               &b = element(after, "head")["global"]["rotation"];
     double dot = 0.0;
     for (std::size_t i = 0; i < 4; ++i) dot += a[i].get<double>() * b[i].get<double>();
-    EXPECT_NEAR(2.0 * std::acos(std::min(1.0, std::abs(dot))) * 180.0 / 3.14159265, flips[0]["degrees"].get<double>(),
-                0.1);
+    EXPECT_NEAR(2.0 * std::acos(std::min(1.0, std::abs(dot))) * 180.0 / 3.14159265,
+                flips[0]["degrees"].get<double>(), 0.1);
     EXPECT_EQ(after["events"], state["events"]) << "looking back forgets nothing";
 }
 
@@ -74,8 +75,7 @@ TEST(RigsPast, APausedDragIsRememberedAndMarkedToo) {
     script.command("lab.open", {{"name", "rig"}}).command("rig.preset", {{"name", "aim"}});
     script.command("rig.control.set", {{"name", "look"}, {"value", {0, 1}}}).wait(3).command("time.pause");
     for (int i = 0; i <= 40; ++i)
-        script
-            .command("rig.control.set", {{"name", "tilt"}, {"value", {0.303 - 0.015 * i, 0.3145, 0.5}}})
+        script.command("rig.control.set", {{"name", "tilt"}, {"value", {0.303 - 0.015 * i, 0.3145, 0.5}}})
             .command("rig.solve")
             .wait(1);
     const std::vector<Json> flips = rig_flips(state_after(script));
@@ -99,8 +99,9 @@ TEST(RigsPast, ItIsShownAgainAtAnySpeedUpToItsEnd) {
 }
 
 TEST(RigsPast, WhatIsSelectedDoesNotGoBackInTime) {
-    const ScriptText script =
-        tilt_past_the_look(10).command("rig.select", {{"element", "nose"}}).command("time.seek", {{"ticks_back", 8}});
+    const ScriptText script = tilt_past_the_look(10)
+                                  .command("rig.select", {{"element", "nose"}})
+                                  .command("time.seek", {{"ticks_back", 8}});
     EXPECT_EQ(state_after(script)["selected"]["element"], "nose");
 }
 

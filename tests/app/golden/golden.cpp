@@ -28,14 +28,13 @@ std::vector<fs::path> golden_scripts() {
 
 fs::path output_folder() {
     const char* const wanted = std::getenv("TENDRIL_TEST_OUTPUT");
-    return wanted != nullptr && *wanted != '\0' ? fs::path(wanted)
-                                                : fs::path(source_path("tests/output"));
+    return wanted != nullptr && *wanted != '\0' ? fs::path(wanted) : fs::path(source_path("tests/output"));
 }
 
 namespace {
 
-/// Golden pictures have 64 levels a channel, which halves the files: a level may be off by two of 255, and by one more
-/// where another rasteriser drew.
+/// Golden pictures have 64 levels a channel, which halves the files: a level may be off by two of 255, and by
+/// one more where another rasteriser drew.
 constexpr int rounding = 3;
 
 /// The picture, as the golden one where it differs by no more than rounding.
@@ -46,9 +45,9 @@ app::Image rounded_as(const app::Image& golden, app::Image actual) {
     return actual;
 }
 
-const std::set<std::string> whole_windows{"opening",        "opening_rope",      "opening_signal",
-                                          "opening_rig",    "opening_humanoid",  "settings",
-                                          "text_scale_2",   "palette_arguments", "small_1024x640"};
+const std::set<std::string> whole_windows{"opening",      "opening_rope",      "opening_signal",
+                                          "opening_rig",  "opening_humanoid",  "settings",
+                                          "text_scale_2", "palette_arguments", "small_1024x640"};
 
 /// Each pixel the mean of four, of the part from `min` to `max`.
 app::Image half_size(const app::Image& image, glm::ivec2 min, glm::ivec2 max) {
@@ -60,7 +59,8 @@ app::Image half_size(const app::Image& image, glm::ivec2 min, glm::ivec2 max) {
                                               static_cast<std::size_t>(min.y + 2 * y) * row +
                                               4 * static_cast<std::size_t>(min.x + 2 * x);
             for (std::size_t channel = 0; channel < 4; ++channel) {
-                const int sum = first[channel] + first[channel + 4] + first[channel + row] + first[channel + row + 4];
+                const int sum =
+                    first[channel] + first[channel + 4] + first[channel + row] + first[channel + row + 4];
                 half.rgba.push_back(static_cast<std::uint8_t>((sum + 2) / 4));
             }
         }

@@ -22,12 +22,12 @@ std::vector<std::filesystem::path> golden_scripts();
 /// Where pictures that failed are left: $TENDRIL_TEST_OUTPUT, else tests/output.
 std::filesystem::path output_folder();
 
-/// What of a window a golden picture shows, so that a label renamed in a panel renews few of them: of some scripts
-/// the whole window, of the others the middle, with the view, plots and strip, at half the size.
+/// What of a window a golden picture shows, so that a label renamed in a panel renews few of them: of some
+/// scripts the whole window, of the others the middle, with the view, plots and strip, at half the size.
 app::Image golden_part(const std::string& name, const app::Image& window, const app::Json& state);
 
-/// The texts of the panels, one a line with its place in pixels: what a picture of them would hold, for a person to
-/// read in a diff.
+/// The texts of the panels, one a line with its place in pixels: what a picture of them would hold, for a
+/// person to read in a diff.
 std::string panel_texts(const FrameRecord& frame);
 
 /// Forgives the rounding of the golden picture's colours.

@@ -63,7 +63,8 @@ TEST(CharacterFeet, TheFiguresSolesAreWhereItsMakerHasThem) {
 }
 
 TEST(CharacterFeet, ClipsThatOthersMadeStandToo) {
-    if (!fs::is_directory(tendril::test::characters_folder())) GTEST_SKIP() << tendril::test::characters_folder() << " is not there";
+    if (!fs::is_directory(tendril::test::characters_folder()))
+        GTEST_SKIP() << tendril::test::characters_folder() << " is not there";
     int walked = 0;
     for (const auto& entry : fs::directory_iterator(tendril::test::characters_folder())) {
         if (!entry.is_regular_file() || !ends_as_character(entry.path())) continue;

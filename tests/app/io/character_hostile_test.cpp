@@ -330,7 +330,8 @@ std::string fbx_models(const std::vector<std::pair<int, int>>& connections, int 
 }
 
 TEST_F(HostileCharacter, fbx_that_breaks_an_assertion_of_assimp_does_not_end_the_program) {
-    const std::string bytes = test::read(tendril::test::source_path("tests/fuzz/corpus/fbx/curve_without_keys.fbx"));
+    const std::string bytes =
+        test::read(tendril::test::source_path("tests/fuzz/corpus/fbx/curve_without_keys.fbx"));
     const std::string words = refusal("keys.fbx", bytes);  // where Assimp has no assertions it may be read
     EXPECT_TRUE(words.empty() || words.find("does not hold") != words.npos) << words;
 }

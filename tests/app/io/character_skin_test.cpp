@@ -206,7 +206,8 @@ TEST(CharacterSkin, wrong_numbers_are_refused_with_their_place) {
 
 TEST(CharacterSkin, those_of_others_stay_around_their_bones) {
     namespace fs = std::filesystem;
-    if (!fs::is_directory(tendril::test::characters_folder())) GTEST_SKIP() << tendril::test::characters_folder() << " is not there";
+    if (!fs::is_directory(tendril::test::characters_folder()))
+        GTEST_SKIP() << tendril::test::characters_folder() << " is not there";
     int worn = 0;
     for (const auto& entry : fs::directory_iterator(tendril::test::characters_folder())) {
         if (!ends_as_character(entry.path())) continue;

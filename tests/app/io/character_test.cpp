@@ -42,7 +42,8 @@ TEST(StickFigure, walks_and_punches) {
 }
 
 TEST(CharacterFiles, those_of_others_are_read_and_their_clips_hold) {
-    if (!fs::is_directory(tendril::test::characters_folder())) GTEST_SKIP() << tendril::test::characters_folder() << " is not there";
+    if (!fs::is_directory(tendril::test::characters_folder()))
+        GTEST_SKIP() << tendril::test::characters_folder() << " is not there";
     int read = 0;
     for (const auto& entry : fs::directory_iterator(tendril::test::characters_folder())) {
         if (!ends_as_character(entry.path())) continue;

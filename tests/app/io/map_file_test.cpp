@@ -132,12 +132,12 @@ TEST(MapFile, that_is_kept_is_refused_with_its_name_where_it_cannot_be_the_chara
     EXPECT_TRUE(tendril::test::has(why(""), path.filename().string()));
     std::filesystem::remove(path);
     std::filesystem::create_directories(path);
-    EXPECT_TRUE(
-        tendril::test::has(tendril::test::message_of([&] { find_kept_map(folder.path(), skeleton()); }), "is not a file"));
+    EXPECT_TRUE(tendril::test::has(
+        tendril::test::message_of([&] { find_kept_map(folder.path(), skeleton()); }), "is not a file"));
     // Where the folder cannot be made.
     tendril::test::write(folder / "file", "");
-    EXPECT_TRUE(
-        tendril::test::has(tendril::test::message_of([&] { keep_map(folder / "file", saved, skeleton()); }), "cannot write"));
+    EXPECT_TRUE(tendril::test::has(
+        tendril::test::message_of([&] { keep_map(folder / "file", saved, skeleton()); }), "cannot write"));
 }
 
 }  // namespace

@@ -55,7 +55,8 @@ std::vector<Shown> full_chains() {
                    {call("chain.preset", {{"name", "start"}, {"count", 3}}), reach,
                     call("chain.solver", {{"name", "two_bone"}})}});
     all.push_back({"race", {arm, reach, call("race.open"), first}});
-    all.push_back({"race side by side", {arm, reach, call("race.open"), call("race.side_by_side", {{"on", true}})}});
+    all.push_back(
+        {"race side by side", {arm, reach, call("race.open"), call("race.side_by_side", {{"on", true}})}});
     all.push_back({"several joints",
                    {arm, reach, call("chain.limit", {{"index", 1}, {"kind", "hinge"}}),
                     call("chain.select", {{"joints", SharedJson(Json{0, 1})}})}});

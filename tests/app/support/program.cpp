@@ -131,7 +131,8 @@ Outcome run_here(const std::vector<std::string>& arguments, const std::filesyste
     const std::filesystem::path started_in = std::filesystem::current_path();
     const TempFolder config;
     const char* const configured = std::getenv("XDG_CONFIG_HOME");
-    const std::optional<std::string> before = configured ? std::optional<std::string>(configured) : std::nullopt;
+    const std::optional<std::string> before =
+        configured ? std::optional<std::string>(configured) : std::nullopt;
     ::setenv("XDG_CONFIG_HOME", config.path().c_str(), 1);
     std::vector<const char*> words{"tendril"};
     for (const std::string& argument : arguments) words.push_back(argument.c_str());

@@ -66,7 +66,8 @@ float interpolated(float a, float b, float part) noexcept {
 JointAngles sampled_angles(const LimitedJoint& joint, std::uint64_t& state) noexcept {
     const float a = random_unit(state), b = random_unit(state), c = random_unit(state);
     if (joint.hinge()) return {interpolated(joint.min, joint.max, a), 0.0f, 0.0f};
-    if (joint.free()) return {interpolated(-2.0f, 2.0f, a), interpolated(-2.0f, 2.0f, b), interpolated(-2.0f, 2.0f, c)};
+    if (joint.free())
+        return {interpolated(-2.0f, 2.0f, a), interpolated(-2.0f, 2.0f, b), interpolated(-2.0f, 2.0f, c)};
     return within(joint, {interpolated(-joint.down, joint.up, a), interpolated(-joint.right, joint.left, b),
                           interpolated(joint.twist_min, joint.twist_max, c)});
 }

@@ -19,7 +19,8 @@ JointAngles blended_angles(const JointAngles& a, const JointAngles& b, float par
 glm::quat blended_rotation(const LimitedJoint& joint, const glm::quat& from, const glm::quat& to,
                            float part) noexcept {
     if (joint.free()) return math::slerp(from, to, part);
-    return rotation_of(joint, within(joint, blended_angles(angles_of(joint, from), angles_of(joint, to), part)));
+    return rotation_of(joint,
+                       within(joint, blended_angles(angles_of(joint, from), angles_of(joint, to), part)));
 }
 
 /// Within limits, into scratch.trial.

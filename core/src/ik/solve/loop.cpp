@@ -83,8 +83,8 @@ template <class Watch>
 Report iterations(Method method, Problem& problem, const glm::vec3& goal, Watch watch) noexcept {
     const Options& options = problem.options;
     const float reach = problem.scratch.reach;
-    Convergence convergence({.window = tune::chain::stall_window, .moves = stall_moves * reach}, problem.residual(),
-                            reach);
+    Convergence convergence({.window = tune::chain::stall_window, .moves = stall_moves * reach},
+                            problem.residual(), reach);
     prepare_iterations(method, problem, watch);
     float residual = problem.residual();
     convergence.restart(residual);

@@ -148,7 +148,8 @@ TEST_F(RigFile, InputsAreReadAsTheyAreMeant) {
     const auto operation = [&]<class T>(std::size_t at) { return std::get<T>(units[at].operation); };
     const auto aim = operation.operator()<Aim>(0);
     EXPECT_EQ(aim.primary.target, rig::Input<glm::dvec3>(FromElement{"position"}));
-    EXPECT_EQ(aim.primary.weight, rig::Input<double>(FromElement{.element = "float", .of = Of::ControlValue}));
+    EXPECT_EQ(aim.primary.weight,
+              rig::Input<double>(FromElement{.element = "float", .of = Of::ControlValue}));
     EXPECT_EQ(aim.secondary->kind, AimTarget::Direction);
     const auto constraint = operation.operator()<ParentConstraint>(2);
     EXPECT_EQ(constraint.filter.translation, (std::array<bool, 3>{true, false, true}));
