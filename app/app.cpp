@@ -134,6 +134,7 @@ void App::compose(const Event* event, Pass pass) {
         run_emitted(emit);
     }
 
+    pointer_.forget_missing(workspace_, lab());
     std::string hint =
         lab().hint(workspace_, pointer_.dragged() != no_pick ? pointer_.dragged() : pointer_.hovered());
     if (const std::string bound = pointer_.constraint(input_);
@@ -196,7 +197,7 @@ void App::take_file(const std::string& path, Emit& emit) {
 
 void App::refuse(const std::string& why) {
     workspace_.toast(why, ToastKind::Refusal);
-    if (complain_) std::fprintf(stderr, "tendril: %s\n", why.c_str());
+    if (complain_) complain(why);
 }
 
 void App::take_shortcut(Emit& emit) {

@@ -44,6 +44,7 @@ Json App::panes_state() const {
 
 void App::draw_panes() {
     const Palette& colours = palette(workspace_.settings.theme);
+    pointer_.forget_missing(workspace_, lab());
     for (std::size_t i = 0; i < panes_.size(); ++i) {
         Pane& pane = panes_[i];
         const Camera camera = pane.camera(workspace_.camera);

@@ -206,11 +206,6 @@ CLI::App* add_bake(CLI::App& line, BakeOptions& options) {
     return bake;
 }
 
-int complain(const std::string& what) {
-    std::fprintf(stderr, "tendril: %s\n", single_line(what).c_str());
-    return 2;
-}
-
 /// Options before a subcommand are for the window, which a subcommand does not open.
 void refuse_options_before(const CLI::App& line, const CLI::App& subcommand) {
     for (const CLI::Option* option : line.get_options()) {
@@ -277,9 +272,11 @@ int run_command_line(int argc, const char* const* argv) {
         return batch.run();
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return line.exit(error);
-        return complain(error.what());
+        complain(error.what());
+        return 2;
     } catch (const std::exception& error) {
-        return complain(error.what());
+        complain(error.what());
+        return 2;
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 
 #include "app/document/atomic_file.hpp"
 #include "app/document/json_complete.hpp"
@@ -20,6 +21,26 @@ std::filesystem::path settings_file() {
 bool is_move(const Event& event) {
     return std::holds_alternative<MouseMove>(event);
 }
+
+/// As long as it lives, unsaved work is kept where something ends the process by exit(): Xlib does where the
+/// display goes away.
+class KeptAtExit {
+  public:
+    KeptAtExit(Autosave& autosave, Workspace& workspace) {
+        static const int registered = std::atexit([] {
+            if (autosave_) autosave_->end(*workspace_, true);
+        });
+        static_cast<void>(registered);
+        autosave_ = &autosave, workspace_ = &workspace;
+    }
+    ~KeptAtExit() { autosave_ = nullptr; }
+    KeptAtExit(const KeptAtExit&) = delete;
+    KeptAtExit& operator=(const KeptAtExit&) = delete;
+
+  private:
+    static inline Autosave* autosave_ = nullptr;
+    static inline Workspace* workspace_ = nullptr;
+};
 
 }  // namespace
 
@@ -50,6 +71,8 @@ LiveLoop::LiveLoop(App& app, Window& window, const Options& options)
 
 void LiveLoop::run(Player& player, std::optional<int> frames) {
     using Time = std::chrono::steady_clock;
+    std::optional<KeptAtExit> kept;
+    if (autosave_) kept.emplace(*autosave_, app_.workspace());
     app_.workspace().clock.measured = true;
     auto last = Time::now();
     std::vector<Event> events;

@@ -20,10 +20,6 @@ std::atomic<bool> ending{false};  // what a signal handler may touch
 
 constexpr glm::ivec2 headless_size{1280, 720}, window_size{1440, 900};
 
-void complain(const std::string& what) {
-    std::fprintf(stderr, "tendril: %s\n", single_line(what).c_str());
-}
-
 std::unique_ptr<Window> make_window(const SessionOptions& options, glm::ivec2 size) {
     if (!options.headless) {
         try {
@@ -130,6 +126,7 @@ void end_session_on_signals() {
     const auto end = [](int) { ending = true; };
     std::signal(SIGINT, end);
     std::signal(SIGTERM, end);
+    std::signal(SIGHUP, end);  // its terminal, or the session, was closed
 }
 
 const std::atomic<bool>& session_ending() {

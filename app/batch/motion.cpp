@@ -56,8 +56,8 @@ void print_lines(const LintReport& report, const Clip& clip, Output& out) {
         char place[120];
         std::snprintf(place, sizeof place, "frame %zu of %zu at %.6g fps, %.3f s", each.frame, report.frames,
                       report.rate, each.time);
-        out.write(single_line(clip.name) + ": " + name(each.fault) + ", " + place + ": " +
-                  single_line(each.text) + '\n');
+        out.write(printable(clip.name) + ": " + name(each.fault) + ", " + place + ": " +
+                  printable(each.text) + '\n');
     }
 }
 
@@ -136,7 +136,7 @@ void run_bake(const BakeOptions& options) {
                                             out);
     Progress progress;
     Output print(progress);
-    print.write(out.string() + ": " + single_line(clip.name) + ", " + report.text() + '\n');
+    print.write(out.string() + ": " + printable(clip.name) + ", " + report.text() + '\n');
     print.finish();
 }
 

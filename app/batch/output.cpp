@@ -62,7 +62,7 @@ std::size_t width_of(std::string_view text) {
 }
 
 std::string column(std::string_view text, std::size_t width) {
-    std::string shown = single_line(std::string(text));
+    std::string shown = printable(text);
     if (width_of(shown) > width) shown = std::string(head(shown, width - 3)) + "...";
     shown.append(width - width_of(shown), ' ');
     return shown;

@@ -1,11 +1,9 @@
 #include "app/document/autosave.hpp"
 
-#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <ctime>
 #include <optional>
@@ -24,37 +22,62 @@ namespace {
 
 constexpr std::string_view name_start = "autosave-", name_end = ".json";
 
-bool is_running(int pid) {
-    // A program of another user cannot be asked, but is there.
-    return ::kill(pid, 0) == 0 || errno == EPERM;
+/// Of the newest Autosave: what adopt() makes a file this program's by.
+std::string own_stem = std::to_string(::getpid());
+
+std::string name_for(const std::string& stem) {
+    return std::string(name_start).append(stem).append(name_end);
 }
 
-std::string name_for(int pid, const std::string& more = "") {
-    return std::string(name_start) + std::to_string(pid) + more + std::string(name_end);
+fs::path lock_of(const fs::path& folder, const std::string& stem) {
+    return folder / std::string(name_start).append(stem).append(".lock");
 }
 
 /// Whether the file is an autosave whose program is gone. One that was put aside ("autosave-12.1.json")
 /// always is.
-bool is_left_behind(const std::string& name) {
+bool is_left_behind(const fs::path& file) {
+    const std::string name = file.filename().string();
     if (!name.starts_with(name_start) || !name.ends_with(name_end)) return false;
     if (name.size() < name_start.size() + name_end.size()) return false;
-    const char* begin = name.data() + name_start.size();
-    const char* end = name.data() + name.size() - name_end.size();
+    const std::string stem =
+        name.substr(name_start.size(), name.size() - name_start.size() - name_end.size());
     int pid = 0;
-    const auto [rest, error] = std::from_chars(begin, end, pid);
+    const auto [rest, error] = std::from_chars(stem.data(), stem.data() + stem.size(), pid);
     if (error != std::errc() || pid <= 0) return false;
-    return rest == end ? !is_running(pid) : *rest == '.';
+    const std::string_view more(rest, static_cast<std::size_t>(stem.data() + stem.size() - rest));
+    if (more.starts_with('.')) return true;
+    return (more.empty() || more.starts_with('_')) && !FileLock::is_held(lock_of(file.parent_path(), stem));
+}
+
+/// What a program that was killed while it wrote has left of a file. One that is written now is younger.
+void remove_torn_files(const fs::path& folder) {
+    std::error_code error;
+    const auto old = fs::file_time_type::clock::now() - std::chrono::minutes(1);
+    for (fs::directory_iterator each(folder, error), end; !error && each != end; each.increment(error)) {
+        const std::string name = each->path().filename().string();
+        std::error_code ignored;
+        if (name.starts_with(".tendril-") && name.ends_with(".tmp") && each->is_regular_file(ignored) &&
+            each->last_write_time(ignored) < old)
+            fs::remove(each->path(), ignored);
+    }
 }
 
 }  // namespace
 
 Autosave::Autosave(fs::path folder, Clock::duration interval)
     : folder_(std::move(folder)), interval_(interval) {
-    // A file with our own number is from a program that had it before us and crashed: we must not overwrite
-    // it.
     std::error_code ignored;
+    fs::create_directories(folder_, ignored);
+    remove_torn_files(folder_);
+    const std::string pid = std::to_string(::getpid());
+    for (int i = 1; !lock_ && i < 100; ++i) {
+        stem_ = i == 1 ? pid : pid + "_" + std::to_string(i);
+        lock_ = FileLock::take(lock_of(folder_, stem_));
+    }
+    own_stem = stem_;
+    // A file of that name is from a program that had it before us and crashed: we must not overwrite it.
     for (int i = 1; fs::exists(file(), ignored) && i < 1000; ++i) {
-        const fs::path aside = folder_ / name_for(::getpid(), std::string(".").append(std::to_string(i)));
+        const fs::path aside = folder_ / name_for(stem_ + "." + std::to_string(i));
         if (!fs::exists(aside, ignored)) fs::rename(file(), aside, ignored);
     }
 }
@@ -68,7 +91,7 @@ void Autosave::end(Workspace& workspace, bool keep_unsaved) {
 }
 
 fs::path Autosave::file() const {
-    return folder_ / name_for(::getpid());
+    return folder_ / name_for(stem_);
 }
 
 void Autosave::remove() {
@@ -114,7 +137,7 @@ std::vector<fs::path> Autosave::left_behind(const fs::path& folder) {
     std::vector<std::pair<fs::file_time_type, fs::path>> found;
     std::error_code error;
     for (fs::directory_iterator each(folder, error), end; !error && each != end; each.increment(error)) {
-        if (!is_left_behind(each->path().filename().string())) continue;
+        if (!is_left_behind(each->path())) continue;
         std::error_code ignored;
         if (each->is_regular_file(ignored)) found.emplace_back(each->last_write_time(ignored), each->path());
     }
@@ -151,7 +174,7 @@ void Autosave::recover(Workspace& workspace, const fs::path& file) {
 
 void Autosave::adopt(const fs::path& file) {
     std::error_code ignored;
-    fs::rename(file, file.parent_path() / name_for(::getpid()), ignored);
+    fs::rename(file, file.parent_path() / name_for(own_stem), ignored);
 }
 
 }  // namespace tendril::app

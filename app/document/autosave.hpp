@@ -1,5 +1,6 @@
 // A copy of unsaved work in the config folder, every 30 s of changes, and what a crash left there.
-// Each running program has its own file, autosave-<pid>.json, removed when it ends cleanly.
+// Each running program has its own file, autosave-<pid>.json, removed when it ends cleanly, and holds
+// autosave-<pid>.lock: an autosave whose lock nobody holds was left behind.
 #pragma once
 
 #include <chrono>
@@ -7,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/document/file_lock.hpp"
 #include "app/document/workspace.hpp"
 
 namespace tendril::app {
@@ -43,6 +45,8 @@ class Autosave {
     void remove();
 
     std::filesystem::path folder_;
+    std::string stem_;  ///< the process number, with more where another program has the same
+    std::unique_ptr<FileLock> lock_{};
     Clock::duration interval_;
     Document written_;
     Clock::time_point changed_at_{};

@@ -6,13 +6,16 @@
 
 namespace tendril::app {
 
-/// Control characters, line breaks above all, become blanks: a message stays one line, whatever it quotes.
-inline std::string single_line(std::string text) {
-    for (char& c : text) {
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-    }
-    return text;
-}
+/// What any bytes look like in a message: one line of valid UTF-8. Control characters become blanks, so that
+/// a file cannot steer a terminal, and bytes that are no UTF-8 become question marks.
+std::string printable(std::string_view bytes);
+
+/// The same, and at most 400 bytes: where it is longer, the middle gives way, since a message begins with the
+/// place and ends with the reason.
+std::string message(std::string_view text);
+
+/// Says on stderr what went wrong, as a message().
+void complain(std::string_view what);
 
 /// Letters of ASCII alone: std::tolower would ask the locale.
 inline std::string lower_case(std::string_view text) {

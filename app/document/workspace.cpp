@@ -78,9 +78,8 @@ const CameraPose& Workspace::first_view_of(const std::string& name) const {
 
 void Workspace::toast(std::string text, ToastKind kind) {
     constexpr std::size_t most = 4;
-    constexpr std::size_t longest = 400;
     constexpr double info_seconds = 4.0, refusal_seconds = 7.0;
-    if (text.size() > longest) text = text.substr(0, longest) + "...";
+    text = message(text);
     const int ticks =
         static_cast<int>((kind == ToastKind::Info ? info_seconds : refusal_seconds) / tick_seconds);
 

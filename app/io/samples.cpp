@@ -93,8 +93,7 @@ class Table {
     double number(const Fields& fields, std::size_t column, const std::string& title) const {
         const std::string_view field = fields[column];
         const auto value = number_in(field);
-        const std::string found =
-            field.empty() ? "nothing" : '"' + single_line(std::string(field.substr(0, 40))) + '"';
+        const std::string found = field.empty() ? "nothing" : '"' + printable(field.substr(0, 40)) + '"';
         if (!value) fail(column, title, "a number", found);
         if (!(std::abs(*value) <= most)) fail(column, title, "a number from -1e9 to 1e9", found);
         return *value;
@@ -219,7 +218,7 @@ std::vector<double> parse_response(std::string_view text, const std::string& nam
     bool more = true;
     if (names_columns(fields)) {
         column = column_named(fields, {"output", "response", "value"}).value_or(column);
-        title = single_line(std::string(fields[column].substr(0, 40)));
+        title = printable(fields[column].substr(0, 40));
         more = table.next(fields);
     }
     std::vector<double> response;

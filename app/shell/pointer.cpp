@@ -89,6 +89,21 @@ void Pointer::take(const Event* event, const Input& input, const Scene& scene, E
     }
 }
 
+void Pointer::forget_missing(const Workspace& workspace, const Lab& lab) {
+    const auto is_there = [&](PickId pick) {
+        if (pick == no_pick || lab.handle(workspace, pick)) return true;
+        const auto gizmo = lab.gizmo(workspace);
+        return gizmo && (gizmo->pick == pick || picked_part(pick));
+    };
+    if (!is_there(hovered_)) hovered_ = no_pick;
+    if (!is_there(clicked_)) clicked_ = no_pick;
+    if (caught_in_ != &lab || (is_there(caught_) && is_there(caught_handle_))) return;
+    doing_ = Doing::Nothing;
+    caught_ = caught_handle_ = no_pick;
+    by_.reset();
+    together_.clear();
+}
+
 void Pointer::release(const Scene& scene, Emit& emit) {
     if (doing_ == Doing::Drag) caught_in_->drop(scene.workspace, caught_handle_, emit);
     doing_ = Doing::Nothing;

@@ -30,6 +30,9 @@ class Pointer {
     /// Takes this tick's event. Emits camera.set, the lab's drag and click commands, and a document is
     /// changed by them afterwards.
     void take(const Event* event, const Input& input, const Scene& scene, Emit& emit);
+    /// Before anything is drawn, or after what may have changed the scene: what is hovered, pressed or
+    /// dragged and is no longer there is forgotten, so that nothing is drawn, said or dragged of it.
+    void forget_missing(const Workspace& workspace, const Lab& lab);
     /// Ends whatever is going on, without a click; what was dragged is dropped.
     void release(const Scene& scene, Emit& emit);
 

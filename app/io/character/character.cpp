@@ -49,6 +49,7 @@ humanoid::BoneMap bone_map(const Character& character) {
 }
 
 humanoid::Skeleton skeleton_of(std::vector<humanoid::Node> nodes) {
+    if (nodes.empty()) throw std::runtime_error("has no skeleton");
     if (nodes.size() > humanoid::Skeleton::max_nodes)
         throw std::runtime_error("its skeleton has " + std::to_string(nodes.size()) + " nodes, more than " +
                                  std::to_string(humanoid::Skeleton::max_nodes));

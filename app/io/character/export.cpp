@@ -153,7 +153,7 @@ ExportReport export_clip(const Export& what, const fs::path& path) {
         write_file_atomically(path, bytes);
         return report;
     } catch (const nlohmann::json::exception& error) {
-        throw std::runtime_error(name + ": " + error.what());
+        throw std::runtime_error(name + ": its file's JSON is not as glTF has it, " + message(error.what()));
     }
 }
 

@@ -133,11 +133,9 @@ std::optional<std::size_t> GltfFile::row_of_floats(const Json& accessor, std::si
     if (place >= json["bufferViews"].size()) return std::nullopt;
     const Json& view = json["bufferViews"][place];
     if (view.contains("extensions")) return std::nullopt;
-    const std::size_t at = view.value("byteOffset", std::size_t{0}) +
-                           accessor.value("byteOffset", std::size_t{0}) +
-                           row * view.value("byteStride", 4 * sizeof(float));
-    if (at + 4 * sizeof(float) > buffer_.size()) return std::nullopt;
-    return at;
+    const std::size_t stride = view.value("byteStride", std::size_t{0});
+    return view.value("byteOffset", std::size_t{0}) + accessor.value("byteOffset", std::size_t{0}) +
+           row * (stride > 0 ? stride : 4 * sizeof(float));  // check_gltf() knows that it is in the buffer
 }
 
 void GltfFile::normalise_weights_of(const Json& primitive) {

@@ -1,8 +1,11 @@
 #include "app/io/character/gltf_parse.hpp"
 
+#include <algorithm>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include "app/document/text.hpp"
+#include "app/io/character/gltf_check.hpp"
 
 namespace tendril::app {
 namespace {
@@ -10,7 +13,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t deepest_json = 100;
-constexpr std::uintmax_t max_gltf_bytes = std::uintmax_t{1} << 30;
 
 /// Of brackets outside of strings.
 void check_depth(std::string_view json) {
@@ -53,49 +55,22 @@ std::string_view json_of(std::string_view bytes) {
     return bytes.substr(20, size);
 }
 
-using nlohmann::json;
+/// What tinygltf may open: the folder of the file and what is below it. It looks in the working folder too.
+struct Beside {
+    fs::path folder;      ///< canonical
+    std::string refused;  ///< the first path that led out of it
+};
 
-/// A member that is an array, or an empty one.
-const json& list(const json& object, const char* name) {
-    static const json none = json::array();
-    const auto found = object.find(name);
-    return found != object.end() && found->is_array() ? *found : none;
-}
-std::uint64_t count(const json& object, const char* name, std::uint64_t otherwise) {
-    if (!object.is_object()) return otherwise;
-    const auto found = object.find(name);
-    return found != object.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : otherwise;
-}
-
-/// Buffers and what images have of them: tinygltf allocates a buffer before it has its bytes, and gives
-/// an image's away unseen.
-void check_buffers(std::string_view text) {
-    const json file = json::parse(text.begin(), text.end(), nullptr, false);
-    if (file.is_discarded() || !file.is_object()) return;  // tinygltf says where
-    const json &buffers = list(file, "buffers"), &views = list(file, "bufferViews"),
-               &images = list(file, "images");
-    for (std::size_t i = 0; i < buffers.size(); ++i) {
-        const std::uint64_t size = count(buffers[i], "byteLength", 1);
-        if (size == 0 || size > max_gltf_bytes)
-            throw std::runtime_error("buffers[" + std::to_string(i) + "] claims " + std::to_string(size) +
-                                     " bytes, expected 1 to 1 GB");
-    }
-    constexpr std::uint64_t nowhere = ~std::uint64_t{0};
-    for (std::size_t i = 0; i < images.size(); ++i) {
-        if (!images[i].is_object() || !images[i].contains("bufferView")) continue;
-        const std::uint64_t view = count(images[i], "bufferView", nowhere);
-        const std::uint64_t buffer = view < views.size() ? count(views[view], "buffer", nowhere) : nowhere;
-        const std::uint64_t size = buffer < buffers.size() ? count(buffers[buffer], "byteLength", 0) : 0;
-        const std::uint64_t begin = size > 0 ? count(views[view], "byteOffset", 0) : 0;
-        if (begin >= size || count(views[view], "byteLength", nowhere) > size - begin)
-            throw std::runtime_error("images[" + std::to_string(i) +
-                                     "].bufferView: there is no such view, or it ends after its buffer");
-    }
-}
-
-bool is_there(const std::string& path, void*) {
-    std::error_code ignored;
-    return fs::is_regular_file(path, ignored);
+bool is_there(const std::string& path, void* user) {
+    auto& beside = *static_cast<Beside*>(user);
+    std::error_code unknown;
+    if (!fs::is_regular_file(path, unknown)) return false;
+    const fs::path real = fs::canonical(path, unknown);
+    const auto [end, at] =
+        std::mismatch(beside.folder.begin(), beside.folder.end(), real.begin(), real.end());
+    if (!unknown && !beside.folder.empty() && end == beside.folder.end()) return true;
+    if (beside.refused.empty()) beside.refused = path;
+    return false;
 }
 std::string as_it_is(const std::string& path, void*) {
     return path;
@@ -118,12 +93,10 @@ bool keep_bytes(tinygltf::Image* image, const int, std::string*, std::string*, i
     return true;
 }
 
-std::string one_line(std::string text) {
+/// What tinygltf says, whose sentences end with a line break.
+std::string reason(std::string text) {
     while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
-    for (char& c : text)
-        if (c == '\n') c = ' ';
-    if (text.size() > 300) text.resize(300);
-    return text.empty() ? "cannot be read" : text;
+    return text.empty() ? "cannot be read" : message(text);
 }
 
 void check_images(const tinygltf::Model& model) {
@@ -149,11 +122,13 @@ tinygltf::Model gltf_model(std::string_view bytes, const fs::path& folder) {
     if (!is_binary && bytes.find('{') == bytes.npos) throw std::runtime_error("is no glTF file");
     const std::string_view text = gltf_json(bytes);
     check_depth(text);
-    check_buffers(text);
+    check_gltf(text);
 
     tinygltf::TinyGLTF reader;
     reader.SetImageLoader(keep_bytes, nullptr);
-    reader.SetFsCallbacks({is_there, as_it_is, read_whole, nullptr, nullptr});
+    std::error_code unknown;
+    Beside beside{fs::canonical(folder.empty() ? fs::path(".") : folder, unknown), {}};
+    reader.SetFsCallbacks({is_there, as_it_is, read_whole, nullptr, &beside});
     tinygltf::Model model;
     std::string error, warning;
     const auto size = static_cast<unsigned>(bytes.size());
@@ -164,7 +139,10 @@ tinygltf::Model gltf_model(std::string_view bytes, const fs::path& folder) {
                                               reinterpret_cast<const unsigned char*>(bytes.data()), size,
                                               folder.string())
                 : reader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, folder.string());
-        if (!read) throw std::runtime_error(one_line(error));
+        if (!beside.refused.empty())
+            throw std::runtime_error(message(beside.refused) +
+                                     ": it is outside the file's folder, where nothing is read");
+        if (!read) throw std::runtime_error(reason(error));
     } catch (const std::out_of_range&) {
         throw std::runtime_error("has a buffer of 0 bytes");
     }

@@ -34,7 +34,7 @@ class Collector {
   public:
     explicit Collector(const tinygltf::Model& model) : model_(model), seen_(model.nodes.size()) {}
 
-    Triangles run() {
+    TriangleMesh run() {
         std::vector<bool> below(model_.nodes.size());
         for (const tinygltf::Node& node : model_.nodes)
             for (const int child : node.children) below.at(static_cast<std::size_t>(child)) = true;
@@ -97,12 +97,12 @@ class Collector {
     const tinygltf::Model& model_;
     std::vector<bool> seen_;
     std::vector<Waiting> waiting_;
-    Triangles found_;
+    TriangleMesh found_;
 };
 
 }  // namespace
 
-Triangles read_triangles(const std::filesystem::path& path) {
+TriangleMesh read_triangles(const std::filesystem::path& path) {
     const std::string name = path.filename().string();
     const std::string ending = path.extension().string();
     if (ending != ".gltf" && ending != ".glb")

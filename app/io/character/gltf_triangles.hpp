@@ -8,13 +8,13 @@
 
 namespace tendril::app {
 
-struct Triangles {
+struct TriangleMesh {
     std::vector<glm::dvec3> vertices;      ///< metres, Y up
     std::vector<std::uint32_t> triangles;  ///< three places in `vertices` each
 };
 
 /// Meshes where their nodes put them, as they rest. Throws std::runtime_error that begins with the file's
 /// name: what cannot be read, has no triangles, or too many.
-Triangles read_triangles(const std::filesystem::path& path);
+TriangleMesh read_triangles(const std::filesystem::path& path);
 
 }  // namespace tendril::app

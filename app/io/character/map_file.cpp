@@ -87,6 +87,7 @@ humanoid::BoneMap applied(const SavedMap& saved, const Skeleton& skeleton) {
                                      "\", which the character does not have");
         map.bones[i] = {static_cast<std::int32_t>(*node), 1.0, "from a saved map"};
     }
+    if (const Result bad = humanoid::check(map, skeleton); !bad) throw std::runtime_error(bad.message());
     humanoid::review(map, skeleton);
     return map;
 }

@@ -58,7 +58,9 @@ ik::PoleMemory load_memory(const JsonPlace& place, const std::vector<glm::vec3>&
 }  // namespace
 
 void save_state(Json& json, const ik::State& state, const std::vector<glm::vec3>& joints) {
-    if (state.bones() == 0) return;
+    // One of another chain counts for nothing: the next solve begins anew.
+    const std::size_t bones = joints.empty() ? 0 : joints.size() - 1;
+    if (state.bones() == 0 || !ik::check(state, bones)) return;
     Json& saved = json["state"] = Json::object();
     const auto turned = [](const glm::quat& q) { return q != glm::quat(1, 0, 0, 0); };
     if (std::any_of(state.rotations.begin(), state.rotations.end(), turned)) {

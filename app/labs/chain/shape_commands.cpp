@@ -94,7 +94,8 @@ void remove_all(ChainPart& part, const std::vector<std::size_t>& joints) {
     std::vector<Segment> left;
     for (std::size_t i = 0; i < part.chain.size(); ++i)
         if (!gone(i)) left.push_back(part.chain.segments()[i]);
-    part.index -= static_cast<std::size_t>(std::lower_bound(joints.begin(), joints.end(), part.index) - joints.begin());
+    part.index -=
+        static_cast<std::size_t>(std::lower_bound(joints.begin(), joints.end(), part.index) - joints.begin());
     part.chain = require_value(Chain::from_segments(std::move(left), part.chain.default_direction()));
     part.index = std::min(part.index, std::max<std::size_t>(part.chain.size(), 1) - 1);
     bones_removed(part.reach, joints, part.chain.size());
@@ -122,6 +123,7 @@ void clear(ChainPart& part, const Arguments& given) {
     part.index = 0;
     part.motion.path = Motion::Path::Still;
     forget_limits(part.reach);
+    part.reach.state = {};
     shape_changed(part);
 }
 
@@ -143,6 +145,7 @@ void take_preset(ChainPart& part, const Arguments& given, ChainRuntime& runtime)
     part.chosen_point.reset();
     part.motion.path = Motion::Path::Still;
     forget_limits(part.reach);
+    part.reach.state = {};
     shape_changed(part);
     if (name == reaching_arm) make_it_reach(part, runtime);
 }
@@ -166,11 +169,11 @@ void add_shape_commands(CommandTable& table) {
                             remove_selected));
     table.add(
         chain_command("chain.reset", "Reset the Chain lab", {}, "Resets this lab to its first state", reset));
-    table.add(chain_command("chain.set_length", "Set the length of bones",
-                            {length_argument(),
-                             index_argument(false, "which joint; its length is that of the bone to it"),
-                             joints_argument()},
-                            "Sets the length of the bones to joints", set_length));
+    table.add(chain_command(
+        "chain.set_length", "Set the length of bones",
+        {length_argument(), index_argument(false, "which joint; its length is that of the bone to it"),
+         joints_argument()},
+        "Sets the length of the bones to joints", set_length));
     table.add(chain_command(
         "chain.preset", "Open a chain preset",
         {choice_argument("name", true, "which chain",

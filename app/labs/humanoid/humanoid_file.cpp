@@ -58,6 +58,11 @@ void read_corrections(const JsonPlace& place, HumanoidPart& part) {
             set_bone(part, *bone, node);
         }
     }
+    try {
+        check_bones(part);
+    } catch (const std::invalid_argument& why) {
+        place.fail(why.what());
+    }
 }
 
 Json save_playback(const HumanoidPart& part) {

@@ -1,5 +1,7 @@
 #include "app/labs/humanoid/humanoid_part.hpp"
 
+#include <stdexcept>
+
 #include "app/labs/humanoid/node_selection.hpp"
 
 namespace tendril::app {
@@ -78,6 +80,11 @@ void set_bone(HumanoidPart& part, Bone bone, std::optional<std::size_t> node) {
         map[bone] = {to, node ? 1.0 : 0.0, node ? "picked by hand" : "taken away by hand"};
     humanoid::review(map, part.skeleton());
     part.map = std::make_shared<const BoneMap>(std::move(map));
+}
+
+void check_bones(const HumanoidPart& part) {
+    const Result bad = check(*part.map, part.skeleton());
+    if (!bad && check(part.loaded->matched, part.skeleton())) throw std::invalid_argument(bad.message());
 }
 
 }  // namespace tendril::app

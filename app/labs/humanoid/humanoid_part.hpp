@@ -85,6 +85,9 @@ inline constexpr FlipWords humanoid_flip_words{"humanoid.flips", "target", "the 
 /// Makes a node the bone, or none; a node is one bone at most, and where it was another that one has none
 /// then.
 void set_bone(HumanoidPart& part, humanoid::Bone bone, std::optional<std::size_t> node);
+/// After set_bone(): throws std::invalid_argument where the bones no longer hang on each other as a body's
+/// do. A file whose own map is so is not held to it.
+void check_bones(const HumanoidPart& part);
 
 /// What is saved of IK.
 Json ik_json(const HumanoidPart& part);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "humanoid/body_solve.hpp"
+#include "humanoid/input.hpp"
 #include "rig/checks.hpp"
 #include "rig/math.hpp"
 
@@ -121,7 +122,10 @@ const BodyJoints& Body::joints() const noexcept {
 
 Expected<Body> Body::make(const Skeleton& skeleton, const BoneMap& map, const BodyLimits& limits,
                           std::span<const BodyCapsule> capsules) {
-    if (!map.missing.empty()) return refused("Body", name(map.missing.front()), "mapped", "none");
+    if (const Result bad = detail::check_map("Body", map, skeleton); !bad) return bad;
+    for (std::size_t i = 0; i < bone_count; ++i)
+        if (const auto bone = static_cast<Bone>(i); is_needed(bone) && map[bone].node < 0)
+            return refused("Body", name(bone), "mapped", "none");
     if (!map.upright) return refused("Body", "map", "of a body that stands upright", "one that does not");
     Expected<BodyJoints> joints = BodyJoints::make(skeleton, map, limits);
     if (!joints) return joints.error();
@@ -205,6 +209,9 @@ Expected<BodyReport> Body::solve(std::span<rig::Transform> pose, std::span<const
             tendril::detail::check_count("Body::solve", "pose", pose.size(), work_->parents.size());
         !bad)
         return bad;
+    if (const std::size_t odd = detail::first_insane(pose); odd < pose.size())
+        return refused("Body::solve", Argument("pose", odd), "finite, at most 1e9, with a unit rotation",
+                       "one that is not");
     if (const Result bad = check_targets(targets); !bad) return bad;
     if (const Result bad = check_state(state, work_->links.size()); !bad) return bad;
     if (options.max_iterations < 1 || options.max_iterations > 1000)
@@ -221,10 +228,15 @@ Expected<BodyReport> Body::solve(std::span<rig::Transform> pose, std::span<const
         state = BodyState{};
         return BodyReport{};
     }
+    work_->place_needed(pose);
+    for (const std::size_t node : work_->needed)
+        if (!detail::is_within(work_->placements[node].position))
+            return refused("Body::solve", Argument("pose", node), "within 1e9 m of the root", "one beyond");
     const TwistNodes::ArmTurns before = work_->twist.turns(pose);
-    const BodyReport report = detail::BodySolve(*work_, targets, options).run(pose, state);
+    const std::optional<BodyReport> report = detail::BodySolve(*work_, targets, options).run(pose, state);
+    if (!report) return refused("Body::solve", "pose", "of bones with moderate lengths", "one without");
     work_->twist.follow(before, pose);
-    return report;
+    return *report;
 }
 
 void Body::Work::place_needed(std::span<const rig::Transform> pose) noexcept {

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "humanoid/input.hpp"
 #include "humanoid/joint_turn.hpp"
 #include "rig/math.hpp"
 
@@ -44,7 +45,7 @@ BodySolve::BodySolve(Body::Work& work, std::span<const BodyTarget> targets,
       options_(options),
       touches_(options.self_collision && !work.pairs.empty()) {}
 
-BodyReport BodySolve::run(std::span<rig::Transform> pose, BodyState& state) noexcept {
+std::optional<BodyReport> BodySolve::run(std::span<rig::Transform> pose, BodyState& state) noexcept {
     start(pose, state);
     BodyReport result;
     result.settled = false;
@@ -52,7 +53,7 @@ BodyReport BodySolve::run(std::span<rig::Transform> pose, BodyState& state) noex
     const double moved = goals_moved(state);
     double budget = back_per_metre * moved;
     for (std::size_t k = 0; k < count_; ++k) goals_[k].stuck = state.left[goals_[k].effector];
-    state.pace = std::min(std::max(joints_per_target * moved, pace_kept * state.pace), largest_pace);
+    const double pace = std::min(std::max(joints_per_target * moved, pace_kept * state.pace), largest_pace);
     while (result.iterations < options_.max_iterations) {
         ++result.iterations;
         const double damping = std::max(caution * lever * std::sqrt(2.0 * cost), 1e-8);
@@ -68,8 +69,8 @@ BodyReport BodySolve::run(std::span<rig::Transform> pose, BodyState& state) noex
         const double part = std::min(1.0, largest_turn / size), before = farthest();
         apply(part);
         const double next = measure();
-        if (const double now = farthest(); now > state.pace) {
-            slow_down(part * std::max(state.pace - before, 0.0) / (now - before), state.pace);
+        if (const double now = farthest(); now > pace) {
+            slow_down(part * std::max(pace - before, 0.0) / (now - before), pace);
             break;
         }
         if (next <=
@@ -92,22 +93,40 @@ BodyReport BodySolve::run(std::span<rig::Transform> pose, BodyState& state) noex
             part_back *= 0.5;
         }
     }
+    const double depth = deepest();
+    std::array<glm::dquat, bone_count> turns;
+    for (std::size_t i = 0; i < work_.links.size(); ++i)
+        turns[i] = rig::normalised(math::compose(work_.links[i].turn, conjugate(work_.links[i].own)));
+    turn_ends();
+    if (!give(pose)) return std::nullopt;
+    report(pose, result);
+    state.pace = pace;
     state.left.fill(glm::dvec3(0.0));
     state.weights.fill(0.0);
     state.clip = clip_;
-    state.deepest = deepest();
+    state.deepest = depth;
     for (std::size_t k = 0; k < count_; ++k) {
         state.left[goals_[k].effector] = goals_[k].left;
         if (goals_[k].target) state.weights[goals_[k].effector] = goals_[k].weight;
     }
     state.turns.resize(work_.links.size());
-    for (std::size_t i = 0; i < work_.links.size(); ++i)
-        state.turns[i] = rig::normalised(math::compose(work_.links[i].turn, conjugate(work_.links[i].own)));
+    std::copy_n(turns.begin(), work_.links.size(), state.turns.begin());
     state.shift = shift_;
-    turn_ends();
-    work_.give(pose, shift_);
-    report(pose, result);
     return result;
+}
+
+/// Puts what was found into the pose; false, and nothing is changed, where that is no pose: of lengths near
+/// the largest or smallest double, no number remains.
+bool BodySolve::give(std::span<rig::Transform> pose) noexcept {
+    std::array<rig::Transform, bone_count> before;
+    for (std::size_t i = 0; i < work_.links.size(); ++i) before[i] = pose[work_.links[i].node];
+    work_.give(pose, shift_);
+    bool is_sound = is_within(shift_);
+    for (std::size_t k = 0; k < count_; ++k) is_sound = is_sound && is_within(goals_[k].left);
+    for (const Link& link : work_.links) is_sound = is_sound && is_sane(pose[link.node]);
+    if (!is_sound)
+        for (std::size_t i = 0; i < work_.links.size(); ++i) pose[work_.links[i].node] = before[i];
+    return is_sound;
 }
 
 /// Takes the step back, and what of it the pace allows.

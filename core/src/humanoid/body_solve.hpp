@@ -1,6 +1,8 @@
 // One solve of a body: steps of damped least squares, joints kept within their limits. Not installed.
 #pragma once
 
+#include <optional>
+
 #include "humanoid/body_work.hpp"
 
 namespace tendril::humanoid::detail {
@@ -19,7 +21,8 @@ struct RowEquations {
 class BodySolve {
   public:
     BodySolve(Body::Work& work, std::span<const BodyTarget> targets, const BodyOptions& options) noexcept;
-    BodyReport run(std::span<rig::Transform> pose, BodyState& state) noexcept;
+    /// None, and nothing has changed, where no finite pose comes of it.
+    std::optional<BodyReport> run(std::span<rig::Transform> pose, BodyState& state) noexcept;
 
   private:
     /// What an effector is to reach: a person's target, or where the clip has a foot.
@@ -91,6 +94,7 @@ class BodySolve {
     void put_back() noexcept;
     void apply(double part) noexcept;
     void turn_ends() noexcept;
+    bool give(std::span<rig::Transform> pose) noexcept;
     void turn_end(const Goal& goal) noexcept;
     void report(std::span<const rig::Transform> pose, BodyReport& report) noexcept;
 

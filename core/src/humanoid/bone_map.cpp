@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "humanoid/input.hpp"
 #include "humanoid/names.hpp"
 #include "humanoid/shape.hpp"
 #include "rig/math.hpp"
@@ -236,16 +237,72 @@ BoneMap match_bones(const Skeleton& skeleton) {
     return map;
 }
 
+namespace {
+
+/// The bone that it hangs on in a body; the hips hang on nothing.
+Bone parent_of(Bone bone) noexcept {
+    switch (bone) {
+        case Bone::Hips:
+        case Bone::Spine:
+        case Bone::LeftUpperLeg:
+        case Bone::RightUpperLeg:
+            return Bone::Hips;
+        case Bone::LeftShoulder:
+        case Bone::RightShoulder:
+            return Bone::UpperChest;
+        default:
+            return static_cast<Bone>(static_cast<int>(bone) - 1);
+    }
+}
+
+bool is_in(const Skeleton& skeleton, std::int32_t node) noexcept {
+    return node >= 0 && static_cast<std::size_t>(node) < skeleton.size();
+}
+
+}  // namespace
+
+Result detail::check_map(std::string_view operation, const BoneMap& map, const Skeleton& skeleton) noexcept {
+    using tendril::detail::refused;
+    for (std::size_t i = 0; i < bone_count; ++i) {
+        const auto bone = static_cast<Bone>(i);
+        const std::int32_t node = map[bone].node;
+        if (node == -1) continue;
+        if (!is_in(skeleton, node)) return refused(operation, name(bone), "a node of the skeleton", node);
+        const std::string_view found = skeleton[static_cast<std::size_t>(node)].name;
+        for (std::size_t other = 0; other < i; ++other)
+            if (map.bones[other].node == node)
+                return refused(operation, name(bone), "a node that is no other bone", found);
+        for (Bone above = bone; above != Bone::Hips;) {
+            above = parent_of(above);
+            const std::int32_t parent = map[above].node;
+            if (is_in(skeleton, parent) && parent != node &&
+                skeleton.is_below(static_cast<std::size_t>(parent), static_cast<std::size_t>(node)))
+                return refused(operation, name(bone), "a node that the bones it hangs on are not below",
+                               found);
+        }
+    }
+    return {};
+}
+
+const BoneMap& detail::map_or_none(const BoneMap& map, const Skeleton& skeleton) noexcept {
+    static const BoneMap none;
+    return check(map, skeleton) ? map : none;
+}
+
+Result check(const BoneMap& map, const Skeleton& skeleton) noexcept {
+    return detail::check_map("bone map", map, skeleton);
+}
+
 void review(BoneMap& map, const Skeleton& skeleton) {
     map.missing.clear();
     for (std::size_t i = 0; i < bone_count; ++i)
-        if (map.bones[i].node < 0 && is_needed(static_cast<Bone>(i)))
+        if (!is_in(skeleton, map.bones[i].node) && is_needed(static_cast<Bone>(i)))
             map.missing.push_back(static_cast<Bone>(i));
 
     std::vector<Placement> places(skeleton.size());
     place(skeleton, rest_pose(skeleton), places);
     const auto at = [&](Bone bone) { return places[static_cast<std::size_t>(map[bone].node)].position; };
-    const auto has = [&](Bone bone) { return map[bone].node >= 0; };
+    const auto has = [&](Bone bone) { return is_in(skeleton, map[bone].node); };
     map.upright = true;
     if (has(Bone::Hips) && has(Bone::Head)) {
         const glm::dvec3 way = at(Bone::Head) - at(Bone::Hips);

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "humanoid/anatomy.hpp"
+#include "humanoid/input.hpp"
 #include "rig/math.hpp"
 
 namespace tendril::humanoid {
@@ -83,12 +84,13 @@ class DefaultCapsules {
 }  // namespace
 
 std::vector<BodyCapsule> default_capsules(const Skeleton& skeleton, const BoneMap& map) {
-    return DefaultCapsules(skeleton, map).all();
+    return DefaultCapsules(skeleton, detail::map_or_none(map, skeleton)).all();
 }
 
 PlacedCapsule place(const BodyCapsule& capsule, const BoneMap& map,
                     std::span<const Placement> placements) noexcept {
-    const Placement& at = placements[static_cast<std::size_t>(map[capsule.bone].node)];
+    const auto node = static_cast<std::size_t>(map[capsule.bone].node);  // -1 is beyond all
+    const Placement at = node < placements.size() ? placements[node] : Placement();
     return {at.apply(capsule.from), at.apply(capsule.to), capsule.radius};
 }
 

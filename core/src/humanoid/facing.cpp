@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "humanoid/input.hpp"
 #include "rig/math.hpp"
 
 namespace tendril::humanoid {
@@ -67,7 +68,7 @@ std::size_t farthest_below(const Skeleton& skeleton, std::span<const Placement> 
 Facing facing(const Skeleton& skeleton, const BoneMap& map) {
     std::vector<Placement> rest(skeleton.size());
     place(skeleton, rest_pose(skeleton), rest);
-    return detail::find_facing(skeleton, map, rest).value_or(Facing());
+    return detail::find_facing(skeleton, detail::map_or_none(map, skeleton), rest).value_or(Facing());
 }
 
 }  // namespace tendril::humanoid

@@ -1,8 +1,10 @@
 // What comes first and last in a step: where the character is, what the root rides, where the feet go; the
 // report.
+#include <algorithm>
 #include <cmath>
 
 #include "humanoid/feet_step.hpp"
+#include "humanoid/input.hpp"
 
 namespace tendril::humanoid {
 namespace detail {
@@ -28,6 +30,13 @@ class Saved {
     void blend(double weight) noexcept {
         for (std::size_t i = 0; i < count_; ++i)
             pose_[nodes_[i]] = rig::blend(before_[i], pose_[nodes_[i]], weight);
+    }
+    void restore() noexcept {
+        for (std::size_t i = 0; i < count_; ++i) pose_[nodes_[i]] = before_[i];
+    }
+    bool is_sane() const noexcept {
+        return std::all_of(nodes_.begin(), nodes_.begin() + static_cast<std::ptrdiff_t>(count_),
+                           [&](std::size_t node) { return detail::is_sane(pose_[node]); });
     }
 
   private:
@@ -188,8 +197,10 @@ FeetReport FeetStep::report() const noexcept {
 FeetReport Feet::step(std::span<rig::Transform> pose, const Ground& ground, double dt, FeetState& state,
                       const FeetOptions& options) const noexcept {
     const detail::FeetPlan& plan = *plan_;
-    if (pose.size() != plan.nodes || !check(options)) return {.valid = false};
-    detail::FeetStep step(plan, pose, ground, dt, state, options);
+    if (pose.size() != plan.nodes || !detail::is_sane(pose) || !check(options) || !check(state))
+        return {.valid = false};
+    FeetState next = state;
+    detail::FeetStep step(plan, pose, ground, dt, next, options);
     if (!step.place()) return {.valid = false};
     step.ride();
     step.find_feet();
@@ -208,6 +219,15 @@ FeetReport Feet::step(std::span<rig::Transform> pose, const Ground& ground, doub
             report.feet[i].toe = leg.tail.apply(plan.soles.feet[i].toe);
         }
     }
+    // Bones of nearly no length, or of nearly the largest, leave no numbers to go on with.
+    bool is_sound = saved.is_sane() && check(next);
+    for (const FootReport& foot : report.feet)
+        is_sound = is_sound && detail::is_within(foot.heel) && detail::is_within(foot.toe);
+    if (!is_sound) {
+        saved.restore();
+        return {.valid = false};
+    }
+    state = next;
     return report;
 }
 

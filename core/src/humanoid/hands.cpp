@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "humanoid/input.hpp"
 #include "humanoid/option_ranges.hpp"
 #include "humanoid/view.hpp"
 #include "rig/checks.hpp"
@@ -196,7 +197,7 @@ Expected<Hands> Hands::make(const Skeleton& skeleton, const BoneMap& map) {
 HandsReport Hands::step(std::span<rig::Transform> pose, const HandTargets& targets, double dt,
                         HandsState& state, const HandsOptions& options) const noexcept {
     const Plan& plan = *plan_;
-    if (pose.size() != plan.nodes || !check(options)) return {.valid = false};
+    if (pose.size() != plan.nodes || !detail::is_sane(pose) || !check(options)) return {.valid = false};
     const Placement root = placement(options.root);
     const Placement head = plan.head.place_in(root, pose);
     for (std::size_t i = 0; i < 2; ++i)

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "humanoid/anatomy.hpp"
+#include "humanoid/input.hpp"
 #include "rig/math.hpp"
 
 namespace tendril::humanoid {
@@ -178,7 +179,7 @@ BodyLimits no_limits() noexcept {
 }
 
 BodyLimits default_limits(const Skeleton& skeleton, const BoneMap& map) {
-    return DefaultLimits(skeleton, map).all();
+    return DefaultLimits(skeleton, detail::map_or_none(map, skeleton)).all();
 }
 
 BodyLimits learned_limits(const Skeleton& skeleton, const BoneMap& map, std::span<const Clip> clips,
@@ -208,6 +209,7 @@ BodyLimits learned_limits(const Skeleton& skeleton, const BoneMap& map, std::spa
 
 Expected<BodyJoints> BodyJoints::make(const Skeleton& skeleton, const BoneMap& map,
                                       const BodyLimits& limits) {
+    if (const Result bad = detail::check_map("BodyJoints", map, skeleton); !bad) return bad;
     BodyJoints result;
     const Facing at = facing(skeleton, map);
     std::vector<Placement> placements(skeleton.size());

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "humanoid/input.hpp"
 #include "humanoid/option_ranges.hpp"
 #include "humanoid/view.hpp"
 #include "rig/checks.hpp"
@@ -136,7 +137,7 @@ Expected<LookAt> LookAt::make(const Skeleton& skeleton, const BoneMap& map) {
 LookAtReport LookAt::step(std::span<rig::Transform> pose, const LookAtOptions& options, double dt,
                           LookAtState& state) const noexcept {
     const Plan& plan = *plan_;
-    if (pose.size() != plan.nodes || !check(options)) return {.valid = false};
+    if (pose.size() != plan.nodes || !detail::is_sane(pose) || !check(options)) return {.valid = false};
     const Placement root = placement(options.root);
     const Placement at = plan.head.place_in(root, pose);
     if (!detail::is_moderate(at)) return {.valid = false};

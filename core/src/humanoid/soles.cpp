@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "humanoid/facing.hpp"
+#include "humanoid/input.hpp"
 #include "humanoid/limb.hpp"
 #include "math/checks.hpp"
 
@@ -102,9 +103,7 @@ double lowest_of(const SolePoints& foot) noexcept {
 }  // namespace
 
 Expected<Soles> find_soles(const Skeleton& skeleton, const BoneMap& map) {
-    for (const BoneMatch& match : map.bones)
-        if (match.node < -1 || match.node >= static_cast<std::int32_t>(skeleton.size()))
-            return refused("find_soles", "map", "of this skeleton's nodes", match.node);
+    if (const Result bad = detail::check_map("find_soles", map, skeleton); !bad) return bad;
     if (!map.upright) return refused("find_soles", "map", "of a figure that is upright", "one that is not");
     for (const Bone bone :
          {Bone::Hips, legs[0][0], legs[0][1], legs[0][2], legs[1][0], legs[1][1], legs[1][2]}) {

@@ -5,6 +5,7 @@
 
 #include "humanoid/anatomy.hpp"
 #include "humanoid/direction.hpp"
+#include "humanoid/input.hpp"
 #include "humanoid/limb.hpp"
 #include "humanoid/option_ranges.hpp"
 #include "rig/checks.hpp"
@@ -124,6 +125,7 @@ Result check(const SpringOptions& options) noexcept {
 
 Expected<SpringChain> SpringChain::make(const Skeleton& skeleton, const BoneMap& map, std::size_t root) {
     constexpr const char* operation = "SpringChain";
+    if (const Result bad = detail::check_map(operation, map, skeleton); !bad) return bad;
     if (root >= skeleton.size())
         return tendril::detail::refused_index(operation, root, skeleton.size(), "the skeleton", "nodes");
     const std::string_view named = skeleton[root].name;
@@ -236,7 +238,7 @@ void SpringChain::Plan::turn(std::span<rig::Transform> pose, const Placement& ba
 
 SpringReport SpringChain::Plan::run(std::span<rig::Transform> pose, const SpringOptions& options, Time time,
                                     double dt, SpringChainState& state) noexcept {
-    if (pose.size() != nodes || !check(options)) return {.valid = false};
+    if (pose.size() != nodes || !detail::is_sane(pose) || !check(options)) return {.valid = false};
     const glm::dvec3& scale = options.root.scale;
     size = std::max({std::abs(scale.x), std::abs(scale.y), std::abs(scale.z)});
     Placement base = placement(options.root);

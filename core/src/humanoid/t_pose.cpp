@@ -1,13 +1,15 @@
 #include "tendril/humanoid/t_pose.hpp"
 
 #include "humanoid/anatomy.hpp"
+#include "humanoid/input.hpp"
 #include "rig/math.hpp"
 
 namespace tendril::humanoid {
 
 using namespace rig::detail;
 
-std::vector<rig::Transform> t_pose(const Skeleton& skeleton, const BoneMap& map) {
+std::vector<rig::Transform> t_pose(const Skeleton& skeleton, const BoneMap& given) {
+    const BoneMap& map = detail::map_or_none(given, skeleton);
     std::vector<rig::Transform> pose = rest_pose(skeleton);
     std::vector<Placement> placements(skeleton.size());
     place(skeleton, pose, placements);

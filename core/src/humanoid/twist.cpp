@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "humanoid/anatomy.hpp"
+#include "humanoid/input.hpp"
 #include "humanoid/joint_turn.hpp"
 #include "humanoid/names.hpp"
 #include "rig/math.hpp"
@@ -59,7 +60,8 @@ double TwistBone::part(const glm::dvec3& point) const noexcept {
     return std::clamp(dot(point, way) / dot(way, way), 0.0, 1.0);
 }
 
-std::vector<TwistBone> twist_bones(const Skeleton& skeleton, const BoneMap& map) {
+std::vector<TwistBone> twist_bones(const Skeleton& skeleton, const BoneMap& given) {
+    const BoneMap& map = detail::map_or_none(given, skeleton);
     std::vector<TwistBone> bones;
     const std::vector<rig::Transform> rest = rest_pose(skeleton);
     for (const Bone bone :

@@ -27,6 +27,13 @@ std::string saved_title(const std::filesystem::path& file) {
     return read_json_file(file)["labs"]["arm"]["title"].get<std::string>();
 }
 
+/// But for locks.
+std::vector<std::string> files(const TempFolder& folder) {
+    std::vector<std::string> names = folder.names();
+    std::erase_if(names, [](const std::string& name) { return name.ends_with(".lock"); });
+    return names;
+}
+
 /// The number of a program that has ended.
 std::string dead_pid() {
     const pid_t pid = ::fork();
@@ -44,7 +51,7 @@ TEST(Autosave, writes_30_seconds_after_the_first_change) {
     autosave.update(workspace, start + 1s);
     change(workspace, "two");
     autosave.update(workspace, start + 30s);
-    EXPECT_TRUE(folder.names().empty());
+    EXPECT_TRUE(files(folder).empty());
     autosave.update(workspace, start + 31s);
     EXPECT_EQ(saved_title(autosave.file()), "two");
 
@@ -61,14 +68,14 @@ TEST(Autosave, writes_nothing_while_nothing_changes) {
     Workspace workspace = test::make_workspace();
     Autosave autosave(folder.path());
     for (int i = 0; i < 100; ++i) autosave.update(workspace, start + i * 10s);
-    EXPECT_TRUE(folder.names().empty());
+    EXPECT_TRUE(files(folder).empty());
 
     change(workspace, "one");
     autosave.update(workspace, start + 2000s);
     autosave.update(workspace, start + 2030s);
     std::filesystem::remove(autosave.file());
     for (int i = 0; i < 100; ++i) autosave.update(workspace, start + 3000s + i * 10s);
-    EXPECT_TRUE(folder.names().empty()) << "the same document once more";
+    EXPECT_TRUE(files(folder).empty()) << "the same document once more";
 }
 
 TEST(Autosave, takes_its_file_away_once_the_work_is_saved_and_at_the_end) {
@@ -78,16 +85,16 @@ TEST(Autosave, takes_its_file_away_once_the_work_is_saved_and_at_the_end) {
         Autosave autosave(folder.path(), 0s);
         change(workspace, "one");
         autosave.update(workspace, start);
-        EXPECT_EQ(folder.names().size(), 1u);
+        EXPECT_EQ(files(folder).size(), 1u);
         save_scene_file(workspace, folder / "scene.json");
         autosave.update(workspace, start + 1s);
-        EXPECT_EQ(folder.names(), std::vector<std::string>{"scene.json"});
+        EXPECT_EQ(files(folder), std::vector<std::string>{"scene.json"});
         change(workspace, "two");
         autosave.update(workspace, start + 2s);
-        EXPECT_EQ(folder.names().size(), 2u);
+        EXPECT_EQ(files(folder).size(), 2u);
         autosave.end(workspace, false);
     }
-    EXPECT_EQ(folder.names(), std::vector<std::string>{"scene.json"});
+    EXPECT_EQ(files(folder), std::vector<std::string>{"scene.json"});
 }
 
 TEST(Autosave, keeps_unsaved_work_that_was_ended_from_outside) {
@@ -142,6 +149,11 @@ TEST(Autosave, offers_only_what_programs_that_ended_left_the_newest_first) {
           std::string("autosave-12x.json"), std::string("autosave.json"), std::string("settings.json"),
           "autosave-" + dead_pid() + ".json.bak"})
         test::write(folder / name, "{}");
+    // The number of a program that runs, ours, and of the one that always runs: what tells is who holds the
+    // lock.
+    const auto ours = FileLock::take(folder / ("autosave-" + std::to_string(::getpid()) + ".lock"));
+    const auto first = FileLock::take(folder / "autosave-1.lock");
+    ASSERT_TRUE(ours && first);
     std::filesystem::create_directory(folder / ("autosave-" + dead_pid() + ".json"));
     const auto now = std::filesystem::file_time_type::clock::now();
     std::filesystem::last_write_time(folder / aside, now - 3h);
@@ -151,6 +163,50 @@ TEST(Autosave, offers_only_what_programs_that_ended_left_the_newest_first) {
               (std::vector<std::filesystem::path>{folder / new_file, folder / old_file, folder / aside}));
     EXPECT_TRUE(Autosave::left_behind(folder / "missing").empty());
     EXPECT_TRUE(Autosave::left_behind("").empty());
+}
+
+TEST(Autosave, of_a_program_that_ended_is_offered_though_its_number_is_used_again) {
+    const TempFolder folder;
+    const auto reused = folder / "autosave-1.json";  // a process of that number runs everywhere
+    test::write(reused, "{}");
+    test::write(folder / "autosave-1.lock", "");  // left by a crash, held by nobody
+    EXPECT_EQ(Autosave::left_behind(folder.path()), std::vector{reused});
+}
+
+/// Two containers share a folder, and both programs have the number 7.
+TEST(Autosave, of_two_programs_with_one_number_are_two_files) {
+    const TempFolder folder;
+    Workspace workspace = test::make_workspace();
+    Autosave first(folder.path(), 0s);
+    change(workspace, "first");
+    first.update(workspace, start);
+    first.update(workspace, start + 1s);
+    const auto file = first.file();
+    ASSERT_EQ(saved_title(file), "first");
+    {
+        Autosave second(folder.path(), 0s);
+        EXPECT_NE(second.file(), file);
+        change(workspace, "second");
+        second.update(workspace, start);
+        second.update(workspace, start + 1s);
+        EXPECT_EQ(saved_title(second.file()), "second");
+        EXPECT_EQ(saved_title(file), "first");
+        EXPECT_TRUE(Autosave::left_behind(folder.path()).empty());
+    }
+    EXPECT_EQ(Autosave::left_behind(folder.path()).size(), 1u) << "the second one's, which has ended";
+}
+
+TEST(Autosave, takes_away_what_was_torn_in_its_folder) {
+    const TempFolder folder;
+    for (const char* name : {".tendril-1-0.tmp", ".tendril-2-0.tmp", "mine.tmp"})
+        test::write(folder / name, "half");
+    const auto old = std::filesystem::file_time_type::clock::now() - 1h;
+    std::filesystem::last_write_time(folder / ".tendril-1-0.tmp", old);
+    std::filesystem::last_write_time(folder / "mine.tmp", old);
+    const Autosave autosave(folder.path());
+    EXPECT_FALSE(std::filesystem::exists(folder / ".tendril-1-0.tmp"));
+    EXPECT_TRUE(std::filesystem::exists(folder / ".tendril-2-0.tmp")) << "it may be being written";
+    EXPECT_TRUE(std::filesystem::exists(folder / "mine.tmp"));
 }
 
 TEST(Autosave, of_a_program_that_was_killed_is_found_and_recovered) {

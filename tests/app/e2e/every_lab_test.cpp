@@ -47,6 +47,19 @@ std::vector<std::string> vocabulary(const App& app, const std::string& lab) {
     return names;
 }
 
+/// What is saved is opened, and is the same when it is saved again.
+void expect_opens_again(const Workspace& workspace) {
+    static const Labs labs = all_labs();
+    const Json saved = save_scene(workspace);
+    Workspace opened = make_blank_workspace(labs);
+    try {
+        load_scene(opened, parse_json(json_to_text(saved)));
+    } catch (const std::exception& error) {
+        FAIL() << "what was saved is not opened: " << error.what();
+    }
+    EXPECT_EQ(save_scene(opened), saved);
+}
+
 class EveryScene : public testing::TestWithParam<LabScene> {};
 
 TEST_P(EveryScene, StandsRandomEventsAndCommandsAndReplaysThem) {
@@ -63,11 +76,57 @@ TEST_P(EveryScene, StandsRandomEventsAndCommandsAndReplaysThem) {
             for (int i = 0; i < 120 && !HasFailure(); ++i) {
                 monkey.act();
                 if (i % 20 == 0) expect_finite(app.state(), "state");
+                expect_opens_again(app.workspace());
             }
             app.draw();
             expect_finite(app.state(), "state");
         },
         all_labs);
+}
+
+/// On what is there already some commands are refused.
+void try_to_set_up(App& app, const LabScene& scene) {
+    for (const CommandCall& command : scene.scene.commands) {
+        try {
+            app.run({command.name, to_json(command.arguments)});
+        } catch (const Refused&) {
+        }
+    }
+}
+
+/// The mouse rests on a handle, or holds it, and the scene under it is exchanged for each other one of its
+/// lab, and back.
+TEST_P(EveryScene, MayGoAwayUnderTheMouse) {
+    const auto window = open_offscreen({1000, 700});
+    for (const LabScene& other : all_scenes()) {
+        if (other.lab != GetParam().lab || other.scene.commands.size() > 12) continue;
+        for (const bool held : {false, true}) {
+            App app(*window, false, all_labs());
+            app.run({"lab.open", Json{{"name", other.lab}}});
+            app.run({"time.pause"});
+            try_to_set_up(app, GetParam());
+            const Json state = app.state();
+            std::size_t tried = 0;
+            for (const Json& handle : state.at("handles")) {
+                if (!handle.at("pixel").is_array() || ++tried > 3) continue;
+                const Event move =
+                    MouseMove{{handle["pixel"][0].get<float>(), handle["pixel"][1].get<float>()}};
+                const Event press = MousePress{MouseButton::Left, true},
+                            release = MousePress{MouseButton::Left, false};
+                const Event drag =
+                    MouseMove{{handle["pixel"][0].get<float>() + 40.0f, handle["pixel"][1].get<float>()}};
+                app.tick(&move);
+                if (held) app.tick(&press), app.tick(&drag);
+                try_to_set_up(app, other);
+                app.tick(held ? &move : nullptr);
+                app.draw();
+                if (held) app.tick(&release);
+                while (app.workspace().history.can_undo()) app.run({"undo"});
+                app.tick(nullptr);
+                try_to_set_up(app, GetParam());
+            }
+        }
+    }
 }
 
 TEST_P(EveryScene, LooksAndMovesTheSameEachTimeAndAfterItWasSaved) {

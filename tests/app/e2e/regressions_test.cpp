@@ -29,6 +29,35 @@ TEST(OnceWrong, escape_lets_go_of_a_drag_as_if_it_had_not_been) {
     EXPECT_EQ(after["segments"], before["segments"]);
 }
 
+/// What was remembered of a chain outlived it, and the scene was saved and never opened again.
+TEST(OnceWrong, a_chain_that_was_dragged_and_exchanged_is_saved_and_opened) {
+    const TempFolder folder;
+    const std::string path = (folder / "scene.json").string();
+    const app::Json pole = {3, 3, 3};
+    for (const auto& [command, arguments] :
+         std::vector<std::pair<const char*, app::Json>>{{"chain.preset", {{"name", "snake"}, {"count", 39}}},
+                                                        {"chain.preset", {{"name", "coil"}, {"count", 3}}},
+                                                        {"chain.clear", app::Json::object()},
+                                                        {"chain.reset", app::Json::object()},
+                                                        {"chain.add", {{"length", 1}}}}) {
+        for (const char* undo : {"", "undo"}) {
+            ScriptText script;
+            script.command("chain.pole", {{"to", pole}})
+                .command("chain.target", {{"to", {4, 3, 0}}})
+                .command("chain.target", {{"to", {3, 4, 1}}})
+                .command(command, arguments);
+            if (*undo != 0) script.command(undo);
+            script.command("scene.save", {{"path", path}}).command("scene.open", {{"path", path}});
+            state_after(script);
+            const std::string saved = read(path);
+            std::filesystem::remove(path);
+            state_after(script.command("scene.save", {{"path", path}}));
+            EXPECT_EQ(read(path), saved) << command << ' ' << undo;
+            std::filesystem::remove(path);
+        }
+    }
+}
+
 TEST(OnceWrong, a_step_of_time_is_taken_at_once) {
     ScriptText script;
     script.command("time.step").line({{"expect", "time.tick"}, {"equals", 1}});

@@ -270,6 +270,30 @@ TEST_F(RealWindow, broken_settings_stop_nothing) {
     ended();
 }
 
+/// The terminal or the session is closed, or the display goes away: nobody is asked, and nothing is lost.
+TEST_F(RealWindow, keeps_unsaved_work_whatever_ends_it) {
+    const fs::path config = settings_path().parent_path();
+    for (const char* way : {"SIGTERM", "SIGHUP", "the display"}) {
+        fs::remove_all(config);
+        start();
+        move(handle(first_state(), "target"));
+        xdotool({"mousedown", "1"});
+        move(handle(first_state(), "target") + glm::vec2(-60, -40));
+        xdotool({"mouseup", "1"});
+        sleep(300);
+        const std::string ends = way;
+        if (ends == "SIGTERM") program_->signal(SIGTERM);
+        if (ends == "SIGHUP") program_->signal(SIGHUP);
+        if (ends == "the display") server_->signal(SIGKILL);
+        program_->wait(20.0);
+        std::size_t kept = 0;
+        for (const auto& entry : fs::directory_iterator(config))
+            kept += entry.path().filename().string().starts_with("autosave-") &&
+                    entry.path().extension() == ".json";
+        EXPECT_EQ(kept, 1u) << way;
+    }
+}
+
 TEST_F(RealWindow, offers_what_a_crash_left) {
     // Autosaves come after half a minute: this one is made by hand, as of a program that is no more.
     ScriptText script;

@@ -92,7 +92,7 @@ std::string panel_texts(const FrameRecord& frame) {
                           box.min.x < each.clip.max.x && box.min.y < each.clip.max.y;
         if (!seen) continue;
         for (const float place : {box.min.x, box.min.y}) lines += std::to_string(std::lround(place)) + ' ';
-        lines += app::single_line(each.text) + '\n';
+        lines += app::printable(each.text) + '\n';
     }
     return lines;
 }

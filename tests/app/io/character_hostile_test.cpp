@@ -24,7 +24,7 @@ class HostileCharacter : public testing::Test {
             return {};
         } catch (const std::runtime_error& error) {
             const std::string words = error.what();
-            EXPECT_EQ(words.find(name), 0u) << words;
+            EXPECT_EQ(words.find(std::filesystem::path(name).filename().string()), 0u) << words;
             EXPECT_LT(words.size(), 600u) << words;
             EXPECT_EQ(words.find('\n'), words.npos) << words;
             return words;
@@ -127,7 +127,7 @@ TEST_F(HostileCharacter, gltf_clips_with_wrong_numbers_are_refused) {
             "3 times and 2 values");
     const std::string fine = base64(std::vector<float>(12, 0.5f));
     refuses("no_node.gltf", two_joints("", "", keys(fine, three_times, three_places, "translation", "77")),
-            "no node 77");
+            "target.node: there is no 77");
     refuses("path.gltf", two_joints("", "", keys(fine, three_times, three_places, "colour")), "colour");
     refuses("type.gltf", two_joints("", "", keys(fine, three_times, three_times)), "3 numbers a row");
 }
@@ -143,7 +143,7 @@ TEST_F(HostileCharacter, gltf_accessors_that_claim_more_than_there_is_are_refuse
         "zeros.gltf",
         two_joints("", "",
                    keys(fine, R"({"componentType":5126,"count":40000000,"type":"SCALAR"})", three_places)),
-        "more than");
+        "claims 40000000 rows");
     refuses("sparse.gltf",
             two_joints("", "",
                        keys(fine,
@@ -159,7 +159,7 @@ TEST_F(HostileCharacter, gltf_buffers_that_are_not_there_are_refused) {
     };
     refuses("gone.gltf", buffer(R"({"byteLength":48,"uri":"gone.bin"})"), "gone.bin");
     refuses("four.gltf", buffer(R"({"byteLength":4294967295,"uri":"gone.bin"})"),
-            "buffers[0] claims 4294967295");
+            "buffers[0].byteLength: claims 4294967295");
     refuses("huge.gltf", buffer(R"({"byteLength":18446744073709551615,"uri":"gone.bin"})"), "buffers[0]");
     refuses("none.gltf", buffer(R"({"byteLength":0,"uri":"data:application/octet-stream;base64,"})"),
             "buffers[0]");
@@ -176,17 +176,90 @@ TEST_F(HostileCharacter, gltf_images_that_are_not_there_are_refused) {
         return two_joints(
             "", "",
             R"(,"buffers":[{"byteLength":3,"uri":"data:application/octet-stream;base64,AAAA"}],)"
-            R"("bufferViews":[{"buffer":0,"byteLength":3},{"buffer":0,"byteLength":1000000},)"
-            R"({"buffer":0,"byteOffset":4000000000,"byteLength":1},{"buffer":9,"byteLength":1}],)"
-            R"("images":[)" +
+            R"("bufferViews":[{"buffer":0,"byteLength":3}],"images":[)" +
                 text + "]");
     };
     refuses("skin.gltf", image(R"({"uri":"skin.png"})"), "images[0]: skin.png is missing");
-    for (const char* view : {"1", "2", "3", "4", "-1", "\"x\""})
+    for (const char* view : {"1", "4294967296", "-1", "0.5", "\"x\""})
         refuses("view.gltf", image(std::string(R"({"mimeType":"image/png","bufferView":)") + view + "}"),
                 "image");
     EXPECT_EQ(refusal("no_picture.gltf", image(R"({"mimeType":"image/png","bufferView":0})")), "")
         << "a skeleton can be played without the colours of its skin";
+}
+
+TEST_F(HostileCharacter, gltf_bytes_that_nothing_uses_are_checked_as_well) {
+    // A well file, with one view, one accessor or one mesh besides that claims what is not there.
+    const auto with = [](const std::string& view, const std::string& accessor, const std::string& more = "") {
+        const std::string view_1 = R"({"buffer":0,"byteOffset":12,"byteLength":36})";
+        const std::string values = three_places + (accessor.empty() ? "" : "," + accessor);
+        std::string file =
+            two_joints("", "", keys(base64(std::vector<float>(12, 0.5f)), three_times, values) + more);
+        if (const auto at = file.find(view_1); !view.empty()) file.insert(at + view_1.size(), "," + view);
+        // The clip's times must rise.
+        return file.replace(file.find("AAAAPwAAAD8AAAA/"), 16, base64({0.0f, 0.5f, 1.0f}));
+    };
+    ASSERT_EQ(refusal("well.gltf", with("", "")), "");
+    const auto accessor = [](const std::string& text) {
+        return R"({"bufferView":2,"componentType":5126,"type":"VEC4",)" + text + "}";
+    };
+    const std::string row = R"({"buffer":0,"byteLength":16})";
+    ASSERT_EQ(refusal("row.gltf", with(row, accessor(R"("count":1)"))), "");
+    ASSERT_EQ(refusal("row_0.gltf",
+                      with(R"({"buffer":0,"byteLength":16,"byteStride":0})", accessor(R"("count":1)"))),
+              "");
+    refuses("wraps.gltf", with(row, accessor(R"("count":1,"byteOffset":18446744073709551608)")),
+            "accessors[2].byteOffset: 18446744073709551608");
+    refuses("back.gltf", with(row, accessor(R"("count":1,"byteOffset":-8)")), "accessors[2].byteOffset");
+    refuses("part.gltf", with(row, accessor(R"("count":1,"byteOffset":0.5)")), "accessors[2].byteOffset");
+    for (const char* stride : {"", R"(,"byteStride":0)", R"(,"byteStride":18446744073709551615)"})
+        refuses("many.gltf",
+                with(R"({"buffer":0,"byteLength":16)" + std::string(stride) + "}",
+                     accessor(R"("count":1000000000000000)")),
+                "accessors[2].count");
+    refuses("stride.gltf", with(R"({"buffer":0,"byteLength":16,"byteStride":1})", accessor(R"("count":2)")),
+            "stride of 1");
+    refuses("type.gltf", with(row, R"({"bufferView":2,"componentType":1,"type":"VEC4","count":1})"),
+            "componentType");
+    refuses("kind.gltf", with(row, R"({"bufferView":2,"componentType":5126,"type":"VEC9","count":1})"),
+            "accessors[2].type");
+    refuses("view.gltf", with("", accessor(R"("count":1)")), "accessors[2].bufferView: there is no 2");
+    refuses("long.gltf", with(R"({"buffer":0,"byteLength":49})", ""), "bufferViews[2].byteLength");
+    refuses("view_wraps.gltf", with(R"({"buffer":0,"byteOffset":18446744073709551608,"byteLength":16})", ""),
+            "bufferViews[2].byteLength");
+    refuses("buffer.gltf", with(R"({"buffer":1,"byteLength":1})", ""), "bufferViews[2].buffer");
+    refuses("packed.gltf",
+            with(R"({"buffer":0,"byteLength":16,"extensions":{"EXT_meshopt_compression":{"buffer":7}}})", ""),
+            "EXT_meshopt_compression.buffer");
+    refuses(
+        "sparse.gltf",
+        with(row, accessor(R"("count":1,"sparse":{"count":1,"indices":{"bufferView":2,"componentType":5125,)"
+                           R"("byteOffset":18446744073709551612},"values":{"bufferView":2}})")),
+        "accessors[2].sparse.indices.byteOffset");
+    refuses("weights.gltf", with("", "", R"(,"meshes":[{"primitives":[{"attributes":{"WEIGHTS_0":9}}]}])"),
+            "meshes[0].primitives[0].attributes.WEIGHTS_0: there is no 9");
+    refuses("attributes.gltf", with("", "", R"(,"meshes":[{"primitives":[{"attributes":[1]}]}])"),
+            "expected an object");
+}
+
+TEST_F(HostileCharacter, nothing_outside_the_folder_of_a_gltf_is_read) {
+    const std::string secret(64, 's');
+    std::filesystem::create_directories(folder_ / "in/below");
+    for (const char* name : {"outside.bin", "in/beside.bin", "in/below/it.bin"})
+        test::write(folder_ / name, secret);
+    std::filesystem::create_symlink(folder_ / "outside.bin", folder_ / "in/link.bin");
+    std::filesystem::create_directory_symlink(folder_.path(), folder_ / "in/up");
+    const auto read = [&](const std::string& uri) {
+        const std::string buffer = R"(,"buffers":[{"byteLength":64,"uri":")" + uri + R"("}])";
+        return refusal("in/it.gltf", two_joints("", "", buffer));
+    };
+    for (const char* uri : {"beside.bin", "below/it.bin", "below/../beside.bin", "%62eside.bin"})
+        EXPECT_EQ(read(uri), "") << uri;
+    for (const std::string& uri :
+         {std::string("../outside.bin"), std::string("%2e%2e/outside.bin"), std::string("..%2foutside.bin"),
+          std::string("below/../../outside.bin"), std::string("link.bin"), std::string("up/outside.bin"),
+          (folder_ / "outside.bin").string()})
+        EXPECT_NE(read(uri), "") << uri;
+    EXPECT_NE(read("../outside.bin").find("outside the file's folder"), std::string::npos);
 }
 
 TEST_F(HostileCharacter, gltf_nodes_that_make_no_tree_are_refused) {
@@ -334,6 +407,15 @@ TEST_F(HostileCharacter, fbx_that_breaks_an_assertion_of_assimp_does_not_end_the
         test::read(tendril::test::source_path("tests/fuzz/corpus/fbx/curve_without_keys.fbx"));
     const std::string words = refusal("keys.fbx", bytes);  // where Assimp has no assertions it may be read
     EXPECT_TRUE(words.empty() || words.find("does not hold") != words.npos) << words;
+}
+
+TEST_F(HostileCharacter, a_figure_without_nodes_is_refused_whatever_reads_it) {
+    EXPECT_THROW(static_cast<void>(skeleton_of({})), std::runtime_error);
+    // An animated mesh with pivots and no bone, of Assimp's tests.
+    const std::filesystem::path animated =
+        tendril::test::characters_folder().parent_path() / "found/fbx_mesh_only.fbx";
+    if (std::filesystem::exists(animated))
+        refuses("mesh.fbx", tendril::test::read(animated), "has no skeleton");
 }
 
 TEST_F(HostileCharacter, fbx_models_in_a_circle_or_without_end_are_refused) {

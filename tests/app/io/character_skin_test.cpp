@@ -196,7 +196,7 @@ TEST(CharacterSkin, wrong_numbers_are_refused_with_their_place) {
         "no joint 9");
     says([](OwnGltf& own) { own.positions = raw<float>({1, 0, 0, 1, NAN, 0, 1, 0, 1}); }, "corner 1");
     says([](OwnGltf& own) { own.primitive = R"("POSITION":0,"JOINTS_0":1)"; }, "without WEIGHTS");
-    says([](OwnGltf& own) { own.primitive = R"("POSITION":99)"; }, "no accessor 99");
+    says([](OwnGltf& own) { own.primitive = R"("POSITION":99)"; }, "POSITION: there is no 99");
     says([](OwnGltf& own) { own.primitive = R"("POSITION":0,"NORMAL":6)"; }, "NORMAL");
     says([](OwnGltf& own) { own.node = R"("mesh":7,"skin":0)"; }, "nodes[2]: there is no mesh 7");
     says([](OwnGltf& own) { own.node = R"("mesh":0,"skin":4)"; }, "no skin 4");

@@ -109,7 +109,9 @@ std::vector<dvec3> cloth_row(const Wearer& wearer, const AttachmentShape& shape,
     return evenly_along(curve, columns_of(shape));
 }
 
-AttachmentShape default_shape(const Wearer& wearer, AttachmentKind kind, std::size_t node) {
+namespace {
+
+AttachmentShape fitting_shape(const Wearer& wearer, AttachmentKind kind, std::size_t node) {
     const humanoid::Facing facing = humanoid::facing(wearer.loaded.skeleton(), wearer.map);
     const double height = height_of(wearer), unit = height / 1.8;
     const dvec3 rest = wearer.loaded.rest[node].position, back = -facing.forward;
@@ -146,6 +148,19 @@ AttachmentShape default_shape(const Wearer& wearer, AttachmentKind kind, std::si
     const dvec3 from = bone == Bone::Head ? 0.09 * unit * facing.up : dvec3(0.0);
     const dvec3 way = trunk ? back : shape.direction;
     shape.offset = from + way_off(wearer, rest + from, way, 0.5 * (shape.width + shape.thickness)) * way;
+    return shape;
+}
+
+}  // namespace
+
+void scale_lengths(AttachmentShape& shape, double by) {
+    for (double* length : {&shape.length, &shape.width, &shape.thickness})
+        *length = std::clamp(*length * by, shortest_attachment, longest_attachment);
+}
+
+AttachmentShape default_shape(const Wearer& wearer, AttachmentKind kind, std::size_t node) {
+    AttachmentShape shape = fitting_shape(wearer, kind, node);
+    scale_lengths(shape, 1.0);
     return shape;
 }
 

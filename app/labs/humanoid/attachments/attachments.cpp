@@ -194,14 +194,9 @@ void remove_attachment(Attachments& attachments, const std::string& name) {
 }
 
 Attachments remade(const Attachments& attachments, const Wearer& wearer, double scale) {
-    const auto scaled = [&](double metres) {
-        return std::clamp(scale * metres, shortest_attachment, longest_attachment);
-    };
     Attachments all;
     for (Attachment each : attachments.list) {
-        each.shape.length = scaled(each.shape.length);
-        each.shape.width = scaled(each.shape.width);
-        each.shape.thickness = scaled(each.shape.thickness);
+        scale_lengths(each.shape, scale);
         each.shape.offset *= scale;
         add_attachment(all, wearer, std::move(each));
     }

@@ -87,6 +87,8 @@ struct Wearer {
     NodeFrame frame(std::size_t node) const;
 };
 
+/// Makes it so many times as large, within the lengths that an attachment may have.
+void scale_lengths(AttachmentShape& shape, double by);
 /// One that looks as the node asks for: a tail, a ponytail, a cape; else it hangs.
 AttachmentShape default_shape(const Wearer& wearer, AttachmentKind kind, std::size_t node);
 

@@ -51,6 +51,7 @@ void map(HumanoidPart& part, const Arguments& given) {
     std::optional<std::size_t> node;
     if (given.has("node") && !given.text("node").empty()) node = node_named(part, given.text("node"));
     set_bone(part, *bone, node);
+    check_bones(part);
 }
 
 void rescale(Workspace& workspace, const Arguments& given) {

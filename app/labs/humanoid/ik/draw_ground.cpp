@@ -97,7 +97,7 @@ class GroundDrawing {
     }
 
     void mesh() const {
-        const Triangles& all = ground_.mesh->triangles;
+        const TriangleMesh& all = ground_.mesh->triangles;
         constexpr std::size_t most = 100'000;  // triangles
         const auto at = [&](std::size_t i) { return glm::vec3(all.vertices[all.triangles[i]]); };
         for (std::size_t i = 0; i + 2 < std::min(all.triangles.size(), 3 * most); i += 3) {

@@ -24,7 +24,7 @@ inline constexpr double steepest_deg = 80.0, highest_step = 2.0, shortest_step =
 /// The triangles of a file. It never changes, and copies share it.
 struct GroundMesh {
     std::string path;
-    Triangles triangles;
+    TriangleMesh triangles;
     humanoid::Ground ground;
 };
 /// Throws std::runtime_error that begins with the file's name.

@@ -117,7 +117,8 @@ class Body {
     /// Without a target it stays as it is, to the bit, and the state is emptied. Where the clip itself
     /// exceeds a limit, that joint's limit reaches as far as the clip. InvalidArgument, and nothing is moved:
     /// a number that is not finite or out of its range, two targets of one effector, a list that has not a
-    /// transform for each node, a state of another body. Allocates nothing once `state` has been used.
+    /// transform for each node, a state of another body, a pose of which no finite one can be made. Allocates
+    /// nothing once `state` has been used.
     Expected<BodyReport> solve(std::span<rig::Transform> pose, std::span<const BodyTarget> targets,
                                BodyState& state, const BodyOptions& options = {});
 

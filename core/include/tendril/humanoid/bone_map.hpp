@@ -87,4 +87,10 @@ BoneMap match_bones(const Skeleton& skeleton);
 /// After a person has changed `bones`: what is missing, and how it rests.
 void review(BoneMap& map, const Skeleton& skeleton);
 
+/// Whether the map is of that skeleton. Refuses a bone whose node the skeleton does not have, a node that is
+/// two bones, and a bone above one that it hangs on in a body: "bone map: LeftHand must be a node of the
+/// skeleton, got 77". What needs a map refuses what this refuses; what cannot refuse takes such a map for one
+/// without bones.
+Result check(const BoneMap& map, const Skeleton& skeleton) noexcept;
+
 }  // namespace tendril::humanoid

@@ -130,8 +130,9 @@ struct FootReport {
 };
 
 struct FeetReport {
-    /// False: a pose that is not finite or has the wrong number of transforms, or options out of their
-    /// ranges; pose and state are as they were.
+    /// False: a pose that is not finite or has the wrong number of transforms, a state that check() refuses,
+    /// options out of their ranges, or bones too long or too short for a finite answer; pose and state are as
+    /// they were.
     bool valid = true;
     std::array<FootReport, 2> feet{};  ///< left, right
     double base = 0.0;                 ///< metres, what the root is moved up by

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "humanoid/input.hpp"
 #include "humanoid/lint/cure_foot.hpp"
 #include "humanoid/lint/tracks.hpp"
 #include "math/checks.hpp"
@@ -123,6 +124,7 @@ Expected<Clip> cure(const Skeleton& skeleton, const BoneMap& map, const Clip& cl
                     const LintSettings& settings) {
     if (!finding.has_cure)
         return tendril::detail::refused("cure", "finding", "one that has a cure", name(finding.fault));
+    if (const Result bad = detail::check_map("cure", map, skeleton); !bad) return bad;
     if (finding.node >= static_cast<std::int32_t>(skeleton.size()))
         return tendril::detail::refused("cure", "finding.node", "the place of a node", finding.node);
     LintReport report = lint_detail::blank_report(clip, settings);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "humanoid/input.hpp"
+
 namespace tendril::humanoid {
 namespace lint_detail {
 
@@ -91,8 +93,9 @@ double frame_rate(const Clip& clip) noexcept {
     return std::abs(rate - nearest) < 1e-3 * nearest ? nearest : rate;
 }
 
-LintReport lint(const Skeleton& skeleton, const BoneMap& map, const Clip& clip,
+LintReport lint(const Skeleton& skeleton, const BoneMap& given, const Clip& clip,
                 const LintSettings& settings) {
+    const BoneMap& map = detail::map_or_none(given, skeleton);
     LintReport report = lint_detail::blank_report(clip, settings);
     lint_detail::Check check{skeleton, map, clip, settings, lint_detail::height_of(skeleton), report};
     check_signs(check);

@@ -1,8 +1,30 @@
 // What hangs on a character: where it is made, that it stays off the body, and how it comes to rest.
 #include "attach_support.hpp"
+#include "tests/app/support/temp_folder.hpp"
 
 namespace tendril::app {
 namespace {
+
+TEST_F(HumanoidAttach, OnAFigureOfAnySizeIsSavedAndOpened) {
+    const test::TempFolder folder;
+    const std::string path = (folder / "figure.bvh").string();
+    test::write(path, bvh_figure());
+    for (const double unit : {1e-6, 0.001, 0.1, 800'000.0}) {
+        for (const char* kind : {"rope", "hair", "cloth"}) {
+            workspace = make_blank_workspace(labs);
+            run("humanoid.load", {{"path", path}});
+            run("humanoid.attach", {{"bone", "LeftHand"}, {"kind", kind}});
+            run("humanoid.look_at", {{"on", true}});
+            run("humanoid.scale", {{"metres", unit}});
+            EXPECT_EQ(lab().state(reopened()), state()) << kind << " at " << unit;
+            run("humanoid.detach", {{"name", kind}});
+            run("humanoid.attach", {{"bone", "LeftHand"}, {"kind", kind}});
+            run("humanoid.look_at", {{"on", false}});
+            run("humanoid.look_at", {{"on", true}});
+            EXPECT_EQ(lab().state(reopened()), state()) << kind << " at " << unit;
+        }
+    }
+}
 
 TEST_F(HumanoidAttach, MakesATailAPonytailAndACape) {
     dress();
