@@ -29,6 +29,38 @@ TEST(OnceWrong, escape_lets_go_of_a_drag_as_if_it_had_not_been) {
     EXPECT_EQ(after["segments"], before["segments"]);
 }
 
+/// The mouse rested on the hand's handle, which was drawn once more when it was gone: a crash.
+TEST(OnceWrong, a_hand_goes_away_under_the_mouse) {
+    const TempFolder folder;
+    const std::string two_nodes = (folder / "two.bvh").string(), scene = (folder / "two.json").string();
+    write(two_nodes,
+          "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nJOINT b\n{\nOFFSET "
+          "0 1 0\n"
+          "CHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\n}\nMOTION\nFrames: 1\n"
+          "Frame Time: 0.03\n0 0 0 0 0 0\n");
+    const auto load = [&](ScriptText& script) { script.command("humanoid.load", {{"path", two_nodes}}); };
+    const auto rest_on_hand = [](ScriptText& script) {
+        script.line({{"mouse", "move"}, {"to", "right_hand"}}).wait(2);
+    };
+    std::vector<ScriptText> ways(4);
+    rest_on_hand(ways[0]);
+    ways[0].command("humanoid.map", {{"bone", "RightHand"}});
+    rest_on_hand(ways[1]);
+    load(ways[1]);
+    load(ways[2]);
+    ways[2].command("humanoid.load");
+    rest_on_hand(ways[2]);
+    ways[2].command("undo");
+    load(ways[3]);
+    ways[3].command("scene.save", {{"path", scene}}).command("humanoid.load");
+    rest_on_hand(ways[3]);
+    ways[3].command("scene.open", {{"path", scene}});
+    for (ScriptText& way : ways) {
+        const app::Json state = play(way.wait(3), {.more = {"--lab", "humanoid"}}).state;
+        for (const app::Json& each : state.at("handles")) EXPECT_NE(each.at("name"), "right_hand");
+    }
+}
+
 /// What was remembered of a chain outlived it, and the scene was saved and never opened again.
 TEST(OnceWrong, a_chain_that_was_dragged_and_exchanged_is_saved_and_opened) {
     const TempFolder folder;
