@@ -12,6 +12,7 @@
 #include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
+#include "app/document/text.hpp"
 #include "app/shell/gizmo_view.hpp"
 #include "app/shell/theme.hpp"
 #include "app/video_take.hpp"

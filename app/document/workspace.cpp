@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/document/text.hpp"
+
 namespace tendril::app {
 
 int Clock::whole_ticks() const {
