@@ -23,20 +23,10 @@ const T& named(const std::vector<T>& list, int index, const std::string& what, c
     return list[static_cast<std::size_t>(index)];
 }
 
-std::size_t size_of(int component_type, const std::string& what) {
-    switch (component_type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return 1;
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return 2;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        case TINYGLTF_COMPONENT_TYPE_FLOAT:
-            return 4;
-        default:
-            fail(what, "unknown type of component " + std::to_string(component_type));
-    }
+/// Of a type that check_gltf() knows.
+std::size_t size_of(int component_type) {
+    return static_cast<std::size_t>(
+        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type)));
 }
 
 template <class T>
@@ -90,8 +80,8 @@ void put_sparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor
                 const std::string& what, std::vector<double>& values) {
     if (accessor.sparse.count < 0) fail(what, "a negative count of sparse values");
     const auto count = static_cast<std::size_t>(accessor.sparse.count);
-    const std::size_t size = size_of(accessor.componentType, what);
-    const std::size_t index_size = size_of(accessor.sparse.indices.componentType, what);
+    const std::size_t size = size_of(accessor.componentType);
+    const std::size_t index_size = size_of(accessor.sparse.indices.componentType);
     const auto offset = [&](int bytes) {
         if (bytes < 0) fail(what, "a negative offset");
         return static_cast<std::size_t>(bytes);
@@ -127,7 +117,7 @@ std::vector<double> accessor_rows(const tinygltf::Model& model, int index, int c
     if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) != components)
         fail(what, "expected " + std::to_string(components) + " numbers a row");
     const auto width = static_cast<std::size_t>(components);
-    const std::size_t size = size_of(accessor.componentType, what);
+    const std::size_t size = size_of(accessor.componentType);
     std::vector<double> values;
     if (accessor.bufferView >= 0) {
         const Rows rows = rows_of(model, accessor.bufferView, accessor.byteOffset, count, size * width, what);

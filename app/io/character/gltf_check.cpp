@@ -14,6 +14,9 @@ namespace {
 using nlohmann::json;
 using Size = std::uint64_t;
 
+/// Of an accessor without bytes of its own: all zeros, or compressed.
+constexpr Size max_zero_rows = 10'000'000;
+
 /// An element of the file, and where it is: "accessors[3].sparse".
 class Item {
   public:

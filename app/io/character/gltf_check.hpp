@@ -10,8 +10,6 @@ namespace tendril::app {
 
 /// Of a glTF file, and of each file beside it, bytes.
 inline constexpr std::uint64_t max_gltf_bytes = std::uint64_t{1} << 30;
-/// Of an accessor without bytes of its own (all zeros, or compressed).
-inline constexpr std::uint64_t max_zero_rows = 10'000'000;
 
 /// Throws std::runtime_error with the place and the value: "accessors[20].byteOffset: ...". Text that is no
 /// JSON passes: tinygltf says where it breaks.
