@@ -1,6 +1,7 @@
 // Pseudo-random numbers that are the same everywhere: the standard's distributions are not.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -25,6 +26,8 @@ class Random {
     float around(float range) {
         return (static_cast<float>(below(1u << 21)) - 1048576.0f) * (1.0f / 1048576.0f) * range;
     }
+    /// 0 to 1
+    float part() { return std::abs(around(1.0f)); }
     glm::vec3 point(float range) {
         const float x = around(range), y = around(range), z = around(range);
         return {x, y, z};

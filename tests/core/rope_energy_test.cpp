@@ -15,7 +15,7 @@ double scale(const World& world) {
 
 /// The most that energy was over its start in that many seconds, as a part of what there is of it.
 double most_gained(World& world, int seconds) {
-    run_substeps(world, 2, [] {});  // energy is by central differences, and so that of one substep ago
+    run_substeps(world, 2, [] {});
     const double start = energy(world), of = scale(world);
     double most = -1.0;
     run_substeps(world, seconds * 240, [&] { most = std::max(most, (energy(world) - start) / of); });

@@ -15,9 +15,9 @@ namespace tendril::test {
 class StateBits {
   public:
     explicit StateBits(const rope::State& state) {
-        const auto& [settings, bodies, links, position, displacement, earlier, mass, pins, colliders,
+        const auto& [settings, bodies, links, position, displacement, mass, pins, colliders,
                      body_slots, collider_slots, remainder, displaced_in, substeps, dropped] = state;
-        add(settings, bodies, links, position, displacement, earlier, mass, pins, colliders, body_slots,
+        add(settings, bodies, links, position, displacement, mass, pins, colliders, body_slots,
             collider_slots, remainder, displaced_in, substeps, dropped);
     }
     bool operator==(const StateBits&) const = default;

@@ -9,21 +9,17 @@ using glm::dvec3;
 using rope::Shape;
 using rope::Solver;
 
-float part(Random& random) {
-    return std::abs(random.around(1.0f));
-}
-
 Shape some_shape(Random& random) {
     const glm::vec3 at = random.point(0.6f);
     switch (random.below(8)) {
         case 0:
         case 1:
         case 2:
-            return rope::Sphere{at, random.chance(12) ? 0.0f : 0.05f + 0.35f * part(random)};
+            return rope::Sphere{at, random.chance(12) ? 0.0f : 0.05f + 0.35f * random.part()};
         case 3:
         case 4:
             return rope::Capsule{at, random.chance(12) ? at : at + random.point(0.5f),
-                                 0.03f + 0.2f * part(random)};
+                                 0.03f + 0.2f * random.part()};
         case 5: {
             const glm::vec3 normal = random.point(1.0f) + glm::vec3(0, 1.1f, 0);
             return rope::Plane{{0, -0.8f, 0}, normal};
@@ -31,13 +27,13 @@ Shape some_shape(Random& random) {
         default:
             return rope::Box{
                 at,
-                {0.05f + 0.3f * part(random), 0.05f + 0.3f * part(random), 0.05f + 0.3f * part(random)},
+                {0.05f + 0.3f * random.part(), 0.05f + 0.3f * random.part(), 0.05f + 0.3f * random.part()},
                 glm::quat(1.5f, random.point(1.0f))};
     }
 }
 
 void add_some_body(World& world, Random& random) {
-    const float radius = random.chance(6) ? 0.0f : 0.03f * part(random);
+    const float radius = random.chance(6) ? 0.0f : 0.03f * random.part();
     const glm::vec3 at = random.point(0.8f);
     switch (random.below(6)) {
         case 0:
@@ -65,7 +61,7 @@ void add_some_body(World& world, Random& random) {
             world.add_rope({.from = at,
                             .to = to,
                             .segments = 1 + static_cast<int>(random.below(14)),
-                            .length = distance_of * (random.chance(3) ? 1.0f : 1.0f + part(random)),
+                            .length = distance_of * (random.chance(3) ? 1.0f : 1.0f + random.part()),
                             .radius = radius,
                             .pin_start = random.chance(2),
                             .pin_end = random.chance(4)});
@@ -112,7 +108,7 @@ void play(std::uint64_t seed, Found& worst) {
                               .iterations = 1 + static_cast<int>(random.below(12)),
                               .solver = all_solvers[random.below(3)],
                               .compliance = random.chance(4) ? 1e-3f : 0.0f,
-                              .friction = part(random)});
+                              .friction = random.part()});
     const std::size_t colliders = 1 + random.below(4), bodies = 1 + random.below(2);
     for (std::size_t i = 0; i < colliders; ++i)
         world.add_collider("collider " + std::to_string(i), some_shape(random));
@@ -127,7 +123,7 @@ void play(std::uint64_t seed, Found& worst) {
             if (random.chance(2)) {
                 const rope::Collider& collider = world.state().colliders[i];
                 const glm::vec3 to = centre(collider.shape) + random.point(0.5f);
-                world.move_collider(world.name(collider), to, 0.25 * static_cast<double>(part(random)));
+                world.move_collider(world.name(collider), to, 0.25 * static_cast<double>(random.part()));
             }
         for (int frame = 0; frame < 4; ++frame) {
             world.advance(1.0 / 60.0);

@@ -28,30 +28,26 @@ bool is_zero(const glm::dvec3& v) {
     return plus_zero(v.x) && plus_zero(v.y) && plus_zero(v.z);
 }
 
-/// [x, y, z, mass], and before the mass what it moved in the last substep and in the one before, where it
-/// did.
+/// [x, y, z, mass], and before the mass what it moved in the last substep, where it did.
 Json save_particle(const rope::State& state, std::size_t i) {
     Json row = dpoint(state.position[i]);
-    if (!is_zero(state.displacement[i]) || !is_zero(state.earlier[i])) {
-        for (const glm::dvec3& v : {state.displacement[i], state.earlier[i]})
-            for (int axis = 0; axis < 3; ++axis) row.push_back(v[axis]);
-    }
+    if (const glm::dvec3& moved = state.displacement[i]; !is_zero(moved))
+        for (int axis = 0; axis < 3; ++axis) row.push_back(moved[axis]);
     row.push_back(state.mass[i]);
     return row;
 }
 
+/// Older files have three numbers more, what it moved in the substep before; nothing needs them.
 void load_particle(rope::State& state, const JsonPlace& place) {
     const Json& row = place.json();
-    if (!row.is_array() || (row.size() != 4 && row.size() != 10))
-        place.fail("expected a row of 4 or 10 numbers, found " + json_summary(row));
+    if (!row.is_array() || (row.size() != 4 && row.size() != 7 && row.size() != 10))
+        place.fail("expected a row of 4 or 7 numbers, found " + json_summary(row));
     const auto point_at = [&](std::size_t i) {
         return glm::dvec3(json_real(row[i], place.where()), json_real(row[i + 1], place.where()),
                           json_real(row[i + 2], place.where()));
     };
-    const bool moved = row.size() == 10;
     state.position.push_back(point_at(0));
-    state.displacement.push_back(moved ? point_at(3) : glm::dvec3(0.0));
-    state.earlier.push_back(moved ? point_at(6) : glm::dvec3(0.0));
+    state.displacement.push_back(row.size() > 4 ? point_at(3) : glm::dvec3(0.0));
     state.mass.push_back(json_real(row.back(), place.where(), 0.0, 1e30));
 }
 

@@ -29,6 +29,8 @@ const char* scene_help(std::string_view name) {
         return "A rope over the drum of a well, with a bucket at one end and a hand at the other";
     if (name == "cloth") return "A cloth falls over a ball";
     if (name == "hair") return "Hair on a head that turns to and fro, over shoulders that do not";
+    if (name == "bars") return "Ropes of 8, 45 and 160 segments fall on bars that get thinner; none gains energy";
+    if (name == "curtain") return "A ball swings into a cloth that hangs by two corners; pull it about and let go";
     return "";
 }
 

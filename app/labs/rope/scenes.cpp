@@ -34,7 +34,9 @@ const std::vector<RopeSceneEntry>& rope_scenes() {
         {"pendulum", "Pendula", pendulum_scene, view({0.0f, 0.75f, 0.0f}, -40.0f, 12.0f, 4.2f)},
         {"well", "Well", well_scene, view({0.0f, 0.85f, 0.0f}, -28.0f, 16.0f, 4.6f)},
         {"cloth", "Cloth", cloth_scene, view({0.0f, 0.65f, 0.0f}, -28.0f, 24.0f, 4.6f)},
-        {"hair", "Hair", hair_scene, view({0.0f, 1.2f, 0.0f}, -20.0f, 8.0f, 2.9f)}};
+        {"hair", "Hair", hair_scene, view({0.0f, 1.2f, 0.0f}, -20.0f, 8.0f, 2.9f)},
+        {"bars", "Thin bars", bars_scene, view({0.0f, 0.75f, 0.0f}, -24.0f, 14.0f, 4.8f)},
+        {"curtain", "Curtain", curtain_scene, view({0.0f, 1.0f, 0.0f}, -24.0f, 10.0f, 4.2f)}};
     return list;
 }
 

@@ -35,6 +35,8 @@ RopeScene pendulum_scene();
 RopeScene well_scene();
 RopeScene cloth_scene();
 RopeScene hair_scene();
+RopeScene bars_scene();
+RopeScene curtain_scene();
 
 /// The ground, as every scene has it.
 void add_ground(NamedWorld& world);

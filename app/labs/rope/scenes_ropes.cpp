@@ -116,6 +116,33 @@ RopeScene pendulum_scene() {
     return scene;
 }
 
+/// Ropes of few and of many segments fall on bars that get thinner. Nothing takes energy from them but what
+/// they meet: watch the curve.
+RopeScene bars_scene() {
+    RopeScene scene;
+    NamedWorld& world = scene.world;
+    add_ground(world);
+    const struct {
+        float x, bar;
+        int segments;
+    } pairs[] = {{-1.1f, 0.1f, 8}, {0.0f, 0.034f, 45}, {1.1f, 0.015f, 160}};
+    constexpr float height = 0.8f, fall = 0.6f, half = 0.5f;
+    for (const auto& [x, bar, segments] : pairs) {
+        const std::string size = std::to_string(segments);
+        world.add_collider("bar " + size, rope::Capsule{{x, height, -0.6f}, {x, height, 0.6f}, bar});
+        // A little off the middle, so that it slides down on one side.
+        const float middle = x + 0.06f;
+        world.add_rope("rope " + size, {.from = {middle - half, height + fall, 0},
+                                        .to = {middle + half, height + fall, 0},
+                                        .segments = segments});
+    }
+    rope::Settings settings = world.settings();
+    settings.damping = 0.0f;
+    settings.friction = 0.2f;
+    world.set_settings(settings);
+    return scene;
+}
+
 /// A rope over the drum of a well: a hand pulls at one end, a bucket hangs from the other.
 RopeScene well_scene() {
     RopeScene scene;

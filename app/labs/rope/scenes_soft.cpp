@@ -27,6 +27,32 @@ RopeScene cloth_scene() {
     return scene;
 }
 
+/// A ball swings into a curtain that hangs by two corners. Pull it about by any point, and let go: it hangs
+/// again.
+RopeScene curtain_scene() {
+    RopeScene scene;
+    NamedWorld& world = scene.world;
+    add_ground(world);
+    constexpr int side = 28;
+    constexpr float rail = 1.85f, half = 0.65f, length = 1.3f;
+    for (const float x : {-half, half})
+        world.add_collider(x < 0 ? "left hook" : "right hook", rope::Sphere{{x, rail + 0.03f, 0}, 0.03f});
+    world.add_cloth("curtain", {.corner = {-half, rail - 0.02f, 0},
+                                .along = {2.0f * half, 0, 0},
+                                .down = {0, -length, 0},
+                                .columns = side,
+                                .rows = side,
+                                .density = 0.3f,
+                                .pins = rope::ClothShape::Pins::Corners});
+    const glm::vec3 middle(0.1f, 1.0f, 0.6f);
+    world.add_collider("ball", rope::Sphere{middle, 0.22f});
+    scene.swings.push_back({"ball", middle, {-0.15f, 0.0f, -0.75f}, 4.0f});
+    rope::Settings settings = world.settings();
+    settings.damping = 0.6f;
+    world.set_settings(settings);
+    return scene;
+}
+
 /// Hair on a head that turns to and fro, over shoulders that do not.
 RopeScene hair_scene() {
     RopeScene scene;

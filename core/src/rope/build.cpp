@@ -94,6 +94,12 @@ dvec3 acceleration(const Settings& settings) noexcept {
     return static_cast<double>(settings.gravity_scale) * dvec3(settings.gravity) + dvec3(settings.external);
 }
 
+double compliance(const Settings& settings, const Link& link) noexcept {
+    if (link.kind != Link::Kind::Stretch) return link.compliance;
+    if (settings.solver == Solver::Relaxation) return 0.0;
+    return static_cast<double>(settings.compliance) * link.rest + link.compliance;
+}
+
 dvec3 down(const Settings& settings) noexcept {
     const dvec3 gravity = static_cast<double>(settings.gravity_scale) * dvec3(settings.gravity);
     return length(gravity) > 1e-12 ? unit(gravity) : dvec3(0.0, -1.0, 0.0);
@@ -113,7 +119,6 @@ Expected<BodyId> append(State& state, const char* operation, Draft draft) {
     const std::size_t first = state.position.size(), count = draft.points.size();
     state.position.insert(state.position.end(), draft.points.begin(), draft.points.end());
     state.displacement.resize(first + count, dvec3(0.0));
-    state.earlier.resize(first + count, dvec3(0.0));
     state.mass.resize(first + count, draft.mass);
     for (Link& link : draft.links) {
         link.a += static_cast<std::uint32_t>(first);

@@ -34,5 +34,6 @@ Expected<BodyId> append(State& state, const char* operation, Draft draft);
 glm::dvec3 down(const Settings& settings) noexcept;
 /// Gravity and what there is beside it, m/s^2.
 glm::dvec3 acceleration(const Settings& settings) noexcept;
-
+/// Of a link, m/N, as the solver takes it.
+double compliance(const Settings& settings, const Link& link) noexcept;
 }  // namespace tendril::rope::detail

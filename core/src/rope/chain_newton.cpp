@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "rope/build.hpp"
 #include "rope/contact_shape.hpp"
 #include "rope/geometry.hpp"
 
@@ -49,8 +50,7 @@ void ChainNewton::begin() {
         const Link& link = state_.links[chain.first_link + k];
         detail::ChainBond& bond = s_.bonds[k];
         bond.rest = link.rest;
-        bond.compliance =
-            (static_cast<double>(state_.settings.compliance) * link.rest + link.compliance) / square;
+        bond.compliance = detail::compliance(state_.settings, link) / square;
         const double weights = scratch_.weight[i] + scratch_.weight[particle(k + 1)];
         bond.compliance = std::max(bond.compliance, smallest_compliance * weights);
         bond.multiplier = std::max(0.0, static_cast<double>(link.tension) * square);
@@ -159,7 +159,6 @@ void ChainNewton::finish(double worst) {
         if (k < chain.links) scratch_.multiplier[chain.first_link + k] = s_.bonds[k].multiplier;
     }
     scratch_.chain_error[chain_] = worst;
-    scratch_.chain_gain[chain_] = 0.0;
 }
 
 }  // namespace tendril::rope

@@ -41,14 +41,13 @@ Result bad_point(const char* list, std::size_t index, const glm::dvec3& p) {
 Result check_particles(const State& state) {
     const std::size_t size = state.position.size();
     if (size > max_particles) return refused(op, "particles", "at most 1000000", size);
-    for (const std::size_t other : {state.displacement.size(), state.earlier.size(), state.mass.size()}) {
+    for (const std::size_t other : {state.displacement.size(), state.mass.size()}) {
         if (other == size) continue;
-        return refused(op, "displacement, earlier and mass", "as many as position", other);
+        return refused(op, "displacement and mass", "as many as position", other);
     }
     for (std::size_t i = 0; i < size; ++i) {
         if (!is_point(state.position[i])) return bad_point("position", i, state.position[i]);
         if (!is_offset(state.displacement[i])) return bad_point("displacement", i, state.displacement[i]);
-        if (!is_offset(state.earlier[i])) return bad_point("earlier", i, state.earlier[i]);
         // 1e9 kg/m on 1e9 m, or a square of that, is allowed.
         if (!(state.mass[i] > 0.0 && state.mass[i] <= 1e30))
             return refused(op, Argument("mass", i), "over 0 and finite", state.mass[i]);

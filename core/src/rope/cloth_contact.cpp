@@ -104,22 +104,36 @@ void ClothSolver::keep(ClothContact contact, const SurfaceDistance& surface, dou
 }
 
 void ClothSolver::add_contacts() {
-    for (const ClothContact& each : local_.cloth_contacts) add_contact(each);
+    for (ClothContact& each : local_.cloth_contacts) {
+        rub(each);
+        add_contact(each);
+    }
+}
+
+/// Friction, by the force of the solve before.
+void ClothSolver::rub(ClothContact& contact) const {
+    const dvec3& n = contact.normal;
+    contact.at = between(contact, scratch_.place);
+    dvec3& slip = contact.slip;
+    slip = contact.at - between(contact, state_.position) - collider_of(contact).by_at(contact.at);
+    slip -= detail::dot(slip, n) * n;
+    const double size = detail::length(slip), most = state_.settings.friction * contact.force;
+    contact.drag = size * stiffness_ > most ? most / size : stiffness_;
+}
+
+/// Its part of the potential.
+double ClothSolver::potential_of(const ClothContact& contact) const {
+    const dvec3 by = between(contact, scratch_.place) - contact.at;
+    const double along = detail::dot(by, contact.normal), gap = contact.gap + along;
+    const dvec3 slip = contact.slip + by - along * contact.normal;
+    return stiffness_ * gap * gap + contact.drag * detail::dot(slip, slip);
 }
 
 void ClothSolver::add_contact(const ClothContact& contact) {
     const dvec3& n = contact.normal;
     const double to_b = contact.t, to_a = 1.0 - to_b;
-    const auto between = [&](const std::vector<dvec3>& all) {
-        return to_a * all[contact.a] + to_b * all[contact.b];
-    };
-    const dvec3 place = between(scratch_.place);
-    dvec3 slip = place - between(state_.position) - collider_of(contact).by_at(place);
-    slip -= detail::dot(slip, n) * n;
-    const double size = detail::length(slip), most = state_.settings.friction * contact.force;
-    const double drag = size * stiffness_ > most ? most / size : stiffness_;
-    const std::array<double, 6> stiff = block(n, stiffness_, drag);
-    const dvec3 force = -stiffness_ * contact.gap * n - drag * slip;
+    const std::array<double, 6> stiff = block(n, stiffness_, contact.drag);
+    const dvec3 force = -stiffness_ * contact.gap * n - contact.drag * contact.slip;
     const std::size_t cell_a = cell_of(contact.a);
     add(level_.diagonal, cell_a, to_a * to_a, stiff);
     add(level_.right, cell_a, to_a * force);

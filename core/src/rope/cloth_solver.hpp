@@ -4,6 +4,8 @@
 // colliders it is solved again from where it came to, with the contacts found there. Not installed.
 #pragma once
 
+#include <optional>
+
 #include "rope/scratch.hpp"
 
 namespace tendril::rope {
@@ -23,7 +25,7 @@ class ClothSolver {
     void assemble();
     void pin();
     int step(int iterations);
-    double note_tensions();
+    double potential();
 
     // cloth_contact.cpp
     void find_contacts(bool first);
@@ -31,12 +33,17 @@ class ClothSolver {
     void find_at_link(ClothContact contact, double radius);
     void keep(ClothContact contact, const SurfaceDistance& surface, double radius);
     void add_contacts();
+    void rub(ClothContact& contact) const;
+    double potential_of(const ClothContact& contact) const;
     void add_contact(const ClothContact& contact);
     void note_forces();
     const Scratch::Moving& collider_of(const ClothContact& contact) const {
         return scratch_.colliders[local_.near[contact.near].collider];
     }
 
+    static glm::dvec3 between(const ClothContact& contact, const std::vector<glm::dvec3>& all) {
+        return (1.0 - contact.t) * all[contact.a] + contact.t * all[contact.b];
+    }
     double stiffness_of(const Link& link) const;
     std::size_t cell_of(std::size_t particle) const {
         const std::size_t number = particle - first_;
@@ -57,6 +64,8 @@ class ClothSolver {
     double h_, mass_ = 0.0, unit_ = 0.0;  ///< the mean of a particle, kg; its m / h^2
     double stiffness_ = 0.0;              ///< the most that a link has, in that unit
     float lightest_ = 1.0f;
+    std::optional<double> potential_;  ///< where particles are, if that is known
+    double strain_ = 0.0;              ///< of the stretch link that is off most
     bool converged_ = true;
 };
 

@@ -67,7 +67,8 @@ SurfaceDistance Scratch::Moving::entered(const dvec3& was, dvec3& at, double rad
 
 void Substep::find_near() {
     local_.near.clear();
-    for (const std::uint32_t body : Plan::part(plan_.bodies, island_.bodies)) scratch_.body_near[body] = 0;
+    for (const std::uint32_t body : Plan::part(plan_.bodies, island_.bodies))
+        scratch_.body_near[body] = Scratch::Nearest::None;
     if (state_.colliders.empty()) return;
     Bounds whole;
     const std::uint32_t first_chunk = island_.chunks.first, end_chunk = first_chunk + island_.chunks.count;
@@ -99,7 +100,9 @@ void Substep::find_near() {
             const bool meets = chunk.meets(collider.low, collider.high);
             if (!meets || detail::beyond(*collider.shape, chunk.low, chunk.high)) continue;
             local_.near.push_back({c, k});
-            scratch_.body_near[plan_.chunks[c].body] = 1;
+            Scratch::Nearest& nearest = scratch_.body_near[plan_.chunks[c].body];
+            nearest =
+                std::max(nearest, collider.moves() ? Scratch::Nearest::Moving : Scratch::Nearest::Resting);
         }
     }
 }

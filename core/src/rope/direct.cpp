@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 
+#include "rope/build.hpp"
 #include "rope/chain_newton.hpp"
 #include "rope/cloth_solver.hpp"
 #include "rope/geometry.hpp"
@@ -30,6 +31,8 @@ constexpr double length_tolerance = 1e-7;       ///< relative length error that 
 constexpr double accepted_error = 1e-4;         ///< a chain with more is solved again
 constexpr double accepted_shared_error = 1e-3;  ///< the same where chains share particles
 constexpr double fallback_error = 0.02;         ///< a chain with more in the end: its body is relaxed
+constexpr double accepted_gain = 1e-3;          ///< of energy; what gains more is not taken as it stands
+constexpr double correction_speed = 2.0;        ///< m/s
 constexpr int max_restarts = 6, fallback_passes = 16;
 /// Minimum of passes of chains that share particles, while they are near a collider.
 constexpr int min_contact_passes = 4;
@@ -54,10 +57,14 @@ struct Substep::Batch {
 int Substep::direct_alone() {
     ChainNewton newton(state_, plan_, island_, scratch_, local_);
     const std::uint32_t first = island_.chains.first, end = first + island_.chains.count;
-    const auto near = [&](std::uint32_t r) { return scratch_.body_near[plan_.chains[r].body] != 0; };
+    const auto near = [&](std::uint32_t r) { return is_near(plan_.chains[r].body); };
+    const auto solve = [&](std::uint32_t r) {
+        newton.solve();
+        if (ledger_of(plan_.chains[r]).gains(accepted_gain)) slow_correction(plan_.chains[r]);
+    };
     for (std::uint32_t r = first; r < end; ++r) {
         scratch_.chain_solved[r] = near(r) && newton.find(r) && newton.touches();
-        if (scratch_.chain_solved[r] != 0) newton.solve();
+        if (scratch_.chain_solved[r] != 0) solve(r);
     }
     report_.work += island_.links.count;
     for (const Plan::Group& group : Plan::part(plan_.groups, island_.groups)) solve_group(group, 0);
@@ -65,11 +72,28 @@ int Substep::direct_alone() {
         if (scratch_.chain_solved[r] != 0) continue;
         const bool failed = !(scratch_.chain_error[r] <= fallback_error);
         const bool found = (failed || near(r)) && newton.find(r);
-        if (failed || (found && newton.inside())) newton.solve();
+        if (failed || (found && newton.inside())) solve(r);
     }
     measure();
-    limit_energy();
     return 1;
+}
+
+/// A solve that would throw a chain is taken in part: nothing is corrected faster than the fastest of its
+/// particles moves, or than correction_speed.
+void Substep::slow_correction(const Plan::Chain& chain) {
+    double farthest = 0.0, most = correction_speed * h_;
+    const auto each = [&](auto visit) {
+        for (std::uint32_t k = 0; k <= chain.links; ++k) visit(plan_.nodes[chain.first_node + k]);
+    };
+    each([&](std::uint32_t i) {
+        farthest = std::max(farthest, detail::length(scratch_.place[i] - scratch_.base[i]));
+        most = std::max(most, detail::length(scratch_.base[i] - state_.position[i]));
+    });
+    if (farthest <= most) return;
+    each([&](std::uint32_t i) {
+        const dvec3 by = scratch_.place[i] - scratch_.base[i];
+        scratch_.place[i] = scratch_.base[i] + (most / farthest) * by;
+    });
 }
 
 int Substep::direct_grid() {
@@ -106,7 +130,6 @@ int Substep::direct() {
     }
     if (!converged && max_passes < state_.settings.iterations) report_.shortened = 1;
     relax_failed_bodies();
-    limit_energy();
     return passes;
 }
 
@@ -195,7 +218,6 @@ double Substep::solve_batch(const Batch& batch, int iteration) {
         scatter(block, lane, chain);
     }
     for (std::uint32_t chain = batch.chain; chain < batch.chain + batch.count; ++chain) {
-        scratch_.chain_gain[chain] = energy_gained(chain);
         if (first.alone && iteration == 0) solve_again(chain);
         worst = std::max(worst, scratch_.chain_error[chain]);
     }
@@ -205,8 +227,8 @@ double Substep::solve_batch(const Batch& batch, int iteration) {
 void Substep::solve_again(std::uint32_t chain) {
     const double enough =
         has_fallback_contact(plan_.chains[chain].body) ? 10.0 * accepted_error : accepted_error;
-    if (scratch_.chain_error[chain] <= enough && !gains_energy(chain, 1e-4)) return;
     const Plan::Chain& it = plan_.chains[chain];
+    if (scratch_.chain_error[chain] <= enough && !ledger_of(it).gains(1e-4)) return;
     Block block{local_.block.data() + local_.block_offset, it.links, 1};
     const int restarts = std::min(max_restarts, state_.settings.iterations);
     for (std::uint32_t k = it.first_link; k < it.first_link + it.links; ++k) {
@@ -224,7 +246,6 @@ void Substep::solve_again(std::uint32_t chain) {
         scatter(block, 0, chain);
         if (order.worst[0] <= enough) break;
     }
-    scratch_.chain_gain[chain] = energy_gained(chain);
 }
 
 void Substep::gather(const Block& block, const Batch& batch) const {
@@ -250,7 +271,7 @@ void Substep::gather(const Block& block, const Batch& batch) const {
             if (k == chain.links) continue;
             const Link& link = state_.links[chain.first_link + k];
             *row(Row::Rest) = link.rest;
-            *row(Row::Compliance) = compliance_of(link) * per_square;
+            *row(Row::Compliance) = detail::compliance(state_.settings, link) * per_square;
             *row(Row::Multiplier) = scratch_.multiplier[chain.first_link + k];
         }
     }
@@ -264,71 +285,6 @@ void Substep::scatter(const Block& block, std::uint32_t lane, std::uint32_t numb
         const auto row = [&](std::size_t which) { return node[which * block.lanes]; };
         if (scratch_.weight[i] > 0.0) scratch_.place[i] = {row(Row::X), row(Row::Y), row(Row::Z)};
         if (k < chain.links) scratch_.multiplier[chain.first_link + k] = row(Row::Multiplier);
-    }
-}
-
-/// Joules that a chain has more of than before the substep: kinetic energy by the displacements, potential,
-/// and what is in its links; nothing where something else than gravity has worked on it.
-double Substep::energy_gained(std::uint32_t number) const {
-    const Plan::Chain& chain = plan_.chains[number];
-    if (!chain.alone || has_fallback_contact(chain.body)) return 0.0;
-    const double per_square = 1.0 / (h_ * h_);
-    double gained = 0.0;
-    for (std::uint32_t k = 0; k <= chain.links; ++k) {
-        const std::uint32_t i = plan_.nodes[chain.first_node + k];
-        const dvec3 now = scratch_.place[i] - state_.position[i], then = state_.displacement[i];
-        if (scratch_.weight[i] == 0.0) {
-            if (now != dvec3(0.0)) return 0.0;
-            continue;
-        }
-        const double kinetic = detail::dot(now, now) - detail::dot(then, then);
-        gained += 0.5 * state_.mass[i] * (kinetic * per_square - detail::dot(acceleration_, now + then));
-    }
-    for (std::uint32_t k = chain.first_link; k < chain.first_link + chain.links; ++k) {
-        const Link& link = state_.links[k];
-        const double half = 0.5 * compliance_of(link);
-        if (half == 0.0) continue;
-        // Like the rest by what is halfway between substeps; what it was two ago is known from the lengths.
-        const dvec3 then_by = state_.position[link.b] - state_.position[link.a];
-        const dvec3 old_by = then_by - (state_.displacement[link.b] - state_.displacement[link.a]);
-        const double now = scratch_.multiplier[k] * per_square, then = link.tension;
-        const double old = then - (detail::length(then_by) - detail::length(old_by)) / compliance_of(link);
-        gained += 0.5 * half * (now * now - old * old);
-    }
-    return gained;
-}
-
-/// Whether a chain gained more than that part of what energy it has to do with.
-bool Substep::gains_energy(std::uint32_t chain, double part) const {
-    const double gained = scratch_.chain_gain[chain];
-    return gained > 0.0 && gained > part * energy_scale(chain);
-}
-
-/// What energy a chain has to do with: its weight times its length.
-double Substep::energy_scale(std::uint32_t number) const {
-    const Plan::Chain& chain = plan_.chains[number];
-    double mass = 0.0, length = 0.0;
-    for (std::uint32_t k = 0; k < chain.links; ++k) {
-        mass += state_.mass[plan_.nodes[chain.first_node + k]];
-        length += state_.links[chain.first_link + k].rest;
-    }
-    return mass * length * detail::length(acceleration_);
-}
-
-/// A chain that gained energy for all that moves on a little slower.
-void Substep::limit_energy() {
-    for (std::uint32_t r = island_.chains.first; r < island_.chains.first + island_.chains.count; ++r) {
-        if (!gains_energy(r, 1e-9)) continue;
-        double kinetic = 0.0;
-        const Plan::Chain& chain = plan_.chains[r];
-        for (std::uint32_t k = 0; k <= chain.links; ++k) {
-            const std::uint32_t i = plan_.nodes[chain.first_node + k];
-            if (scratch_.weight[i] == 0.0) continue;
-            const dvec3 now = scratch_.place[i] - state_.position[i];
-            kinetic += 0.5 * state_.mass[i] * detail::dot(now, now) / (h_ * h_);
-        }
-        if (kinetic > 0.0)
-            scratch_.chain_scale[r] = std::sqrt(std::max(0.0, 1.0 - scratch_.chain_gain[r] / kinetic));
     }
 }
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rope/build.hpp"
+#include "rope/energy.hpp"
 #include "rope/geometry.hpp"
 #include "rope/slots.hpp"
 #include "tendril/rope/world.hpp"
@@ -20,23 +20,21 @@ double error_of(const State& state, const Link& link) {
 
 double particle_energy(const State& state, std::size_t first, std::size_t count) {
     const glm::dvec3 acceleration = detail::acceleration(state.settings);
-    const double rate = state.displaced_in > 0.0 ? 0.5 / state.displaced_in : 0.0;
     double energy = 0.0;
     for (std::size_t i = first; i < first + count; ++i) {
-        const glm::dvec3 velocity = rate * (state.displacement[i] + state.earlier[i]);
-        const glm::dvec3 then = state.position[i] - state.displacement[i];
-        energy += state.mass[i] * (0.5 * detail::dot(velocity, velocity) - detail::dot(acceleration, then));
+        const glm::dvec3 halfway = state.position[i] - 0.5 * state.displacement[i];
+        energy += detail::kinetic_energy(state.mass[i], state.displacement[i], state.displaced_in) -
+                  state.mass[i] * detail::dot(acceleration, halfway);
     }
     return energy;
 }
 
-/// Relaxation knows no compliance of stretch links.
-double link_energy(const Settings& settings, const Link& link) {
-    const bool stretch = link.kind == Link::Kind::Stretch;
-    if (stretch && settings.solver == Solver::Relaxation) return 0.0;
-    const double compliance =
-        link.compliance + (stretch ? static_cast<double>(settings.compliance) * link.rest : 0.0);
-    return 0.5 * compliance * link.tension * link.tension;
+double link_energy(const State& state, const Link& link) {
+    const double compliance = detail::compliance(state.settings, link);
+    if (compliance == 0.0) return 0.0;
+    return detail::elastic_energy(link, compliance, link.tension,
+                                  state.position[link.b] - state.position[link.a],
+                                  state.displacement[link.b] - state.displacement[link.a]);
 }
 
 }  // namespace
@@ -62,13 +60,13 @@ double World::length_error() const noexcept {
 double World::energy(const Body& body) const noexcept {
     double energy = particle_energy(state_, body.first, body.count);
     for (const Link& link : state_.links)
-        if (detail::owns(body, link)) energy += link_energy(state_.settings, link);
+        if (detail::owns(body, link)) energy += link_energy(state_, link);
     return energy;
 }
 
 double World::energy() const noexcept {
     double energy = particle_energy(state_, 0, state_.position.size());
-    for (const Link& link : state_.links) energy += link_energy(state_.settings, link);
+    for (const Link& link : state_.links) energy += link_energy(state_, link);
     return energy;
 }
 

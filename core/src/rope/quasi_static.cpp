@@ -27,7 +27,6 @@ State frozen(const World& world) {
     State still = was;
     still.settings = {.damping = max_rate, .gravity = glm::vec3(0.0f)};
     std::fill(still.displacement.begin(), still.displacement.end(), glm::dvec3(0.0));
-    std::fill(still.earlier.begin(), still.earlier.end(), glm::dvec3(0.0));
     still.remainder = still.displaced_in = 0.0;
     const bool stiff = is_stiff(was.settings);
     for (Link& link : still.links) {
@@ -90,7 +89,7 @@ Result drag(World& world, Workspace& workspace, Send send) {
     }
     now.settings = was.settings;
     now.links = was.links;
-    now.displacement = was.displacement, now.earlier = was.earlier;
+    now.displacement = was.displacement;
     now.remainder = was.remainder, now.displaced_in = was.displaced_in;
     now.substeps = was.substeps, now.dropped = was.dropped;
     Expected<World> after = World::from_state(std::move(now));

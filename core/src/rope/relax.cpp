@@ -1,4 +1,5 @@
 // One link after the other, over and over.
+#include "rope/build.hpp"
 #include "rope/geometry.hpp"
 #include "rope/substep.hpp"
 
@@ -24,7 +25,7 @@ void Substep::satisfy_soft() {
     for (const std::uint32_t i : Plan::part(plan_.soft, island_.soft)) satisfy(i, state_.links[i].compliance);
 }
 
-int Substep::relax(bool compliant) {
+int Substep::relax() {
     const std::span<const std::uint32_t> links = Plan::part(plan_.links, island_.links);
     for (const std::uint32_t i : links) scratch_.multiplier[i] = 0.0;
     const int passes = passes_allowed();
@@ -34,7 +35,7 @@ int Substep::relax(bool compliant) {
         for (const std::uint32_t i : links) {
             const Link& link = state_.links[i];
             if (link.kind != Link::Kind::Stretch) continue;
-            satisfy(i, compliant ? compliance_of(link) : 0.0);
+            satisfy(i, detail::compliance(state_.settings, link));
         }
         satisfy_soft();
     }

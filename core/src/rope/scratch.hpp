@@ -30,7 +30,8 @@ struct Scratch {
     std::vector<double> weight;      ///< inverse mass; 0: pinned
     std::vector<double> multiplier;  ///< of each link: tension times h^2
     std::vector<Touch> touch;
-    std::vector<std::uint8_t> body_near;    ///< whether any collider is near a body
+    enum class Nearest : std::uint8_t { None, Resting, Moving };
+    std::vector<Nearest> body_near;         ///< what is near a body: a collider that moves, one at least
     std::vector<std::uint8_t> body_failed;  ///< whether a body could not be solved
     std::vector<glm::dvec3> chunk_low, chunk_high;
     struct Moving {
@@ -46,6 +47,7 @@ struct Scratch {
         /// back to where it touches first, on the side that it came from.
         SurfaceDistance entered(const glm::dvec3& was, glm::dvec3& at, double radius,
                                 std::uint64_t& work) const;
+        bool moves() const { return by != glm::dvec3(0.0) || turn != glm::dvec3(0.0); }
         /// Whether a ball is wholly beyond where the shape is or was in the substep.
         bool far_from(const glm::dvec3& at, double radius) const {
             return at.x + radius < low.x || at.y + radius < low.y || at.z + radius < low.z ||
@@ -55,8 +57,13 @@ struct Scratch {
     std::vector<Moving> colliders;
     std::vector<std::uint8_t> chain_solved;  ///< whether a chain is solved with what it touches
     std::vector<double> chain_error;         ///< of each chain: relative length error after its last pass
-    std::vector<double> chain_gain;          ///< of each chain: energy it has more of than before, joules
-    std::vector<double> chain_scale;  ///< of each chain: what its motion keeps, so that no energy is gained
+    /// What particles keep of their motion: as a whole, and apart from that.
+    struct Slowed {
+        glm::dvec3 mean{0.0};  ///< of their displacements
+        double whole = 1.0, apart = 1.0;
+        bool any() const { return whole != 1.0 || apart != 1.0; }
+    };
+    std::vector<Slowed> chain_slowed;
     std::vector<std::uint32_t> collider_at;  ///< where a slot's collider is in the list
     std::vector<detail::Cloth> cloths;       ///< of the plan's grids
     detail::VectorUnit unit;
@@ -110,6 +117,9 @@ struct ClothContact {
     double force = 0.0;          ///< in the last solve; over 0: it presses
     double gap = 0.0;            ///< from the collider's surface, less the radius of the cloth
     glm::dvec3 normal{0.0};
+    glm::dvec3 at{0.0};    ///< where it was found
+    glm::dvec3 slip{0.0};  ///< along the surface, in the substep until then
+    double drag = 0.0;     ///< against that, in the stiffness of links
 
     bool is_link() const { return a != b; }
 };

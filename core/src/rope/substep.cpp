@@ -53,10 +53,12 @@ void Substep::run(bool measures) {
     measures_ = measures;
     move_particles();
     find_near();
-    const Solver solver = state_.settings.solver;
-    const int passes = solver == Solver::Direct ? direct() : relax(solver == Solver::Xpbd);
+    const int passes = state_.settings.solver == Solver::Direct ? direct() : relax();
     report_.passes = std::max(report_.passes, passes);
     depenetrate();
+    stay_in_the_world();
+    // The other solvers lose energy by themselves: what they stretched comes back slowly.
+    if (state_.settings.solver == Solver::Direct) limit_energy();
     commit();
 }
 
@@ -129,11 +131,16 @@ void Substep::measure() {
     }
 }
 
+void Substep::stay_in_the_world() {
+    each_particle([&](std::size_t i) {
+        dvec3& place = scratch_.place[i];
+        if (!surely_within(place, max_magnitude)) place = within_the_world(place, state_.position[i]);
+    });
+}
+
 void Substep::commit() {
     each_particle([&](std::size_t i) {
         dvec3 &place = scratch_.place[i], &position = state_.position[i], &moved = state_.displacement[i];
-        if (!surely_within(place, max_magnitude)) place = within_the_world(place, position);
-        state_.earlier[i] = moved;
         // Coordinate by coordinate: a whole vector just written cannot be read at once. Zeros lose their
         // sign, which would depend on how many ropes were solved side by side.
         for (int c = 0; c < 3; ++c) {
@@ -142,15 +149,7 @@ void Substep::commit() {
             position[c] = to;
         }
     });
-    for (std::uint32_t r = island_.chains.first; r < island_.chains.first + island_.chains.count; ++r) {
-        if (scratch_.chain_scale[r] == 1.0) continue;
-        const Plan::Chain& chain = plan_.chains[r];
-        for (std::uint32_t k = 0; k <= chain.links; ++k) {
-            dvec3& by = state_.displacement[plan_.nodes[chain.first_node + k]];
-            by = scratch_.chain_scale[r] * by;
-        }
-        scratch_.chain_scale[r] = 1.0;
-    }
+    slow_down();
     for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
         state_.links[i].tension = tension_of(scratch_.multiplier[i], h_ * h_);
     }

@@ -30,6 +30,7 @@ class Substep {
     // substep.cpp
     void move_particles();
     void measure();
+    void stay_in_the_world();
     void commit();
     int passes_allowed() const;
 
@@ -54,7 +55,7 @@ class Substep {
     void depenetrate();
 
     // relax.cpp: one link after the other
-    int relax(bool compliant);
+    int relax();
     void satisfy(std::uint32_t link, double compliance);
     void satisfy_soft();
 
@@ -67,20 +68,24 @@ class Substep {
     double solve_batch(const Batch& batch, int iteration);
     void solve_again(std::uint32_t chain);
     void relax_failed_bodies();
+    void slow_correction(const Plan::Chain& chain);
     void gather(const detail::Block& block, const Batch& batch) const;
     void scatter(const detail::Block& block, std::uint32_t lane, std::uint32_t chain);
-    double energy_gained(std::uint32_t chain) const;
-    bool gains_energy(std::uint32_t chain, double part) const;
-    double energy_scale(std::uint32_t chain) const;
-    void limit_energy();
     /// Whether contacts displace a body after its lengths are solved, and not together with them.
-    bool has_fallback_contact(std::uint32_t body) const {
-        return !island_.alone && scratch_.body_near[body] != 0;
-    }
+    bool has_fallback_contact(std::uint32_t body) const { return !island_.alone && is_near(body); }
+    bool is_near(std::uint32_t body) const { return scratch_.body_near[body] != Scratch::Nearest::None; }
 
-    double compliance_of(const Link& link) const {
-        return static_cast<double>(state_.settings.compliance) * link.rest + link.compliance;
+    // energy.cpp
+    class Ledger;
+    using Slowed = Scratch::Slowed;
+    Ledger ledger_of(const Plan::Chain& chain) const;
+    Ledger ledger_of_all() const;
+    /// What a collider does that moves is work.
+    bool is_worked_on(std::uint32_t body) const {
+        return scratch_.body_near[body] == Scratch::Nearest::Moving;
     }
+    void limit_energy();
+    void slow_down();
 
     State& state_;
     const Plan& plan_;
@@ -90,7 +95,30 @@ class Substep {
     Advance& report_;
     bool measures_ = false;
     double h_;
+    Slowed slowed_;
     glm::dvec3 acceleration_;
+};
+
+/// What energy some particles have, in joules: by how much it is more than before the substep, and how much
+/// of it is motion.
+class Substep::Ledger {
+  public:
+    Ledger(const Substep& substep, bool worked_on) : it_(substep), worked_on_(worked_on) {}
+
+    void add_particle(std::size_t i);
+    void add_link(std::uint32_t link);
+    /// Nothing where a collider or pin that moves has worked on them.
+    double gained() const { return worked_on_ ? 0.0 : gained_; }
+    /// Whether they gained more than that part of their weight times their length.
+    bool gains(double part) const;
+    Slowed slowed() const;
+
+  private:
+    const Substep& it_;
+    double gained_ = 0.0, kinetic_ = 0.0, mass_ = 0.0, length_ = 0.0;
+    glm::dvec3 momentum_{0.0};              ///< times the substep
+    double fallen_ = 0.0, released_ = 0.0;  ///< since halfway: potential energy, and of links
+    bool worked_on_;
 };
 
 }  // namespace tendril::rope

@@ -15,15 +15,14 @@ void size(Scratch& scratch, const State& state, const Plan& plan) {
     scratch.base.resize(particles);
     scratch.weight.resize(particles);
     scratch.touch.assign(particles, Touch{});
-    scratch.body_near.assign(state.bodies.size(), 0);
+    scratch.body_near.assign(state.bodies.size(), Scratch::Nearest::None);
     scratch.body_failed.assign(state.bodies.size(), 0);
     scratch.multiplier.resize(state.links.size());
     scratch.chunk_low.resize(plan.chunks.size());
     scratch.chunk_high.resize(plan.chunks.size());
     scratch.chain_solved.assign(plan.chains.size(), 0);
     scratch.chain_error.assign(plan.chains.size(), 0.0);
-    scratch.chain_gain.assign(plan.chains.size(), 0.0);
-    scratch.chain_scale.assign(plan.chains.size(), 1.0);
+    scratch.chain_slowed.assign(plan.chains.size(), {});
     scratch.cloths.resize(plan.grids.size());
     for (std::size_t i = 0; i < plan.grids.size(); ++i)
         scratch.cloths[i].resize(plan.grids[i].columns, plan.grids[i].rows);

@@ -111,7 +111,6 @@ Result World::remove(BodyId body) noexcept {
     const std::size_t first = gone->first, count = gone->count, end = first + count;
     erase_range(state_.position, first, count);
     erase_range(state_.displacement, first, count);
-    erase_range(state_.earlier, first, count);
     erase_range(state_.mass, first, count);
     const auto inside = [&](std::size_t particle) { return particle >= first && particle < end; };
     std::erase_if(state_.links, [&](const Link& link) { return inside(link.a) || inside(link.b); });

@@ -164,7 +164,7 @@ TEST(RopeInTheWindow, UndoBringsTheLabAndTheViewAndLeavesOtherLabsAsTheyAre) {
 TEST(RopeInTheWindow, ButtonsAddWhatTheySay) {
     // Of the section "Add", though scenes of the same titles stand above it.
     ScriptText script = rope_lab().command("rope.clear").wait(2);
-    for (const glm::vec2 button : {glm::vec2(126, 417), glm::vec2(205, 417), glm::vec2(48, 417)})
+    for (const glm::vec2 button : {glm::vec2(126, 449), glm::vec2(205, 449), glm::vec2(48, 449)})
         script.move(button).wait(2).down().up().wait(2);
     const Json added = state_after(script);
     EXPECT_EQ(added["cloths"].size(), 1u);

@@ -104,7 +104,7 @@ TEST_F(RopeFile, WhatIsWrongIsToldWithItsPlace) {
         {"/swings/0/collider", "x", "labs.rope.swings.0.collider: there is no collider \"x\""},
         {"/swings/0/period", 0, "labs.rope.swings.0.period: expected a number from 0.1 to 600.0, found 0"},
         {"/swings/0/middle", {9e8, 0, 0}, "labs.rope.swings.0: its swing would reach farther than 1e9 m"},
-        {"/world/particles/2", {1, 2, 3}, "labs.rope.world.particles.2: expected a row of 4 or 10 numbers"},
+        {"/world/particles/2", {1, 2, 3}, "labs.rope.world.particles.2: expected a row of 4 or 7 numbers"},
         {"/world/particles/2/1", "y", "labs.rope.world.particles.2: expected a number, found \"y\""},
         {"/world/particles/2/3", 0, "labs.rope.world: World: mass[2] must be over 0"},
         {"/world/links/1/0", 5, "labs.rope.world.links.1: expected a whole number from 0 to 4, found 5"},

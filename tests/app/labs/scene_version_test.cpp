@@ -50,11 +50,16 @@ TEST_F(SceneVersion1, is_saved_again_as_version_2_with_w_last_everywhere) {
                       Json::array({w_first[1], w_first[2], w_first[3], w_first[0]}));
         }
     }
-    // The ropes' were so already; two of their keys have other names now.
+    // The ropes' were so already; two of their keys have other names now, and particles have three numbers
+    // less.
     std::string ropes = old["labs"]["rope"].dump();
     for (const auto& [before, after] : {std::pair{"\"torture\"", "\"jitter\""}, {"\"stress\"", "\"strain\""}})
         ropes.replace(ropes.find(before), std::string_view(before).size(), after);
-    EXPECT_EQ(now["labs"]["rope"], parse_json(ropes));
+    Json expected = parse_json(ropes);
+    for (Json& row : expected["world"]["particles"])
+        if (row.size() == 10)
+            row.erase(row.begin() + 6, row.begin() + 9);  // what moved in the substep before
+    EXPECT_EQ(now["labs"]["rope"], expected);
 
     Workspace again = make_blank_workspace(labs);
     load_scene_file(again, folder / "scene.json");

@@ -166,7 +166,6 @@ void carry_bodies(NamedWorld& world, const Attachments& attachments, const std::
         for (std::size_t i = body.first; i < body.first + body.count; ++i) {
             state.position[i] = carriers[k].point(state.position[i]);
             state.displacement[i] = carriers[k].way(state.displacement[i]);
-            state.earlier[i] = carriers[k].way(state.earlier[i]);
         }
     }
     world.put(std::move(state));
@@ -178,7 +177,6 @@ void push_aside(NamedWorld& world, const std::vector<NamedShape>& colliders, rop
     const rope::State before = world.state();
     rope::State still = before;
     std::ranges::fill(still.displacement, dvec3(0.0));
-    std::ranges::fill(still.earlier, dvec3(0.0));
     still.settings.damping = rope::max_rate;
     still.settings.gravity = glm::vec3(0.0f);
     still.settings.substep = longest_substep;
@@ -189,7 +187,6 @@ void push_aside(NamedWorld& world, const std::vector<NamedShape>& colliders, rop
     rope::State after = world.state();
     after.settings = before.settings;
     after.displacement = before.displacement;
-    after.earlier = before.earlier;
     after.displaced_in = before.displaced_in;
     after.remainder = 0.0;
     world.put(std::move(after));
@@ -206,7 +203,7 @@ void untangle(NamedWorld& world, const Attachments& attachments, const Wearer& w
         rope::State state = world.state();
         for (std::size_t i = 0; i < body.count && i < offsets.size(); ++i) {
             state.position[body.first + i] = kept_in(each.frame.apply(offsets[i]));
-            state.displacement[body.first + i] = state.earlier[body.first + i] = dvec3(0.0);
+            state.displacement[body.first + i] = dvec3(0.0);
         }
         world.put(std::move(state));
     }

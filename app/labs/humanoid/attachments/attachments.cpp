@@ -106,7 +106,6 @@ void append(NamedWorld& world, const std::string& name, const rope::State& from,
     bodies.push_back(name);
     for (const glm::dvec3& each : from.position) all.position.push_back(move(each));
     all.displacement.resize(all.position.size());
-    all.earlier.resize(all.position.size());
     all.mass.insert(all.mass.end(), from.mass.begin(), from.mass.end());
     for (rope::Link link : from.links) {
         link.a += static_cast<std::uint32_t>(first);

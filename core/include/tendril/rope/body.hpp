@@ -63,7 +63,9 @@ struct ClothShape {
     int columns = 24, rows = 24;        ///< particles, 2 or more each
     float radius = 0.01f;
     float density = 0.2f;               ///< kg/m^2, over 0
-    float shear = 1e-4f, bend = 1e-2f;  ///< compliance of shear and bend links, m/N
+    /// Compliance of shear and bend links, m/N. Soft, as in woven cloth: a net whose diagonals are stiff, too,
+    /// cannot unfold.
+    float shear = 0.3f, bend = 0.3f;
     float tear = 0.0f;                  ///< strain at which links tear; 0: never
     enum class Pins : std::uint8_t { None, Corners, Row } pins = Pins::None;  ///< of the first row
 };

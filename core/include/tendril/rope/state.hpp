@@ -30,7 +30,6 @@ struct State {
     std::vector<Link> links;
     std::vector<glm::dvec3> position;
     std::vector<glm::dvec3> displacement;  ///< by the last substep, metres
-    std::vector<glm::dvec3> earlier;       ///< `displacement` of the substep before the last, for the energy
     std::vector<double> mass;              ///< kg, over 0
     std::vector<Pin> pins;                 ///< by particle
     std::vector<Collider> colliders;

@@ -122,8 +122,8 @@ class World {
     /// depenetration added, which Body::stretch does not.
     double length_error(const Body& body) const noexcept;
     double length_error() const noexcept;  ///< of all bodies
-    /// Kinetic energy, by central differences, and potential, joules, as of one substep ago; potential is 0
-    /// where the coordinates are. What is in elastic links counts, as they are now.
+    /// Kinetic, potential and elastic energy, joules, halfway through the last substep, where a leapfrog
+    /// step conserves it. Potential is 0 where the coordinates are.
     double energy(const Body& body) const noexcept;
     double energy() const noexcept;  ///< of all bodies
     /// The sum of a body's rest lengths, metres; of cloth and hair that of one row or strand.

@@ -1,0 +1,122 @@
+// A substep gives nothing energy: what gained some, by a solve that fell short or by depenetration, moves on
+// slower by as much.
+#include "rope/energy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "rope/substep.hpp"
+
+namespace tendril::rope {
+namespace {
+
+using glm::dvec3;
+
+/// Of what energy there is to do with: what sums of rounded numbers cannot tell from nothing.
+constexpr double rounding = 1e-9;
+
+}  // namespace
+
+void Substep::Ledger::add_particle(std::size_t i) {
+    const dvec3 now = it_.scratch_.place[i] - it_.state_.position[i];
+    if (it_.scratch_.weight[i] == 0.0) {
+        worked_on_ = worked_on_ || now != dvec3(0.0);
+        return;
+    }
+    const dvec3 then = it_.state_.displacement[i];
+    const double mass = it_.state_.mass[i], moving = detail::kinetic_energy(mass, now, it_.h_);
+    const double half = 0.5 * mass * detail::dot(it_.acceleration_, now);
+    mass_ += mass;
+    kinetic_ += moving;
+    momentum_ += mass * now;
+    fallen_ += half;
+    gained_ += moving - detail::kinetic_energy(mass, then, it_.h_) - half -
+               0.5 * mass * detail::dot(it_.acceleration_, then);
+}
+
+void Substep::Ledger::add_link(std::uint32_t number) {
+    const State& state = it_.state_;
+    const Link& link = state.links[number];
+    length_ += link.rest;
+    const double compliance = detail::compliance(state.settings, link);
+    if (compliance == 0.0 && it_.island_.grid == 0) return;
+    const double tension = it_.scratch_.multiplier[number] / (it_.h_ * it_.h_);
+    const dvec3 now = it_.scratch_.place[link.b] - it_.scratch_.place[link.a];
+    const dvec3 then = state.position[link.b] - state.position[link.a];
+    if (compliance == 0.0) {
+        // As stiff as a cloth's solver can make it: far too stiff for its length halfway to tell anything.
+        gained_ += 0.5 * (tension * (detail::length(now) - link.rest) -
+                          static_cast<double>(link.tension) * (detail::length(then) - link.rest));
+        return;
+    }
+    const double half = detail::elastic_energy(link, compliance, tension, now, now - then);
+    gained_ += half - detail::elastic_energy(link, compliance, link.tension, then,
+                                             state.displacement[link.b] - state.displacement[link.a]);
+    released_ += half - detail::elastic_energy(link, compliance, tension, now, dvec3(0.0));
+}
+
+bool Substep::Ledger::gains(double part) const {
+    return gained() > 0.0 && gained() > part * mass_ * length_ * detail::length(it_.acceleration_);
+}
+
+/// What they gained is taken from how they move among each other, as far as that goes: as a whole they fall
+/// as anything does. Slower by a factor s, halfway is nearer to where they are, and they lose the energy
+/// K (1 - s^2) + F (1 - s).
+Substep::Slowed Substep::Ledger::slowed() const {
+    Slowed slowed;
+    if (!gains(rounding) || !(kinetic_ > 0.0)) return slowed;
+    const auto part = [](double kinetic, double fallen, double gained) {
+        const double root = fallen * fallen + 4.0 * kinetic * (kinetic + fallen - gained);
+        return root > 0.0 ? std::clamp((std::sqrt(root) - fallen) / (2.0 * kinetic), 0.0, 1.0) : 0.0;
+    };
+    slowed.mean = (1.0 / mass_) * momentum_;
+    const double whole = detail::kinetic_energy(mass_, slowed.mean, it_.h_), apart = kinetic_ - whole;
+    const double most = apart + released_;
+    if (apart > 0.0) slowed.apart = most > gained_ ? part(apart, released_, gained_) : 0.0;
+    if (!(most > gained_) && whole > 0.0) slowed.whole = part(whole, fallen_, gained_ - std::max(most, 0.0));
+    return slowed;
+}
+
+Substep::Ledger Substep::ledger_of(const Plan::Chain& chain) const {
+    Ledger ledger(*this, is_worked_on(chain.body));
+    for (std::uint32_t k = 0; k <= chain.links; ++k) ledger.add_particle(plan_.nodes[chain.first_node + k]);
+    for (std::uint32_t k = 0; k < chain.links; ++k) ledger.add_link(chain.first_link + k);
+    return ledger;
+}
+
+Substep::Ledger Substep::ledger_of_all() const {
+    const auto bodies = Plan::part(plan_.bodies, island_.bodies);
+    Ledger ledger(*this,
+                  std::any_of(bodies.begin(), bodies.end(), [&](auto body) { return is_worked_on(body); }));
+    each_particle([&](std::size_t i) { ledger.add_particle(i); });
+    for (const std::uint32_t link : Plan::part(plan_.links, island_.links)) ledger.add_link(link);
+    return ledger;
+}
+
+void Substep::limit_energy() {
+    if (!island_.alone) {
+        slowed_ = ledger_of_all().slowed();
+        return;
+    }
+    for (std::uint32_t r = island_.chains.first; r < island_.chains.first + island_.chains.count; ++r)
+        scratch_.chain_slowed[r] = ledger_of(plan_.chains[r]).slowed();
+}
+
+/// What is slowed down keeps its place: only what is remembered of the way there is shorter.
+void Substep::slow_down() {
+    const auto slow = [&](std::size_t i, const Slowed& slowed) {
+        if (scratch_.weight[i] == 0.0) return;
+        dvec3& by = state_.displacement[i];
+        by = slowed.whole * slowed.mean + slowed.apart * (by - slowed.mean);
+    };
+    if (slowed_.any()) each_particle([&](std::size_t i) { slow(i, slowed_); });
+    for (std::uint32_t r = island_.chains.first; r < island_.chains.first + island_.chains.count; ++r) {
+        const Slowed slowed = std::exchange(scratch_.chain_slowed[r], {});
+        if (!slowed.any()) continue;
+        const Plan::Chain& chain = plan_.chains[r];
+        for (std::uint32_t k = 0; k <= chain.links; ++k) slow(plan_.nodes[chain.first_node + k], slowed);
+    }
+}
+
+}  // namespace tendril::rope

@@ -1,0 +1,75 @@
+// A cloth that is pulled about hangs again once it is let go, and falls as a stone does once it is not held.
+// TENDRIL_GESTURES=200 pulls more often.
+#include <cstdlib>
+
+#include "rope_support.hpp"
+
+namespace tendril::test {
+namespace {
+
+using rope::ClothShape;
+
+double mean_height(const World& world) {
+    double sum = 0.0;
+    for (const glm::dvec3& each : world.state().position) sum += each.y;
+    return sum / static_cast<double>(world.size());
+}
+
+World hung(int side) {
+    World world = world_with({.damping = 0.5f});
+    world.add_cloth("cloth", {.corner = {-0.5f, 2, 0},
+                              .along = {1, 0, 0},
+                              .down = {0, -1, 0},
+                              .columns = side,
+                              .rows = side,
+                              .pins = ClothShape::Pins::Corners});
+    return world;
+}
+
+void pull_about(World& world, Random& random) {
+    const std::size_t held = world.size() / 2 + random.below(world.size() / 2);
+    for (int i = 0; i < 8; ++i) {
+        world.pin(held, glm::vec3(0, 1.7f, 0) + random.point(0.9f), 0.4);
+        run(world, 0.5);
+    }
+    world.unpin(held);
+}
+
+/// By how much of what a stone falls it falls otherwise, in half a second without pins.
+double unlike_a_stone(World world) {
+    world.set_settings({.damping = 0.0f});
+    for (std::size_t i = 0; i < world.size(); ++i)
+        if (world.pinned(i)) world.unpin(i);
+    const double h = world.settings().substep, seconds = 0.5, before = mean_height(world);
+    double speed = 0.0;
+    for (const glm::dvec3& each : world.state().displacement) speed += each.y / h;
+    speed /= static_cast<double>(world.size());
+    run(world, seconds);
+    const double stone = 0.5 * 9.81 * seconds * (seconds + h);
+    return std::abs((before + speed * seconds - mean_height(world)) / stone - 1.0);
+}
+
+TEST(RopeGesture, AClothHangsAgainAndFallsAsAStoneDoes) {
+    const char* more = std::getenv("TENDRIL_GESTURES");
+    const int gestures = more != nullptr ? std::atoi(more) : 3;
+    for (const int side : {12, 18, 24}) {
+        World calm = hung(side);
+        run(calm, 10.0);
+        const double hanging = mean_height(calm);
+        double worst = 0.0;
+        for (int seed = 1; seed <= gestures; ++seed) {
+            Random random(static_cast<std::uint64_t>(seed));
+            World world = hung(side);
+            pull_about(world, random);
+            run(world, 5.0);
+            const double off = std::abs(mean_height(world) - hanging) / hanging;
+            worst = std::max(worst, off);
+            EXPECT_LE(off, 0.02) << side << ' ' << seed;  // of its height
+            EXPECT_LE(unlike_a_stone(world), 0.02) << side << ' ' << seed;
+        }
+        if (more != nullptr) std::printf("%d x %d: off by %.2f %% at most\n", side, side, 100.0 * worst);
+    }
+}
+
+}  // namespace
+}  // namespace tendril::test
