@@ -86,11 +86,17 @@ void ClothSolver::load() {
         level_.free[cell] = scratch_.weight[i] == 0.0 ? 0.0f : 1.0f;
     });
     for (float* each : to.stiffness) std::fill_n(each, cells, 0.0f);
+    elastic_ = 0.0;
+    double rests = 0.0;
     for (const Plan::GridLink& each : Plan::part(plan_.grid_links, grid_.links)) {
         const Link& link = state_.links[each.link];
+        const double stiffness = stiffness_of(link), tension = link.tension;
         to.rest[each.step][each.cell] = link.rest;
-        to.stiffness[each.step][each.cell] = static_cast<float>(stiffness_of(link));
+        to.stiffness[each.step][each.cell] = static_cast<float>(stiffness);
+        elastic_ += 0.5 * tension * tension / (stiffness * unit_);
+        rests += link.rest;
     }
+    local_.cloth_energy = {.length = rests / (grid_.columns + grid_.rows), .gained = -elastic_};
 }
 
 /// The system where everything is now.
@@ -122,12 +128,10 @@ void ClothSolver::pin() {
     });
 }
 
-/// A step of Newton's method, or so much of it that the potential does not rise.
+/// A step of Newton's method; where it strains links, so much of it that the potential does not rise.
 int ClothSolver::step(int iterations) {
     assemble();
     add_contacts();
-    const bool touches = !local_.cloth_contacts.empty();
-    const double before = touches || !potential_ ? potential() : *potential_;
     pin();
     const auto solved =
         cloth_.system.solve(scratch_.grid_unit, lightest_, residual_tolerance, iterations, local_.loops);
@@ -140,13 +144,17 @@ int ClothSolver::step(int iterations) {
     };
     go(1.0f);
     double after = potential();
+    if (strain_ <= accepted_strain) return solved.iterations;
+    go(-1.0f);
+    const double before = potential();
     float part = 1.0f;
+    go(part);
     for (int i = 0; i < most_halvings && !(after <= before); ++i) {
         part *= 0.5f;
         go(-part);
         after = potential();
     }
-    potential_ = touches ? std::nullopt : std::optional(after);
+    potential();
     return solved.iterations;
 }
 
@@ -160,17 +168,19 @@ double ClothSolver::potential() {
         sum += state_.mass[i] / mass_ * detail::dot(beside, beside);
     }
     strain_ = 0.0;
+    double links = 0.0;
     for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
         const Link& link = state_.links[i];
         const double longer = detail::length(scratch_.place[link.b] - scratch_.place[link.a]) - link.rest;
         const double stiffness = stiffness_of(link), pull = stiffness * longer;
         scratch_.multiplier[i] = mass_ * pull;
-        sum += pull * longer;
+        links += pull * longer;
         if (link.kind == Link::Kind::Stretch && stiffness == stiffness_)
             strain_ = std::max(strain_, std::abs(longer) / link.rest);
     }
+    elastic_ = 0.5 * unit_ * links;
     for (const ClothContact& each : local_.cloth_contacts) sum += potential_of(each);
-    return sum;
+    return sum + links;
 }
 
 int ClothSolver::solve(int iterations) {
@@ -189,6 +199,7 @@ int ClothSolver::solve(int iterations) {
         most = std::max(most, step(touches || strain_ > accepted_strain ? iterations : (iterations + 1) / 2));
         note_forces();
     }
+    local_.cloth_energy.gained += elastic_;
     return most;
 }
 

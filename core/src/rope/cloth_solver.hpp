@@ -4,8 +4,6 @@
 // colliders it is solved again from where it came to, with the contacts found there. Not installed.
 #pragma once
 
-#include <optional>
-
 #include "rope/scratch.hpp"
 
 namespace tendril::rope {
@@ -64,8 +62,8 @@ class ClothSolver {
     double h_, mass_ = 0.0, unit_ = 0.0;  ///< the mean of a particle, kg; its m / h^2
     double stiffness_ = 0.0;              ///< the most that a link has, in that unit
     float lightest_ = 1.0f;
-    std::optional<double> potential_;  ///< where particles are, if that is known
-    double strain_ = 0.0;              ///< of the stretch link that is off most
+    double elastic_ = 0.0;  ///< energy in links, joules
+    double strain_ = 0.0;   ///< of the stretch link that is off most
     bool converged_ = true;
 };
 

@@ -40,20 +40,20 @@ void Substep::Ledger::add_link(std::uint32_t number) {
     const Link& link = state.links[number];
     length_ += link.rest;
     const double compliance = detail::compliance(state.settings, link);
-    if (compliance == 0.0 && it_.island_.grid == 0) return;
+    if (compliance == 0.0) return;
     const double tension = it_.scratch_.multiplier[number] / (it_.h_ * it_.h_);
     const dvec3 now = it_.scratch_.place[link.b] - it_.scratch_.place[link.a];
     const dvec3 then = state.position[link.b] - state.position[link.a];
-    if (compliance == 0.0) {
-        // As stiff as a cloth's solver can make it: far too stiff for its length halfway to tell anything.
-        gained_ += 0.5 * (tension * (detail::length(now) - link.rest) -
-                          static_cast<double>(link.tension) * (detail::length(then) - link.rest));
-        return;
-    }
     const double half = detail::elastic_energy(link, compliance, tension, now, now - then);
     gained_ += half - detail::elastic_energy(link, compliance, link.tension, then,
                                              state.displacement[link.b] - state.displacement[link.a]);
     released_ += half - detail::elastic_energy(link, compliance, tension, now, dvec3(0.0));
+}
+
+/// Its links are too stiff for their length halfway to tell anything: what is in them at the end counts.
+void Substep::Ledger::add_cloth() {
+    length_ += it_.local_.cloth_energy.length;
+    gained_ += it_.local_.cloth_energy.gained;
 }
 
 bool Substep::Ledger::gains(double part) const {
@@ -90,7 +90,10 @@ Substep::Ledger Substep::ledger_of_all() const {
     Ledger ledger(*this,
                   std::any_of(bodies.begin(), bodies.end(), [&](auto body) { return is_worked_on(body); }));
     each_particle([&](std::size_t i) { ledger.add_particle(i); });
-    for (const std::uint32_t link : Plan::part(plan_.links, island_.links)) ledger.add_link(link);
+    if (island_.grid != 0)
+        ledger.add_cloth();
+    else
+        for (const std::uint32_t link : Plan::part(plan_.links, island_.links)) ledger.add_link(link);
     return ledger;
 }
 

@@ -136,6 +136,10 @@ struct IslandScratch {
     std::size_t block_offset = 0;
     ContactScratch contact;
     std::vector<ClothContact> cloth_contacts, earlier_contacts;
+    /// Of a cloth: about its length, and by how much the energy in its links has grown, metres and joules.
+    struct {
+        double length = 0.0, gained = 0.0;
+    } cloth_energy;
     tendril::detail::ForkJoin loops;  ///< of a cloth; threads without an island help
     Advance done;                     ///< in this substep; `passes` of the island that took most
 };

@@ -107,6 +107,7 @@ class Substep::Ledger {
 
     void add_particle(std::size_t i);
     void add_link(std::uint32_t link);
+    void add_cloth();
     /// Nothing where a collider or pin that moves has worked on them.
     double gained() const { return worked_on_ ? 0.0 : gained_; }
     /// Whether they gained more than that part of their weight times their length.
