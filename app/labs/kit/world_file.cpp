@@ -48,6 +48,7 @@ void load_particle(rope::State& state, const JsonPlace& place) {
     };
     state.position.push_back(point_at(0));
     state.displacement.push_back(row.size() > 4 ? point_at(3) : glm::dvec3(0.0));
+    if (row.size() == 10) static_cast<void>(point_at(6));
     state.mass.push_back(json_real(row.back(), place.where(), 0.0, 1e30));
 }
 

@@ -152,7 +152,7 @@ void ClothSolver::note_forces() {
     const detail::GridVector& by = cloth_.system.solution();
     for (ClothContact& each : local_.cloth_contacts) {
         const dvec3 moved = (1.0 - each.t) * at(by, cell_of(each.a)) + each.t * at(by, cell_of(each.b));
-        each.force = -stiffness_ * (each.gap + detail::dot(each.normal, moved));
+        each.force = -stiffness_ * (each.gap + taken_ * detail::dot(each.normal, moved));
     }
 }
 

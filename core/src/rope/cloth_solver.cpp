@@ -144,16 +144,19 @@ int ClothSolver::step(int iterations) {
     };
     go(1.0f);
     double after = potential();
+    taken_ = 1.0;
     if (strain_ <= accepted_strain) return solved.iterations;
     go(-1.0f);
     const double before = potential();
+    go(1.0f);
     float part = 1.0f;
-    go(part);
     for (int i = 0; i < most_halvings && !(after <= before); ++i) {
         part *= 0.5f;
         go(-part);
         after = potential();
     }
+    if (!(after <= before)) go(-part), part = 0.0f;
+    taken_ = part;
     potential();
     return solved.iterations;
 }

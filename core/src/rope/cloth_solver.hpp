@@ -62,6 +62,7 @@ class ClothSolver {
     double h_, mass_ = 0.0, unit_ = 0.0;  ///< the mean of a particle, kg; its m / h^2
     double stiffness_ = 0.0;              ///< the most that a link has, in that unit
     float lightest_ = 1.0f;
+    double taken_ = 1.0;    ///< part of the last step
     double elastic_ = 0.0;  ///< energy in links, joules
     double strain_ = 0.0;   ///< of the stretch link that is off most
     bool converged_ = true;

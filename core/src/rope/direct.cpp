@@ -60,7 +60,8 @@ int Substep::direct_alone() {
     const auto near = [&](std::uint32_t r) { return is_near(plan_.chains[r].body); };
     const auto solve = [&](std::uint32_t r) {
         newton.solve();
-        if (ledger_of(plan_.chains[r]).gains(accepted_gain)) slow_correction(plan_.chains[r]);
+        const bool falls = acceleration_ != dvec3(0.0);
+        if (falls && ledger_of(plan_.chains[r]).gains(accepted_gain)) slow_correction(plan_.chains[r]);
     };
     for (std::uint32_t r = first; r < end; ++r) {
         scratch_.chain_solved[r] = near(r) && newton.find(r) && newton.touches();

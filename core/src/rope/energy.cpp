@@ -16,12 +16,32 @@ using glm::dvec3;
 /// Of what energy there is to do with: what sums of rounded numbers cannot tell from nothing.
 constexpr double rounding = 1e-9;
 
+/// Energy that slowing down by a factor s takes: kinetic energy, and what changed `since` halfway, which is
+/// now nearer to where the motion ends.
+double lost(double kinetic, double since, double s) {
+    return kinetic * (1.0 - s * s) + since * (1.0 - s);
+}
+
+/// The largest factor that takes `gained`; the one that takes most, where none does.
+double slower(double kinetic, double since, double gained) {
+    if (!(gained > 0.0) || !(kinetic > 0.0)) return 1.0;
+    const double most = std::clamp(-since / (2.0 * kinetic), 0.0, 1.0);
+    const double root = since * since + 4.0 * kinetic * (kinetic + since - gained);
+    if (!(root > 0.0)) return most;
+    // Without the difference of numbers that are nearly the same.
+    const double sum = std::sqrt(root);
+    const double s =
+        since > 0.0 ? 2.0 * (kinetic + since - gained) / (sum + since) : (sum - since) / (2.0 * kinetic);
+    return std::clamp(s, most, 1.0);
+}
+
 }  // namespace
 
 void Substep::Ledger::add_particle(std::size_t i) {
     const dvec3 now = it_.scratch_.place[i] - it_.state_.position[i];
     if (it_.scratch_.weight[i] == 0.0) {
         worked_on_ = worked_on_ || now != dvec3(0.0);
+        pinned_ = true;
         return;
     }
     const dvec3 then = it_.state_.displacement[i];
@@ -32,7 +52,7 @@ void Substep::Ledger::add_particle(std::size_t i) {
     momentum_ += mass * now;
     fallen_ += half;
     gained_ += moving - detail::kinetic_energy(mass, then, it_.h_) - half -
-               0.5 * mass * detail::dot(it_.acceleration_, then);
+               it_.before_ * 0.5 * mass * detail::dot(it_.acceleration_, then);
 }
 
 void Substep::Ledger::add_link(std::uint32_t number) {
@@ -60,21 +80,21 @@ bool Substep::Ledger::gains(double part) const {
     return gained() > 0.0 && gained() > part * mass_ * length_ * detail::length(it_.acceleration_);
 }
 
-/// What they gained is taken from how they move among each other, as far as that goes: as a whole they fall
-/// as anything does. Slower by a factor s, halfway is nearer to where they are, and they lose the energy
-/// K (1 - s^2) + F (1 - s).
+/// Takes what they gained from how they move among each other, as far as that goes: as a whole they fall as
+/// anything does, unless a pin holds one.
 Substep::Slowed Substep::Ledger::slowed() const {
     Slowed slowed;
     if (!gains(rounding) || !(kinetic_ > 0.0)) return slowed;
-    const auto part = [](double kinetic, double fallen, double gained) {
-        const double root = fallen * fallen + 4.0 * kinetic * (kinetic + fallen - gained);
-        return root > 0.0 ? std::clamp((std::sqrt(root) - fallen) / (2.0 * kinetic), 0.0, 1.0) : 0.0;
-    };
+    if (pinned_) {
+        slowed.whole = slowed.apart = slower(kinetic_, fallen_ + released_, gained_);
+        return slowed;
+    }
     slowed.mean = (1.0 / mass_) * momentum_;
-    const double whole = detail::kinetic_energy(mass_, slowed.mean, it_.h_), apart = kinetic_ - whole;
-    const double most = apart + released_;
-    if (apart > 0.0) slowed.apart = most > gained_ ? part(apart, released_, gained_) : 0.0;
-    if (!(most > gained_) && whole > 0.0) slowed.whole = part(whole, fallen_, gained_ - std::max(most, 0.0));
+    const double whole = detail::kinetic_energy(mass_, slowed.mean, it_.h_);
+    const double apart = std::max(0.0, kinetic_ - whole);
+    slowed.apart = slower(apart, released_, gained_);
+    const double left = gained_ - lost(apart, released_, slowed.apart);
+    slowed.whole = slower(whole, fallen_, left);
     return slowed;
 }
 

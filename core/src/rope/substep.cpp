@@ -81,6 +81,7 @@ void Substep::move_particles() {
     // Where the step before was not as long as this one, Verlet's rule for uneven steps.
     const bool before = state_.displaced_in > 0.0;
     const double same = before ? h_ / state_.displaced_in : 0.0;
+    if (before) before_ = state_.displaced_in / h_;
     constexpr double limit = detail::max_displacement;  // no two places are further apart
     const dvec3 fall = (before ? 0.5 * h_ * (h_ + state_.displaced_in) : h_ * h_) * acceleration_;
     each_particle([&](std::size_t i) {

@@ -95,6 +95,7 @@ class Substep {
     Advance& report_;
     bool measures_ = false;
     double h_;
+    double before_ = 1.0;  ///< the substep before, over this one
     Slowed slowed_;
     glm::dvec3 acceleration_;
 };
@@ -119,7 +120,7 @@ class Substep::Ledger {
     double gained_ = 0.0, kinetic_ = 0.0, mass_ = 0.0, length_ = 0.0;
     glm::dvec3 momentum_{0.0};              ///< times the substep
     double fallen_ = 0.0, released_ = 0.0;  ///< since halfway: potential energy, and of links
-    bool worked_on_;
+    bool worked_on_, pinned_ = false;
 };
 
 }  // namespace tendril::rope

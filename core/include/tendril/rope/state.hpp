@@ -29,7 +29,7 @@ struct State {
     std::vector<Body> bodies;  ///< in the order of their particles
     std::vector<Link> links;
     std::vector<glm::dvec3> position;
-    std::vector<glm::dvec3> displacement;  ///< by the last substep, metres
+    std::vector<glm::dvec3> displacement;  ///< by the last substep, metres; less where it gained energy
     std::vector<double> mass;              ///< kg, over 0
     std::vector<Pin> pins;                 ///< by particle
     std::vector<Collider> colliders;
