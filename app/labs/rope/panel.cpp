@@ -18,26 +18,10 @@
 namespace tendril::app {
 namespace {
 
-const char* scene_help(std::string_view name) {
-    if (name == "drape")
-        return "Two hands bring a rope down over a ball and a bar; shorter ones fall beside it";
-    if (name == "bridge")
-        return "A deck of ropes and two hand ropes between four posts, and a ball that rolls over it";
-    if (name == "pendulum")
-        return "Pendulums of different lengths: they make waves, fall apart and find together again";
-    if (name == "well")
-        return "A rope over the drum of a well, with a bucket at one end and a hand at the other";
-    if (name == "cloth") return "A cloth falls over a ball";
-    if (name == "hair") return "Hair on a head that turns to and fro, over shoulders that do not";
-    if (name == "bars") return "Ropes of 8, 45 and 160 segments fall on bars that get thinner; none gains energy";
-    if (name == "curtain") return "A ball swings into a cloth that hangs by two corners; pull it about and let go";
-    return "";
-}
-
 void scene_rows(Emit& emit) {
     std::vector<PresetButton> buttons;
     for (const RopeSceneEntry& scene : rope_scenes())
-        buttons.push_back({scene.name, scene.title, scene_help(scene.name)});
+        buttons.push_back({scene.name, scene.title, scene.help});
     preset_rows(rope_lab, buttons, "Removes every rope and collider", emit);
 }
 

@@ -29,14 +29,26 @@ glm::dvec3 along(const std::vector<glm::vec3>& line, double distance) {
 
 const std::vector<RopeSceneEntry>& rope_scenes() {
     static const std::vector<RopeSceneEntry> list{
-        {"drape", "Drape", drape_scene, view({0.0f, 1.05f, 0.0f}, -24.0f, 16.0f, 5.6f)},
-        {"bridge", "Bridge", bridge_scene, view({0.0f, 0.85f, 0.0f}, -32.0f, 18.0f, 6.4f)},
-        {"pendulum", "Pendula", pendulum_scene, view({0.0f, 0.75f, 0.0f}, -40.0f, 12.0f, 4.2f)},
-        {"well", "Well", well_scene, view({0.0f, 0.85f, 0.0f}, -28.0f, 16.0f, 4.6f)},
-        {"cloth", "Cloth", cloth_scene, view({0.0f, 0.65f, 0.0f}, -28.0f, 24.0f, 4.6f)},
-        {"hair", "Hair", hair_scene, view({0.0f, 1.2f, 0.0f}, -20.0f, 8.0f, 2.9f)},
-        {"bars", "Thin bars", bars_scene, view({0.0f, 0.75f, 0.0f}, -24.0f, 14.0f, 4.8f)},
-        {"curtain", "Curtain", curtain_scene, view({0.0f, 1.0f, 0.0f}, -24.0f, 10.0f, 4.2f)}};
+        {"drape", "Drape", "Two hands bring a rope down over a ball and a bar; shorter ones fall beside it",
+         drape_scene, view({0.0f, 1.05f, 0.0f}, -24.0f, 16.0f, 5.6f)},
+        {"bridge", "Bridge",
+         "A deck of ropes and two hand ropes between four posts, and a ball that rolls over it", bridge_scene,
+         view({0.0f, 0.85f, 0.0f}, -32.0f, 18.0f, 6.4f)},
+        {"pendulum", "Pendula",
+         "Pendulums of different lengths: they make waves, fall apart and find together again",
+         pendulum_scene, view({0.0f, 0.75f, 0.0f}, -40.0f, 12.0f, 4.2f)},
+        {"well", "Well", "A rope over the drum of a well, with a bucket at one end and a hand at the other",
+         well_scene, view({0.0f, 0.85f, 0.0f}, -28.0f, 16.0f, 4.6f)},
+        {"cloth", "Cloth", "A cloth falls over a ball", cloth_scene,
+         view({0.0f, 0.65f, 0.0f}, -28.0f, 24.0f, 4.6f)},
+        {"hair", "Hair", "Hair on a head that turns to and fro, over shoulders that do not", hair_scene,
+         view({0.0f, 1.2f, 0.0f}, -20.0f, 8.0f, 2.9f)},
+        {"bars", "Thin bars",
+         "Ropes of 8, 45 and 160 segments fall on bars that get thinner; none gains energy", bars_scene,
+         view({0.0f, 0.75f, 0.0f}, -24.0f, 14.0f, 4.8f)},
+        {"curtain", "Curtain",
+         "A ball swings into a cloth that hangs by two corners; pull it about and let go", curtain_scene,
+         view({0.0f, 1.0f, 0.0f}, -24.0f, 10.0f, 4.2f)}};
     return list;
 }
 

@@ -18,6 +18,7 @@ struct RopeScene {
 struct RopeSceneEntry {
     const char* name;
     const char* title;
+    const char* help;
     RopeScene (*make)();
     CameraPose view;  ///< from where it is best seen
 };

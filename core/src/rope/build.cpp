@@ -100,6 +100,19 @@ double compliance(const Settings& settings, const Link& link) noexcept {
     return static_cast<double>(settings.compliance) * link.rest + link.compliance;
 }
 
+double kinetic_energy(double mass, const dvec3& by, double h) noexcept {
+    return h > 0.0 ? 0.5 * mass * dot(by, by) / (h * h) : 0.0;
+}
+
+double elastic_energy(const Link& link, double compliance, double tension, const dvec3& now,
+                      const dvec3& by) noexcept {
+    if (link.kind != Link::Kind::Stretch) return 0.5 * compliance * tension * tension;
+    const double longer = length(now) - link.rest, halfway = 0.5 * (longer + length(now - by) - link.rest);
+    if (!(longer * tension > 0.0)) return 0.0;
+    const double stiffness = std::min(tension / longer, 1.0 / compliance);
+    return 0.5 * stiffness * halfway * halfway;
+}
+
 dvec3 down(const Settings& settings) noexcept {
     const dvec3 gravity = static_cast<double>(settings.gravity_scale) * dvec3(settings.gravity);
     return length(gravity) > 1e-12 ? unit(gravity) : dvec3(0.0, -1.0, 0.0);

@@ -34,6 +34,18 @@ Expected<BodyId> append(State& state, const char* operation, Draft draft);
 glm::dvec3 down(const Settings& settings) noexcept;
 /// Gravity and what there is beside it, m/s^2.
 glm::dvec3 acceleration(const Settings& settings) noexcept;
-/// Of a link, m/N, as the solver takes it.
+/// Of a link as its solver sees it, m/N.
 double compliance(const Settings& settings, const Link& link) noexcept;
+
+// Energy in joules, halfway through a substep: that is where Verlet's speed belongs, so what a leapfrog step
+// conserves is conserved.
+
+/// Of a particle that moved by `by` in h seconds.
+double kinetic_energy(double mass, const glm::dvec3& by, double h) noexcept;
+/// Of a link under `tension`. Its ends are `now` apart, and moved apart by `by`. A solver that fell short
+/// leaves a link longer than its tension says; its length halfway is taken to be off by the same factor.
+/// Shear and bend links are so stiff that rotation alone falsifies their length halfway: theirs is the energy
+/// at the end.
+double elastic_energy(const Link& link, double compliance, double tension, const glm::dvec3& now,
+                      const glm::dvec3& by) noexcept;
 }  // namespace tendril::rope::detail

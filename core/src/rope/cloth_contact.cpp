@@ -110,7 +110,7 @@ void ClothSolver::add_contacts() {
     }
 }
 
-/// Friction, by the force of the solve before.
+/// Friction, from the normal force of the previous step.
 void ClothSolver::rub(ClothContact& contact) const {
     const dvec3& n = contact.normal;
     contact.at = between(contact, scratch_.place);
@@ -121,7 +121,7 @@ void ClothSolver::rub(ClothContact& contact) const {
     contact.drag = size * stiffness_ > most ? most / size : stiffness_;
 }
 
-/// Its part of the potential.
+/// Its share of the potential.
 double ClothSolver::potential_of(const ClothContact& contact) const {
     const dvec3 by = between(contact, scratch_.place) - contact.at;
     const double along = detail::dot(by, contact.normal), gap = contact.gap + along;

@@ -16,7 +16,7 @@ constexpr double strain_by_weight = 2e-3;
 /// Of a link, in m / h^2.
 constexpr double min_stiffness = 1e4, max_stiffness = 1e6;
 constexpr double residual_tolerance = 1e-3;  ///< of the residual
-/// Of a stretch link, where two steps are enough.
+/// Strain of a stretch link up to which two steps are enough.
 constexpr double accepted_strain = 0.01;
 constexpr int most_halvings = 6;
 
@@ -128,7 +128,7 @@ void ClothSolver::pin() {
     });
 }
 
-/// A step of Newton's method; where it strains links, so much of it that the potential does not rise.
+/// A step of Newton's method. If it strains links, it is halved until the potential does not rise.
 int ClothSolver::step(int iterations) {
     assemble();
     add_contacts();
@@ -157,13 +157,12 @@ int ClothSolver::step(int iterations) {
     }
     if (!(after <= before)) go(-part), part = 0.0f;
     taken_ = part;
-    potential();
+    potential();  // for what it notes
     return solved.iterations;
 }
 
-/// Notes multipliers of links, what pulls in them where their ends are now, and the largest strain of a
-/// stretch link. Twice what a step makes as small as it can, over the mean mass and times h^2: how far
-/// particles are beside their free way, and what is in links and contacts.
+/// Twice the incremental potential at `place`, over the mean mass and times h^2: inertia, links and contacts.
+/// Also notes the links' multipliers and energy there, and the largest strain of a stretch link.
 double ClothSolver::potential() {
     double sum = 0.0;
     for (std::size_t i = first_; i < first_ + state_.bodies[grid_.body].count; ++i) {
@@ -187,8 +186,7 @@ double ClothSolver::potential() {
 }
 
 int ClothSolver::solve(int iterations) {
-    // One would leave links turned by so much that a cloth gains energy by swinging; two that are half as
-    // exact cost the same.
+    // After a single step a swinging cloth gains energy. Two that are half as exact lose some.
     constexpr int rounds = 2, rounds_in_contact = 3, rounds_if_strained = 4;
     load();
     int most = 0;

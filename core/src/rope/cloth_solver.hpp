@@ -62,9 +62,9 @@ class ClothSolver {
     double h_, mass_ = 0.0, unit_ = 0.0;  ///< the mean of a particle, kg; its m / h^2
     double stiffness_ = 0.0;              ///< the most that a link has, in that unit
     float lightest_ = 1.0f;
-    double taken_ = 1.0;    ///< part of the last step
+    double taken_ = 1.0;    ///< the part of the last step that was taken
     double elastic_ = 0.0;  ///< energy in links, joules
-    double strain_ = 0.0;   ///< of the stretch link that is off most
+    double strain_ = 0.0;   ///< the largest of a stretch link
     bool converged_ = true;
 };
 

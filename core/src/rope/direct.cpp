@@ -80,7 +80,7 @@ int Substep::direct_alone() {
 }
 
 /// A solve that would throw a chain is taken in part: nothing is corrected faster than the fastest of its
-/// particles moves, or than correction_speed.
+/// particles moves, or than correction_speed, whichever is more.
 void Substep::slow_correction(const Plan::Chain& chain) {
     double farthest = 0.0, most = correction_speed * h_;
     const auto each = [&](auto visit) {

@@ -1,11 +1,11 @@
-// A substep gives nothing energy: what gained some, by a solve that fell short or by depenetration, moves on
-// slower by as much.
-#include "rope/energy.hpp"
-
+// The energy bound of the direct solver. A solve that falls short, or depenetration, can leave a body with
+// more energy than it had; its velocity is then scaled down until the gain is gone.
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "rope/build.hpp"
+#include "rope/geometry.hpp"
 #include "rope/substep.hpp"
 
 namespace tendril::rope {
@@ -13,22 +13,22 @@ namespace {
 
 using glm::dvec3;
 
-/// Of what energy there is to do with: what sums of rounded numbers cannot tell from nothing.
+/// A gain of less than this part of weight times length is rounding.
 constexpr double rounding = 1e-9;
 
-/// Energy that slowing down by a factor s takes: kinetic energy, and what changed `since` halfway, which is
-/// now nearer to where the motion ends.
+/// The energy that scaling a velocity by s removes. A shorter displacement also moves the halfway point
+/// towards the end of the substep; `since` is the potential energy released between the two.
 double lost(double kinetic, double since, double s) {
     return kinetic * (1.0 - s * s) + since * (1.0 - s);
 }
 
-/// The largest factor that takes `gained`; the one that takes most, where none does.
+/// The largest s that removes `gained`; if none does, the one that removes most.
 double slower(double kinetic, double since, double gained) {
     if (!(gained > 0.0) || !(kinetic > 0.0)) return 1.0;
     const double most = std::clamp(-since / (2.0 * kinetic), 0.0, 1.0);
     const double root = since * since + 4.0 * kinetic * (kinetic + since - gained);
     if (!(root > 0.0)) return most;
-    // Without the difference of numbers that are nearly the same.
+    // Whichever form of the root subtracts no nearly equal numbers.
     const double sum = std::sqrt(root);
     const double s =
         since > 0.0 ? 2.0 * (kinetic + since - gained) / (sum + since) : (sum - since) / (2.0 * kinetic);
@@ -70,7 +70,7 @@ void Substep::Ledger::add_link(std::uint32_t number) {
     released_ += half - detail::elastic_energy(link, compliance, tension, now, dvec3(0.0));
 }
 
-/// Its links are too stiff for their length halfway to tell anything: what is in them at the end counts.
+/// The links of a cloth are too stiff for lengths halfway; its solver has summed their energy at the end.
 void Substep::Ledger::add_cloth() {
     length_ += it_.local_.cloth_energy.length;
     gained_ += it_.local_.cloth_energy.gained;
@@ -80,8 +80,8 @@ bool Substep::Ledger::gains(double part) const {
     return gained() > 0.0 && gained() > part * mass_ * length_ * detail::length(it_.acceleration_);
 }
 
-/// Takes what they gained from how they move among each other, as far as that goes: as a whole they fall as
-/// anything does, unless a pin holds one.
+/// Removes the gain from motion relative to the mean first, so that a free body keeps falling freely. A pin
+/// takes momentum, so with one all motion is scaled alike.
 Substep::Slowed Substep::Ledger::slowed() const {
     Slowed slowed;
     if (!gains(rounding) || !(kinetic_ > 0.0)) return slowed;
@@ -126,7 +126,7 @@ void Substep::limit_energy() {
         scratch_.chain_slowed[r] = ledger_of(plan_.chains[r]).slowed();
 }
 
-/// What is slowed down keeps its place: only what is remembered of the way there is shorter.
+/// Positions stay; only the velocity is scaled.
 void Substep::slow_down() {
     const auto slow = [&](std::size_t i, const Slowed& slowed) {
         if (scratch_.weight[i] == 0.0) return;

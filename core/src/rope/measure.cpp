@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rope/energy.hpp"
+#include "rope/build.hpp"
 #include "rope/geometry.hpp"
 #include "rope/slots.hpp"
 #include "tendril/rope/world.hpp"

@@ -31,7 +31,7 @@ struct Scratch {
     std::vector<double> multiplier;  ///< of each link: tension times h^2
     std::vector<Touch> touch;
     enum class Nearest : std::uint8_t { None, Resting, Moving };
-    std::vector<Nearest> body_near;         ///< what is near a body: a collider that moves, one at least
+    std::vector<Nearest> body_near;         ///< colliders near a body
     std::vector<std::uint8_t> body_failed;  ///< whether a body could not be solved
     std::vector<glm::dvec3> chunk_low, chunk_high;
     struct Moving {
@@ -57,7 +57,7 @@ struct Scratch {
     std::vector<Moving> colliders;
     std::vector<std::uint8_t> chain_solved;  ///< whether a chain is solved with what it touches
     std::vector<double> chain_error;         ///< of each chain: relative length error after its last pass
-    /// What particles keep of their motion: as a whole, and apart from that.
+    /// Factors on the mean velocity of some particles, and on what differs from it.
     struct Slowed {
         glm::dvec3 mean{0.0};  ///< of their displacements
         double whole = 1.0, apart = 1.0;
@@ -136,7 +136,7 @@ struct IslandScratch {
     std::size_t block_offset = 0;
     ContactScratch contact;
     std::vector<ClothContact> cloth_contacts, earlier_contacts;
-    /// Of a cloth: about its length, and by how much the energy in its links has grown, metres and joules.
+    /// Of the cloth solved last: roughly its length, metres, and the growth of energy in its links, joules.
     struct {
         double length = 0.0, gained = 0.0;
     } cloth_energy;

@@ -57,7 +57,7 @@ void Substep::run(bool measures) {
     report_.passes = std::max(report_.passes, passes);
     depenetrate();
     stay_in_the_world();
-    // The other solvers lose energy by themselves: what they stretched comes back slowly.
+    // The other solvers store stretch that no energy counts; bounded, a taut rope would sag.
     if (state_.settings.solver == Solver::Direct) limit_energy();
     commit();
 }

@@ -80,7 +80,7 @@ class Substep {
     using Slowed = Scratch::Slowed;
     Ledger ledger_of(const Plan::Chain& chain) const;
     Ledger ledger_of_all() const;
-    /// What a collider does that moves is work.
+    /// A moving collider near a body may do work on it.
     bool is_worked_on(std::uint32_t body) const {
         return scratch_.body_near[body] == Scratch::Nearest::Moving;
     }
@@ -95,13 +95,12 @@ class Substep {
     Advance& report_;
     bool measures_ = false;
     double h_;
-    double before_ = 1.0;  ///< the substep before, over this one
+    double before_ = 1.0;  ///< length of the substep before, over this one's
     Slowed slowed_;
     glm::dvec3 acceleration_;
 };
 
-/// What energy some particles have, in joules: by how much it is more than before the substep, and how much
-/// of it is motion.
+/// The energy that particles and links have gained in this substep, in joules.
 class Substep::Ledger {
   public:
     Ledger(const Substep& substep, bool worked_on) : it_(substep), worked_on_(worked_on) {}
@@ -109,9 +108,9 @@ class Substep::Ledger {
     void add_particle(std::size_t i);
     void add_link(std::uint32_t link);
     void add_cloth();
-    /// Nothing where a collider or pin that moves has worked on them.
+    /// Zero where a moving collider or pin may have done work.
     double gained() const { return worked_on_ ? 0.0 : gained_; }
-    /// Whether they gained more than that part of their weight times their length.
+    /// More than this part of their weight times their length.
     bool gains(double part) const;
     Slowed slowed() const;
 
@@ -119,7 +118,7 @@ class Substep::Ledger {
     const Substep& it_;
     double gained_ = 0.0, kinetic_ = 0.0, mass_ = 0.0, length_ = 0.0;
     glm::dvec3 momentum_{0.0};              ///< times the substep
-    double fallen_ = 0.0, released_ = 0.0;  ///< since halfway: potential energy, and of links
+    double fallen_ = 0.0, released_ = 0.0;  ///< by gravity and by links, since halfway
     bool worked_on_, pinned_ = false;
 };
 

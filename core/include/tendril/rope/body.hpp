@@ -63,9 +63,9 @@ struct ClothShape {
     int columns = 24, rows = 24;        ///< particles, 2 or more each
     float radius = 0.01f;
     float density = 0.2f;  ///< kg/m^2, over 0
-    /// Compliance of shear and bend links, m/N. Soft, as in woven cloth: a net whose diagonals are stiff as
-    /// well stays as it was crumpled. With more than 64 x 64 particles 1e-4 and 1e-2 keep lengths better
-    /// (over a ball, 128 x 128 falls with 1.5 % in place of 25 %).
+    /// Compliance of shear and bend links, m/N. Soft, as in woven cloth: with stiff diagonals a crumpled
+    /// cloth stays crumpled. Above 64 x 64 particles, 1e-4 and 1e-2 keep lengths better: 128 x 128 falling on
+    /// a ball strains by 1.5 % instead of 25 %.
     float shear = 0.3f, bend = 0.3f;
     float tear = 0.0f;  ///< strain at which links tear; 0: never
     enum class Pins : std::uint8_t { None, Corners, Row } pins = Pins::None;  ///< of the first row

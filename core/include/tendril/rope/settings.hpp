@@ -18,14 +18,13 @@
 //   of segments. A cloth is one system with its contacts: a backward Euler step (D. Baraff, A. Witkin, "Large
 //   Steps in Cloth Simulation", 1998) in which the weight of the whole cloth stretches a link by 0.2 %. Each
 //   step of Newton's method is solved by conjugate gradients with a multigrid cycle, so that the iterations
-//   hardly grow with its resolution, and is shortened until the step's potential does not rise (M. Li et al.,
-//   "Incremental Potential Contact", 2020). Hair is solved strand by strand, and its contacts and bending
-//   between the passes.
+//   hardly grow with its resolution. A step that strains links is halved until the incremental potential
+//   does not rise (M. Li et al., "Incremental Potential Contact", 2020). Hair is solved strand by strand, and
+//   its contacts and bending between the passes.
 //
-//   What gained energy in a substep, because a solve fell short or by depenetration, moves on slower
-//   by as much: first its particles among each other, so that as a whole it falls as anything does. Only
-//   moving colliders and pins do work. The other two solvers lose energy by themselves; Xpbd with elastic
-//   links and long substeps may gain some percent of what it fell.
+// Direct adds no energy: a body that gained some in a substep is slowed down until the gain is gone, in its
+// relative motion first, so that it keeps falling freely. Only moving colliders and pins do work. Relaxation
+// and Xpbd mostly lose energy; what they gain in contact is not bounded.
 #pragma once
 
 #include <cstddef>
@@ -43,9 +42,9 @@ const char* name(Solver solver) noexcept;
 struct Settings {
     /// Seconds, min_substep to max_substep.
     double substep = 1.0 / 240.0;
-    /// Passes in a substep, 1 to max_iterations. Direct ends as soon as it has converged; for a cloth it
-    /// takes so many iterations of conjugate gradients in each of 2 to 4 steps of Newton's method, and half
-    /// as many where nothing touches it.
+    /// Passes in a substep, 1 to max_iterations. Direct ends as soon as it has converged. A cloth takes this
+    /// many iterations of conjugate gradients in each of 2 to 4 steps of Newton's method; half as many if
+    /// nothing touches or strains it.
     int iterations = 16;
     Solver solver = Solver::Direct;
     /// How fast motion dies away, 1/s, 0 to max_rate.
