@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <map>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 namespace tendril::test {
 namespace {
@@ -27,16 +27,6 @@ bool tooltip_shown() {
     return std::any_of(windows.begin(), windows.end(), [](const ImGuiWindow* window) {
         return window->Active && (window->Flags & ImGuiWindowFlags_Tooltip) != 0;
     });
-}
-
-/// The letter whose place in the font's picture this is; 0 for anything else.
-ImWchar letter_of(const ImDrawVert& low, const ImDrawVert& high) {
-    for (const ImFont* font : ImGui::GetIO().Fonts->Fonts)
-        for (const ImFontGlyph& glyph : font->Glyphs)
-            if (glyph.U0 == low.uv.x && glyph.V0 == low.uv.y && glyph.U1 == high.uv.x &&
-                glyph.V1 == high.uv.y)
-                return static_cast<ImWchar>(glyph.Codepoint);
-    return 0;
 }
 
 }  // namespace
@@ -85,45 +75,44 @@ std::string TooltipFinder::without_numbers(std::string text) {
     return text;
 }
 
-void TooltipFinder::look(glm::vec2 at, TooltipSearch& found, std::vector<Silent>& silent) {
-    const ImGuiID id = ImGui::GetCurrentContext()->HoveredId;
-    if (id == 0 || of_a_window(id)) return;
-    const bool is_new = found.items.insert(id).second;
-    if (!tooltip_shown()) {
-        if (is_new) silent.push_back({id, at});
-        return;
-    }
-    // A plot tells what is under the mouse, where there is something.
-    silent.erase(
-        std::remove_if(silent.begin(), silent.end(), [&](const Silent& each) { return each.id == id; }),
-        silent.end());
+std::vector<glm::vec2> TooltipFinder::places_on(const DrawnItem& item, const app::Rect& part) {
+    const ImRect& seen = item.window->InnerClipRect;
+    const glm::vec2 low = glm::max(glm::max(item.box.min, part.min), glm::vec2(seen.Min.x, seen.Min.y));
+    const glm::vec2 high = glm::min(glm::min(item.box.max, part.max), glm::vec2(seen.Max.x, seen.Max.y));
+    if (!(low.x < high.x && low.y < high.y) || of_a_window(item.id)) return {};
+    std::vector<glm::vec2> places{0.5f * (low + high)};
+    const glm::ivec2 steps = glm::clamp(glm::ivec2((high - low) / 14.0f), glm::ivec2(1), glm::ivec2(20));
+    for (int y = 0; y < steps.y; ++y)
+        for (int x = 0; x < steps.x; ++x)
+            places.push_back(low + (high - low) * (glm::vec2(x, y) + 0.5f) / glm::vec2(steps));
+    return places;
 }
 
-std::string TooltipFinder::text_at(glm::vec2 at) {
-    struct Letter {
-        ImWchar letter;
-        float end;
-    };
-    std::map<float, Letter> letters;
-    const ImDrawData* const data = ImGui::GetDrawData();
-    for (int list = 0; list < data->CmdListsCount; ++list) {
-        const ImVector<ImDrawVert>& corners = data->CmdLists[list]->VtxBuffer;
-        for (int i = 0; i + 2 < corners.Size; ++i) {
-            const float middle = 0.5f * (corners[i].pos.y + corners[i + 2].pos.y);
-            if (middle < at.y - 5.0f || middle > at.y + 20.0f) continue;
-            if (std::abs(corners[i].pos.x - at.x) > 250.0f) continue;  // in another panel
-            if (const ImWchar letter = letter_of(corners[i], corners[i + 2]); letter != 0)
-                letters[corners[i].pos.x] = {letter, corners[i + 2].pos.x};
-        }
+bool TooltipFinder::look(const DrawnItem& item, TooltipSearch& found,
+                         std::map<unsigned, const DrawnItem*>& silent) {
+    const ImGuiID hovered = ImGui::GetCurrentContext()->HoveredId;
+    if (hovered != item.id) return found.items.count(item.id) != 0 && silent.count(item.id) == 0;
+    found.items.insert(item.id);
+    if (!tooltip_shown()) {
+        silent.emplace(item.id, &item);
+        return false;
     }
-    std::string text;
-    float end = 0.0f;
-    for (const auto& [begin, letter] : letters) {
-        if (!text.empty() && begin - end > 2.5f) text += ' ';
-        text += letter.letter < 128 ? static_cast<char>(letter.letter) : '?';
-        end = letter.end;
+    silent.erase(item.id);
+    return true;
+}
+
+std::string TooltipFinder::text_at(const FrameRecord& drawn, const DrawnItem& item) {
+    const glm::vec2 at = 0.5f * (item.box.min + item.box.max);
+    const DrawnText* nearest = nullptr;
+    float least = FLT_MAX;
+    for (const DrawnText& text : drawn.texts) {
+        const float distance = glm::distance(at, glm::clamp(at, text.box.min, text.box.max));
+        if (distance >= least) continue;
+        least = distance;
+        nearest = &text;
     }
-    return text.empty() ? "(no text, " + std::to_string(static_cast<int>(at.y)) + " pixels down)" : text;
+    if (nearest != nullptr) return nearest->text;
+    return "(no text, " + std::to_string(static_cast<int>(at.y)) + " pixels down)";
 }
 
 }  // namespace tendril::test

@@ -1,7 +1,8 @@
-// Finds what a person can click, drag or type into, and whether it has a tooltip: by moving the mouse over
-// all of it.
+// Finds what a person can click, drag or type into, and whether it has a tooltip: the mouse visits each item
+// that a frame drew.
 #pragma once
 
+#include <deque>
 #include <glm/vec2.hpp>
 #include <map>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "app/shell/ui.hpp"
 #include "app/view/camera.hpp"
 #include "app/window/window.hpp"
+#include "tests/app/support/frame_record.hpp"
 
 namespace tendril::test {
 
@@ -75,23 +77,25 @@ class TooltipFinder {
 
     template <class Frame>
     TooltipSearch search(const app::Rect& part, const Frame& frame) {
-        // Nothing that can be clicked is lower than this, or narrower.
-        constexpr glm::vec2 step{14.0f, 8.0f};
+        FrameRecorder recorder;
+        frame(nowhere);
+        const FrameRecord drawn = recorder.frame();
+        std::deque<DrawnItem> items(drawn.items.begin(), drawn.items.end());
+        std::set<unsigned> known;
+        for (const DrawnItem& item : items) known.insert(item.id);
         TooltipSearch found;
-        std::vector<Silent> silent;
-        for (float y = part.min.y + 4.0f; y < part.max.y; y += step.y) {
-            for (float x = part.min.x + 4.0f; x < part.max.x; x += step.x) {
-                frame({x, y});
-                look({x, y}, found, silent);
+        std::map<unsigned, const DrawnItem*> silent;
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            for (const glm::vec2 mouse : places_on(items[i], part)) {
+                frame(mouse);
+                for (const DrawnItem& item : recorder.frame().items)  // some show only beneath the mouse
+                    if (known.insert(item.id).second) items.push_back(item);
+                if (look(items[i], found, silent)) break;
             }
         }
-        name(found, silent, [&] { frame(nowhere); });
+        for (const auto& [id, item] : silent) found.lacking[id] = text_at(drawn, *item);
         return found;
     }
-    struct Silent {
-        unsigned id = 0;
-        glm::vec2 at{0.0f};
-    };
 
     void begin(glm::vec2 mouse);
     void end() { ui_.end(); }
@@ -101,15 +105,14 @@ class TooltipFinder {
     static void begin_text();
     static std::string end_text();
     static std::string without_numbers(std::string text);
-    /// What the mouse is on in the frame that has ended.
-    static void look(glm::vec2 at, TooltipSearch& found, std::vector<Silent>& silent);
-    template <class Frame>
-    static void name(TooltipSearch& found, const std::vector<Silent>& silent, const Frame& frame) {
-        if (!silent.empty()) frame();
-        for (const Silent& each : silent) found.lacking[each.id] = text_at(each.at);
-    }
-    /// What stands in the picture about where an item begins.
-    static std::string text_at(glm::vec2 at);
+    /// Where the mouse goes to find an item's tooltip: its middle, then all over it, for a plot has one only
+    /// where there is something. None where all of it lies out of `part`.
+    static std::vector<glm::vec2> places_on(const DrawnItem& item, const app::Rect& part);
+    /// Notes what the mouse is on in the frame that has ended. True once `item` is known to have a tooltip.
+    static bool look(const DrawnItem& item, TooltipSearch& found,
+                     std::map<unsigned, const DrawnItem*>& silent);
+    /// The text on an item, else the one nearest to it.
+    static std::string text_at(const FrameRecord& drawn, const DrawnItem& item);
 
     std::unique_ptr<app::Window> window_ = app::open_offscreen({1280, 800});
     app::Ui ui_;
