@@ -195,6 +195,8 @@ void number_rows(const Workspace& workspace, const Palette& palette) {
     reading("as solved", "%.4f %%", 100.0 * static_cast<double>(last.stretch));
     explain("The length error as the solver left it: of hair, before colliders displaced anything.");
     reading("energy", "%.3f J", static_cast<double>(last.energy));
+    reading("taken by contact", "%.3f J", static_cast<double>(last_second(part.samples).contact_loss));
+    explain("Energy that contact and friction took in the last second, of what is near colliders that rest.");
     reading("substeps dropped", "%llu", static_cast<unsigned long long>(state.dropped));
     explain(
         "Substeps left out so as not to fall behind: of frames over the longest frame, and of more work than "

@@ -1,6 +1,8 @@
 // What is measured of ropes: for the inspector, the curves and the plot of the last ten seconds.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "app/labs/rope/rope_part.hpp"
@@ -18,6 +20,15 @@ float strongest_tension(const NamedWorld& world, const Particles& particles);
 float highest_speed(const NamedWorld& world, const Particles& particles);
 
 /// Of a whole world, after a tick.
-RopeSample sample_of(const RopePart& part);
+RopeSample sample_of(const RopePart& part, const RopeReport& report);
+/// Of the last second: sums, and of `inside` what the last tick said.
+RopeReport last_second(const std::vector<RopeSample>& samples);
+
+/// A body whose pins are further apart than it is long between them.
+struct OverPulled {
+    std::string body;
+    double apart = 0.0, length = 0.0;  ///< metres
+};
+std::optional<OverPulled> over_pulled(const NamedWorld& world);
 
 }  // namespace tendril::app

@@ -46,7 +46,7 @@ void RopeEdit::set_collider(const std::string& name, const rope::Shape& shape) {
 
 /// The curves' last point is of the world as it is now.
 void RopeEdit::dragged() {
-    if (!part.samples.empty()) part.samples.back() = sample_of(part);
+    if (!part.samples.empty()) part.samples.back() = sample_of(part, part.samples.back().report);
 }
 
 Command rope_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,

@@ -52,9 +52,9 @@ void include(const rope::Shape& shape, glm::vec3& low, glm::vec3& high) {
     }
 }
 
-void take_sample(RopePart& part) {
+void take_sample(RopePart& part, const RopeReport& report) {
     if (part.samples.size() >= most_rope_samples) part.samples.erase(part.samples.begin());
-    part.samples.push_back(sample_of(part));
+    part.samples.push_back(sample_of(part, report));
 }
 
 std::optional<Bounds> selection_bounds(const RopePart& part) {
@@ -100,10 +100,11 @@ void RopeLab::step(Workspace& workspace) const {
     const auto stopped = guarded_step<RopePart>(workspace, rope_lab, [&](RopePart& part) {
         const std::uint64_t substeps = part.world->state().substeps;
         Stopwatch stopwatch(clock.measured, part.cost);
-        pass_time(part, tick_seconds * static_cast<double>(clock.speed), runtime.workspace);
+        const RopeReport report =
+            pass_time(part, tick_seconds * static_cast<double>(clock.speed), runtime.workspace);
         stopwatch.stop();
         if (!in_range(*part.world)) throw std::out_of_range("something would get farther than 1e9 m");
-        take_sample(part);
+        take_sample(part, report);
         // A tick in which no substep was due tells nothing of rest.
         const bool moved_on = part.world->state().substeps != substeps;
         part.quiet_ticks = !at_rest(part) ? 0 : part.quiet_ticks + (moved_on ? 1 : 0);

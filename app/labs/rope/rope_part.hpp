@@ -64,12 +64,22 @@ struct RopeView {
     bool operator==(const RopeView&) const = default;
 };
 
+/// What the solver says of a tick.
+struct RopeReport {
+    std::uint64_t inside = 0;       ///< particles left inside colliders
+    std::uint64_t unconverged = 0;  ///< solves that did not converge, or were taken in part
+    std::uint64_t suspended = 0;    ///< bodies that nothing holds, and that do not fall
+    float contact_loss = 0.0f;      ///< joules that contact took
+    bool operator==(const RopeReport&) const = default;
+};
+
 /// What a tick came to, for the curves.
 struct RopeSample {
     float stretch = 0.0f;  ///< the largest relative length error of all ropes, as the solver left it
     float error = 0.0f;    ///< the same after contact: with what depenetration added
     float energy = 0.0f;   ///< joules, of all bodies
     float frame = 0.0f;    ///< milliseconds: how long the frame is that the tick ends in
+    RopeReport report;
     bool operator==(const RopeSample&) const = default;
 };
 inline constexpr std::size_t most_rope_samples = 600;  ///< ten seconds of them

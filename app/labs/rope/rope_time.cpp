@@ -33,22 +33,32 @@ void aim(const RopePart& part, NamedWorld& world, double time) {
         world.move_collider(swing.collider, swing_point(swing, time), tick_seconds);
 }
 
-/// Lets time pass in a world, and takes what that takes from the work that is left.
-void advance(NamedWorld& world, double seconds, rope::Workspace& workspace, std::uint64_t& work_left) {
+/// What is left of the work that a tick allows, and what the solver has said so far.
+struct Tick {
+    std::uint64_t work_left = max_lab_work;
+    RopeReport report;
+};
+
+/// Lets time pass in a world.
+void advance(NamedWorld& world, double seconds, rope::Workspace& workspace, Tick& tick) {
     const std::uint64_t each = std::max(work_of_substep(world), std::uint64_t{1});
     // One always fits: else a world that is too large would stand still without a word.
-    const std::uint64_t most = std::max(work_left / each, std::uint64_t{work_left == max_lab_work});
+    const std::uint64_t most = std::max(tick.work_left / each, std::uint64_t{tick.work_left == max_lab_work});
     const rope::Advance done = world.advance(seconds, workspace, most);
-    work_left -= std::min(work_left, each * static_cast<std::uint64_t>(done.substeps));
+    tick.work_left -= std::min(tick.work_left, each * static_cast<std::uint64_t>(done.substeps));
+    RopeReport& report = tick.report;
+    report.inside = std::max(report.inside, done.unresolved / std::max<std::uint64_t>(done.substeps, 1));
+    report.unconverged += done.fallbacks + done.unconverged;
+    report.suspended += done.suspended;
+    report.contact_loss += static_cast<float>(done.contact_loss);
 }
 
 /// A frame of the lab. While something swings it is cut where ticks of the lab's own time end, and aimed
 /// there: so the swing is the same however its time is cut.
-void pass_frame(RopePart& part, NamedWorld& world, double seconds, rope::Workspace& workspace,
-                std::uint64_t& work_left) {
+void pass_frame(RopePart& part, NamedWorld& world, double seconds, rope::Workspace& workspace, Tick& tick) {
     constexpr double rounding = 1e-6;  // of a tick
     if (part.swings.empty()) {
-        advance(world, seconds, workspace, work_left);
+        advance(world, seconds, workspace, tick);
         part.time += seconds;
         return;
     }
@@ -58,7 +68,7 @@ void pass_frame(RopePart& part, NamedWorld& world, double seconds, rope::Workspa
         const double next = ((at_tick ? std::round(ticks) : std::floor(ticks)) + 1.0) * tick_seconds;
         if (at_tick) aim(part, world, next);
         const double piece = std::min(seconds, next - part.time);
-        advance(world, piece, workspace, work_left);
+        advance(world, piece, workspace, tick);
         part.time += piece;
         seconds -= piece;
     }
@@ -71,25 +81,25 @@ RopeRuntime::RopeRuntime() {
     (void)workspace.use_threads(static_cast<int>(std::clamp(cores, 1u, 4u)));  // in range
 }
 
-void pass_time(RopePart& part, double seconds, rope::Workspace& workspace) {
+RopeReport pass_time(RopePart& part, double seconds, rope::Workspace& workspace) {
     auto world = std::make_shared<NamedWorld>(*part.world);
-    std::uint64_t work_left = max_lab_work;
+    Tick tick;
     Jitter& jitter = part.jitter;
     if (jitter.dial == 0.0f) {
-        if (jitter.owed > 0.0)
-            pass_frame(part, *world, std::exchange(jitter.owed, 0.0), workspace, work_left);
+        if (jitter.owed > 0.0) pass_frame(part, *world, std::exchange(jitter.owed, 0.0), workspace, tick);
         jitter.frame = 0.0;
-        pass_frame(part, *world, seconds, workspace, work_left);
+        pass_frame(part, *world, seconds, workspace, tick);
     } else {
         jitter.owed += seconds;
         if (jitter.frame == 0.0) jitter.frame = jitter_frame(jitter.dial, jitter.frames);
         while (jitter.owed >= jitter.frame) {
             jitter.owed -= jitter.frame;
-            pass_frame(part, *world, jitter.frame, workspace, work_left);
+            pass_frame(part, *world, jitter.frame, workspace, tick);
             jitter.frame = jitter_frame(jitter.dial, ++jitter.frames);
         }
     }
     part.world = std::move(world);
+    return tick.report;
 }
 
 std::uint64_t work_of_substep(const NamedWorld& world) {

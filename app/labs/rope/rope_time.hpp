@@ -17,7 +17,7 @@ struct RopeRuntime final : Runtime {
 /// Lets `seconds` pass in the lab. The world that comes of it does not depend on how they are cut, as long as
 /// none are dropped: there are max_lab_work.
 /// `workspace` is any, best the same for every tick.
-void pass_time(RopePart& part, double seconds, rope::Workspace& workspace);
+RopeReport pass_time(RopePart& part, double seconds, rope::Workspace& workspace);
 /// Of a world's substep, for max_lab_work: counted, not measured, so that every machine drops the same.
 std::uint64_t work_of_substep(const NamedWorld& world);
 

@@ -1,6 +1,7 @@
 // What --state writes of the Rope lab.
 #include "app/document/json_complete.hpp"
 #include "app/labs/kit/world_file.hpp"
+#include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/panels.hpp"
 #include "app/labs/rope/past.hpp"
 #include "app/labs/rope/rope_lab.hpp"
@@ -36,6 +37,13 @@ Json collider_state(const RopePart& part, const rope::Collider& collider) {
     return json;
 }
 
+Json report_state(const RopeReport& report) {
+    return {{"inside", report.inside},
+            {"unconverged", report.unconverged},
+            {"suspended", report.suspended},
+            {"contact_loss", number(report.contact_loss)}};
+}
+
 Json selection_state(const std::optional<RopeSelection>& selection) {
     if (!selection) return nullptr;
     if (!selection->collider.empty()) return Json{{"collider", selection->collider}};
@@ -65,8 +73,11 @@ Json RopeLab::state(const Workspace& workspace) const {
         held = {{"rope", part.hold->body},
                 {"particle", part.hold->particles.front()},
                 {"particles", part.hold->particles}};
+    const Verdict verdict = rope_verdict(part);
     return Json{{"lab", rope_lab},
-                {"verdict", rope_verdict(part).text},
+                {"verdict", verdict.text},
+                {"why", verdict.why},
+                {"last_second", report_state(last_second(part.samples))},
                 {"ropes", std::move(ropes)},
                 {"cloths", std::move(cloths)},
                 {"hair", std::move(hair)},

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "app/document/units.hpp"
+#include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/panels.hpp"
 
 namespace tendril::app {
@@ -12,12 +13,34 @@ Verdict rope_verdict(const RopePart& part) {
     if (part.samples.empty())
         return {"Not moved yet", Verdict::Kind::Open, "Space runs the simulation, and pauses it."};
     const RopeSample last = part.samples.back();
+    const RopeReport report = last_second(part.samples);
     const auto error = static_cast<double>(last.error), before = static_cast<double>(last.stretch);
-    const std::string percent = error < 1e-4 ? "under 0.01 %" : fixed_text(100.0 * error, error < 0.1 ? 2 : 0) + " %";
-    if (error < seen) return {"Lengths hold", Verdict::Kind::Good, "The worst link is off by " + percent + "."};
-    return {"Lengths off by " + percent, Verdict::Kind::Bad,
-            before < 0.5 * error ? "Contact displaced links after the solve."
-                                 : "The solver left it: more iterations or substeps hold lengths better."};
+    if (report.inside > 0)
+        return {"Inside a collider", Verdict::Kind::Bad,
+                std::to_string(report.inside) + " particles found no way out. Make room for them."};
+    const std::string percent =
+        error < 1e-4 ? "under 0.01 %" : fixed_text(100.0 * error, error < 0.1 ? 2 : 0) + " %";
+    if (error >= seen) {
+        const std::string off = "Lengths off by " + percent;
+        if (const auto pulled = over_pulled(*part.world))
+            return {off, Verdict::Kind::Bad,
+                    "Pins of " + pulled->body + " are " + fixed_text(pulled->apart, 2) +
+                        " m apart; between them it is " + fixed_text(pulled->length, 2) + " m long."};
+        if (before < 0.5 * error)
+            return {off, Verdict::Kind::Bad, "Contact displaced links after the solve."};
+        return {off, Verdict::Kind::Bad,
+                "The solver left it: more iterations or substeps hold lengths better."};
+    }
+    if (last.report.suspended > 0)
+        return {"Neither held nor falling", Verdict::Kind::Bad,
+                "Nothing holds or touches it, and it does not fall: it is at the edge of the world, or the "
+                "solver "
+                "holds it."};
+    if (report.unconverged > 0)
+        return {"Lengths hold; steps taken in part", Verdict::Kind::Open,
+                "In the last second the solver did not converge " + std::to_string(report.unconverged) +
+                    " times. Shorter substeps help."};
+    return {"Lengths hold", Verdict::Kind::Good, "The worst link is off by " + percent + "."};
 }
 
 }  // namespace tendril::app

@@ -123,6 +123,9 @@ void Workspace::Parts::add_up(Advance& done) {
         done.work += thread.done.work;
         done.unresolved += thread.done.unresolved;
         done.unconverged += thread.done.unconverged;
+        done.fallbacks += thread.done.fallbacks;
+        done.suspended += thread.done.suspended;
+        done.contact_loss += thread.done.contact_loss;
         thread.done = {};
     }
     done.passes += passes;

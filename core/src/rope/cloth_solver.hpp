@@ -16,6 +16,7 @@ class ClothSolver {
     /// Of the island's particles, from `base`. At most so many iterations each time; how many it took most.
     int solve(int iterations);
     bool converged() const { return converged_; }
+    double taken() const { return taken_; }  ///< the part of the last step that was taken
 
   private:
     // cloth_solver.cpp
@@ -62,7 +63,7 @@ class ClothSolver {
     double h_, mass_ = 0.0, unit_ = 0.0;  ///< the mean of a particle, kg; its m / h^2
     double stiffness_ = 0.0;              ///< the most that a link has, in that unit
     float lightest_ = 1.0f;
-    double taken_ = 1.0;    ///< the part of the last step that was taken
+    double taken_ = 1.0;
     double elastic_ = 0.0;  ///< energy in links, joules
     double strain_ = 0.0;   ///< the largest of a stretch link
     bool converged_ = true;

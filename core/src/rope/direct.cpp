@@ -91,6 +91,7 @@ void Substep::slow_correction(const Plan::Chain& chain) {
         most = std::max(most, detail::length(scratch_.base[i] - state_.position[i]));
     });
     if (farthest <= most) return;
+    ++report_.fallbacks;
     each([&](std::uint32_t i) {
         const dvec3 by = scratch_.place[i] - scratch_.base[i];
         scratch_.place[i] = scratch_.base[i] + (most / farthest) * by;
@@ -102,6 +103,7 @@ int Substep::direct_grid() {
     const int allowed = passes_allowed(), passes = cloth.solve(allowed);
     report_.work += static_cast<std::uint64_t>(passes) * island_.links.count;
     if (!cloth.converged() && allowed < state_.settings.iterations) report_.shortened = 1;
+    if (cloth.taken() < 1.0) ++report_.fallbacks;
     measure();
     return passes;
 }
@@ -144,7 +146,9 @@ void Substep::relax_failed_bodies() {
     for (std::uint32_t r = first_chain; r < end_chain; ++r) {
         if (scratch_.chain_error[r] <= fallback_error) continue;  // not so where it is no number
         any = true;
-        scratch_.body_failed[plan_.chains[r].body] = 1;
+        std::uint8_t& failed = scratch_.body_failed[plan_.chains[r].body];
+        report_.fallbacks += failed == 0 ? 1 : 0;
+        failed = 1;
     }
     if (!any) return;
     for (const std::uint32_t b : bodies) {

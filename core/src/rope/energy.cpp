@@ -45,14 +45,16 @@ void Substep::Ledger::add_particle(std::size_t i) {
         return;
     }
     const dvec3 then = it_.state_.displacement[i];
+    pushed_ += it_.state_.mass[i] * (it_.scratch_.place[i] - it_.scratch_.base[i]);
     const double mass = it_.state_.mass[i], moving = detail::kinetic_energy(mass, now, it_.h_);
     const double half = 0.5 * mass * detail::dot(it_.acceleration_, now);
     mass_ += mass;
     kinetic_ += moving;
     momentum_ += mass * now;
     fallen_ += half;
-    gained_ += moving - detail::kinetic_energy(mass, then, it_.h_) - half -
-               it_.before_ * 0.5 * mass * detail::dot(it_.acceleration_, then);
+    const double moved = detail::kinetic_energy(mass, then, it_.h_);
+    gained_ += moving - moved - half - it_.before_ * 0.5 * mass * detail::dot(it_.acceleration_, then);
+    damped_ += (1.0 - it_.damping_ * it_.damping_) * moved;
 }
 
 void Substep::Ledger::add_link(std::uint32_t number) {
@@ -98,32 +100,52 @@ Substep::Slowed Substep::Ledger::slowed() const {
     return slowed;
 }
 
+double Substep::Ledger::contact_loss() const {
+    return near_ == Scratch::Nearest::Resting && !worked_on_ ? std::max(0.0, -gained_ - damped_) : 0.0;
+}
+
+bool Substep::Ledger::suspended() const {
+    constexpr double seen = 0.1;  // of its weight
+    const double fall = it_.h_ * it_.h_ * detail::length(it_.acceleration_);
+    return near_ == Scratch::Nearest::None && !pinned_ && fall > 0.0 &&
+           detail::length(pushed_) > seen * mass_ * fall;
+}
+
 Substep::Ledger Substep::ledger_of(const Plan::Chain& chain) const {
-    Ledger ledger(*this, is_worked_on(chain.body));
+    Ledger ledger(*this, scratch_.body_near[chain.body]);
     for (std::uint32_t k = 0; k <= chain.links; ++k) ledger.add_particle(plan_.nodes[chain.first_node + k]);
     for (std::uint32_t k = 0; k < chain.links; ++k) ledger.add_link(chain.first_link + k);
     return ledger;
 }
 
 Substep::Ledger Substep::ledger_of_all() const {
-    const auto bodies = Plan::part(plan_.bodies, island_.bodies);
-    Ledger ledger(*this,
-                  std::any_of(bodies.begin(), bodies.end(), [&](auto body) { return is_worked_on(body); }));
+    Scratch::Nearest near = Scratch::Nearest::None;
+    for (const std::uint32_t body : Plan::part(plan_.bodies, island_.bodies))
+        near = std::max(near, scratch_.body_near[body]);
+    Ledger ledger(*this, near);
     each_particle([&](std::size_t i) { ledger.add_particle(i); });
-    if (island_.grid != 0)
+    if (island_.grid != 0 && state_.settings.solver == Solver::Direct)
         ledger.add_cloth();
     else
         for (const std::uint32_t link : Plan::part(plan_.links, island_.links)) ledger.add_link(link);
     return ledger;
 }
 
-void Substep::limit_energy() {
+/// Reports what a body lost, and limits what it gained. The other solvers store stretch that no energy
+/// counts; limited, a taut rope would sag.
+Substep::Slowed Substep::balance(const Ledger& ledger) {
+    report_.contact_loss += ledger.contact_loss();
+    if (ledger.suspended()) ++report_.suspended;
+    return state_.settings.solver == Solver::Direct ? ledger.slowed() : Slowed{};
+}
+
+void Substep::balance_energy() {
     if (!island_.alone) {
-        slowed_ = ledger_of_all().slowed();
+        slowed_ = balance(ledger_of_all());
         return;
     }
     for (std::uint32_t r = island_.chains.first; r < island_.chains.first + island_.chains.count; ++r)
-        scratch_.chain_slowed[r] = ledger_of(plan_.chains[r]).slowed();
+        scratch_.chain_slowed[r] = balance(ledger_of(plan_.chains[r]));
 }
 
 /// Positions stay; only the velocity is scaled.

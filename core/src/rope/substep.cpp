@@ -57,8 +57,7 @@ void Substep::run(bool measures) {
     report_.passes = std::max(report_.passes, passes);
     depenetrate();
     stay_in_the_world();
-    // The other solvers store stretch that no energy counts; bounded, a taut rope would sag.
-    if (state_.settings.solver == Solver::Direct) limit_energy();
+    balance_energy();
     commit();
 }
 
@@ -77,7 +76,7 @@ int Substep::passes_allowed() const {
 }
 
 void Substep::move_particles() {
-    const double damping = std::exp(-static_cast<double>(state_.settings.damping) * h_);
+    damping_ = std::exp(-static_cast<double>(state_.settings.damping) * h_);
     // Where the step before was not as long as this one, Verlet's rule for uneven steps.
     const bool before = state_.displaced_in > 0.0;
     const double same = before ? h_ / state_.displaced_in : 0.0;
@@ -88,7 +87,7 @@ void Substep::move_particles() {
         dvec3& moved = state_.displacement[i];
         moved = same * moved;  // had the substep before been as long as this one
         if (same > 1.0) moved = glm::clamp(moved, dvec3(-limit), dvec3(limit));
-        scratch_.base[i] = state_.position[i] + (damping * moved + fall);
+        scratch_.base[i] = state_.position[i] + (damping_ * moved + fall);
         scratch_.weight[i] = 1.0 / state_.mass[i];
     });
     const auto move_pin = [&](Pin& pin) {

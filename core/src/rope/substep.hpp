@@ -80,11 +80,8 @@ class Substep {
     using Slowed = Scratch::Slowed;
     Ledger ledger_of(const Plan::Chain& chain) const;
     Ledger ledger_of_all() const;
-    /// A moving collider near a body may do work on it.
-    bool is_worked_on(std::uint32_t body) const {
-        return scratch_.body_near[body] == Scratch::Nearest::Moving;
-    }
-    void limit_energy();
+    void balance_energy();
+    Slowed balance(const Ledger& ledger);
     void slow_down();
 
     State& state_;
@@ -95,7 +92,8 @@ class Substep {
     Advance& report_;
     bool measures_ = false;
     double h_;
-    double before_ = 1.0;  ///< length of the substep before, over this one's
+    double before_ = 1.0;   ///< length of the substep before, over this one's
+    double damping_ = 1.0;  ///< of velocity, in the substep
     Slowed slowed_;
     glm::dvec3 acceleration_;
 };
@@ -103,7 +101,8 @@ class Substep {
 /// The energy that particles and links have gained in this substep, in joules.
 class Substep::Ledger {
   public:
-    Ledger(const Substep& substep, bool worked_on) : it_(substep), worked_on_(worked_on) {}
+    Ledger(const Substep& substep, Scratch::Nearest near)
+        : it_(substep), near_(near), worked_on_(near == Scratch::Nearest::Moving) {}
 
     void add_particle(std::size_t i);
     void add_link(std::uint32_t link);
@@ -113,11 +112,17 @@ class Substep::Ledger {
     /// More than this part of their weight times their length.
     bool gains(double part) const;
     Slowed slowed() const;
+    /// Joules that contact took. What moves cannot tell its own work from it.
+    double contact_loss() const;
+    /// Nothing holds or touches it, and it does not fall freely.
+    bool suspended() const;
 
   private:
     const Substep& it_;
-    double gained_ = 0.0, kinetic_ = 0.0, mass_ = 0.0, length_ = 0.0;
+    Scratch::Nearest near_;
+    double gained_ = 0.0, damped_ = 0.0, kinetic_ = 0.0, mass_ = 0.0, length_ = 0.0;
     glm::dvec3 momentum_{0.0};              ///< times the substep
+    glm::dvec3 pushed_{0.0};                ///< by what is not gravity: momentum, times the substep
     double fallen_ = 0.0, released_ = 0.0;  ///< by gravity and by links, since halfway
     bool worked_on_, pinned_ = false;
 };

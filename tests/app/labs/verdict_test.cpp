@@ -1,4 +1,5 @@
 // What each lab says first: in the inspector, and in the state.
+#include "app/labs/rope/panels.hpp"
 #include "tests/app/labs/lab_support.hpp"
 
 namespace tendril::app {
@@ -25,6 +26,61 @@ TEST_F(RopeVerdict, SaysWhetherLengthsHold) {
     run("rope.settings", {{"solver", "relaxation"}, {"iterations", 1}});
     wait(60);
     EXPECT_TRUE(said().starts_with("Lengths off by ")) << said();
+}
+
+TEST_F(RopeVerdict, SaysWhenPinsAreFurtherApartThanABodyReaches) {
+    run("rope.clear");
+    run("rope.add",
+        {{"name", "line"}, {"from", {0, 1, 0}}, {"to", {1, 1, 0}}, {"pin_start", true}, {"pin_end", true}});
+    run("rope.pin", {{"rope", "line"}, {"particle", 32}, {"at", {1.5, 1, 0}}});
+    wait(60);
+    EXPECT_EQ(state()["why"], "Pins of line are 1.50 m apart; between them it is 1.00 m long.");
+    run("rope.clear");
+    run("rope.cloth.add", {{"name", "sheet"},
+                           {"corner", {0, 1, 0}},
+                           {"along", {1, 0, 0}},
+                           {"down", {0, -1, 0}},
+                           {"columns", 5},
+                           {"rows", 5},
+                           {"pins", "corners"}});
+    run("rope.pin", {{"rope", "sheet"}, {"particle", 4}, {"at", {1.6, 1, 0}}});
+    wait(60);
+    EXPECT_EQ(state()["why"], "Pins of sheet are 1.60 m apart; between them it is 1.00 m long.");
+    EXPECT_TRUE(said().starts_with("Lengths off by ")) << said();
+}
+
+TEST_F(RopeVerdict, SaysWhatIsNeitherHeldNorFallsOrInsideOrUnsolved) {
+    RopePart part = rope_part(workspace);
+    part.samples = {RopeSample{.report = {.suspended = 1}}};
+    EXPECT_EQ(rope_verdict(part).text, "Neither held nor falling");
+    part.samples.push_back({});
+    EXPECT_EQ(rope_verdict(part).text, "Lengths hold");
+    part.samples.insert(part.samples.end(), 59, {.report = {.unconverged = 2}});
+    part.samples.push_back({});
+    const Verdict said_of_second = rope_verdict(part);
+    EXPECT_EQ(said_of_second.text, "Lengths hold; steps taken in part");
+    EXPECT_NE(said_of_second.why.find("118 times"), std::string::npos) << said_of_second.why;
+    part.samples.insert(part.samples.end(), 60, {});
+    EXPECT_EQ(rope_verdict(part).text, "Lengths hold") << "that was more than a second ago";
+    run("rope.clear");
+    run("rope.add", {{"name", "line"}, {"from", {0, 0, 0}}, {"to", {1, 0, 0}}});
+    run("rope.collider.add",
+        {{"name", "roof"}, {"kind", "plane"}, {"point", {0, -5, 0}}, {"normal", {0, -1, 0}}});
+    run("rope.collider.add",
+        {{"name", "floor"}, {"kind", "plane"}, {"point", {0, 5, 0}}, {"normal", {0, 1, 0}}});
+    wait(2);
+    EXPECT_EQ(said(), "Inside a collider");
+    EXPECT_TRUE(state()["why"].get<std::string>().starts_with("33 particles ")) << state()["why"];
+}
+
+TEST_F(RopeVerdict, SaysWhatContactTook) {
+    run("rope.preset", {{"name", "bars"}});
+    double lost = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        wait(60);
+        lost += state()["last_second"]["contact_loss"].get<double>();
+    }
+    EXPECT_GT(lost, 1.0);
 }
 
 class SignalVerdict : public LabTest {
