@@ -199,5 +199,76 @@ TEST(RopeGain, ARopeIsNotThrownByAColliderThatAppears) {
     }
 }
 
+enum class Lies { Rope, PinnedRope, Cloth, PinnedCloth };
+constexpr Lies all_that_lies[] = {Lies::Rope, Lies::PinnedRope, Lies::Cloth, Lies::PinnedCloth};
+
+World lying_on_the_ground(Random& random, Solver solver, Lies kind) {
+    World world = world_with(
+        {.substep = random.chance(2) ? 1.0 / 240 : 1.0 / 60, .solver = solver, .friction = random.part()});
+    world.add_collider("ground", rope::Plane{});
+    if (kind == Lies::Rope || kind == Lies::PinnedRope) {
+        const bool pinned = kind == Lies::PinnedRope;
+        world.add_rope("it", {.from = {-0.8f, 0.05f, 0},
+                              .to = {0.8f, 0.05f, 0.01f},
+                              .segments = 8 + static_cast<int>(random.below(60)),
+                              .pin_start = pinned,
+                              .pin_end = pinned});
+    } else {
+        const int side = 6 + static_cast<int>(random.below(10));
+        world.add_cloth("it",
+                        {.corner = {-0.5f, 0.05f, -0.5f},
+                         .along = {1, 0, 0},
+                         .down = {0, 0, 1},
+                         .columns = side,
+                         .rows = side,
+                         .pins = kind == Lies::Cloth ? ClothShape::Pins::None : ClothShape::Pins::Corners});
+    }
+    run(world, 0.5);
+    return world;
+}
+
+Shape shape_through_the_ground(Random& random) {
+    const glm::vec3 at{random.around(0.3f), random.around(0.15f), random.around(0.1f)};
+    const float size = 0.05f + 0.3f * random.part();
+    switch (random.below(3)) {
+        case 0:
+            return rope::Sphere{at, size};
+        case 1:
+            return rope::Capsule{at - glm::vec3(0, 0, 1), at + glm::vec3(0, 0.1f, 1), size};
+        default:
+            return rope::Box{
+                at, {size, 0.5f * size, size}, glm::normalize(glm::quat(1.5f, random.point(1.0f)))};
+    }
+}
+
+/// A collider that comes to be where something lies throws nothing, whether it is new or was elsewhere.
+TEST(RopeGain, WhatAColliderComesToBeOnIsNotThrown) {
+    for (const Solver solver : all_solvers) {
+        // Relaxation and XPBD store nothing in links, so what they stretch comes back as motion.
+        const double bound = solver == Solver::Direct ? 6.0 : 25.0;
+        for (const Lies kind : all_that_lies) {
+            for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+                Random random(seed);
+                World world = lying_on_the_ground(random, solver, kind);
+                const Shape shape = shape_through_the_ground(random);
+                if (random.chance(2)) {
+                    world.add_collider("it", shape);
+                } else {
+                    world.add_collider("it", moved(shape, {5, 5, 5}));
+                    world.advance(world.settings().substep);
+                    world.set_collider("it", shape);
+                }
+                double fastest = 0.0;
+                run_substeps(world, static_cast<int>(0.3 / world.settings().substep), [&] {
+                    for (std::size_t i = 0; i < world.size(); ++i)
+                        fastest = std::max(fastest, static_cast<double>(glm::length(world.velocity(i))));
+                });
+                EXPECT_LT(fastest, bound)
+                    << name(solver) << ' ' << static_cast<int>(kind) << ' ' << seed << ' ' << shape.index();
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace tendril::test

@@ -200,6 +200,7 @@ int ClothSolver::solve(int iterations) {
         most = std::max(most, step(touches || strain_ > accepted_strain ? iterations : (iterations + 1) / 2));
         note_forces();
     }
+    local_.cloth_energy.elastic = elastic_;
     local_.cloth_energy.gained += elastic_;
     return most;
 }

@@ -67,8 +67,6 @@ SurfaceDistance Scratch::Moving::entered(const dvec3& was, dvec3& at, double rad
 
 void Substep::find_near() {
     local_.near.clear();
-    for (const std::uint32_t body : Plan::part(plan_.bodies, island_.bodies))
-        scratch_.body_near[body] = Scratch::Nearest::None;
     if (state_.colliders.empty()) return;
     Bounds whole;
     const std::uint32_t first_chunk = island_.chunks.first, end_chunk = first_chunk + island_.chunks.count;
@@ -134,23 +132,23 @@ void Substep::apply_friction(std::uint32_t i) {
 void Substep::resolve_contacts(bool first) {
     for (const IslandScratch::Near& near : local_.near) {
         const Plan::Chunk& chunk = plan_.chunks[near.chunk];
-        const double radius = state_.bodies[chunk.body].radius;
         report_.work += chunk.count;
         for (std::uint32_t i = chunk.first; i < chunk.first + chunk.count; ++i) {
-            resolve_particle(i, near.collider, radius, first);
+            resolve_particle(i, near.collider, chunk.body, first);
         }
         // Where links are longer than the collider is thick it could slip through between two particles.
         if (chunk.reach <= scratch_.colliders[near.collider].size) continue;
         for (std::uint32_t l = 0; l < chunk.links; ++l) {
             const Link& link = state_.links[plan_.chunk_links[chunk.first_link + l]];
-            resolve_link(link, near.collider, radius);
+            resolve_link(link, near.collider, chunk.body);
         }
     }
 }
 
-void Substep::resolve_particle(std::uint32_t i, std::uint32_t number, double radius, bool first) {
+void Substep::resolve_particle(std::uint32_t i, std::uint32_t number, std::uint32_t body, bool first) {
     if (scratch_.weight[i] == 0.0) return;
     const Scratch::Moving& collider = scratch_.colliders[number];
+    const double radius = state_.bodies[body].radius;
     dvec3& place = scratch_.place[i];
     const double travelled = first ? detail::length(place - state_.position[i]) : 0.0;
     if (collider.far_from(place, radius + travelled)) return;
@@ -158,6 +156,7 @@ void Substep::resolve_particle(std::uint32_t i, std::uint32_t number, double rad
                                           : surface_distance(*collider.shape, place);
     const double depth = radius - surface.distance;
     if (!(depth > 0.0)) return;
+    strike(body, depth);
     place += depth * surface.normal;
     Touch& contact = touch(i, number, surface.normal);
     if (detail::dot(contact.normal, surface.normal) < 0.9) return;  // the second of two
@@ -165,7 +164,15 @@ void Substep::resolve_particle(std::uint32_t i, std::uint32_t number, double rad
     apply_friction(i);
 }
 
-void Substep::resolve_link(const Link& link, std::uint32_t number, double radius) {
+/// Notes that a collider displaces a body by so much.
+void Substep::strike(std::uint32_t body, double depth) {
+    Scratch::Nearest& nearest = scratch_.body_near[body];
+    if (depth > correction_speed * h_ && nearest == Scratch::Nearest::Resting)
+        nearest = Scratch::Nearest::Struck;
+}
+
+void Substep::resolve_link(const Link& link, std::uint32_t number, std::uint32_t body) {
+    const double radius = state_.bodies[body].radius;
     const Scratch::Moving& collider = scratch_.colliders[number];
     if (link.rest <= collider.size) return;
     dvec3 &a = scratch_.place[link.a], &b = scratch_.place[link.b];
@@ -180,6 +187,7 @@ void Substep::resolve_link(const Link& link, std::uint32_t number, double radius
     const double share_a = scratch_.weight[link.a] * (1.0 - t), share_b = scratch_.weight[link.b] * t;
     const double shares = share_a * (1.0 - t) + share_b * t;
     if (!(depth > 0.0) || shares <= 0.0) return;
+    strike(body, depth);
     const auto displace = [&](std::uint32_t i, double wanted) {
         // Beside a pinned end the other one would have to go very far.
         const double by = std::min(wanted, 1.5 * depth);

@@ -172,7 +172,9 @@ void Substep::depenetrate() {
         for (std::uint32_t i = chunk.first; i < chunk.first + chunk.count; ++i) {
             dvec3& place = scratch_.place[i];
             if (scratch_.weight[i] == 0.0 || neighbours.depth(place, radius) <= depth_tolerance) continue;
+            const dvec3 was = place;
             if (!bring_out(neighbours, place, radius)) ++report_.unresolved;
+            strike(chunk.body, detail::length(place - was));
         }
     }
 }

@@ -32,7 +32,6 @@ constexpr double accepted_error = 1e-4;         ///< a chain with more is solved
 constexpr double accepted_shared_error = 1e-3;  ///< the same where chains share particles
 constexpr double fallback_error = 0.02;         ///< a chain with more in the end: its body is relaxed
 constexpr double accepted_gain = 1e-3;          ///< of energy; what gains more is not taken as it stands
-constexpr double correction_speed = 2.0;        ///< m/s
 constexpr int max_restarts = 6, fallback_passes = 16;
 /// Minimum of passes of chains that share particles, while they are near a collider.
 constexpr int min_contact_passes = 4;

@@ -69,6 +69,7 @@ void Substep::Ledger::add_link(std::uint32_t number) {
     const double half = detail::elastic_energy(link, compliance, tension, now, now - then);
     gained_ += half - detail::elastic_energy(link, compliance, link.tension, then,
                                              state.displacement[link.b] - state.displacement[link.a]);
+    elastic_ += half;
     released_ += half - detail::elastic_energy(link, compliance, tension, now, dvec3(0.0));
 }
 
@@ -76,6 +77,7 @@ void Substep::Ledger::add_link(std::uint32_t number) {
 void Substep::Ledger::add_cloth() {
     length_ += it_.local_.cloth_energy.length;
     gained_ += it_.local_.cloth_energy.gained;
+    elastic_ = it_.local_.cloth_energy.elastic;
 }
 
 bool Substep::Ledger::gains(double part) const {
@@ -83,25 +85,31 @@ bool Substep::Ledger::gains(double part) const {
 }
 
 /// Removes the gain from motion relative to the mean first, so that a free body keeps falling freely. A pin
-/// takes momentum, so with one all motion is scaled alike.
+/// takes momentum, so with one all motion is scaled alike. What is left was put into links, by a collider
+/// that came to be where a cloth is: their tension is lowered, so that they cannot
+/// return it as motion.
 Substep::Slowed Substep::Ledger::slowed() const {
     Slowed slowed;
-    if (!gains(rounding) || !(kinetic_ > 0.0)) return slowed;
+    if (!gains(rounding)) return slowed;
+    double left = gained_;
     if (pinned_) {
-        slowed.whole = slowed.apart = slower(kinetic_, fallen_ + released_, gained_);
-        return slowed;
+        slowed.whole = slowed.apart = slower(kinetic_, fallen_ + released_, left);
+        left -= lost(kinetic_, fallen_ + released_, slowed.whole);
+    } else {
+        slowed.mean = (1.0 / mass_) * momentum_;
+        const double whole = detail::kinetic_energy(mass_, slowed.mean, it_.h_);
+        const double apart = std::max(0.0, kinetic_ - whole);
+        slowed.apart = slower(apart, released_, left);
+        left -= lost(apart, released_, slowed.apart);
+        slowed.whole = slower(whole, fallen_, left);
+        left -= lost(whole, fallen_, slowed.whole);
     }
-    slowed.mean = (1.0 / mass_) * momentum_;
-    const double whole = detail::kinetic_energy(mass_, slowed.mean, it_.h_);
-    const double apart = std::max(0.0, kinetic_ - whole);
-    slowed.apart = slower(apart, released_, gained_);
-    const double left = gained_ - lost(apart, released_, slowed.apart);
-    slowed.whole = slower(whole, fallen_, left);
+    if (left > 0.0 && elastic_ > 0.0) slowed.tension = std::sqrt(std::max(0.0, 1.0 - left / elastic_));
     return slowed;
 }
 
 double Substep::Ledger::contact_loss() const {
-    return near_ == Scratch::Nearest::Resting && !worked_on_ ? std::max(0.0, -gained_ - damped_) : 0.0;
+    return near_ != Scratch::Nearest::None && !worked_on_ ? std::max(0.0, -gained_ - damped_) : 0.0;
 }
 
 bool Substep::Ledger::suspended() const {
@@ -132,11 +140,11 @@ Substep::Ledger Substep::ledger_of_all() const {
 }
 
 /// Reports what a body lost, and limits what it gained. The other solvers store stretch that no energy
-/// counts; limited, a taut rope would sag.
+/// counts; limited always, a taut rope would sag.
 Substep::Slowed Substep::balance(const Ledger& ledger) {
     report_.contact_loss += ledger.contact_loss();
     if (ledger.suspended()) ++report_.suspended;
-    return state_.settings.solver == Solver::Direct ? ledger.slowed() : Slowed{};
+    return state_.settings.solver == Solver::Direct || ledger.struck() ? ledger.slowed() : Slowed{};
 }
 
 void Substep::balance_energy() {
@@ -148,19 +156,27 @@ void Substep::balance_energy() {
         scratch_.chain_slowed[r] = balance(ledger_of(plan_.chains[r]));
 }
 
-/// Positions stay; only the velocity is scaled.
+/// Positions stay; velocities and the tension of links that stretch are scaled.
 void Substep::slow_down() {
     const auto slow = [&](std::size_t i, const Slowed& slowed) {
         if (scratch_.weight[i] == 0.0) return;
         dvec3& by = state_.displacement[i];
         by = slowed.whole * slowed.mean + slowed.apart * (by - slowed.mean);
     };
+    const auto slacken = [&](Link& link, const Slowed& slowed) {
+        if (island_.grid != 0 || detail::compliance(state_.settings, link) > 0.0)
+            link.tension *= static_cast<float>(slowed.tension);
+    };
     if (slowed_.any()) each_particle([&](std::size_t i) { slow(i, slowed_); });
+    if (slowed_.tension < 1.0)
+        for (const std::uint32_t i : Plan::part(plan_.links, island_.links))
+            slacken(state_.links[i], slowed_);
     for (std::uint32_t r = island_.chains.first; r < island_.chains.first + island_.chains.count; ++r) {
         const Slowed slowed = std::exchange(scratch_.chain_slowed[r], {});
         if (!slowed.any()) continue;
         const Plan::Chain& chain = plan_.chains[r];
         for (std::uint32_t k = 0; k <= chain.links; ++k) slow(plan_.nodes[chain.first_node + k], slowed);
+        for (std::uint32_t k = 0; k < chain.links; ++k) slacken(state_.links[chain.first_link + k], slowed);
     }
 }
 

@@ -25,7 +25,24 @@ void Substep::satisfy_soft() {
     for (const std::uint32_t i : Plan::part(plan_.soft, island_.soft)) satisfy(i, state_.links[i].compliance);
 }
 
+/// A link of more than twice its length was torn apart by a collider that came to be where it is. To put it
+/// right would throw what hangs on it.
+void Substep::strike_overstretched() {
+    if (local_.near.empty()) return;
+    for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
+        const Link& link = state_.links[i];
+        const dvec3 along = state_.position[link.b] - state_.position[link.a];
+        const double twice = 2.0 * static_cast<double>(link.rest);
+        if (link.kind != Link::Kind::Stretch || detail::dot(along, along) <= twice * twice) continue;
+        const auto next = std::upper_bound(state_.bodies.begin(), state_.bodies.end(), link.a,
+                                           [](std::size_t a, const Body& body) { return a < body.first; });
+        strike(static_cast<std::uint32_t>(next - state_.bodies.begin() - 1),
+               detail::length(along) - link.rest);
+    }
+}
+
 int Substep::relax() {
+    strike_overstretched();
     const std::span<const std::uint32_t> links = Plan::part(plan_.links, island_.links);
     for (const std::uint32_t i : links) scratch_.multiplier[i] = 0.0;
     const int passes = passes_allowed();

@@ -30,8 +30,9 @@ struct Scratch {
     std::vector<double> weight;      ///< inverse mass; 0: pinned
     std::vector<double> multiplier;  ///< of each link: tension times h^2
     std::vector<Touch> touch;
-    enum class Nearest : std::uint8_t { None, Resting, Moving };
-    std::vector<Nearest> body_near;         ///< colliders near a body
+    /// Colliders near a body. One that rests may have displaced it so far that it would be thrown.
+    enum class Nearest : std::uint8_t { None, Resting, Struck, Moving };
+    std::vector<Nearest> body_near;
     std::vector<std::uint8_t> body_failed;  ///< whether a body could not be solved
     std::vector<glm::dvec3> chunk_low, chunk_high;
     struct Moving {
@@ -57,10 +58,11 @@ struct Scratch {
     std::vector<Moving> colliders;
     std::vector<std::uint8_t> chain_solved;  ///< whether a chain is solved with what it touches
     std::vector<double> chain_error;         ///< of each chain: relative length error after its last pass
-    /// Factors on the mean velocity of some particles, and on what differs from it.
+    /// Factors on the mean velocity of some particles, on what differs from it, and on the tension of a
+    /// cloth's links.
     struct Slowed {
         glm::dvec3 mean{0.0};  ///< of their displacements
-        double whole = 1.0, apart = 1.0;
+        double whole = 1.0, apart = 1.0, tension = 1.0;
         bool any() const { return whole != 1.0 || apart != 1.0; }
     };
     std::vector<Slowed> chain_slowed;
@@ -136,9 +138,10 @@ struct IslandScratch {
     std::size_t block_offset = 0;
     ContactScratch contact;
     std::vector<ClothContact> cloth_contacts, earlier_contacts;
-    /// Of the cloth solved last: roughly its length, metres, and the growth of energy in its links, joules.
+    /// Of the cloth solved last: roughly its length, metres, and the energy in its links and by how much that
+    /// grew, joules.
     struct {
-        double length = 0.0, gained = 0.0;
+        double length = 0.0, elastic = 0.0, gained = 0.0;
     } cloth_energy;
     tendril::detail::ForkJoin loops;  ///< of a cloth; threads without an island help
     Advance done;                     ///< in this substep; `passes` of the island that took most

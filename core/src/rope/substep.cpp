@@ -102,6 +102,7 @@ void Substep::move_particles() {
     };
     for (const std::uint32_t b : Plan::part(plan_.bodies, island_.bodies)) {
         const Body& body = state_.bodies[b];
+        scratch_.body_near[b] = Scratch::Nearest::None;
         auto pin = std::lower_bound(state_.pins.begin(), state_.pins.end(), body.first,
                                     [](const Pin& each, std::size_t i) { return each.particle < i; });
         for (; pin != state_.pins.end() && pin->particle < body.first + body.count; ++pin) move_pin(*pin);
@@ -149,10 +150,10 @@ void Substep::commit() {
             position[c] = to;
         }
     });
-    slow_down();
     for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
         state_.links[i].tension = tension_of(scratch_.multiplier[i], h_ * h_);
     }
+    slow_down();
     for (const std::uint32_t i : local_.touched) scratch_.touch[i] = Touch{};
     local_.touched.clear();
 }

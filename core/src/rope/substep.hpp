@@ -27,6 +27,9 @@ class Substep {
     void run(bool measures);
 
   private:
+    /// What contact displaces faster would be thrown, m/s.
+    static constexpr double correction_speed = 2.0;
+
     // substep.cpp
     void move_particles();
     void measure();
@@ -46,8 +49,9 @@ class Substep {
     // contact.cpp: finds what is near, and keeps what is not solved with its contacts out of colliders
     void find_near();
     void resolve_contacts(bool first);
-    void resolve_particle(std::uint32_t i, std::uint32_t collider, double radius, bool first);
-    void resolve_link(const Link& link, std::uint32_t collider, double radius);
+    void resolve_particle(std::uint32_t i, std::uint32_t collider, std::uint32_t body, bool first);
+    void resolve_link(const Link& link, std::uint32_t collider, std::uint32_t body);
+    void strike(std::uint32_t body, double depth);
     void apply_friction(std::uint32_t i);  ///< Coulomb's friction
     Touch& touch(std::uint32_t i, std::uint32_t collider, const glm::dvec3& normal);
 
@@ -56,6 +60,7 @@ class Substep {
 
     // relax.cpp: one link after the other
     int relax();
+    void strike_overstretched();
     void satisfy(std::uint32_t link, double compliance);
     void satisfy_soft();
 
@@ -112,15 +117,16 @@ class Substep::Ledger {
     /// More than this part of their weight times their length.
     bool gains(double part) const;
     Slowed slowed() const;
-    /// Joules that contact took. What moves cannot tell its own work from it.
+    /// Joules that contact took. The work of colliders that move cannot be told from it.
     double contact_loss() const;
+    bool struck() const { return near_ == Scratch::Nearest::Struck; }
     /// Nothing holds or touches it, and it does not fall freely.
     bool suspended() const;
 
   private:
     const Substep& it_;
     Scratch::Nearest near_;
-    double gained_ = 0.0, damped_ = 0.0, kinetic_ = 0.0, mass_ = 0.0, length_ = 0.0;
+    double gained_ = 0.0, damped_ = 0.0, kinetic_ = 0.0, elastic_ = 0.0, mass_ = 0.0, length_ = 0.0;
     glm::dvec3 momentum_{0.0};              ///< times the substep
     glm::dvec3 pushed_{0.0};                ///< by what is not gravity: momentum, times the substep
     double fallen_ = 0.0, released_ = 0.0;  ///< by gravity and by links, since halfway
