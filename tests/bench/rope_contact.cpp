@@ -8,12 +8,11 @@
 // segment of 4096 costs at most twice one of 1024, and all are back within 0.1 % a second after the balls are
 // gone; taut over a thin bar, with any friction, 0.1 %; a pendulum 8 mm from a beam keeps 90 % of the swing
 // that it has without one; 1024 segments with 256 balls pressed into them take 0.5 ms a substep; a cloth of
-// 24 x 24 to 128 x 128 that is let go flat, held by two corners, keeps each link within 1.25 % of its length,
-// and takes 8 ms a frame with 64 x 64 on one thread.
+// 16 x 16 to 128 x 128 that is let go flat, held by two corners, keeps each link within 1.25 % of its length.
 //
 // Not claimed, because it does not hold: 1024 segments that fall on 15 balls and a floor in 1 ms a frame at
-// the 99th percentile; the same times for a cloth while it lies on something; 33 ms with 128 x 128 on two
-// threads, which take twice that.
+// the 99th percentile; a cloth of 64 x 64 in 8 ms a frame, which takes 9 by two corners and 25 on a ball; 33
+// ms with 128 x 128 on two threads, which take nearly twice that.
 //
 // Times are processor time; where threads share a cloth, time on the clock.
 #include <algorithm>
@@ -270,10 +269,9 @@ int main(int count, char** arguments) {
         for (const float friction : {0.0f, 0.5f, 1.0f}) bar = std::max(bar, taut(n, friction));
     std::printf("\ncloth by two corners; us a frame, %% of the worst link\n");
     columns({"p50", "p99", "stretch", "in the end"});
-    double sheet = 0.0, frame_64 = 0.0;
+    double sheet = 0.0;
     for (const int n : {16, 24, 48, 64, 128}) {
         const Cloth found = cloth(n, true);
-        if (n == 64) frame_64 = found.p50;
         sheet = std::max(sheet, found.stretch);
     }
     if (std::thread::hardware_concurrency() >= 2) {
@@ -293,6 +291,5 @@ int main(int count, char** arguments) {
     all &= claim("swing beside a beam over that without", swing(true) / swing(false), 0.9);
     all &= claim("500 us over a substep of 1024 segments and 256 balls", 500.0 / press, 1.0);
     all &= claim("1.25 % over the worst link of a cloth by two corners", 0.0125 / sheet, 1.0);
-    all &= claim("8 ms over a frame of a cloth of 64 x 64", 8000.0 / frame_64, 1.0);
     return all || !has_flag(count, arguments, "--check") ? 0 : 1;
 }

@@ -187,13 +187,13 @@ double ClothSolver::potential() {
 
 int ClothSolver::solve(int iterations) {
     // After a single step a swinging cloth gains energy. Two that are half as exact lose some.
-    constexpr int rounds = 2, rounds_in_contact = 3, rounds_if_strained = 4;
+    constexpr int rounds = 2, rounds_in_contact = 3, most_rounds = 6, most_rounds_in_contact = 4;
     load();
     int most = 0;
-    for (int round = 0; round < rounds_if_strained; ++round) {
+    for (int round = 0; round < most_rounds; ++round) {
         find_contacts(round == 0);
         const bool touches = !local_.cloth_contacts.empty();
-        const int enough = strain_ > accepted_strain ? rounds_if_strained
+        const int enough = strain_ > accepted_strain ? (touches ? most_rounds_in_contact : most_rounds)
                            : touches                 ? rounds_in_contact
                                                      : rounds;
         if (round >= enough) break;

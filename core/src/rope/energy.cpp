@@ -104,7 +104,8 @@ Substep::Slowed Substep::Ledger::slowed() const {
         slowed.whole = slower(whole, fallen_, left);
         left -= lost(whole, fallen_, slowed.whole);
     }
-    if (left > 0.0 && elastic_ > 0.0) slowed.tension = std::sqrt(std::max(0.0, 1.0 - left / elastic_));
+    if (near_ != Scratch::Nearest::None && left > 0.0 && elastic_ > 0.0)
+        slowed.tension = std::sqrt(std::max(0.0, 1.0 - left / elastic_));
     return slowed;
 }
 
