@@ -10,18 +10,6 @@
 #include "app/labs/humanoid/springs/swing.hpp"
 
 namespace tendril::app {
-namespace {
-
-/// Where the character stands: below its hips, or its first node.
-glm::vec3 standing_at(const Workspace& workspace) {
-    const HumanoidPart& part = humanoid_part(workspace);
-    const ShownPose& shown = shown_pose(workspace);
-    const glm::vec3 at = shown.point(part.node_of(humanoid::Bone::Hips).value_or(0));
-    return {at.x, shown.feet ? static_cast<float>(shown.feet->base) : 0.0f, at.z};
-}
-
-}  // namespace
-
 CameraPose HumanoidLab::first_view() const {
     return {.target = {0.0f, 0.92f, 0.0f},
             .yaw = glm::radians(28.0f),

@@ -101,8 +101,9 @@ void set_limits(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     for (const std::string& name : joints_named(given)) set_joint_limits(now, part, name, from);
 }
 
-void set_ground(const IkNow&, HumanoidPart& part, const Arguments& given) {
+void set_ground(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     GroundSetting& ground = part.ik.ground;
+    const humanoid::GroundKind before = ground.kind;
     if (given.has("kind")) ground.kind = ground_kinds.value(given.text("kind"));
     if (given.has("path")) ground.mesh = read_ground_mesh(given.text("path"));
     if (ground.kind == humanoid::GroundKind::Mesh && !ground.mesh)
@@ -112,6 +113,12 @@ void set_ground(const IkNow&, HumanoidPart& part, const Arguments& given) {
     if (given.has("step_depth")) ground.step_depth = given.real("step_depth");
     make_ground(ground);
     part.ik_state.feet = {};
+    // What rises from the origin would bury a character that has walked far, or whose feet are not brought to
+    // it.
+    const bool level = ground.kind == humanoid::GroundKind::None || ground.kind == humanoid::GroundKind::Flat;
+    if (ground.kind == before || level) return;
+    part.playback.rounds = 0;
+    if (now.solvers.feet(part) != nullptr) part.ik.foot_ik.on = true;
 }
 
 /// From aside: what rises ahead of the character would hide it from the front.
@@ -161,9 +168,15 @@ void add_ik_commands(CommandTable& table) {
                     number_argument("step_height", "of the stairs, metres", -highest_step, highest_step),
                     number_argument("step_depth", "of the stairs, metres", shortest_step, longest_step),
                     text_argument("path", false, "of the mesh: a .gltf or .glb file")},
-                   "Sets what the character walks on; what is left out stays", set_ground);
+                   "Sets what the character walks on; what is left out stays. One that rises turns foot IK "
+                   "on, and a walk "
+                   "begins anew at its foot",
+                   set_ground);
     ground.apply = [set = ground.apply](Workspace& workspace, const Arguments& given) {
+        const glm::vec3 before = standing_at(workspace);
         set(workspace, given);
+        if (workspace.lab == humanoid_lab && humanoid_part(workspace).view.follow)
+            workspace.camera.target += standing_at(workspace) - before;
         using humanoid::GroundKind;
         const GroundKind kind = humanoid_part(workspace).ik.ground.kind;
         if (given.has("kind") && (kind == GroundKind::Slope || kind == GroundKind::Stairs))

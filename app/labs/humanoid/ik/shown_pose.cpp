@@ -201,6 +201,13 @@ const ShownPose& shown_pose(const Workspace& workspace) {
     return humanoid_runtime(workspace).shown(workspace);
 }
 
+glm::vec3 standing_at(const Workspace& workspace) {
+    const HumanoidPart& part = humanoid_part(workspace);
+    const ShownPose& shown = shown_pose(workspace);
+    const glm::vec3 at = shown.point(part.node_of(humanoid::Bone::Hips).value_or(0));
+    return {at.x, shown.feet ? static_cast<float>(shown.feet->base) : 0.0f, at.z};
+}
+
 void solve_now(Workspace& workspace) {
     IkState state = humanoid_part(workspace).ik_state;
     // A solve goes part of a long way: what comes after it is done at once.

@@ -40,6 +40,8 @@ std::string why_alone(const HumanoidPart& part, const ShownPose& shown, std::siz
 /// The lab's part as it is shown now, worked out once for each of its values. The reference holds until the
 /// next call.
 const ShownPose& shown_pose(const Workspace& workspace);
+/// Where the character stands: below its hips, or its first node.
+glm::vec3 standing_at(const Workspace& workspace);
 /// For commands that change what IK does: it remembers where it is now. Throws std::invalid_argument where
 /// the library refuses a target.
 void solve_now(Workspace& workspace);

@@ -64,6 +64,7 @@ TEST_F(HumanoidFeet, WithoutIkKeepToTheClip) {
     run("humanoid.clip", {{"name", "walk"}, {"time", 0.4}});
     const Json before = state().at("character");
     run("humanoid.ground", {{"kind", "stairs"}});
+    run("humanoid.foot_ik", {{"on", false}});
     EXPECT_EQ(state().at("character"), before);
     run("humanoid.ground", {{"kind", "none"}});
     run("humanoid.foot_ik", {{"on", true}});
@@ -71,6 +72,30 @@ TEST_F(HumanoidFeet, WithoutIkKeepToTheClip) {
     EXPECT_EQ(foot(0).at("left_alone"), "there is no ground");
     run("humanoid.foot_ik", {{"on", false}});
     EXPECT_EQ(state().at("character"), before);
+}
+
+/// What rises from the origin buries nobody who has walked far, and the camera stays with the character.
+TEST_F(HumanoidFeet, WalkAnewWhereTheGroundRises) {
+    for (const char* kind : {"stairs", "slope", "terrain"}) {
+        run("humanoid.ground", {{"kind", "flat"}});
+        run("humanoid.foot_ik", {{"on", false}});
+        run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+        for (int i = 0; i < 1200; ++i) tick();
+        const glm::dvec3 far = vector(state().at("character").at("bones").at("Hips").at("position"));
+        ASSERT_GT(far.z, 15.0);
+        const auto beside = [&] {
+            const glm::dvec3 hips = vector(state().at("character").at("bones").at("Hips").at("position"));
+            return glm::distance(hips, glm::dvec3(workspace.camera.target));
+        };
+        const double before = beside();
+        run("humanoid.ground", {{"kind", kind}});
+        for (int i = 0; i < 240; ++i) {
+            EXPECT_LT(beside(), before + 0.5) << kind << ' ' << i;
+            tick();
+        }
+        EXPECT_LT(vector(state().at("character").at("bones").at("Hips").at("position")).z, 6.0) << kind;
+        EXPECT_TRUE(state().at("foot_ik").get<bool>());
+    }
 }
 
 TEST_F(HumanoidFeet, WalkOnFlatGround) {
