@@ -71,6 +71,18 @@ std::string line_prefix(std::string_view text, std::string_view message) {
     return line > 0 ? "line " + std::to_string(line) + ": " : std::string();
 }
 
+/// Why the loader would refuse a scene of this workspace; empty where it takes it.
+std::string loading_fault(const Workspace& workspace, const std::string& text) {
+    try {
+        const Json scene = parse_json(text);
+        (void)load_document(workspace.blank, json_member(scene, "labs", ""), scene_version);
+        (void)load_camera(json_member(scene, "camera", ""), "camera");
+        return {};
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+}
+
 }  // namespace
 
 Json save_camera(const CameraPose& pose) {
@@ -145,9 +157,17 @@ void save_scene_file(Workspace& workspace, const std::filesystem::path& path) {
     if (text.size() > max_file_bytes)
         throw std::runtime_error(
             "the scene would be too large to open again: " + std::to_string(text.size()) + " bytes");
+    const std::string fault = loading_fault(workspace, text);
+    std::error_code ignored;
+    if (!fault.empty() && std::filesystem::exists(path, ignored))
+        throw std::runtime_error(path.filename().string() +
+                                 " is left as it was, for the scene would not open again: " + fault +
+                                 ". Another name keeps both");
     write_file_atomically(path, text);
     workspace.path = path;
     workspace.saved = workspace.document;
+    if (!fault.empty())
+        workspace.toast("Saved, but it does not open again as it is: " + fault, ToastKind::Refusal);
 }
 
 void load_scene_file(Workspace& workspace, const std::filesystem::path& path) {

@@ -1,5 +1,7 @@
 #include "app/script/player.hpp"
 
+#include <glm/common.hpp>
+
 #include "app/document/json_complete.hpp"
 #include "app/document/refused.hpp"
 
@@ -29,7 +31,10 @@ glm::vec2 pixel_of(const ScriptLine& line, const MoveToHandle& move, const Json&
         for (const Json& each : *handles) {
             if (each.at("name") != move.handle || !each.at("pixel").is_array()) continue;
             const Json& at = each.at("pixel");
-            return glm::vec2(at[0].get<float>(), at[1].get<float>()) + move.offset;
+            // A handle beside the camera can be further aside than a recording may say.
+            constexpr float farthest = 1e6f;
+            return glm::clamp(glm::vec2(at[0].get<float>(), at[1].get<float>()) + move.offset, -farthest,
+                              farthest);
         }
     }
     throw ScriptFailure(at_line(line, "no handle " + json_summary(Json(move.handle)) + " is in view"));

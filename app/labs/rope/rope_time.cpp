@@ -47,7 +47,8 @@ void advance(NamedWorld& world, double seconds, rope::Workspace& workspace, Tick
     const rope::Advance done = world.advance(seconds, workspace, most);
     tick.work_left -= std::min(tick.work_left, each * static_cast<std::uint64_t>(done.substeps));
     RopeReport& report = tick.report;
-    report.inside = std::max(report.inside, done.unresolved / std::max<std::uint64_t>(done.substeps, 1));
+    report.inside =
+        std::max(report.inside, done.unresolved / static_cast<std::uint64_t>(std::max(done.substeps, 1)));
     report.unconverged += done.fallbacks + done.unconverged;
     report.suspended += done.suspended;
     report.contact_loss += static_cast<float>(done.contact_loss);

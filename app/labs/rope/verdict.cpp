@@ -17,7 +17,7 @@ Verdict rope_verdict(const RopePart& part) {
     const auto error = static_cast<double>(last.error), before = static_cast<double>(last.stretch);
     if (report.inside > 0)
         return {"Inside a collider", Verdict::Kind::Bad,
-                std::to_string(report.inside) + " particles found no way out. Make room for them."};
+                std::to_string(report.inside) + " particles found no way out. Move the body or a collider."};
     const std::string percent =
         error < 1e-4 ? "under 0.01 %" : fixed_text(100.0 * error, error < 0.1 ? 2 : 0) + " %";
     if (error >= seen) {

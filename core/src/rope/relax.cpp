@@ -1,4 +1,6 @@
 // One link after the other, over and over.
+#include <algorithm>
+
 #include "rope/build.hpp"
 #include "rope/geometry.hpp"
 #include "rope/substep.hpp"
@@ -31,7 +33,7 @@ void Substep::strike_overstretched() {
     if (local_.near.empty()) return;
     for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
         const Link& link = state_.links[i];
-        const dvec3 along = state_.position[link.b] - state_.position[link.a];
+        const glm::dvec3 along = state_.position[link.b] - state_.position[link.a];
         const double twice = 2.0 * static_cast<double>(link.rest);
         if (link.kind != Link::Kind::Stretch || detail::dot(along, along) <= twice * twice) continue;
         const auto next = std::upper_bound(state_.bodies.begin(), state_.bodies.end(), link.a,

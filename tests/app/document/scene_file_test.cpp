@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -200,6 +201,24 @@ TEST(SceneFile, on_disk_remembers_where_it_is_and_that_it_is_saved) {
     EXPECT_EQ(save_scene(other).dump(), save_scene(workspace).dump());
     save_scene_file(other, folder / "again.json");
     EXPECT_EQ(test::read(folder / "again.json"), test::read(folder / "scene.json"));
+}
+
+TEST(SceneFile, that_would_not_open_again_replaces_no_file) {
+    const TempFolder folder;
+    Workspace workspace = make_busy_workspace();
+    save_scene_file(workspace, folder / "scene.json");
+    const std::string good = test::read(folder / "scene.json");
+    workspace.document.edit<TestPart>("arm").values = {1.0f, std::numeric_limits<float>::quiet_NaN()};
+    const std::string error = message_of([&] { save_scene_file(workspace, folder / "scene.json"); });
+    EXPECT_TRUE(has(error, "scene.json is left as it was")) << error;
+    EXPECT_TRUE(has(error, "labs.arm.values.1")) << error;
+    EXPECT_EQ(test::read(folder / "scene.json"), good);
+    EXPECT_TRUE(workspace.modified());
+    // Under another name nothing is lost, and it is said what is wrong.
+    save_scene_file(workspace, folder / "other.json");
+    EXPECT_TRUE(std::filesystem::exists(folder / "other.json"));
+    ASSERT_FALSE(workspace.ui.toasts.empty());
+    EXPECT_TRUE(has(workspace.ui.toasts.back().text, "labs.arm.values.1"));
 }
 
 TEST(SceneFile, errors_on_disk_name_the_file_and_the_line) {

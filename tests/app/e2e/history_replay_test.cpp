@@ -141,6 +141,7 @@ class HistoryReplaySeeds : public testing::TestWithParam<unsigned> {};
 /// Whatever the order, in every lab.
 TEST_P(HistoryReplaySeeds, NewOpenSaveUndoAndRedoInAnyOrder) {
     const TempFolder folder;
+    const WorkingIn working(folder);
     std::mt19937 random(GetParam());
     const auto below = [&](int end) { return static_cast<int>(random() % static_cast<unsigned>(end)); };
     expect_exact_replay(folder, "", [&](App& app) {
@@ -179,6 +180,27 @@ TEST_P(HistoryReplaySeeds, NewOpenSaveUndoAndRedoInAnyOrder) {
             }
         }
     });
+}
+
+/// All undone and all redone, nothing is missing.
+TEST_P(HistoryReplaySeeds, AllUndoneAndRedoneIsAsItWas) {
+    const TempFolder folder;
+    const WorkingIn working(folder);
+    const auto window = open_offscreen({1280, 720});
+    std::mt19937 random(GetParam());
+    App app(*window);
+    const auto& labs = app.labs().all();
+    app.run({"lab.open", Json{{"name", labs[random() % labs.size()]->name()}}});
+    for (int i = 0; i < 120; ++i)
+        Monkey(app, static_cast<unsigned>(random()), lab_commands(app), {"", "arm", "rope"}).act();
+    tap(app, "escape");
+    if (app.workspace().history.can_redo()) GTEST_SKIP() << "it ended among undone steps";
+    const Json scene = save_scene(app.workspace());
+    const std::size_t steps = app.workspace().history.size();
+    for (std::size_t i = 0; i < steps; ++i) EXPECT_FALSE(refused(app, "undo"));
+    while (app.workspace().history.can_redo()) EXPECT_FALSE(refused(app, "redo"));
+    EXPECT_EQ(app.workspace().history.size(), steps);
+    EXPECT_EQ(Json::diff(scene.at("labs"), save_scene(app.workspace()).at("labs")).dump(1), "[]");
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, HistoryReplaySeeds, testing::Range(1u, 9u));

@@ -179,9 +179,8 @@ TEST_F(PaletteTest, OpensInWindowsOfAnySize) {
 }
 
 TEST_F(PaletteTest, HostileLinesCrashNothing) {
-    const TempFolder folder;  // whatever is written lands there
-    const auto here = std::filesystem::current_path();
-    std::filesystem::current_path(folder.path());
+    const TempFolder folder;
+    const WorkingIn working(folder);
     std::mt19937 random(5);
     const auto below = [&](std::size_t end) { return random() % end; };
     const char* bits[] = {" ",    "=",     "\"",      "[",      "]",    "{",
@@ -198,7 +197,6 @@ TEST_F(PaletteTest, HostileLinesCrashNothing) {
         for (std::size_t n = below(4); n > 0; --n) key(keys[below(std::size(keys))]);
         if (below(2) == 0) key("escape");
     }
-    std::filesystem::current_path(here);
 }
 
 // What two fingers scroll sideways, panels get too.

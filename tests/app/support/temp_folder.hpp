@@ -46,6 +46,18 @@ class TempFolder {
     std::filesystem::path path_;
 };
 
+/// While it lives, files without a folder land in this one.
+class WorkingIn {
+  public:
+    explicit WorkingIn(const TempFolder& folder) { std::filesystem::current_path(folder.path()); }
+    ~WorkingIn() { std::filesystem::current_path(before_); }
+    WorkingIn(const WorkingIn&) = delete;
+    WorkingIn& operator=(const WorkingIn&) = delete;
+
+  private:
+    std::filesystem::path before_ = std::filesystem::current_path();
+};
+
 inline void write(const std::filesystem::path& path, std::string_view bytes) {
     std::ofstream out(path, std::ios::binary);
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
