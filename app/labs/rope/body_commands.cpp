@@ -38,6 +38,13 @@ void add_cloth(RopeEdit& edit, const Arguments& given) {
     if (given.has("columns")) shape.columns = given.integer("columns");
     if (given.has("rows")) shape.rows = given.integer("rows");
     if (given.has("radius")) shape.radius = given.number("radius");
+    if (given.has("material")) {
+        const auto* const material =
+            std::ranges::find(rope::cloth_materials, given.text("material"), &rope::ClothMaterial::name);
+        shape.density = material->density;
+        shape.shear = material->shear;
+        shape.bend = material->bend;
+    }
     if (given.has("density")) shape.density = given.number("density");
     if (given.has("shear")) shape.shear = given.number("shear");
     if (given.has("bend")) shape.bend = given.number("bend");
@@ -179,22 +186,25 @@ void add_adding_commands(CommandTable& table) {
                             switch_argument("pin_end", "pins its last particle")},
                            "Adds a rope: straight, or hanging where it is longer than the distance",
                            add_rope));
-    table.add(
-        rope_command("rope.cloth.add", "Add a cloth",
-                     {point_argument("corner", true, "metres"),
-                      point_argument("along", true, "from the corner to the other end of the first row"),
-                      point_argument("down", true, "from the corner to the last row"),
-                      own_name("\"cloth\", \"cloth 2\", ... when left out"),
-                      integer_argument("columns", "particles; 24 when left out", 2, most_particles),
-                      integer_argument("rows", "particles; 24 when left out", 2, most_particles),
-                      number_argument("radius", "metres; 0.01 when left out", 0.0, 1e9),
-                      number_argument("density", "kg/m^2; 0.2 when left out", 0.0, 1e9),
-                      number_argument("shear", "compliance, m/N", 0.0, 1e9),
-                      number_argument("bend", "compliance, m/N", 0.0, 1e9),
-                      number_argument("tear", "strain at which links tear; 0: never", 0.0, 1e9),
-                      choice_argument("pins", false, "of its first row",
-                                      names(pins_names, [](const char* name) { return name; }))},
-                     "Adds a cloth", add_cloth));
+    table.add(rope_command(
+        "rope.cloth.add", "Add a cloth",
+        {point_argument("corner", true, "metres"),
+         point_argument("along", true, "from the corner to the other end of the first row"),
+         point_argument("down", true, "from the corner to the last row"),
+         own_name("\"cloth\", \"cloth 2\", ... when left out"),
+         integer_argument("columns", "particles; 24 when left out", 2, most_particles),
+         integer_argument("rows", "particles; 24 when left out", 2, most_particles),
+         number_argument("radius", "metres; 0.01 when left out", 0.0, 1e9),
+         choice_argument("material", false, "its density, shear and bend; cotton when left out",
+                         names(rope::cloth_materials,
+                               [](const rope::ClothMaterial& each) { return std::string(each.name); })),
+         number_argument("density", "kg/m^2; the material's when left out", 0.0, 1e9),
+         number_argument("shear", "compliance, m/N; the material's when left out", 0.0, 1e9),
+         number_argument("bend", "compliance, m/N; the material's when left out", 0.0, 1e9),
+         number_argument("tear", "strain at which links tear; 0: never", 0.0, 1e9),
+         choice_argument("pins", false, "of its first row",
+                         names(pins_names, [](const char* name) { return name; }))},
+        "Adds a cloth", add_cloth));
     table.add(rope_command(
         "rope.hair.add", "Add hair",
         {own_name("\"hair\", \"hair 2\", ... when left out"),

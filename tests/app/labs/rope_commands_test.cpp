@@ -1,4 +1,6 @@
 // The Rope lab's commands: what each does, and what --state says of it.
+#include <array>
+
 #include "app/labs/rope/rope_time.hpp"
 #include "app/labs/rope/scenes.hpp"
 #include "tests/app/labs/rope_support.hpp"
@@ -199,6 +201,36 @@ TEST_F(RopeCommands, SettingsKeepWhatIsLeftOut) {
     run("rope.settings", {{"friction", 0.25}});
     run("rope.settings");
     EXPECT_EQ(workspace.history.size(), history);
+}
+
+TEST_F(RopeCommands, AClothIsOfAMaterial) {
+    run("rope.clear");
+    const auto add = [&](Json more) {
+        more.update(
+            {{"corner", {0, 2, 0}}, {"along", {1, 0, 0}}, {"down", {0, -1, 0}}, {"columns", 4}, {"rows", 4}});
+        run("rope.cloth.add", more);
+        const rope::State& now = world().state();
+        float shear = 0.0f, bend = 0.0f;
+        for (const rope::Link& link : now.links) {
+            if (link.a < now.bodies.back().first) continue;
+            if (link.kind == rope::Link::Kind::Shear) shear = link.compliance;
+            if (link.kind == rope::Link::Kind::Bend) bend = link.compliance;
+        }
+        return std::array<double, 3>{now.mass[now.bodies.back().first], static_cast<double>(shear),
+                                     static_cast<double>(bend)};
+    };
+    const auto plain = add({}), cotton = add({{"material", "cotton"}}), silk = add({{"material", "silk"}}),
+               stiff = add({{"material", "silk"}, {"shear", 0.01}});
+    EXPECT_EQ(plain, cotton) << "what it is of when left out";
+    EXPECT_LT(silk[0], cotton[0]);
+    EXPECT_GT(silk[1], cotton[1]);
+    EXPECT_GT(silk[2], cotton[2]);
+    EXPECT_FLOAT_EQ(static_cast<float>(stiff[1]), 0.01f) << "what is given counts";
+    EXPECT_EQ(stiff[0], silk[0]);
+    EXPECT_TRUE(test::has(
+        refused("rope.cloth.add",
+                {{"corner", {0, 2, 0}}, {"along", {1, 0, 0}}, {"down", {0, -1, 0}}, {"material", "steel"}}),
+        "material must be one of cotton, silk, denim, leather"));
 }
 
 TEST_F(RopeCommands, SheetsAndLocks) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "tendril/rope/handle.hpp"
@@ -70,6 +71,16 @@ struct ClothShape {
     float tear = 0.0f;  ///< strain at which links tear; 0: never
     enum class Pins : std::uint8_t { None, Corners, Row } pins = Pins::None;  ///< of the first row
 };
+
+/// What a cloth is made of: its density, shear and bend by name. The first is ClothShape's own.
+struct ClothMaterial {
+    std::string_view name;
+    float density, shear, bend;
+};
+inline constexpr ClothMaterial cloth_materials[] = {{"cotton", 0.2f, 0.3f, 0.3f},
+                                                    {"silk", 0.06f, 1.0f, 1.0f},
+                                                    {"denim", 0.4f, 0.15f, 0.1f},
+                                                    {"leather", 0.9f, 0.08f, 0.03f}};
 
 /// Where a strand of hair grows.
 struct HairRoot {
