@@ -4,6 +4,7 @@
 #include "app/labs/rope/rope_time.hpp"
 #include "app/labs/rope/scenes.hpp"
 #include "tests/app/labs/rope_support.hpp"
+#include "tests/app/support/temp_folder.hpp"
 
 namespace tendril::app {
 namespace {
