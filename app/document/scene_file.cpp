@@ -71,18 +71,6 @@ std::string line_prefix(std::string_view text, std::string_view message) {
     return line > 0 ? "line " + std::to_string(line) + ": " : std::string();
 }
 
-/// Why the loader would refuse a scene of this workspace; empty where it takes it.
-std::string loading_fault(const Workspace& workspace, const std::string& text) {
-    try {
-        const Json scene = parse_json(text);
-        (void)load_document(workspace.blank, json_member(scene, "labs", ""), scene_version);
-        (void)load_camera(json_member(scene, "camera", ""), "camera");
-        return {};
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-}
-
 }  // namespace
 
 Json save_camera(const CameraPose& pose) {
@@ -130,25 +118,50 @@ Json save_scene(const Workspace& workspace) {
                 {"labs", std::move(labs)}};
 }
 
-void load_scene(Workspace& workspace, const Json& scene) {
-    const int version = read_version(scene);
-    const Json& labs = json_member(scene, "labs", "");
+namespace {
+
+struct Scene {
+    Document document;
+    std::string lab;
+    CameraPose camera;
+};
+
+/// Throws what load_scene() throws.
+Scene read_scene(const Workspace& workspace, const Json& json) {
+    const int version = read_version(json);
+    const Json& labs = json_member(json, "labs", "");
     if (!labs.is_object()) throw std::runtime_error("labs: expected an object, found " + json_summary(labs));
-    Document document = load_document(workspace.blank, labs, version);
-    std::string lab = workspace.lab;
-    if (const Json* found = optional_member(scene, "lab")) {
-        lab = json_text(*found, "lab");
-        if (!document.parts().contains(lab))
+    Scene scene{load_document(workspace.blank, labs, version), workspace.lab, {}};
+    if (const Json* found = optional_member(json, "lab")) {
+        scene.lab = json_text(*found, "lab");
+        if (!scene.document.parts().contains(scene.lab))
             throw std::runtime_error("lab: there is no lab " + json_summary(*found));
     }
-    const Json* camera = optional_member(scene, "camera");
-    const CameraPose pose = camera ? load_camera(*camera, "camera") : workspace.first_view_of(lab);
-    document = sharing_equal_parts(document, workspace.document);
+    const Json* camera = optional_member(json, "camera");
+    scene.camera = camera ? load_camera(*camera, "camera") : workspace.first_view_of(scene.lab);
+    return scene;
+}
+
+/// Why a saved scene would not open; empty if it would.
+std::string loading_fault(const Workspace& workspace, const std::string& text) {
+    try {
+        (void)read_scene(workspace, parse_json(text));
+        return {};
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+}
+
+}  // namespace
+
+void load_scene(Workspace& workspace, const Json& json) {
+    Scene scene = read_scene(workspace, json);
+    scene.document = sharing_equal_parts(scene.document, workspace.document);
 
     // Nothing below throws.
-    workspace.document = std::move(document);
-    workspace.lab = std::move(lab);
-    workspace.camera = pose;
+    workspace.document = std::move(scene.document);
+    workspace.lab = std::move(scene.lab);
+    workspace.camera = scene.camera;
     workspace.start_anew();
 }
 
@@ -161,13 +174,12 @@ void save_scene_file(Workspace& workspace, const std::filesystem::path& path) {
     std::error_code ignored;
     if (!fault.empty() && std::filesystem::exists(path, ignored))
         throw std::runtime_error(path.filename().string() +
-                                 " is left as it was, for the scene would not open again: " + fault +
-                                 ". Another name keeps both");
+                                 " was not overwritten, because the scene would not open again: " + fault +
+                                 ". Save it under another name");
     write_file_atomically(path, text);
     workspace.path = path;
     workspace.saved = workspace.document;
-    if (!fault.empty())
-        workspace.toast("Saved, but it does not open again as it is: " + fault, ToastKind::Refusal);
+    if (!fault.empty()) workspace.toast("Saved, but the file does not open: " + fault, ToastKind::Refusal);
 }
 
 void load_scene_file(Workspace& workspace, const std::filesystem::path& path) {

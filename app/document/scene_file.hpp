@@ -24,8 +24,8 @@ CameraPose load_camera(const Json& json, const std::string& where);
 Json save_scene(const Workspace& workspace);
 void load_scene(Workspace& workspace, const Json& scene);
 
-/// The same through a file; both keep `workspace.path` and `workspace.saved` up to date. A scene that would not
-/// open again replaces no file; it is written only where there is none, and a toast says so.
+/// The same through a file; both keep `workspace.path` and `workspace.saved` up to date. Saving never
+/// overwrites a file with a scene that would not open again; under a new name it is saved, with a warning.
 void save_scene_file(Workspace& workspace, const std::filesystem::path& path);
 void load_scene_file(Workspace& workspace, const std::filesystem::path& path);
 

@@ -31,7 +31,7 @@ glm::vec2 pixel_of(const ScriptLine& line, const MoveToHandle& move, const Json&
         for (const Json& each : *handles) {
             if (each.at("name") != move.handle || !each.at("pixel").is_array()) continue;
             const Json& at = each.at("pixel");
-            // A handle beside the camera can be further aside than a recording may say.
+            // A handle beside the camera can project beyond what a recording may hold.
             constexpr float farthest = 1e6f;
             return glm::clamp(glm::vec2(at[0].get<float>(), at[1].get<float>()) + move.offset, -farthest,
                               farthest);

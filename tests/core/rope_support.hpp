@@ -50,6 +50,21 @@ inline void hang_between(World& world, float span, float length, int segments) {
                             .pin_end = true});
 }
 
+/// Newtons, of all bodies.
+inline double weight(const World& world) {
+    double mass = 0.0;
+    for (const double each : world.state().mass) mass += each;
+    return 9.81 * mass;
+}
+
+/// Speed of the fastest particle, m/s.
+inline double top_speed(const World& world) {
+    double top = 0.0;
+    for (std::size_t i = 0; i < world.size(); ++i)
+        top = std::max(top, static_cast<double>(glm::length(world.velocity(i))));
+    return top;
+}
+
 inline double lowest(const World& world) {
     double y = std::numeric_limits<double>::infinity();
     for (const glm::dvec3& p : world.state().position) y = std::min(y, p.y);

@@ -196,7 +196,7 @@ void number_rows(const Workspace& workspace, const Palette& palette) {
     explain("The length error as the solver left it: of hair, before colliders displaced anything.");
     reading("energy", "%.3f J", static_cast<double>(last.energy));
     reading("taken by contact", "%.3f J", static_cast<double>(last_second(part.samples).contact_loss));
-    explain("Energy that contact and friction took in the last second, of what is near colliders that rest.");
+    explain("Energy lost to contact and friction in the last second, by bodies near colliders at rest.");
     reading("substeps dropped", "%llu", static_cast<unsigned long long>(state.dropped));
     explain(
         "Substeps left out so as not to fall behind: of frames over the longest frame, and of more work than "

@@ -84,9 +84,9 @@ RopeSample sample_of(const RopePart& part, const RopeReport& report) {
 }
 
 RopeReport last_second(const std::vector<RopeSample>& samples) {
+    constexpr auto ticks = static_cast<std::size_t>(1.0 / tick_seconds + 0.5);
     RopeReport sum;
-    for (std::size_t i = samples.size() - std::min<std::size_t>(samples.size(), 60); i < samples.size();
-         ++i) {
+    for (std::size_t i = samples.size() - std::min(samples.size(), ticks); i < samples.size(); ++i) {
         const RopeReport& tick = samples[i].report;
         sum.inside = tick.inside;
         sum.unconverged += tick.unconverged;

@@ -164,7 +164,7 @@ void Substep::resolve_particle(std::uint32_t i, std::uint32_t number, std::uint3
     apply_friction(i);
 }
 
-/// Notes that a collider displaces a body by so much.
+/// Notes that a collider displaced a body by `depth`.
 void Substep::strike(std::uint32_t body, double depth) {
     Scratch::Nearest& nearest = scratch_.body_near[body];
     if (depth > correction_speed * h_ && nearest == Scratch::Nearest::Resting)

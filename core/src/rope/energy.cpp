@@ -1,5 +1,6 @@
-// The energy bound of the direct solver. A solve that falls short, or depenetration, can leave a body with
-// more energy than it had; its velocity is then scaled down until the gain is gone.
+// The energy bound. A solve that falls short, or depenetration, can leave a body with more energy than it
+// had; its velocity is then scaled down until the gain is gone. The direct solver always keeps the bound, the
+// others while a collider at rest strikes the body.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -85,9 +86,8 @@ bool Substep::Ledger::gains(double part) const {
 }
 
 /// Removes the gain from motion relative to the mean first, so that a free body keeps falling freely. A pin
-/// takes momentum, so with one all motion is scaled alike. What is left was put into links, by a collider
-/// that came to be where a cloth is: their tension is lowered, so that they cannot
-/// return it as motion.
+/// takes momentum, so with one all motion is scaled alike. Any gain left is stretch that a collider caused by
+/// appearing inside the body: tensions are scaled down, so that the links cannot return it as motion.
 Substep::Slowed Substep::Ledger::slowed() const {
     Slowed slowed;
     if (!gains(rounding)) return slowed;
@@ -140,8 +140,8 @@ Substep::Ledger Substep::ledger_of_all() const {
     return ledger;
 }
 
-/// Reports what a body lost, and limits what it gained. The other solvers store stretch that no energy
-/// counts; limited always, a taut rope would sag.
+/// Reports what a body lost and limits what it gained. Relaxation and XPBD hold stretch that no energy
+/// counts, so with a limit in every substep a taut rope would sag.
 Substep::Slowed Substep::balance(const Ledger& ledger) {
     report_.contact_loss += ledger.contact_loss();
     if (ledger.suspended()) ++report_.suspended;
@@ -168,10 +168,11 @@ void Substep::slow_down() {
         if (island_.grid != 0 || detail::compliance(state_.settings, link) > 0.0)
             link.tension *= static_cast<float>(slowed.tension);
     };
-    if (slowed_.any()) each_particle([&](std::size_t i) { slow(i, slowed_); });
-    if (slowed_.tension < 1.0)
+    if (slowed_.any()) {
+        each_particle([&](std::size_t i) { slow(i, slowed_); });
         for (const std::uint32_t i : Plan::part(plan_.links, island_.links))
             slacken(state_.links[i], slowed_);
+    }
     for (std::uint32_t r = island_.chains.first; r < island_.chains.first + island_.chains.count; ++r) {
         const Slowed slowed = std::exchange(scratch_.chain_slowed[r], {});
         if (!slowed.any()) continue;

@@ -27,8 +27,8 @@ void Substep::satisfy_soft() {
     for (const std::uint32_t i : Plan::part(plan_.soft, island_.soft)) satisfy(i, state_.links[i].compliance);
 }
 
-/// A link of more than twice its length was torn apart by a collider that came to be where it is. To put it
-/// right would throw what hangs on it.
+/// A link stretched to more than twice its length was pulled apart by a collider that appeared. Correcting it
+/// would throw the body.
 void Substep::strike_overstretched() {
     if (local_.near.empty()) return;
     for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {

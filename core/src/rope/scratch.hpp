@@ -30,7 +30,7 @@ struct Scratch {
     std::vector<double> weight;      ///< inverse mass; 0: pinned
     std::vector<double> multiplier;  ///< of each link: tension times h^2
     std::vector<Touch> touch;
-    /// Colliders near a body. One that rests may have displaced it so far that it would be thrown.
+    /// The colliders near a body. Struck: one at rest displaced it faster than correction_speed.
     enum class Nearest : std::uint8_t { None, Resting, Struck, Moving };
     std::vector<Nearest> body_near;
     std::vector<std::uint8_t> body_failed;  ///< whether a body could not be solved
@@ -63,7 +63,7 @@ struct Scratch {
     struct Slowed {
         glm::dvec3 mean{0.0};  ///< of their displacements
         double whole = 1.0, apart = 1.0, tension = 1.0;
-        bool any() const { return whole != 1.0 || apart != 1.0; }
+        bool any() const { return whole != 1.0 || apart != 1.0 || tension != 1.0; }
     };
     std::vector<Slowed> chain_slowed;
     std::vector<std::uint32_t> collider_at;  ///< where a slot's collider is in the list

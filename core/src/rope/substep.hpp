@@ -27,7 +27,7 @@ class Substep {
     void run(bool measures);
 
   private:
-    /// What contact displaces faster would be thrown, m/s.
+    /// Contact that displaces a body faster than this, m/s, would throw it.
     static constexpr double correction_speed = 2.0;
 
     // substep.cpp

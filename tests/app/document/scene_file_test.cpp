@@ -210,11 +210,11 @@ TEST(SceneFile, that_would_not_open_again_replaces_no_file) {
     const std::string good = test::read(folder / "scene.json");
     workspace.document.edit<TestPart>("arm").values = {1.0f, std::numeric_limits<float>::quiet_NaN()};
     const std::string error = message_of([&] { save_scene_file(workspace, folder / "scene.json"); });
-    EXPECT_TRUE(has(error, "scene.json is left as it was")) << error;
+    EXPECT_TRUE(has(error, "scene.json was not overwritten")) << error;
     EXPECT_TRUE(has(error, "labs.arm.values.1")) << error;
     EXPECT_EQ(test::read(folder / "scene.json"), good);
     EXPECT_TRUE(workspace.modified());
-    // Under another name nothing is lost, and it is said what is wrong.
+    // Under a new name it is saved, with a warning.
     save_scene_file(workspace, folder / "other.json");
     EXPECT_TRUE(std::filesystem::exists(folder / "other.json"));
     ASSERT_FALSE(workspace.ui.toasts.empty());

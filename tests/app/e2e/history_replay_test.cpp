@@ -182,7 +182,7 @@ TEST_P(HistoryReplaySeeds, NewOpenSaveUndoAndRedoInAnyOrder) {
     });
 }
 
-/// All undone and all redone, nothing is missing.
+/// Undoing everything and redoing it loses nothing.
 TEST_P(HistoryReplaySeeds, AllUndoneAndRedoneIsAsItWas) {
     const TempFolder folder;
     const WorkingIn working(folder);

@@ -113,8 +113,7 @@ void set_ground(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     if (given.has("step_depth")) ground.step_depth = given.real("step_depth");
     make_ground(ground);
     part.ik_state.feet = {};
-    // What rises from the origin would bury a character that has walked far, or whose feet are not brought to
-    // it.
+    // Rising ground would bury a character that has walked far, or whose feet do not follow it.
     const bool level = ground.kind == humanoid::GroundKind::None || ground.kind == humanoid::GroundKind::Flat;
     if (ground.kind == before || level) return;
     part.playback.rounds = 0;
@@ -168,9 +167,8 @@ void add_ik_commands(CommandTable& table) {
                     number_argument("step_height", "of the stairs, metres", -highest_step, highest_step),
                     number_argument("step_depth", "of the stairs, metres", shortest_step, longest_step),
                     text_argument("path", false, "of the mesh: a .gltf or .glb file")},
-                   "Sets what the character walks on; what is left out stays. One that rises turns foot IK "
-                   "on, and a walk "
-                   "begins anew at its foot",
+                   "Sets what the character walks on; what is left out stays. Slopes, stairs, terrain and "
+                   "meshes turn foot IK on and restart the walk",
                    set_ground);
     ground.apply = [set = ground.apply](Workspace& workspace, const Arguments& given) {
         const glm::vec3 before = standing_at(workspace);

@@ -43,7 +43,7 @@ struct Settings {
     /// Seconds, min_substep to max_substep.
     double substep = 1.0 / 240.0;
     /// Passes in a substep, 1 to max_iterations. Direct ends as soon as it has converged. A cloth takes this
-    /// many iterations of conjugate gradients in each of 2 to 4 steps of Newton's method; half as many if
+    /// many iterations of conjugate gradients in each of 2 to 6 steps of Newton's method; half as many if
     /// nothing touches or strains it.
     int iterations = 16;
     Solver solver = Solver::Direct;

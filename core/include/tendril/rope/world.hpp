@@ -46,11 +46,11 @@ struct Advance {
     std::uint64_t unconverged = 0;  ///< times lengths and contacts of a rope were not brought together to
                                     ///< 0.1 % in the steps there are; what has no solution is stretched,
                                     ///< and is none of these
-    std::uint64_t fallbacks = 0;    ///< times a body was solved by the fallback, or its solve taken in part
+    std::uint64_t fallbacks = 0;    ///< times a body was solved by the fallback, or only part of a step taken
     std::uint64_t suspended = 0;    ///< times a body that nothing holds or touches did not fall freely: it is
                                     ///< at the edge of the world, or the solver held it
-    double contact_loss = 0.0;      ///< joules that bodies near resting colliders lost by more than damping:
-                                    ///< to contact, friction and what the solver dissipates
+    double contact_loss = 0.0;      ///< joules that bodies near colliders at rest lost beyond damping: to
+                                    ///< contact, friction and the solver. Its rounding depends on threads
     bool refused = false;           ///< `seconds` was no number from 0 to 1e9: nothing was done
 };
 
