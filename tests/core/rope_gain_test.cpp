@@ -232,7 +232,7 @@ Shape shape_through_the_ground(Random& random) {
 }
 
 /// A collider that appears inside a body, or is put there, does not throw it.
-TEST(RopeGain, NothingIsThrownByAColliderThatAppears) {
+TEST(RopeGain, NoBodyIsThrownByAColliderThatAppears) {
     for (const Solver solver : all_solvers) {
         // Relaxation and XPBD store nothing in links, so what they stretch comes back as motion.
         const double bound = solver == Solver::Direct ? 6.0 : 25.0;
