@@ -7,6 +7,7 @@
 #include <tendril/humanoid/body.hpp>
 
 #include "humanoid_figure.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -363,12 +364,12 @@ TEST_P(HumanoidBody, what_it_cannot_use_is_refused_and_nothing_moves) {
         return std::string(report.message());
     };
     const double nan = std::nan("");
-    EXPECT_EQ(refused({{Effector::Head, {0.0, nan, 0.0}}}),
-              "Body::solve: targets.position.y must be finite and at most 1e9 in magnitude, got nan");
-    EXPECT_EQ(refused({{Effector::Head, {}, {}, -1.0}}),
-              "Body::solve: targets[0].weight must be from 0 to 1e3, got -1");
-    EXPECT_EQ(refused({{Effector::Head, {}}, {Effector::Head, {}}}),
-              "Body::solve: targets[1].effector must be one without another target, got head");
+    EXPECT_TRUE(test::says(refused({{Effector::Head, {0.0, nan, 0.0}}}),
+                           "Body::solve targets.position.y finite 1e9 nan"));
+    EXPECT_TRUE(
+        test::says(refused({{Effector::Head, {}, {}, -1.0}}), "Body::solve targets[0].weight 0 1e3 -1"));
+    EXPECT_TRUE(test::says(refused({{Effector::Head, {}}, {Effector::Head, {}}}),
+                           "Body::solve targets[1].effector another head"));
     EXPECT_FALSE(refused({{Effector::Head, {}, glm::dquat(0.0, 0.0, 0.0, 0.0)}}).empty());
     EXPECT_FALSE(refused({{Effector::Head, {}}}, {.max_iterations = 0}).empty());
     EXPECT_FALSE(refused({{Effector::Head, {}}}, {.tolerance = nan}).empty());
@@ -384,7 +385,7 @@ TEST_P(HumanoidBody, what_it_cannot_use_is_refused_and_nothing_moves) {
     BoneMap gap = map;
     gap[Bone::LeftHand] = {};
     review(gap, skeleton);
-    EXPECT_EQ(std::string(Body::make(skeleton, gap).message()), "Body: LeftHand must be mapped, got none");
+    EXPECT_TRUE(test::says(std::string(Body::make(skeleton, gap).message()), "Body LeftHand mapped none"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Limits, HumanoidBody, testing::Bool(),

@@ -8,6 +8,7 @@
 
 #include "humanoid_feet_support.hpp"
 #include "memory.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -117,9 +118,9 @@ TEST_F(FeetHostile, WhatIsRefusedChangesNothing) {
     FeetOptions options;
     options.low = nan;
     EXPECT_TRUE(refuses(rest_pose(skeleton), options));
-    EXPECT_STREQ(check(options).message(), "feet: low must be from 0 to 1e3 m, got nan");
+    EXPECT_TRUE(test::says(check(options).message(), "feet low 0 1e3 nan"));
     options = {.leave_speed = 0.1};
-    EXPECT_STREQ(check(options).message(), "feet: leave_speed must be at least enter_speed, got 0.1");
+    EXPECT_TRUE(test::says(check(options).message(), "feet leave_speed enter_speed 0.1"));
     options = {.floor = infinite};
     EXPECT_FALSE(check(options));
     options = {};
@@ -127,8 +128,7 @@ TEST_F(FeetHostile, WhatIsRefusedChangesNothing) {
     EXPECT_FALSE(check(options));
     FeetState broken;
     broken.feet[1].lift = nan;
-    EXPECT_STREQ(check(broken).message(),
-                 "feet: feet[1] must be finite and at most 1e9 in magnitude, got nan");
+    EXPECT_TRUE(test::says(check(broken).message(), "feet feet[1] finite 1e9 nan"));
 }
 
 TEST_F(FeetHostile, BonesOfNoLengthAndPosesWithoutScaleAreEndured) {
@@ -173,9 +173,8 @@ TEST_F(FeetHostile, LegsThatAreNotOnTheHipsAreRefused) {
     nodes[leg].rest.translation += glm::dvec3(0, 1, 0);
     nodes[leg].parent = static_cast<std::int32_t>(nodes.size()) - 1;
     const Skeleton apart = *Skeleton::make(nodes);
-    EXPECT_STREQ(
-        Feet::make(apart, map).message(),
-        "Feet: LeftUpperLeg must be on the hips, with shin, foot and toes on it in a row, got LeftUpperLeg");
+    EXPECT_TRUE(
+        test::says(Feet::make(apart, map).message(), "Feet LeftUpperLeg hips shin foot toes LeftUpperLeg"));
     EXPECT_FALSE(Feet::make(skeleton, BoneMap()));
 }
 

@@ -7,6 +7,7 @@
 
 #include "humanoid_feet_support.hpp"
 #include "memory.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -142,7 +143,7 @@ TEST_F(FeetWalk, WhereThereIsNothingToStandOnTheClipIsLeftAlone) {
     expect_alone(deep, FootAlone::TooFar, -9.0);
     expect_alone(steep, FootAlone::TooSteep, 0.8);
     expect_alone(high, FootAlone::TooFar, 0.8);
-    EXPECT_STREQ(name(FootAlone::TooSteep), "the ground is too steep");
+    EXPECT_TRUE(test::says(name(FootAlone::TooSteep), "too steep"));
 }
 
 TEST_F(FeetWalk, WhatTheLegCannotReachIsLeftAloneAndSaid) {

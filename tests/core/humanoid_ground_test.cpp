@@ -7,6 +7,8 @@
 #include <random>
 #include <tendril/humanoid/ground.hpp>
 
+#include "tests/says.hpp"
+
 namespace tendril::test {
 namespace {
 
@@ -38,8 +40,8 @@ TEST(Ground, IsAsHighAsItsDefinition) {
 
 TEST(Ground, RefusesWhatIsNoneAndNamesIt) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_STREQ(Ground::stairs(0.15, 0.0).message(), "stairs: step_depth must be from 0.01 to 1e3 m, got 0");
-    EXPECT_STREQ(Ground::slope(nan).message(), "slope: angle must be from -1.5 to 1.5 radians, got nan");
+    EXPECT_TRUE(test::says(Ground::stairs(0.15, 0.0).message(), "stairs step_depth 0.01 1e3 0"));
+    EXPECT_TRUE(test::says(Ground::slope(nan).message(), "slope angle -1.5 1.5 nan"));
     EXPECT_FALSE(Ground::flat(nan));
     EXPECT_FALSE(Ground::stairs(nan, 0.3));
     EXPECT_FALSE(Ground::terrain({}));
@@ -52,8 +54,7 @@ TEST(Ground, RefusesWhatIsNoneAndNamesIt) {
     EXPECT_TRUE(Ground::mesh(points, good));
     EXPECT_FALSE(Ground::mesh(points, two));
     EXPECT_FALSE(Ground::mesh(points, {}));
-    EXPECT_STREQ(Ground::mesh(points, beyond).message(),
-                 "mesh: triangles[2] must be the place of a vertex, got 3");
+    EXPECT_TRUE(test::says(Ground::mesh(points, beyond).message(), "mesh triangles[2] vertex 3"));
     const std::vector<glm::dvec3> broken{{0, 0, 0}, {1, nan, 0}, {0, 0, 1}};
     EXPECT_FALSE(Ground::mesh(broken, good));
 }

@@ -19,6 +19,7 @@
 
 #include "humanoid_figure.hpp"
 #include "random.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -296,15 +297,14 @@ TEST(HumanoidMap, IsRefusedWithTheBonesName) {
         EXPECT_FALSE(Body::make(body, map));
         return std::string(check(map, body).message());
     };
-    EXPECT_EQ(said(Bone::LeftHand, 77), "bone map: LeftHand must be a node of the skeleton, got 77");
-    EXPECT_EQ(said(Bone::LeftHand, -2), "bone map: LeftHand must be a node of the skeleton, got -2");
-    EXPECT_EQ(said(Bone::RightHand, good[Bone::LeftHand].node),
-              "bone map: RightHand must be a node that is no other bone, got LeftHand");
+    EXPECT_TRUE(test::says(said(Bone::LeftHand, 77), "bone map LeftHand skeleton 77"));
+    EXPECT_TRUE(test::says(said(Bone::LeftHand, -2), "bone map LeftHand skeleton -2"));
+    EXPECT_TRUE(
+        test::says(said(Bone::RightHand, good[Bone::LeftHand].node), "bone map RightHand other LeftHand"));
     BoneMap swapped = good;
     std::swap(swapped[Bone::LeftUpperArm].node, swapped[Bone::LeftLowerArm].node);
-    EXPECT_EQ(
-        std::string(check(swapped, body).message()),
-        "bone map: LeftLowerArm must be a node that the bones it hangs on are not below, got LeftUpperArm");
+    EXPECT_TRUE(
+        test::says(std::string(check(swapped, body).message()), "bone map LeftLowerArm below LeftUpperArm"));
     EXPECT_TRUE(check(BoneMap{}, Skeleton{}));
 }
 

@@ -13,6 +13,7 @@
 
 #include "humanoid_figure.hpp"
 #include "memory.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -329,10 +330,9 @@ TEST(SpringChain, TakesBranchesAndASingleNode) {
     const auto refusal = [&](const char* name) {
         return std::string(SpringChain::make(skeleton, map, *skeleton.find(name)).error().message());
     };
-    EXPECT_EQ(refusal("mark"), "SpringChain: root must be a node with some length, got mark");
-    EXPECT_EQ(refusal("Neck"),
-              "SpringChain: root must be a node with no bone of the body on it, got Neck with Neck");
-    EXPECT_EQ(refusal("Hips"), "SpringChain: root must be a node that hangs on another, got Hips");
+    EXPECT_TRUE(test::says(refusal("mark"), "SpringChain root length mark"));
+    EXPECT_TRUE(test::says(refusal("Neck"), "SpringChain root bone body Neck"));
+    EXPECT_TRUE(test::says(refusal("Hips"), "SpringChain root another Hips"));
     EXPECT_FALSE(SpringChain::make(skeleton, map, skeleton.size()));
 }
 
@@ -343,8 +343,7 @@ TEST(SpringChain, StandsAnythingWithoutMemory) {
     };
     const double nan = std::numeric_limits<double>::quiet_NaN();
     Antenna antenna(5);
-    EXPECT_STREQ(check(SpringOptions{.weight = nan}).message(),
-                 "SpringOptions: weight must be from 0 to 1, got nan");
+    EXPECT_TRUE(test::says(check(SpringOptions{.weight = nan}).message(), "SpringOptions weight 0 1 nan"));
     EXPECT_FALSE(check(SpringOptions{.strength = 0.0}));
     antenna.step({0, 1, 0}, {}, 0.1);
     for (int round = 0; round < 20000; ++round) {

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "ik_support.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test::ik_input_test {
 namespace {
@@ -122,8 +123,8 @@ TEST(IkInput, ASolverTakesWhatAChainTakes) {
     EXPECT_TRUE(Solver::make(lengths, two));
     EXPECT_FALSE(Solver::make(Lengths{1.0f}, two));
     EXPECT_FALSE(Solver::make(lengths, not_unit));
-    EXPECT_STREQ(Solver::make(Lengths{1.0f, -1.0f}).message(),
-                 "Solver: lengths[1] must be finite, at least 0 and at most 1e9, got -1");
+    EXPECT_TRUE(
+        test::says(Solver::make(Lengths{1.0f, -1.0f}).message(), "Solver lengths[1] finite 0 1e9 -1"));
     EXPECT_EQ(Solver(Chain()).bones(), 0u);
     EXPECT_EQ(Solver(straight(1)).bones(), 0u);
 }

@@ -1,5 +1,6 @@
 // A limit by itself: presets, what is wrong with one, angles, excess.
 #include "ik_limit_support.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test::ik_limit_test {
 namespace {
@@ -43,11 +44,11 @@ TEST(IkLimit, FaultSaysWhatIsWrong) {
         return std::string(text ? text : "nothing");
     };
     const Limit hinge = Limit::hinge(z, 0, 1), ball = Limit::of(JointKind::BallAndSocket);
-    EXPECT_EQ(said([](Limit& l) { l.axis = {0, 0, 0}; }, hinge), "the hinge's axis has no length");
-    EXPECT_EQ(said([](Limit& l) { l.axis = {0, 0, 0}; }, ball), "the limit's axis has no length");
-    EXPECT_EQ(said([](Limit& l) { l.axis.y = nan; }, hinge), "the hinge's axis is not finite");
-    EXPECT_EQ(said([](Limit& l) { l.axis.y = infinity; }, ball), "the limit's axis is not finite");
-    EXPECT_EQ(said([](Limit& l) { l.min = 2; }, hinge), "the hinge's min is over its max");
+    EXPECT_TRUE(test::says(said([](Limit& l) { l.axis = {0, 0, 0}; }, hinge), "hinge axis length"));
+    EXPECT_TRUE(test::says(said([](Limit& l) { l.axis = {0, 0, 0}; }, ball), "limit axis length"));
+    EXPECT_TRUE(test::says(said([](Limit& l) { l.axis.y = nan; }, hinge), "hinge axis finite"));
+    EXPECT_TRUE(test::says(said([](Limit& l) { l.axis.y = infinity; }, ball), "limit axis finite"));
+    EXPECT_TRUE(test::says(said([](Limit& l) { l.min = 2; }, hinge), "hinge min max"));
     EXPECT_NE(said([](Limit& l) { l.min = nan; }, hinge), "nothing");
     EXPECT_NE(said([](Limit& l) { l.max = 4; }, hinge), "nothing");
     EXPECT_NE(said([](Limit& l) { l.min = -infinity; }, hinge), "nothing");
@@ -66,7 +67,7 @@ TEST(IkLimit, FaultSaysWhatIsWrong) {
 TEST(IkLimit, AnAxisAlongTheBoneIsFoundOnlyWithTheBone) {
     const Limit hinge = Limit::hinge(x * -3.0f, 0, 1);
     EXPECT_EQ(fault(hinge), nullptr);
-    EXPECT_STREQ(fault(hinge, x), "the hinge's axis lies along the bone");
+    EXPECT_TRUE(test::says(fault(hinge, x), "hinge axis along bone"));
     EXPECT_EQ(fault(hinge, y), nullptr);
     EXPECT_EQ(fault(Limit::hinge(x + y * 0.01f, 0, 1), x), nullptr);
     EXPECT_EQ(fault(Limit::hinge(z * 1e9f, 0, 1), x), nullptr);

@@ -1,5 +1,6 @@
 // solve_many with what is loose, on the move, hostile or out of range; and the batch that it works on.
 #include "ik_many_scalar.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test::ik_many_hostile_test {
 namespace {
@@ -248,10 +249,9 @@ TEST(Batch, RefusesWhatIsOutOfRangeAndKeepsWhatItWas) {
     EXPECT_TRUE(invalid(batch.set_joints(0, Joints{{0, 0, 0}, {0, 0, 0}, {2e9f, 0, 0}})));
     EXPECT_TRUE(invalid(batch.copy_joints(0, small)));
     EXPECT_TRUE(invalid(batch.copy_joints(small)));
-    EXPECT_STREQ(batch.set_lengths(0, Lengths{1, -2}).message(),
-                 "set_lengths: lengths[1] must be finite, at least 0 and at most 1e9, got -2");
-    EXPECT_STREQ(batch.set_root(5, {}).message(),
-                 "set_root: index 5 is out of range, the batch has 2 chains");
+    EXPECT_TRUE(
+        test::says(batch.set_lengths(0, Lengths{1, -2}).message(), "set_lengths lengths[1] finite 0 1e9 -2"));
+    EXPECT_TRUE(test::says(batch.set_root(5, {}).message(), "set_root index 5 range 2"));
     EXPECT_EQ(joints_of(batch), before);
     EXPECT_EQ(batch.length(0, 0), 1.0f);
 }

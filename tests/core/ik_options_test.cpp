@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "ik_limited_support.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test::ik_options_test {
 namespace {
@@ -146,7 +147,7 @@ TEST(IkOptions, TheTableSaysWhichMethodHonoursWhat) {
 
 TEST(IkOptions, TwoBoneNeedsTwoBones) {
     EXPECT_TRUE(check_takes(Method::TwoBone, 2));
-    EXPECT_STREQ(check_takes(Method::TwoBone, 5).message(), "Two-bone needs exactly two bones");
+    EXPECT_TRUE(test::says(check_takes(Method::TwoBone, 5).message(), "Two-bone two bones"));
     EXPECT_TRUE(check_takes(Method::Ccd, 5));
     EXPECT_FALSE(check_takes(static_cast<Method>(99), 5));
 }

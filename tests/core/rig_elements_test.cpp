@@ -1,5 +1,6 @@
 // The tree itself: order, handles, other parents, and what is refused.
 #include "rig_line.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -36,8 +37,7 @@ TEST(RigElements, AHandleOfWhatIsGoneFindsNothing) {
     const ElementId next = *line.tree.add(ElementKind::Control, line.root, {});
     EXPECT_EQ(line.tree.kind(next), ElementKind::Control);
     EXPECT_FALSE(line.tree.contains(line.middle));
-    EXPECT_STREQ(line.tree.remove(line.tip).message(),
-                 "remove: element must be the handle of an element that is there, got slot 2");
+    EXPECT_TRUE(test::says(line.tree.remove(line.tip).message(), "remove element handle slot 2"));
     EXPECT_EQ(line.tree.set(line.tip, Local, {}).code(), ErrorCode::OutOfRange);
     line.tree.clear();
     EXPECT_EQ(line.tree.size(), 0u);

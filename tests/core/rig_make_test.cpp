@@ -5,6 +5,7 @@
 #include <string>
 
 #include "rig_rigs.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::rig {
 namespace {
@@ -34,13 +35,11 @@ TEST(RigMake, TakesTheSmallRigs) {
 }
 
 TEST(RigMake, RefusesElementsThatMakeNoTree) {
-    EXPECT_EQ(refusal({.elements = {{.name = "a"}, {.name = "a"}}}),
-              "element \"a\": another has this name already");
-    EXPECT_EQ(refusal({.elements = {{.name = ""}}}), "elements[0]: its name is empty");
-    EXPECT_EQ(refusal({.elements = {{.name = "a", .parent = "b"}}}),
-              "element \"a\": there is no element \"b\" for its parent");
-    EXPECT_EQ(refusal({.elements = {{.name = "a", .parent = "a"}}}),
-              "element \"a\": its parent \"a\" is itself below it");
+    EXPECT_TRUE(test::says(refusal({.elements = {{.name = "a"}, {.name = "a"}}}), "element a another name"));
+    EXPECT_TRUE(test::says(refusal({.elements = {{.name = ""}}}), "elements[0] name empty"));
+    EXPECT_TRUE(test::says(refusal({.elements = {{.name = "a", .parent = "b"}}}), "element a b parent"));
+    EXPECT_TRUE(
+        test::says(refusal({.elements = {{.name = "a", .parent = "a"}}}), "element a parent a below"));
     const std::string cycle = refusal(
         {.elements = {
              {.name = "a", .parent = "c"}, {.name = "b", .parent = "a"}, {.name = "c", .parent = "b"}}});
@@ -49,8 +48,8 @@ TEST(RigMake, RefusesElementsThatMakeNoTree) {
               "element \"a\":");
     EXPECT_EQ(refusal({.elements = {{.name = "a", .initial = at(std::nan(""), 0, 0)}}}).substr(0, 12),
               "element \"a\":");
-    EXPECT_EQ(refusal({.elements = {{.name = "a", .control = Control{}}}}),
-              "element \"a\": only a control can have a control's settings");
+    EXPECT_TRUE(test::says(refusal({.elements = {{.name = "a", .control = Control{}}}}),
+                           "element a control settings"));
 }
 
 TEST(RigMake, TakesParentsAfterTheirChildren) {
@@ -64,58 +63,56 @@ TEST(RigMake, RefusesControlsOutOfOrder) {
         return refusal(
             {.elements = {{.name = "a", .kind = ElementKind::Control, .control = std::move(settings)}}});
     };
-    EXPECT_EQ(control({.kind = ControlKind::Vector2d, .axes = {1, 1}}),
-              "element \"a\": control.axes must be two different ones");
-    EXPECT_EQ(control({.kind = ControlKind::Float, .minimum = glm::dvec3(1.0), .maximum = glm::dvec3(0.0)}),
-              "element \"a\": control.minimum must be at most the maximum, got 1");
+    EXPECT_TRUE(test::says(control({.kind = ControlKind::Vector2d, .axes = {1, 1}}),
+                           "element a control.axes different"));
+    EXPECT_TRUE(test::says(
+        control({.kind = ControlKind::Float, .minimum = glm::dvec3(1.0), .maximum = glm::dvec3(0.0)}),
+        "element a control.minimum maximum 1"));
     EXPECT_NE(control({.minimum = glm::dvec3(std::numeric_limits<double>::infinity(), 0, 0)}), "");
 }
 
 TEST(RigMake, RefusesInputsThatNameWhatIsNotThere) {
-    EXPECT_EQ(refusal(with(SetTransform{.item = "nobody"})),
-              "unit \"first\": item: there is no element \"nobody\"");
-    EXPECT_EQ(refusal(with(Aim{.item = "hand", .primary = {.target = FromElement{"nobody"}}})),
-              "unit \"first\": primary.target: there is no element \"nobody\"");
-    EXPECT_EQ(refusal(with(EvaluateCurve{.value = FromUnit{"nobody"}})),
-              "unit \"first\": value: no unit \"nobody\" runs before this one");
-    EXPECT_EQ(refusal(with(EvaluateCurve{.value = FromUnit{"first"}})),
-              "unit \"first\": value: no unit \"first\" runs before this one");
-    EXPECT_EQ(refusal(with(SetCurve{.curve = "frown"})),
-              "unit \"first\": curve: there is no curve \"frown\"");
-    EXPECT_EQ(refusal(with(ForEach{.roots = {"root", "nobody"}})),
-              "unit \"first\": roots: there is no element \"nobody\"");
-    EXPECT_EQ(refusal(with(EvaluateCurve{.value = FromElement{.element = "hand", .of = Of::ControlValue}})),
-              "unit \"first\": value: \"hand\" is no control and has no value");
-    EXPECT_EQ(refusal(with(ParentConstraint{.item = "hand"})),
-              "unit \"first\": parents must have at least one");
-    EXPECT_EQ(refusal(with(ForEach{})), "unit \"first\": roots must have at least one");
+    EXPECT_TRUE(test::says(refusal(with(SetTransform{.item = "nobody"})), "unit first item nobody"));
+    EXPECT_TRUE(test::says(refusal(with(Aim{.item = "hand", .primary = {.target = FromElement{"nobody"}}})),
+                           "unit first primary.target nobody"));
+    EXPECT_TRUE(test::says(refusal(with(EvaluateCurve{.value = FromUnit{"nobody"}})),
+                           "unit first value unit nobody"));
+    EXPECT_TRUE(
+        test::says(refusal(with(EvaluateCurve{.value = FromUnit{"first"}})), "unit first value unit first"));
+    EXPECT_TRUE(test::says(refusal(with(SetCurve{.curve = "frown"})), "unit first curve frown"));
+    EXPECT_TRUE(test::says(refusal(with(ForEach{.roots = {"root", "nobody"}})), "unit first roots nobody"));
+    EXPECT_TRUE(test::says(
+        refusal(with(EvaluateCurve{.value = FromElement{.element = "hand", .of = Of::ControlValue}})),
+        "unit first value hand no control"));
+    EXPECT_TRUE(test::says(refusal(with(ParentConstraint{.item = "hand"})), "unit first parents one"));
+    EXPECT_TRUE(test::says(refusal(with(ForEach{})), "unit first roots one"));
 }
 
 TEST(RigMake, RefusesSpringsOutOfTheirRange) {
-    EXPECT_EQ(refusal(with(SpringInterpolate{.strength = -1.0})),
-              "unit \"first\": strength must be 0 to 1e4 Hz, got -1");
-    EXPECT_EQ(refusal(with(SpringInterpolate{.critical_damping = 1001.0})),
-              "unit \"first\": critical_damping must be 0 to 1000, got 1001");
-    EXPECT_EQ(refusal(with(SpringInterpolate{.target_velocity_amount = 2.0})),
-              "unit \"first\": target_velocity_amount must be 0 to 1, got 2");
+    EXPECT_TRUE(
+        test::says(refusal(with(SpringInterpolate{.strength = -1.0})), "unit first strength 0 1e4 Hz -1"));
+    EXPECT_TRUE(test::says(refusal(with(SpringInterpolate{.critical_damping = 1001.0})),
+                           "unit first critical_damping 0 1000 1001"));
+    EXPECT_TRUE(test::says(refusal(with(SpringInterpolate{.target_velocity_amount = 2.0})),
+                           "unit first target_velocity_amount 0 1 2"));
 }
 
 TEST(RigMake, RefusesInputsOfTheWrongType) {
-    EXPECT_EQ(refusal(with(EvaluateCurve{.value = FromElement{"hand"}})),
-              "unit \"first\": value takes a number, got a vector");
-    EXPECT_EQ(refusal(with(
-                  SetRotation{.item = "hand", .rotation = FromElement{.element = "hand", .of = Of::Scale}})),
-              "unit \"first\": rotation takes a rotation, got a vector");
-    EXPECT_EQ(refusal(with(SpringInterpolate{.target = Value(true)})),
-              "unit \"first\": target takes a number, a vector or a rotation, got a bool");
-    EXPECT_EQ(
+    EXPECT_TRUE(test::says(refusal(with(EvaluateCurve{.value = FromElement{"hand"}})),
+                           "unit first value number vector"));
+    EXPECT_TRUE(test::says(refusal(with(SetRotation{
+                               .item = "hand", .rotation = FromElement{.element = "hand", .of = Of::Scale}})),
+                           "unit first rotation rotation vector"));
+    EXPECT_TRUE(test::says(refusal(with(SpringInterpolate{.target = Value(true)})),
+                           "unit first target number vector rotation bool"));
+    EXPECT_TRUE(test::says(
         refusal(with(SpringInterpolate{.target = Value(glm::dvec3(0)), .force = Input<Value>(Value(1.0))})),
-        "unit \"first\": force takes a vector here, got a number");
+        "unit first force vector number"));
     Definition chained = with(FromTwoVectors{});
     chained.units.push_back({.name = "second", .operation = EvaluateCurve{.value = FromUnit{"first"}}});
-    EXPECT_EQ(refusal(chained), "unit \"second\": value takes a number, got a rotation");
+    EXPECT_TRUE(test::says(refusal(chained), "unit second value number rotation"));
     chained.units[1].operation = SetRotation{.item = "hand", .rotation = FromUnit{"first", "speed"}};
-    EXPECT_EQ(refusal(chained), "unit \"second\": rotation: unit \"first\" has no output \"speed\"");
+    EXPECT_TRUE(test::says(refusal(chained), "unit second rotation unit first output speed"));
 }
 
 TEST(RigMake, GivesATransformWhereAVectorOrARotationIsTaken) {
@@ -127,31 +124,32 @@ TEST(RigMake, GivesATransformWhereAVectorOrARotationIsTaken) {
 }
 
 TEST(RigMake, RefusesWhatOnlyAForEachKnowsOutsideOfOne) {
-    EXPECT_EQ(refusal(with(SetTransform{.item = ThisElement()})),
-              "unit \"first\": item: {\"item\": \"each\"} is only known inside a for-each");
-    EXPECT_EQ(refusal(with(EvaluateCurve{.value = Each::Ratio})),
-              "unit \"first\": value: {\"each\": ...} is only known inside a for-each");
-    EXPECT_EQ(refusal(with(ForEach{.roots = {"root"},
-                                   .body = {{.name = "inner", .operation = ForEach{.roots = {"root"}}}}})),
-              "unit \"inner\": body: a for-each cannot stand in the body of another");
+    EXPECT_TRUE(
+        test::says(refusal(with(SetTransform{.item = ThisElement()})), "unit first item each for-each"));
+    EXPECT_TRUE(
+        test::says(refusal(with(EvaluateCurve{.value = Each::Ratio})), "unit first value each for-each"));
+    EXPECT_TRUE(test::says(
+        refusal(with(ForEach{.roots = {"root"},
+                             .body = {{.name = "inner", .operation = ForEach{.roots = {"root"}}}}})),
+        "unit inner body for-each another"));
     Definition outside =
         with(ForEach{.roots = {"root"}, .body = {{.name = "inner", .operation = FromTwoVectors{}}}});
     outside.units.push_back(
         {.name = "late", .operation = SetRotation{.item = "hand", .rotation = FromUnit{"inner"}}});
-    EXPECT_EQ(refusal(outside),
-              "unit \"late\": rotation: unit \"inner\" runs inside a for-each, once an element");
+    EXPECT_TRUE(test::says(refusal(outside), "unit late rotation unit inner for-each"));
 }
 
 TEST(RigMake, RefusesNumbersOutOfTheirRange) {
     Definition heavy = with(SetTransform{.item = "hand"});
     heavy.units[0].weight = 1.5;
-    EXPECT_EQ(refusal(heavy), "unit \"first\": weight must be 0 to 1, got 1.5");
+    EXPECT_TRUE(test::says(refusal(heavy), "unit first weight 0 1 1.5"));
     heavy.units[0].weight = std::nan("");
-    EXPECT_EQ(refusal(heavy), "unit \"first\": weight must be 0 to 1, got nan");
-    EXPECT_EQ(refusal(with(Aim{.item = "hand", .primary = {.weight = -1.0}})),
-              "unit \"first\": primary.weight must be 0 to 1, got -1");
-    EXPECT_EQ(refusal(with(ParentConstraint{.item = "hand", .parents = {{.item = "root", .weight = -1.0}}})),
-              "unit \"first\": parents[0].weight must not be negative, got -1");
+    EXPECT_TRUE(test::says(refusal(heavy), "unit first weight 0 1 nan"));
+    EXPECT_TRUE(test::says(refusal(with(Aim{.item = "hand", .primary = {.weight = -1.0}})),
+                           "unit first primary.weight 0 1 -1"));
+    EXPECT_TRUE(test::says(
+        refusal(with(ParentConstraint{.item = "hand", .parents = {{.item = "root", .weight = -1.0}}})),
+        "unit first parents[0].weight negative -1"));
     EXPECT_NE(refusal(with(OffsetTransform{.item = "hand", .offset = Transform{.scale = {0, 1, 1}}})), "");
     EXPECT_NE(refusal(with(SetTransform{.item = "hand", .transform = at(1e10, 0, 0)})), "");
     EXPECT_NE(refusal(with(EvaluateCurve{.curve = {.keys = {{.time = 1}, {.time = 1}}}})), "");
@@ -160,16 +158,16 @@ TEST(RigMake, RefusesNumbersOutOfTheirRange) {
 TEST(RigMake, RefusesTwoUnitsOfOneName) {
     Definition rig =
         with(ForEach{.roots = {"root"}, .body = {{.name = "first", .operation = FromTwoVectors{}}}});
-    EXPECT_EQ(refusal(rig), "unit \"first\": another unit has this name already");
+    EXPECT_TRUE(test::says(refusal(rig), "unit first another name"));
     rig.units[0].name = "";
-    EXPECT_EQ(refusal(rig), "unit \"\": its name is empty");
+    EXPECT_TRUE(test::says(refusal(rig), "unit name empty"));
 }
 
 TEST(RigMake, RefusesChainsThatAreNone) {
-    EXPECT_EQ(refusal(with(Fabrik{.root = "hand", .tip = "root"})),
-              "unit \"first\": tip \"root\" must be below root \"hand\"");
-    EXPECT_EQ(refusal(with(TwoBone{.root = "root", .tip = "hand"})),
-              "unit \"first\": needs exactly two bones from \"root\" to \"hand\", got 1");
+    EXPECT_TRUE(test::says(refusal(with(Fabrik{.root = "hand", .tip = "root"})),
+                           "unit first tip root below root hand"));
+    EXPECT_TRUE(
+        test::says(refusal(with(TwoBone{.root = "root", .tip = "hand"})), "unit first two root hand 1"));
 }
 
 }  // namespace

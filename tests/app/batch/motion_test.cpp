@@ -4,6 +4,7 @@
 #include "app/io/character/read.hpp"
 #include "app/io/character/stick_figure.hpp"
 #include "tests/app/support/program.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -52,7 +53,7 @@ TEST_F(MotionProgram, lint_finds_nothing_in_a_clean_clip_and_says_so) {
     for (const char* name : {"walk.glb", "walk.gltf", "walk.bvh"}) {
         const Outcome outcome = run({"lint", figure(name)});
         EXPECT_EQ(outcome.exit_code, 0) << name << ": " << outcome.out << outcome.err;
-        EXPECT_EQ(outcome.out, "0 findings in 1 clip\n");
+        EXPECT_TRUE(test::says(outcome.out, "0 findings 1 clip"));
         EXPECT_EQ(outcome.err, "");
     }
 }
@@ -61,10 +62,8 @@ TEST_F(MotionProgram, lint_prints_what_it_finds_and_exits_with_1) {
     const std::string file = figure("flipped.glb", true);
     const Outcome lines = run({"lint", file});
     EXPECT_EQ(lines.exit_code, 1);
-    EXPECT_NE(lines.out.find("walk: sign_flip, frame 12 of 67 at 60 fps, 0.200 s: RightLowerLeg"),
-              std::string::npos)
-        << lines.out;
-    EXPECT_NE(lines.out.find("1 finding in 1 clip\n"), std::string::npos) << lines.out;
+    EXPECT_TRUE(test::says(lines.out, "walk sign_flip 12 67 60 0.200 RightLowerLeg")) << lines.out;
+    EXPECT_TRUE(test::says(lines.out, "1 finding 1 clip")) << lines.out;
 
     const Outcome outcome = run({"lint", file, "--json"});
     EXPECT_EQ(outcome.exit_code, 1);
@@ -107,7 +106,7 @@ TEST_F(MotionProgram, bake_takes_a_clips_name_and_a_frame_rate_and_finds_a_place
     EXPECT_NE(read(folder_ / "walk_baked.bvh").find("Frames: 34\n"), std::string::npos);
     const Outcome unknown = run({"bake", file, "--clip", "run"});
     EXPECT_EQ(unknown.exit_code, 2);
-    EXPECT_EQ(unknown.err, "tendril: walk.bvh: has no clip \"run\"; it has motion\n");
+    EXPECT_TRUE(test::says(unknown.err, "walk.bvh run motion"));
 }
 
 TEST_F(MotionProgram, what_cannot_be_read_or_written_ends_with_2) {

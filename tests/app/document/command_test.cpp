@@ -7,6 +7,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "tests/app/support/test_part.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -52,13 +53,12 @@ TEST_F(CommandArguments, ANumberOrAPoint) {
     const std::string rule = "test.pull: by must be a number or a point [x, y, z], got ";
     EXPECT_EQ(refused("test.pull", {{"by", "3"}}), rule + "\"3\"");
     EXPECT_EQ(refused("test.pull", {{"by", {1, 2}}}), rule + "[1,2]");
-    EXPECT_EQ(refused("test.pull", {{"by", 6}}), "test.pull: by must be -5 to 5, got 6");
-    EXPECT_EQ(refused("test.pull", {{"by", {1, 2, "z"}}}),
-              "test.pull: by must be three finite numbers of at most 1e9 in magnitude, got [1,2,\"z\"]");
+    EXPECT_TRUE(test::says(refused("test.pull", {{"by", 6}}), "test.pull by -5 5 6"));
+    EXPECT_TRUE(
+        test::says(refused("test.pull", {{"by", {1, 2, "z"}}}), "test.pull by three finite 1e9 [1,2,\"z\"]"));
     refused("test.pull", {{"by", std::nan("")}});
     refused("test.pull", {{"by", {0, HUGE_VAL, 0}}});
-    EXPECT_EQ(refused("test.pull", Json::object()),
-              "test.pull: by is missing (a number or a point [x, y, z])");
+    EXPECT_TRUE(test::says(refused("test.pull", Json::object()), "test.pull by missing number point"));
 }
 
 TEST_F(CommandArguments, ARotation) {
@@ -72,10 +72,9 @@ TEST_F(CommandArguments, ARotation) {
     table.run(workspace, "test.turn", {{"to", {0.7071, 0, 0, 0.7071}}});
     EXPECT_NEAR(glm::length(turn), 1.0f, 1e-6f)
         << "written with few digits, it is of unit length all the same";
-    EXPECT_EQ(refused("test.turn", {{"to", {0, 0, 0, 0}}}),
-              "test.turn: to must be a quaternion [x, y, z, w] of length 1, got [0,0,0,0]");
-    EXPECT_EQ(refused("test.turn", {{"to", 90}}),
-              "test.turn: to must be a unit quaternion [x, y, z, w] or angles in degrees [x, y, z], got 90");
+    EXPECT_TRUE(test::says(refused("test.turn", {{"to", {0, 0, 0, 0}}}),
+                           "test.turn to quaternion length 1 [0,0,0,0]"));
+    EXPECT_TRUE(test::says(refused("test.turn", {{"to", 90}}), "test.turn to unit quaternion 90"));
     refused("test.turn", {{"to", {0, 0}}});
     refused("test.turn", {{"to", {0, std::nan(""), 0}}});
     refused("test.turn", {{"to", {0, 0, 0, HUGE_VAL}}});

@@ -8,6 +8,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -55,7 +56,7 @@ TEST(Json, errors_name_the_line_and_a_short_reason) {
     EXPECT_TRUE(has(parse_message(""), "line 1: unexpected end of input"));
     EXPECT_TRUE(has(parse_message("{\n \"a\": 1,\n \"b\" 2}"), "line 3: unexpected number literal"));
     EXPECT_TRUE(has(parse_message("[1,\n2,\n"), "line 3: unexpected end of input"));
-    EXPECT_EQ(parse_message("[1,\n1e999]"), "line 2: number too large: '1e999'");
+    EXPECT_TRUE(test::says(parse_message("[1,\n1e999]"), "line 2 number 1e999"));
     EXPECT_TRUE(has(parse_message("[\n\n\"a\xff\"]"), "line 3: invalid string: ill-formed UTF-8 byte"));
     EXPECT_TRUE(has(parse_message("[1,\n\"a\nb\"]"), "line 2: invalid string: control character"));
     EXPECT_TRUE(has(parse_message("1 2"), "line 1: unexpected number literal"));
@@ -78,10 +79,10 @@ TEST(Json, an_error_in_a_long_or_strange_token_is_one_short_printable_line) {
 TEST(Json, nesting_of_64_is_read_and_of_65_refused) {
     const auto nested = [](std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
     EXPECT_EQ(parse_message(nested(64)), "");
-    EXPECT_EQ(parse_message(nested(65)), "line 1: nested deeper than 64");
+    EXPECT_TRUE(test::says(parse_message(nested(65)), "line 1 nested 64"));
     std::string objects;
     for (int i = 0; i < 65; ++i) objects += "{\"a\":\n";
-    EXPECT_EQ(parse_message(objects), "line 65: nested deeper than 64");
+    EXPECT_TRUE(test::says(parse_message(objects), "line 65 nested 64"));
 }
 
 TEST(Json, brackets_in_strings_are_not_nesting) {
@@ -89,7 +90,7 @@ TEST(Json, brackets_in_strings_are_not_nesting) {
     EXPECT_EQ(parse_json("\"" + brackets + "\"").get<std::string>(), brackets);
     EXPECT_EQ(parse_json("\"\\\"" + brackets + "\"").get<std::string>(), '"' + brackets);
     EXPECT_EQ(parse_json("[\"\\\\\", \"" + brackets + "\"]")[1].get<std::string>(), brackets);
-    EXPECT_EQ(parse_message("[\"\\\\\"" + brackets), "line 1: nested deeper than 64");
+    EXPECT_TRUE(test::says(parse_message("[\"\\\\\"" + brackets), "line 1 nested 64"));
 }
 
 TEST(Json, of_repeated_members_the_last_counts) {
@@ -150,39 +151,28 @@ TEST(Json, typed_reads_say_where_and_what) {
     const auto message = [](auto action) { return message_of(action); };
     EXPECT_EQ(message([&] { json_member(json, "x", "labs.a"); }), "labs.a: \"x\" is missing");
     EXPECT_EQ(message([&] { json_member(json, "x", ""); }), "\"x\" is missing");
-    EXPECT_EQ(message([&] { json_member(json["n"], "x", "n"); }), "n: expected an object, found 1.5");
-    EXPECT_EQ(message([&] { json_number(json["t"], "t"); }), "t: expected a number, found \"text\"");
-    EXPECT_EQ(message([&] { json_number(json["big"], "big"); }),
-              "big: expected a number of at most 1e9, found 1100000000.0");
-    EXPECT_EQ(message([&] { json_number(json["n"], "n", 2.0f, 3.0f); }),
-              "n: expected a number from 2.0 to 3.0, found 1.5");
+    EXPECT_TRUE(test::says(message([&] { json_member(json["n"], "x", "n"); }), "n object 1.5"));
+    EXPECT_TRUE(test::says(message([&] { json_number(json["t"], "t"); }), "t number text"));
+    EXPECT_TRUE(test::says(message([&] { json_number(json["big"], "big"); }), "big number 1e9 1100000000.0"));
+    EXPECT_TRUE(
+        test::says(message([&] { json_number(json["n"], "n", 2.0f, 3.0f); }), "n number 2.0 3.0 1.5"));
     EXPECT_EQ(json_real(json["big"], "big", 0.0, 1e12), 1.1e9) << "its ends say how large it may be";
-    EXPECT_EQ(message([&] { json_real(json["big"], "big"); }),
-              "big: expected a number of at most 1e9, found 1100000000.0");
-    EXPECT_EQ(message([&] { json_real(json["big"], "big", 0.0, 1e9); }),
-              "big: expected a number from 0.0 to 1000000000.0, found 1100000000.0");
-    EXPECT_EQ(message([&] { json_integer(json["n"], "n", 0, 9); }),
-              "n: expected a whole number from 0 to 9, found 1.5");
-    EXPECT_EQ(message([&] { json_integer(json["i"], "i", 0, 2); }),
-              "i: expected a whole number from 0 to 2, found 3");
-    EXPECT_EQ(message([&] { json_integer(Json(1e300), "i", 0, 2); }),
-              "i: expected a whole number from 0 to 2, found 1e+300");
-    EXPECT_EQ(message([&] { json_bool(json["i"], "i"); }), "i: expected true or false, found 3");
-    EXPECT_EQ(message([&] { json_text(json["b"], "b"); }), "b: expected a text, found true");
-    EXPECT_EQ(message([&] {
-                  json_point(Json::array({1, 2}), "p");
-              }),
-              "p: expected a point [x, y, z], found [1,2]");
-    EXPECT_EQ(message([&] {
-                  json_point(Json::array({1, 2, "3"}), "p");
-              }),
-              "p: expected a number, found \"3\"");
-    EXPECT_EQ(message([&] { json_text(Json(std::vector<int>(1000)), "t"); }),
-              "t: expected a text, found a list of 1000 values");
-    EXPECT_EQ(message([&] { json_number(Json(std::string(1000, 'x')), "t"); }),
-              "t: expected a number, found a long text");
-    EXPECT_EQ(message([&] { json_number(Json(std::nan("")), "t"); }),
-              "t: expected a number of at most 1e9, found null");
+    EXPECT_TRUE(test::says(message([&] { json_real(json["big"], "big"); }), "big number 1e9 1100000000.0"));
+    EXPECT_TRUE(test::says(message([&] { json_real(json["big"], "big", 0.0, 1e9); }),
+                           "big number 0.0 1000000000.0 1100000000.0"));
+    EXPECT_TRUE(test::says(message([&] { json_integer(json["n"], "n", 0, 9); }), "n whole number 0 9 1.5"));
+    EXPECT_TRUE(test::says(message([&] { json_integer(json["i"], "i", 0, 2); }), "i whole number 0 2 3"));
+    EXPECT_TRUE(
+        test::says(message([&] { json_integer(Json(1e300), "i", 0, 2); }), "i whole number 0 2 1e+300"));
+    EXPECT_TRUE(test::says(message([&] { json_bool(json["i"], "i"); }), "i true false 3"));
+    EXPECT_TRUE(test::says(message([&] { json_text(json["b"], "b"); }), "b text true"));
+    EXPECT_TRUE(test::says(message([&] { json_point(Json::array({1, 2}), "p"); }), "p point [1,2]"));
+    EXPECT_TRUE(test::says(message([&] { json_point(Json::array({1, 2, "3"}), "p"); }), "p number 3"));
+    EXPECT_TRUE(
+        test::says(message([&] { json_text(Json(std::vector<int>(1000)), "t"); }), "t text list 1000"));
+    EXPECT_TRUE(
+        test::says(message([&] { json_number(Json(std::string(1000, 'x')), "t"); }), "t number text"));
+    EXPECT_TRUE(test::says(message([&] { json_number(Json(std::nan("")), "t"); }), "t number 1e9 null"));
 }
 
 }  // namespace

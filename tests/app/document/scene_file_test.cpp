@@ -10,6 +10,7 @@
 #include "tests/app/support/program.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/app/support/test_part.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -165,7 +166,7 @@ TEST(SceneFile, that_a_part_chokes_on_is_refused) {
     };
     EXPECT_THROW(load(1), std::runtime_error);
     EXPECT_THROW(load(2), std::runtime_error);
-    EXPECT_EQ(message_of([&] { load(1); }), "labs.arm: length must be positive");
+    EXPECT_TRUE(test::says(message_of([&] { load(1); }), "labs.arm length"));
 }
 
 TEST(SceneFile, of_an_older_version_is_upgraded_before_a_part_reads_it) {

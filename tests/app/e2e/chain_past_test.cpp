@@ -4,6 +4,7 @@
 
 #include "tests/app/support/panel_places.hpp"
 #include "tests/app/support/play.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -53,7 +54,7 @@ TEST(ChainsPast, AFlipIsMarkedAtItsTickWithItsCause) {
     const Json state = state_after(through_the_root());
     const std::vector<Json> flips = flips_of(state);
     ASSERT_GE(flips.size(), 1u) << state["events"].dump(2);
-    for (const Json& flip : flips) EXPECT_EQ(flip["cause"], "the target went through the root");
+    for (const Json& flip : flips) EXPECT_TRUE(test::says(flip["cause"], "target root"));
     EXPECT_EQ(state["events"][0]["cause"], straight);
     EXPECT_GT(flips[0]["degrees"].get<double>(), 30.0);
     // The poses on both sides of it are the ones that differ so much.
@@ -127,8 +128,7 @@ TEST(ChainsPast, ARefusedNumberIsAMarkAndNoFlip) {
         play_refused(ScriptText(reach).click(chain_panel::iterations).wait(2).text("0").key("enter").wait(2));
     ASSERT_EQ(typed["events"].size(), 1u);
     EXPECT_EQ(typed["events"][0]["kind"], "status");
-    EXPECT_NE(typed["events"][0]["cause"].get<std::string>().find("iterations must be 1 to"),
-              std::string::npos)
+    EXPECT_TRUE(test::says(typed["events"][0]["cause"].get<std::string>(), "iterations 1"))
         << typed["events"][0]["cause"];
     const Json told =
         state_after(ScriptText(reach).command("chain.target", {{"to", {1e30, 0, 0}}}, true).wait(1));

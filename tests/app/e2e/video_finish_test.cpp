@@ -11,6 +11,7 @@
 #include "app/window/offscreen_window.hpp"
 #include "tests/app/support/program.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -87,7 +88,7 @@ TEST_F(VideoFinish, IsCancelledByEscapeAndLeavesNoFile) {
     EXPECT_FALSE(folder_.names().empty()) << "a part of it is there";
     tick(KeyTap{*chord_from_name("escape")});
     EXPECT_FALSE(filming());
-    EXPECT_EQ(toast(), "Cancelled: a.mp4 is not written");
+    EXPECT_TRUE(test::says(toast(), "Cancelled a.mp4"));
     EXPECT_EQ(folder_.names(), std::vector<std::string>{});
     EXPECT_LT(longest_, 1.0);
 }
@@ -187,7 +188,7 @@ TEST_F(VideoFinish, TellsWhatWentWrong) {
     film_with("sleep 0.2; echo 'disk full' >&2; exit 1\n");
     for (int i = 0; i < 3000 && filming(); ++i) tick();
     EXPECT_FALSE(filming());
-    EXPECT_EQ(toast(), "view.video: ffmpeg failed: disk full");
+    EXPECT_TRUE(test::says(toast(), "view.video ffmpeg disk full"));
     EXPECT_EQ(folder_.names(), std::vector<std::string>{});
 }
 

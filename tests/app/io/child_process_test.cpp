@@ -2,6 +2,7 @@
 #include "app/io/child_process.hpp"
 
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -29,10 +30,10 @@ TEST(ChildProcesses, FailInTheirOwnWords) {
         return message_of([&] { ChildProcess(shell(script)).finish(20.0); });
     };
     EXPECT_EQ(failure("true"), "");
-    EXPECT_EQ(failure("echo first >&2; echo 'no such encoder' >&2; echo >&2; exit 3"),
-              "sh failed: no such encoder");
-    EXPECT_EQ(failure("exit 3"), "sh failed: exit code 3");
-    EXPECT_EQ(failure("kill -9 $$"), "sh failed: signal 9 ended it");
+    EXPECT_TRUE(test::says(failure("echo first >&2; echo 'no such encoder' >&2; echo >&2; exit 3"),
+                           "sh no such encoder"));
+    EXPECT_TRUE(test::says(failure("exit 3"), "sh code 3"));
+    EXPECT_TRUE(test::says(failure("kill -9 $$"), "sh signal 9"));
     EXPECT_EQ(failure("yes long | head -100000 >&2; echo last >&2; exit 1"), "sh failed: last");
     EXPECT_TRUE(has(message_of([] { ChildProcess(Words{"/nowhere/tool"}); }), "cannot start tool"));
 }
@@ -44,15 +45,15 @@ TEST(ChildProcesses, MayEndBeforeTheyHaveReadAll) {
         return message_of([&] { ChildProcess(shell(script)).write(many); });
     };
     EXPECT_EQ(failure("echo 'disk full' >&2; exit 1"), "sh failed: disk full");
-    EXPECT_EQ(failure("head -c 100000 > /dev/null"), "sh failed: it ended too soon");
+    EXPECT_TRUE(test::says(failure("head -c 100000 > /dev/null"), "sh too soon"));
 }
 
 TEST(ChildProcesses, ThatHangAreGivenUp) {
-    EXPECT_EQ(message_of([] { ChildProcess(shell("exec sleep 60")).finish(0.05); }),
-              "sh failed: it does not end");
-    EXPECT_EQ(
+    EXPECT_TRUE(
+        test::says(message_of([] { ChildProcess(shell("exec sleep 60")).finish(0.05); }), "sh not end"));
+    EXPECT_TRUE(test::says(
         message_of([] { ChildProcess(shell("exec sleep 60")).write(std::string(1'000'000, 'x'), 0.05); }),
-        "sh failed: it takes no more data");
+        "sh no more data"));
 }
 
 /// It goes on in the background, as xclip does, with the same files open.

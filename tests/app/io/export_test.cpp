@@ -16,7 +16,7 @@
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/places.hpp"
 
-namespace tendril::app::test {
+namespace tendril::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -226,4 +226,4 @@ TEST_F(Exports, files_of_others_keep_what_they_have_and_move_as_they_did) {
 }
 
 }  // namespace
-}  // namespace tendril::app::test
+}  // namespace tendril::app

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace tendril::app::test {
+namespace tendril::app {
 
 class GltfStructure {
   public:
@@ -125,4 +125,4 @@ class GltfStructure {
     }
 };
 
-}  // namespace tendril::app::test
+}  // namespace tendril::app

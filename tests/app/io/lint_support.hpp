@@ -11,7 +11,7 @@
 
 #include "app/io/character/stick_figure.hpp"
 
-namespace tendril::app::test {
+namespace tendril::app {
 
 using namespace humanoid;
 
@@ -116,4 +116,4 @@ class LintFigure : public ::testing::Test {
     }
 };
 
-}  // namespace tendril::app::test
+}  // namespace tendril::app

@@ -8,7 +8,7 @@
 #include "tests/core/random.hpp"
 #include "tests/places.hpp"
 
-namespace tendril::app::test {
+namespace tendril::app {
 namespace {
 
 using tendril::test::Random;
@@ -292,4 +292,4 @@ TEST(LintFiles, those_of_others_are_what_they_were_found_to_be) {
 }
 
 }  // namespace
-}  // namespace tendril::app::test
+}  // namespace tendril::app

@@ -6,6 +6,7 @@
 #include "app/io/character/stick_figure.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/core/random.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -53,7 +54,7 @@ TEST(MapFile, a_name_that_the_character_does_not_have_is_told) {
         applied(saved, skeleton());
         ADD_FAILURE();
     } catch (const std::runtime_error& error) {
-        EXPECT_STREQ(error.what(), "LeftHand is node \"hand_l\", which the character does not have");
+        EXPECT_TRUE(test::says(error.what(), "LeftHand hand_l"));
     }
 }
 
@@ -62,11 +63,10 @@ TEST(MapFile, what_is_no_map_is_refused_and_says_where) {
         return std::string(R"({"tendril": "bone map", "version": 1, "bones": )") + bones + "}";
     };
     EXPECT_EQ(refusal(with(R"({"Hips": "a"})")), "");
-    EXPECT_EQ(refusal(with(R"({"Tail": "a"})")), "map.json: bones.Tail: there is no such bone");
-    EXPECT_EQ(refusal(with(R"({"Hips": "a", "Head": "a"})")),
-              "map.json: bones.Head: its node is that of Hips");
+    EXPECT_TRUE(test::says(refusal(with(R"({"Tail": "a"})")), "map.json bones.Tail no"));
+    EXPECT_TRUE(test::says(refusal(with(R"({"Hips": "a", "Head": "a"})")), "map.json bones.Head Hips"));
     EXPECT_NE(refusal(with(R"({"Hips": 3})")).find("map.json: bones.Hips"), std::string::npos);
-    EXPECT_NE(refusal(with("[]")).find("map.json: bones: expected an object"), std::string::npos);
+    EXPECT_TRUE(test::says(refusal(with("[]")), "map.json bones object"));
     for (const char* text :
          {"", "{", "[]", "3", "{}", R"({"tendril": "scene"})", R"({"tendril": "bone map"})",
           R"({"tendril": "bone map", "version": 2, "bones": {}})", R"({"tendril": "bone map", "version": 1})",

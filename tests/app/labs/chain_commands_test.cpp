@@ -4,6 +4,7 @@
 
 #include "app/document/refused.hpp"
 #include "tests/app/labs/chain_support.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -85,15 +86,12 @@ TEST_F(ChainCommands, PullTakesTheTargetAlongAndLeavesTheMode) {
 }
 
 TEST_F(ChainCommands, RefusalsSayWhyInOneLine) {
-    EXPECT_EQ(refused("chain.remove", {{"index", 8}}),
-              "chain.remove: index 8 is out of range, the chain has 8 segments");
-    EXPECT_EQ(refused("chain.add", Json::object()), "chain.add: length is missing (a number)");
-    EXPECT_EQ(refused("chain.add", {{"length", -1}}), "chain.add: length must be at least 0, got -1");
-    EXPECT_EQ(refused("chain.add", {{"length", "long"}}), "chain.add: length must be a number, got \"long\"");
-    EXPECT_EQ(refused("chain.add", {{"lenght", 1}, {"length", 1}}).substr(0, 44),
-              "chain.add: unknown argument \"lenght\"; it tak");
-    EXPECT_EQ(refused("chain.mode", {{"mode", "sideways"}}).substr(0, 36),
-              "chain.mode: mode must be one of forw");
+    EXPECT_TRUE(test::says(refused("chain.remove", {{"index", 8}}), "chain.remove index 8 range 8"));
+    EXPECT_TRUE(test::says(refused("chain.add", Json::object()), "chain.add length missing number"));
+    EXPECT_TRUE(test::says(refused("chain.add", {{"length", -1}}), "chain.add length 0 -1"));
+    EXPECT_TRUE(test::says(refused("chain.add", {{"length", "long"}}), "chain.add length number long"));
+    EXPECT_TRUE(test::says(refused("chain.add", {{"lenght", 1}, {"length", 1}}), "chain.add unknown lenght"));
+    EXPECT_TRUE(test::says(refused("chain.mode", {{"mode", "sideways"}}), "chain.mode mode forward"));
     const double nan = std::nan(""), inf = HUGE_VAL;
     for (const double bad : {nan, inf, -inf, 1e10, -1e10}) {
         refused("chain.add", {{"length", bad}});

@@ -44,4 +44,10 @@ std::string LabTest::refused(const char* name, const Json& arguments) {
     return {};
 }
 
+void LabTest::expect_refused(const char* name, const Json& arguments, const std::vector<std::string>& says) {
+    const std::string message = refused(name, arguments);
+    for (const std::string& each : says)
+        EXPECT_NE(message.find(each), std::string::npos) << message << "\n  does not say " << each;
+}
+
 }  // namespace tendril::app

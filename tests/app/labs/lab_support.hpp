@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
@@ -37,6 +38,8 @@ class LabTest : public testing::Test {
     void run_in(Workspace& other, const char* name, const Json& arguments) const;
     /// Runs what must be refused; gives the message, having checked that nothing changed.
     std::string refused(const char* name, const Json& arguments = Json::object());
+    /// The same, with a message that says each of these, in any order.
+    void expect_refused(const char* name, const Json& arguments, const std::vector<std::string>& says);
 
   private:
     const char* lab_;

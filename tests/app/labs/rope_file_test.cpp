@@ -7,6 +7,7 @@
 #include "tests/app/labs/rope_support.hpp"
 #include "tests/app/support/program.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -79,10 +80,10 @@ TEST_F(RopeFile, SizesAreRefusedWithTheLimit) {
     Json json = part().save();
     const Json row = Json::array({0.0, 0.0, 0.0, 1.0});
     json["world"]["particles"] = Json(100'001, row);
-    EXPECT_EQ(wrong(json), "labs.rope.world.particles: has 100001 particles; the most is 100000");
+    EXPECT_TRUE(test::says(wrong(json), "labs.rope.world.particles 100001 particles 100000"));
     json = part().save();
     json["world"]["colliders"] = Json(1001, json["world"]["colliders"][0]);
-    EXPECT_EQ(wrong(json), "labs.rope.world.colliders: has 1001 colliders; the most is 1000");
+    EXPECT_TRUE(test::says(wrong(json), "labs.rope.world.colliders 1001 colliders 1000"));
 }
 
 TEST_F(RopeFile, WhatIsWrongIsToldWithItsPlace) {
@@ -91,7 +92,7 @@ TEST_F(RopeFile, WhatIsWrongIsToldWithItsPlace) {
     run("rope.collider.swing", {{"name", "s"}, {"by", {2e8, 0, 0}}});
     run("rope.pin", {{"rope", "rope"}, {"particle", 0}});
     EXPECT_EQ(wrong(part().save()), "");
-    EXPECT_EQ(wrong(Json::array()), "labs.rope: expected an object, found []");
+    EXPECT_TRUE(test::says(wrong(Json::array()), "labs.rope object []"));
     const std::vector<std::tuple<const char*, Json, const char*>> bad{
         {"/time", -1, "labs.rope.time: expected a number from 0.0 to 1000000000.0, found -1"},
         {"/tool", "glue", "labs.rope.tool: unknown tool \"glue\""},

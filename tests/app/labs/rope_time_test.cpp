@@ -2,6 +2,7 @@
 #include "app/labs/rope/rope_time.hpp"
 #include "app/labs/rope/scenes.hpp"
 #include "tests/app/labs/rope_support.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -163,8 +164,7 @@ TEST_F(RopeTime, WhatFallsOffTheWorldStopsTime) {
     for (int i = 0; i < 3000 && workspace.clock.playing; ++i) wait(1);
     EXPECT_FALSE(workspace.clock.playing);
     ASSERT_FALSE(workspace.ui.toasts.empty());
-    EXPECT_EQ(workspace.ui.toasts.back().text,
-              "The simulation is paused: something would get farther than 1e9 m");
+    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "paused 1e9 m"));
     EXPECT_NO_THROW(part().load(part().save(), ""));
 }
 

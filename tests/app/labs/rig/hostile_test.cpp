@@ -4,6 +4,7 @@
 
 #include "rig_support.hpp"
 #include "tests/app/support/panel_text.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -263,14 +264,13 @@ TEST_F(RigHostile, NumbersOutOfTheirRange) {
 TEST_F(RigHostile, AnAxisOfNoLengthIsAWarning) {
     unit({{"unit", "aim"}, {"item", "hand"}, {"primary", {{"axis", {0, 0, 0}}, {"target", {0, 1, 0}}}}});
     solve();
-    EXPECT_EQ(named("units", "aim").at("warning"), "an axis has no length");
+    EXPECT_TRUE(test::says(named("units", "aim").at("warning"), "axis length"));
     EXPECT_EQ(rotation("hand"), glm::dquat(1, 0, 0, 0));
     run("rig.clear");
     element("hand");
     unit({{"unit", "aim"}, {"item", "hand"}, {"primary", {{"target", "hand"}}}});
     solve();
-    EXPECT_EQ(named("units", "aim").at("warning"),
-              "the target is where the item is, there is no direction to it");
+    EXPECT_TRUE(test::says(named("units", "aim").at("warning"), "target item direction"));
 }
 
 TEST_F(RigHostile, RangesOfNoWidthAreDefined) {
@@ -318,8 +318,7 @@ TEST_F(RigHostile, ARigThatWouldRunTooLongIsRefused) {
         load_scene(workspace, scene);
         ADD_FAILURE();
     } catch (const std::runtime_error& error) {
-        EXPECT_NE(std::string(error.what()).find("more units than the most"), std::string::npos)
-            << error.what();
+        EXPECT_TRUE(test::says(std::string(error.what()), "units most")) << error.what();
     }
 }
 

@@ -62,12 +62,6 @@ class RigTest : public LabTest {
         load_scene(other, save_scene(workspace));
         return other;
     }
-    /// Refused; the message says all of these.
-    void expect_refused(const char* command, const Json& arguments, std::vector<std::string> says) {
-        const std::string message = refused(command, arguments);
-        for (const std::string& each : says)
-            EXPECT_NE(message.find(each), std::string::npos) << message << "\n  does not say " << each;
-    }
 };
 
 }  // namespace tendril::app

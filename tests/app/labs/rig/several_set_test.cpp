@@ -2,6 +2,7 @@
 // all.
 #include "app/labs/rig/definition_json.hpp"
 #include "several_support.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -94,7 +95,7 @@ TEST_F(SeveralSet, AParentThatStandsAfterItsChildIsSetBeforeIt) {
 TEST_F(SeveralSet, ParentsAreRemovedTogetherWithTheirChildren) {
     controls_and_bones();
     select({"a", "b"});
-    EXPECT_NE(refused("rig.remove_selected").find("\"b\" is the parent of \"c\""), std::string::npos);
+    EXPECT_TRUE(test::says(refused("rig.remove_selected"), "b parent c"));
     select({"c", "a", "left", "b"});
     const std::size_t before = steps();
     run("rig.remove_selected");
@@ -107,8 +108,7 @@ TEST_F(SeveralSet, ParentsAreRemovedTogetherWithTheirChildren) {
     EXPECT_EQ(selected(), (Names{"left", "a", "b", "c"})) << "as it was";
     unit({{"unit", "offset_transform"}, {"name", "lift"}, {"item", "c"}});
     select({"right", "c", "knob"});
-    EXPECT_NE(refused("rig.remove_selected").find("unit \"lift\" needs \"c\" as its item"),
-              std::string::npos);
+    EXPECT_TRUE(test::says(refused("rig.remove_selected"), "unit lift c item"));
     run("rig.element.remove", {{"names", {"right", "knob"}}});
     EXPECT_EQ(selected(), Names{"c"});
 }

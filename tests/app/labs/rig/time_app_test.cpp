@@ -1,6 +1,7 @@
 // Time in the Rig lab of the running program: the strip below the scene, and long work in small shares.
 #include "app/labs/rig/rig_lab.hpp"
 #include "tests/app/e2e/monkey.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -60,7 +61,8 @@ void click(App& app, glm::vec2 at) {
     send(app, MousePress{MouseButton::Left, false});
     app.tick(nullptr);
 }
-constexpr glm::vec2 replay{297.0f, 664.0f}, other_strip{338.0f, 664.0f}, back{378.0f, 664.0f}, on{411.0f, 664.0f};
+constexpr glm::vec2 replay{297.0f, 664.0f}, other_strip{338.0f, 664.0f}, back{378.0f, 664.0f},
+    on{411.0f, 664.0f};
 
 TEST_F(RigTimeApp, ReplayShowsItAgainAndTheStripKeepsStill) {
     walking_head(app_);
@@ -108,7 +110,7 @@ TEST_F(RigTimeApp, AMarkIsClicked) {
     ASSERT_EQ(incidents.size(), 2u) << "it leaves its minimum, and comes to its maximum";
     click(app_, {left + (right - left) * 0.02f / 10.0f, y - 4.0f});
     ASSERT_TRUE(app_.workspace().ui.incident);
-    EXPECT_EQ(app_.workspace().ui.incident->cause, "control dial left its limit: its minimum is 0.00");
+    EXPECT_TRUE(test::says(app_.workspace().ui.incident->cause, "dial left minimum 0.00"));
     EXPECT_NEAR(std::get<double>(part_of(app_).state.controls[0]), 0.0, 0.03);
     scrub(app_, {1.0f, 0.5f});
     EXPECT_FALSE(app_.workspace().ui.incident) << "one looks elsewhere";
