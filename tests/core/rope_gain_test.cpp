@@ -132,13 +132,11 @@ TEST(RopeGain, NothingGainsEnergyByWhatItMeets) {
     for (int seed = 1; seed <= scenes; ++seed) {
         Random random(static_cast<std::uint64_t>(seed));
         World world = some_world(random, more != nullptr);
-        const Solver solver = world.settings().solver;
         // Lengths that are kept to a part of a percent hold so much of the weight of a metre.
-        const double part = gained(world, 1.5) / weight(world),
-                     allowed = solver == Solver::Xpbd ? 0.06 : 2.5e-3;
-        EXPECT_LE(part, allowed) << seed << ": " << name(solver) << ", " << world.size()
-                                 << " particles, substep " << world.settings().substep;
-        worst = std::max(worst, solver == Solver::Xpbd ? 0.0 : part);
+        const double part = gained(world, 1.5) / weight(world);
+        EXPECT_LE(part, 2.5e-3) << seed << ": " << name(world.settings().solver) << ", " << world.size()
+                                << " particles, substep " << world.settings().substep;
+        worst = std::max(worst, part);
     }
     RecordProperty("worst", std::to_string(worst));
     if (more != nullptr) std::printf("worst: %.2g of the weight times a metre\n", worst);

@@ -36,6 +36,13 @@ double slower(double kinetic, double since, double gained) {
     return std::clamp(s, most, 1.0);
 }
 
+/// Whether a link without compliance is off its length by enough to hold energy that nothing counts.
+bool strains(const Link& link, const dvec3& along) {
+    constexpr double counted = 1e-3;  // of its length
+    const double rest = link.rest;
+    return link.kind == Link::Kind::Stretch && std::abs(detail::length(along) - rest) > counted * rest;
+}
+
 }  // namespace
 
 void Substep::Ledger::add_particle(std::size_t i) {
@@ -63,10 +70,13 @@ void Substep::Ledger::add_link(std::uint32_t number) {
     const Link& link = state.links[number];
     length_ += link.rest;
     const double compliance = detail::compliance(state.settings, link);
-    if (compliance == 0.0) return;
-    const double tension = it_.scratch_.multiplier[number] / (it_.h_ * it_.h_);
-    const dvec3 now = it_.scratch_.place[link.b] - it_.scratch_.place[link.a];
     const dvec3 then = state.position[link.b] - state.position[link.a];
+    if (compliance == 0.0) {
+        strained_ = strained_ || strains(link, then);
+        return;
+    }
+    const dvec3 now = it_.scratch_.place[link.b] - it_.scratch_.place[link.a];
+    const double tension = it_.scratch_.multiplier[number] / (it_.h_ * it_.h_);
     const double half = detail::elastic_energy(link, compliance, tension, now, now - then);
     gained_ += half - detail::elastic_energy(link, compliance, link.tension, then,
                                              state.displacement[link.b] - state.displacement[link.a]);
@@ -140,12 +150,11 @@ Substep::Ledger Substep::ledger_of_all() const {
     return ledger;
 }
 
-/// Reports what a body lost and limits what it gained. Relaxation and XPBD hold stretch that no energy
-/// counts, so with a limit in every substep a taut rope would sag.
+/// Reports what a body lost and limits what it gained.
 Substep::Slowed Substep::balance(const Ledger& ledger) {
     report_.contact_loss += ledger.contact_loss();
     if (ledger.suspended()) ++report_.suspended;
-    return state_.settings.solver == Solver::Direct || ledger.struck() ? ledger.slowed() : Slowed{};
+    return state_.settings.solver == Solver::Direct || ledger.limits_relaxed() ? ledger.slowed() : Slowed{};
 }
 
 void Substep::balance_energy() {

@@ -119,7 +119,11 @@ class Substep::Ledger {
     Slowed slowed() const;
     /// Joules that contact took. The work of colliders that move cannot be told from it.
     double contact_loss() const;
-    bool struck() const { return near_ == Scratch::Nearest::Struck; }
+    /// Of relaxation and XPBD, which can hold stretch that no energy counts: with a limit in every substep a
+    /// taut rope would sag.
+    bool limits_relaxed() const {
+        return near_ == Scratch::Nearest::Struck || (near_ != Scratch::Nearest::None && !strained_);
+    }
     /// Nothing holds or touches it, and it does not fall freely.
     bool suspended() const;
 
@@ -130,7 +134,7 @@ class Substep::Ledger {
     glm::dvec3 momentum_{0.0};              ///< times the substep
     glm::dvec3 pushed_{0.0};                ///< by what is not gravity: momentum, times the substep
     double fallen_ = 0.0, released_ = 0.0;  ///< by gravity and by links, since halfway
-    bool worked_on_, pinned_ = false;
+    bool worked_on_, pinned_ = false, strained_ = false;
 };
 
 }  // namespace tendril::rope

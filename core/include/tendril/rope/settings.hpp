@@ -24,7 +24,8 @@
 //
 // Direct adds no energy: a body that gained some in a substep is slowed down until the gain is gone, in its
 // relative motion first, so that it keeps falling freely. Only moving colliders and pins do work. Relaxation
-// and Xpbd mostly lose energy; what they gain in contact is not bounded.
+// and Xpbd keep this bound beside a collider that strikes them, or while their links hold their lengths to
+// 0.1 %; links that are off by more hold energy that nothing counts.
 #pragma once
 
 #include <cstddef>
