@@ -91,9 +91,7 @@ void App::start_recording(bool live) {
         workspace_.document.set(workspace_.lab, part->load(part->save(), workspace_.lab));
         if (!modified) workspace_.saved = workspace_.document;
     }
-    workspace_.rewind.clear();
-    workspace_.moment = 0;
-    workspace_.ui.incident.reset();
+    workspace_.forget_pasts();
     recorder_.emplace(RecordingStart{.version = version_string,
                                      .size = size_,
                                      .lab = workspace_.lab,

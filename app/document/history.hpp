@@ -18,11 +18,17 @@ namespace tendril::app {
 /// Commands of one drag share a gesture and so one undo entry; 0 is a gesture of its own.
 using Gesture = std::uint64_t;
 
+/// A moment among the last ten seconds of a lab.
+struct MomentId {
+    std::uint64_t tick = 0, edition = 0;
+};
+
 /// Where a change is to be seen: its lab, and what else of these the change moved.
 struct Place {
-    std::string lab;
-    std::optional<std::filesystem::path> path;  ///< the scene's file
-    std::optional<CameraPose> camera;           ///< of the lab
+    std::string lab{};
+    std::optional<std::filesystem::path> path{};  ///< the scene's file
+    std::optional<CameraPose> camera{};           ///< of the lab
+    std::optional<MomentId> moment{};             ///< of a change that went through time
 };
 
 class History {

@@ -68,6 +68,14 @@ const Rewind::Moment& Rewind::at(std::uint64_t ticks_back) const {
     return after->tick - wanted <= wanted - before->tick ? *after : *before;
 }
 
+const Rewind::Moment* Rewind::find(const MomentId& id) const {
+    const auto found =
+        std::lower_bound(moments_.begin(), moments_.end(), id.tick,
+                         [](const Moment& moment, std::uint64_t tick) { return moment.tick < tick; });
+    const bool same = found != moments_.end() && found->tick == id.tick && found->edition == id.edition;
+    return same ? &*found : nullptr;
+}
+
 /// Keeps within the bound by looking away every other time, and looks more closely again once there is room.
 void Rewind::thin() {
     if (stride_ > 1 && 4 * bytes_ < max_bytes_) stride_ /= 2;

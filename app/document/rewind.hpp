@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "app/document/document.hpp"
+#include "app/document/history.hpp"
 #include "app/document/incident.hpp"
 
 namespace tendril::app {
@@ -52,6 +53,8 @@ class Rewind {
     std::uint64_t newest() const { return moments_.back().tick; }
     /// The moment nearest to so many ticks before the newest.
     const Moment& at(std::uint64_t ticks_back) const;
+    /// Null if that moment is not remembered, or was of another course of events.
+    const Moment* find(const MomentId& id) const;
 
     /// By tick.
     const std::deque<Moment>& moments() const { return moments_; }

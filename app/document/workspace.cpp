@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/document/text.hpp"
 
@@ -15,11 +16,15 @@ int Clock::whole_ticks() const {
 
 void Workspace::open_lab(const std::string& name) {
     if (name == lab) return;
+    pass_change();
     cameras[lab] = camera;
+    pasts[lab] = {std::move(rewind), moment};
     lab = name;
+    auto [rewound, at] = std::exchange(pasts[name], Past());
+    rewind = std::move(rewound);
+    moment = at;
     const auto seen = cameras.find(name);
     camera = seen != cameras.end() ? seen->second : first_view_of(name);
-    rewind.clear();
     ui.incident.reset();
     clock.replaying = false;
 }
@@ -28,11 +33,16 @@ void Workspace::start_anew() {
     ++beginnings;
     clock.replaying = false;
     clock.tick = 0;
-    moment = 0;
     clock.passed = 0.0;
-    rewind.clear();
-    ui.incident.reset();
+    forget_pasts();
     cameras.clear();
+}
+
+void Workspace::forget_pasts() {
+    moment = 0;
+    rewind.clear();
+    pasts.clear();
+    ui.incident.reset();
 }
 
 void Workspace::pass_change() {
@@ -58,7 +68,10 @@ void Workspace::go_to_moment(std::uint64_t ticks_back) {
     if (edition == newest.edition && then.edition != newest.edition) {
         Document before;
         before.set(lab, newest.part);
-        if (!history.leads_to(before)) history.push(before, "time.seek", 0, place(), place());
+        Place from = place(), to = place();
+        from.moment = MomentId{newest.tick, newest.edition};
+        to.moment = MomentId{then.tick, then.edition};
+        if (!history.leads_to(before)) history.push(before, "time.seek", 0, from, to);
     } else if (then.edition == newest.edition) {
         // Back where one came from, there is nothing to undo of it.
         Document here;

@@ -97,11 +97,16 @@ struct Workspace {
     CameraPose camera;
     std::map<std::string, CameraPose> cameras;  ///< of the labs that were open before
     Clock clock;
-    Rewind rewind;
+    Rewind rewind;                 ///< of the open lab
     std::uint64_t beginnings = 0;  ///< counts the scenes that began: new ones, and those that were opened
     std::uint64_t moment =
         0;  ///< counts what rewind remembers: ticks that were simulated, and changes by hand
-    std::uint64_t edition = 0;  ///< which of the changes that can be undone was the last; counted
+    struct Past {
+        Rewind rewind;
+        std::uint64_t moment = 0;
+    };
+    std::map<std::string, Past> pasts;  ///< of the labs that were open before
+    std::uint64_t edition = 0;          ///< which of the changes that can be undone was the last; counted
     History history;
     bool gesture_begins = true;  ///< the command that runs is alone, or the first of its drag
     Settings settings;
@@ -116,6 +121,8 @@ struct Workspace {
     const CameraPose& first_view_of(const std::string& name) const;
     /// Time and cameras as they are for a scene that has just begun.
     void start_anew();
+    /// No lab remembers its last ten seconds.
+    void forget_pasts();
     /// Keeps the open lab's part as it is now, for time.seek.
     void remember_moment() { rewind.remember(moment, edition, document.parts().at(lab), clock.tick); }
     /// The open lab was changed by hand, and no tick was simulated: a moment passes all the same.
@@ -123,6 +130,7 @@ struct Workspace {
     /// Goes back (or forward again) to the moment that is remembered nearest, and pauses. To go back over a
     /// change is a change itself: undoing it leads to where one came from.
     void go_to_moment(std::uint64_t ticks_back);
+    MomentId moment_id() const { return {moment, edition}; }
     /// The open lab's part just before an incident and just after it, as far as they are remembered.
     struct BeforeAndAfter {
         std::shared_ptr<const Part> before, after;

@@ -8,12 +8,15 @@ namespace {
 
 void step_through(Workspace& workspace, bool back) {
     Place place = workspace.place();
-    const bool present = !workspace.rewind.empty() && workspace.moment > workspace.rewind.newest();
+    place.moment = workspace.moment_id();
     auto document = back ? workspace.history.undo(workspace.document, &place)
                          : workspace.history.redo(workspace.document, &place);
     if (!document) throw Refused(back ? "nothing to undo" : "nothing to redo");
-    if (present) {  // how it was stays remembered
-        workspace.remember_moment();
+    // One sees what was undone.
+    if (!place.lab.empty()) workspace.open_lab(place.lab);
+    Rewind& rewind = workspace.rewind;
+    if (!rewind.empty() && workspace.moment >= rewind.newest()) {  // how it was stays remembered
+        if (workspace.moment > rewind.newest()) workspace.remember_moment();
         ++workspace.moment;
     }
     workspace.clock.replaying = false;
@@ -23,15 +26,12 @@ void step_through(Workspace& workspace, bool back) {
     for (const auto& [lab, part] : parts) {
         if (auto instead = part->brought_back()) workspace.document.set(lab, std::move(instead));
     }
-    // One sees what was undone.
     if (place.path) workspace.path = *place.path;
-    if (!place.lab.empty()) workspace.open_lab(place.lab);
     if (place.camera) workspace.camera = *place.camera;
-    Rewind& rewind = workspace.rewind;
-    if (!rewind.empty() && rewind.at(0).part == workspace.document.parts().at(workspace.lab)) {
-        workspace.moment = rewind.newest();  // to where one went back in time from
-        workspace.clock.tick = rewind.at(0).clock;
-        workspace.edition = rewind.at(0).edition;
+    if (const Rewind::Moment* then = place.moment ? rewind.find(*place.moment) : nullptr) {
+        workspace.moment = then->tick;
+        workspace.clock.tick = then->clock;
+        workspace.edition = then->edition;
     } else {
         rewind.forget_from(workspace.moment);
         ++workspace.edition;

@@ -175,6 +175,30 @@ TEST_F(Seek, AnEditForgetsWhatCameAfterAndUndoNothing) {
     }
 }
 
+TEST_F(Seek, EachLabKeepsItsOwnLastSeconds) {
+    play(50);
+    const std::string lab = workspace.lab;
+    table.run(workspace, "lab.open", {{"name", "rope"}});
+    EXPECT_TRUE(workspace.rewind.empty());
+    table.run(workspace, "lab.open", {{"name", lab}});
+    EXPECT_EQ(seek(10), "40");
+    play(1);
+    EXPECT_EQ(seek(1), "40") << "time goes on from there";
+}
+
+TEST_F(Seek, RedoGoesBackInTimeAgain) {
+    play(50);
+    table.run(workspace, "arm.title", {{"title", "edited"}});
+    play(50);
+    EXPECT_EQ(seek(60), "40");
+    const auto there = workspace.moment;
+    for (const char* command : {"undo", "undo", "redo", "redo"})
+        table.run(workspace, command, Json::object());
+    EXPECT_EQ(title(), "40");
+    EXPECT_EQ(workspace.moment, there);
+    EXPECT_LT(workspace.moment, workspace.rewind.newest()) << "what came after it is still remembered";
+}
+
 TEST(Rewind, IncidentsGoWithTheMomentsTheyBelongTo) {
     Rewind rewind;
     remember(rewind, 0, 10);
