@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "app/document/json_complete.hpp"
-#include "app/labs/kit/json_place.hpp"
+#include "app/document/json_place.hpp"
 #include "app/view/assets.hpp"
 
 namespace tendril::app {

@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "app/document/json.hpp"
+#include "app/document/names.hpp"
 #include "app/io/solver_text.hpp"
-#include "app/labs/kit/names.hpp"
 
 namespace tendril::ik {
 struct Options;

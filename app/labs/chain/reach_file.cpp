@@ -2,9 +2,9 @@
 #include <algorithm>
 
 #include "app/document/json_complete.hpp"
+#include "app/document/json_place.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/chain/chain_part.hpp"
-#include "app/labs/kit/json_place.hpp"
 
 namespace tendril::app {
 namespace {

@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "app/document/json_complete.hpp"
+#include "app/document/json_place.hpp"
 #include "app/labs/chain/chain_part.hpp"
-#include "app/labs/kit/json_place.hpp"
 #include "app/labs/kit/require.hpp"
 
 namespace tendril::app {

@@ -3,10 +3,10 @@
 #include <filesystem>
 
 #include "app/document/json_complete.hpp"
+#include "app/document/json_place.hpp"
 #include "app/labs/humanoid/clip/clip_lint.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/node_selection.hpp"
-#include "app/labs/kit/json_place.hpp"
 
 namespace tendril::app {
 namespace {

@@ -7,13 +7,13 @@
 #include <string>
 
 #include "app/document/document.hpp"
+#include "app/document/names.hpp"
 #include "app/document/workspace.hpp"
 #include "app/labs/humanoid/attachments/attachments.hpp"
 #include "app/labs/humanoid/clip/playback.hpp"
 #include "app/labs/humanoid/ik/ik_settings.hpp"
 #include "app/labs/humanoid/springs/springs.hpp"
 #include "app/labs/kit/flip_rule.hpp"
-#include "app/labs/kit/names.hpp"
 #include "app/labs/kit/selection.hpp"
 
 namespace tendril::app {

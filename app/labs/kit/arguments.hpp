@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/document/argument.hpp"
-#include "app/labs/kit/names.hpp"
+#include "app/document/names.hpp"
 
 namespace tendril::app {
 

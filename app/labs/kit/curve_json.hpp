@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/document/json.hpp"
-#include "app/labs/kit/json_place.hpp"
+#include "app/document/json_place.hpp"
 
 namespace tendril::app {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "app/document/argument.hpp"
-#include "app/labs/kit/json_place.hpp"
+#include "app/document/json_place.hpp"
 #include "app/widgets/emit.hpp"
 
 namespace tendril::app {

@@ -8,8 +8,8 @@
 #include <tendril/magnitude.hpp>
 
 #include "app/document/json_complete.hpp"
+#include "app/document/json_place.hpp"
 #include "app/document/workspace.hpp"
-#include "app/labs/kit/json_place.hpp"
 
 namespace tendril::app {
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "app/document/json.hpp"
-#include "app/labs/kit/names.hpp"
+#include "app/document/names.hpp"
 
 namespace tendril::app {
 

@@ -5,7 +5,8 @@
 #include <iterator>
 
 #include "app/document/json_complete.hpp"
-#include "app/labs/kit/json_place.hpp"
+#include "app/document/json_place.hpp"
+#include "app/fields/fields.hpp"
 
 namespace tendril::app {
 namespace {
@@ -166,38 +167,10 @@ rope::Collider load_collider(const JsonPlace& place) {
     return collider;
 }
 
-rope::Settings load_settings(const JsonPlace& place) {
-    rope::Settings settings;
-    settings.substep = place["substep"].real();
-    settings.iterations = place["iterations"].integer(1, rope::max_iterations);
-    settings.solver = rope_solvers.value(place["solver"].text());
-    settings.damping = place["damping"].number();
-    settings.gravity = place["gravity"].point();
-    settings.gravity_scale = place["gravity_scale"].number();
-    settings.external = place["external"].point();
-    settings.compliance = place["compliance"].number();
-    settings.friction = place["friction"].number();
-    settings.longest_frame = place["longest_frame"].number();
-    return settings;
-}
-
 }  // namespace
 
 const char* body_kind_name(rope::Body::Kind kind) {
     return body_kinds[static_cast<std::size_t>(kind)];
-}
-
-Json save_settings(const rope::Settings& settings) {
-    return Json{{"substep", settings.substep},
-                {"iterations", settings.iterations},
-                {"solver", rope_solvers.name(settings.solver)},
-                {"damping", number(settings.damping)},
-                {"gravity", point(settings.gravity)},
-                {"gravity_scale", number(settings.gravity_scale)},
-                {"external", point(settings.external)},
-                {"compliance", number(settings.compliance)},
-                {"friction", number(settings.friction)},
-                {"longest_frame", number(settings.longest_frame)}};
 }
 
 Json save_shape(const rope::Shape& shape) {
@@ -231,7 +204,7 @@ Json save_world(const NamedWorld& world) {
     for (const rope::Pin& pin : state.pins) pins.push_back(save_pin(world, pin));
     for (const rope::Collider& collider : state.colliders)
         colliders.push_back(save_collider(collider, world.name(collider)));
-    return Json{{"settings", save_settings(state.settings)},
+    return Json{{"settings", save_fields(state.settings)},
                 {"remainder", state.remainder},
                 {"moved_in", state.displaced_in},
                 {"substeps", state.substeps},
@@ -252,7 +225,7 @@ NamedWorld load_world(const JsonPlace& place) {
     place["particles"].for_each("particles", max_lab_particles,
                                 [&](const JsonPlace& row) { load_particle(state, row); });
     const std::size_t size = state.position.size();
-    state.settings = load_settings(place["settings"]);
+    load_fields(place["settings"], state.settings);
     state.remainder = place["remainder"].real(0.0, 10.0);
     state.displaced_in = place["moved_in"].real(0.0, 10.0);
     state.substeps = place["substeps"].count(most);

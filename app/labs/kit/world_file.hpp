@@ -16,7 +16,6 @@ Json save_world(const NamedWorld& world);
 /// not fit together.
 NamedWorld load_world(const JsonPlace& place);
 
-Json save_settings(const rope::Settings& settings);
 /// {"kind": "sphere", "centre": ..., "radius": ...}
 Json save_shape(const rope::Shape& shape);
 

@@ -7,7 +7,7 @@
 // frame in one list; a scale of 1 is left out.
 #pragma once
 
-#include "app/labs/kit/json_place.hpp"
+#include "app/document/json_place.hpp"
 #include "app/labs/rig/rig_part.hpp"
 
 namespace tendril::app {

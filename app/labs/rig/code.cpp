@@ -1,8 +1,8 @@
 #include "app/labs/rig/code.hpp"
 
 #include "app/document/json_complete.hpp"
+#include "app/document/json_place.hpp"
 #include "app/labs/kit/code_text.hpp"
-#include "app/labs/kit/json_place.hpp"
 #include "app/labs/rig/unit_code.hpp"
 #include "app/labs/rig/value_json.hpp"
 

@@ -4,7 +4,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "app/labs/kit/names.hpp"
+#include "app/document/names.hpp"
 
 namespace tendril::app {
 namespace {

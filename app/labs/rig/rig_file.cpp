@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "app/document/json_complete.hpp"
-#include "app/labs/kit/json_place.hpp"
+#include "app/document/json_place.hpp"
 #include "app/labs/rig/definition_json.hpp"
 #include "app/labs/rig/rig_edit.hpp"
 #include "app/labs/rig/rig_part.hpp"

@@ -4,11 +4,11 @@
 #include <tendril/rig/backward.hpp>
 
 #include "app/document/json_complete.hpp"
+#include "app/document/names.hpp"
 #include "app/document/refused.hpp"
 #include "app/document/units.hpp"
 #include "app/labs/kit/index_list.hpp"
 #include "app/labs/kit/name_list.hpp"
-#include "app/labs/kit/names.hpp"
 #include "app/labs/kit/part_command.hpp"
 #include "app/labs/rig/code.hpp"
 #include "app/labs/rig/presets.hpp"

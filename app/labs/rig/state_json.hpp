@@ -4,7 +4,7 @@
 
 #include <tendril/rig/rig.hpp>
 
-#include "app/labs/kit/json_place.hpp"
+#include "app/document/json_place.hpp"
 
 namespace tendril::app {
 

@@ -1,7 +1,7 @@
 // Time in a scene file: walks, the take, the clip and what a backward solve left of it, the frame rates.
 #pragma once
 
-#include "app/labs/kit/json_place.hpp"
+#include "app/document/json_place.hpp"
 #include "app/labs/rig/rig_part.hpp"
 
 namespace tendril::app {

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/fields/field_rows.hpp"
 #include "app/labs/kit/folding.hpp"
 #include "app/labs/kit/past_strip.hpp"
 #include "app/labs/kit/preset_rows.hpp"
@@ -45,56 +46,23 @@ void tool_rows(const RopePart& part, Emit& emit) {
                                     : "Drag any particle of a rope, and any collider.");
 }
 
-/// A row of rope.settings.
-void setting(const char* name, const char* key, float value, float speed, float low, float high,
-             const char* format, const char* help, Emit& emit) {
-    if (number_field(name, value, speed, low, high, format))
-        emit.continuously("rope.settings", {{key, value}});
-    explain(help);
+FieldRows settings_rows(const RopePart& part, Emit& emit) {
+    return FieldRows(part.world->settings(), "rope.settings", emit);
 }
 
 void solver_rows(const RopePart& part, Emit& emit) {
     const rope::Settings& now = part.world->settings();
-    for (const rope::Solver solver : {rope::Solver::Direct, rope::Solver::Xpbd, rope::Solver::Relaxation}) {
-        if (option_button(rope_solvers.title(solver), now.solver == solver, rope_solvers.help(solver)))
-            emit("rope.settings", {{"solver", rope_solvers.name(solver)}});
-    }
+    const FieldRows settings = settings_rows(part, emit);
+    settings.row("solver");
     note(rope_solvers.help(now.solver));
-    int iterations = now.iterations;
-    if (integer_field("iterations", iterations, 1, 1000))
-        emit.continuously("rope.settings", {{"iterations", iterations}});
-    explain(now.solver == rope::Solver::Direct
-                ? "The maximum of passes in a substep. Direct ends as soon as it has converged."
-                : "Passes over all segments in a substep. More of them stretch a rope less, and cost more.");
+    settings.row("iterations");
     float per_second = static_cast<float>(1.0 / now.substep);
     if (number_field("substeps", per_second, 2.0f, 10.0f, 10000.0f, "%.0f /s"))
         emit.continuously("rope.settings", {{"substep", 1.0f / std::max(per_second, 1e-9f)}});
     explain(
         "Into how many equal steps a second of the simulation is cut. More of them follow fast motion better "
         "and cost more.");
-    if (now.solver != rope::Solver::Relaxation)
-        setting("compliance", "compliance", now.compliance, 1e-5f, 0.0f, 1.0f, "%.5f /N",
-                "How elastic ropes are: by which part of its length a rope grows under a newton. 0 does not "
-                "stretch.",
-                emit);
-}
-
-void world_rows(const RopePart& part, Emit& emit) {
-    const rope::Settings& now = part.world->settings();
-    setting("damping", "damping", now.damping, 0.01f, 0.0f, 100.0f, "%.2f /s",
-            "How fast motion dies away. Raise it where ropes swing for too long.", emit);
-    setting("friction", "friction", now.friction, 0.01f, 0.0f, 10.0f, "%.2f",
-            "Coulomb's coefficient between ropes and colliders. At 0 ropes slide off; more holds them.",
-            emit);
-    glm::vec3 gravity = now.gravity, wind = now.external;
-    constexpr const char* unit = "%.2f m/s\xC2\xB2";
-    constexpr float most = rope::max_acceleration;
-    if (point_field("gravity", gravity, 0.05f, most, unit))
-        emit.continuously("rope.settings", {{"gravity", gravity}});
-    explain("The acceleration by weight, along each axis; Y points up. On Earth it is 0, -9.81, 0.");
-    if (point_field("wind", wind, 0.05f, most, unit))
-        emit.continuously("rope.settings", {{"external", wind}});
-    explain("A steady acceleration of everything that moves, beside gravity.");
+    if (now.solver != rope::Solver::Relaxation) settings.row("compliance");
 }
 
 void time_rows(const Workspace& workspace, Emit& emit) {
@@ -103,13 +71,7 @@ void time_rows(const Workspace& workspace, Emit& emit) {
     if (number_field("speed", percent, 0.5f, 5.0f, 200.0f, "%.0f %%"))
         emit.continuously("time.speed", {{"factor", percent / 100.0f}});
     explain("How fast time passes in the lab. Under 100 % is slow motion.");
-    float longest = 1000.0f * part.world->settings().longest_frame;
-    if (number_field("longest frame", longest, 1.0f, 1.0f, 1000.0f, "%.0f ms"))
-        emit.continuously("rope.settings", {{"longest_frame", longest / 1000.0f}});
-    explain(
-        "How much time a frame simulates at most; what is over is dropped. So a frame that took long does "
-        "not "
-        "make the next one take longer.");
+    settings_rows(part, emit).row("longest_frame");
     float dial = 100.0f * part.jitter.dial;
     if (number_field("frame-time jitter", dial, 0.5f, 0.0f, 100.0f, "%.0f %%"))
         emit.continuously("rope.jitter", {{"dial", dial / 100.0f}});
@@ -145,7 +107,8 @@ void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
     if (open("Click action")) tool_rows(part, emit);
     if (open("Add")) adding_rows(workspace, emit);
     if (open("Solver")) solver_rows(part, emit);
-    if (open("World")) world_rows(part, emit);
+    if (open("World"))
+        settings_rows(part, emit).rows("damping", "friction", "gravity", "gravity_scale", "external");
     if (open("Time")) time_rows(workspace, emit);
     if (open("Show")) view_rows(part, emit);
     if (open("Last ten seconds")) past_view_rows(workspace, rope_past(), past_help, emit);

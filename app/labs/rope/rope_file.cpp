@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "app/document/json_complete.hpp"
-#include "app/labs/kit/json_place.hpp"
+#include "app/document/json_place.hpp"
 #include "app/labs/kit/world_file.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_names.hpp"

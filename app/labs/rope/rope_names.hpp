@@ -3,8 +3,9 @@
 
 #include <string>
 
+#include "app/document/names.hpp"
+#include "app/fields/fields.hpp"
 #include "app/labs/kit/motion.hpp"
-#include "app/labs/kit/names.hpp"
 #include "app/labs/rope/rope_part.hpp"
 
 namespace tendril::app {
@@ -16,3 +17,6 @@ inline constexpr EnumNames<RopeTool, 3> rope_tools{
     "tool", {{"move", "Select"}, {"pin", "Pin or unpin"}, {"cut", "Cut"}}};
 
 }  // namespace tendril::app
+
+template <>
+std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::rope::Settings>();

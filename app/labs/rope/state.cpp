@@ -1,5 +1,6 @@
 // What --state writes of the Rope lab.
 #include "app/document/json_complete.hpp"
+#include "app/fields/fields.hpp"
 #include "app/labs/kit/world_file.hpp"
 #include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/panels.hpp"
@@ -84,7 +85,7 @@ Json RopeLab::state(const Workspace& workspace) const {
                 {"colliders", std::move(colliders)},
                 {"substeps", now.substeps},
                 {"substeps_dropped", now.dropped},
-                {"settings", save_settings(now.settings)},
+                {"settings", save_fields(now.settings)},
                 {"seconds", part.time},
                 {"speed", number(workspace.clock.speed)},
                 {"tool", rope_tools.name(part.tool)},

@@ -35,20 +35,9 @@ void take_scene(Workspace& workspace, const Arguments& given) {
 
 void settings(RopeEdit& edit, const Arguments& given) {
     rope::Settings wanted = edit.seen().settings();
-    // The shortest decimals of a float are what was meant: 0.1 is no 0.10000000149.
-    if (given.has("substep")) wanted.substep = shortest_decimal(given.number("substep"));
-    if (given.has("iterations")) wanted.iterations = given.integer("iterations");
-    if (given.has("solver")) wanted.solver = rope_solvers.value(given.text("solver"));
-    if (given.has("damping")) wanted.damping = given.number("damping");
-    if (given.has("gravity")) {
-        wanted.gravity =
-            given.is_point("gravity") ? given.point("gravity") : glm::vec3(0, -given.number("gravity"), 0);
-    }
-    if (given.has("gravity_scale")) wanted.gravity_scale = given.number("gravity_scale");
-    if (given.has("external")) wanted.external = given.point("external");
-    if (given.has("compliance")) wanted.compliance = given.number("compliance");
-    if (given.has("friction")) wanted.friction = given.number("friction");
-    if (given.has("longest_frame")) wanted.longest_frame = given.number("longest_frame");
+    const bool downwards = given.has("gravity") && !given.is_point("gravity");
+    if (downwards) wanted.gravity = glm::vec3(0, -given.number("gravity"), 0);
+    set_fields(given, wanted, downwards ? "gravity" : "");
     if (wanted != edit.seen().settings()) edit.world().set_settings(wanted);
 }
 
@@ -58,26 +47,60 @@ void set_jitter(RopeEdit& edit, const Arguments& given) {
 }
 
 std::vector<Argument> settings_arguments() {
-    return {
-        number_argument("substep", "seconds", rope::min_substep, rope::max_substep),
-        integer_argument("iterations", "passes in a substep", 1, rope::max_iterations),
-        choice_argument("solver", false, "how lengths are kept", rope_solvers.names()),
-        number_argument("damping", "1/s", 0.0, rope::max_rate),
-        {.name = "gravity",
-         .type = ArgumentType::NumberOrPoint,
-         .required = false,
-         .help = "m/s^2: downwards, or [x, y, z]",
-         .low = -rope::max_acceleration,
-         .high = rope::max_acceleration},
-        number_argument("gravity_scale", "factor on gravity", -rope::max_scale, rope::max_scale),
-        point_argument("external", false, "m/s^2 in addition to gravity: a wind"),
-        number_argument("compliance", "strain per newton; relaxation ignores it", 0.0, rope::max_compliance),
-        number_argument("friction", "between ropes and colliders", 0.0, rope::max_friction),
-        number_argument("longest_frame", "seconds, the most that a frame simulates; the rest is dropped",
-                        0.001, 10.0)};
+    std::vector<Argument> arguments = field_arguments<rope::Settings>();
+    for (Argument& argument : arguments)
+        if (argument.name == "gravity") argument.type = ArgumentType::NumberOrPoint;
+    return arguments;
 }
 
 }  // namespace
+
+template <>
+std::span<const FieldText> field_texts<rope::Settings>() {
+    static const FieldText texts[] = {
+        {.name = "substep",
+         .label = "substep",
+         .help = "The length of the equal steps into which the simulation is cut. Shorter ones follow fast "
+                 "motion better and cost more.",
+         .decimals = 5},
+        {.name = "iterations",
+         .label = "iterations",
+         .help = "The maximum of passes in a substep. Direct ends as soon as it has converged; with the "
+                 "others more passes stretch a rope less and cost more."},
+        {.name = "solver", .label = "solver", .help = "How lengths are kept", .choices = rope_solvers.rows},
+        {.name = "damping",
+         .label = "damping",
+         .help = "How fast motion dies away. Raise it where ropes swing for too long."},
+        {.name = "gravity",
+         .label = "gravity",
+         .help = "The acceleration by weight, along each axis, or downwards; Y points up. On Earth it is "
+                 "0, -9.81, 0.",
+         .step = 0.05f},
+        {.name = "gravity_scale", .label = "gravity scale", .help = "A factor on gravity."},
+        {.name = "external",
+         .label = "wind",
+         .help = "A steady acceleration of everything that moves, beside gravity.",
+         .step = 0.05f},
+        {.name = "compliance",
+         .label = "compliance",
+         .help = "How elastic ropes are: by which part of its length a rope grows under a newton. 0 does "
+                 "not stretch; relaxation ignores it.",
+         .step = 1e-5f,
+         .decimals = 5},
+        {.name = "friction",
+         .label = "friction",
+         .help = "Coulomb's coefficient between ropes and colliders. At 0 ropes slide off; more holds "
+                 "them."},
+        {.name = "longest_frame",
+         .label = "longest frame",
+         .help = "How much time a frame simulates at most; what is over is dropped, so that a slow frame "
+                 "does not make the next one slower.",
+         .step = 1.0f,
+         .decimals = 0,
+         .scale = 1000.0,
+         .unit = "ms"}};
+    return texts;
+}
 
 void add_world_commands(CommandTable& table) {
     table.add(rope_command("rope.clear", "Remove all ropes and colliders", {},

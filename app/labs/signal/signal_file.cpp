@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "app/document/json_complete.hpp"
-#include "app/labs/kit/json_place.hpp"
+#include "app/document/json_place.hpp"
 #include "app/labs/signal/filter_json.hpp"
 #include "app/labs/signal/signal_part.hpp"
 

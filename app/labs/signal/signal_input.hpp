@@ -7,7 +7,7 @@
 #include <tendril/signal/run.hpp>
 #include <vector>
 
-#include "app/labs/kit/names.hpp"
+#include "app/document/names.hpp"
 
 namespace tendril::app {
 

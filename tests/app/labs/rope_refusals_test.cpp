@@ -29,9 +29,6 @@ TEST_F(RopeRefusals, SayWhyInOneLine) {
         test::says(refused("rope.collider.remove", {{"name", "x"}}), "rope.collider.remove no collider x"));
     EXPECT_TRUE(test::says(refused("rope.collider.swing", {{"name", "x"}, {"by", right}}),
                            "rope.collider.swing no collider x"));
-    EXPECT_TRUE(test::says(refused("rope.settings", {{"solver", "magic"}}),
-                           "rope.settings solver relaxation xpbd direct magic"));
-    EXPECT_TRUE(test::says(refused("rope.settings", {{"substep", 0}}), "rope.settings substep 1e-05 0.1 0"));
     EXPECT_TRUE(test::says(refused("rope.settings", {{"gravity", "down"}}),
                            "rope.settings gravity number point down"));
     EXPECT_TRUE(test::says(refused("rope.jitter", {{"dial", 1.5}}), "rope.jitter dial 0 1 1.5"));

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "app/fields/field_rows.hpp"
 #include "app/labs/humanoid/panels.hpp"
 #include "app/labs/kit/folding.hpp"
 #include "app/widgets/fields.hpp"
@@ -14,24 +15,9 @@ using humanoid::GroundKind;
 
 void shape_rows(const HumanoidPanel& panel) {
     const GroundSetting& ground = panel.part.ik.ground;
-    const auto set = [&](const char* argument, float value) {
-        panel.emit.continuously("humanoid.ground", {{argument, value}});
-    };
-    if (ground.kind == GroundKind::Slope) {
-        auto angle = static_cast<float>(ground.angle_deg);
-        if (number_field("angle", angle, 0.1f, static_cast<float>(-steepest_deg),
-                         static_cast<float>(steepest_deg), "%.1f\xC2\xB0"))
-            set("angle_deg", angle);
-        explain("Of the slope, which rises along +Z from 0 on.");
-    }
-    if (ground.kind != GroundKind::Stairs) return;
-    auto height = static_cast<float>(100.0 * ground.step_height),
-         depth = static_cast<float>(100.0 * ground.step_depth);
-    if (number_field("step height", height, 0.1f, -200.0f, 200.0f, "%.1f cm"))
-        set("step_height", 0.01f * height);
-    explain("How high each stair rises above the one before; stairs go down where it is negative.");
-    if (number_field("step depth", depth, 0.1f, 5.0f, 1000.0f, "%.1f cm")) set("step_depth", 0.01f * depth);
-    explain("How long each stair is, along +Z.");
+    const FieldRows rows(ground, "humanoid.ground", panel.emit);
+    if (ground.kind == GroundKind::Slope) rows.row("angle_deg");
+    if (ground.kind == GroundKind::Stairs) rows.rows("step_height", "step_depth");
 }
 
 /// What each foot does, or why it is left alone.
@@ -63,26 +49,17 @@ void ground_rows(const HumanoidPanel& panel) {
         panel.emit("humanoid.ground", {{"kind", "mesh"}, {"path", path}});
     explain("A file whose triangles become the ground. Enter reads it.");
     shape_rows(panel);
-    bool on = ik.foot_ik.on;
+    const FootIkSetting& feet = ik.foot_ik;
+    const FieldRows rows(feet, "humanoid.foot_ik", panel.emit);
     const std::string& why = panel.runtime.solvers.why_no_feet(panel.part);
-    ImGui::BeginDisabled(!on && !why.empty());
-    if (ImGui::Checkbox("Foot IK", &on)) panel.emit("humanoid.foot_ik", {{"on", on}});
+    ImGui::BeginDisabled(!feet.on && !why.empty());
+    rows.row("on");
     ImGui::EndDisabled();
-    explain("Feet are planted on the ground and turned by it, knees bend, hips ride its height.");
     if (!why.empty()) return note("The feet are left alone: " + why + ".");
-    if (!ik.foot_ik.on) return;
-    auto angle = static_cast<float>(ik.foot_ik.max_angle_deg);
-    if (number_field("foot angle", angle, 0.1f, 0.0f, static_cast<float>(largest_foot_angle), "%.0f\xC2\xB0"))
-        panel.emit.continuously("humanoid.foot_ik", {{"max_angle_deg", angle}});
-    explain("The ground turns a foot by at most this.");
-    auto enter = static_cast<float>(ik.foot_ik.enter_speed),
-         leave = static_cast<float>(ik.foot_ik.leave_speed);
-    if (number_field("plant under", enter, 0.01f, 0.0f, leave, "%.2f m/s"))
-        panel.emit.continuously("humanoid.foot_ik", {{"enter_speed", enter}});
-    explain("A foot that is low and slower than this is planted.");
-    if (number_field("let go over", leave, 0.01f, enter, static_cast<float>(fastest_foot), "%.2f m/s"))
-        panel.emit.continuously("humanoid.foot_ik", {{"leave_speed", leave}});
-    explain("A planted foot that the clip moves faster than this is let go.");
+    if (!feet.on) return;
+    rows.row("max_angle_deg");
+    rows.row("enter_speed", {0.0, feet.leave_speed});
+    rows.row("leave_speed", {feet.enter_speed, fastest_foot});
     for (std::size_t side = 0; side < 2; ++side) foot_row(panel, side);
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <tendril/humanoid/ground.hpp>
 
+#include "app/document/names.hpp"
 #include "app/io/character/gltf_triangles.hpp"
-#include "app/labs/kit/names.hpp"
 
 namespace tendril::app {
 

@@ -29,10 +29,8 @@ void set_curve(HandIkSetting& setting, std::size_t hand, const Arguments& given)
 
 void set_hand_ik(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     HandIkSetting& setting = part.ik.hand_ik;
-    const bool on = given.has("on") ? given.boolean("on") : setting.on;
-    if (on) require_body(now, part);
-    setting.on = on;
-    if (given.has("view_deg")) setting.view_deg = given.real("view_deg");
+    set_fields(given, setting);
+    if (setting.on) require_body(now, part);
     const std::string hand = given.has("hand") ? given.text("hand") : "both";
     if (hand != "right") set_curve(setting, 0, given);
     if (hand != "left") set_curve(setting, 1, given);
@@ -50,19 +48,16 @@ glm::dvec3 ahead_of_head(const IkNow& now, const HumanoidPart& part) {
 
 void set_look_at(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     LookAtSetting& setting = part.ik.look_at;
-    const bool on = given.has("on") ? given.boolean("on") : setting.on;
-    if (on) require_body(now, part);
-    if (on && !setting.placed) {
+    set_fields(given, setting);
+    if (setting.on) require_body(now, part);
+    if (setting.on && !setting.placed) {
         setting.target = ahead_of_head(now, part);
         setting.placed = true;
     }
-    setting.on = on;
     if (given.has("to")) {
         setting.target = exact_point(given.json("to"));
         setting.placed = true;
     }
-    if (given.has("weight")) setting.weight = given.real("weight");
-    if (given.has("view_deg")) setting.view_deg = given.real("view_deg");
 }
 
 void set_self_collision(const IkNow& now, HumanoidPart& part, const Arguments& given) {
@@ -78,24 +73,22 @@ void add_hand_commands(CommandTable& table) {
     const auto seconds = [](const char* name, const char* help) {
         return number_argument(name, help, 0.0, longest_curve);
     };
-    const Argument view =
-        number_argument("view_deg", "half the angle of the cone in which targets are followed, degrees", 0.0,
-                        widest_view_deg);
-    table.add(ik_command(
-        "humanoid.hand_ik", "Set hand IK",
-        {switch_argument("on", "the targets of hands move the arm alone, blended to by their weight"),
-         choice_argument("hand", false, "whose curve; both when left out", {"left", "right", "both"}),
-         switch_argument("curve", "the weight follows the clip's time"),
-         seconds("begin", "of the clip: 0 until then"), seconds("full", "1 from then"),
-         seconds("until", "1 until then"), seconds("end", "0 from then"), view},
-        "Blends the hands from the clip to their targets; what is left out stays", set_hand_ik));
+    std::vector<Argument> hands = field_arguments<HandIkSetting>();
+    for (Argument& each : std::vector<Argument>{
+             choice_argument("hand", false, "whose curve; both when left out", {"left", "right", "both"}),
+             switch_argument("curve", "the weight follows the clip's time"),
+             seconds("begin", "of the clip: 0 until then"), seconds("full", "1 from then"),
+             seconds("until", "1 until then"), seconds("end", "0 from then")})
+        hands.push_back(std::move(each));
+    table.add(ik_command("humanoid.hand_ik", "Set hand IK", std::move(hands),
+                         "Blends the hands from the clip to their targets; what is left out stays",
+                         set_hand_ik));
     table.add(ik_command("humanoid.self_collision", "Keep hands out of the body",
                          {{.name = "on", .type = ArgumentType::Boolean, .help = "or off"}},
                          "Keeps hands and lower arms out of the body while it reaches", set_self_collision));
-    table.add(ik_command("humanoid.look_at", "Look at a point",
-                         {switch_argument("on", "or off"),
-                          point_argument("to", false, "metres; ahead of the head when it was never given"),
-                          number_argument("weight", "0: as in the clip, 1: looks there", 0.0, 1.0), view},
+    std::vector<Argument> gaze = field_arguments<LookAtSetting>();
+    gaze.push_back(point_argument("to", false, "metres; ahead of the head when it was never given"));
+    table.add(ik_command("humanoid.look_at", "Look at a point", std::move(gaze),
                          "Turns spine, neck and head to look at a point; what is left out stays",
                          set_look_at));
 }

@@ -1,6 +1,7 @@
 // The panel's rows of hands that a clip moves, and of what the head looks at.
 #include <imgui.h>
 
+#include "app/fields/field_rows.hpp"
 #include "app/labs/humanoid/panels.hpp"
 #include "app/labs/kit/folding.hpp"
 #include "app/widgets/fields.hpp"
@@ -52,25 +53,22 @@ void hand_rows(const HumanoidPanel& panel) {
     if (!folding_section(panel.workspace, "Hands and gaze", panel.emit)) return;
     const IkSettings& ik = panel.part.ik;
     const bool body = panel.runtime.solvers.body(panel.part) != nullptr;
-    bool hands = ik.hand_ik.on, look = ik.look_at.on;
-    ImGui::BeginDisabled(!hands && !body);
-    if (ImGui::Checkbox("Hand IK", &hands)) panel.emit("humanoid.hand_ik", {{"on", hands}});
+    const FieldRows hands(ik.hand_ik, "humanoid.hand_ik", panel.emit);
+    ImGui::BeginDisabled(!ik.hand_ik.on && !body);
+    hands.row("on");
     ImGui::EndDisabled();
-    explain("Targets of hands move the arm alone, blended from the clip to the target by a weight.");
-    if (hands) {
+    if (ik.hand_ik.on) {
+        hands.row("view_deg");
         for (std::size_t hand = 0; hand < 2; ++hand) hand_row(panel, hand);
         if (ik.hand_target(0) == nullptr && ik.hand_target(1) == nullptr)
             note("Drag the orange ball of a hand.");
     }
-    ImGui::BeginDisabled(!look && !body);
-    if (ImGui::Checkbox("Look at", &look)) panel.emit("humanoid.look_at", {{"on", look}});
+    const FieldRows gaze(ik.look_at, "humanoid.look_at", panel.emit);
+    ImGui::BeginDisabled(!ik.look_at.on && !body);
+    gaze.row("on");
     ImGui::EndDisabled();
-    explain("Spine, neck and head turn to look at an orange ball.");
-    if (!look) return;
-    auto weight = static_cast<float>(ik.look_at.weight);
-    if (number_field("gaze weight", weight, 0.01f, 0.0f, 1.0f, "%.2f"))
-        panel.emit.continuously("humanoid.look_at", {{"weight", weight}});
-    explain("How far spine, neck and head turn to the orange ball. 0: as in the clip. 1: all the way.");
+    if (!ik.look_at.on) return;
+    gaze.rows("weight", "view_deg");
     const ShownPose& shown = panel.runtime.shown(panel.workspace);
     if (shown.look && !shown.look->in_view) note("It is out of the cone of view.");
 }

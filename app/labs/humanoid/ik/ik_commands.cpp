@@ -104,13 +104,10 @@ void set_limits(const IkNow& now, HumanoidPart& part, const Arguments& given) {
 void set_ground(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     GroundSetting& ground = part.ik.ground;
     const humanoid::GroundKind before = ground.kind;
-    if (given.has("kind")) ground.kind = ground_kinds.value(given.text("kind"));
+    set_fields(given, ground);
     if (given.has("path")) ground.mesh = read_ground_mesh(given.text("path"));
     if (ground.kind == humanoid::GroundKind::Mesh && !ground.mesh)
         throw std::invalid_argument("path is missing: the file with the mesh");
-    if (given.has("angle_deg")) ground.angle_deg = given.real("angle_deg");
-    if (given.has("step_height")) ground.step_height = given.real("step_height");
-    if (given.has("step_depth")) ground.step_depth = given.real("step_depth");
     make_ground(ground);
     part.ik_state.feet = {};
     // Rising ground would bury a character that has walked far, or whose feet do not follow it.
@@ -128,10 +125,7 @@ void look_from_aside(Workspace& workspace) {
 
 void set_foot_ik(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     FootIkSetting& setting = part.ik.foot_ik;
-    if (given.has("on")) setting.on = given.boolean("on");
-    if (given.has("enter_speed")) setting.enter_speed = given.real("enter_speed");
-    if (given.has("leave_speed")) setting.leave_speed = given.real("leave_speed");
-    if (given.has("max_angle_deg")) setting.max_angle_deg = given.real("max_angle_deg");
+    set_fields(given, setting);
     if (setting.leave_speed < setting.enter_speed)
         throw std::invalid_argument("leave_speed must be at least enter_speed, " +
                                     fixed_text(setting.enter_speed, 2) + " m/s, got " +
@@ -160,13 +154,10 @@ void add_ik_commands(CommandTable& table) {
                     each_argument("rotations", "effectors"),
                     number_argument("weight", "against other targets; 0 lets go", 0.0, heaviest_target)},
                    "Gives effectors targets, or lets them go", set_targets));
+    std::vector<Argument> ground_arguments = field_arguments<GroundSetting>();
+    ground_arguments.push_back(text_argument("path", false, "of the mesh: a .gltf or .glb file"));
     Command ground =
-        ik_command("humanoid.ground", "Choose the ground",
-                   {choice_argument("kind", false, "which", ground_kinds.names()),
-                    number_argument("angle_deg", "of the slope, degrees", -steepest_deg, steepest_deg),
-                    number_argument("step_height", "of the stairs, metres", -highest_step, highest_step),
-                    number_argument("step_depth", "of the stairs, metres", shortest_step, longest_step),
-                    text_argument("path", false, "of the mesh: a .gltf or .glb file")},
+        ik_command("humanoid.ground", "Choose the ground", std::move(ground_arguments),
                    "Sets what the character walks on; what is left out stays. Slopes, stairs, terrain and "
                    "meshes turn foot IK on and restart the walk",
                    set_ground);
@@ -181,14 +172,8 @@ void add_ik_commands(CommandTable& table) {
             look_from_aside(workspace);
     };
     table.add(std::move(ground));
-    table.add(ik_command(
-        "humanoid.foot_ik", "Set foot IK",
-        {switch_argument("on", "or off"),
-         number_argument("enter_speed", "m/s: a low foot that is slower is planted", 0.0, fastest_foot),
-         number_argument("leave_speed", "m/s: one that is faster is let go", 0.0, fastest_foot),
-         number_argument("max_angle_deg", "by which the ground turns a foot, degrees", 0.0,
-                         largest_foot_angle)},
-        "Brings the feet to the ground; what is left out stays", set_foot_ik));
+    table.add(ik_command("humanoid.foot_ik", "Set foot IK", field_arguments<FootIkSetting>(),
+                         "Brings the feet to the ground; what is left out stays", set_foot_ik));
     add_hand_commands(table);
     table.add(ik_command(
         "humanoid.limits", "Choose where joint limits come from",

@@ -1,9 +1,9 @@
 // IK in a scene file: what is set, and what is remembered from tick to tick.
 #include "app/document/json_complete.hpp"
+#include "app/document/json_place.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/ik/quaternion_json.hpp"
 #include "app/labs/humanoid/ik/release.hpp"
-#include "app/labs/kit/json_place.hpp"
 
 namespace tendril::app {
 namespace {
@@ -194,23 +194,13 @@ Release read_release(const JsonPlace& place, const humanoid::Skeleton& skeleton)
 }
 
 Json ground_json(const GroundSetting& ground) {
-    Json json{{"kind", ground_kinds.name(ground.kind)},
-              {"angle_deg", ground.angle_deg},
-              {"step_height", ground.step_height},
-              {"step_depth", ground.step_depth}};
+    Json json = save_fields(ground);
     if (ground.mesh) json["path"] = ground.mesh->path;
     return json;
 }
 
-GroundSetting read_ground(const JsonPlace& place) {
-    GroundSetting ground;
-    if (const auto kind = place.optional("kind")) ground.kind = kind->choice(ground_kinds);
-    if (const auto angle = place.optional("angle_deg"))
-        ground.angle_deg = angle->real(-steepest_deg, steepest_deg);
-    if (const auto height = place.optional("step_height"))
-        ground.step_height = height->real(-highest_step, highest_step);
-    if (const auto depth = place.optional("step_depth"))
-        ground.step_depth = depth->real(shortest_step, longest_step);
+void read_ground(const JsonPlace& place, GroundSetting& ground) {
+    load_fields(place, ground);
     if (const auto path = place.optional("path")) {
         try {
             ground.mesh = read_ground_mesh(path->text());
@@ -219,40 +209,24 @@ GroundSetting read_ground(const JsonPlace& place) {
         }
     }
     if (ground.kind == humanoid::GroundKind::Mesh && !ground.mesh) place.fail("a mesh needs its path");
-    return ground;
 }
 
-Json foot_ik_json(const FootIkSetting& setting) {
-    return Json{{"on", setting.on},
-                {"enter_speed", setting.enter_speed},
-                {"leave_speed", setting.leave_speed},
-                {"max_angle_deg", setting.max_angle_deg}};
-}
-
-FootIkSetting read_foot_ik(const JsonPlace& place) {
-    FootIkSetting setting;
-    if (const auto on = place.optional("on")) setting.on = on->flag();
-    if (const auto enter = place.optional("enter_speed"))
-        setting.enter_speed = enter->real(0.0, fastest_foot);
-    if (const auto leave = place.optional("leave_speed"))
-        setting.leave_speed = leave->real(setting.enter_speed, fastest_foot);
-    if (const auto angle = place.optional("max_angle_deg"))
-        setting.max_angle_deg = angle->real(0.0, largest_foot_angle);
-    return setting;
+void read_foot_ik(const JsonPlace& place, FootIkSetting& setting) {
+    load_fields(place, setting);
+    if (setting.leave_speed < setting.enter_speed)
+        place.fail("expected leave_speed of at least enter_speed, found " + json_summary(place.json()));
 }
 
 Json hand_ik_json(const HandIkSetting& setting) {
-    Json json{{"on", setting.on}, {"view_deg", setting.view_deg}};
+    Json json = save_fields(setting);
     for (std::size_t hand = 0; hand < 2; ++hand)
         if (const auto& curve = setting.curves[hand])
             json[humanoid::name(both_hands[hand])] = {curve->begin, curve->full, curve->until, curve->end};
     return json;
 }
 
-HandIkSetting read_hand_ik(const JsonPlace& place) {
-    HandIkSetting setting;
-    if (const auto on = place.optional("on")) setting.on = on->flag();
-    if (const auto view = place.optional("view_deg")) setting.view_deg = view->real(0.0, widest_view_deg);
+void read_hand_ik(const JsonPlace& place, HandIkSetting& setting) {
+    load_fields(place, setting);
     for (std::size_t hand = 0; hand < 2; ++hand) {
         const auto times = place.optional(humanoid::name(both_hands[hand]));
         if (!times) continue;
@@ -262,25 +236,6 @@ HandIkSetting read_hand_ik(const JsonPlace& place) {
             seconds[i] = times->element(i).real(i == 0 ? 0.0 : seconds[i - 1], longest_curve);
         setting.curves[hand] = HandCurve{seconds[0], seconds[1], seconds[2], seconds[3]};
     }
-    return setting;
-}
-
-Json look_at_json(const LookAtSetting& setting) {
-    return Json{{"on", setting.on},
-                {"placed", setting.placed},
-                {"target", dpoint(setting.target)},
-                {"weight", setting.weight},
-                {"view_deg", setting.view_deg}};
-}
-
-LookAtSetting read_look_at(const JsonPlace& place) {
-    LookAtSetting setting;
-    if (const auto on = place.optional("on")) setting.on = on->flag();
-    if (const auto placed = place.optional("placed")) setting.placed = placed->flag();
-    if (const auto target = place.optional("target")) setting.target = target->dpoint();
-    if (const auto weight = place.optional("weight")) setting.weight = weight->real(0.0, 1.0);
-    if (const auto view = place.optional("view_deg")) setting.view_deg = view->real(0.0, widest_view_deg);
-    return setting;
 }
 
 Json joint_limits_json(const IkSettings& ik) {
@@ -304,10 +259,10 @@ Json ik_json(const HumanoidPart& part) {
     Json json{{"targets", targets_json(part.ik)}, {"limits", limits_from.name(part.ik.limits)}};
     if (!part.ik.joint_limits.empty()) json["joint_limits"] = joint_limits_json(part.ik);
     json["ground"] = ground_json(part.ik.ground);
-    json["foot_ik"] = foot_ik_json(part.ik.foot_ik);
+    json["foot_ik"] = save_fields(part.ik.foot_ik);
     json["self_collision"] = part.ik.self_collision;
     json["hand_ik"] = hand_ik_json(part.ik.hand_ik);
-    json["look_at"] = look_at_json(part.ik.look_at);
+    json["look_at"] = save_fields(part.ik.look_at);
     if (!(part.ik_state.hands == humanoid::HandsState())) json["hands"] = written(part.ik_state.hands);
     if (!(part.ik_state.look == humanoid::LookAtState())) json["look"] = written(part.ik_state.look);
     if (!(part.ik_state.feet == humanoid::FeetState())) json["feet"] = written(part.ik_state.feet);
@@ -321,11 +276,11 @@ void read_ik(const JsonPlace& place, HumanoidPart& part) {
     if (const auto targets = place.optional("targets")) read_targets(*targets, part.ik);
     if (const auto limits = place.optional("limits")) part.ik.limits = limits->choice(limits_from);
     if (const auto joints = place.optional("joint_limits")) read_joint_limits(*joints, part.ik);
-    if (const auto ground = place.optional("ground")) part.ik.ground = read_ground(*ground);
-    if (const auto foot_ik = place.optional("foot_ik")) part.ik.foot_ik = read_foot_ik(*foot_ik);
+    if (const auto ground = place.optional("ground")) read_ground(*ground, part.ik.ground);
+    if (const auto foot_ik = place.optional("foot_ik")) read_foot_ik(*foot_ik, part.ik.foot_ik);
     if (const auto on = place.optional("self_collision")) part.ik.self_collision = on->flag();
-    if (const auto hand_ik = place.optional("hand_ik")) part.ik.hand_ik = read_hand_ik(*hand_ik);
-    if (const auto look_at = place.optional("look_at")) part.ik.look_at = read_look_at(*look_at);
+    if (const auto hand_ik = place.optional("hand_ik")) read_hand_ik(*hand_ik, part.ik.hand_ik);
+    if (const auto look_at = place.optional("look_at")) load_fields(*look_at, part.ik.look_at);
     if (const auto hands = place.optional("hands")) read_number(*hands, part.ik_state.hands);
     if (const auto look = place.optional("look")) read_number(*look, part.ik_state.look);
     if (const auto feet = place.optional("feet")) read_number(*feet, part.ik_state.feet);

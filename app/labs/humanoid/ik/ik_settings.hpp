@@ -11,8 +11,9 @@
 #include <tendril/humanoid/spring_chain.hpp>
 #include <vector>
 
+#include "app/document/names.hpp"
+#include "app/fields/fields.hpp"
 #include "app/labs/humanoid/ik/ground_setting.hpp"
-#include "app/labs/kit/names.hpp"
 
 namespace tendril::app {
 
@@ -120,3 +121,28 @@ inline constexpr std::array<humanoid::Effector, 2> both_hands{humanoid::Effector
 std::string title(humanoid::Effector effector);
 
 }  // namespace tendril::app
+
+namespace tendril {
+
+template <>
+std::span<const Field> fields<app::GroundSetting>() noexcept;  ///< of all but its mesh
+template <>
+std::span<const Field> fields<app::FootIkSetting>() noexcept;
+template <>
+std::span<const Field> fields<app::HandIkSetting>() noexcept;  ///< of all but its curves
+template <>
+std::span<const Field> fields<app::LookAtSetting>() noexcept;
+
+namespace app {
+
+template <>
+std::span<const FieldText> field_texts<GroundSetting>();
+template <>
+std::span<const FieldText> field_texts<FootIkSetting>();
+template <>
+std::span<const FieldText> field_texts<HandIkSetting>();
+template <>
+std::span<const FieldText> field_texts<LookAtSetting>();
+
+}  // namespace app
+}  // namespace tendril

@@ -1,7 +1,7 @@
 // Rotations in scene files, [x, y, z, w], with all their digits.
 #pragma once
 
-#include "app/labs/kit/json_place.hpp"
+#include "app/document/json_place.hpp"
 
 namespace tendril::app {
 

@@ -40,11 +40,7 @@ void set_spring(HumanoidPart& part, std::size_t node, const Arguments& given) {
         return;
     }
     if (!which) which = added(part, node);
-    SpringSetting& spring = part.springs[*which];
-    if (given.has("strength")) spring.strength = given.real("strength");
-    if (given.has("critical_damping")) spring.critical_damping = given.real("critical_damping");
-    if (given.has("weight")) spring.weight = given.real("weight");
-    if (given.has("max_angle_deg")) spring.max_angle_deg = given.real("max_angle_deg");
+    set_fields(given, part.springs[*which]);
 }
 
 void set_springs(HumanoidPart& part, const Arguments& given) {
@@ -59,16 +55,12 @@ void set_springs(HumanoidPart& part, const Arguments& given) {
 }  // namespace
 
 void add_spring_commands(CommandTable& table) {
+    std::vector<Argument> arguments{
+        node_argument("node", false, "by name: it and all that hangs on it, no bones of the body"),
+        name_list_argument("nodes", "node"), switch_argument("on", "or off")};
+    for (Argument& each : field_arguments<SpringSetting>()) arguments.push_back(std::move(each));
     table.add(part_command<HumanoidPart>(
-        humanoid_lab, "humanoid.spring", "Let nodes swing on springs",
-        {node_argument("node", false, "by name: it and all that hangs on it, no bones of the body"),
-         name_list_argument("nodes", "node"), switch_argument("on", "or off"),
-         number_argument("strength", "of the tip, Hz; the base is stiffer", softest_spring, stiffest_spring),
-         number_argument("critical_damping", "0 swings for ever, 1 does not swing past", 0.0,
-                         most_spring_damping),
-         number_argument("weight", "how much of the swing is shown", 0.0, 1.0),
-         number_argument("max_angle_deg", "by which a bone turns against the clip at most, degrees", 0.0,
-                         widest_swing_deg)},
+        humanoid_lab, "humanoid.spring", "Let nodes swing on springs", std::move(arguments),
         "Lets ears, antennae or a tail trail behind by springs; what is left out stays", set_springs));
 }
 

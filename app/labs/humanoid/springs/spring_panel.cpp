@@ -6,6 +6,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
+#include "app/fields/field_rows.hpp"
 #include "app/labs/humanoid/node_selection.hpp"
 #include "app/labs/humanoid/panels.hpp"
 #include "app/labs/kit/folding.hpp"
@@ -76,24 +77,8 @@ bool same_settings(SpringSetting a, const SpringSetting& b) {
 /// What one sets of the one that is shown, one sets on all.
 void setting_rows(const HumanoidPanel& panel, const SpringSetting& spring,
                   const std::vector<std::string>& nodes) {
-    const auto set = [&](const char* argument, float value) {
-        panel.emit.continuously("humanoid.spring", {of_nodes(nodes), {argument, value}});
-    };
-    auto strength = static_cast<float>(spring.strength),
-         damping = static_cast<float>(spring.critical_damping), weight = static_cast<float>(spring.weight),
-         angle = static_cast<float>(spring.max_angle_deg);
-    if (number_field("strength", strength, 0.02f, static_cast<float>(softest_spring), stiffest_spring,
-                     "%.2f Hz"))
-        set("strength", strength);
-    explain("How often a second its tip would swing. The base is stiffer.");
-    if (number_field("damping", damping, 0.005f, 0.0f, most_spring_damping, "%.2f"))
-        set("critical_damping", damping);
-    explain("0 swings for ever, 1 comes to rest without swinging past.");
-    if (number_field("spring weight", weight, 0.01f, 0.0f, 1.0f, "%.2f")) set("weight", weight);
-    explain("0: as in the clip. 1: the whole swing.");
-    if (number_field("at most", angle, 0.5f, 0.0f, widest_swing_deg, "%.0f\u00b0"))
-        set("max_angle_deg", angle);
-    explain("By which a bone turns against the clip at most.");
+    FieldRows(spring, "humanoid.spring", panel.emit, {of_nodes(nodes)})
+        .rows("strength", "critical_damping", "weight", "max_angle_deg");
 }
 
 }  // namespace

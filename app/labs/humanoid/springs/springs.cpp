@@ -4,10 +4,42 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/document/json_complete.hpp"
+#include "app/document/json_place.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
-#include "app/labs/kit/json_place.hpp"
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::SpringSetting>() noexcept {
+    using app::SpringSetting;
+    static constexpr Field rows[] = {
+        field<&SpringSetting::strength>("strength", {app::softest_spring, app::stiffest_spring}, "Hz"),
+        field<&SpringSetting::critical_damping>("critical_damping", {0.0, app::most_spring_damping}),
+        field<&SpringSetting::weight>("weight"),
+        field<&SpringSetting::max_angle_deg>("max_angle_deg", {0.0, app::widest_swing_deg}, "deg")};
+    return rows;
+}
 
 namespace tendril::app {
+
+template <>
+std::span<const FieldText> field_texts<SpringSetting>() {
+    static constexpr FieldText texts[] = {
+        {.name = "strength",
+         .label = "strength",
+         .help = "How often a second its tip would swing. The base is stiffer.",
+         .step = 0.02f},
+        {.name = "critical_damping",
+         .label = "damping",
+         .help = "0 swings for ever, 1 comes to rest without swinging past.",
+         .step = 0.005f},
+        {.name = "weight", .label = "spring weight", .help = "0: as in the clip. 1: the whole swing."},
+        {.name = "max_angle_deg",
+         .label = "at most",
+         .help = "By which a bone turns against the clip at most.",
+         .step = 0.5f,
+         .decimals = 0}};
+    return texts;
+}
+
 namespace {
 
 /// Which other spring would turn the same nodes, in words; empty: none.
@@ -101,12 +133,10 @@ Json springs_json(const HumanoidPart& part) {
         if (i < part.ik_state.springs.size())
             for (const humanoid::SpringMass& mass : part.ik_state.springs[i].masses)
                 masses.push_back(mass_json(mass));
-        list.push_back({{"node", each.node},
-                        {"strength", each.strength},
-                        {"critical_damping", each.critical_damping},
-                        {"weight", each.weight},
-                        {"max_angle_deg", each.max_angle_deg},
-                        {"masses", std::move(masses)}});
+        Json json{{"node", each.node}};
+        json.update(save_fields(each));
+        json["masses"] = std::move(masses);
+        list.push_back(std::move(json));
     }
     return list;
 }
@@ -118,13 +148,7 @@ void read_springs(const JsonPlace& place, HumanoidPart& part) {
         if (!node) each["node"].fail("the character has no node \"" + spring.node + "\"");
         // One whose nodes have become the body's since stays, and does nothing.
         if (const std::string why = overlap(part, *node); !why.empty()) each["node"].fail(why);
-        if (const auto strength = each.optional("strength"))
-            spring.strength = strength->real(softest_spring, stiffest_spring);
-        if (const auto damping = each.optional("critical_damping"))
-            spring.critical_damping = damping->real(0.0, most_spring_damping);
-        if (const auto weight = each.optional("weight")) spring.weight = weight->real(0.0, 1.0);
-        if (const auto angle = each.optional("max_angle_deg"))
-            spring.max_angle_deg = angle->real(0.0, widest_swing_deg);
+        load_fields(each, spring);
         humanoid::SpringChainState state;
         if (const auto masses = each.optional("masses"))
             masses->for_each("masses", humanoid::Skeleton::max_nodes,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/document/json.hpp"
+#include "app/fields/fields.hpp"
 
 namespace tendril::app {
 
@@ -45,3 +46,9 @@ Json springs_json(const HumanoidPart& part);
 void read_springs(const JsonPlace& place, HumanoidPart& part);
 
 }  // namespace tendril::app
+
+/// Of all but its node.
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::SpringSetting>() noexcept;
+template <>
+std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app::SpringSetting>();

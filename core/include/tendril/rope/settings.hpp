@@ -31,8 +31,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "tendril/fields.hpp"
 #include "tendril/result.hpp"
-#include "tendril/vec3.hpp"
 
 namespace tendril::rope {
 
@@ -61,7 +61,7 @@ struct Settings {
     /// Coulomb's coefficient between rope and colliders, 0 to max_friction. A cloth that it holds on a
     /// slope still creeps, by some millimetres a second.
     float friction = 0.5f;
-    /// Seconds that one call of advance() simulates at most; what is over is dropped. Over 0, to 10.
+    /// Seconds that one call of advance() simulates at most; what is over is dropped. 0.001 to 10.
     float longest_frame = 0.25f;
 
     bool operator==(const Settings&) const = default;
@@ -74,9 +74,12 @@ inline constexpr int max_iterations = 10'000;
 inline constexpr std::size_t max_pass_work = std::size_t{1} << 16;
 inline constexpr int unbounded_passes = 16;
 inline constexpr float max_rate = 1e3f, max_acceleration = 1e4f, max_scale = 1e3f, max_compliance = 1e3f,
-                       max_friction = 100.0f;
+                       max_friction = 100.0f, min_longest_frame = 1e-3f, max_longest_frame = 10.0f;
 
 /// Refuses, naming `operation`, the setting and its value, where one is out of range.
 Result check(const char* operation, const Settings& settings) noexcept;
 
 }  // namespace tendril::rope
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::rope::Settings>() noexcept;

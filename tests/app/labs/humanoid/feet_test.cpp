@@ -212,9 +212,6 @@ TEST_F(HumanoidFeet, AreSavedAsTheyStand) {
 }
 
 TEST_F(HumanoidFeet, RefuseWhatIsOutOfRange) {
-    expect_refused("humanoid.ground", {{"kind", "lava"}}, {"kind must be one of"});
-    expect_refused("humanoid.ground", {{"kind", "slope"}, {"angle_deg", 89}}, {"angle_deg must be"});
-    expect_refused("humanoid.ground", {{"step_depth", 0}}, {"step_depth must be"});
     expect_refused("humanoid.foot_ik", {{"on", true}, {"enter_speed", 2}}, {"leave_speed must be at least"});
     run("humanoid.map", {{"bone", "LeftFoot"}});
     expect_refused("humanoid.foot_ik", {{"on", true}}, {"LeftFoot is missing"});

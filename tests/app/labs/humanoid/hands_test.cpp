@@ -87,7 +87,6 @@ TEST_F(HumanoidHands, ComeFromAFileAsTheyWere) {
 TEST_F(HumanoidHands, RefuseWhatDoesNotFit) {
     expect_refused("humanoid.hand_ik", {{"begin", 0.6}, {"full", 0.5}}, {"must follow one another"});
     expect_refused("humanoid.hand_ik", {{"hand", "third"}}, {"hand must be one of"});
-    expect_refused("humanoid.look_at", {{"on", true}, {"weight", 2}}, {"weight must be"});
     run("humanoid.map", {{"bone", "LeftHand"}});
     for (const char* command : {"humanoid.hand_ik", "humanoid.look_at", "humanoid.self_collision"}) {
         expect_refused(command, {{"on", true}}, {"the body solve is off: LeftHand is missing"});

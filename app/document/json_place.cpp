@@ -1,4 +1,4 @@
-#include "app/labs/kit/json_place.hpp"
+#include "app/document/json_place.hpp"
 
 #include <cmath>
 #include <stdexcept>

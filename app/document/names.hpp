@@ -54,6 +54,12 @@ struct EnumNames {
     std::vector<std::string> names() const {
         return app::names(rows, [](const EnumRow& row) { return row.name; });
     }
+    /// For the choices of a field: keep it, the table only refers to it.
+    constexpr std::array<const char*, count> name_array() const {
+        std::array<const char*, count> all{};
+        for (std::size_t i = 0; i < count; ++i) all[i] = rows[i].name;
+        return all;
+    }
     std::array<const char*, count> titles() const {
         std::array<const char*, count> all{};
         for (std::size_t i = 0; i < count; ++i) all[i] = rows[i].title;

@@ -1,0 +1,130 @@
+#include "app/fields/fields.hpp"
+
+#include <cmath>
+
+#include "app/document/json_complete.hpp"
+
+namespace tendril::app {
+namespace {
+
+/// The end of a range as people write it: of a float its shortest decimals, 0.001 and not 0.00100000005.
+double written(double end) {
+    const auto single = static_cast<float>(end);
+    return static_cast<double>(single) == end ? shortest_decimal(single) : end;
+}
+
+Json saved(const Field& field, const FieldValue& value) {
+    switch (field.type) {
+        case FieldType::Flag:
+            return value[0] != 0.0;
+        case FieldType::Integer:
+            return static_cast<int>(value[0]);
+        case FieldType::Choice:
+            return field.choices[static_cast<std::size_t>(value[0])];
+        case FieldType::Number:
+            return field.exact ? Json(value[0]) : number(static_cast<float>(value[0]));
+        case FieldType::Point:
+            break;
+    }
+    return field.exact ? dpoint({value[0], value[1], value[2]}) : point({value[0], value[1], value[2]});
+}
+
+double number_in_range(const JsonPlace& place, const Field& field) {
+    const auto [low, high] = field.range;
+    if (field.exact) return place.real(low, high);
+    return static_cast<double>(place.number(static_cast<float>(low), static_cast<float>(high)));
+}
+
+double choice_at(const JsonPlace& place, const Field& field) {
+    const std::string name = place.text();
+    std::string all;
+    for (std::size_t i = 0; i < field.choices.size(); ++i) {
+        if (name == field.choices[i]) return static_cast<double>(i);
+        all += (i > 0 ? ", " : "") + std::string(field.choices[i]);
+    }
+    place.fail("expected one of " + all + ", found " + json_summary(place.json()));
+}
+
+FieldValue loaded(const JsonPlace& place, const Field& field) {
+    switch (field.type) {
+        case FieldType::Flag:
+            return {place.flag() ? 1.0 : 0.0};
+        case FieldType::Integer:
+            return {static_cast<double>(
+                place.integer(static_cast<int>(field.range.low), static_cast<int>(field.range.high)))};
+        case FieldType::Choice:
+            return {choice_at(place, field)};
+        case FieldType::Number:
+            return {number_in_range(place, field)};
+        case FieldType::Point:
+            break;
+    }
+    place.check_size(3, "coordinates");
+    return {number_in_range(place.element(0), field), number_in_range(place.element(1), field),
+            number_in_range(place.element(2), field)};
+}
+
+std::string unit_sentence(std::string_view unit) {
+    if (unit.empty()) return {};
+    const std::string_view word = unit == "deg" ? "degrees"
+                                  : unit == "m" ? "metres"
+                                  : unit == "s" ? "seconds"
+                                                : unit;
+    return " In " + std::string(word) + ".";
+}
+
+Argument argument(const Field& field, const FieldText& text) {
+    Argument result{.name = field.name,
+                    .required = false,
+                    .help = text.help + unit_sentence(field.unit),
+                    .low = written(field.range.low),
+                    .high = written(field.range.high)};
+    switch (field.type) {
+        case FieldType::Flag:
+            result.type = ArgumentType::Boolean;
+            break;
+        case FieldType::Integer:
+            result.type = ArgumentType::Integer;
+            break;
+        case FieldType::Number:
+            result.type = ArgumentType::Number;
+            break;
+        case FieldType::Point:
+            result.type = ArgumentType::Point;
+            break;
+        case FieldType::Choice:
+            result.type = ArgumentType::Text;
+            result.choices.assign(field.choices.begin(), field.choices.end());
+            break;
+    }
+    return result;
+}
+
+}  // namespace
+
+Json save_fields(FieldsOf of) {
+    Json json = Json::object();
+    for (const Field& field : of.table) json[field.name] = saved(field, field.get(of.object));
+    return json;
+}
+
+void load_fields(const JsonPlace& place, FieldsIn in) {
+    for (const Field& field : in.table)
+        if (const auto member = place.optional(field.name)) field.set(in.object, loaded(*member, field));
+}
+
+std::vector<Argument> field_arguments(std::span<const Field> table, std::span<const FieldText> texts) {
+    std::vector<Argument> arguments;
+    for (const FieldText& text : texts)
+        if (const Field* const field = find_field(table, text.name))
+            arguments.push_back(argument(*field, text));
+    return arguments;
+}
+
+void set_fields(const Arguments& given, FieldsIn in, std::string_view except) {
+    for (const Field& field : in.table)
+        if (given.has(field.name) && field.name != except)
+            field.set(in.object, loaded({given.json(field.name), field.name}, field));
+}
+
+}  // namespace tendril::app

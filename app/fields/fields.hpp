@@ -1,0 +1,61 @@
+// What the rows of a table of fields (tendril/fields.hpp) become in files and in commands. A lab says beside
+// the table what each field is called and what it is for; the rest follows from the row.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <tendril/fields.hpp>
+#include <vector>
+
+#include "app/document/argument.hpp"
+#include "app/document/json_place.hpp"
+#include "app/document/names.hpp"
+
+namespace tendril::app {
+
+/// A field as people read it.
+struct FieldText {
+    const char* name;    ///< the field's
+    const char* label;   ///< in a panel
+    const char* help;    ///< what it does, in a sentence or two: in a panel, and of the command's argument
+    float step = 0.01f;  ///< of what is shown, by a pixel of a drag
+    int decimals = 2;
+    double scale = 1.0;                     ///< what is shown is the value times this
+    const char* unit = nullptr;             ///< of what is shown, where that is not the field's: "ms"
+    std::span<const EnumRow> choices = {};  ///< the titles of choices, in their order
+};
+
+/// The texts of a struct's fields, of each field one.
+template <class Struct>
+std::span<const FieldText> field_texts();
+
+/// A struct and its table.
+struct FieldsOf {
+    template <class Struct>
+    FieldsOf(const Struct& of) : table(fields<Struct>()), object(&of) {}
+
+    std::span<const Field> table;
+    const void* object;
+};
+struct FieldsIn {
+    template <class Struct>
+    FieldsIn(Struct& in) : table(fields<Struct>()), object(&in) {}
+
+    std::span<const Field> table;
+    void* object;
+};
+
+Json save_fields(FieldsOf of);
+/// What is missing stays. Throws std::runtime_error that begins with the place of what is wrong.
+void load_fields(const JsonPlace& place, FieldsIn in);
+
+/// An argument for each field that has a text; each may be left out.
+std::vector<Argument> field_arguments(std::span<const Field> table, std::span<const FieldText> texts);
+template <class Struct>
+std::vector<Argument> field_arguments() {
+    return field_arguments(fields<Struct>(), field_texts<Struct>());
+}
+/// Sets what was given, but for the field `except`.
+void set_fields(const Arguments& given, FieldsIn in, std::string_view except = {});
+
+}  // namespace tendril::app

@@ -1,0 +1,136 @@
+// What a struct of settings is made of, said once: the name, unit and range of each field. Checks, files,
+// commands, panels and exported code read the same rows; so can the editor of an engine, which then shows a
+// setting that it has never heard of:
+//
+//     for (const Field& field : fields<rope::Settings>())
+//         if (field.type == FieldType::Number) slider(field.name, field.low, field.high, field.unit);
+//
+// A table is an array of constants: reading a row costs nothing and allocates nothing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+#include "tendril/result.hpp"
+#include "tendril/vec3.hpp"
+
+namespace tendril {
+
+enum class FieldType : std::uint8_t {
+    Flag,     ///< 0 or 1
+    Integer,  ///< a whole number
+    Number,
+    Point,  ///< three numbers
+    Choice  ///< the place of one of `choices`
+};
+
+/// A field of any type, as up to three numbers.
+using FieldValue = std::array<double, 3>;
+
+/// The range of a number, or of each coordinate of a point; both ends belong to it.
+struct FieldRange {
+    double low = 0.0, high = 0.0;
+};
+
+/// One field of a struct. `get` and `set` take the struct; `set` checks nothing.
+struct Field {
+    const char* name;       ///< as files and commands have it: "gravity_scale"
+    const char* unit = "";  ///< "m/s^2"; empty for none
+    FieldType type = FieldType::Number;
+    bool exact = false;  ///< a number with the digits of a double; else those of a float
+    FieldRange range{};  ///< 0 to 1 of a flag, 0 to the last of choices
+    std::span<const char* const> choices{};
+    FieldValue (*get)(const void* object) noexcept = nullptr;
+    void (*set)(void* object, const FieldValue& value) noexcept = nullptr;
+
+    int size() const noexcept { return type == FieldType::Point ? 3 : 1; }
+    bool whole() const noexcept { return type != FieldType::Number && type != FieldType::Point; }
+};
+
+/// The table of a struct, in the order of its members. Each header that has one declares it beside the
+/// struct.
+template <class Struct>
+std::span<const Field> fields() noexcept;
+
+/// Null for an unknown name.
+const Field* find_field(std::span<const Field> table, std::string_view name) noexcept;
+
+/// Refuses, naming `operation`, the field, its range and the value, the first field of `object` that is out
+/// of its range. `object` is a struct of the table's type.
+Result check_fields(const char* operation, std::span<const Field> table, const void* object) noexcept;
+
+template <class Struct>
+Result check_fields(const char* operation, const Struct& object) noexcept {
+    return check_fields(operation, fields<Struct>(), &object);
+}
+
+namespace detail {
+
+template <class Member>
+struct FieldMember;
+template <class Struct, class Value>
+struct FieldMember<Value Struct::*> {
+    using struct_type = Struct;
+    using value_type = Value;
+};
+
+template <auto member>
+FieldValue get_field(const void* object) noexcept {
+    using Of = FieldMember<decltype(member)>;
+    const auto& value = static_cast<const typename Of::struct_type*>(object)->*member;
+    if constexpr (std::is_arithmetic_v<typename Of::value_type> || std::is_enum_v<typename Of::value_type>)
+        return {static_cast<double>(value)};
+    else
+        return {value.x, value.y, value.z};
+}
+
+template <auto member>
+void set_field(void* object, const FieldValue& given) noexcept {
+    using Of = FieldMember<decltype(member)>;
+    using Value = typename Of::value_type;
+    auto& value = static_cast<typename Of::struct_type*>(object)->*member;
+    if constexpr (std::is_same_v<Value, bool>)
+        value = given[0] != 0.0;
+    else if constexpr (std::is_enum_v<Value>)
+        value = static_cast<Value>(static_cast<int>(given[0]));
+    else if constexpr (std::is_arithmetic_v<Value>)
+        value = static_cast<Value>(given[0]);
+    else
+        value = Value(given[0], given[1], given[2]);
+}
+
+template <class Value>
+constexpr FieldType field_type() noexcept {
+    if (std::is_same_v<Value, bool>) return FieldType::Flag;
+    if (std::is_enum_v<Value>) return FieldType::Choice;
+    if (std::is_integral_v<Value>) return FieldType::Integer;
+    return std::is_arithmetic_v<Value> ? FieldType::Number : FieldType::Point;
+}
+
+}  // namespace detail
+
+/// A row of a table: field<&Settings::damping>("damping", {0.0, max_rate}, "1/s").
+template <auto member>
+constexpr Field field(const char* name, FieldRange range = {0.0, 1.0}, const char* unit = "") noexcept {
+    using Value = typename detail::FieldMember<decltype(member)>::value_type;
+    return {.name = name,
+            .unit = unit,
+            .type = detail::field_type<Value>(),
+            .exact = std::is_same_v<Value, double> || std::is_same_v<Value, glm::dvec3>,
+            .range = range,
+            .get = detail::get_field<member>,
+            .set = detail::set_field<member>};
+}
+
+/// One of an enumeration whose enumerators count from 0: their names, in order.
+template <auto member>
+constexpr Field field(const char* name, std::span<const char* const> choices) noexcept {
+    Field row = field<member>(name, {0.0, static_cast<double>(choices.size()) - 1.0});
+    row.choices = choices;
+    return row;
+}
+
+}  // namespace tendril

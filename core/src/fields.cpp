@@ -1,0 +1,80 @@
+#include "tendril/fields.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+#include "math/checks.hpp"
+
+namespace tendril {
+namespace {
+
+/// "0 to 1000 1/s", or "one of relaxation, xpbd, direct".
+class Requirement {
+  public:
+    explicit Requirement(const Field& field) noexcept {
+        if (field.type == FieldType::Choice) {
+            add("one of ");
+            for (std::size_t i = 0; i < field.choices.size(); ++i)
+                add(i > 0 ? ", " : "").add(field.choices[i]);
+            return;
+        }
+        if (field.whole()) add("a whole number, ");
+        add(field.range.low).add(" to ").add(field.range.high);
+        if (field.unit[0] != '\0') add(" ").add(field.unit);
+    }
+    std::string_view text() const noexcept { return {buffer_, size_}; }
+
+  private:
+    Requirement& add(std::string_view text) noexcept {
+        const std::size_t fits = std::min(text.size(), sizeof buffer_ - size_);
+        std::memcpy(buffer_ + size_, text.data(), fits);
+        size_ += fits;
+        return *this;
+    }
+    /// Ranges are often floats: their shortest decimals, 0.1 and not 0.10000000149.
+    Requirement& add(double number) noexcept {
+        const auto single = static_cast<float>(number);
+        return add(static_cast<double>(single) == number ? detail::Shown(single).text()
+                                                         : detail::Shown(number).text());
+    }
+
+    char buffer_[128];
+    std::size_t size_ = 0;
+};
+
+/// False for NaN.
+bool in_range(const Field& field, double value) noexcept {
+    const bool inside = value >= field.range.low && value <= field.range.high;
+    return inside && (!field.whole() || value == std::floor(value));
+}
+
+Result refuse(const char* operation, const Field& field, int axis, double value) noexcept {
+    constexpr std::string_view axes[] = {"x", "y", "z"};
+    const bool point = field.type == FieldType::Point;
+    const detail::Argument argument(field.name, detail::no_index, point ? axes[axis] : std::string_view());
+    const Requirement requirement(field);
+    if (field.exact) return detail::refused(operation, argument, requirement.text(), value);
+    return detail::refused(operation, argument, requirement.text(), static_cast<float>(value));
+}
+
+}  // namespace
+
+const Field* find_field(std::span<const Field> table, std::string_view name) noexcept {
+    for (const Field& field : table)
+        if (field.name == name) return &field;
+    return nullptr;
+}
+
+Result check_fields(const char* operation, std::span<const Field> table, const void* object) noexcept {
+    for (const Field& field : table) {
+        const FieldValue value = field.get(object);
+        for (int axis = 0; axis < field.size(); ++axis) {
+            const double each = value[static_cast<std::size_t>(axis)];
+            if (!in_range(field, each)) return refuse(operation, field, axis, each);
+        }
+    }
+    return {};
+}
+
+}  // namespace tendril

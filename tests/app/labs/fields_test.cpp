@@ -1,0 +1,175 @@
+// Every row of every table of fields: what it is set to is saved, loaded and undone; what is out of its range
+// is refused by its command and in a file, with its name and range, and changes nothing.
+#include "app/fields/fields.hpp"
+
+#include <tendril/rope/settings.hpp>
+
+#include "app/labs/humanoid/humanoid_lab.hpp"
+#include "app/labs/humanoid/ik/ik_settings.hpp"
+#include "app/labs/humanoid/springs/springs.hpp"
+#include "app/labs/rope/rope_lab.hpp"
+#include "app/labs/rope/rope_names.hpp"
+#include "tests/app/labs/lab_support.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::app {
+namespace {
+
+struct Table {
+    const char* lab;
+    const char* command;
+    const char* path;  ///< in the lab's part of a scene
+    std::span<const Field> fields;
+    std::span<const FieldText> texts;
+    Json with = Json::object();   ///< further arguments of the command
+    Json first = Json::object();  ///< what is set before
+};
+
+template <class Struct>
+Table table_of(const char* lab, const char* command, const char* path, Json with = Json::object(),
+               Json first = Json::object()) {
+    return {lab, command, path, fields<Struct>(), field_texts<Struct>(), std::move(with), std::move(first)};
+}
+
+const std::vector<Table>& tables() {
+    static const std::vector<Table> all{
+        table_of<rope::Settings>(rope_lab, "rope.settings", "/world/settings"),
+        table_of<SpringSetting>(humanoid_lab, "humanoid.spring", "/springs/0", {{"node", "HeadTop_End"}}),
+        table_of<GroundSetting>(humanoid_lab, "humanoid.ground", "/ik/ground"),
+        table_of<FootIkSetting>(humanoid_lab, "humanoid.foot_ik", "/ik/foot_ik", Json::object(),
+                                {{"leave_speed", 100}}),
+        table_of<HandIkSetting>(humanoid_lab, "humanoid.hand_ik", "/ik/hand_ik"),
+        table_of<LookAtSetting>(humanoid_lab, "humanoid.look_at", "/ik/look_at")};
+    return all;
+}
+
+struct Row {
+    const Table* table;
+    const Field* field;
+};
+
+/// Those that a command sets.
+std::vector<Row> rows() {
+    std::vector<Row> all;
+    for (const Table& table : tables())
+        for (const FieldText& text : table.texts)
+            all.push_back({&table, find_field(table.fields, text.name)});
+    return all;
+}
+
+class EveryField : public LabTest, public testing::WithParamInterface<Row> {
+  protected:
+    EveryField() : LabTest(GetParam().table->lab) {}
+
+    const Table& of() const { return *GetParam().table; }
+    const Field& field() const { return *GetParam().field; }
+    static Json::json_pointer at(const std::string& path) { return Json::json_pointer(path); }
+
+    Json saved() const {
+        return save_scene(workspace).at("labs").at(of().lab).at(at(of().path)).at(field().name);
+    }
+    Json given(const Json& value) const {
+        Json arguments = of().with;
+        arguments[field().name] = value;
+        return arguments;
+    }
+    /// Number three quarters up its range: of a float, as its shortest decimals.
+    Json number_in(const FieldRange& range) const {
+        const double value = range.low + 0.75 * (range.high - range.low);
+        return field().exact ? Json(value) : number(static_cast<float>(value));
+    }
+    /// Something else than it is.
+    Json other(const Json& now) const {
+        switch (field().type) {
+            case FieldType::Flag:
+                return !now.get<bool>();
+            case FieldType::Integer:
+                return now == field().range.high ? field().range.low : now.get<int>() + 1;
+            case FieldType::Choice:
+                return field().choices[now == field().choices[0] ? 1 : 0];
+            case FieldType::Number:
+                return number_in(field().range);
+            case FieldType::Point:
+                return Json::array({number_in(field().range), 0, number_in(field().range)});
+        }
+        return {};
+    }
+    /// Beyond each end of the range, and of another type.
+    std::vector<Json> bad() const {
+        std::vector<Json> all{Json::array({1}), Json::object()};
+        const auto [low, high] = field().range;
+        const double by = std::max(1.0, 1e-3 * (high - low));
+        switch (field().type) {
+            case FieldType::Flag:
+                all.insert(all.end(), {1, "yes"});
+                break;
+            case FieldType::Integer:
+                all.insert(all.end(), {low - 1, high + 1, low + 0.5, "1"});
+                break;
+            case FieldType::Choice:
+                all.insert(all.end(), {"glue", "", 0});
+                break;
+            case FieldType::Number:
+                all.insert(all.end(), {low - by, high + by, std::nan(""), true});
+                break;
+            case FieldType::Point:
+                all.insert(all.end(), {Json::array({0, high + by, 0}), Json::array({low - by, 0, 0}),
+                                       Json::array({0, 0}), Json::array({0, 0, "z"})});
+                break;
+        }
+        return all;
+    }
+    void SetUp() override {
+        run("lab.open", {{"name", of().lab}});
+        Json first = of().with;
+        first.update(of().first);
+        if (!first.empty()) run(of().command, first);
+    }
+};
+
+TEST_P(EveryField, IsSavedLoadedAndUndone) {
+    const Json before = saved(), wanted = other(before);
+    ASSERT_NE(before, wanted);
+    run(of().command, given(wanted));
+    EXPECT_EQ(saved(), wanted);
+    Workspace opened = make_blank_workspace(labs);
+    const Json scene = save_scene(workspace);
+    load_scene(opened, scene);
+    EXPECT_EQ(save_scene(opened).at("labs"), scene.at("labs"));
+    run("undo");
+    EXPECT_EQ(saved(), before);
+    run("redo");
+    EXPECT_EQ(saved(), wanted);
+}
+
+TEST_P(EveryField, IsRefusedOutOfItsRangeAndChangesNothing) {
+    for (const Json& value : bad())
+        EXPECT_TRUE(
+            test::says(refused(of().command, given(value)), std::string(of().command) + " " + field().name))
+            << value;
+}
+
+TEST_P(EveryField, IsRefusedInAFileWithItsPlace) {
+    std::string place = std::string("labs.") + of().lab + of().path + "." + field().name;
+    std::ranges::replace(place, '/', '.');
+    for (const Json& value : bad()) {
+        Json scene = save_scene(workspace);
+        scene.at("labs").at(of().lab).at(at(of().path))[field().name] = value;
+        try {
+            Workspace opened = make_blank_workspace(labs);
+            load_scene(opened, scene);
+            ADD_FAILURE() << place << " was opened with " << value;
+        } catch (const std::runtime_error& error) {
+            EXPECT_TRUE(test::says(error.what(), place)) << value;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tables, EveryField, testing::ValuesIn(rows()), [](const auto& given) {
+    std::string name = std::string(given.param.table->command) + "_" + given.param.field->name;
+    std::ranges::replace(name, '.', '_');
+    return name;
+});
+
+}  // namespace
+}  // namespace tendril::app
