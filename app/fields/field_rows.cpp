@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "app/widgets/fields.hpp"
@@ -28,12 +29,6 @@ std::string format_of(const Field& field, const FieldText& text) {
 
 }  // namespace
 
-const Field& FieldRows::field_named(std::string_view name) const {
-    const Field* const field = find_field(of_.table, name);
-    if (field == nullptr) throw std::logic_error(command_ + " has no field " + std::string(name));
-    return *field;
-}
-
 const FieldText& FieldRows::text_of(const Field& field) const {
     const std::string_view name = field.name;
     const auto text = std::ranges::find(texts_, name, [](const FieldText& each) { return each.name; });
@@ -41,33 +36,22 @@ const FieldText& FieldRows::text_of(const Field& field) const {
     return *text;
 }
 
-void FieldRows::row(std::string_view name) const {
-    const Field& field = field_named(name);
-    const FieldText& text = text_of(field);
-    switch (field.type) {
-        case FieldType::Flag: {
-            bool on = field.get(of_.object)[0] != 0.0;
-            if (ImGui::Checkbox(text.label, &on)) emit_(command_, arguments(field, on));
-            return explain(text.help);
-        }
-        case FieldType::Integer: {
-            int value = static_cast<int>(field.get(of_.object)[0]);
-            if (integer_field(text.label, value, static_cast<int>(field.range.low),
-                              static_cast<int>(field.range.high)))
-                emit_.continuously(command_, arguments(field, value));
-            return explain(text.help);
-        }
-        case FieldType::Number:
-            return number_row(field, field.range);
-        case FieldType::Point:
-            return point_row(field, text);
-        case FieldType::Choice:
-            return choice_rows(field, text);
-    }
-}
-
-void FieldRows::row(std::string_view name, FieldRange within) const {
-    number_row(field_named(name), within);
+void FieldRows::row(std::string_view name, const RowOptions& options) const {
+    const Field* const field = find_field(of_.table, name);
+    if (field == nullptr) throw std::logic_error(command_ + " has no field " + std::string(name));
+    const FieldText& text = text_of(*field);
+    if (field->type == FieldType::Choice && !text.listed) return button_rows(*field, text);
+    ImGui::BeginDisabled(!options.why_not.empty());
+    if (field->type == FieldType::Flag)
+        flag_row(*field, text);
+    else if (field->type == FieldType::Point)
+        point_row(*field, text);
+    else if (field->type == FieldType::Choice)
+        list_row(*field, text);
+    else
+        number_row(*field, text, options);
+    ImGui::EndDisabled();
+    explain(options.why_not.empty() ? text.help : (text.help + (' ' + options.why_not)).c_str());
 }
 
 ArgumentList FieldRows::arguments(const Field& field, ArgumentValue value) const {
@@ -76,14 +60,26 @@ ArgumentList FieldRows::arguments(const Field& field, ArgumentValue value) const
     return all;
 }
 
-void FieldRows::number_row(const Field& field, FieldRange range) const {
-    const FieldText& text = text_of(field);
-    const auto shown = [&](double value) { return static_cast<float>(text.scale * value); };
-    float value = shown(field.get(of_.object)[0]);
+void FieldRows::flag_row(const Field& field, const FieldText& text) const {
+    bool on = field.get(of_.object)[0] != 0.0;
+    if (ImGui::Checkbox(text.label, &on)) emit_(command_, arguments(field, on));
+}
+
+void FieldRows::number_row(const Field& field, const FieldText& text, const RowOptions& options) const {
+    const FieldRange range = options.within.value_or(field.range);
+    double now = field.get(of_.object)[0];
+    if (std::isnan(now)) now = options.otherwise.value_or(range.low);
+    if (field.type == FieldType::Integer) {
+        int value = static_cast<int>(now);
+        if (integer_field(text.label, value, static_cast<int>(range.low), static_cast<int>(range.high)))
+            emit_.continuously(command_, arguments(field, value));
+        return;
+    }
+    const auto shown = [&](double of) { return static_cast<float>(text.scale * of); };
+    float value = shown(now);
     if (number_field(text.label, value, text.step, shown(range.low), shown(range.high),
                      format_of(field, text).c_str()))
         emit_.continuously(command_, arguments(field, value / static_cast<float>(text.scale)));
-    explain(text.help);
 }
 
 void FieldRows::point_row(const Field& field, const FieldText& text) const {
@@ -92,11 +88,17 @@ void FieldRows::point_row(const Field& field, const FieldText& text) const {
     if (point_field(text.label, value, text.step, static_cast<float>(field.range.high),
                     format_of(field, text).c_str()))
         emit_.continuously(command_, arguments(field, value));
-    explain(text.help);
 }
 
-/// A button for each.
-void FieldRows::choice_rows(const Field& field, const FieldText& text) const {
+void FieldRows::list_row(const Field& field, const FieldText& text) const {
+    std::vector<const char*> titles;
+    for (const EnumRow& each : text.choices) titles.push_back(each.title);
+    int chosen = static_cast<int>(field.get(of_.object)[0]);
+    if (choice_field(text.label, chosen, titles.data(), static_cast<int>(titles.size())))
+        emit_(command_, arguments(field, field.choices[static_cast<std::size_t>(chosen)]));
+}
+
+void FieldRows::button_rows(const Field& field, const FieldText& text) const {
     const auto chosen = static_cast<std::size_t>(field.get(of_.object)[0]);
     for (std::size_t i = 0; i < field.choices.size(); ++i)
         if (option_button(text.choices[i].title, i == chosen, text.choices[i].help))

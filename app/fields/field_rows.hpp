@@ -2,12 +2,20 @@
 // table.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "app/fields/fields.hpp"
 #include "app/widgets/emit.hpp"
 
 namespace tendril::app {
+
+/// How a row differs from what its table says.
+struct RowOptions {
+    std::optional<FieldRange> within{};  ///< a part of its range, as another field leaves it
+    std::optional<double> otherwise{};   ///< what is shown of an optional field that holds nothing
+    std::string why_not{};               ///< why it has no effect now: then it is grey
+};
 
 class FieldRows {
   public:
@@ -20,9 +28,7 @@ class FieldRows {
           emit_(emit),
           with_(std::move(with)) {}
 
-    void row(std::string_view name) const;
-    /// A number that another one keeps within a part of its range.
-    void row(std::string_view name, FieldRange within) const;
+    void row(std::string_view name, const RowOptions& options = {}) const;
     template <class... Names>
     void rows(Names... names) const {
         (row(names), ...);
@@ -31,10 +37,11 @@ class FieldRows {
   private:
     ArgumentList arguments(const Field& field, ArgumentValue value) const;
     const FieldText& text_of(const Field& field) const;
-    const Field& field_named(std::string_view name) const;
-    void number_row(const Field& field, FieldRange range) const;
+    void flag_row(const Field& field, const FieldText& text) const;
+    void number_row(const Field& field, const FieldText& text, const RowOptions& options) const;
     void point_row(const Field& field, const FieldText& text) const;
-    void choice_rows(const Field& field, const FieldText& text) const;
+    void list_row(const Field& field, const FieldText& text) const;
+    void button_rows(const Field& field, const FieldText& text) const;
 
     FieldsOf of_;
     std::span<const FieldText> texts_;

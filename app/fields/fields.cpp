@@ -14,6 +14,7 @@ double written(double end) {
 }
 
 Json saved(const Field& field, const FieldValue& value) {
+    if (field.optional && std::isnan(value[0])) return nullptr;
     switch (field.type) {
         case FieldType::Flag:
             return value[0] != 0.0;

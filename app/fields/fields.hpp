@@ -22,6 +22,7 @@ struct FieldText {
     int decimals = 2;
     double scale = 1.0;                     ///< what is shown is the value times this
     const char* unit = nullptr;             ///< of what is shown, where that is not the field's: "ms"
+    bool listed = false;                    ///< choices are in a list, and not a button each
     std::span<const EnumRow> choices = {};  ///< the titles of choices, in their order
 };
 

@@ -45,6 +45,7 @@ class Requirement {
 
 /// False for NaN.
 bool in_range(const Field& field, double value) noexcept {
+    if (field.optional && std::isnan(value)) return true;
     const bool inside = value >= field.range.low && value <= field.range.high;
     return inside && (!field.whole() || value == std::floor(value));
 }

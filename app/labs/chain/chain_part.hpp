@@ -20,8 +20,6 @@ namespace tendril::app {
 inline constexpr const char* chain_lab = "chain";
 inline constexpr std::size_t max_segments = 500'000;          ///< a scene of more would be too large a file
 inline constexpr std::size_t max_limited_segments = 100'000;  ///< of a chain with limits, for the same reason
-inline constexpr int max_iterations = 10'000;
-inline constexpr float min_damping = 1e-4f, max_damping = 10.0f;
 
 /// How the chain follows its target: the library's four modes, and Reach, which pins the head and iterates.
 enum class ChainMode { Forward, Backward, Fixed, WithIndex, Reach };
@@ -29,10 +27,11 @@ enum class ChainMode { Forward, Backward, Fixed, WithIndex, Reach };
 /// What can be selected beside joints.
 enum class ChainPoint { Target, Pole };
 inline constexpr EnumNames<ChainPoint, 2> chain_points{
-    "point", {{"target", "Target", "What the chain follows."}, {"pole", "Pole target", "What it bends towards."}}};
+    "point",
+    {{"target", "Target", "What the chain follows."}, {"pole", "Pole target", "What it bends towards."}}};
 
-inline constexpr FlipWords chain_flip_words{"chain.flips", "target", "the target, as the root sees it,", "reach",
-                                            "the chain's reach"};
+inline constexpr FlipWords chain_flip_words{"chain.flips", "target", "the target, as the root sees it,",
+                                            "reach", "the chain's reach"};
 
 struct ChainPart final : Part {
     Chain chain;
@@ -41,7 +40,7 @@ struct ChainPart final : Part {
     std::array<int, 4> iterations{1, 1, 1, 1};  ///< each pull mode's own; Fixed is the one that repeats
     float tolerance = 1e-4f;                    ///< metres, of Fixed
     glm::vec3 target{0.0f};
-    Selection selection;                    ///< of joints
+    Selection selection;                     ///< of joints
     std::optional<ChainPoint> chosen_point;  ///< instead of joints
     Motion motion;
     ReachSettings reach;

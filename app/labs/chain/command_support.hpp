@@ -29,8 +29,8 @@ void check_index(const ChainPart& part, std::size_t index);
 
 /// One joint or several, for a command that sets the same on all.
 Argument joints_argument();
-/// Those that `index` or `joints` names, as they are given. Throws Refused where neither or both are given, or
-/// a joint is not there.
+/// Those that `index` or `joints` names, as they are given. Throws Refused where neither or both are given,
+/// or a joint is not there.
 std::vector<std::size_t> joints_of(const Arguments& given, const ChainPart& part);
 
 /// The same, ascending and each once, to set something on; one at least.

@@ -9,7 +9,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr float same_pixels = 3.0f;   ///< nearer than this, two chains cover each other
+constexpr float same_pixels = 3.0f;    ///< nearer than this, two chains cover each other
 constexpr float strand_pixels = 4.5f;  ///< from one strand to the next, where several run along together
 
 class RaceDrawing {
@@ -101,7 +101,9 @@ class RaceDrawing {
             if (d < c) return;
             shared = true;
         }
-        const glm::vec3 paint = i == 0 ? view_.palette.head : shared ? view_.palette.neutral : glm::vec3(colour);
+        const glm::vec3 paint = i == 0   ? view_.palette.head
+                                : shared ? view_.palette.neutral
+                                         : glm::vec3(colour);
         list_.sphere(joints(c)[i], px(i == 0 ? 7.0f : 5.0f), Unit::Pixels, glm::vec4(paint, 1.0f)).shadow =
             true;
     }

@@ -128,7 +128,8 @@ void bone_removed(ReachSettings& settings, std::size_t index, std::size_t segmen
     settings.limits.resize(segments_now < 2 ? 0 : segments_now - 1);
 }
 
-void bones_removed(ReachSettings& settings, const std::vector<std::size_t>& joints, std::size_t segments_now) {
+void bones_removed(ReachSettings& settings, const std::vector<std::size_t>& joints,
+                   std::size_t segments_now) {
     settings.state = {};
     if (settings.limits.empty()) return;
     std::vector<ik::Limit> left;

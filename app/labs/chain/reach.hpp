@@ -19,6 +19,7 @@
 
 #include "app/document/json.hpp"
 #include "app/document/names.hpp"
+#include "app/fields/fields.hpp"
 #include "app/io/solver_text.hpp"
 
 namespace tendril::ik {
@@ -30,7 +31,8 @@ namespace tendril::app {
 class ChainRuntime;
 class JsonPlace;
 
-inline constexpr int max_restarts = 1000;
+inline constexpr int max_iterations = 10'000, max_restarts = 1000;
+inline constexpr float min_damping = 1e-4f, max_damping = 10.0f;
 inline constexpr int default_restarts = 8;  ///< as ik::Options has it, but none while the target is dragged
 
 struct ReachSettings {
@@ -130,3 +132,9 @@ Json save_reach(const ReachSettings& settings, const Chain& chain);
 ReachSettings load_reach(const JsonPlace& place, const Chain& chain);
 
 }  // namespace tendril::app
+
+/// Of what is a number or a choice; the others have shapes of their own.
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::ReachSettings>() noexcept;
+template <>
+std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app::ReachSettings>();

@@ -5,7 +5,69 @@
 #include "app/io/solver_json.hpp"
 #include "app/labs/chain/command_support.hpp"
 
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::ReachSettings>() noexcept {
+    using namespace app;
+    static constexpr auto turns = pole_turns.name_array();
+    static constexpr Field rows[] = {field<&ReachSettings::iterations>("iterations", {1, max_iterations}),
+                                     field<&ReachSettings::tolerance>("tolerance", {0.0, max_magnitude}, "m"),
+                                     field<&ReachSettings::snap_back>("snap_back"),
+                                     field<&ReachSettings::soft_zone>("soft_zone"),
+                                     field<&ReachSettings::damping>("damping", {min_damping, max_damping}),
+                                     field<&ReachSettings::twist_deg>("twist_deg", {-180.0, 180.0}, "deg"),
+                                     field<&ReachSettings::restarts>("restarts", {0, max_restarts}),
+                                     field<&ReachSettings::pole_turn>("pole_turn", turns)};
+    return rows;
+}
+
 namespace tendril::app {
+
+template <>
+std::span<const FieldText> field_texts<ReachSettings>() {
+    static constexpr FieldText texts[] = {
+        {.name = "iterations",
+         .label = "iterations",
+         .help = "The maximum of iterations in a solve. More come nearer to the target and cost more."},
+        {.name = "tolerance",
+         .label = "tolerance",
+         .help = "How far from the target the tip may be when the solver stops. Less takes more iterations.",
+         .step = 0.0002f,
+         .decimals = 4},
+        {.name = "snap_back",
+         .label = "rest blend",
+         .help = "Snap-back: before a solve each joint is blended this far towards its rest direction. More "
+                 "keeps the chain nearer to its rest pose.",
+         .step = 0.005f},
+        {.name = "soft_zone",
+         .label = "soft zone",
+         .help = "The zone before full reach in which the chain eases off instead of snapping straight.",
+         .step = 0.002f,
+         .decimals = 3,
+         .unit = "of reach"},
+        {.name = "damping",
+         .label = "damping",
+         .help = "Damping of the two damped solvers. More is calmer near a singularity, and slower.",
+         .step = 0.001f,
+         .decimals = 3,
+         .unit = "of reach"},
+        {.name = "twist_deg",
+         .label = "twist",
+         .help = "Turns the bend of the two bones about the line from root to tip.",
+         .step = 0.5f,
+         .decimals = 0},
+        {.name = "restarts",
+         .label = "restarts",
+         .help = "Within joint limits: from how many other poses the solver restarts where it ends short of "
+                 "the target. More reach it more often; the chain may jump."},
+        {.name = "pole_turn",
+         .label = "turns",
+         .help = "How the chain turns to its pole target: all joints at once, which is smooth, or each "
+                 "between its neighbours.",
+         .listed = true,
+         .choices = pole_turns.rows}};
+    return texts;
+}
+
 namespace {
 
 /// Lets the chain reach anew for the target that it has, where it does reach.
@@ -19,16 +81,9 @@ void set_solver(ChainPart& part, const Arguments& given, ChainRuntime& runtime) 
         reach.method = *ik::method_named(given.text("name"));
         check_takes(reach.method, part.chain);
     }
-    if (given.has("iterations")) reach.iterations = given.integer("iterations");
-    if (given.has("tolerance")) reach.tolerance = given.number("tolerance");
     if (given.has("default_tolerance") && given.boolean("default_tolerance")) reach.tolerance.reset();
-    if (given.has("snap_back")) reach.snap_back = given.number("snap_back");
-    if (given.has("soft_zone")) reach.soft_zone = given.number("soft_zone");
-    if (given.has("damping")) reach.damping = given.number("damping");
-    if (given.has("twist_deg")) reach.twist_deg = given.number("twist_deg");
     if (given.has("default_restarts") && given.boolean("default_restarts")) reach.restarts.reset();
-    if (given.has("restarts")) reach.restarts = given.integer("restarts");
-    if (given.has("pole_turn")) reach.pole_turn = pole_turns.value(given.text("pole_turn"));
+    set_fields(given, reach);
     if (part.study.open()) reach_again(part, runtime);
 }
 
@@ -94,25 +149,15 @@ std::vector<Argument> limit_arguments() {
 }  // namespace
 
 void add_reach_commands(CommandTable& table) {
-    table.add(chain_command(
-        "chain.solver", "Set the solver",
-        {choice_argument("name", false, "kept when left out, as all the others are",
-                         names(ik::all_methods, [](ik::Method m) { return ik::name(m); })),
-         integer_argument("iterations", "maximum", 1, max_iterations),
-         number_argument("tolerance", "metres from tip to target at which it stops", 0, 1e9),
-         switch_argument("default_tolerance", "true: 1e-3 of the reach"),
-         number_argument("snap_back", "0 to 1: how far joints are blended towards rest before iterating", 0,
-                         1),
-         number_argument("soft_zone", "part of the reach in which the chain eases off", 0, 1),
-         number_argument("damping", "of dls and svd_dls, part of the reach", static_cast<double>(min_damping),
-                         static_cast<double>(max_damping)),
-         number_argument("twist_deg", "two_bone: turns the bend about the line to the target", -180, 180),
-         integer_argument("restarts", "within limits: maximum of other poses to restart from", 0,
-                          max_restarts),
-         switch_argument("default_restarts", "true: 8, but none while the target is dragged"),
-         choice_argument("pole_turn", false, "all joints at once, or each between its neighbours",
-                         pole_turns.names())},
-        "Sets the solver of mode reach, from the next move of the target on", set_solver));
+    std::vector<Argument> solver = field_arguments<ReachSettings>();
+    solver.insert(solver.begin(),
+                  choice_argument("name", false, "kept when left out, as all the others are",
+                                  names(ik::all_methods, [](ik::Method m) { return ik::name(m); })));
+    solver.push_back(switch_argument("default_tolerance", "true: 1e-3 of the reach"));
+    solver.push_back(switch_argument("default_restarts", "true: 8, but none while the target is dragged"));
+    table.add(chain_command("chain.solver", "Set the solver", std::move(solver),
+                            "Sets the solver of mode reach, from the next move of the target on",
+                            set_solver));
     table.add(chain_command("chain.limit", "Limit joints", limit_arguments(),
                             "Limits how far a joint turns in mode reach; kind free removes the limit",
                             limit_joints));

@@ -95,15 +95,9 @@ ik::State load_state(const JsonPlace& owner, const std::vector<glm::vec3>& joint
 }
 
 Json save_reach(const ReachSettings& settings, const Chain& chain) {
-    Json json{{"solver", ik::name(settings.method)}, {"iterations", settings.iterations}};
-    json["tolerance"] = settings.tolerance ? number(*settings.tolerance) : Json(nullptr);
-    json["snap_back"] = number(settings.snap_back);
-    json["soft_zone"] = number(settings.soft_zone);
-    json["damping"] = number(settings.damping);
-    json["twist_deg"] = number(settings.twist_deg);
-    json["restarts"] = settings.restarts ? Json(*settings.restarts) : Json(nullptr);
+    Json json{{"solver", ik::name(settings.method)}};
+    json.update(save_fields(settings));
     json["pole"] = settings.pole ? point(*settings.pole) : Json(nullptr);
-    json["pole_turn"] = pole_turns.name(settings.pole_turn);
     for (const ik::Limit& limit : settings.limits) json["limits"].push_back(limit_json(limit));
     save_state(json, settings.state, positions(chain));
     return json;
@@ -116,17 +110,8 @@ ReachSettings load_reach(const JsonPlace& place, const Chain& chain) {
     const auto method = ik::method_named(solver.text());
     if (!method) solver.fail("there is no solver \"" + solver.text() + "\"");
     settings.method = *method;
-    settings.iterations = place["iterations"].integer(1, max_iterations);
-    if (const auto tolerance = place.optional("tolerance"))
-        settings.tolerance = tolerance->number(0.0f, max_magnitude);
-    settings.snap_back = place["snap_back"].number(0.0f, 1.0f);
-    settings.soft_zone = place["soft_zone"].number(0.0f, 1.0f);
-    settings.damping = place["damping"].number(min_damping, max_damping);
-    settings.twist_deg = place["twist_deg"].number(-180.0f, 180.0f);
-    if (const auto restarts = place.optional("restarts"))  // version 1 had no such option
-        settings.restarts = restarts->integer(0, max_restarts);
+    load_fields(place, settings);
     if (const auto pole = place.optional("pole")) settings.pole = pole->point();
-    settings.pole_turn = pole_turns.value(place["pole_turn"].text());
     if (const auto limits = bone_list(place, "limits", bones)) {
         for (std::size_t i = 0; i < bones; ++i) {
             const JsonPlace each = limits->element(i);

@@ -1,6 +1,5 @@
 #include <imgui.h>
 
-
 #include "app/labs/chain/panels.hpp"
 #include "app/labs/chain/verdict.hpp"
 #include "app/widgets/fields.hpp"

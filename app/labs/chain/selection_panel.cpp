@@ -20,9 +20,8 @@ using Joints = std::vector<glm::vec3>;
 
 /// A command's arguments: which joints, and what is set on them.
 ArgumentList of_joints(const std::vector<std::size_t>& joints, const char* name, ArgumentValue value) {
-    const NamedArgument which = joints.size() == 1
-                                    ? NamedArgument{"index", joints.front()}
-                                    : NamedArgument{"joints", SharedJson(Json(joints))};
+    const NamedArgument which = joints.size() == 1 ? NamedArgument{"index", joints.front()}
+                                                   : NamedArgument{"joints", SharedJson(Json(joints))};
     return {which, {name, std::move(value)}};
 }
 
@@ -113,9 +112,8 @@ void length_field(const char* name, const ChainPart& part, Emit& emit) {
         emit.continuously("chain.set_length", of_joints(joints, "length", length));
     explain(joints.size() > 1
                 ? "The length of the bones that lead to the selected joints: shown is one, set are all."
-            : shown == 0
-                ? "The length of the bone that leads here once a joint is inserted before this one."
-                : "The length of the bone that leads to this joint.");
+            : shown == 0 ? "The length of the bone that leads here once a joint is inserted before this one."
+                         : "The length of the bone that leads to this joint.");
 }
 
 void limit_rows(const ChainPart& part, Emit& emit) {
@@ -123,9 +121,9 @@ void limit_rows(const ChainPart& part, Emit& emit) {
     std::vector<std::size_t> joints = part.selection.all();
     if (!joints.empty() && joints.back() + 1 == part.chain.size()) joints.pop_back();
     if (joints.empty()) return;
-    const std::size_t joint =
-        std::binary_search(joints.begin(), joints.end(), *part.selection.active()) ? *part.selection.active()
-                                                                                   : joints.back();
+    const std::size_t joint = std::binary_search(joints.begin(), joints.end(), *part.selection.active())
+                                  ? *part.selection.active()
+                                  : joints.back();
     const bool several = joints.size() > 1;
     section(several ? "Limit of these joints" : "Limit of this joint");
     const auto with = [&](const char* name, ArgumentValue value) {

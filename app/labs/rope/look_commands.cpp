@@ -5,7 +5,30 @@
 #include "app/labs/rope/rope_commands.hpp"
 #include "app/labs/rope/rope_names.hpp"
 
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::RopeView>() noexcept {
+    using app::RopeView;
+    static constexpr Field rows[] = {field<&RopeView::particles>("particles"),
+                                     field<&RopeView::strain>("strain"),
+                                     field<&RopeView::sides>("sides", {app::fewest_sides, app::most_sides})};
+    return rows;
+}
+
 namespace tendril::app {
+
+template <>
+std::span<const FieldText> field_texts<RopeView>() {
+    static constexpr FieldText texts[] = {
+        {.name = "strain",
+         .label = "Strain as colour",
+         .help = "Colours each rope by how far its segments are from their lengths."},
+        {.name = "particles", .label = "Particles", .help = "Draws the particles that ropes are made of."},
+        {.name = "sides",
+         .label = "sides",
+         .help = "How many sides ropes have in the picture. More look rounder and take longer to draw."}};
+    return texts;
+}
+
 namespace {
 
 void select(RopeEdit& edit, const Arguments& given) {
@@ -58,10 +81,7 @@ void hold(RopeEdit& edit, const Arguments& given) {
 }
 
 void set_view(RopeEdit& edit, const Arguments& given) {
-    RopeView& view = edit.part.view;
-    if (given.has("particles")) view.particles = given.boolean("particles");
-    if (given.has("strain")) view.strain = given.boolean("strain");
-    if (given.has("sides")) view.sides = given.integer("sides");
+    set_fields(given, edit.part.view);
 }
 
 }  // namespace
@@ -86,11 +106,8 @@ void add_look_commands(CommandTable& table) {
         "Sets what a click in the scene does",
         [](RopeEdit& edit, const Arguments& given) { edit.part.tool = rope_tools.value(given.text("name")); },
         Effect::Look));
-    table.add(rope_command(
-        "rope.view", "Set how ropes are shown",
-        {switch_argument("particles", "shown as balls"), switch_argument("strain", "strain as colour"),
-         integer_argument("sides", "of the tube", fewest_sides, most_sides)},
-        "Sets how ropes are shown; what is left out stays", set_view, Effect::Look));
+    table.add(rope_command("rope.view", "Set how ropes are shown", field_arguments<RopeView>(),
+                           "Sets how ropes are shown; what is left out stays", set_view, Effect::Look));
 }
 
 }  // namespace tendril::app

@@ -81,18 +81,6 @@ void time_rows(const Workspace& workspace, Emit& emit) {
              : "Frame-time jitter cuts time into uneven frames, as a program that stutters does.");
 }
 
-void view_rows(const RopePart& part, Emit& emit) {
-    bool strain = part.view.strain, particles = part.view.particles;
-    if (ImGui::Checkbox("Strain as colour", &strain)) emit("rope.view", {{"strain", strain}});
-    explain("Colours each rope by how far its segments are from their lengths.");
-    if (ImGui::Checkbox("Particles", &particles)) emit("rope.view", {{"particles", particles}});
-    explain("Draws the particles that ropes are made of.");
-    int sides = part.view.sides;
-    if (integer_slider("sides", sides, fewest_sides, most_sides))
-        emit.continuously("rope.view", {{"sides", sides}});
-    explain("How many sides ropes have in the picture. More look rounder and take longer to draw.");
-}
-
 constexpr PastHelp past_help{
     "What of the last ten seconds is plotted below the scene: of the selected particles or their body, or of "
     "all ropes where none is selected",
@@ -110,7 +98,7 @@ void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
     if (open("World"))
         settings_rows(part, emit).rows("damping", "friction", "gravity", "gravity_scale", "external");
     if (open("Time")) time_rows(workspace, emit);
-    if (open("Show")) view_rows(part, emit);
+    if (open("Show")) FieldRows(part.view, "rope.view", emit).rows("strain", "particles", "sides");
     if (open("Last ten seconds")) past_view_rows(workspace, rope_past(), past_help, emit);
 }
 

@@ -92,9 +92,8 @@ Jitter load_jitter(const JsonPlace& place) {
 
 RopeView load_view(const JsonPlace& place) {
     RopeView view;
-    view.particles = place["particles"].flag();
-    view.strain = place[place.has("strain") ? "strain" : "stress"].flag();  // as version 1 called it
-    view.sides = place["sides"].integer(fewest_sides, most_sides);
+    if (place.has("stress")) view.strain = place["stress"].flag();  // as version 1 called it
+    load_fields(place, view);
     return view;
 }
 
@@ -115,7 +114,7 @@ Json RopePart::save() const {
     return Json{{"time", time},
                 {"tool", rope_tools.name(tool)},
                 {"selected", save_selection(selection)},
-                {"view", {{"particles", view.particles}, {"strain", view.strain}, {"sides", view.sides}}},
+                {"view", save_fields(view)},
                 {"jitter", save_jitter(jitter)},
                 {"swings", std::move(moving)},
                 {"world", save_released(*this)}};

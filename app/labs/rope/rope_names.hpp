@@ -20,3 +20,7 @@ inline constexpr EnumNames<RopeTool, 3> rope_tools{
 
 template <>
 std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::rope::Settings>();
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::RopeView>() noexcept;
+template <>
+std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app::RopeView>();

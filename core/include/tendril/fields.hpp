@@ -10,6 +10,8 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <type_traits>
@@ -40,8 +42,9 @@ struct Field {
     const char* name;       ///< as files and commands have it: "gravity_scale"
     const char* unit = "";  ///< "m/s^2"; empty for none
     FieldType type = FieldType::Number;
-    bool exact = false;  ///< a number with the digits of a double; else those of a float
-    FieldRange range{};  ///< 0 to 1 of a flag, 0 to the last of choices
+    bool exact = false;     ///< a number with the digits of a double; else those of a float
+    bool optional = false;  ///< may hold nothing, which is a NaN here
+    FieldRange range{};     ///< 0 to 1 of a flag, 0 to the last of choices
     std::span<const char* const> choices{};
     FieldValue (*get)(const void* object) noexcept = nullptr;
     void (*set)(void* object, const FieldValue& value) noexcept = nullptr;
@@ -77,11 +80,23 @@ struct FieldMember<Value Struct::*> {
     using value_type = Value;
 };
 
+template <class Value>
+struct FieldOptional : std::false_type {
+    using type = Value;
+};
+template <class Value>
+struct FieldOptional<std::optional<Value>> : std::true_type {
+    using type = Value;
+};
+
 template <auto member>
 FieldValue get_field(const void* object) noexcept {
     using Of = FieldMember<decltype(member)>;
     const auto& value = static_cast<const typename Of::struct_type*>(object)->*member;
-    if constexpr (std::is_arithmetic_v<typename Of::value_type> || std::is_enum_v<typename Of::value_type>)
+    if constexpr (FieldOptional<typename Of::value_type>::value)
+        return {value ? static_cast<double>(*value) : std::numeric_limits<double>::quiet_NaN()};
+    else if constexpr (std::is_arithmetic_v<typename Of::value_type> ||
+                       std::is_enum_v<typename Of::value_type>)
         return {static_cast<double>(value)};
     else
         return {value.x, value.y, value.z};
@@ -92,7 +107,10 @@ void set_field(void* object, const FieldValue& given) noexcept {
     using Of = FieldMember<decltype(member)>;
     using Value = typename Of::value_type;
     auto& value = static_cast<typename Of::struct_type*>(object)->*member;
-    if constexpr (std::is_same_v<Value, bool>)
+    if constexpr (FieldOptional<Value>::value)
+        value =
+            given[0] == given[0] ? Value(static_cast<typename Value::value_type>(given[0])) : std::nullopt;
+    else if constexpr (std::is_same_v<Value, bool>)
         value = given[0] != 0.0;
     else if constexpr (std::is_enum_v<Value>)
         value = static_cast<Value>(static_cast<int>(given[0]));
@@ -115,11 +133,13 @@ constexpr FieldType field_type() noexcept {
 /// A row of a table: field<&Settings::damping>("damping", {0.0, max_rate}, "1/s").
 template <auto member>
 constexpr Field field(const char* name, FieldRange range = {0.0, 1.0}, const char* unit = "") noexcept {
-    using Value = typename detail::FieldMember<decltype(member)>::value_type;
+    using Member = typename detail::FieldMember<decltype(member)>::value_type;
+    using Value = typename detail::FieldOptional<Member>::type;
     return {.name = name,
             .unit = unit,
             .type = detail::field_type<Value>(),
             .exact = std::is_same_v<Value, double> || std::is_same_v<Value, glm::dvec3>,
+            .optional = detail::FieldOptional<Member>::value,
             .range = range,
             .get = detail::get_field<member>,
             .set = detail::set_field<member>};

@@ -4,6 +4,9 @@
 
 #include <tendril/rope/settings.hpp>
 
+#include "app/document/command.hpp"
+#include "app/labs/chain/chain_lab.hpp"
+#include "app/labs/chain/reach.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/ik/ik_settings.hpp"
 #include "app/labs/humanoid/springs/springs.hpp"
@@ -33,7 +36,9 @@ Table table_of(const char* lab, const char* command, const char* path, Json with
 
 const std::vector<Table>& tables() {
     static const std::vector<Table> all{
+        table_of<ReachSettings>(chain_lab, "chain.solver", "/reach"),
         table_of<rope::Settings>(rope_lab, "rope.settings", "/world/settings"),
+        table_of<RopeView>(rope_lab, "rope.view", "/view"),
         table_of<SpringSetting>(humanoid_lab, "humanoid.spring", "/springs/0", {{"node", "HeadTop_End"}}),
         table_of<GroundSetting>(humanoid_lab, "humanoid.ground", "/ik/ground"),
         table_of<FootIkSetting>(humanoid_lab, "humanoid.foot_ik", "/ik/foot_ik", Json::object(),
@@ -84,7 +89,7 @@ class EveryField : public LabTest, public testing::WithParamInterface<Row> {
             case FieldType::Flag:
                 return !now.get<bool>();
             case FieldType::Integer:
-                return now == field().range.high ? field().range.low : now.get<int>() + 1;
+                return now == 5 ? 6 : 5;
             case FieldType::Choice:
                 return field().choices[now == field().choices[0] ? 1 : 0];
             case FieldType::Number:
@@ -136,6 +141,7 @@ TEST_P(EveryField, IsSavedLoadedAndUndone) {
     const Json scene = save_scene(workspace);
     load_scene(opened, scene);
     EXPECT_EQ(save_scene(opened).at("labs"), scene.at("labs"));
+    if (table.find(of().command)->effect == Effect::Look) return;
     run("undo");
     EXPECT_EQ(saved(), before);
     run("redo");

@@ -58,8 +58,8 @@ void ground_rows(const HumanoidPanel& panel) {
     if (!why.empty()) return note("The feet are left alone: " + why + ".");
     if (!feet.on) return;
     rows.row("max_angle_deg");
-    rows.row("enter_speed", {0.0, feet.leave_speed});
-    rows.row("leave_speed", {feet.enter_speed, fastest_foot});
+    rows.row("enter_speed", {.within = FieldRange{0.0, feet.leave_speed}});
+    rows.row("leave_speed", {.within = FieldRange{feet.enter_speed, fastest_foot}});
     for (std::size_t side = 0; side < 2; ++side) foot_row(panel, side);
 }
 
