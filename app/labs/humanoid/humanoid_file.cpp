@@ -75,9 +75,7 @@ Json save_playback(const HumanoidPart& part) {
     json["playing"] = playback.playing;
     json["time"] = playback.time;
     json["rounds"] = playback.rounds;
-    json["speed"] = playback.speed;
-    json["loop"] = playback.loop;
-    json["in_place"] = playback.in_place;
+    json.update(save_fields(playback));
     return json;
 }
 
@@ -98,9 +96,7 @@ Playback read_playback(const JsonPlace& place, const LoadedCharacter& character)
     Playback playback;
     if (place.has("name")) playback.clip = read_clip(place, character);
     if (const auto playing = place.optional("playing")) playback.playing = playing->flag();
-    if (const auto speed = place.optional("speed")) playback.speed = speed->real(0.0, fastest_clip);
-    if (const auto loop = place.optional("loop")) playback.loop = loop->flag();
-    if (const auto in_place = place.optional("in_place")) playback.in_place = in_place->flag();
+    load_fields(place, playback);
     if (!playback.clip) return playback;
     const double duration = character.clips()[*playback.clip].duration;
     if (const auto time = place.optional("time")) playback.time = time->real(0.0, duration);
@@ -155,11 +151,7 @@ Json HumanoidPart::save() const {
     json["quiet_ticks"] = quiet_ticks;
     if (flips != FlipRule()) json["flips"] = save_flip_rule(flips);
     json["selected"] = save_selection(selection, skeleton());
-    json["view"] = {{"ghost", view.ghost},
-                    {"follow", view.follow},
-                    {"skin", skin_looks.name(view.skin)},
-                    {"skinning", skinnings.name(view.skinning)},
-                    {"limits", limits_shown.name(view.limits)}};
+    json["view"] = save_fields(view);
     return json;
 }
 
@@ -184,14 +176,7 @@ std::shared_ptr<Part> HumanoidPart::load(const Json& json, const std::string& wh
     if (const auto rule = place.optional("flips")) part->flips = load_flip_rule(*rule);
     if (const auto selected = place.optional("selected"))
         part->selection = load_selection(*selected, part->skeleton());
-    if (const auto shown = place.optional("view")) {
-        if (const auto ghost = shown->optional("ghost")) part->view.ghost = ghost->flag();
-        if (const auto skin = shown->optional("skin")) part->view.skin = skin->choice(skin_looks);
-        if (const auto skinning = shown->optional("skinning"))
-            part->view.skinning = skinning->choice(skinnings);
-        if (const auto limits = shown->optional("limits")) part->view.limits = limits->choice(limits_shown);
-        if (const auto follow = shown->optional("follow")) part->view.follow = follow->flag();
-    }
+    if (const auto shown = place.optional("view")) load_fields(*shown, part->view);
     return part;
 }
 

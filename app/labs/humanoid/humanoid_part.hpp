@@ -9,6 +9,7 @@
 #include "app/document/document.hpp"
 #include "app/document/names.hpp"
 #include "app/document/workspace.hpp"
+#include "app/fields/fields.hpp"
 #include "app/labs/humanoid/attachments/attachments.hpp"
 #include "app/labs/humanoid/clip/playback.hpp"
 #include "app/labs/humanoid/ik/ik_settings.hpp"
@@ -38,7 +39,7 @@ inline constexpr EnumNames<Skinning, 2> skinnings{"skinning",
 enum class LimitsShown : std::uint8_t { None, Selected, All };
 
 inline constexpr EnumNames<LimitsShown, 3> limits_shown{
-    "limits", {{"none", "none"}, {"selected", "of the selected joints"}, {"all", "of all joints"}}};
+    "limits", {{"none", "no joint"}, {"selected", "selected joints"}, {"all", "all joints"}}};
 
 struct HumanoidView {
     SkinLook skin = SkinLook::Transparent;
@@ -104,3 +105,8 @@ inline const HumanoidPart& humanoid_part(const Workspace& workspace) {
 }
 
 }  // namespace tendril::app
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::HumanoidView>() noexcept;
+template <>
+std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app::HumanoidView>();

@@ -3,7 +3,50 @@
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/kit/name_list.hpp"
 
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::HumanoidView>() noexcept {
+    using namespace app;
+    static constexpr auto skins = skin_looks.name_array();
+    static constexpr auto ways = skinnings.name_array();
+    static constexpr auto joints = limits_shown.name_array();
+    static constexpr Field rows[] = {
+        field<&HumanoidView::ghost>("ghost"), field<&HumanoidView::follow>("follow"),
+        field<&HumanoidView::skin>("skin", skins), field<&HumanoidView::skinning>("skinning", ways),
+        field<&HumanoidView::limits>("limits", joints)};
+    return rows;
+}
+
 namespace tendril::app {
+
+template <>
+std::span<const FieldText> field_texts<HumanoidView>() {
+    static constexpr FieldText texts[] = {
+        {.name = "ghost",
+         .label = "Ghost",
+         .help = "The pose as it was before anything changed it, in gray."},
+        {.name = "skin",
+         .label = "skin",
+         .help = "What the character wears: as it is, or so that its bones show through",
+         .listed = true,
+         .choices = skin_looks.rows},
+        {.name = "skinning",
+         .label = "skinning",
+         .help = "How the skin follows twisted arms. Linear blending shrinks it to a thread at wrist and "
+                 "shoulder; twist spread turns it evenly along forearm and upper arm. Bones with twist nodes "
+                 "of their own are left to those",
+         .listed = true,
+         .choices = skinnings.rows},
+        {.name = "limits",
+         .label = "limits of",
+         .help = "How far joints turn: an adult's range, and over it that of the clips",
+         .listed = true,
+         .choices = limits_shown.rows},
+        {.name = "follow",
+         .label = "Camera follows",
+         .help = "The camera goes along with a character that walks."}};
+    return texts;
+}
+
 namespace {
 
 void select(HumanoidPart& part, const Arguments& given) {
@@ -20,11 +63,7 @@ void select(HumanoidPart& part, const Arguments& given) {
 }
 
 void set_view(HumanoidPart& part, const Arguments& given) {
-    if (given.has("ghost")) part.view.ghost = given.boolean("ghost");
-    if (given.has("skin")) part.view.skin = skin_looks.value(given.text("skin"));
-    if (given.has("skinning")) part.view.skinning = skinnings.value(given.text("skinning"));
-    if (given.has("limits")) part.view.limits = limits_shown.value(given.text("limits"));
-    if (given.has("follow")) part.view.follow = given.boolean("follow");
+    set_fields(given, part.view);
 }
 
 void set_flips(HumanoidPart& part, const Arguments& given) {
@@ -41,12 +80,7 @@ void add_humanoid_look_commands(CommandTable& table) {
          switch_argument("add", "true: adds to what is selected, or with node takes out what is")},
         "Selects nodes of the character", select, Effect::Look));
     table.add(part_command<HumanoidPart>(
-        humanoid_lab, "humanoid.view", "Set how the character is shown",
-        {switch_argument("ghost", "of the pose as it was before anything changed it"),
-         choice_argument("skin", false, "how what the character wears is drawn", skin_looks.names()),
-         choice_argument("skinning", false, "how it follows twisted arms", skinnings.names()),
-         choice_argument("limits", false, "of which joints the limits are drawn", limits_shown.names()),
-         switch_argument("follow", "the camera goes along with a walk")},
+        humanoid_lab, "humanoid.view", "Set how the character is shown", field_arguments<HumanoidView>(),
         "Sets how the character is shown; what is left out stays", set_view, Effect::Look));
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.flips", "Set the rule for bone flips", flip_arguments(humanoid_flip_words),

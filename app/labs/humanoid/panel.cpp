@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app/document/units.hpp"
+#include "app/fields/field_rows.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/panels.hpp"
 #include "app/labs/humanoid/past/past.hpp"
@@ -112,49 +113,16 @@ void clip_rows(const HumanoidPanel& panel) {
         end_search();
     }
     explain("Which motion of the file is shown. Type a part of its name to find one.");
-    float percent = static_cast<float>(100.0 * playback.speed);
-    if (number_field("speed", percent, 0.5f, 0.0f, 1000.0f, "%.0f %%"))
-        panel.emit.continuously("humanoid.clip", {{"speed", static_cast<double>(percent) / 100.0}});
-    explain("How fast the clip plays. 100 % is as it was recorded.");
-    bool loop = playback.loop, in_place = playback.in_place;
-    if (ImGui::Checkbox("Loop", &loop)) panel.emit("humanoid.clip", {{"loop", loop}});
-    explain("A walk goes on from where its last round ended. Else it stops at its end.");
-    if (ImGui::Checkbox("In place", &in_place)) panel.emit("humanoid.clip", {{"in_place", in_place}});
-    explain("The hips stay above the point where the clip begins.");
+    FieldRows(playback, "humanoid.clip", panel.emit).rows("speed", "loop", "in_place");
     if (playback.playing && !panel.workspace.clock.playing) note("Paused: press Space to let it play.");
 }
 
 void look_rows(const HumanoidPanel& panel) {
     if (!folding_section(panel.workspace, "View", panel.emit)) return;
-    HumanoidView view = panel.part.view;
-    if (ImGui::Checkbox("Camera follows", &view.follow))
-        panel.emit("humanoid.view", {{"follow", view.follow}});
-    explain("The camera goes along with a character that walks.");
-    if (panel.part.loaded->character.skin.mesh) {
-        int look = static_cast<int>(view.skin);
-        const auto titles = skin_looks.titles();
-        if (choice_field("skin", look, titles.data(), static_cast<int>(titles.size())))
-            panel.emit("humanoid.view", {{"skin", skin_looks.name(static_cast<SkinLook>(look))}});
-        explain("What the character wears: as it is, or so that its bones show through.");
-        int follows = static_cast<int>(view.skinning);
-        const auto ways = skinnings.titles();
-        if (choice_field("skinning", follows, ways.data(), static_cast<int>(ways.size())))
-            panel.emit("humanoid.view", {{"skinning", skinnings.name(static_cast<Skinning>(follows))}});
-        explain(
-            "How the skin follows twisted arms. Linear blending shrinks it to a thread at wrist and "
-            "shoulder; "
-            "twist spread turns it evenly along forearm and upper arm. Bones with twist nodes of their own "
-            "are "
-            "left to those.");
-    }
-    int limits = static_cast<int>(view.limits);
-    constexpr const char* joints[]{"no joint", "selected joints",
-                                   "all joints"};  // in the order of LimitsShown
-    if (choice_field("limits of", limits, joints, 3))
-        panel.emit("humanoid.view", {{"limits", limits_shown.name(static_cast<LimitsShown>(limits))}});
-    explain("How far joints turn: an adult's range, and over it that of the clips.");
-    if (ImGui::Checkbox("Ghost", &view.ghost)) panel.emit("humanoid.view", {{"ghost", view.ghost}});
-    explain("The pose as it was before anything changed it, in gray.");
+    const FieldRows view(panel.part.view, "humanoid.view", panel.emit);
+    view.row("follow");
+    if (panel.part.loaded->character.skin.mesh) view.rows("skin", "skinning");
+    view.rows("limits", "ghost");
     past_view_rows(panel.workspace, humanoid_past(), past_help, panel.emit);
 }
 

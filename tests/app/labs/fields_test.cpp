@@ -44,13 +44,19 @@ const std::vector<Table>& tables() {
         table_of<FootIkSetting>(humanoid_lab, "humanoid.foot_ik", "/ik/foot_ik", Json::object(),
                                 {{"leave_speed", 100}}),
         table_of<HandIkSetting>(humanoid_lab, "humanoid.hand_ik", "/ik/hand_ik"),
-        table_of<LookAtSetting>(humanoid_lab, "humanoid.look_at", "/ik/look_at")};
+        table_of<LookAtSetting>(humanoid_lab, "humanoid.look_at", "/ik/look_at"),
+        table_of<HumanoidView>(humanoid_lab, "humanoid.view", "/view"),
+        table_of<Playback>(humanoid_lab, "humanoid.clip", "/clip")};
     return all;
 }
 
 struct Row {
     const Table* table;
     const Field* field;
+
+    friend std::ostream& operator<<(std::ostream& out, const Row& row) {
+        return out << row.table->command << " " << row.field->name;
+    }
 };
 
 /// Those that a command sets.

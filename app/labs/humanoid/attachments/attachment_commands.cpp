@@ -8,7 +8,42 @@
 #include "app/labs/humanoid/ik/ik_command.hpp"
 #include "app/labs/kit/arguments.hpp"
 
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::AttachmentShape>() noexcept {
+    using namespace app;
+    constexpr FieldRange size{shortest_attachment, longest_attachment};
+    constexpr FieldRange anywhere{-max_magnitude, max_magnitude};
+    static constexpr Field rows[] = {
+        field<&AttachmentShape::length>("length", size, "m"),
+        field<&AttachmentShape::width>("width", size, "m"),
+        field<&AttachmentShape::thickness>("thickness", size, "m"),
+        field<&AttachmentShape::segments>("segments", {1, most_attached_segments}),
+        field<&AttachmentShape::strands>("strands", {1, most_attached_strands}),
+        field<&AttachmentShape::offset>("offset", anywhere, "m"),
+        field<&AttachmentShape::direction>("direction", anywhere)};
+    return rows;
+}
+
 namespace tendril::app {
+
+template <>
+std::span<const FieldText> field_texts<AttachmentShape>() {
+    static constexpr FieldText texts[] = {
+        {.name = "length", .label = "length", .help = "From where it is held to its end."},
+        {.name = "segments", .label = "segments", .help = "Along its length."},
+        {.name = "width", .label = "width", .help = "Of a cloth, or of the patch that hair grows on."},
+        {.name = "thickness", .label = "thickness", .help = "Of the rope, a hair or the cloth."},
+        {.name = "strands", .label = "strands", .help = "How many hairs there are."},
+        {.name = "offset",
+         .label = "offset",
+         .help = "From the bone to where it is held, along the axes of the character at rest; off the body "
+                 "when left out."},
+        {.name = "direction",
+         .label = "direction",
+         .help = "Where it leads to at first, along the axes of the character at rest."}};
+    return texts;
+}
+
 namespace {
 
 /// A bone of the body, as it is mapped, or any node.
@@ -22,17 +57,11 @@ std::size_t holder_named(const HumanoidPart& part, const std::string& name) {
 }
 
 void take_shape(AttachmentShape& shape, const Arguments& given) {
-    if (given.has("length")) shape.length = given.real("length");
-    if (given.has("width")) shape.width = given.real("width");
-    if (given.has("thickness")) shape.thickness = given.real("thickness");
-    if (given.has("segments")) shape.segments = given.integer("segments");
-    if (given.has("strands")) shape.strands = given.integer("strands");
-    if (given.has("offset")) shape.offset = exact_point(given.json("offset"));
+    set_fields(given, shape);
     if (!given.has("direction")) return;
-    const glm::dvec3 direction = exact_point(given.json("direction"));
-    if (!(glm::length(direction) > 1e-9))
+    if (!(glm::length(shape.direction) > 1e-9))
         throw std::invalid_argument("direction must be longer than 0, got [0, 0, 0]");
-    shape.direction = glm::normalize(direction);
+    shape.direction = glm::normalize(shape.direction);
 }
 
 void attach(Workspace& workspace, const Arguments& given) {
@@ -58,28 +87,18 @@ void detach(HumanoidPart& part, const Arguments& given) {
 }  // namespace
 
 void add_attachment_commands(CommandTable& table) {
-    const auto metres = [](const char* name, const char* help) {
-        return number_argument(name, help, shortest_attachment, longest_attachment);
-    };
-    table.add(
-        {.name = "humanoid.attach",
-         .title = "Attach a rope, hair or cloth",
-         .arguments = {node_argument("bone", true, "a bone, as it is mapped, or a node, by name"),
-                       choice_argument("kind", true, "what", attachment_kinds.names()),
-                       text_argument("name", false, "a new one; after its kind when left out"),
-                       metres("length", "metres"),
-                       integer_argument("segments", "along its length", 1, most_attached_segments),
-                       metres("width", "of a cloth, or the patch that hair grows on, metres"),
-                       metres("thickness", "of the rope, a hair, the cloth, metres"),
-                       integer_argument("strands", "of hair", 1, most_attached_strands),
-                       point_argument("offset", false,
-                                      "from the bone to where it is held, along the axes of the character "
-                                      "at rest, metres; off the body when left out"),
-                       point_argument("direction", false, "that it leads in at first, along the same axes")},
-         .help = "Hangs a rope, hair or a cloth on a bone; what is left out fits the bone and the "
-                 "character's height",
-         .effect = Effect::Edit,
-         .apply = attach});
+    std::vector<Argument> arguments{
+        node_argument("bone", true, "a bone, as it is mapped, or a node, by name"),
+        choice_argument("kind", true, "what", attachment_kinds.names()),
+        text_argument("name", false, "a new one; after its kind when left out")};
+    for (Argument& each : field_arguments<AttachmentShape>()) arguments.push_back(std::move(each));
+    table.add({.name = "humanoid.attach",
+               .title = "Attach a rope, hair or cloth",
+               .arguments = std::move(arguments),
+               .help = "Hangs a rope, hair or a cloth on a bone; what is left out fits the bone and the "
+                       "character's height",
+               .effect = Effect::Edit,
+               .apply = attach});
     table.add(part_command<HumanoidPart>(humanoid_lab, "humanoid.detach", "Detach a rope, hair or cloth",
                                          {offering(text_argument("name", true, "of the attachment"),
                                                    [](const Workspace& w) {

@@ -9,30 +9,9 @@
 namespace tendril::app {
 namespace {
 
-constexpr const char* lengths[] = {"length", "width", "thickness"};
-
-double& length_of(AttachmentShape& shape, std::size_t which) {
-    return which == 0 ? shape.length : which == 1 ? shape.width : shape.thickness;
-}
-
-Json shape_json(AttachmentShape shape) {
-    Json json = Json::object();
-    for (std::size_t i = 0; i < 3; ++i) json[lengths[i]] = length_of(shape, i);
-    json["segments"] = shape.segments;
-    json["strands"] = shape.strands;
-    json["offset"] = dpoint(shape.offset);
-    json["direction"] = dpoint(shape.direction);
-    return json;
-}
-
 AttachmentShape read_shape(const JsonPlace& place) {
     AttachmentShape shape;
-    for (std::size_t i = 0; i < 3; ++i)
-        length_of(shape, i) = place[lengths[i]].real(shortest_attachment, longest_attachment);
-    shape.segments = place["segments"].integer(1, most_attached_segments);
-    shape.strands = place["strands"].integer(1, most_attached_strands);
-    shape.offset = place["offset"].dpoint();
-    shape.direction = place["direction"].dpoint();
+    load_fields(place, shape);
     const double length = glm::dot(shape.direction, shape.direction);
     if (!(length > 0.99 && length < 1.01)) place["direction"].fail("expected a direction of length 1");
     return shape;
@@ -70,7 +49,7 @@ Json attachments_json(const Attachments& attachments) {
             {{"name", each.name},
              {"node", each.node},
              {"kind", attachment_kinds.name(each.kind)},
-             {"shape", shape_json(each.shape)},
+             {"shape", save_fields(each.shape)},
              {"pins", pins_json(each.pins)},
              {"frame", {{"position", dpoint(each.frame.position)}, {"turn", quaternion(each.frame.turn)}}}});
     return Json{{"list", std::move(list)}, {"world", save_world(*attachments.world)}};

@@ -11,6 +11,7 @@
 #include <tendril/humanoid/capsules.hpp>
 #include <vector>
 
+#include "app/fields/fields.hpp"
 #include "app/labs/humanoid/character/loaded_character.hpp"
 #include "app/labs/humanoid/ik/ground_setting.hpp"
 #include "app/labs/kit/named_world.hpp"
@@ -103,3 +104,8 @@ std::vector<glm::dvec3> made_offsets(const Attachment& attachment, const Wearer&
 Attachments remade(const Attachments& attachments, const Wearer& wearer, double scale);
 
 }  // namespace tendril::app
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::AttachmentShape>() noexcept;
+template <>
+std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app::AttachmentShape>();

@@ -7,7 +7,35 @@
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/kit/arguments.hpp"
 
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::Playback>() noexcept {
+    using app::Playback;
+    static constexpr Field rows[] = {field<&Playback::speed>("speed", {0.0, app::fastest_clip}),
+                                     field<&Playback::loop>("loop"), field<&Playback::in_place>("in_place")};
+    return rows;
+}
+
 namespace tendril::app {
+
+template <>
+std::span<const FieldText> field_texts<Playback>() {
+    static constexpr FieldText texts[] = {
+        {.name = "speed",
+         .label = "speed",
+         .help = "How fast the clip plays. At 1, or 100 %, it is as it was recorded.",
+         .step = 0.5f,
+         .decimals = 0,
+         .scale = 100.0,
+         .unit = "%"},
+        {.name = "loop",
+         .label = "Loop",
+         .help = "A walk goes on from where its last round ended. Else it stops at its end."},
+        {.name = "in_place",
+         .label = "In place",
+         .help = "The hips stay above the point where the clip begins."}};
+    return texts;
+}
+
 namespace {
 
 std::size_t chosen_clip(const LoadedCharacter& character, const Arguments& given) {
@@ -47,9 +75,7 @@ void set_clip(HumanoidPart& part, const Arguments& given) {
         choose(playback, std::nullopt);
     else if (given.has("name") || given.has("index"))
         choose(playback, chosen_clip(*part.loaded, given));
-    if (given.has("speed")) playback.speed = given.real("speed");
-    if (given.has("loop")) playback.loop = given.boolean("loop");
-    if (given.has("in_place")) playback.in_place = given.boolean("in_place");
+    set_fields(given, playback);
     const bool play = given.has("play") && given.boolean("play");
     if (!playback.clip && (play || given.has("time"))) throw std::invalid_argument("no clip is chosen");
     if (given.has("time")) go_to(playback, *part.loaded, given.real("time"));
@@ -63,15 +89,14 @@ void set_clip(HumanoidPart& part, const Arguments& given) {
 }  // namespace
 
 void add_clip_commands(CommandTable& table) {
+    std::vector<Argument> arguments{
+        clip_argument("name", "which clip; empty: the rest pose"),
+        integer_argument("index", "instead of the name, counted from 0", 0, 1e6),
+        switch_argument("play", "or pause"),
+        number_argument("time", "seconds from its beginning; over its duration, in a later round", 0.0, 1e6)};
+    for (Argument& each : field_arguments<Playback>()) arguments.push_back(std::move(each));
     Command clip = part_command<HumanoidPart>(
-        humanoid_lab, "humanoid.clip", "Choose and play a clip",
-        {clip_argument("name", "which clip; empty: the rest pose"),
-         integer_argument("index", "instead of the name, counted from 0", 0, 1e6),
-         switch_argument("play", "or pause"),
-         number_argument("time", "seconds from its beginning; over its duration, in a later round", 0.0, 1e6),
-         number_argument("speed", "1 is as it was made", 0.0, fastest_clip),
-         switch_argument("loop", "a walk goes on from where it is; else it stops at its end"),
-         switch_argument("in_place", "the hips stay above one point")},
+        humanoid_lab, "humanoid.clip", "Choose and play a clip", std::move(arguments),
         "Chooses a clip, its moment and how it plays; what is left out stays", set_clip);
     // Clips begin anywhere: the camera goes along with the character, as it does while one plays.
     clip.apply = [set = clip.apply](Workspace& workspace, const Arguments& given) {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <tendril/rig/transform.hpp>
 
+#include "app/fields/fields.hpp"
 #include "app/labs/humanoid/character/loaded_character.hpp"
 
 namespace tendril::app {
@@ -45,3 +46,8 @@ glm::dvec3 missing_velocity(const Playback& playback, const LoadedCharacter& cha
                             std::optional<std::size_t> hips);
 
 }  // namespace tendril::app
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::Playback>() noexcept;
+template <>
+std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app::Playback>();

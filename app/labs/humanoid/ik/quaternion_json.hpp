@@ -1,6 +1,7 @@
 // Rotations in scene files, [x, y, z, w], with all their digits.
 #pragma once
 
+#include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
 
 namespace tendril::app {

@@ -222,8 +222,6 @@ TEST_F(HumanoidTargets, AFileThatIsWrongIsRefusedWithItsPlace) {
     says(refusal([](Json& ik) { ik["targets"]["left_hand"]["rotation"] = {0, 0, 0, 0}; }), "length 1");
     says(refusal([](Json& ik) { ik["limits"] = "dreams"; }), "unknown source of limits \"dreams\"");
     says(refusal([](Json& ik) { ik["body"]["turns"][0] = {0, 0, 0}; }), "labs.humanoid.ik.body.turns");
-    says(refusal([](Json& ik) { ik["ground"]["kind"] = "lava"; }), "unknown kind of ground \"lava\"");
-    says(refusal([](Json& ik) { ik["foot_ik"]["on"] = 1; }), "labs.humanoid.ik.foot_ik.on");
     // What the body remembers of another one is left alone.
     Json scene = good;
     scene["labs"][humanoid_lab]["ik"]["body"]["turns"].erase(0);
