@@ -90,19 +90,25 @@ void FieldRows::point_row(const Field& field, const FieldText& text) const {
         emit_.continuously(command_, arguments(field, value));
 }
 
+/// Which of the text's choices it is.
+int FieldRows::chosen(const Field& field, const FieldText& text) const {
+    const std::string_view name = field.choices[static_cast<std::size_t>(field.get(of_.object)[0])];
+    const auto row = std::ranges::find(text.choices, name, &EnumRow::name);
+    return static_cast<int>(row - text.choices.begin());
+}
+
 void FieldRows::list_row(const Field& field, const FieldText& text) const {
     std::vector<const char*> titles;
     for (const EnumRow& each : text.choices) titles.push_back(each.title);
-    int chosen = static_cast<int>(field.get(of_.object)[0]);
-    if (choice_field(text.label, chosen, titles.data(), static_cast<int>(titles.size())))
-        emit_(command_, arguments(field, field.choices[static_cast<std::size_t>(chosen)]));
+    int at = chosen(field, text);
+    if (choice_field(text.label, at, titles.data(), static_cast<int>(titles.size())))
+        emit_(command_, arguments(field, text.choices[static_cast<std::size_t>(at)].name));
 }
 
 void FieldRows::button_rows(const Field& field, const FieldText& text) const {
-    const auto chosen = static_cast<std::size_t>(field.get(of_.object)[0]);
-    for (std::size_t i = 0; i < field.choices.size(); ++i)
-        if (option_button(text.choices[i].title, i == chosen, text.choices[i].help))
-            emit_(command_, arguments(field, field.choices[i]));
+    const int now = chosen(field, text);
+    for (int i = 0; const EnumRow& each : text.choices)
+        if (option_button(each.title, i++ == now, each.help)) emit_(command_, arguments(field, each.name));
 }
 
 }  // namespace tendril::app

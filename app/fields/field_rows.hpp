@@ -40,6 +40,7 @@ class FieldRows {
     void flag_row(const Field& field, const FieldText& text) const;
     void number_row(const Field& field, const FieldText& text, const RowOptions& options) const;
     void point_row(const Field& field, const FieldText& text) const;
+    int chosen(const Field& field, const FieldText& text) const;
     void list_row(const Field& field, const FieldText& text) const;
     void button_rows(const Field& field, const FieldText& text) const;
 

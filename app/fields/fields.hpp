@@ -20,10 +20,10 @@ struct FieldText {
     const char* help;    ///< what it does, in a sentence or two: in a panel, and of the command's argument
     float step = 0.01f;  ///< of what is shown, by a pixel of a drag
     int decimals = 2;
-    double scale = 1.0;                     ///< what is shown is the value times this
-    const char* unit = nullptr;             ///< of what is shown, where that is not the field's: "ms"
-    bool listed = false;                    ///< choices are in a list, and not a button each
-    std::span<const EnumRow> choices = {};  ///< the titles of choices, in their order
+    double scale = 1.0;                  ///< what is shown is the value times this
+    const char* unit = nullptr;          ///< of what is shown, where that is not the field's: "ms"
+    bool listed = false;                 ///< choices are in a list, and not a button each
+    std::span<const EnumRow> choices{};  ///< the titles of choices, in the order of the panel
 };
 
 /// The texts of a struct's fields, of each field one.

@@ -55,7 +55,7 @@ Result refuse(const char* operation, const Field& field, int axis, double value)
     const bool point = field.type == FieldType::Point;
     const detail::Argument argument(field.name, detail::no_index, point ? axes[axis] : std::string_view());
     const Requirement requirement(field);
-    if (field.exact) return detail::refused(operation, argument, requirement.text(), value);
+    if (field.exact || field.whole()) return detail::refused(operation, argument, requirement.text(), value);
     return detail::refused(operation, argument, requirement.text(), static_cast<float>(value));
 }
 

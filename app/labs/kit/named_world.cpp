@@ -112,6 +112,22 @@ std::string NamedWorld::cut(std::string_view rope, std::size_t segment) {
 std::size_t NamedWorld::particle(std::string_view body, std::size_t index) const {
     return require_value(world_.particle(id(body), index));
 }
+void NamedWorld::set_length(std::string_view body, float metres) {
+    require_ok(world_.set_length(id(body), metres));
+}
+void NamedWorld::set_mass(std::string_view body, double kilograms) {
+    require_ok(world_.set_mass(id(body), kilograms));
+}
+void NamedWorld::set_radius(std::string_view body, float metres) {
+    require_ok(world_.set_radius(id(body), metres));
+}
+void NamedWorld::set_compliance(std::string_view body, rope::Link::Kind kind, float compliance) {
+    require_ok(world_.set_compliance(id(body), kind, compliance));
+}
+void NamedWorld::set_tear(std::string_view body, float tear) {
+    require_ok(world_.set_tear(id(body), tear));
+}
+
 void NamedWorld::pin(std::size_t particle, const glm::dvec3& at, double seconds) {
     require_ok(world_.pin(particle, at, seconds));
 }

@@ -57,6 +57,12 @@ class NamedWorld {
     void remove(std::string_view body);
     /// Gives back the name of what is behind the cut: the rope's own with a number.
     std::string cut(std::string_view rope, std::size_t segment);
+    // As rope::World has them.
+    void set_length(std::string_view body, float metres);
+    void set_mass(std::string_view body, double kilograms);
+    void set_radius(std::string_view body, float metres);
+    void set_compliance(std::string_view body, rope::Link::Kind kind, float compliance);
+    void set_tear(std::string_view body, float tear);
     std::size_t particle(std::string_view body, std::size_t index) const;
     void pin(std::size_t particle, const glm::dvec3& at, double seconds = 0.0);
     void attach(std::size_t particle, std::string_view collider);

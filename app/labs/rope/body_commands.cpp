@@ -5,6 +5,7 @@
 
 #include "app/labs/kit/index_list.hpp"
 #include "app/labs/kit/require.hpp"
+#include "app/labs/rope/body_settings.hpp"
 #include "app/labs/rope/rope_commands.hpp"
 
 namespace tendril::app {
@@ -225,6 +226,12 @@ void add_adding_commands(CommandTable& table) {
 
 void add_body_commands(CommandTable& table) {
     add_adding_commands(table);
+    std::vector<Argument> made_of = field_arguments<BodySettings>();
+    made_of.insert(made_of.begin(), body_argument("rope", true, "of a rope, cloth or hair"));
+    table.add(rope_command(
+        "rope.set", "Change a rope, cloth or hair", std::move(made_of),
+        "Changes what a body is made of while it hangs; what is left out stays",
+        [](RopeEdit& edit, const Arguments& given) { set_body(edit.world(), given.text("rope"), given); }));
     table.add(rope_command("rope.remove", "Remove a rope, cloth or hair",
                            {body_argument("name", true, "of a rope, cloth or hair")},
                            "Removes a rope, cloth or hair", remove_body));

@@ -9,6 +9,8 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/document/json_complete.hpp"
+#include "app/fields/field_rows.hpp"
+#include "app/labs/rope/body_settings.hpp"
 #include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/panels.hpp"
 #include "app/labs/rope/rope_edit.hpp"
@@ -18,6 +20,17 @@
 
 namespace tendril::app {
 namespace {
+
+/// What the body is made of.
+void body_rows(const NamedWorld& world, const rope::Body& body, Emit& emit) {
+    section(world.name(body).c_str());
+    const BodySettings settings = settings_of(world, body);
+    const FieldRows rows(settings, "rope.set", emit, {{"rope", world.name(body)}});
+    rows.rows("length", "mass", "radius", "stretch");
+    if (settings.shear) rows.row("shear");
+    if (settings.bend) rows.row("bend");
+    if (settings.tear) rows.row("tear");
+}
 
 void particle_rows(const RopePart& part, const rope::Body& body, std::size_t index, Emit& emit) {
     const NamedWorld& world = *part.world;
@@ -41,8 +54,6 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     reading("speed", "%.3f m/s", static_cast<double>(glm::length(world.velocity(particle))));
     reading("tension", "%.2f N",
             static_cast<double>(strongest_tension(world, measured_particles(world, part.selection))));
-    reading(body.kind == rope::Body::Kind::Rope ? "rope's length" : "length of a row", "%.3f m",
-            world.length(body));
     if (row_button(pinned ? "Unpin" : "Pin", 3, true,
                    pinned ? "Lets the particle move again" : "Holds the particle where it is now"))
         emit(pinned ? "rope.unpin" : "rope.pin", which);
@@ -52,6 +63,7 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     if (row_button("Remove", 3, true, "Removes the whole body"))
         emit("rope.remove", {{"name", world.name(body)}});
     end_row();
+    body_rows(world, body, emit);
 }
 
 /// Of several particles.
@@ -72,6 +84,7 @@ void several_rows(const RopePart& part, const rope::Body& body, const std::vecto
     if (row_button("Remove", 3, true, "Removes the whole body"))
         emit("rope.remove", {{"name", world.name(body)}});
     end_row();
+    body_rows(world, body, emit);
 }
 
 /// What a kind of collider has beside its place.

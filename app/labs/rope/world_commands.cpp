@@ -57,7 +57,10 @@ std::vector<Argument> settings_arguments() {
 
 template <>
 std::span<const FieldText> field_texts<rope::Settings>() {
-    static const FieldText texts[] = {
+    static constexpr EnumRow solvers[] = {rope_solvers.row(rope::Solver::Direct),
+                                          rope_solvers.row(rope::Solver::Xpbd),
+                                          rope_solvers.row(rope::Solver::Relaxation)};
+    static constexpr FieldText texts[] = {
         {.name = "substep",
          .label = "substep",
          .help = "The length of the equal steps into which the simulation is cut. Shorter ones follow fast "
@@ -67,7 +70,7 @@ std::span<const FieldText> field_texts<rope::Settings>() {
          .label = "iterations",
          .help = "The maximum of passes in a substep. Direct ends as soon as it has converged; with the "
                  "others more passes stretch a rope less and cost more."},
-        {.name = "solver", .label = "solver", .help = "How lengths are kept", .choices = rope_solvers.rows},
+        {.name = "solver", .label = "solver", .help = "How lengths are kept", .choices = solvers},
         {.name = "damping",
          .label = "damping",
          .help = "How fast motion dies away. Raise it where ropes swing for too long."},
