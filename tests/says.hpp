@@ -13,10 +13,12 @@ namespace tendril::test {
 /// Whether `word` stands at `at` whole: "1" does not stand in "-1", "10", "1.5" or "joint1".
 inline bool stands_whole(std::string_view message, std::string_view word, std::size_t at) {
     const auto in_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
-    const bool number = std::isdigit(static_cast<unsigned char>(word.front())) != 0;
+    const std::string_view digits = word.substr(word.front() == '-' ? 1 : 0);
+    const bool number = !digits.empty() && std::isdigit(static_cast<unsigned char>(digits.front())) != 0;
     const std::string_view after = message.substr(at + word.size());
     if (at > 0 && in_word(word.front()) && in_word(message[at - 1])) return false;
-    if (at > 0 && number && (message[at - 1] == '-' || message[at - 1] == '.')) return false;
+    if (at > 0 && number && word.front() != '-' && (message[at - 1] == '-' || message[at - 1] == '.'))
+        return false;
     if (after.empty() || !in_word(word.back())) return true;
     return !in_word(after[0]) && !(number && after.size() > 1 && after[0] == '.' && in_word(after[1]));
 }

@@ -90,7 +90,7 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
         if (const auto& part = before.parts().at(workspace.lab);
             beginnings == workspace.beginnings && part != workspace.document.parts().at(workspace.lab))
             workspace.rewind.begin_change(workspace.edition, part);
-        ++workspace.edition;
+        workspace.begin_edition();
         workspace.ui.incident.reset();
         workspace.clock.replaying = false;
         remember(workspace, before.without(workspace.document), *command, gesture, from);

@@ -64,7 +64,7 @@ void History::go(Place& target, Place& origin, Place* place) {
     if (place == nullptr) return;
     if (target.path) origin.path = place->path;
     if (target.camera && place->lab == origin.lab) origin.camera = place->camera;
-    if (target.moment) origin.moment = place->moment;
+    if (target.moment && place->lab == origin.lab) origin.moment = place->moment;
     *place = target;
 }
 

@@ -50,7 +50,7 @@ struct EnumNames {
         for (std::size_t i = 0; i < count; ++i) all[i] = static_cast<Enum>(i);
         return all;
     }
-    /// For the choices of an argument, and of a field.
+    /// For the choices of an argument.
     std::vector<std::string> names() const {
         return app::names(rows, [](const EnumRow& row) { return row.name; });
     }

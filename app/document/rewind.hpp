@@ -1,4 +1,4 @@
-// The open lab's last ten seconds, to go back in time: its part at every tick in which it was simulated or
+// A lab's last ten seconds, to go back in time: its part at every tick in which it was simulated or
 // changed by hand, or, where they grow too large, at every second, fourth, ... of them; and what happened in
 // them. They are none of the document's, and no file holds them.
 #pragma once

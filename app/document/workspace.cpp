@@ -18,11 +18,12 @@ void Workspace::open_lab(const std::string& name) {
     if (name == lab) return;
     pass_change();
     cameras[lab] = camera;
-    pasts[lab] = {std::move(rewind), moment};
+    pasts[lab] = {std::move(rewind), moment, document.parts().at(lab)};
     lab = name;
-    auto [rewound, at] = std::exchange(pasts[name], Past());
-    rewind = std::move(rewound);
-    moment = at;
+    Past past = std::exchange(pasts[name], Past());
+    if (past.left != document.parts().at(name)) past = Past();
+    rewind = std::move(past.rewind);
+    moment = past.moment;
     const auto seen = cameras.find(name);
     camera = seen != cameras.end() ? seen->second : first_view_of(name);
     ui.incident.reset();

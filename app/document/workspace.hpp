@@ -104,9 +104,11 @@ struct Workspace {
     struct Past {
         Rewind rewind;
         std::uint64_t moment = 0;
+        std::shared_ptr<const Part> left{};  ///< the part as it was left: changed since, it has no past
     };
     std::map<std::string, Past> pasts;  ///< of the labs that were open before
-    std::uint64_t edition = 0;          ///< which of the changes that can be undone was the last; counted
+    std::uint64_t edition = 0;          ///< which of the changes that can be undone was the last
+    std::uint64_t editions = 0;         ///< how many there were: no two are numbered alike
     History history;
     bool gesture_begins = true;  ///< the command that runs is alone, or the first of its drag
     Settings settings;
@@ -131,6 +133,7 @@ struct Workspace {
     /// change is a change itself: undoing it leads to where one came from.
     void go_to_moment(std::uint64_t ticks_back);
     MomentId moment_id() const { return {moment, edition}; }
+    void begin_edition() { edition = ++editions; }
     /// The open lab's part just before an incident and just after it, as far as they are remembered.
     struct BeforeAndAfter {
         std::shared_ptr<const Part> before, after;

@@ -12,7 +12,7 @@ void step_through(Workspace& workspace, bool back) {
     auto document = back ? workspace.history.undo(workspace.document, &place)
                          : workspace.history.redo(workspace.document, &place);
     if (!document) throw Refused(back ? "nothing to undo" : "nothing to redo");
-    // One sees what was undone.
+    // Show the lab in which the change was.
     if (!place.lab.empty()) workspace.open_lab(place.lab);
     Rewind& rewind = workspace.rewind;
     if (!rewind.empty() && workspace.moment >= rewind.newest()) {  // how it was stays remembered
@@ -34,7 +34,7 @@ void step_through(Workspace& workspace, bool back) {
         workspace.edition = then->edition;
     } else {
         rewind.forget_from(workspace.moment);
-        ++workspace.edition;
+        workspace.begin_edition();
     }
 }
 

@@ -94,6 +94,8 @@ void FieldRows::point_row(const Field& field, const FieldText& text) const {
 int FieldRows::chosen(const Field& field, const FieldText& text) const {
     const std::string_view name = field.choices[static_cast<std::size_t>(field.get(of_.object)[0])];
     const auto row = std::ranges::find(text.choices, name, &EnumRow::name);
+    if (row == text.choices.end())
+        throw std::logic_error(command_ + " has no title for " + std::string(name));
     return static_cast<int>(row - text.choices.begin());
 }
 

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "app/fields/fields.hpp"
 #include "app/widgets/emit.hpp"
@@ -27,6 +28,8 @@ class FieldRows {
           command_(std::move(command)),
           emit_(emit),
           with_(std::move(with)) {}
+    template <class Struct>
+    FieldRows(const Struct&&, std::string, Emit&, ArgumentList = {}) = delete;  // it refers to the struct
 
     void row(std::string_view name, const RowOptions& options = {}) const;
     template <class... Names>

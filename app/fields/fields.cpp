@@ -71,7 +71,7 @@ std::string unit_sentence(std::string_view unit) {
                                   : unit == "m" ? "metres"
                                   : unit == "s" ? "seconds"
                                                 : unit;
-    return " In " + std::string(word) + ".";
+    return " Unit: " + std::string(word) + ".";
 }
 
 Argument argument(const Field& field, const FieldText& text) {
@@ -110,8 +110,13 @@ Json save_fields(FieldsOf of) {
 }
 
 void load_fields(const JsonPlace& place, FieldsIn in) {
-    for (const Field& field : in.table)
-        if (const auto member = place.optional(field.name)) field.set(in.object, loaded(*member, field));
+    if (!place.json().is_object()) place.fail("expected an object, found " + json_summary(place.json()));
+    for (const Field& field : in.table) {
+        if (!place.has(field.name)) continue;
+        const JsonPlace member = place[field.name];
+        const bool nothing = field.optional && member.json().is_null();
+        field.set(in.object, nothing ? FieldValue{std::nan("")} : loaded(member, field));
+    }
 }
 
 std::vector<Argument> field_arguments(std::span<const Field> table, std::span<const FieldText> texts) {

@@ -2,6 +2,7 @@
 // the table what each field is called and what it is for; the rest follows from the row.
 #pragma once
 
+#include <concepts>
 #include <span>
 #include <string_view>
 #include <tendril/fields.hpp>
@@ -26,7 +27,7 @@ struct FieldText {
     std::span<const EnumRow> choices{};  ///< the titles of choices, in the order of the panel
 };
 
-/// The texts of a struct's fields, of each field one.
+/// The texts of the fields that a command sets, in the order of its arguments.
 template <class Struct>
 std::span<const FieldText> field_texts();
 
@@ -34,20 +35,23 @@ std::span<const FieldText> field_texts();
 struct FieldsOf {
     template <class Struct>
     FieldsOf(const Struct& of) : table(fields<Struct>()), object(&of) {}
+    template <class Struct>
+    FieldsOf(const Struct&&) = delete;  // it would not outlive the call
 
     std::span<const Field> table;
     const void* object;
 };
 struct FieldsIn {
     template <class Struct>
-    FieldsIn(Struct& in) : table(fields<Struct>()), object(&in) {}
+    requires(!std::same_as<Struct, FieldsIn>) FieldsIn(Struct& in) : table(fields<Struct>()), object(&in) {}
 
     std::span<const Field> table;
     void* object;
 };
 
 Json save_fields(FieldsOf of);
-/// What is missing stays. Throws std::runtime_error that begins with the place of what is wrong.
+/// What is missing stays as it is, so that older scenes open. Throws std::runtime_error that begins with the
+/// place of what is wrong.
 void load_fields(const JsonPlace& place, FieldsIn in);
 
 /// An argument for each field that has a text; each may be left out.

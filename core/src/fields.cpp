@@ -1,6 +1,6 @@
 #include "tendril/fields.hpp"
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -43,7 +43,7 @@ class Requirement {
     std::size_t size_ = 0;
 };
 
-/// False for NaN.
+/// False for NaN, unless the field is optional.
 bool in_range(const Field& field, double value) noexcept {
     if (field.optional && std::isnan(value)) return true;
     const bool inside = value >= field.range.low && value <= field.range.high;

@@ -13,6 +13,7 @@ TEST(Says, NamesAndValuesInTheirOrderWhateverIsBetween) {
     EXPECT_FALSE(says(message, "9999"));
     EXPECT_FALSE(says(message, "part"));
     EXPECT_FALSE(says("1.5", "1"));
+    EXPECT_FALSE(says("-1.5", "-1"));
     EXPECT_FALSE(says("1.5", "5"));
     EXPECT_TRUE(says("from 1 to 5.", "1 5")) << "a full stop is no decimal point";
     EXPECT_TRUE(says("joints[3].length", "joints[3].length"));

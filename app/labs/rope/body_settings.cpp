@@ -12,7 +12,7 @@ template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::BodySettings>() noexcept {
     using app::BodySettings;
     constexpr FieldRange any{0.0, max_magnitude};
-    static constexpr Field rows[] = {field<&BodySettings::length>("length", any, "m"),
+    static constexpr Field rows[] = {field<&BodySettings::length>("length", {1e-6, max_magnitude}, "m"),
                                      field<&BodySettings::mass>("mass", {1e-9, max_magnitude}, "kg"),
                                      field<&BodySettings::radius>("radius", any, "m"),
                                      field<&BodySettings::stretch>("stretch", any, "m/N"),
@@ -32,20 +32,21 @@ std::span<const FieldText> field_texts<BodySettings>() {
          .help = "Of a rope, a row of a cloth or a strand of hair: all of its segments change in proportion.",
          .step = 0.005f,
          .decimals = 3},
-        {.name = "mass", .label = "mass", .help = "Of all of it.", .step = 0.005f, .decimals = 3},
+        {.name = "mass", .label = "mass", .help = "Total mass of the body.", .step = 0.005f, .decimals = 3},
         {.name = "radius",
          .label = "radius",
-         .help = "Half of its thickness: how far its particles keep from colliders.",
+         .help = "Half its thickness: how far its particles keep from colliders.",
          .step = 0.0005f,
          .decimals = 4},
         {.name = "stretch",
          .label = "stretch",
-         .help = "How much longer a segment gets under a newton, in addition to the world's compliance.",
+         .help = "How much longer a segment gets under a newton, in addition to the world's compliance. "
+                 "Relaxation counts this alone.",
          .step = 1e-5f,
          .decimals = 5},
         {.name = "shear",
          .label = "shear",
-         .help = "How easily a cloth shears across its threads. More drapes softer.",
+         .help = "How easily a cloth shears across its threads. Higher values drape more softly.",
          .step = 0.001f,
          .decimals = 4},
         {.name = "bend",
@@ -61,12 +62,12 @@ std::span<const FieldText> field_texts<BodySettings>() {
 
 namespace {
 
-/// Of its links of that kind: nothing where there are none.
-std::optional<float> compliance_of(const NamedWorld& world, const rope::Body& body, rope::Link::Kind kind) {
+/// Of its links of that kind, which it has.
+float compliance_of(const NamedWorld& world, const rope::Body& body, rope::Link::Kind kind) {
     for (const rope::Link& link : world.state().links)
         if (link.kind == kind && link.a >= body.first && link.a < body.first + body.count)
             return link.compliance;
-    return std::nullopt;
+    return 0.0f;
 }
 
 }  // namespace
@@ -76,10 +77,11 @@ BodySettings settings_of(const NamedWorld& world, const rope::Body& body) {
     BodySettings settings{.length = static_cast<float>(world.length(body)),
                           .mass = world.world().mass(body),
                           .radius = body.radius,
-                          .stretch = compliance_of(world, body, Kind::Stretch).value_or(0.0f),
-                          .shear = compliance_of(world, body, Kind::Shear),
-                          .bend = compliance_of(world, body, Kind::Bend)};
-    if (body.kind == rope::Body::Kind::Cloth) settings.tear = body.tear;
+                          .stretch = compliance_of(world, body, Kind::Stretch)};
+    if (body.kind != rope::Body::Kind::Rope) settings.bend = compliance_of(world, body, Kind::Bend);
+    if (body.kind != rope::Body::Kind::Cloth) return settings;
+    settings.shear = compliance_of(world, body, Kind::Shear);
+    settings.tear = body.tear;
     return settings;
 }
 
@@ -89,8 +91,7 @@ void set_body(NamedWorld& world, const std::string& name, const Arguments& given
     const BodySettings now = settings_of(world, body);
     for (const Field& field : fields<BodySettings>())
         if (given.has(field.name) && field.optional && std::isnan(field.get(&now)[0]))
-            throw Refused(std::string(field.name) + " is not for \"" + name + "\", a " +
-                          body_kind_name(body.kind));
+            throw Refused("\"" + name + "\" is a " + body_kind_name(body.kind) + "; it has no " + field.name);
     BodySettings wanted = now;
     set_fields(given, wanted);
     if (wanted.length != now.length) world.set_length(name, wanted.length);

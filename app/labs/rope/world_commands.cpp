@@ -49,7 +49,10 @@ void set_jitter(RopeEdit& edit, const Arguments& given) {
 std::vector<Argument> settings_arguments() {
     std::vector<Argument> arguments = field_arguments<rope::Settings>();
     for (Argument& argument : arguments)
-        if (argument.name == "gravity") argument.type = ArgumentType::NumberOrPoint;
+        if (argument.name == "gravity") {
+            argument.type = ArgumentType::NumberOrPoint;
+            argument.help = "m/s^2: downwards, or [x, y, z]";
+        }
     return arguments;
 }
 
@@ -68,16 +71,16 @@ std::span<const FieldText> field_texts<rope::Settings>() {
          .decimals = 5},
         {.name = "iterations",
          .label = "iterations",
-         .help = "The maximum of passes in a substep. Direct ends as soon as it has converged; with the "
-                 "others more passes stretch a rope less and cost more."},
+         .help =
+             "The maximum number of passes per substep. Direct ends as soon as it has converged; with the "
+             "others more passes stretch a rope less and cost more."},
         {.name = "solver", .label = "solver", .help = "How lengths are kept", .choices = solvers},
         {.name = "damping",
          .label = "damping",
          .help = "How fast motion dies away. Raise it where ropes swing for too long."},
         {.name = "gravity",
          .label = "gravity",
-         .help = "The acceleration by weight, along each axis, or downwards; Y points up. On Earth it is "
-                 "0, -9.81, 0.",
+         .help = "The acceleration due to gravity, along each axis; Y points up. On Earth it is 0, -9.81, 0.",
          .step = 0.05f},
         {.name = "gravity_scale", .label = "gravity scale", .help = "A factor on gravity."},
         {.name = "external",
@@ -86,7 +89,7 @@ std::span<const FieldText> field_texts<rope::Settings>() {
          .step = 0.05f},
         {.name = "compliance",
          .label = "compliance",
-         .help = "How elastic ropes are: by which part of its length a rope grows under a newton. 0 does "
+         .help = "How elastic ropes are: the fraction of its length that a rope stretches per newton. 0 does "
                  "not stretch; relaxation ignores it.",
          .step = 1e-5f,
          .decimals = 5},

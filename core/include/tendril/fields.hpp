@@ -43,7 +43,7 @@ struct Field {
     const char* unit = "";  ///< "m/s^2"; empty for none
     FieldType type = FieldType::Number;
     bool exact = false;     ///< a number with the digits of a double; else those of a float
-    bool optional = false;  ///< may hold nothing, which is a NaN here
+    bool optional = false;  ///< may be empty, which reads as NaN
     FieldRange range{};     ///< 0 to 1 of a flag, 0 to the last of choices
     std::span<const char* const> choices{};
     FieldValue (*get)(const void* object) noexcept = nullptr;

@@ -1,6 +1,6 @@
 // The energy bound. A solve that falls short, or depenetration, can leave a body with more energy than it
-// had; its velocity is then scaled down until the gain is gone. The direct solver always keeps the bound, the
-// others while a collider at rest strikes the body.
+// had; its velocity is then scaled down until the gain is gone. The direct solver always keeps the bound; the
+// others keep it beside a collider that strikes the body, or while its links hold their lengths.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -72,7 +72,8 @@ void Substep::Ledger::add_link(std::uint32_t number) {
     const double compliance = detail::compliance(state.settings, link);
     const dvec3 then = state.position[link.b] - state.position[link.a];
     if (compliance == 0.0) {
-        strained_ = strained_ || strains(link, then);
+        const bool asked = near_ != Scratch::Nearest::None && state.settings.solver != Solver::Direct;
+        strained_ = strained_ || (asked && strains(link, then));
         return;
     }
     const dvec3 now = it_.scratch_.place[link.b] - it_.scratch_.place[link.a];
@@ -154,7 +155,8 @@ Substep::Ledger Substep::ledger_of_all() const {
 Substep::Slowed Substep::balance(const Ledger& ledger) {
     report_.contact_loss += ledger.contact_loss();
     if (ledger.suspended()) ++report_.suspended;
-    return state_.settings.solver == Solver::Direct || ledger.limits_relaxed() ? ledger.slowed() : Slowed{};
+    return state_.settings.solver == Solver::Direct || ledger.bounds_relaxation() ? ledger.slowed()
+                                                                                  : Slowed{};
 }
 
 void Substep::balance_energy() {

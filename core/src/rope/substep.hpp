@@ -119,9 +119,8 @@ class Substep::Ledger {
     Slowed slowed() const;
     /// Joules that contact took. The work of colliders that move cannot be told from it.
     double contact_loss() const;
-    /// Of relaxation and XPBD, which can hold stretch that no energy counts: with a limit in every substep a
-    /// taut rope would sag.
-    bool limits_relaxed() const {
+    /// Relaxation and XPBD can hold stretch that no energy counts; bounded then, a taut rope would sag.
+    bool bounds_relaxation() const {
         return near_ == Scratch::Nearest::Struck || (near_ != Scratch::Nearest::None && !strained_);
     }
     /// Nothing holds or touches it, and it does not fall freely.

@@ -1,5 +1,5 @@
-// Every row of every table of fields: what it is set to is saved, loaded and undone; what is out of its range
-// is refused by its command and in a file, with its name and range, and changes nothing.
+// Every row of the tables below: what it is set to is saved, loaded and undone; what is out of its range is
+// refused by its command and in a file, with its name, and changes nothing.
 #include "app/fields/fields.hpp"
 
 #include <tendril/rope/settings.hpp>
@@ -108,6 +108,7 @@ class EveryField : public LabTest, public testing::WithParamInterface<Row> {
     /// Beyond each end of the range, and of another type.
     std::vector<Json> bad() const {
         std::vector<Json> all{Json::array({1}), Json::object()};
+        if (!field().optional) all.push_back(nullptr);
         const auto [low, high] = field().range;
         const double by = std::max(1.0, 1e-3 * (high - low));
         switch (field().type) {

@@ -69,9 +69,9 @@ TEST_F(RopeSet, ALongerRopeSinksToItsNewLength) {
 }
 
 TEST_F(RopeSet, RefusesWhatABodyDoesNotHave) {
-    EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "rope"}, {"bend", 1}}), "rope.set bend rope"));
-    EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "hair"}, {"tear", 1}}), "rope.set tear hair"));
-    EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "hair"}, {"shear", 1}}), "rope.set shear hair"));
+    EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "rope"}, {"bend", 1}}), "rope.set rope bend"));
+    EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "hair"}, {"tear", 1}}), "rope.set hair tear"));
+    EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "hair"}, {"shear", 1}}), "rope.set hair shear"));
     EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "line"}, {"mass", 1}}), "rope.set line"));
     EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "rope"}, {"mass", 0}}), "rope.set mass 0"));
     EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "rope"}, {"radius", -1}}), "rope.set radius -1"));

@@ -1,6 +1,7 @@
 // What hangs on the character: ropes, hair, cloth.
 #include <glm/geometric.hpp>
 #include <stdexcept>
+#include <tendril/magnitude.hpp>
 
 #include "app/document/json_complete.hpp"
 #include "app/labs/humanoid/attachments/wearing.hpp"

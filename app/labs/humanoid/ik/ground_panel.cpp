@@ -52,9 +52,8 @@ void ground_rows(const HumanoidPanel& panel) {
     const FootIkSetting& feet = ik.foot_ik;
     const FieldRows rows(feet, "humanoid.foot_ik", panel.emit);
     const std::string& why = panel.runtime.solvers.why_no_feet(panel.part);
-    ImGui::BeginDisabled(!feet.on && !why.empty());
-    rows.row("on");
-    ImGui::EndDisabled();
+    const bool none = !feet.on && !why.empty();
+    rows.row("on", {.why_not = none ? "The feet are left alone: " + why + "." : ""});
     if (!why.empty()) return note("The feet are left alone: " + why + ".");
     if (!feet.on) return;
     rows.row("max_angle_deg");

@@ -53,10 +53,10 @@ void hand_rows(const HumanoidPanel& panel) {
     if (!folding_section(panel.workspace, "Hands and gaze", panel.emit)) return;
     const IkSettings& ik = panel.part.ik;
     const bool body = panel.runtime.solvers.body(panel.part) != nullptr;
+    const std::string no_body =
+        "The body solve is off: " + panel.runtime.solvers.why_no_body(panel.part) + ".";
     const FieldRows hands(ik.hand_ik, "humanoid.hand_ik", panel.emit);
-    ImGui::BeginDisabled(!ik.hand_ik.on && !body);
-    hands.row("on");
-    ImGui::EndDisabled();
+    hands.row("on", {.why_not = ik.hand_ik.on || body ? std::string() : no_body});
     if (ik.hand_ik.on) {
         hands.row("view_deg");
         for (std::size_t hand = 0; hand < 2; ++hand) hand_row(panel, hand);
@@ -64,9 +64,7 @@ void hand_rows(const HumanoidPanel& panel) {
             note("Drag the orange ball of a hand.");
     }
     const FieldRows gaze(ik.look_at, "humanoid.look_at", panel.emit);
-    ImGui::BeginDisabled(!ik.look_at.on && !body);
-    gaze.row("on");
-    ImGui::EndDisabled();
+    gaze.row("on", {.why_not = ik.look_at.on || body ? std::string() : no_body});
     if (!ik.look_at.on) return;
     gaze.rows("weight", "view_deg");
     const ShownPose& shown = panel.runtime.shown(panel.workspace);

@@ -1,4 +1,6 @@
 // What a person sets of ground, feet, hands and gaze: its fields, and what they are called.
+#include <tendril/magnitude.hpp>
+
 #include "app/labs/humanoid/ik/ik_settings.hpp"
 
 namespace tendril {
@@ -102,7 +104,7 @@ std::span<const FieldText> field_texts<FootIkSetting>() {
          .help = "A planted foot that the clip moves faster than this is let go."},
         {.name = "max_angle_deg",
          .label = "foot angle",
-         .help = "The ground turns a foot by at most this.",
+         .help = "The largest angle by which the ground turns a foot.",
          .step = 0.1f,
          .decimals = 0}};
     return texts;

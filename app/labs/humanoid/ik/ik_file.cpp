@@ -214,7 +214,9 @@ void read_ground(const JsonPlace& place, GroundSetting& ground) {
 void read_foot_ik(const JsonPlace& place, FootIkSetting& setting) {
     load_fields(place, setting);
     if (setting.leave_speed < setting.enter_speed)
-        place.fail("expected leave_speed of at least enter_speed, found " + json_summary(place.json()));
+        (place.has("leave_speed") ? place["leave_speed"] : place)
+            .fail("expected at least enter_speed, " + json_summary(setting.enter_speed) + ", found " +
+                  json_summary(setting.leave_speed));
 }
 
 Json hand_ik_json(const HandIkSetting& setting) {

@@ -25,7 +25,7 @@ std::span<const FieldText> field_texts<SpringSetting>() {
     static constexpr FieldText texts[] = {
         {.name = "strength",
          .label = "strength",
-         .help = "How often a second its tip would swing. The base is stiffer.",
+         .help = "How many times a second its tip would swing. The base is stiffer.",
          .step = 0.02f},
         {.name = "critical_damping",
          .label = "damping",
@@ -34,7 +34,7 @@ std::span<const FieldText> field_texts<SpringSetting>() {
         {.name = "weight", .label = "spring weight", .help = "0: as in the clip. 1: the whole swing."},
         {.name = "max_angle_deg",
          .label = "at most",
-         .help = "By which a bone turns against the clip at most.",
+         .help = "The largest angle by which a bone turns away from the clip.",
          .step = 0.5f,
          .decimals = 0}};
     return texts;

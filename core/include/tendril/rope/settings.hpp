@@ -23,9 +23,9 @@
 //   its contacts and bending between the passes.
 //
 // Direct adds no energy: a body that gained some in a substep is slowed down until the gain is gone, in its
-// relative motion first, so that it keeps falling freely. Only moving colliders and pins do work. Relaxation
-// and Xpbd keep this bound beside a collider that strikes them, or while their links hold their lengths to
-// 0.1 %; links that are off by more hold energy that nothing counts.
+// relative motion first, so that it keeps falling freely. Only moving colliders and pins do work. Beside
+// a collider, Relaxation and Xpbd keep this bound too where the collider strikes them or their links are
+// within 0.1 % of their lengths; a link further off holds energy that is not counted.
 #pragma once
 
 #include <cstddef>
@@ -61,7 +61,8 @@ struct Settings {
     /// Coulomb's coefficient between rope and colliders, 0 to max_friction. A cloth that it holds on a
     /// slope still creeps, by some millimetres a second.
     float friction = 0.5f;
-    /// Seconds that one call of advance() simulates at most; what is over is dropped. 0.001 to 10.
+    /// Seconds that one call of advance() simulates at most; what is over is dropped. min_longest_frame
+    /// to max_longest_frame.
     float longest_frame = 0.25f;
 
     bool operator==(const Settings&) const = default;
