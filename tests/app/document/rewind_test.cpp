@@ -186,6 +186,29 @@ TEST_F(Seek, EachLabKeepsItsOwnLastSeconds) {
     EXPECT_EQ(seek(1), "40") << "time goes on from there";
 }
 
+TEST_F(Seek, ALabChangedWhileAnotherIsOpenHasNoPast) {
+    play(50);
+    const std::string lab = workspace.lab;
+    table.run(workspace, "lab.open", {{"name", "rope"}});
+    table.run(workspace, "arm.title", {{"title", "edited"}});
+    table.run(workspace, "lab.open", {{"name", lab}});
+    EXPECT_TRUE(workspace.rewind.empty());
+    EXPECT_EQ(title(), "edited");
+}
+
+TEST_F(Seek, UndoFindsNoMomentOfAnotherCourseOfEvents) {
+    play(50);
+    table.run(workspace, "arm.title", {{"title", "edited"}});
+    play(50);
+    EXPECT_EQ(seek(60), "40");
+    table.run(workspace, "arm.title", {{"title", "again"}});
+    play(100);
+    for (int i = 0; i < 2; ++i) table.run(workspace, "undo", Json::object());
+    EXPECT_EQ(title(), "100");
+    EXPECT_EQ(workspace.moment, workspace.rewind.newest() + 1)
+        << "it is now, and not tick 100 of this course";
+}
+
 TEST_F(Seek, RedoGoesBackInTimeAgain) {
     play(50);
     table.run(workspace, "arm.title", {{"title", "edited"}});
