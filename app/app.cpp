@@ -145,7 +145,7 @@ void App::compose(const Event* event, Pass pass) {
         hint = view_hint(mouse_preset(workspace_.settings), scroll_action(workspace_.settings)) +
                " ? shows every key.";
     if (workspace_.ui.asks_to_quit && !workspace_.modified()) workspace_.ui.asks_to_quit = false;
-    shell_.frame({workspace_, labs_, lab(), *commands_, shortcuts_, layout_, hint, shown_card()}, emit);
+    shell_.frame({workspace_, labs_, lab(), *commands_, shortcuts_, layout_, hint, shown_card(), cards_.of(workspace_.lab)}, emit);
     if (const std::string why = std::exchange(ui_.numbers().refused, {}); !why.empty()) {
         refuse(why);
         note_refusal(why);

@@ -15,7 +15,7 @@
 #include "app/labs/labs.hpp"
 #include "app/script/player.hpp"
 #include "app/script/recorder.hpp"
-#include "app/shell/card.hpp"
+#include "app/labs/card.hpp"
 #include "app/shell/pointer.hpp"
 #include "app/shell/shell.hpp"
 #include "app/shell/ui.hpp"

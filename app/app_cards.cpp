@@ -7,8 +7,11 @@
 namespace tendril::app {
 
 const Card* App::shown_card() const {
-    const bool shown = layout_.right_open && card_shown(workspace_.settings, workspace_.lab);
-    return shown ? cards_.find(workspace_.lab) : nullptr;
+    const std::span<const Card> cards = cards_.of(workspace_.lab);
+    if (cards.empty() || !layout_.right_open || !card_shown(workspace_.settings, workspace_.lab))
+        return nullptr;
+    const auto progress = workspace_.ui.cards.find(workspace_.lab);
+    return &cards[progress == workspace_.ui.cards.end() ? 0 : progress->second.card];
 }
 
 void App::watch_shown_card() {
@@ -35,7 +38,7 @@ Json App::card_state() const {
     for (std::size_t i = 0; i < shown_card()->steps.size(); ++i)
         done.push_back(progress != workspace_.ui.cards.end() && i < progress->second.done.size() &&
                        progress->second.done[i]);
-    return {{"done", std::move(done)}};
+    return {{"title", shown_card()->title}, {"done", std::move(done)}};
 }
 
 }  // namespace tendril::app

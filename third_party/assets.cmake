@@ -9,8 +9,8 @@ tendril_require(TENDRIL_FONT_FOLDER "the font Roboto" fonts-roboto-unhinted)
 
 file(GLOB asset_shaders CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/shaders/*.vert
      ${PROJECT_SOURCE_DIR}/shaders/*.frag ${PROJECT_SOURCE_DIR}/shaders/*.glsl)
-# A card of things to try for each lab that has one, named after the lab's folder.
-file(GLOB asset_cards CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/app/labs/*/card.json)
+# Cards of things to try for each lab that has any, named after the lab's folder.
+file(GLOB asset_cards CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/app/labs/*/cards.json)
 set(asset_files ${asset_shaders} ${asset_cards} ${TENDRIL_FONT_FOLDER}/Roboto-Regular.ttf ${TENDRIL_FONT_FOLDER}/Roboto-Medium.ttf)
 
 set(asset_blobs "")
@@ -19,10 +19,10 @@ set(asset_index 0)
 foreach(path IN LISTS asset_files)
     tendril_require_file(${path})
     get_filename_component(name ${path} NAME)
-    if(name STREQUAL "card.json")
+    if(name STREQUAL "cards.json")
         get_filename_component(folder ${path} DIRECTORY)
         get_filename_component(name ${folder} NAME)
-        set(name "${name}/card.json")
+        set(name "${name}/cards.json")
     endif()
     set(symbol "tendril_asset_${asset_index}")
     math(EXPR asset_index "${asset_index} + 1")

@@ -15,10 +15,12 @@
 namespace tendril::app {
 
 struct CardProgress {
-    std::vector<bool> done;                   ///< of each step, once the card has been looked at
-    std::map<std::string, SharedJson> start;  ///< by path: values of the state as they were when it was shown
-    std::shared_ptr<const Part> seen;         ///< what was looked at last
-    std::uint64_t ticks_to_wait = 0;          ///< until it is looked at again, if it changes
+    std::size_t card = 0;      ///< which of the lab's cards
+    std::vector<bool> done{};  ///< of each step, once the card has been looked at
+    std::map<std::string, SharedJson>
+        start{};                         ///< by path: values of the state as they were when it was shown
+    std::shared_ptr<const Part> seen{};  ///< what was looked at last
+    std::uint64_t ticks_to_wait = 0;     ///< until it is looked at again, if it changes
 };
 
 /// Among the choices that settings keep.

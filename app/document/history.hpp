@@ -18,7 +18,7 @@ namespace tendril::app {
 /// Commands of one drag share a gesture and so one undo entry; 0 is a gesture of its own.
 using Gesture = std::uint64_t;
 
-/// A moment among the last ten seconds of a lab.
+/// Identifies a moment of a lab's last ten seconds.
 struct MomentId {
     std::uint64_t tick = 0, edition = 0;
 };
@@ -28,7 +28,7 @@ struct Place {
     std::string lab{};
     std::optional<std::filesystem::path> path{};  ///< the scene's file
     std::optional<CameraPose> camera{};           ///< of the lab
-    std::optional<MomentId> moment{};             ///< of a change that went through time
+    std::optional<MomentId> moment{};             ///< set by time.seek only
 };
 
 class History {

@@ -53,7 +53,7 @@ class Rewind {
     std::uint64_t newest() const { return moments_.back().tick; }
     /// The moment nearest to so many ticks before the newest.
     const Moment& at(std::uint64_t ticks_back) const;
-    /// Null if that moment is not remembered, or was of another course of events.
+    /// Null if that moment was discarded or overwritten.
     const Moment* find(const MomentId& id) const;
 
     /// By tick.

@@ -104,11 +104,11 @@ struct Workspace {
     struct Past {
         Rewind rewind;
         std::uint64_t moment = 0;
-        std::shared_ptr<const Part> left{};  ///< the part as it was left: changed since, it has no past
+        std::shared_ptr<const Part> left{};  ///< the lab's part when it was closed; the past is dropped if it has changed
     };
     std::map<std::string, Past> pasts;  ///< of the labs that were open before
     std::uint64_t edition = 0;          ///< which of the changes that can be undone was the last
-    std::uint64_t editions = 0;         ///< how many there were: no two are numbered alike
+    std::uint64_t editions = 0;         ///< counts all editions; numbers are never reused
     History history;
     bool gesture_begins = true;  ///< the command that runs is alone, or the first of its drag
     Settings settings;
@@ -123,7 +123,7 @@ struct Workspace {
     const CameraPose& first_view_of(const std::string& name) const;
     /// Time and cameras as they are for a scene that has just begun.
     void start_anew();
-    /// No lab remembers its last ten seconds.
+    /// Clears the last ten seconds of every lab.
     void forget_pasts();
     /// Keeps the open lab's part as it is now, for time.seek.
     void remember_moment() { rewind.remember(moment, edition, document.parts().at(lab), clock.tick); }

@@ -12,10 +12,10 @@ void step_through(Workspace& workspace, bool back) {
     auto document = back ? workspace.history.undo(workspace.document, &place)
                          : workspace.history.redo(workspace.document, &place);
     if (!document) throw Refused(back ? "nothing to undo" : "nothing to redo");
-    // Show the lab in which the change was.
+    // Show the lab in which the change was made.
     if (!place.lab.empty()) workspace.open_lab(place.lab);
     Rewind& rewind = workspace.rewind;
-    if (!rewind.empty() && workspace.moment >= rewind.newest()) {  // how it was stays remembered
+    if (!rewind.empty() && workspace.moment >= rewind.newest()) {  // keep the state before this step
         if (workspace.moment > rewind.newest()) workspace.remember_moment();
         ++workspace.moment;
     }

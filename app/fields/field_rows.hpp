@@ -11,16 +11,16 @@
 
 namespace tendril::app {
 
-/// How a row differs from what its table says.
+/// Overrides for one row.
 struct RowOptions {
-    std::optional<FieldRange> within{};  ///< a part of its range, as another field leaves it
-    std::optional<double> otherwise{};   ///< what is shown of an optional field that holds nothing
-    std::string why_not{};               ///< why it has no effect now: then it is grey
+    std::optional<FieldRange> within{};  ///< narrower range, set by another field
+    std::optional<double> otherwise{};   ///< shown while an optional field is empty
+    std::string why_not{};               ///< reason to disable the row; empty if enabled
 };
 
 class FieldRows {
   public:
-    /// What a person changes goes out as `command` with the field's name and value, after `with`.
+    /// Each change emits `command` with `with`, then the field's name and value.
     template <class Struct>
     FieldRows(const Struct& object, std::string command, Emit& emit, ArgumentList with = {})
         : of_(object),

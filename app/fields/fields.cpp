@@ -7,7 +7,7 @@
 namespace tendril::app {
 namespace {
 
-/// The end of a range as people write it: of a float its shortest decimals, 0.001 and not 0.00100000005.
+/// A float's shortest decimals: 0.001, not 0.00100000005.
 double written(double end) {
     const auto single = static_cast<float>(end);
     return static_cast<double>(single) == end ? shortest_decimal(single) : end;

@@ -14,17 +14,17 @@
 
 namespace tendril::app {
 
-/// A field as people read it.
+/// A field as users see it.
 struct FieldText {
     const char* name;    ///< the field's
     const char* label;   ///< in a panel
     const char* help;    ///< what it does, in a sentence or two: in a panel, and of the command's argument
-    float step = 0.01f;  ///< of what is shown, by a pixel of a drag
+    float step = 0.01f;  ///< change of the shown value per pixel of a drag
     int decimals = 2;
-    double scale = 1.0;                  ///< what is shown is the value times this
-    const char* unit = nullptr;          ///< of what is shown, where that is not the field's: "ms"
-    bool listed = false;                 ///< choices are in a list, and not a button each
-    std::span<const EnumRow> choices{};  ///< the titles of choices, in the order of the panel
+    double scale = 1.0;                  ///< shown value = value * scale
+    const char* unit = nullptr;          ///< of the shown value, if not the field's: "ms"
+    bool listed = false;                 ///< choices in a drop-down list instead of buttons
+    std::span<const EnumRow> choices{};  ///< titles of choices, in panel order
 };
 
 /// The texts of the fields that a command sets, in the order of its arguments.

@@ -66,20 +66,42 @@ Fold fold_of(const Card& card, const Measure& m, std::size_t current, float room
     return Fold::Title;
 }
 
+/// Shows a card of the lab from its beginning, on the scene that it is about.
+void begin_card(const ShellFrame& frame, std::size_t index, Emit& emit) {
+    for (const Card::Line& line : frame.cards[index].scene) emit.typed(line.command, line.arguments);
+    emit("view.card", {{"open", true}, {"number", index + 1}});
+}
+
+std::size_t shown_index(const ShellFrame& frame) {
+    return static_cast<std::size_t>(frame.card - frame.cards.data());
+}
+
+void next_card_button(const ShellFrame& frame, Emit& emit) {
+    const std::size_t next = (shown_index(frame) + 1) % frame.cards.size();
+    const std::string tip =
+        "Next card: " + frame.cards[next].title + ". Sets up its scene; undo restores yours";
+    if (icon_button("next card", Icon::ChevronRight, tip.c_str())) begin_card(frame, next, emit);
+}
+
 void title_row(const Card& card, const CardProgress& progress, const ShellFrame& frame, const Measure& m,
                Emit& emit) {
     const float right = ImGui::GetWindowWidth() - m.padding, button = ImGui::GetFrameHeight();
     const auto count = std::count(progress.done.begin(), progress.done.end(), true);
     const std::string text = std::to_string(count) + " of " + std::to_string(card.steps.size());
-    const float taken = ImGui::CalcTextSize(text.c_str()).x + button + 1.5f * m.gap;
+    const float buttons = frame.cards.size() > 1 ? 2.0f * button : button;
+    const float taken = ImGui::CalcTextSize(text.c_str()).x + buttons + 1.5f * m.gap;
     ImGui::AlignTextToFramePadding();
     ImGui::PushFont(heading_font());
     const bool both = ImGui::CalcTextSize(card.title.c_str()).x <= right - m.padding - taken;
-    ImGui::TextUnformatted(elided(card.title, right - m.padding - (both ? taken : button)).c_str());
+    ImGui::TextUnformatted(elided(card.title, right - m.padding - (both ? taken : buttons)).c_str());
     ImGui::PopFont();
     if (both) {
         ImGui::SameLine(right - taken);
         ImGui::TextDisabled("%s", text.c_str());
+    }
+    if (frame.cards.size() > 1) {
+        ImGui::SameLine(right - buttons + 0.2f * button);
+        next_card_button(frame, emit);
     }
     ImGui::SameLine(right - button + 0.2f * button);
     const std::string keys = frame.shortcuts.keys_for("view.card");
@@ -108,14 +130,11 @@ void step_row(const CardStep& step, std::size_t index, bool is_done, bool is_cur
     ImGui::Dummy({m.indent + m.wrap, m.height_of(step) - ImGui::GetStyle().ItemSpacing.y});
 }
 
-void footer(const Card& card, const Measure& m, Emit& emit) {
+void footer(const ShellFrame& frame, const Measure& m, Emit& emit) {
     ImGui::SetCursorPosX(m.padding + m.indent - ImGui::GetStyle().FramePadding.x);
     ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0, 0, 0, 0));
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_CheckMark));
-    if (ImGui::Button("Start from the beginning")) {
-        for (const Card::Line& line : card.scene) emit.typed(line.command, line.arguments);
-        emit("view.card", {{"open", true}});
-    }
+    if (ImGui::Button("Start from the beginning")) begin_card(frame, shown_index(frame), emit);
     ImGui::PopStyleColor(2);
     if (ImGui::IsItemHovered()) tooltip("Sets up the scene that this card is about; undo restores yours");
 }
@@ -173,7 +192,7 @@ void show_card(const ShellFrame& frame, glm::vec2 panel, Emit& emit) {
         ImGui::SetCursorPosX(m.padding);
         step_row(card.steps[i], i, done(progress, i), i == current, m, colours);
     }
-    if (fold == Fold::Steps) footer(card, m, emit);
+    if (fold == Fold::Steps) footer(frame, m, emit);
 }
 
 void light_card_section(const ShellFrame& frame, bool left) {

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "app/document/card_progress.hpp"
-#include "app/shell/card.hpp"
+#include "app/labs/card.hpp"
 
 namespace tendril::app {
 

@@ -4,10 +4,11 @@
 
 #include <imgui.h>
 
+#include <span>
 #include <string>
 
+#include "app/labs/card.hpp"
 #include "app/labs/labs.hpp"
-#include "app/shell/card.hpp"
 #include "app/shell/command_palette.hpp"
 #include "app/shell/file_dialog.hpp"
 #include "app/shell/layout.hpp"
@@ -23,8 +24,9 @@ struct ShellFrame {
     const CommandTable& commands;
     const Shortcuts& shortcuts;
     const Layout& layout;
-    std::string hint;            ///< what the mouse would do where it is
-    const Card* card = nullptr;  ///< of things to try, where one is shown
+    std::string hint;               ///< what the mouse would do where it is
+    const Card* card = nullptr;     ///< of things to try, where one is shown
+    std::span<const Card> cards{};  ///< all of the lab's
 
     glm::vec2 screen() const { return {layout.top.max.x, layout.status.max.y}; }
     const Palette& colours() const { return palette(workspace.settings.theme); }

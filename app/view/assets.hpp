@@ -12,8 +12,8 @@ namespace tendril::app {
 /// know.
 std::string_view shader_source(std::string_view name);
 
-/// The text of card.json in a lab's folder; empty where the lab has none.
-std::string_view card_source(std::string_view lab);
+/// The text of cards.json in a lab's folder; empty if the lab has no cards.
+std::string_view cards_source(std::string_view lab);
 
 /// Roboto, as TrueType.
 std::span<const std::byte> font_regular();

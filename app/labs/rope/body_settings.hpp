@@ -10,10 +10,10 @@ namespace tendril::app {
 
 class Arguments;
 
-/// Nothing where a body has no such links, or does not tear.
+/// Optional fields are empty if the body has no such links or cannot tear.
 struct BodySettings {
     float length = 1.0f;   ///< metres; of a row of a cloth, of a strand of hair
-    double mass = 1.0;     ///< kilograms, of all of it
+    double mass = 1.0;     ///< kilograms, of the whole body
     float radius = 0.02f;  ///< metres: half of its thickness
     /// Compliance of its links, m/N.
     float stretch = 0.0f;
@@ -24,8 +24,8 @@ struct BodySettings {
 
 BodySettings settings_of(const NamedWorld& world, const rope::Body& body);
 
-/// Changes what was given of the body. Throws Refused where it has no such links, std::invalid_argument in
-/// the library's words.
+/// Applies the given fields to the body. Throws Refused for a field that the body lacks,
+/// std::invalid_argument if the library refuses.
 void set_body(NamedWorld& world, const std::string& body, const Arguments& given);
 
 }  // namespace tendril::app

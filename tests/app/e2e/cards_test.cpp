@@ -3,8 +3,8 @@
 
 #include "app/app.hpp"
 #include "app/document/command.hpp"
+#include "app/labs/card.hpp"
 #include "app/labs/labs.hpp"
-#include "app/shell/card.hpp"
 #include "app/shell/layout.hpp"
 #include "app/view/assets.hpp"
 #include "app/widgets/section_light.hpp"
@@ -16,22 +16,30 @@ namespace {
 
 using namespace app;
 
-std::vector<std::string> lab_names() {
-    std::vector<std::string> names;
+struct CardOfLab {
+    std::string lab;
+    std::size_t number;  ///< from 1
+
+    Card read() const { return read_cards(cards_source(lab)).at(number - 1); }
+};
+
+std::vector<CardOfLab> all_cards() {
+    std::vector<CardOfLab> cards;
     const Labs labs;
-    for (const auto& lab : labs.all()) names.push_back(lab->name());
-    return names;
+    for (const auto& lab : labs.all())
+        for (std::size_t i = 1; i <= read_cards(cards_source(lab->name())).size(); ++i)
+            cards.push_back({lab->name(), i});
+    return cards;
 }
 
 /// A lab with its card shown, on the scene that the card is about.
 class CardOnScene {
   public:
-    explicit CardOnScene(const std::string& lab, glm::ivec2 size = {1280, 720})
-        : window_(open_offscreen(size)) {
-        run("lab.open", {{"name", lab}});
-        card_ = read_card(card_source(lab));
+    explicit CardOnScene(const CardOfLab& which, glm::ivec2 size = {1280, 720})
+        : window_(open_offscreen(size)), card_(which.read()) {
+        run("lab.open", {{"name", which.lab}});
         for (const Card::Line& line : card_.scene) run(line.command, line.arguments);
-        run("view.card", {{"open", true}});
+        run("view.card", {{"open", true}, {"number", which.number}});
         wait(2);
     }
 
@@ -69,9 +77,10 @@ const ImGuiWindow* shown_window(const std::string& part) {
     return nullptr;
 }
 
-class LabCard : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Labs, LabCard, testing::ValuesIn(lab_names()),
-                         [](const auto& lab) { return lab.param; });
+class LabCard : public testing::TestWithParam<CardOfLab> {};
+INSTANTIATE_TEST_SUITE_P(Labs, LabCard, testing::ValuesIn(all_cards()), [](const auto& card) {
+    return card.param.lab + "_" + std::to_string(card.param.number);
+});
 
 TEST_P(LabCard, every_step_ticks_itself_off_when_it_is_played) {
     CardOnScene scene(GetParam());
@@ -106,9 +115,9 @@ TEST_P(LabCard, sections_that_light_up_are_there) {
         arguments.erase("command");
         table.run(workspace, command, arguments);
     };
-    const Lab& lab = *labs.find(GetParam());
-    workspace.open_lab(GetParam());
-    const Card card = read_card(card_source(GetParam()));
+    const Lab& lab = *labs.find(GetParam().lab);
+    workspace.open_lab(GetParam().lab);
+    const Card card = GetParam().read();
     for (const Card::Line& line : card.scene) run(line.command, line.arguments);
     for (const CardStep& step : card.steps) {
         for (const SharedJson& line : step.script)
@@ -125,9 +134,9 @@ TEST_P(LabCard, sections_that_light_up_are_there) {
 }
 
 TEST_P(LabCard, is_as_long_as_its_title_says) {
-    const Card card = read_card(card_source(GetParam()));
-    EXPECT_EQ(card.title, "Five things to try");
-    EXPECT_EQ(card.steps.size(), 5u);
+    const Card card = GetParam().read();
+    EXPECT_EQ(card.title == "Five things to try", GetParam().number == 1);
+    EXPECT_EQ(card.steps.size(), GetParam().number == 1 ? 5u : 3u);
     for (const CardStep& step : card.steps) EXPECT_LE(step.text.size(), 110u) << step.text;
 }
 
@@ -152,12 +161,12 @@ TEST_P(LabCard, is_put_away_by_one_click) {
     CardOnScene scene(GetParam());
     App& app = scene.app();
     const auto send = [&](const Event& event) { app.tick(&event); };
-    for (float y = 700.0f; y > 60.0f && card_shown(app.workspace().settings, GetParam()); y -= 6.0f) {
+    for (float y = 700.0f; y > 60.0f && card_shown(app.workspace().settings, GetParam().lab); y -= 6.0f) {
         send(MouseMove{{1261.0f, y}});
         send(MousePress{MouseButton::Left, true});
         send(MousePress{MouseButton::Left, false});
     }
-    EXPECT_FALSE(card_shown(app.workspace().settings, GetParam()));
+    EXPECT_FALSE(card_shown(app.workspace().settings, GetParam().lab));
     EXPECT_FALSE(app.workspace().ui.quit);
 }
 
@@ -179,6 +188,26 @@ TEST_P(LabCard, leaves_room_beside_it) {
                 << "and it is beside the scene";
         }
     }
+}
+
+/// As the chevron beside the title does it.
+TEST(CardsTest, follow_one_another) {
+    const auto window = open_offscreen({1280, 720});
+    App app(*window);
+    const auto run = [&](const char* name, const Json& arguments) { app.run({name, arguments}); };
+    run("lab.open", {{"name", "rope"}});
+    const std::vector<Card> cards = read_cards(cards_source("rope"));
+    ASSERT_GT(cards.size(), 2u);
+    for (std::size_t i = 0; i < cards.size(); ++i) {
+        run("view.card", {{"number", i + 1}});
+        EXPECT_EQ(app.state().at("card").at("title"), cards[i].title);
+        run("view.card", {{"open", true}});
+        EXPECT_EQ(app.state().at("card").at("title"), cards[i].title) << "begun anew it is the same";
+    }
+    const Json before = app.state().at("card");
+    for (const int number : {0, 4, -1})
+        EXPECT_THROW(run("view.card", {{"number", number}}), Refused) << number;
+    EXPECT_EQ(app.state().at("card"), before);
 }
 
 TEST(CardsTest, are_hidden_without_a_window) {

@@ -1,5 +1,7 @@
 // What holds for every lab of the table, and for one that only the tests have: random events and commands let
 // loose on each of its scenes break nothing, and all of it comes out the same when it is played again.
+#include <cstdlib>
+
 #include "app/document/command.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/labs/rig/rig_lab.hpp"
@@ -47,6 +49,13 @@ std::vector<std::string> vocabulary(const App& app, const std::string& lab) {
     return names;
 }
 
+/// What stands for a text: names that the scene has, and some that none has.
+std::vector<std::string> words_of(const TestScene& scene) {
+    std::vector<std::string> words = scene.words;
+    words.insert(words.end(), {"", "\xFF"});
+    return words;
+}
+
 /// What is saved is opened, and is the same when it is saved again.
 void expect_opens_again(const Workspace& workspace) {
     static const Labs labs = all_labs();
@@ -70,9 +79,7 @@ TEST_P(EveryScene, StandsRandomEventsAndCommandsAndReplaysThem) {
                 .history.clear();  // a recording knows the scene that it starts from, and nothing before
             app.workspace().cameras.clear();
             app.start_recording();
-            std::vector<std::string> words = GetParam().scene.words;
-            words.insert(words.end(), {"", "\xFF"});
-            Monkey monkey(app, 11, vocabulary(app, GetParam().lab), words);
+            Monkey monkey(app, 11, vocabulary(app, GetParam().lab), words_of(GetParam().scene));
             for (int i = 0; i < 120 && !HasFailure(); ++i) {
                 monkey.act();
                 if (i % 20 == 0) expect_finite(app.state(), "state");
@@ -82,6 +89,25 @@ TEST_P(EveryScene, StandsRandomEventsAndCommandsAndReplaysThem) {
             expect_finite(app.state(), "state");
         },
         all_labs);
+}
+
+/// So many random scenes are made from each of the labs' own; TENDRIL_RANDOM_SCENES sets another number.
+unsigned random_scenes() {
+    const char* const given = std::getenv("TENDRIL_RANDOM_SCENES");
+    return given == nullptr ? 3u : static_cast<unsigned>(std::strtoul(given, nullptr, 10));
+}
+
+TEST_P(EveryScene, OpensAsItWasSavedWhateverWasDoneToIt) {
+    const auto window = open_offscreen({1280, 720});
+    App app(*window, false, all_labs());
+    for (unsigned seed = 0; seed < random_scenes() && !HasFailure(); ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        app.run({"scene.new"});
+        set_up(app, GetParam());
+        Monkey monkey(app, seed, vocabulary(app, GetParam().lab), words_of(GetParam().scene));
+        for (int i = 0; i < 30; ++i) monkey.act();
+        expect_opens_again(app.workspace());
+    }
 }
 
 /// On what is there already some commands are refused.

@@ -1,5 +1,5 @@
 // A card as its file has it, and when its steps count as done.
-#include "app/shell/card.hpp"
+#include "app/labs/card.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,9 +21,13 @@ Json good_card() {
     return {{"title", "One thing to try"}, {"scene", Json::array()}, {"steps", Json::array({good_step()})}};
 }
 
+Card only(const Json& card) {
+    return read_cards(Json::array({card}).dump()).at(0);
+}
+
 std::string refusal(const Json& card) {
     try {
-        read_card(card.dump());
+        read_cards(Json::array({card}).dump());
     } catch (const std::runtime_error& error) {
         return error.what();
     }
@@ -31,7 +35,7 @@ std::string refusal(const Json& card) {
 }
 
 TEST(CardFile, is_read) {
-    const Card card = read_card(good_card().dump());
+    const Card card = only(good_card());
     ASSERT_EQ(card.steps.size(), 1u);
     EXPECT_EQ(card.steps[0].text, "Do it.");
     EXPECT_EQ(card.steps[0].place, CardStep::Place::Handle);
@@ -47,17 +51,17 @@ TEST(CardFile, that_is_broken_is_refused_with_its_place) {
         const char* message;
     };
     const Case cases[] = {
-        {"/title", "", "card.title: expected a text"},
-        {"/titel", 1, "card: unknown member \"titel\""},
-        {"/steps", Json::array(), "card.steps: expected a step, found none"},
-        {"/steps/0/text", 5, "card.steps.0.text: expected a text, found 5"},
-        {"/steps/0/place", {{"button", "x"}}, "card.steps.0.place: unknown member \"button\""},
-        {"/steps/0/place", Json::object(), "card.steps.0.place: expected one of"},
-        {"/steps/0/when", Json::array(), "card.steps.0.when: expected a condition, found none"},
-        {"/steps/0/when/0", {{"happens", "x"}}, "card.steps.0.when.0: expected one of"},
-        {"/steps/0/when/0", {{"expect", "x"}}, "card.steps.0.when.0: expected exactly one of"},
-        {"/steps/0/when/0", {{"changed", "x"}, {"above", 1}}, "card.steps.0.when.0: unknown member"},
-        {"/steps/0/script", Json::array(), "card.steps.0.script: expected a line, found none"}};
+        {"/title", "", "cards.0.title: expected a text"},
+        {"/titel", 1, "cards.0: unknown member \"titel\""},
+        {"/steps", Json::array(), "cards.0.steps: expected a step, found none"},
+        {"/steps/0/text", 5, "cards.0.steps.0.text: expected a text, found 5"},
+        {"/steps/0/place", {{"button", "x"}}, "cards.0.steps.0.place: unknown member \"button\""},
+        {"/steps/0/place", Json::object(), "cards.0.steps.0.place: expected one of"},
+        {"/steps/0/when", Json::array(), "cards.0.steps.0.when: expected a condition, found none"},
+        {"/steps/0/when/0", {{"happens", "x"}}, "cards.0.steps.0.when.0: expected one of"},
+        {"/steps/0/when/0", {{"expect", "x"}}, "cards.0.steps.0.when.0: expected exactly one of"},
+        {"/steps/0/when/0", {{"changed", "x"}, {"above", 1}}, "cards.0.steps.0.when.0: unknown member"},
+        {"/steps/0/script", Json::array(), "cards.0.steps.0.script: expected a line, found none"}};
     for (const Case& each : cases) {
         Json card = good_card();
         card[Json::json_pointer(each.path)] = each.value;
@@ -83,11 +87,11 @@ class CardWatch : public testing::Test {
     void use_condition(const Json& condition) {
         Json card = good_card();
         card["steps"][0]["when"] = Json::array({condition});
-        card_ = read_card(card.dump());
+        card_ = only(card);
     }
     bool done() const { return progress_.done.at(0); }
 
-    Card card_ = read_card(good_card().dump());
+    Card card_ = only(good_card());
     CardProgress progress_;
     std::shared_ptr<const Part> part_ = std::make_shared<test::TestPart>();
     int asked_ = 0;

@@ -1,4 +1,4 @@
-#include "app/shell/card.hpp"
+#include "app/labs/card.hpp"
 
 #include <stdexcept>
 
@@ -9,7 +9,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t most_steps = 9, most_lines = 200;
+constexpr std::size_t max_cards = 20, max_steps = 9, max_lines = 200;
 
 std::string some_text(const JsonPlace& place) {
     std::string text = place.text();
@@ -57,50 +57,57 @@ CardStep read_step(const JsonPlace& place) {
     CardStep step;
     step.text = some_text(place["text"]);
     read_place(place["place"], step);
-    place["when"].for_each("conditions", most_steps,
+    place["when"].for_each("conditions", max_steps,
                            [&](const JsonPlace& each) { step.when.push_back(read_condition(each)); });
     if (step.when.empty()) place["when"].fail("expected a condition, found none");
-    place["script"].for_each("lines", most_lines,
+    place["script"].for_each("lines", max_lines,
                              [&](const JsonPlace& each) { step.script.emplace_back(each.json()); });
     if (step.script.empty()) place["script"].fail("expected a line, found none");
     return step;
 }
 
-}  // namespace
-
-Card read_card(std::string_view text) {
-    const Json json = parse_json(text);
-    const JsonPlace top(json, "card");
+Card read_card(const JsonPlace& top) {
     check_only(top, {"title", "scene", "steps"});
     Card card;
     card.title = some_text(top["title"]);
-    top["scene"].for_each("commands", most_lines, [&](const JsonPlace& each) {
+    top["scene"].for_each("commands", max_lines, [&](const JsonPlace& each) {
         Json arguments = each.json();
         std::string command = some_text(each["command"]);
         arguments.erase("command");
         card.scene.push_back({std::move(command), std::move(arguments)});
     });
-    top["steps"].for_each("steps", most_steps,
+    top["steps"].for_each("steps", max_steps,
                           [&](const JsonPlace& each) { card.steps.push_back(read_step(each)); });
     if (card.steps.empty()) top["steps"].fail("expected a step, found none");
     return card;
 }
 
+}  // namespace
+
+std::vector<Card> read_cards(std::string_view text) {
+    const Json json = parse_json(text);
+    std::vector<Card> cards;
+    JsonPlace(json, "cards").for_each("cards", max_cards, [&](const JsonPlace& each) {
+        cards.push_back(read_card(each));
+    });
+    return cards;
+}
+
 Cards::Cards(const Labs& labs) {
     for (const auto& lab : labs.all()) {
-        const std::string_view text = card_source(lab->name());
+        const std::string_view text = cards_source(lab->name());
         if (text.empty()) continue;
         try {
-            cards_.emplace(lab->name(), read_card(text));
+            cards_.emplace(lab->name(), read_cards(text));
         } catch (const std::runtime_error& error) {
-            throw std::runtime_error("card.json of lab " + lab->name() + ": " + error.what());
+            throw std::runtime_error("cards.json of lab " + lab->name() + ": " + error.what());
         }
     }
 }
 
-const Card* Cards::find(const std::string& lab) const {
+std::span<const Card> Cards::of(const std::string& lab) const {
     const auto found = cards_.find(lab);
-    return found == cards_.end() ? nullptr : &found->second;
+    return found == cards_.end() ? std::span<const Card>{} : found->second;
 }
 
 }  // namespace tendril::app

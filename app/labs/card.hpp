@@ -1,17 +1,17 @@
-// A lab's card of things to try: data of the lab's folder (card.json), read and checked once.
+// A lab's cards of things to try: data of the lab's folder (cards.json), read and checked once.
 //
-//     {"title": "Five things to try",
-//      "scene": [{"command": "chain.preset", "name": "arm"}],
-//      "steps": [{"text": "Drag the target out of reach.", "place": {"handle": "target"},
-//                 "when": [{"expect": "solve.report.status", "equals": "unreachable"}],
-//                 "script": [{"command": "chain.target", "to": [9, 1, 0]}]}]}
+//     [{"title": "Five things to try",
+//       "scene": [{"command": "chain.preset", "name": "arm"}],
+//       "steps": [{"text": "Drag the target out of reach.", "place": {"handle": "target"},
+//                  "when": [{"expect": "solve.report.status", "equals": "unreachable"}],
+//                  "script": [{"command": "chain.target", "to": [9, 1, 0]}]}]}]
 //
 // A step has happened when all of its conditions hold at once. `scene` sets up what the card is about.
 // `script` is for the tests, which play every step.
 #pragma once
 
 #include <map>
-#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,18 +50,18 @@ struct Card {
 };
 
 /// Throws std::runtime_error that says where and what is wrong.
-Card read_card(std::string_view text);
+std::vector<Card> read_cards(std::string_view text);
 
-/// Of every lab that has one.
+/// The cards of every lab.
 class Cards {
   public:
     /// Throws std::runtime_error that names the lab.
     explicit Cards(const Labs& labs);
-    /// Null where the lab has none.
-    const Card* find(const std::string& lab) const;
+    /// Empty if the lab has none.
+    std::span<const Card> of(const std::string& lab) const;
 
   private:
-    std::map<std::string, Card> cards_;
+    std::map<std::string, std::vector<Card>> cards_;
 };
 
 }  // namespace tendril::app
