@@ -73,6 +73,16 @@ void write_indented(std::string& out, const Json& json, std::size_t indent) {
     out += dump(json);
 }
 
+/// "a number from 0 to 0.5"
+std::string range_text(const Json& low, const Json& high) {
+    const auto plain = [](const Json& end) {
+        std::string text = end.dump();
+        if (text.ends_with(".0")) text.resize(text.size() - 2);
+        return text;
+    };
+    return "a number from " + plain(low) + " to " + plain(high);
+}
+
 }  // namespace
 
 SharedJson::SharedJson() : SharedJson(Json::object()) {}
@@ -176,8 +186,7 @@ float json_number(const Json& value, const std::string& where) {
 float json_number(const Json& value, const std::string& where, float low, float high) {
     const float x = json_number(value, where);
     if (!(x >= low && x <= high)) {
-        const std::string range = number(low).dump() + " to " + number(high).dump();
-        expected("a number from " + range, value, where);
+        expected(range_text(number(low), number(high)), value, where);
     }
     return x;
 }
@@ -188,8 +197,7 @@ double json_real(const Json& value, const std::string& where) {
 
 double json_real(const Json& value, const std::string& where, double low, double high) {
     const double x = value.is_number() ? value.get<double>() : std::nan("");
-    if (!(x >= low && x <= high))
-        expected("a number from " + Json(low).dump() + " to " + Json(high).dump(), value, where);
+    if (!(x >= low && x <= high)) expected(range_text(low, high), value, where);
     return x;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "app/document/json_complete.hpp"
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {
@@ -27,6 +28,18 @@ std::string format_of(const Field& field, const FieldText& text) {
     return "%." + std::to_string(text.decimals) + "f" + shown_unit(unit);
 }
 
+/// A number field over the usual range; what is beyond it can be typed. `value` and `range` as they are
+/// shown.
+bool usual_number_field(const char* label, float& value, const Field& field, const FieldText& text) {
+    const FieldRange range = field.slider();
+    const auto low = static_cast<float>(text.scale * range.low),
+               high = static_cast<float>(text.scale * range.high);
+    const float step = field.scale == FieldScale::Logarithmic ? std::max(0.01f * std::abs(value), 1e-4f)
+                                                              : 0.005f * (high - low);
+    return number_field(label, value, step, std::min(low, value), std::max(high, value),
+                        format_of(field, text).c_str());
+}
+
 }  // namespace
 
 const FieldText& FieldRows::text_of(const Field& field) const {
@@ -44,6 +57,8 @@ void FieldRows::row(std::string_view name, const RowOptions& options) const {
     ImGui::BeginDisabled(!options.why_not.empty());
     if (field->type == FieldType::Flag)
         flag_row(*field, text);
+    else if (field->type == FieldType::Pair)
+        pair_row(*field, text);
     else if (field->type == FieldType::Point)
         point_row(*field, text);
     else if (field->type == FieldType::Choice)
@@ -77,9 +92,24 @@ void FieldRows::number_row(const Field& field, const FieldText& text, const RowO
     }
     const auto shown = [&](double of) { return static_cast<float>(text.scale * of); };
     float value = shown(now);
-    if (number_field(text.label, value, text.step, shown(range.low), shown(range.high),
-                     format_of(field, text).c_str()))
+    const bool usual = !options.within && field.usual.low < field.usual.high;
+    if (usual ? usual_number_field(text.label, value, field, text)
+              : number_field(text.label, value, text.step, shown(range.low), shown(range.high),
+                             format_of(field, text).c_str()))
         emit_.continuously(command_, arguments(field, value / static_cast<float>(text.scale)));
+}
+
+void FieldRows::pair_row(const Field& field, const FieldText& text) const {
+    const FieldValue now = field.get(of_.object);
+    for (std::size_t i = 0; i < 2; ++i) {
+        if (i > 0) explain(text.help);  // the caller explains the last
+        const std::string label = std::string(text.label) + (i == 0 ? " low" : " high");
+        auto value = static_cast<float>(text.scale * now[i]);
+        if (!usual_number_field(label.c_str(), value, field, text)) continue;
+        FieldValue changed = now;
+        changed[i] = static_cast<double>(value) / text.scale;
+        emit_.continuously(command_, arguments(field, SharedJson(Json{changed[0], changed[1]})));
+    }
 }
 
 void FieldRows::point_row(const Field& field, const FieldText& text) const {

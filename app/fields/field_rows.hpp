@@ -30,11 +30,18 @@ class FieldRows {
           with_(std::move(with)) {}
     template <class Struct>
     FieldRows(const Struct&&, std::string, Emit&, ArgumentList = {}) = delete;  // it refers to the struct
+    FieldRows(FieldsOf of, std::span<const FieldText> texts, std::string command, Emit& emit,
+              ArgumentList with = {})
+        : of_(of), texts_(texts), command_(std::move(command)), emit_(emit), with_(std::move(with)) {}
 
     void row(std::string_view name, const RowOptions& options = {}) const;
     template <class... Names>
     void rows(Names... names) const {
         (row(names), ...);
+    }
+    /// A row for every field, in the order of the table.
+    void all() const {
+        for (const Field& field : of_.table) row(field.name);
     }
 
   private:
@@ -42,6 +49,7 @@ class FieldRows {
     const FieldText& text_of(const Field& field) const;
     void flag_row(const Field& field, const FieldText& text) const;
     void number_row(const Field& field, const FieldText& text, const RowOptions& options) const;
+    void pair_row(const Field& field, const FieldText& text) const;
     void point_row(const Field& field, const FieldText& text) const;
     int chosen(const Field& field, const FieldText& text) const;
     void list_row(const Field& field, const FieldText& text) const;

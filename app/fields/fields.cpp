@@ -24,6 +24,10 @@ Json saved(const Field& field, const FieldValue& value) {
             return field.choices[static_cast<std::size_t>(value[0])];
         case FieldType::Number:
             return field.exact ? Json(value[0]) : number(static_cast<float>(value[0]));
+        case FieldType::Pair:
+            return field.exact
+                       ? Json{value[0], value[1]}
+                       : Json{number(static_cast<float>(value[0])), number(static_cast<float>(value[1]))};
         case FieldType::Point:
             break;
     }
@@ -57,6 +61,9 @@ FieldValue loaded(const JsonPlace& place, const Field& field) {
             return {choice_at(place, field)};
         case FieldType::Number:
             return {number_in_range(place, field)};
+        case FieldType::Pair:
+            place.check_size(2, "numbers");
+            return {number_in_range(place.element(0), field), number_in_range(place.element(1), field)};
         case FieldType::Point:
             break;
     }
@@ -89,6 +96,9 @@ Argument argument(const Field& field, const FieldText& text) {
             break;
         case FieldType::Number:
             result.type = ArgumentType::Number;
+            break;
+        case FieldType::Pair:
+            result.type = ArgumentType::List;
             break;
         case FieldType::Point:
             result.type = ArgumentType::Point;

@@ -37,6 +37,7 @@ struct FieldsOf {
     FieldsOf(const Struct& of) : table(fields<Struct>()), object(&of) {}
     template <class Struct>
     FieldsOf(const Struct&&) = delete;  // it would not outlive the call
+    FieldsOf(std::span<const Field> of_table, const void* of) : table(of_table), object(of) {}
 
     std::span<const Field> table;
     const void* object;
@@ -44,6 +45,7 @@ struct FieldsOf {
 struct FieldsIn {
     template <class Struct>
     requires(!std::same_as<Struct, FieldsIn>) FieldsIn(Struct& in) : table(fields<Struct>()), object(&in) {}
+    FieldsIn(std::span<const Field> of_table, void* in) : table(of_table), object(in) {}
 
     std::span<const Field> table;
     void* object;

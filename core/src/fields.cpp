@@ -32,11 +32,19 @@ class Requirement {
         size_ += fits;
         return *this;
     }
+    /// 1e+09 as people write it: 1e9.
+    Requirement& add_plain(std::string_view text) noexcept {
+        for (const char& c : text) {
+            const bool after_e = size_ > 0 && buffer_[size_ - 1] == 'e';
+            if (c != '+' && !(c == '0' && after_e)) add({&c, 1});
+        }
+        return *this;
+    }
     /// Ranges are often floats: their shortest decimals, 0.1 and not 0.10000000149.
     Requirement& add(double number) noexcept {
         const auto single = static_cast<float>(number);
-        return add(static_cast<double>(single) == number ? detail::Shown(single).text()
-                                                         : detail::Shown(number).text());
+        return add_plain(static_cast<double>(single) == number ? detail::Shown(single).text()
+                                                               : detail::Shown(number).text());
     }
 
     char buffer_[128];
@@ -52,8 +60,10 @@ bool in_range(const Field& field, double value) noexcept {
 
 Result refuse(const char* operation, const Field& field, int axis, double value) noexcept {
     constexpr std::string_view axes[] = {"x", "y", "z"};
-    const bool point = field.type == FieldType::Point;
-    const detail::Argument argument(field.name, detail::no_index, point ? axes[axis] : std::string_view());
+    const auto at = static_cast<std::size_t>(axis);
+    const bool pair = field.type == FieldType::Pair, point = field.type == FieldType::Point;
+    const detail::Argument argument(field.name, pair ? at : detail::no_index,
+                                    point ? axes[at] : std::string_view());
     const Requirement requirement(field);
     if (field.exact || field.whole()) return detail::refused(operation, argument, requirement.text(), value);
     return detail::refused(operation, argument, requirement.text(), static_cast<float>(value));

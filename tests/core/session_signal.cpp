@@ -28,10 +28,12 @@ double some_dt(Random& random) {
 Filter some_filter(const signal::Kind& kind, Random& random) {
     for (;;) {
         Filter filter = kind.blank();
-        for (const signal::Parameter& parameter : kind.parameters) {
-            const bool is_flag = parameter.type == signal::ParameterType::Flag;
-            parameter.set(filter,
-                          static_cast<double>(random.below(is_flag ? 2 : 256)) / (is_flag ? 1.0 : 64.0));
+        for (const Field& field : kind.fields) {
+            const bool is_flag = field.type == FieldType::Flag;
+            for (int i = 0; i < field.size(); ++i) {
+                const double value = static_cast<double>(random.below(is_flag ? 2 : 256));
+                field.set_number(signal::fields_in(filter), value / (is_flag ? 1.0 : 64.0), i);
+            }
         }
         if (auto* const curve = std::get_if<signal::Curve>(&filter)) {
             curve->keys[0].piece = signal::Piece::Cubic;

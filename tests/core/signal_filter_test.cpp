@@ -12,10 +12,8 @@ namespace {
 using signal::Filter;
 using signal::FilterState;
 using signal::Kind;
-using signal::Parameter;
-using signal::ParameterType;
 
-TEST(SignalFilter, TheTableHasEveryKindAndParameter) {
+TEST(SignalFilter, TheTableHasEveryKindAndField) {
     const std::vector<std::string> names{
         "interp_to",  "interp_to_exact", "scale_bias_clamp",     "spring",   "exponential_decay",
         "rate_limit", "smooth_damp",     "spring_semi_implicit", "one_euro", "moving_average",
@@ -29,39 +27,36 @@ TEST(SignalFilter, TheTableHasEveryKindAndParameter) {
         EXPECT_EQ(signal::find_kind(names[i]), &kind);
         EXPECT_STREQ(signal::kind(kind.blank()), kind.name);
         EXPECT_TRUE(signal::check(kind.blank())) << signal::check(kind.blank()).message();
-        EXPECT_FALSE(kind.parameters.empty());
+        EXPECT_FALSE(kind.fields.empty());
     }
     EXPECT_EQ(signal::find_kind("spline"), nullptr);
 }
 
 TEST(SignalFilter, ParametersAreReadAndSetByTheTable) {
     for (const Kind& kind : signal::kinds()) {
-        std::set<std::pair<std::string_view, int>> names;
+        std::set<std::string_view> names;
         Filter changed = kind.blank();
-        for (const Parameter& parameter : kind.parameters) {
-            SCOPED_TRACE(std::string(kind.name) + "." + std::string(parameter.name));
-            EXPECT_TRUE(names.insert({parameter.name, parameter.element}).second);
-            EXPECT_LE(parameter.minimum, parameter.low);
-            EXPECT_LT(parameter.low, parameter.high);
-            EXPECT_LE(parameter.high, parameter.maximum);
-            if (parameter.logarithmic) {
-                EXPECT_GT(parameter.low, 0.0);
+        for (const Field& field : kind.fields) {
+            SCOPED_TRACE(std::string(kind.name) + "." + field.name);
+            EXPECT_TRUE(names.insert(field.name).second);
+            const FieldRange usual = field.slider();
+            EXPECT_LE(field.range.low, usual.low);
+            EXPECT_LT(usual.low, usual.high);
+            EXPECT_LE(usual.high, field.range.high);
+            if (field.scale == FieldScale::Logarithmic) {
+                EXPECT_GT(usual.low, 0.0);
             }
-            const double before = parameter.get(changed);
-            const double other = parameter.type == ParameterType::Flag ? 1.0 - before : before + 0.25;
-            parameter.set(changed, other);
-            EXPECT_EQ(parameter.get(changed), other);
-            Filter back = changed;
-            parameter.set(back, before);
-            EXPECT_NE(back, changed) << "it sets that parameter and no other";
-            EXPECT_EQ(parameter.get(back), before);
+            for (int i = 0; i < field.size(); ++i) {
+                const double before = field.number(fields_in(changed), i);
+                const double other = field.type == FieldType::Flag ? 1.0 - before : before + 0.25;
+                field.set_number(fields_in(changed), other, i);
+                EXPECT_EQ(field.number(fields_in(changed), i), other);
+                Filter back = changed;
+                field.set_number(fields_in(back), before, i);
+                EXPECT_NE(back, changed) << "it sets that field and no other";
+                EXPECT_EQ(field.number(fields_in(back), i), before);
+            }
         }
-        // Of another kind it reads nothing, and sets nothing.
-        const Filter foreign = signal::kinds()[kind.blank().index() == 0 ? 1 : 0].blank();
-        Filter still = foreign;
-        kind.parameters[0].set(still, 3.0);
-        EXPECT_EQ(still, foreign);
-        EXPECT_EQ(kind.parameters[0].get(foreign), 0.0);
     }
 }
 
@@ -76,14 +71,14 @@ TEST(SignalFilter, RefusalsNameTheParameterAndItsValue) {
                            "scale_bias_clamp clamp_min clamp_max 2"));
     EXPECT_TRUE(test::says(message(signal::Hysteresis{.low = 1.0, .high = 0.5}), "hysteresis low high 1"));
     for (const Kind& kind : signal::kinds()) {
-        for (const Parameter& parameter : kind.parameters) {
-            if (parameter.type == ParameterType::Flag) continue;
+        for (const Field& field : kind.fields) {
+            if (field.type == FieldType::Flag) continue;
             for (const double bad :
-                 {not_a_number, infinity, -infinity, parameter.maximum * 1.001, parameter.minimum - 1.0}) {
+                 {not_a_number, infinity, -infinity, field.range.high * 1.001, field.range.low - 1.0}) {
                 Filter filter = kind.blank();
-                parameter.set(filter, bad);
+                field.set_number(fields_in(filter), bad);
                 EXPECT_EQ(signal::check(filter).code(), ErrorCode::InvalidArgument)
-                    << kind.name << "." << parameter.name << " " << bad;
+                    << kind.name << "." << field.name << " " << bad;
             }
         }
     }
@@ -94,12 +89,15 @@ Filter some_filter(Random& random) {
     for (;;) {
         const Kind& kind = signal::kinds()[random.below(signal::kinds().size())];
         Filter filter = kind.blank();
-        for (const Parameter& parameter : kind.parameters) {
-            const double lows[] = {parameter.minimum, parameter.maximum, parameter.low, parameter.high, 0.0};
-            double value = lows[random.below(5)];
-            if (random.chance(2)) value = between(random, parameter.low, parameter.high);
-            if (parameter.type == ParameterType::Flag) value = random.chance(2) ? 1.0 : 0.0;
-            if (!random.chance(4)) parameter.set(filter, value);
+        for (const Field& field : kind.fields) {
+            const FieldRange usual = field.slider();
+            const double lows[] = {field.range.low, field.range.high, usual.low, usual.high, 0.0};
+            for (int i = 0; i < field.size(); ++i) {
+                double value = lows[random.below(5)];
+                if (random.chance(2)) value = between(random, usual.low, usual.high);
+                if (field.type == FieldType::Flag) value = random.chance(2) ? 1.0 : 0.0;
+                if (!random.chance(4)) field.set_number(fields_in(filter), value, i);
+            }
         }
         if (signal::check(filter)) return filter;
     }

@@ -27,13 +27,15 @@ Filter filter_of(const std::string& kind, const Json& parameters) {
     EXPECT_NE(found, nullptr) << kind;
     Filter filter = found->blank();
     std::size_t read = 0;
-    for (const signal::Parameter& parameter : found->parameters) {
-        const auto given = parameters.find(parameter.name);
+    for (const Field& field : found->fields) {
+        const auto given = parameters.find(field.name);
         if (given == parameters.end()) continue;
-        const Json& value =
-            parameter.element < 0 ? *given : given->at(static_cast<std::size_t>(parameter.element));
-        parameter.set(filter, value.is_boolean() ? (value.get<bool>() ? 1.0 : 0.0) : value.get<double>());
-        read += parameter.element == 1 ? 0 : 1;
+        ++read;
+        for (int i = 0; i < field.size(); ++i) {
+            const Json& value = given->is_array() ? given->at(static_cast<std::size_t>(i)) : *given;
+            field.set_number(signal::fields_in(filter),
+                             value.is_boolean() ? (value.get<bool>() ? 1.0 : 0.0) : value.get<double>(), i);
+        }
     }
     EXPECT_EQ(read, parameters.size());
     EXPECT_TRUE(signal::check(filter)) << signal::check(filter).message();

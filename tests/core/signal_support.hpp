@@ -37,13 +37,9 @@ inline signal::Filter filter_of(std::string_view kind,
     EXPECT_NE(found, nullptr) << kind;
     signal::Filter filter = found->blank();
     for (const auto& [name, value] : parameters) {
-        bool known = false;
-        for (const signal::Parameter& parameter : found->parameters) {
-            if (parameter.name != name) continue;
-            parameter.set(filter, value);
-            known = true;
-        }
-        EXPECT_TRUE(known) << kind << " has no " << name;
+        const Field* const field = find_field(found->fields, name);
+        EXPECT_NE(field, nullptr) << kind << " has no " << name;
+        if (field != nullptr) field->set(signal::fields_in(filter), {value, value});
     }
     return filter;
 }

@@ -1,6 +1,7 @@
 #include "app/labs/kit/code_text.hpp"
 
 #include <cctype>
+#include <cmath>
 
 #include "app/io/samples.hpp"
 
@@ -29,6 +30,42 @@ std::string pascal_text(std::string_view name) {
         capital = c == '_';
     }
     return text;
+}
+
+namespace {
+
+std::string field_text(const Field& field, const FieldValue& value) {
+    const auto digits = [&](double each) {
+        return field.exact ? double_text(each)
+                           : double_text(shortest_decimal(static_cast<float>(each))) + "f";
+    };
+    switch (field.type) {
+        case FieldType::Flag:
+            return value[0] != 0.0 ? "true" : "false";
+        case FieldType::Integer:
+            return std::to_string(static_cast<long long>(value[0]));
+        case FieldType::Number:
+            return digits(value[0]);
+        case FieldType::Pair:
+            return '{' + digits(value[0]) + ", " + digits(value[1]) + '}';
+        case FieldType::Point:
+            return '{' + digits(value[0]) + ", " + digits(value[1]) + ", " + digits(value[2]) + '}';
+        case FieldType::Choice:
+            break;
+    }
+    return pascal_text(field.choices[static_cast<std::size_t>(value[0])]);
+}
+
+}  // namespace
+
+std::vector<std::string> member_texts(FieldsOf of) {
+    std::vector<std::string> texts;
+    for (const Field& field : of.table) {
+        const FieldValue value = field.get(of.object);
+        if (!std::isnan(value[0]))
+            texts.push_back('.' + std::string(field.name) + " = " + field_text(field, value));
+    }
+    return texts;
 }
 
 std::string keys_text(const signal::Curve& curve, const std::string& margin) {

@@ -4,6 +4,9 @@
 #include <string>
 #include <string_view>
 #include <tendril/signal/curve.hpp>
+#include <vector>
+
+#include "app/fields/fields.hpp"
 
 namespace tendril::app {
 
@@ -13,6 +16,9 @@ std::string double_text(double value);
 std::string string_text(std::string_view text);
 /// "one_euro" as "OneEuro"
 std::string pascal_text(std::string_view name);
+
+/// ".damping = 0.5" of each field, in the order of the table; members are called as their fields are.
+std::vector<std::string> member_texts(FieldsOf of);
 
 /// "{{.time = 0.0, .value = 0.0, ...}, ...}", each key on a line of its own that begins with `margin`.
 std::string keys_text(const signal::Curve& curve, const std::string& margin);

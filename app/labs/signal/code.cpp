@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "app/labs/kit/code_text.hpp"
+#include "app/labs/signal/filter_fields.hpp"
 
 namespace tendril::app {
 namespace {
@@ -17,20 +18,7 @@ std::string initialiser(const signal::Filter& filter) {
     const auto add = [&](const std::string& member) { text += (text.empty() ? "" : ", ") + member; };
     if (const auto* curve = std::get_if<signal::Curve>(&filter))
         add(".keys = " + keys_text(*curve, "                        "));
-    std::string pair;
-    for (const signal::Parameter& parameter : signal::kind_of(filter).parameters) {
-        const std::string name(parameter.name);
-        const double value = parameter.get(filter);
-        if (parameter.element == 0) {
-            pair = "." + name + " = {" + double_text(value);
-        } else if (parameter.element == 1) {
-            add(pair + ", " + double_text(value) + "}");
-        } else if (parameter.type == signal::ParameterType::Flag) {
-            add("." + name + " = " + (value != 0.0 ? "true" : "false"));
-        } else {
-            add("." + name + " = " + double_text(value));
-        }
-    }
+    for (const std::string& member : member_texts(filter_fields(filter))) add(member);
     return "signal::" + type_name(signal::kind(filter)) + "{" + text + "}";
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "app/document/json_complete.hpp"
+#include "app/labs/signal/filter_fields.hpp"
 #include "app/labs/signal/filter_json.hpp"
 #include "app/labs/signal/signal_commands.hpp"
 
@@ -22,28 +23,21 @@ Argument filter_argument(Argument place) {
 /// The names that filters of any kind can be given, each once.
 std::vector<Argument> parameter_arguments() {
     std::vector<Argument> arguments;
-    const auto add = [&](std::string name, ArgumentType type, std::string help) {
-        const bool known = std::any_of(arguments.begin(), arguments.end(),
-                                       [&](const Argument& each) { return each.name == name; });
-        if (!known)
-            arguments.push_back(
-                {.name = std::move(name), .type = type, .required = false, .help = std::move(help)});
+    const auto add = [&](Argument argument, const signal::Kind& kind) {
+        const auto known = std::ranges::find(arguments, argument.name, &Argument::name);
+        const std::string of = std::string("Of ") + kind.name + ": ";
+        if (known != arguments.end()) return;
+        argument.help = of + argument.help;
+        arguments.push_back(std::move(argument));
     };
     for (const signal::Kind& kind : signal::kinds()) {
-        for (const std::string& name : parameter_names(kind)) {
-            const auto found = std::find_if(kind.parameters.begin(), kind.parameters.end(),
-                                            [&](const signal::Parameter& each) { return each.name == name; });
-            const std::string of = std::string("of ") + kind.name;
-            if (found == kind.parameters.end()) {
-                add(name, ArgumentType::List, of + ": time, value, arrive, leave and piece each");
-            } else if (found->element >= 0) {
-                add(name, ArgumentType::List, of + ": [low, high]");
-            } else if (found->type == signal::ParameterType::Flag) {
-                add(name, ArgumentType::Boolean, of);
-            } else {
-                add(name, ArgumentType::Number, found->unit.empty() ? of : std::string(found->unit));
-            }
-        }
+        if (std::holds_alternative<signal::Curve>(kind.blank()))
+            add({.name = "keys",
+                 .type = ArgumentType::List,
+                 .required = false,
+                 .help = "time, value, arrive, leave and piece each"},
+                kind);
+        for (Argument& each : field_arguments(kind.fields, filter_texts(kind))) add(std::move(each), kind);
     }
     return arguments;
 }

@@ -9,6 +9,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/io/samples.hpp"
 #include "app/labs/kit/curve_json.hpp"
+#include "app/labs/signal/filter_fields.hpp"
 
 namespace tendril::app {
 namespace {
@@ -21,42 +22,11 @@ std::string place(const std::string& where, std::string_view key) {
     return where.empty() ? std::string(key) : where + "." + std::string(key);
 }
 
-/// A double as JSON shows it best: whole numbers without a point.
-Json plain(double value) {
-    if (value == std::trunc(value) && std::abs(value) < 1e15) return static_cast<std::int64_t>(value);
-    return value;
-}
-
-void read_parameter(signal::Filter& filter, const signal::Parameter& parameter, const Json& json,
-                    const std::string& where) {
-    if (parameter.type == signal::ParameterType::Flag) {
-        parameter.set(filter, json_bool(json, where) ? 1.0 : 0.0);
-        return;
-    }
-    const double value = json_real(json, where);
-    if (!(value >= parameter.minimum && value <= parameter.maximum)) {
-        fail(where, "expected " + decimal(parameter.minimum) + " to " + decimal(parameter.maximum) +
-                        ", found " + json_summary(json));
-    }
-    parameter.set(filter, value);
-}
-
 }  // namespace
 
 Json parameters_json(const signal::Filter& filter) {
-    Json json = Json::object();
+    Json json = save_fields(filter_fields(filter));
     if (const auto* curve = std::get_if<signal::Curve>(&filter)) json["keys"] = curve_keys_json(*curve);
-    for (const signal::Parameter& parameter : signal::kind_of(filter).parameters) {
-        const std::string name(parameter.name);
-        const double value = parameter.get(filter);
-        if (parameter.element >= 0) {
-            json[name].push_back(plain(value));
-        } else if (parameter.type == signal::ParameterType::Flag) {
-            json[name] = value != 0.0;
-        } else {
-            json[name] = plain(value);
-        }
-    }
     return json;
 }
 
@@ -87,19 +57,7 @@ void set_parameters(signal::Filter& filter, const Json& given, const std::string
     signal::Filter changed = filter;
     if (auto* curve = std::get_if<signal::Curve>(&changed); curve != nullptr && given.contains("keys"))
         curve->keys = read_curve_keys({given["keys"], place(where, "keys")});
-    for (const signal::Parameter& parameter : signal::kind_of(filter).parameters) {
-        const std::string name(parameter.name), here = place(where, name);
-        if (!given.contains(name)) continue;
-        const Json& json = given[name];
-        if (parameter.element < 0) {
-            read_parameter(changed, parameter, json, here);
-            continue;
-        }
-        if (!json.is_array() || json.size() != 2)
-            fail(here, "expected two numbers [low, high], found " + json_summary(json));
-        const auto element = static_cast<std::size_t>(parameter.element);
-        read_parameter(changed, parameter, json[element], here + "." + std::to_string(element));
-    }
+    load_fields({given, where}, filter_fields(changed));
     if (const Result result = signal::check(changed); !result)
         fail(where, result.message() + other_end(changed));
     filter = std::move(changed);
@@ -132,8 +90,7 @@ std::vector<signal::Filter> filters_from_json(const Json& json, const std::strin
 std::vector<std::string> parameter_names(const signal::Kind& kind) {
     std::vector<std::string> names;
     if (std::holds_alternative<signal::Curve>(kind.blank())) names.emplace_back("keys");
-    for (const signal::Parameter& parameter : kind.parameters)
-        if (parameter.element <= 0) names.emplace_back(parameter.name);
+    for (const Field& field : kind.fields) names.emplace_back(field.name);
     return names;
 }
 

@@ -1,71 +1,66 @@
 // What filters remember, as JSON: each state says by its name which it is, {"motion": {"value": ...}}.
 #include <array>
-#include <cmath>
 #include <stdexcept>
 
 #include "app/document/json_complete.hpp"
+#include "app/fields/fields.hpp"
 #include "app/labs/signal/filter_json.hpp"
 
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t most_entries = 1'000'000;
+constexpr std::size_t max_entries = 1'000'000;
 
-template <class State>
-struct Field {
-    const char* name;
-    double State::*value;
-};
+/// Unlike other numbers in files these may be as large as outputs get.
+constexpr FieldRange outputs{-signal::max_output, signal::max_output};
 
-// One row a number; `started` all of them have.
 template <class State>
 struct Form;
 
 template <>
 struct Form<signal::OutputState> {
+    using State = signal::OutputState;
     static constexpr const char* name = "output";
-    static constexpr std::array fields{Field<signal::OutputState>{"value", &signal::OutputState::value}};
+    static constexpr std::array fields{field<&State::started>("started"),
+                                       field<&State::value>("value", outputs)};
 };
 template <>
 struct Form<signal::SpringState<>> {
     using State = signal::SpringState<>;
     static constexpr const char* name = "spring";
-    static constexpr std::array fields{Field<State>{"value", &State::value},
-                                       Field<State>{"velocity", &State::velocity},
-                                       Field<State>{"previous_target", &State::previous_target}};
+    static constexpr std::array fields{field<&State::started>("started"),
+                                       field<&State::value>("value", outputs),
+                                       field<&State::velocity>("velocity", outputs),
+                                       field<&State::previous_target>("previous_target", outputs)};
 };
 template <>
 struct Form<signal::MotionState> {
     using State = signal::MotionState;
     static constexpr const char* name = "motion";
-    static constexpr std::array fields{Field<State>{"value", &State::value},
-                                       Field<State>{"velocity", &State::velocity}};
+    static constexpr std::array fields{field<&State::started>("started"),
+                                       field<&State::value>("value", outputs),
+                                       field<&State::velocity>("velocity", outputs)};
 };
 template <>
 struct Form<signal::MovingAverageState> {
     using State = signal::MovingAverageState;
     static constexpr const char* name = "moving_average";
-    static constexpr std::array fields{Field<State>{"value", &State::value},
-                                       Field<State>{"new_time", &State::new_time},
-                                       Field<State>{"new_area", &State::new_area}};
+    static constexpr std::array fields{
+        field<&State::started>("started"), field<&State::value>("value", outputs),
+        field<&State::new_time>("new_time", outputs), field<&State::new_area>("new_area", outputs)};
 };
 template <>
 struct Form<signal::InertializeState> {
     using State = signal::InertializeState;
     static constexpr const char* name = "inertialize";
-    static constexpr std::array fields{
-        Field<State>{"value", &State::value}, Field<State>{"velocity", &State::velocity},
-        Field<State>{"input", &State::input}, Field<State>{"offset", &State::offset},
-        Field<State>{"offset_velocity", &State::offset_velocity}};
+    static constexpr std::array fields{field<&State::started>("started"),
+                                       field<&State::jumped>("jumped"),
+                                       field<&State::value>("value", outputs),
+                                       field<&State::velocity>("velocity", outputs),
+                                       field<&State::input>("input", outputs),
+                                       field<&State::offset>("offset", outputs),
+                                       field<&State::offset_velocity>("offset_velocity", outputs)};
 };
-
-/// Unlike other numbers in files these may be as large as outputs get.
-double read_number(const Json& json, const std::string& where) {
-    const double value = json.is_number() ? json.get<double>() : std::nan("");
-    if (std::abs(value) <= signal::max_output) return value;
-    throw std::runtime_error(where + ": expected a number of at most 1e30 in magnitude, found " +
-                             json_summary(json));
-}
 
 Json save_entries(const signal::MovingAverageState& state) {
     Json entries = Json::array();
@@ -74,32 +69,20 @@ Json save_entries(const signal::MovingAverageState& state) {
     return entries;
 }
 
-void load_entries(signal::MovingAverageState& state, const Json& json, const std::string& where) {
-    const Json& list = json_member(json, "entries", where);
-    const std::string at = where + ".entries";
-    if (!list.is_array() || list.size() > most_entries)
-        throw std::runtime_error(at + ": expected a list, found " + json_summary(list));
-    for (const Json& each : list) {
-        const std::string here = at + "." + std::to_string(state.entries.size());
-        if (!each.is_array() || each.size() != 4)
-            throw std::runtime_error(here + ": expected four numbers, found " + json_summary(each));
-        const auto number = [&](std::size_t i) {
-            return read_number(each[i], here + "." + std::to_string(i));
-        };
+void load_entries(signal::MovingAverageState& state, const JsonPlace& place) {
+    place["entries"].for_each("entries", max_entries, [&](const JsonPlace& each) {
+        each.check_size(4, "numbers");
+        const auto number = [&](std::size_t i) { return each.element(i).real(outputs.low, outputs.high); };
         state.entries.push_back({number(0), number(1), number(2), number(3)});
-    }
-    state.first = static_cast<std::size_t>(
-        json_count(json_member(json, "first", where), where + ".first", state.entries.size()));
-    state.split = static_cast<std::size_t>(
-        json_count(json_member(json, "split", where), where + ".split", state.entries.size()));
-    if (state.split < state.first) throw std::runtime_error(where + ".split: expected at least first");
+    });
+    state.first = place["first"].index(state.entries.size());
+    state.split = place["split"].index(state.entries.size());
+    if (state.split < state.first) place["split"].fail("expected at least first");
 }
 
 template <class State>
 Json save(const State& state) {
-    Json json{{"started", state.started}};
-    for (const auto& field : Form<State>::fields) json[field.name] = state.*field.value;
-    if constexpr (std::is_same_v<State, signal::InertializeState>) json["jumped"] = state.jumped;
+    Json json = save_fields({Form<State>::fields, &state});
     if constexpr (std::is_same_v<State, signal::MovingAverageState>) {
         json["entries"] = save_entries(state);
         json["first"] = state.first;
@@ -109,24 +92,20 @@ Json save(const State& state) {
 }
 
 template <class State>
-bool load(const Json& json, const std::string& where, signal::FilterState& into) {
-    if (!json.contains(Form<State>::name)) return false;
-    const Json& object = json[Form<State>::name];
-    const std::string at = where + "." + Form<State>::name;
+bool load(const JsonPlace& place, signal::FilterState& into) {
+    if (!place.has(Form<State>::name)) return false;
+    const JsonPlace own = place[Form<State>::name];
+    for (const Field& field : Form<State>::fields) own[field.name];  // a state is whole
     State state;
-    state.started = json_bool(json_member(object, "started", at), at + ".started");
-    for (const auto& field : Form<State>::fields)
-        state.*field.value = read_number(json_member(object, field.name, at), at + "." + field.name);
-    if constexpr (std::is_same_v<State, signal::InertializeState>)
-        state.jumped = json_bool(json_member(object, "jumped", at), at + ".jumped");
-    if constexpr (std::is_same_v<State, signal::MovingAverageState>) load_entries(state, object, at);
+    load_fields(own, {Form<State>::fields, &state});
+    if constexpr (std::is_same_v<State, signal::MovingAverageState>) load_entries(state, own);
     into = std::move(state);
     return true;
 }
 
 template <class... States>
-bool load_any(const Json& json, const std::string& where, std::variant<States...>& into) {
-    return (load<States>(json, where, into) || ...);
+bool load_any(const JsonPlace& place, std::variant<States...>& into) {
+    return (load<States>(place, into) || ...);
 }
 
 }  // namespace
@@ -137,7 +116,7 @@ Json filter_state_json(const signal::FilterState& state) {
 
 signal::FilterState filter_state_from_json(const Json& json, const std::string& where) {
     signal::FilterState state;
-    if (!json.is_object() || !load_any(json, where, state))
+    if (!json.is_object() || !load_any({json, where}, state))
         throw std::runtime_error(where + ": expected the state of a filter, found " + json_summary(json));
     return state;
 }

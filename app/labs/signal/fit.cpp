@@ -42,7 +42,7 @@ class KindFit final : public FitTask {
         for (std::size_t d = 0; d < space_.size(); ++d)
             if (space_[d].stepped) search.stepped.push_back(d);
         search.starts.push_back(place_of(kind_.blank()));
-        if (like != nullptr) search.starts.push_back(place_of(*like));
+        if (like != nullptr && &signal::kind_of(*like) == &kind_) search.starts.push_back(place_of(*like));
         for (const signal::Filter& guess : first_guesses(kind_, problem, FitFacts(problem)))
             search.starts.push_back(place_of(guess));
         return search;
@@ -51,13 +51,14 @@ class KindFit final : public FitTask {
     std::vector<double> place_of(signal::Filter filter) const {
         if (auto* damp = std::get_if<signal::SmoothDamp>(&filter)) damp->max_speed *= damp->smooth_time;
         std::vector<double> at;
-        for (const Dimension& each : space_) at.push_back(each.at(each.parameter->get(filter)));
+        for (const Dimension& each : space_)
+            at.push_back(each.at(each.field->number(signal::fields_in(filter))));
         return at;
     }
 
     void set(signal::Filter& filter, std::span<const double> at) const {
         for (std::size_t d = 0; d < space_.size(); ++d)
-            space_[d].parameter->set(filter, space_[d].value(at[d]));
+            space_[d].field->set_number(signal::fields_in(filter), space_[d].value(at[d]));
         if (auto* switching = std::get_if<signal::Hysteresis>(&filter))
             if (switching->low > switching->high) std::swap(switching->low, switching->high);
         // What a largest speed does, it does by the distance max_speed * smooth_time: that is searched.
@@ -109,9 +110,9 @@ class KindFit final : public FitTask {
     /// What the input says nothing about stays as it was.
     void leave_defaults(signal::Filter& filter) {
         const signal::Filter blank = kind_.blank();
-        for (const signal::Parameter& parameter : kind_.parameters) {
+        for (const Field& field : kind_.fields) {
             signal::Filter plain = filter;
-            parameter.set(plain, parameter.get(blank));
+            field.set(signal::fields_in(plain), field.get(signal::fields_in(blank)));
             if (!signal::check(plain)) continue;
             const double now = trial_.residual_of(filter), then = trial_.residual_of(plain);
             evaluations_ += 2;
@@ -132,8 +133,9 @@ std::size_t parameters_set(const signal::Filter& filter) {
     const signal::Kind& kind = signal::kind_of(filter);
     const signal::Filter blank = kind.blank();
     std::size_t count = 0;
-    for (const signal::Parameter& parameter : kind.parameters)
-        count += parameter.get(filter) != parameter.get(blank);
+    for (const Field& field : kind.fields)
+        for (int i = 0; i < field.size(); ++i)
+            count += field.number(signal::fields_in(filter), i) != field.number(signal::fields_in(blank), i);
     if (const auto* curve = std::get_if<signal::Curve>(&filter)) count += 2 * curve->keys.size();
     return count;
 }

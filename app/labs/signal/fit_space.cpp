@@ -61,7 +61,7 @@ double per_speed(const FitFacts& facts) {
 
 struct Row {
     std::string_view kind;
-    const char* parameter;
+    const char* field;
     Bound low, high;
     Scale scale;
     bool stepped = false;
@@ -160,17 +160,15 @@ double Dimension::at(double value) const {
     return std::clamp(share, 0.0, 1.0);
 }
 
-Dimension dimension(const signal::Kind& kind, const char* parameter, double low, double high, Scale scale,
+Dimension dimension(const signal::Kind& kind, const char* field, double low, double high, Scale scale,
                     bool stepped) {
-    for (const signal::Parameter& each : kind.parameters) {
-        if (each.name != parameter) continue;
-        // Within what the filter takes; a range by ratio keeps clear of 0.
-        const double from = std::clamp(low, each.minimum, each.maximum);
-        const double to = std::clamp(high, each.minimum, each.maximum);
-        const double lowest = scale == Scale::Ratio ? std::max(from, 1e-12) : from;
-        return {&each, lowest, std::max(to, scale == Scale::Ratio ? 2.0 * lowest : lowest), scale, stepped};
-    }
-    throw std::logic_error(std::string(kind.name) + " has no parameter " + parameter);
+    const Field* const found = find_field(kind.fields, field);
+    if (found == nullptr) throw std::logic_error(std::string(kind.name) + " has no field " + field);
+    // Within what the filter takes; a range by ratio keeps clear of 0.
+    const double from = std::clamp(low, found->range.low, found->range.high);
+    const double to = std::clamp(high, found->range.low, found->range.high);
+    const double lowest = scale == Scale::Ratio ? std::max(from, 1e-12) : from;
+    return {found, lowest, std::max(to, scale == Scale::Ratio ? 2.0 * lowest : lowest), scale, stepped};
 }
 
 std::vector<Dimension> fit_space(const signal::Kind& kind, const FitFacts& facts) {
@@ -178,7 +176,7 @@ std::vector<Dimension> fit_space(const signal::Kind& kind, const FitFacts& facts
     for (const Row& row : rows) {
         if (row.kind != kind.name) continue;
         space.push_back(
-            dimension(kind, row.parameter, row.low.in(facts), row.high.in(facts), row.scale, row.stepped));
+            dimension(kind, row.field, row.low.in(facts), row.high.in(facts), row.scale, row.stepped));
     }
     return space;
 }

@@ -35,7 +35,7 @@ struct Dimension {
         Cube,   ///< finer the nearer to low, which it reaches
         Fifth   ///< finer still
     };
-    const signal::Parameter* parameter = nullptr;
+    const Field* field = nullptr;
     double low = 0.0, high = 1.0;
     Scale scale = Scale::Even;
     bool stepped = false;  ///< a threshold
@@ -47,8 +47,8 @@ struct Dimension {
 /// Of a kind of filter but a curve and scale_bias_clamp, which are fitted in their own ways.
 std::vector<Dimension> fit_space(const signal::Kind& kind, const FitFacts& facts);
 
-/// The dimension of a parameter; its name must be one of the kind's.
-Dimension dimension(const signal::Kind& kind, const char* parameter, double low, double high,
+/// The dimension of a number; `field` must be one of the kind's.
+Dimension dimension(const signal::Kind& kind, const char* field, double low, double high,
                     Dimension::Scale scale, bool stepped = false);
 
 }  // namespace tendril::app

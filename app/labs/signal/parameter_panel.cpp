@@ -6,50 +6,16 @@
 #include <cmath>
 
 #include "app/document/json_complete.hpp"
+#include "app/fields/field_rows.hpp"
+#include "app/labs/signal/filter_fields.hpp"
 #include "app/labs/signal/filter_json.hpp"
 #include "app/labs/signal/panels.hpp"
-#include "app/labs/signal/parameter_help.hpp"
 #include "app/labs/signal/scene.hpp"
 #include "app/widgets/curve_editor.hpp"
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {
 namespace {
-
-/// "critical_damping" as "critical damping".
-std::string words(std::string_view name) {
-    std::string text(name);
-    std::replace(text.begin(), text.end(), '_', ' ');
-    return text;
-}
-
-std::string format_of(const signal::Parameter& parameter) {
-    const std::string unit(parameter.unit);
-    if (unit.empty()) return "%.3f";
-    return "%.3f " + (unit == "1/s^2" ? std::string("/s\xc2\xb2") : unit == "1/s" ? std::string("/s") : unit);
-}
-
-void number_row(const signal::Filter& filter, const signal::Parameter& parameter, std::size_t at,
-                Emit& emit) {
-    std::string title = words(parameter.name);
-    if (parameter.element >= 0) title += parameter.element == 0 ? " low" : " high";
-    float value = static_cast<float>(parameter.get(filter));
-    const float low = static_cast<float>(parameter.low), high = static_cast<float>(parameter.high);
-    const float speed =
-        parameter.logarithmic ? std::max(0.01f * std::abs(value), 1e-4f) : 0.005f * (high - low);
-    // What is beyond the useful range can be typed.
-    const bool changed = number_field(title.c_str(), value, speed, std::min(low, value),
-                                      std::max(high, value), format_of(parameter).c_str());
-    explain(parameter_help(signal::kind(filter), parameter.name));
-    if (!changed) return;
-    ArgumentValue argument(value);
-    if (parameter.element >= 0) {
-        Json pair = parameters_json(filter).at(std::string(parameter.name));
-        pair[static_cast<std::size_t>(parameter.element)] = value;
-        argument = ArgumentValue(SharedJson(std::move(pair)));
-    }
-    emit.continuously("signal.filter.set", {{"at", at}, {std::string(parameter.name), std::move(argument)}});
-}
 
 /// The same spring by half-life, and by duration and bounce: all three at once, any of them set.
 void spring_rows(const signal::Spring<>& spring, std::size_t at, Emit& emit) {
@@ -87,16 +53,9 @@ void parameter_rows(const SignalPart& part, const Palette& palette, Emit& emit) 
     const signal::Filter& filter = part.stages[at].filter;
     section(kind_title(filter).c_str());
     ImGui::PushID(static_cast<int>(at));
-    for (const signal::Parameter& parameter : signal::kind_of(filter).parameters) {
-        if (parameter.type == signal::ParameterType::Number) {
-            number_row(filter, parameter, at, emit);
-            continue;
-        }
-        bool on = parameter.get(filter) != 0.0;
-        if (ImGui::Checkbox(words(parameter.name).c_str(), &on))
-            emit("signal.filter.set", {{"at", at}, {std::string(parameter.name), on}});
-        explain(parameter_help(signal::kind(filter), parameter.name));
-    }
+    FieldRows(filter_fields(filter), filter_texts(signal::kind_of(filter)), "signal.filter.set", emit,
+              {{"at", at}})
+        .all();
     if (const auto* spring = std::get_if<signal::Spring<>>(&filter)) spring_rows(*spring, at, emit);
     if (const auto* curve = std::get_if<signal::Curve>(&filter)) {
         signal::Curve edited = *curve;

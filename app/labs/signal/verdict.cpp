@@ -19,8 +19,10 @@ Verdict signal_verdict(const SignalPart& part, const signal::Measures& whole) {
         add(*whole.overshoot < 5e-4 ? "without overshoot"
                                     : "overshoots by " + fixed_text(100.0 * *whole.overshoot, 1) + " %");
     }
-    if (!why.empty()) why[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(why[0]))), why += '.';
-    if (whole.settling_time) return {"Settles in " + si_text(*whole.settling_time, "s"), Verdict::Kind::Good, why};
+    if (!why.empty())
+        why[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(why[0]))), why += '.';
+    if (whole.settling_time)
+        return {"Settles in " + si_text(*whole.settling_time, "s"), Verdict::Kind::Good, why};
     if (whole.overshoot)
         return {"Does not settle", Verdict::Kind::Bad, "It still moves when the input moves on. " + why};
     if (whole.following == signal::Following::Follows) return {"Follows", Verdict::Kind::Good, why};

@@ -3,12 +3,13 @@
 // setting that it has never heard of:
 //
 //     for (const Field& field : fields<rope::Settings>())
-//         if (field.type == FieldType::Number) slider(field.name, field.low, field.high, field.unit);
+//         if (field.type == FieldType::Number) slider(field.name, field.slider(), field.unit);
 //
 // A table is an array of constants: reading a row costs nothing and allocates nothing.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -25,6 +26,7 @@ enum class FieldType : std::uint8_t {
     Flag,     ///< 0 or 1
     Integer,  ///< a whole number
     Number,
+    Pair,   ///< two numbers, such as {low, high}
     Point,  ///< three numbers
     Choice  ///< the place of one of `choices`
 };
@@ -32,10 +34,12 @@ enum class FieldType : std::uint8_t {
 /// A field of any type, as up to three numbers.
 using FieldValue = std::array<double, 3>;
 
-/// The range of a number, or of each coordinate of a point; both ends belong to it.
+/// The range of a number, or of each number of a pair or a point; both ends belong to it.
 struct FieldRange {
     double low = 0.0, high = 0.0;
 };
+
+enum class FieldScale : std::uint8_t { Linear, Logarithmic };
 
 /// One field of a struct. `get` and `set` take the struct; `set` checks nothing.
 struct Field {
@@ -46,11 +50,26 @@ struct Field {
     bool optional = false;  ///< may be empty, which reads as NaN
     FieldRange range{};     ///< 0 to 1 of a flag, 0 to the last of choices
     std::span<const char* const> choices{};
+    FieldRange usual{};  ///< where most values lie, for sliders and random ones; empty for all of `range`
+    FieldScale scale = FieldScale::Linear;  ///< of a slider over `usual`
     FieldValue (*get)(const void* object) noexcept = nullptr;
     void (*set)(void* object, const FieldValue& value) noexcept = nullptr;
 
-    int size() const noexcept { return type == FieldType::Point ? 3 : 1; }
-    bool whole() const noexcept { return type != FieldType::Number && type != FieldType::Point; }
+    /// How many numbers of a FieldValue it takes.
+    int size() const noexcept { return type == FieldType::Point ? 3 : type == FieldType::Pair ? 2 : 1; }
+    bool whole() const noexcept {
+        return type == FieldType::Flag || type == FieldType::Integer || type == FieldType::Choice;
+    }
+    /// One of its numbers, and that number set alone.
+    double number(const void* object, int axis = 0) const noexcept {
+        return get(object)[static_cast<std::size_t>(axis)];
+    }
+    void set_number(void* object, double value, int axis = 0) const noexcept {
+        FieldValue changed = get(object);
+        changed[static_cast<std::size_t>(axis)] = value;
+        set(object, changed);
+    }
+    FieldRange slider() const noexcept { return usual.low < usual.high ? usual : range; }
 };
 
 /// The table of a struct, in the order of its members. Each header that has one declares it beside the
@@ -89,6 +108,11 @@ struct FieldOptional<std::optional<Value>> : std::true_type {
     using type = Value;
 };
 
+template <class Value>
+struct FieldPair : std::false_type {};
+template <class Value>
+struct FieldPair<std::array<Value, 2>> : std::true_type {};
+
 template <auto member>
 FieldValue get_field(const void* object) noexcept {
     using Of = FieldMember<decltype(member)>;
@@ -98,6 +122,8 @@ FieldValue get_field(const void* object) noexcept {
     else if constexpr (std::is_arithmetic_v<typename Of::value_type> ||
                        std::is_enum_v<typename Of::value_type>)
         return {static_cast<double>(value)};
+    else if constexpr (FieldPair<typename Of::value_type>::value)
+        return {static_cast<double>(value[0]), static_cast<double>(value[1])};
     else
         return {value.x, value.y, value.z};
 }
@@ -116,6 +142,9 @@ void set_field(void* object, const FieldValue& given) noexcept {
         value = static_cast<Value>(static_cast<int>(given[0]));
     else if constexpr (std::is_arithmetic_v<Value>)
         value = static_cast<Value>(given[0]);
+    else if constexpr (FieldPair<Value>::value)
+        value = {static_cast<typename Value::value_type>(given[0]),
+                 static_cast<typename Value::value_type>(given[1])};
     else
         value = Value(given[0], given[1], given[2]);
 }
@@ -125,6 +154,7 @@ constexpr FieldType field_type() noexcept {
     if (std::is_same_v<Value, bool>) return FieldType::Flag;
     if (std::is_enum_v<Value>) return FieldType::Choice;
     if (std::is_integral_v<Value>) return FieldType::Integer;
+    if (FieldPair<Value>::value) return FieldType::Pair;
     return std::is_arithmetic_v<Value> ? FieldType::Number : FieldType::Point;
 }
 
@@ -138,7 +168,8 @@ constexpr Field field(const char* name, FieldRange range = {0.0, 1.0}, const cha
     return {.name = name,
             .unit = unit,
             .type = detail::field_type<Value>(),
-            .exact = std::is_same_v<Value, double> || std::is_same_v<Value, glm::dvec3>,
+            .exact = std::is_same_v<Value, double> || std::is_same_v<Value, glm::dvec3> ||
+                     std::is_same_v<Value, std::array<double, 2>>,
             .optional = detail::FieldOptional<Member>::value,
             .range = range,
             .get = detail::get_field<member>,

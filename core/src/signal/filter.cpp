@@ -5,9 +5,7 @@
 namespace tendril::signal {
 namespace {
 
-using tendril::detail::Argument;
 using tendril::detail::refused;
-using tendril::detail::Shown;
 
 template <class P>
 struct StateOf {
@@ -37,36 +35,6 @@ template <>
 struct StateOf<Inertialize> {
     using type = InertializeState;
 };
-
-/// `from 0 to 1e9`
-class RangeText {
-  public:
-    explicit RangeText(const Parameter& parameter) noexcept {
-        add("from ");
-        add(Shown(parameter.minimum).text());
-        add(" to ");
-        add(Shown(parameter.maximum).text());
-    }
-    std::string_view text() const noexcept { return {buffer_, size_}; }
-
-  private:
-    /// 1e+09 as people write it.
-    void add(std::string_view text) noexcept {
-        for (const char c : text) {
-            const bool after_e = size_ > 0 && buffer_[size_ - 1] == 'e';
-            if (c != '+' && !(c == '0' && after_e)) buffer_[size_++] = c;
-        }
-    }
-    char buffer_[128];  // two numbers of at most 64
-    std::size_t size_ = 0;
-};
-
-Result check_range(const Kind& kind, const Parameter& parameter, double value) noexcept {
-    if (value >= parameter.minimum && value <= parameter.maximum) return {};
-    const auto index =
-        parameter.element < 0 ? tendril::detail::no_index : static_cast<std::size_t>(parameter.element);
-    return refused(kind.name, Argument(parameter.name, index), RangeText(parameter).text(), value);
-}
 
 Result check_between(const ScaleBiasClamp& parameters) noexcept {
     if (parameters.clamp_min <= parameters.clamp_max) return {};
@@ -114,8 +82,7 @@ bool started(const FilterState& state) noexcept {
 
 Result check(const Filter& filter) noexcept {
     const Kind& kind = kind_of(filter);
-    for (const Parameter& parameter : kind.parameters)
-        if (const Result bad = check_range(kind, parameter, parameter.get(filter)); !bad) return bad;
+    if (const Result bad = check_fields(kind.name, kind.fields, fields_in(filter)); !bad) return bad;
     return std::visit([](const auto& parameters) { return check_between(parameters); }, filter);
 }
 

@@ -7,13 +7,14 @@
 
 namespace tendril::test {
 
-/// Whether the response says what the parameter is: where it is 2 % off, more than `least` is left.
-inline bool excited(const signal::Filter& truth, const signal::Parameter& parameter,
-                    const app::FitProblem& problem, double least) {
+/// Whether the response says what the field is: where it is 2 % off, more than `least` is left.
+inline bool excited(const signal::Filter& truth, const Field& field, int axis, const app::FitProblem& problem,
+                    double least) {
     double smallest = 1e9;
     for (const double factor : {0.98, 1.02}) {
         signal::Filter other = truth;
-        parameter.set(other, factor * parameter.get(truth));
+        field.set_number(signal::fields_in(other), factor * field.number(signal::fields_in(truth), axis),
+                         axis);
         if (signal::check(other)) smallest = std::min(smallest, app::residual_of(other, problem));
     }
     return smallest > least && smallest < 1e9;

@@ -47,8 +47,8 @@ signal::Filter some_filter(const signal::Kind& kind, test::Random& random) {
     const auto pick = [&](double low, double high) { return between(random, low, high); };
     signal::Filter filter = kind.blank();
     const auto set = [&](const char* name, double low, double high) {
-        for (const signal::Parameter& parameter : kind.parameters)
-            if (parameter.name == name) parameter.set(filter, pick(low, high));
+        if (const Field* const field = find_field(kind.fields, name))
+            field->set_number(signal::fields_in(filter), pick(low, high));
     };
     set("speed", 2.0, 20.0);
     set("halflife", 0.05, 0.3);
@@ -115,13 +115,15 @@ TEST_P(FitOfAKind, MeetsTheResponseByTheParametersThatMadeIt) {
         // Of a curve the values count: its ranges and keys can say the same in many ways.
         if (std::holds_alternative<signal::Curve>(truth)) continue;
         int compared = 0;
-        for (const signal::Parameter& parameter : kind.parameters) {
-            if (!test::excited(truth, parameter, problem, 1e-4)) continue;
-            const double wanted = parameter.get(truth);
-            EXPECT_NEAR(parameter.get(fit.filter), wanted, 0.02 * std::abs(wanted))
-                << kind.name << " " << parameter.name << ", draw " << draw;
-            ++compared;
-        }
+        for (const Field& field : kind.fields)
+            for (int axis = 0; axis < field.size(); ++axis) {
+                if (!test::excited(truth, field, axis, problem, 1e-4)) continue;
+                const double wanted = field.number(signal::fields_in(truth), axis);
+                EXPECT_NEAR(field.number(signal::fields_in(fit.filter), axis), wanted,
+                            0.02 * std::abs(wanted))
+                    << kind.name << " " << field.name << ", draw " << draw;
+                ++compared;
+            }
         // Between two rows a switch's thresholds may be anywhere: they have a test of their own.
         if (!std::holds_alternative<signal::Hysteresis>(truth)) {
             EXPECT_GT(compared, 0) << kind.name << ": this input says nothing of it";

@@ -45,8 +45,8 @@ signal::Filter wide_filter(const signal::Kind& kind, test::Random& random) {
     signal::Filter filter = kind.blank();
     const auto set = [&](const char* name, double low, double high) {
         const double value = by_ratio(random, low, high);
-        for (const signal::Parameter& parameter : kind.parameters)
-            if (parameter.name == name) parameter.set(filter, value);
+        if (const Field* const field = find_field(kind.fields, name))
+            field->set_number(signal::fields_in(filter), value);
     };
     set("speed", 0.3, 40.0);
     set("halflife", 0.01, 1.0);
@@ -89,12 +89,13 @@ void expect_found(const signal::Filter& truth, const Samples& samples, bool para
     EXPECT_LT(fit.residual, 1e-3) << kind.name;
     EXPECT_TRUE(signal::check(fit.filter)) << kind.name;
     if (!parameters) return;
-    for (const signal::Parameter& parameter : kind.parameters) {
-        if (!test::excited(truth, parameter, problem, 1e-3)) continue;
-        const double wanted = parameter.get(truth);
-        EXPECT_NEAR(parameter.get(fit.filter), wanted, 0.02 * std::abs(wanted))
-            << kind.name << " " << parameter.name;
-    }
+    for (const Field& field : kind.fields)
+        for (int axis = 0; axis < field.size(); ++axis) {
+            if (!test::excited(truth, field, axis, problem, 1e-3)) continue;
+            const double wanted = field.number(signal::fields_in(truth), axis);
+            EXPECT_NEAR(field.number(signal::fields_in(fit.filter), axis), wanted, 0.02 * std::abs(wanted))
+                << kind.name << " " << field.name;
+        }
 }
 
 class FitOfAWideRange : public testing::TestWithParam<std::size_t> {};

@@ -5,16 +5,16 @@
 //     signal::FilterState state;
 //     output = signal::step(filter, state, input, dt);
 //
-// One table, kinds(), has every kind with its parameters by name, unit and range: what reads files, draws
-// panels, fits parameters and writes code goes through it and needs no list of its own. A program that knows
-// its filters calls the `step` of their own headers instead.
+// One table, kinds(), has every kind with the fields of its struct (tendril/fields.hpp): what reads files,
+// draws panels, fits parameters and writes code goes through it and needs no list of its own. A program that
+// knows its filters calls the `step` of their own headers instead.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string_view>
 #include <variant>
 
+#include "tendril/fields.hpp"
 #include "tendril/result.hpp"
 #include "tendril/signal/curve.hpp"
 #include "tendril/signal/inertialize.hpp"
@@ -48,30 +48,14 @@ double value(const FilterState& state) noexcept;
 bool started(const FilterState& state) noexcept;
 
 /// Ranges, and what must hold between parameters. InvalidArgument, naming the parameter and its value:
-/// `rate_limit: rise must be from 0 to 1e9, got -1`.
+/// `rate_limit: rise must be 0 to 1e9 1/s, got -1`.
 Result check(const Filter& filter) noexcept;
-
-enum class ParameterType : std::uint8_t { Number, Flag };
-
-/// A number or a flag of one kind of filter. The keys of a curve are no parameters in this sense.
-struct Parameter {
-    std::string_view name;  ///< as files have it: "speed_increasing"
-    std::string_view unit;  ///< "s", "Hz", "1/s" or nothing
-    ParameterType type = ParameterType::Number;
-    int element = -1;  ///< 0 or 1 of a pair, {low, high}, which has two rows of one name; else -1
-    double minimum = 0.0, maximum = 1.0;  ///< what check() lets pass
-    /// Where it is of use, for sliders and fits; with `logarithmic` by ratio rather than by difference.
-    double low = 0.0, high = 1.0;
-    bool logarithmic = false;
-    /// Of a filter of that kind; the others are left alone, and read as 0. Flags are 0 and 1.
-    double (*get)(const Filter&) noexcept = nullptr;
-    void (*set)(Filter&, double) noexcept = nullptr;
-};
 
 struct Kind {
     const char* name;            ///< "one_euro"
     Filter (*blank)() noexcept;  ///< with every parameter's default
-    std::span<const Parameter> parameters;
+    /// Of the struct that a filter of this kind holds; the keys of a curve are not among them.
+    std::span<const Field> fields;
 };
 
 /// All of them, in the order of Filter's alternatives.
@@ -79,7 +63,10 @@ std::span<const Kind> kinds() noexcept;
 /// Null for an unknown name.
 const Kind* find_kind(std::string_view name) noexcept;
 const Kind& kind_of(const Filter& filter) noexcept;
-/// Its name.
+/// The struct that it holds, for the rows of kind_of(filter).fields.
+void* fields_in(Filter& filter) noexcept;
+const void* fields_in(const Filter& filter) noexcept;
+/// The name of its kind.
 const char* kind(const Filter& filter) noexcept;
 
 }  // namespace tendril::signal
