@@ -1,4 +1,5 @@
 #include <cctype>
+#include <cmath>
 
 #include "app/document/units.hpp"
 #include "app/labs/signal/panels.hpp"
@@ -14,7 +15,8 @@ Verdict signal_verdict(const SignalPart& part, const signal::Measures& whole) {
         return {"Does not follow", Verdict::Kind::Bad, "No shift in time makes the output like the input."};
     std::string why;
     const auto add = [&](const std::string& what) { why += (why.empty() ? "" : ", ") + what; };
-    if (whole.lag) add(si_text(*whole.lag, "s") + " behind the input");
+    if (whole.lag)
+        add(std::abs(*whole.lag) < 5e-5 ? "without lag" : si_text(*whole.lag, "s") + " behind the input");
     if (whole.overshoot) {
         add(*whole.overshoot < 5e-4 ? "without overshoot"
                                     : "overshoots by " + fixed_text(100.0 * *whole.overshoot, 1) + " %");

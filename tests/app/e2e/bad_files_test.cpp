@@ -12,11 +12,11 @@ class BadFiles : public testing::Test {
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
     Outcome run_script(const std::string& text) {
         write(folder_ / "script.jsonl", text);
-        return run_program({"--headless", "--script", path("script.jsonl"), "--state", path("state.json")});
+        return run_here({"--headless", "--script", path("script.jsonl"), "--state", path("state.json")});
     }
     Outcome open_scene(const std::string& text) {
         write(folder_ / "scene.json", text);
-        return run_program({"--headless", path("scene.json"), "--state", path("state.json")});
+        return run_here({"--headless", path("scene.json"), "--state", path("state.json")});
     }
     std::string good_scene() {
         EXPECT_TRUE(

@@ -173,8 +173,8 @@ TEST_P(LabCard, is_put_away_by_one_click) {
 /// However small the window and large the text, at least half of the panel stays the inspector's.
 TEST_P(LabCard, leaves_room_beside_it) {
     for (const glm::ivec2 size : {glm::ivec2(1024, 640), glm::ivec2(1280, 720), glm::ivec2(2560, 1440)}) {
+        CardOnScene scene(GetParam(), size);
         for (const float scale : {1.0f, 1.5f, 2.0f}) {
-            CardOnScene scene(GetParam(), size);
             scene.run("view.text_scale", {{"scale", scale}});
             const bool one_panel = lay_out(size, scale, Settings{}, 0.0f).one_panel;
             if (one_panel) scene.run("view.panels", {{"left", false}, {"right", true}});

@@ -11,8 +11,8 @@ using app::Json;
 testing::AssertionResult survives(const ScriptText& script) {
     const TempFolder folder;
     write(folder / "script.jsonl", script.text());
-    const Outcome outcome = run_program({"--headless", "--script", (folder / "script.jsonl").string(),
-                                         "--screenshot", (folder / "picture.png").string()});
+    const Outcome outcome = run_here({"--headless", "--script", (folder / "script.jsonl").string(),
+                                      "--screenshot", (folder / "picture.png").string()});
     if (outcome.exit_code == 0) return testing::AssertionSuccess();
     return testing::AssertionFailure()
            << "exit code " << outcome.exit_code << ": " << outcome.err.substr(0, 400);

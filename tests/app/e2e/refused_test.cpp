@@ -85,8 +85,8 @@ class Refused : public testing::Test {
   protected:
     Outcome run(const std::string& script) {
         write(folder_ / "script.jsonl", script);
-        return run_program({"--headless", "--script", (folder_ / "script.jsonl").string(), "--state",
-                            (folder_ / "state.json").string()});
+        return run_here({"--headless", "--script", (folder_ / "script.jsonl").string(), "--state",
+                         (folder_ / "state.json").string()});
     }
     std::string state() { return read(folder_ / "state.json"); }
     TempFolder folder_;
