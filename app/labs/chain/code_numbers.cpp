@@ -1,39 +1,12 @@
 #include "app/labs/chain/code_numbers.hpp"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <glm/trigonometric.hpp>
 
+#include "app/labs/kit/code_text.hpp"
+
 namespace tendril::app {
-namespace {
-
-/// "svd_dls" to "SvdDls"
-std::string pascal(const char* name) {
-    std::string text;
-    bool upper = true;
-    for (const char* c = name; *c != '\0'; ++c) {
-        if (*c != '_') text += upper ? static_cast<char>(*c - 'a' + 'A') : *c;
-        upper = *c == '_';
-    }
-    return text;
-}
-
-}  // namespace
-
-std::string literal(float value) {
-    std::array<char, 32> digits{};
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-    std::string text(digits.data(), end);
-    if (text.find_first_of(".e") == text.npos) text += ".0";
-    return text + 'f';
-}
-
-std::string braced(glm::vec3 value) {
-    return std::string("{") + literal(value.x) + ", " + literal(value.y) + ", " + literal(value.z) + "}";
-}
-
 std::string degrees_text(float radians) {
     char text[32];
     std::snprintf(text, sizeof text, "%.4g", glm::degrees(static_cast<double>(radians)));
@@ -41,11 +14,11 @@ std::string degrees_text(float radians) {
 }
 
 std::string enumerator(ik::Method method) {
-    return pascal(ik::name(method));
+    return pascal_text(ik::name(method));
 }
 
 std::string enumerator(ik::JointKind kind) {
-    return pascal(ik::name(kind));
+    return pascal_text(ik::name(kind));
 }
 
 std::string readable(const std::string& name, const ik::Limit& limit, const std::string& margin) {

@@ -3,22 +3,19 @@
 
 #include <cstddef>
 #include <glm/gtc/quaternion.hpp>
-#include <glm/vec3.hpp>
 #include <string>
 #include <tendril/chain/chain.hpp>
 #include <tendril/ik/limit.hpp>
 #include <tendril/ik/method.hpp>
 #include <vector>
 
+#include "app/labs/kit/code_text.hpp"
+
 namespace tendril::app {
 
 /// More values than this stand in a table of plain numbers: less to read, and compiled in no time.
 inline constexpr std::size_t most_in_a_list = 64;
 
-/// The fewest decimals that a compiler reads as this very float: "0.1f". Must be finite.
-std::string literal(float value);
-/// "{1.0f, 2.0f, 3.0f}"
-std::string braced(glm::vec3 value);
 /// "22.5"
 std::string degrees_text(float radians);
 /// "SvdDls", "BallAndSocket"

@@ -1,6 +1,8 @@
 #include "app/labs/kit/code_text.hpp"
 
+#include <array>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 
 #include "app/io/samples.hpp"
@@ -11,6 +13,28 @@ std::string double_text(double value) {
     std::string text = decimal(value);
     if (text.find_first_of(".e") == text.npos) text += ".0";
     return text;
+}
+
+std::string literal(float value) {
+    std::array<char, 32> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+    std::string text(digits.data(), end);
+    if (text.find_first_of(".e") == text.npos) text += ".0";
+    return text + 'f';
+}
+
+std::string braced(const glm::vec3& value) {
+    return '{' + literal(value.x) + ", " + literal(value.y) + ", " + literal(value.z) + '}';
+}
+
+std::string braced(const glm::dvec3& value) {
+    return '{' + double_text(value.x) + ", " + double_text(value.y) + ", " + double_text(value.z) + '}';
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+    std::string all;
+    for (const std::string& each : texts) all += (all.empty() ? "" : ", ") + each;
+    return all;
 }
 
 std::string string_text(std::string_view text) {
@@ -34,10 +58,9 @@ std::string pascal_text(std::string_view name) {
 
 namespace {
 
-std::string field_text(const Field& field, const FieldValue& value) {
+std::string field_text(const Field& field, const FieldValue& value, const std::string& scope) {
     const auto digits = [&](double each) {
-        return field.exact ? double_text(each)
-                           : double_text(shortest_decimal(static_cast<float>(each))) + "f";
+        return field.exact ? double_text(each) : literal(static_cast<float>(each));
     };
     switch (field.type) {
         case FieldType::Flag:
@@ -53,17 +76,17 @@ std::string field_text(const Field& field, const FieldValue& value) {
         case FieldType::Choice:
             break;
     }
-    return pascal_text(field.choices[static_cast<std::size_t>(value[0])]);
+    return scope + pascal_text(field.choices[static_cast<std::size_t>(value[0])]);
 }
 
 }  // namespace
 
-std::vector<std::string> member_texts(FieldsOf of) {
+std::vector<std::string> member_texts(FieldsOf of, const std::string& scope) {
     std::vector<std::string> texts;
     for (const Field& field : of.table) {
         const FieldValue value = field.get(of.object);
         if (!std::isnan(value[0]))
-            texts.push_back('.' + std::string(field.name) + " = " + field_text(field, value));
+            texts.push_back('.' + std::string(field.name) + " = " + field_text(field, value, scope));
     }
     return texts;
 }

@@ -100,6 +100,11 @@ void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
     if (open("Time")) time_rows(workspace, emit);
     if (open("Show")) FieldRows(part.view, "rope.view", emit).rows("strain", "particles", "sides");
     if (open("Last ten seconds")) past_view_rows(workspace, rope_past(), past_help, emit);
+    if (!open("Export")) return;
+    if (row_button("Copy as C++", 1, true,
+                   "Ropes and colliders as they are, as a program against the library"))
+        emit("rope.copy");
+    end_row();
 }
 
 void RopeLab::inspector(const Workspace& workspace, Emit& emit) const {

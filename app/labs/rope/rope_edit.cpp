@@ -171,12 +171,14 @@ void forget_held(RopePart& part, const NamedParticle& named) {
 }
 
 void let_go(RopePart& part) {
-    if (const std::vector<std::size_t> held = held_particles(part); !held.empty()) {
-        NamedWorld world = *part.world;
-        for (const std::size_t each : held) world.unpin(each);
-        part.world = std::make_shared<const NamedWorld>(std::move(world));
-    }
+    if (!held_particles(part).empty()) part.world = std::make_shared<const NamedWorld>(released_world(part));
     part.hold.reset();
+}
+
+NamedWorld released_world(const RopePart& part) {
+    NamedWorld world = *part.world;
+    for (const std::size_t each : held_particles(part)) world.unpin(each);
+    return world;
 }
 
 void forget_missing(RopePart& part) {

@@ -69,6 +69,8 @@ bool is_held(const RopePart& part, std::size_t particle);
 void forget_held(RopePart& part, const NamedParticle& named);
 /// Lets go of what a drag holds.
 void let_go(RopePart& part);
+/// The world without what a drag holds.
+NamedWorld released_world(const RopePart& part);
 /// Whatever is gone is neither chosen nor held nor swings.
 void forget_missing(RopePart& part);
 

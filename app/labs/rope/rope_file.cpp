@@ -97,15 +97,6 @@ RopeView load_view(const JsonPlace& place) {
     return view;
 }
 
-/// The world without what a drag holds.
-Json save_released(const RopePart& part) {
-    const std::vector<std::size_t> held = held_particles(part);
-    if (held.empty()) return save_world(*part.world);
-    NamedWorld released = *part.world;
-    for (const std::size_t each : held) released.unpin(each);
-    return save_world(released);
-}
-
 }  // namespace
 
 Json RopePart::save() const {
@@ -117,7 +108,7 @@ Json RopePart::save() const {
                 {"view", save_fields(view)},
                 {"jitter", save_jitter(jitter)},
                 {"swings", std::move(moving)},
-                {"world", save_released(*this)}};
+                {"world", save_world(released_world(*this))}};
 }
 
 std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where) const {

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/labs/kit/guarded_step.hpp"
+#include "app/labs/rope/code.hpp"
 #include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/past.hpp"
 #include "app/labs/rope/rope_commands.hpp"
@@ -137,6 +138,10 @@ std::vector<MouseHelp> RopeLab::mouse_help() const {
         {"Left click", "selects, pins or unpins, or cuts, as the panel says"},
         {"Shift+click on a rope", "adds a particle to the selection, or takes it out"},
         {"Ctrl+drag on nothing", "draws a box that selects particles of one rope; with Shift it adds them"}};
+}
+
+std::string RopeLab::code(const Workspace& workspace) const {
+    return rope_code(rope_part(workspace));
 }
 
 std::vector<TestScene> RopeLab::test_scenes() const {

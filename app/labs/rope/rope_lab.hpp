@@ -74,6 +74,7 @@ class RopeLab final : public Lab {
     std::vector<Shortcut> shortcuts() const override;
     std::vector<MouseHelp> mouse_help() const override;
     std::vector<TestScene> test_scenes() const override;
+    std::string code(const Workspace& workspace) const override;
     Json state(const Workspace& workspace) const override;
 };
 

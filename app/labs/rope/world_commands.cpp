@@ -1,5 +1,6 @@
 // The whole of the lab: what it begins with, and how it is simulated.
 #include "app/labs/kit/world_file.hpp"
+#include "app/labs/rope/code.hpp"
 #include "app/labs/rope/rope_commands.hpp"
 #include "app/labs/rope/rope_names.hpp"
 #include "app/labs/rope/scenes.hpp"
@@ -121,6 +122,15 @@ void add_world_commands(CommandTable& table) {
          .help = "Opens a preset",
          .effect = Effect::Edit,
          .apply = take_scene});
+    table.add({.name = "rope.copy",
+               .title = "Copy the ropes as C++",
+               .arguments = {},
+               .help = "Puts ropes and colliders on the clipboard, as a C++ program against the library",
+               .effect = Effect::Look,
+               .apply = [](Workspace& workspace, const Arguments&) {
+                   workspace.ui.copied = rope_code(rope_part(workspace));
+                   workspace.toast("The ropes are on the clipboard as C++");
+               }});
     table.add(rope_command("rope.settings", "Set how ropes are simulated", settings_arguments(),
                            "Sets how ropes are simulated; what is left out stays", settings));
     table.add(

@@ -14,12 +14,10 @@ std::string type_name(std::string_view kind) {
 }
 
 std::string initialiser(const signal::Filter& filter) {
-    std::string text;
-    const auto add = [&](const std::string& member) { text += (text.empty() ? "" : ", ") + member; };
+    std::vector<std::string> members = member_texts(filter_fields(filter));
     if (const auto* curve = std::get_if<signal::Curve>(&filter))
-        add(".keys = " + keys_text(*curve, "                        "));
-    for (const std::string& member : member_texts(filter_fields(filter))) add(member);
-    return "signal::" + type_name(signal::kind(filter)) + "{" + text + "}";
+        members.insert(members.begin(), ".keys = " + keys_text(*curve, "                        "));
+    return "signal::" + type_name(signal::kind(filter)) + "{" + joined(members) + "}";
 }
 
 }  // namespace

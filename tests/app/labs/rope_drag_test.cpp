@@ -43,7 +43,7 @@ TEST_F(RopeDrag, OnlyRuntimesMakeAWorkspaceOfTheLibrarys) {
         if (!entry.is_regular_file() || !entry.path().string().ends_with("pp")) continue;
         std::ifstream in(entry.path());
         for (std::string line; std::getline(in, line);) {
-            if (!std::regex_search(line, made)) continue;
+            if (!std::regex_search(line, made) || line.find("say(") != line.npos) continue;  // exported code
             ++found;
             const auto file = entry.path().filename();
             EXPECT_TRUE(file == "rope_time.hpp" || file == "humanoid_runtime.hpp") << file << ": " << line;

@@ -333,7 +333,7 @@ TEST_F(SignalCommands, BadInputIsRefusedAndChangesNothing) {
          {{"kind", "curve"}, {"keys", {{{"time", 0}, {"value", 0}, {"arive", 1}}}}},
          "keys.0.arive"},
         {"signal.filter.add", {{"kind", "spring"}, {"strenght", 1}}, "unknown argument \"strenght\""},
-        {"signal.filter.add", {{"kind", "scale_bias_clamp"}, {"in_range", {1, 2, 3}}}, "two numbers"},
+        {"signal.filter.add", {{"kind", "scale_bias_clamp"}, {"in_range", {1, 2, 3}}}, "list of 2 numbers"},
         {"signal.filter.add", {{"kind", "hysteresis"}, {"low", 1}, {"high", 0}}, "low"},
         {"signal.filter.set", {{"at", 1}, {"strength", 1}}, "at must be 0 to 0"},
         {"signal.filter.set", {{"at", 0}, {"strength", 1e300}}, "strength"},

@@ -1,0 +1,234 @@
+#include "app/labs/rope/code.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "app/document/json_complete.hpp"
+#include "app/document/workspace.hpp"
+#include "app/labs/kit/code_text.hpp"
+#include "app/labs/rope/rope_edit.hpp"
+
+namespace tendril::app {
+namespace {
+
+constexpr std::size_t max_line = 100;
+
+const char* kind_text(rope::Body::Kind kind) {
+    constexpr const char* texts[] = {"rope::Body::Kind::Rope", "rope::Body::Kind::Cloth",
+                                     "rope::Body::Kind::Hair"};
+    return texts[static_cast<std::size_t>(kind)];
+}
+
+std::string link_text(const rope::Link& link) {
+    constexpr const char* kinds[] = {"Stretch", "Shear", "Bend"};
+    return '{' + std::to_string(link.a) + ", " + std::to_string(link.b) + ", " + literal(link.rest) + ", " +
+           kinds[static_cast<std::size_t>(link.kind)] + ", " + literal(link.compliance) + ", " +
+           literal(link.tension) + '}';
+}
+
+std::string particle_text(const rope::State& state, std::size_t i) {
+    return '{' + braced(state.position[i]) + ", " + braced(state.displacement[i]) + ", " +
+           double_text(state.mass[i]) + '}';
+}
+
+std::string shape_text(const rope::Shape& shape) {
+    if (const auto* sphere = std::get_if<rope::Sphere>(&shape))
+        return "rope::Sphere{" + braced(sphere->centre) + ", " + literal(sphere->radius) + '}';
+    if (const auto* capsule = std::get_if<rope::Capsule>(&shape))
+        return "rope::Capsule{" + braced(capsule->a) + ", " + braced(capsule->b) + ", " +
+               literal(capsule->radius) + '}';
+    if (const auto* plane = std::get_if<rope::Plane>(&shape))
+        return "rope::Plane{" + braced(plane->point) + ", " + braced(plane->normal) + '}';
+    const auto& box = std::get<rope::Box>(shape);
+    const glm::quat& q = box.rotation;
+    return "rope::Box{" + braced(box.centre) + ", " + braced(box.half_extents) + ", {" + literal(q.w) + ", " +
+           literal(q.x) + ", " + literal(q.y) + ", " + literal(q.z) + "}}";
+}
+
+/// The place of a collider in the state; slots are numbered like that in the program.
+std::size_t place_of(const rope::State& state, rope::ColliderId collider) {
+    const auto found = std::ranges::find(state.colliders, collider, &rope::Collider::id);
+    return static_cast<std::size_t>(found - state.colliders.begin());
+}
+
+class RopeProgram {
+  public:
+    explicit RopeProgram(const RopePart& part) : part_(part), world_(released_world(part)) {}
+
+    std::string text() {
+        head();
+        tables();
+        line("rope::State exported_state() {");
+        state();
+        line("}");
+        line("");
+        line("int main() {");
+        main();
+        line("}");
+        return std::move(code_);
+    }
+
+  private:
+    void line(const std::string& text) { (code_ += text) += '\n'; }
+    void say(const std::string& text) { line("    " + text); }
+
+    void head() {
+        const rope::State& state = world_.state();
+        line("// Ropes, exported from Tendril: " + std::to_string(state.position.size()) +
+             " particles as they were, and a second of their time.");
+        line("//");
+        line("// CMake: find_package(tendril REQUIRED)");
+        line("//        target_link_libraries(your_program PRIVATE tendril::core)");
+        if (!part_.swings.empty()) line("#include <cmath>");
+        line("#include <cstdio>");
+        line("#include <iterator>");
+        line("#include <tendril/rope/world.hpp>");
+        line("");
+        line("using namespace tendril;");
+        line("");
+    }
+
+    /// `opening`, entries with commas between them, `closing`: as many on a line as fit.
+    void list(const std::string& opening, const std::vector<std::string>& entries, const std::string& closing,
+              const std::string& margin = "    ") {
+        std::string row = opening;
+        for (std::size_t i = 0; i < entries.size(); ++i) {
+            const std::string next = entries[i] + (i + 1 < entries.size() ? "," : closing);
+            if (row.size() + next.size() > max_line)
+                line(std::exchange(row, margin + next));
+            else
+                row += (i == 0 ? "" : " ") + next;
+        }
+        line(row);
+    }
+    template <class Entry>
+    void table(const std::string& name, std::size_t count, Entry entry) {
+        if (count == 0) return;
+        std::vector<std::string> entries;
+        for (std::size_t i = 0; i < count; ++i) entries.push_back(entry(i));
+        line(name + " = {");
+        list("    ", entries, "};");
+        line("");
+    }
+    /// What a person called it.
+    void name(const std::string& name) { say("// " + json_summary(Json(name))); }
+    /// A body, collider or pin.
+    void add(const std::string& what, const std::vector<std::string>& members) {
+        list("    state." + what + ".push_back({", members, "});", "        ");
+    }
+
+    void tables() {
+        const rope::State& state = world_.state();
+        if (!state.position.empty()) {
+            line("struct Particle {");
+            say("glm::dvec3 position, displacement;  // metres; the displacement by the last substep");
+            say("double mass;                        // kg");
+            line("};");
+        }
+        table("const Particle particles[]", state.position.size(),
+              [&](std::size_t i) { return particle_text(state, i); });
+        if (!state.links.empty()) {
+            line("using enum rope::Link::Kind;");
+            line("// Two particles, the distance between them, kind, compliance, tension.");
+        }
+        table("const rope::Link links[]", state.links.size(),
+              [&](std::size_t i) { return link_text(state.links[i]); });
+    }
+
+    void state() {
+        const rope::State& state = world_.state();
+        say("rope::State state;");
+        list("    state.settings = {", member_texts(state.settings, "rope::Solver::"), "};", "        ");
+        for (const rope::Body& body : state.bodies) {
+            name(world_.name(body));
+            add("bodies", {".id = {}", std::string(".kind = ") + kind_text(body.kind),
+                           ".first = " + std::to_string(body.first), ".count = " + std::to_string(body.count),
+                           ".row = " + std::to_string(body.row), ".radius = " + literal(body.radius),
+                           ".tear = " + literal(body.tear), ".stretch = " + literal(body.stretch)});
+        }
+        if (!state.position.empty()) {
+            say("for (const Particle& each : particles) {");
+            say("    state.position.push_back(each.position);");
+            say("    state.displacement.push_back(each.displacement);");
+            say("    state.mass.push_back(each.mass);");
+            say("}");
+        }
+        if (!state.links.empty()) say("state.links.assign(std::begin(links), std::end(links));");
+        for (const rope::Collider& collider : state.colliders) {
+            std::vector<std::string> members{".id = {}", ".shape = " + shape_text(collider.shape),
+                                             ".goal = " + braced(collider.goal)};
+            if (collider.seconds != 0.0) members.push_back(".seconds = " + double_text(collider.seconds));
+            if (collider.half_goal)
+                members.push_back(".half_goal = glm::dvec3" + braced(*collider.half_goal));
+            name(world_.name(collider));
+            add("colliders", members);
+        }
+        say("rope::number_slots(state);");
+        for (const rope::Pin& pin : state.pins) {
+            const std::string holder =
+                pin.collider ? "state.colliders[" + std::to_string(place_of(state, pin.collider)) + "].id"
+                             : "{}";
+            add("pins", {".particle = " + std::to_string(pin.particle), ".goal = " + braced(pin.goal),
+                         ".seconds = " + double_text(pin.seconds), ".collider = " + holder});
+        }
+        say("state.remainder = " + double_text(state.remainder) + ';');
+        say("state.displaced_in = " + double_text(state.displaced_in) + ';');
+        say("return state;");
+    }
+
+    void main() {
+        say("Expected<rope::World> made = rope::World::from_state(exported_state());");
+        say("if (!made) return std::puts(made.error().message()), 1;");
+        say("rope::World& world = *made;");
+        say("rope::Workspace workspace;  // keep it from frame to frame");
+        say("const double dt = 1.0 / 60.0;");
+        if (!part_.swings.empty()) swing_function();
+        say("for (int frame = 0; frame < 60; ++frame) {");
+        if (!part_.swings.empty()) swings();
+        say("    world.advance(dt, workspace);");
+        say("}");
+        say("for (const rope::Body& body : world.state().bodies)");
+        say("    for (std::size_t i = body.first; i < body.first + body.count; ++i) {");
+        say("        const glm::dvec3& at = world.position(i);");
+        say("        std::printf(\"%.17g %.17g %.17g\\n\", at.x, at.y, at.z);");
+        say("    }");
+    }
+
+    void swing_function() {
+        say("// Sends a collider to middle + sin(2 pi time / period) * by.");
+        say("const auto swing = [&](std::size_t collider, double time, const glm::vec3& middle, const "
+            "glm::vec3& by,");
+        say("                       float period) {");
+        say("    const double rounds = time / static_cast<double>(period);");
+        say("    const double angle = 6.283185307179586 * (rounds - std::floor(rounds));");
+        say("    const glm::vec3 to = middle + static_cast<float>(std::sin(angle)) * by;");
+        say("    const rope::ColliderId id = world.state().colliders[collider].id;");
+        say("    if (const Result moved = world.move_collider(id, to, dt); !moved) "
+            "std::puts(moved.message());");
+        say("};");
+    }
+    void swings() {
+        const long long tick = std::llround(part_.time / tick_seconds);
+        say("    const double time = (" + std::to_string(tick + 1) + " + frame) * dt;");
+        for (const Swing& swing : part_.swings)
+            say("    swing(" +
+                std::to_string(place_of(world_.state(), world_.find_collider(swing.collider)->id)) +
+                ", time, " + braced(swing.middle) + ", " + braced(swing.swing) + ", " +
+                literal(swing.period) + ");");
+    }
+
+    const RopePart& part_;
+    NamedWorld world_;
+    std::string code_;
+};
+
+}  // namespace
+
+std::string rope_code(const RopePart& part) {
+    return RopeProgram(part).text();
+}
+
+}  // namespace tendril::app
