@@ -39,6 +39,15 @@ bool is_control(std::string_view character) {
 
 }  // namespace
 
+bool is_storable(std::string_view bytes) {
+    for (std::size_t at = 0; at < bytes.size();) {
+        const std::size_t size = character_at(bytes, at);
+        if (size == 0 || bytes.substr(at, size) == "\xEF\xBF\xBD") return false;
+        at += size;
+    }
+    return true;
+}
+
 std::string printable(std::string_view bytes) {
     std::string text;
     text.reserve(bytes.size());

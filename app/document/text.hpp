@@ -6,6 +6,10 @@
 
 namespace tendril::app {
 
+/// Whether a file holds these bytes as they are: UTF-8 without U+FFFD, which files and recordings have in the
+/// place of all that is not UTF-8.
+bool is_storable(std::string_view bytes);
+
 /// What any bytes look like in a message: one line of valid UTF-8. Control characters become blanks, so that
 /// a file cannot steer a terminal, and bytes that are no UTF-8 become question marks.
 std::string printable(std::string_view bytes);

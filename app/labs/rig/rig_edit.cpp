@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "app/document/json_complete.hpp"
+#include "app/document/text.hpp"
 #include "app/labs/kit/require.hpp"
 #include "app/labs/rig/definition_json.hpp"
 #include "app/labs/rig/take.hpp"
@@ -33,14 +33,7 @@ void check_name(const std::string& name) {
                                     " characters; the most is " + std::to_string(longest));
     if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
         throw std::invalid_argument("a name has a character that cannot be shown");
-    // What is no text a recording has as U+FFFD: refused as well, so that it plays again as it went.
-    if (name.find("\xEF\xBF\xBD") != name.npos)
-        throw std::invalid_argument("a name has a character that is none, U+FFFD");
-    try {
-        static_cast<void>(Json(name).dump());  // looks at every character
-    } catch (const Json::exception&) {
-        throw std::invalid_argument("a name is no text in UTF-8");
-    }
+    if (!is_storable(name)) throw std::invalid_argument("a name must be text in UTF-8");
 }
 
 /// How many elements a for-each comes to, or any number over `most`.

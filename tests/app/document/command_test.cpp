@@ -61,6 +61,25 @@ TEST_F(CommandArguments, ANumberOrAPoint) {
     EXPECT_TRUE(test::says(refused("test.pull", Json::object()), "test.pull by missing number point"));
 }
 
+/// What a scene file could not hold is refused; a file may be called anything.
+TEST_F(CommandArguments, ATextIsUtf8) {
+    std::string taken;
+    for (const char* const name : {"name", "path"})
+        table.add({.name = std::string("test.") + name,
+                   .arguments = {{.name = name, .type = ArgumentType::Text}},
+                   .help = {},
+                   .apply = [&taken, name](Workspace&, const Arguments& a) { taken = a.text(name); }});
+    for (const char* const good : {"", "rope", "\xC3\xA4", "\xF0\x9F\x8E\xA8"}) {
+        table.run(workspace, "test.name", {{"name", good}});
+        EXPECT_EQ(taken, good);
+    }
+    for (const char* const bad : {"\xFF", "a\xC3", "\xED\xA0\x80", "\xC0\xAF", "\xEF\xBF\xBD"}) {
+        EXPECT_TRUE(test::says(refused("test.name", {{"name", bad}}), "test.name name UTF-8"));
+        table.run(workspace, "test.path", {{"path", bad}});
+        EXPECT_EQ(taken, bad);
+    }
+}
+
 TEST_F(CommandArguments, ARotation) {
     const float half = std::sqrt(0.5f);
     table.run(workspace, "test.turn", {{"to", {0, 0, 90}}});
