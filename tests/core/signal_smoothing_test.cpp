@@ -73,6 +73,27 @@ TEST(SignalSmoothing, TheSemiImplicitSpringExplodesUnder60Point7Frames) {
     EXPECT_LE(largest_at(15.0), signal::max_output) << "never more than that";
 }
 
+/// A hand that is lost and found elsewhere is there at once, and steady from then on as from a first sample.
+TEST(SignalSmoothing, OneEuroStartsAnewAtAJump) {
+    const signal::OneEuro plain{.min_cutoff = 1.0, .beta = 0.5},
+        resets{.min_cutoff = 1.0, .beta = 0.5, .reset_jump = 0.5};
+    signal::MotionState slow, anew, fresh;
+    const double dt = 1.0 / 60.0;
+    for (int i = 0; i < 30; ++i) {
+        const double hand = 0.01 * i;
+        EXPECT_EQ(signal::step(resets, anew, hand, dt), signal::step(plain, slow, hand, dt))
+            << "without a jump";
+    }
+    EXPECT_EQ(signal::step(resets, anew, 5.0, dt), 5.0);
+    EXPECT_LT(signal::step(plain, slow, 5.0, dt), 4.0);
+    signal::step(plain, fresh, 5.0, dt);
+    for (int i = 0; i < 30; ++i)
+        EXPECT_EQ(signal::step(resets, anew, 5.0 + 0.01 * i, dt),
+                  signal::step(plain, fresh, 5.0 + 0.01 * i, dt));
+    EXPECT_EQ(signal::step(resets, anew, 50.0, 0.0), anew.value) << "no time passes";
+    EXPECT_LT(anew.value, 6.0);
+}
+
 TEST(SignalSmoothing, OneEuroIsSteadyAtRestAndQuickInMotion) {
     const signal::OneEuro filter{.min_cutoff = 1.0, .beta = 0.5};
     Random random(3);

@@ -65,7 +65,11 @@ constexpr FieldText one_euro[]{
     text("beta", "beta",
          "By how much the cutoff rises with the input's speed. Raise it until fast motion no longer lags."),
     text("derivative_cutoff", "derivative cutoff",
-         "The cutoff of the low pass on the speed itself. Lower it where noise is taken for speed.")};
+         "The cutoff of the low pass on the speed itself. Lower it where noise is taken for speed."),
+    text("reset_jump", "reset jump",
+         "Where the input is farther than this from the output, the filter starts anew there: for hands that "
+         "are lost "
+         "and found. At 0 it never does.")};
 constexpr FieldText moving_average[]{
     text("window", "window",
          "The output is the mean of the input over this time. More is smoother and lags more.")};

@@ -58,7 +58,8 @@ constexpr Field spring_semi_implicit_fields[] = {
 constexpr Field one_euro_fields[] = {
     number<&OneEuro::min_cutoff>("min_cutoff", "Hz", cutoffs, {0.05, 20.0}, Logarithmic),
     number<&OneEuro::beta>("beta", "", cutoffs, {0.0, 2.0}),
-    number<&OneEuro::derivative_cutoff>("derivative_cutoff", "Hz", cutoffs, {0.05, 20.0}, Logarithmic)};
+    number<&OneEuro::derivative_cutoff>("derivative_cutoff", "Hz", cutoffs, {0.05, 20.0}, Logarithmic),
+    number<&OneEuro::reset_jump>("reset_jump", "", amount, {0.0, 2.0})};
 constexpr Field moving_average_fields[] = {
     number<&MovingAverage::window>("window", "s", {0.0, 3600.0}, usual_seconds, Logarithmic)};
 constexpr Field dead_zone_fields[] = {number<&DeadZone::width>("width", "", amount, {0.0, 2.0})};

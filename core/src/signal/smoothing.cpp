@@ -69,6 +69,11 @@ double step(const OneEuro& parameters, MotionState& state, double input, double 
             const double ratio = 2.0 * math::pi * cutoff * time;
             return ratio / (1.0 + ratio);
         };
+        if (parameters.reset_jump > 0.0 && std::abs(input - state.value) > parameters.reset_jump) {
+            state.value = input;
+            state.velocity = 0.0;
+            return;
+        }
         const double slope = (input - state.value) / time;
         state.velocity += alpha(parameters.derivative_cutoff) * (slope - state.velocity);
         const double cutoff = parameters.min_cutoff + parameters.beta * std::abs(state.velocity);
