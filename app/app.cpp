@@ -145,7 +145,9 @@ void App::compose(const Event* event, Pass pass) {
         hint = view_hint(mouse_preset(workspace_.settings), scroll_action(workspace_.settings)) +
                " ? shows every key.";
     if (workspace_.ui.asks_to_quit && !workspace_.modified()) workspace_.ui.asks_to_quit = false;
-    shell_.frame({workspace_, labs_, lab(), *commands_, shortcuts_, layout_, hint, shown_card(), cards_.of(workspace_.lab)}, emit);
+    shell_.frame({workspace_, labs_, lab(), *commands_, shortcuts_, layout_, hint, shown_card(),
+                  cards_.of(workspace_.lab)},
+                 emit);
     if (const std::string why = std::exchange(ui_.numbers().refused, {}); !why.empty()) {
         refuse(why);
         note_refusal(why);
@@ -310,7 +312,7 @@ void App::write_state(const std::string& path) {
     write_file_atomically(path, state().dump(2) + "\n");
 }
 
-Json App::told_state() const {
+Json App::lab_state() const {
     Json state = lab().state(workspace_);
     state["camera"] = save_camera(workspace_.camera);
     const Clock& clock = workspace_.clock;
@@ -342,7 +344,7 @@ Json App::told_state() const {
 Json App::state() {
     const Pane& first = panes_.front();
     const Camera camera = first.camera(workspace_.camera);
-    Json state = told_state();
+    Json state = lab_state();
     Json handles = Json::array();
     for (const Handle& handle : lab().handles(workspace_)) {
         const auto at = camera.project(handle.frame.position);
@@ -363,7 +365,7 @@ bool App::busy() const {
     return pointer_.busy() || ImGui::IsAnyItemActive();
 }
 
-bool App::restless() const {
+bool App::needs_ticks() const {
     const bool moving = workspace_.clock.playing && lab().moving(workspace_);
     return moving || workspace_.clock.replaying || card_is_due() || lab().working(workspace_) || video_ ||
            settling_ > 0 || !workspace_.ui.toasts.empty();

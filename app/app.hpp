@@ -12,10 +12,10 @@
 
 #include "app/document/autosave.hpp"
 #include "app/io/image.hpp"
+#include "app/labs/card.hpp"
 #include "app/labs/labs.hpp"
 #include "app/script/player.hpp"
 #include "app/script/recorder.hpp"
-#include "app/labs/card.hpp"
 #include "app/shell/pointer.hpp"
 #include "app/shell/shell.hpp"
 #include "app/shell/ui.hpp"
@@ -61,7 +61,7 @@ class App final : public Stage {
     /// hold.
     Image screenshot();
     /// Whether the next tick may look different from this one without any event.
-    bool restless() const;
+    bool needs_ticks() const;
     bool quit() const { return workspace_.ui.quit; }
     /// It started from what was recorded in a window.
     bool replays() const { return replays_; }
@@ -115,7 +115,7 @@ class App final : public Stage {
     bool card_is_due() const;
     Json card_state() const;
     /// What the lab says of itself, with camera and time.
-    Json told_state() const;
+    Json lab_state() const;
 
     Window& window_;
     bool complain_;

@@ -18,7 +18,7 @@ void App::watch_shown_card() {
     if (const Card* const card = shown_card())
         watch_card(workspace_.ui.cards[workspace_.lab], *card, workspace_.document.parts().at(workspace_.lab),
                    [this] {
-                       Json state = told_state();
+                       Json state = lab_state();
                        state["time"]["moment"] = workspace_.moment;  // as events count
                        return state;
                    });

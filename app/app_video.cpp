@@ -13,8 +13,8 @@ namespace tendril::app {
 PictureView App::picture_view(glm::ivec2 wanted) const {
     const float ratio =
         static_cast<float>(window_.framebuffer_size().x) / static_cast<float>(std::max(1, window_.size().x));
-    const glm::vec2 own = glm::clamp(glm::round(layout_.view.size() * ratio), glm::vec2(smallest_picture),
-                                     glm::vec2(largest_picture));
+    const glm::vec2 own =
+        glm::clamp(glm::round(layout_.view.size() * ratio), glm::vec2(min_picture), glm::vec2(max_picture));
     const glm::vec2 size(wanted.x > 0 ? static_cast<float>(wanted.x) : own.x,
                          wanted.y > 0 ? static_cast<float>(wanted.y) : own.y);
     const Camera camera(workspace_.camera, tiled({{0.0f, 0.0f}, size}, panes_.size(), pane_gap).front()),

@@ -10,9 +10,9 @@
 namespace tendril::app {
 namespace {
 
-constexpr double most_credit = 0.25;   ///< after a long stall time is dropped rather than raced through
-constexpr double min_credit = -0.05;   ///< a burst of events may run this far ahead
-constexpr double longest_sleep = 1.0;  ///< so that a signal or an autosave never waits longer
+constexpr double max_credit = 0.25;   ///< after a long stall time is dropped rather than raced through
+constexpr double min_credit = -0.05;  ///< a burst of events may run this far ahead
+constexpr double max_sleep = 1.0;     ///< so that a signal or an autosave never waits longer
 
 std::filesystem::path settings_file() {
     return config_folder() / "settings.json";
@@ -93,7 +93,7 @@ void LiveLoop::run(Player& player, std::optional<int> frames) {
 
 double LiveLoop::patience(const Player& player) const {
     if (frames_drawn_ == 0) return 0.0;
-    if (queue_.empty() && player.done() && !app_.restless()) return longest_sleep;
+    if (queue_.empty() && player.done() && !app_.needs_ticks()) return max_sleep;
     return std::max(0.0, tick_seconds - credit_);
 }
 
@@ -137,7 +137,7 @@ bool LiveLoop::take_ticks(Player& player) {
         tick(player);
         ticked = true;
     }
-    while (credit_ >= tick_seconds && (!queue_.empty() || !player.done() || app_.restless())) {
+    while (credit_ >= tick_seconds && (!queue_.empty() || !player.done() || app_.needs_ticks())) {
         tick(player);
         ticked = true;
     }
@@ -147,8 +147,8 @@ bool LiveLoop::take_ticks(Player& player) {
 void LiveLoop::turn(std::vector<Event> events, double elapsed, Player& player) {
     // While nothing moves no time runs up, or the first event after a rest would be followed by a rush of
     // ticks.
-    const bool resting = queue_.empty() && player.done() && !app_.restless();
-    credit_ = resting ? tick_seconds : std::min(credit_ + elapsed, most_credit);
+    const bool resting = queue_.empty() && player.done() && !app_.needs_ticks();
+    credit_ = resting ? tick_seconds : std::min(credit_ + elapsed, max_credit);
     // Where a recording is played, it has that.
     const auto is_end = [](const Event& event) { return std::holds_alternative<VideoEnd>(event); };
     if (app_.video_ended() && (player.done() || !app_.replays()) && std::ranges::none_of(queue_, is_end))

@@ -9,17 +9,17 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t most_bones = 500'000;
+constexpr std::size_t max_bones = 500'000;
 
 std::string element(const std::string& where, std::size_t index) {
     return where + "." + std::to_string(index);
 }
 
-/// A list of `count` values, or of 1 to most_bones where that is 0.
+/// A list of `count` values, or of 1 to max_bones where that is 0.
 const Json& check_list(const Json& json, std::size_t count, const char* what, const std::string& where) {
-    const bool fits = count == 0 ? !json.empty() && json.size() <= most_bones : json.size() == count;
+    const bool fits = count == 0 ? !json.empty() && json.size() <= max_bones : json.size() == count;
     if (json.is_array() && fits) return json;
-    const std::string number = count == 0 ? "1 to " + std::to_string(most_bones) : std::to_string(count);
+    const std::string number = count == 0 ? "1 to " + std::to_string(max_bones) : std::to_string(count);
     const std::string found =
         json.is_array() ? "a list of " + std::to_string(json.size()) : json_summary(json);
     throw std::runtime_error(where + ": expected a list of " + number + " " + what + ", found " + found);

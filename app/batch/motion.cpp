@@ -114,7 +114,7 @@ std::vector<std::string> bake_grounds() {
 
 void run_bake(const BakeOptions& options) {
     // The command line's own check lets through what is no number at all.
-    if (!(options.fps >= smallest_rate && options.fps <= largest_rate))
+    if (!(options.fps >= min_rate && options.fps <= largest_rate))
         throw std::runtime_error("--fps: must be 1 to 1000, got " + std::to_string(options.fps));
     const Character character = read_character(options.file);
     const Clip& clip = clip_named(character, options);

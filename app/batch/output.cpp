@@ -27,9 +27,9 @@ std::string_view head(std::string_view text, std::size_t count) {
 
 void Output::write(std::string_view text) {
     constexpr std::size_t block = 1 << 16;
-    constexpr auto longest_wait = std::chrono::milliseconds(200);
+    constexpr auto max_wait = std::chrono::milliseconds(200);
     waiting_ += text;
-    if (waiting_.size() >= block || std::chrono::steady_clock::now() - flushed_ > longest_wait) flush();
+    if (waiting_.size() >= block || std::chrono::steady_clock::now() - flushed_ > max_wait) flush();
 }
 
 void Output::flush() {

@@ -17,7 +17,7 @@ namespace {
 using Filters = std::vector<signal::Filter>;
 using SignalSamples = std::vector<signal::Sample>;
 
-constexpr std::size_t most_filters = 64;
+constexpr std::size_t max_filters = 64;
 
 Filters read_filters(const std::string& path) {
     const std::string text = read_text_file(path);
@@ -25,7 +25,7 @@ Filters read_filters(const std::string& path) {
         const Json json = parse_json(text);
         const char* const where = json.is_array() ? "filters" : "filter";
         try {
-            return filters_from_json(json, where, most_filters);
+            return filters_from_json(json, where, max_filters);
         } catch (const ParseError&) {
             throw;
         } catch (const std::runtime_error& error) {

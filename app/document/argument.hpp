@@ -1,4 +1,4 @@
-// What a command takes: how its arguments are declared, and those it was given.
+// Arguments of commands: how they are declared, and how a command reads them.
 #pragma once
 
 #include <functional>
@@ -14,8 +14,7 @@ namespace tendril::app {
 struct Workspace;
 
 /// NumberOrPoint: one number, or three. Rotation: a unit quaternion [x, y, z, w], or degrees about X, then Y,
-/// then Z. What is in a List, and Any value
-/// whatever, the command checks.
+/// then Z. The command itself checks the elements of a List and a value of type Any.
 enum class ArgumentType {
     Number,
     Integer,
@@ -36,30 +35,29 @@ struct Argument {
     std::string help{};
     double low = -1e9, high = 1e9;       ///< for numbers and integers
     std::vector<std::string> choices{};  ///< for texts; empty: any
-    /// For the palette. Names (or numbers) of the things that are there to be named; others may do as well.
+    /// For the palette: names (or numbers) that exist now. Others may be valid too.
     std::function<std::vector<std::string>(const Workspace&)> known{};
-    /// Of a list: the argument of the same command that each of it could be given to.
+    /// Of a list: the argument of the same command that takes one of its elements.
     std::string list_of{};
-    /// What it is set to now.
+    /// Its current value.
     std::function<std::string(const Workspace&)> present{};
 };
 
-/// Arguments that have been checked against their command: present where required, of the right type, finite
-/// and in range.
+/// Arguments that passed their command's check: present if required, of the right type, finite, in range.
 class Arguments {
   public:
     explicit Arguments(const Json& json) : json_(json) {}
     bool has(const char* name) const;
     float number(const char* name) const;
-    double real(const char* name) const;  ///< a number, exactly as it was given
+    double real(const char* name) const;  ///< a number, exactly as given
     int integer(const char* name) const;
     bool boolean(const char* name) const;
     std::string text(const char* name) const;
     glm::vec3 point(const char* name) const;
     bool is_point(const char* name) const;       ///< of a NumberOrPoint
     glm::quat rotation(const char* name) const;  ///< of unit length
-    const Json& json(const char* name) const;    ///< of any type, as it was given
-    const Json& json() const { return json_; }   ///< all of them: an object, or null where there are none
+    const Json& json(const char* name) const;    ///< of any type, as given
+    const Json& json() const { return json_; }   ///< all: an object, or null if there are none
 
   private:
     const Json& json_;

@@ -99,9 +99,9 @@ void check_value(const Argument& argument, const Json& value, const std::string&
             return;
         case ArgumentType::Text:
             if (!value.is_string()) refuse(type_text(argument.type));
-            // Files may be called anything.
+            // A path may hold any bytes.
             if (argument.name != "path" && !is_storable(value.get_ref<const std::string&>()))
-                refuse("text in UTF-8");
+                refuse("text in UTF-8, without U+FFFD");
             if (!argument.choices.empty() && std::find(argument.choices.begin(), argument.choices.end(),
                                                        value.get<std::string>()) == argument.choices.end()) {
                 refuse("one of " + joined(argument.choices));

@@ -22,11 +22,11 @@ namespace {
 
 /// The file that a chain of symbolic links ends at, which need not exist yet.
 fs::path follow_links(const fs::path& path) {
-    constexpr int most_links = 40;
+    constexpr int max_links = 40;
     fs::path file = path;
     std::error_code error;
     for (int links = 0; fs::is_symlink(fs::symlink_status(file, error)); ++links) {
-        if (links == most_links) fail(path, "too many symbolic links");
+        if (links == max_links) fail(path, "too many symbolic links");
         const fs::path target = fs::read_symlink(file, error);
         if (error) fail(path, error.message());
         file = target.is_absolute() ? target : file.parent_path() / target;

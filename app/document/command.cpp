@@ -86,7 +86,7 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
     if (workspace.document == before && workspace.path == from.path) return;
     if (command->effect == Effect::Replace) return;
     if (command->effect == Effect::Edit) {
-        workspace.rewind.forget_from(workspace.moment);  // what came of it, as it was before, came not
+        workspace.rewind.forget_from(workspace.moment);  // this edit invalidates what follows
         if (const auto& part = before.parts().at(workspace.lab);
             beginnings == workspace.beginnings && part != workspace.document.parts().at(workspace.lab))
             workspace.rewind.begin_change(workspace.edition, part);
@@ -95,7 +95,7 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
         workspace.clock.replaying = false;
         remember(workspace, before.without(workspace.document), *command, gesture, from);
     } else if (!modified) {
-        workspace.saved = workspace.document;  // choosing something is nothing that wants saving
+        workspace.saved = workspace.document;  // selection does not mark the scene as modified
     }
 }
 

@@ -1,6 +1,6 @@
-// What a person makes and saves: a plain value holding one part per lab. It knows no lab by name.
+// What a person makes and saves: a value with one part per lab. It knows no lab by name.
 //
-// Parts are shared between copies and never changed in place, so a copy of a document costs a few pointers.
+// Copies share parts, which are never changed in place, so a copy costs a few pointers.
 #pragma once
 
 #include <cstddef>
@@ -12,23 +12,22 @@
 
 namespace tendril::app {
 
-/// One lab's share of the document: a value with a JSON form.
+/// One lab's part of the document: a value with a JSON form.
 class Part {
   public:
     virtual ~Part() = default;
     virtual std::shared_ptr<Part> clone() const = 0;
     virtual Json save() const = 0;
-    /// A new part from what save() gave, bit for bit. Throws std::runtime_error naming `where` and what is
-    /// wrong.
+    /// Reads what save() wrote, bit for bit. Throws std::runtime_error that begins with the place, under
+    /// `where`.
     virtual std::shared_ptr<Part> load(const Json& json, const std::string& where) const = 0;
-    /// Turns what a scene file of an older `version` has of this part into what save() writes today; load()
-    /// comes after it. The file may be broken: what is not as it should be is left for load() to refuse.
+    /// Converts the part of a scene file of an older `version` to what save() writes now, before load(). The
+    /// file may be broken: leave that for load() to refuse.
     virtual void upgrade(Json& /*json*/, int /*version*/) const {}
-    /// Itself as undo and redo bring it back, where that differs: nobody drags now what was dragged then.
-    /// Null where it does not.
-    virtual std::shared_ptr<const Part> brought_back() const { return nullptr; }
-    /// `then`, this lab's part as it was at another moment, looked at as this one is: what is chosen and how
-    /// it is shown does not go back in time.
+    /// The part as undo and redo restore it, if that differs, else null: undo must not restore an active
+    /// drag.
+    virtual std::shared_ptr<const Part> after_undo() const { return nullptr; }
+    /// `then`, the part at another moment, with this one's selection and view, which do not go back in time.
     virtual std::shared_ptr<const Part> at_moment(std::shared_ptr<const Part> then) const { return then; }
     /// Rough size in memory, for the history's bound.
     virtual std::size_t bytes() const = 0;
@@ -43,7 +42,7 @@ class Document {
     const T& get(const std::string& lab) const {
         return dynamic_cast<const T&>(*parts_.at(lab));
     }
-    /// A copy of the part to change, put in its place; the documents that shared it keep the old one.
+    /// Replaces the part by a copy and returns it; documents that shared the old part keep it.
     template <class T>
     T& edit(const std::string& lab) {
         auto copy = parts_.at(lab)->clone();
@@ -51,7 +50,7 @@ class Document {
         parts_[lab] = std::move(copy);
         return part;
     }
-    /// Those of its parts that are not the very same in another document.
+    /// The parts that `other` does not share.
     Document without(const Document& other) const {
         Document rest = *this;
         std::erase_if(rest.parts_, [&](const auto& entry) {
@@ -60,7 +59,7 @@ class Document {
         });
         return rest;
     }
-    bool operator==(const Document&) const = default;  ///< the very same parts, not merely equal ones
+    bool operator==(const Document&) const = default;  ///< shares all parts, not merely equal ones
 
   private:
     std::map<std::string, std::shared_ptr<const Part>> parts_;

@@ -1,6 +1,6 @@
-// Undo and redo: the parts that a command changed, as they were before; what other labs have become since
-// stays. One entry per gesture, bounded memory: the oldest entries go first, and only the nearest step may
-// exceed the bound alone.
+// Undo and redo. An entry keeps the parts that a command changed, as they were before it; other labs' parts
+// stay. One entry per gesture. Memory is bounded: the oldest entries are dropped first, and only the nearest
+// may exceed the bound alone.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace tendril::app {
 
-/// Commands of one drag share a gesture and so one undo entry; 0 is a gesture of its own.
+/// Commands of one drag share a gesture and one undo entry; 0 is never shared.
 using Gesture = std::uint64_t;
 
 /// Identifies a moment of a lab's last ten seconds.
@@ -23,7 +23,7 @@ struct MomentId {
     std::uint64_t tick = 0, edition = 0;
 };
 
-/// Where a change is to be seen: its lab, and what else of these the change moved.
+/// Where to show a change: its lab, and what else of these the change moved.
 struct Place {
     std::string lab{};
     std::optional<std::filesystem::path> path{};  ///< the scene's file
@@ -35,38 +35,38 @@ class History {
   public:
     explicit History(std::size_t max_entries = 1000, std::size_t max_bytes = 256u << 20);
 
-    /// Remembers `before`, the parts that the command `label` changed as they were before, and forgets what
-    /// could be redone. Further pushes of the same nonzero gesture add nothing, until an undo or redo comes
-    /// between. `from` and `to` are where things were before the command and after it.
+    /// Remembers `before`, the old parts that the command `label` changed, and clears redo. Further pushes of
+    /// the same nonzero gesture add nothing until the next undo or redo. `from` and `to` are the places
+    /// before and after the command.
     void push(const Document& before, const std::string& label, Gesture gesture, const Place& from = {},
               const Place& to = {});
-    /// Gives the document to go back to (or forward to) from `current`; nothing at the end. `place`, if
-    /// given, is where things are now, and becomes where the change is to be seen.
+    /// The document to go back (forward) to from `current`; nothing at the end. `place`, if given, is the
+    /// current place and becomes the one that shows the change.
     std::optional<Document> undo(const Document& current, Place* place = nullptr);
     std::optional<Document> redo(const Document& current, Place* place = nullptr);
     void clear();
-    /// Forgets the last change, as if it had been none.
+    /// Drops the last entry.
     void forget_last() { take(past_); }
 
-    /// Whether undo would bring back these very parts.
+    /// Whether undo would restore these very parts.
     bool leads_to(const Document& parts) const { return !past_.empty() && past_.back().document == parts; }
     bool can_undo() const { return !past_.empty(); }
     bool can_redo() const { return !future_.empty(); }
-    /// What undo (redo) would take back (bring again); empty at the end.
+    /// Label of the next undo (redo); empty at the end.
     std::string undo_label() const { return past_.empty() ? std::string() : past_.back().label; }
     std::string redo_label() const { return future_.empty() ? std::string() : future_.back().label; }
     std::size_t size() const { return past_.size(); }
-    /// Whether this gesture has an entry that its next command would join.
+    /// Whether the gesture's next command would join its entry.
     bool is_open(Gesture gesture) const { return gesture != 0 && gesture == open_gesture_; }
-    /// Memory that the entries hold on to, what they share counted once.
+    /// Memory that the entries hold, shared parts counted once.
     std::size_t bytes() const { return bytes_; }
 
   private:
     struct Entry {
         Document document;  ///< of the parts that changed
         std::string label;
-        Place from, to;         ///< before the change and after it
-        std::size_t bytes = 0;  ///< of what it does not share with the document before it in time
+        Place from, to;         ///< before and after the change
+        std::size_t bytes = 0;  ///< not shared with the document before it
     };
     using Entries = std::deque<Entry>;
 
@@ -80,7 +80,7 @@ class History {
     void drop_last();
     void trim();
 
-    Entries past_, future_;  ///< the nearest to now at the back
+    Entries past_, future_;  ///< the nearest at the back
     Gesture open_gesture_ = 0;
     std::size_t max_entries_, max_bytes_, bytes_ = 0;
 };

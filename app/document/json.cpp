@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <system_error>
@@ -16,7 +17,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr double largest_number = 1e9;
+constexpr double max_number = 1e9;
 constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
 
 [[noreturn]] void fail(const std::string& where, const std::string& what) {
@@ -30,7 +31,7 @@ constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
 double finite(const Json& value, const std::string& where) {
     if (!value.is_number()) expected("a number", value, where);
     const double x = value.get<double>();
-    if (!(std::abs(x) <= largest_number)) expected("a number of at most 1e9", value, where);
+    if (!(std::abs(x) <= max_number)) expected("a number of at most 1e9", value, where);
     return x;
 }
 
@@ -44,8 +45,8 @@ std::string dump(const Json& json) {
 
 /// A row of a table: short in values, however many digits they have.
 bool is_row(const Json& json) {
-    constexpr std::size_t longest_row = 16;
-    return json.is_array() && json.size() <= longest_row &&
+    constexpr std::size_t max_row_size = 16;
+    return json.is_array() && json.size() <= max_row_size &&
            std::none_of(json.begin(), json.end(), [](const Json& each) { return each.is_structured(); });
 }
 
@@ -184,10 +185,10 @@ float json_number(const Json& value, const std::string& where) {
 }
 
 float json_number(const Json& value, const std::string& where, float low, float high) {
-    const float x = json_number(value, where);
-    if (!(x >= low && x <= high)) {
-        expected(range_text(number(low), number(high)), value, where);
-    }
+    const double given = value.is_number() ? value.get<double>() : std::nan("");
+    const float x =
+        std::abs(given) <= std::numeric_limits<float>::max() ? static_cast<float>(given) : std::nanf("");
+    if (!(x >= low && x <= high)) expected(range_text(number(low), number(high)), value, where);
     return x;
 }
 

@@ -30,7 +30,9 @@ class JsonPlace {
     /// One that may be missing, or null.
     std::optional<JsonPlace> optional(const char* key) const;
     JsonPlace element(std::size_t index) const;
-    /// Every element of a list of at most `most`, which messages call `what`: "segments".
+    /// Of a list of at most `most`, which messages call `what`: "segments".
+    std::size_t list_size(const char* what, std::size_t most) const;
+    /// Every element of such a list.
     void for_each(const char* what, std::size_t most, auto take) const {
         const std::size_t size = list_size(what, most);
         for (std::size_t i = 0; i < size; ++i) take(element(i));
@@ -61,8 +63,6 @@ class JsonPlace {
     glm::quat rotation() const;  ///< [x, y, z, w], of unit length within 1e-3
 
   private:
-    std::size_t list_size(const char* what, std::size_t most) const;
-
     const Json* json_;
     std::string where_;
 };

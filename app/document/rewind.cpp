@@ -11,8 +11,8 @@ void Rewind::remember(std::uint64_t tick, std::uint64_t edition, std::shared_ptr
     change_.reset();
     // Until now it was the newest, and kept as that alone.
     if (!moments_.empty() && moments_.back().tick % stride_ != 0) drop_last();
-    while (!moments_.empty() && moments_.front().tick + most_ticks < tick) drop_oldest();
-    while (!incidents_.empty() && incidents_.front().tick + most_ticks < tick) incidents_.pop_front();
+    while (!moments_.empty() && moments_.front().tick + max_ticks < tick) drop_oldest();
+    while (!incidents_.empty() && incidents_.front().tick + max_ticks < tick) incidents_.pop_front();
     const std::size_t size = part->bytes();
     moments_.push_back({tick, edition, clock, std::move(part), size});
     bytes_ += size;
@@ -46,7 +46,7 @@ void Rewind::remember_change(std::uint64_t tick, std::uint64_t clock) {
 }
 
 void Rewind::note(Incident incident) {
-    if (incidents_.size() == most_incidents) {
+    if (incidents_.size() == max_incidents) {
         const auto less = std::find_if(incidents_.begin(), incidents_.end(), [](const Incident& each) {
             return each.kind != Incident::Kind::Flip;
         });
@@ -79,7 +79,7 @@ const Rewind::Moment* Rewind::find(const MomentId& id) const {
 /// Keeps within the bound by looking away every other time, and looks more closely again once there is room.
 void Rewind::thin() {
     if (stride_ > 1 && 4 * bytes_ < max_bytes_) stride_ /= 2;
-    while (bytes_ > max_bytes_ && moments_.size() > 2 && stride_ < most_ticks) {
+    while (bytes_ > max_bytes_ && moments_.size() > 2 && stride_ < max_ticks) {
         stride_ *= 2;
         std::erase_if(moments_, [&, last = newest()](const Moment& moment) {
             const bool dropped = moment.tick % stride_ != 0 && moment.tick != last;

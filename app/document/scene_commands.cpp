@@ -147,8 +147,8 @@ void add_picture_command(CommandTable& table) {
                         .type = ArgumentType::Integer,
                         .required = false,
                         .help = "pixels; the view's when left out",
-                        .low = smallest_picture,
-                        .high = largest_picture};
+                        .low = min_picture,
+                        .high = max_picture};
     };
     table.add({.name = "view.picture",
                .title = "Save a picture of the view",

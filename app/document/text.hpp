@@ -6,8 +6,8 @@
 
 namespace tendril::app {
 
-/// Whether a file holds these bytes as they are: UTF-8 without U+FFFD, which files and recordings have in the
-/// place of all that is not UTF-8.
+/// True for valid UTF-8 without U+FFFD. Files and recordings replace invalid bytes by U+FFFD, so other text
+/// would not read back.
 bool is_storable(std::string_view bytes);
 
 /// What any bytes look like in a message: one line of valid UTF-8. Control characters become blanks, so that

@@ -24,7 +24,7 @@ void step_through(Workspace& workspace, bool back) {
     workspace.document = std::move(*document);
     const auto parts = workspace.document.parts();
     for (const auto& [lab, part] : parts) {
-        if (auto instead = part->brought_back()) workspace.document.set(lab, std::move(instead));
+        if (auto instead = part->after_undo()) workspace.document.set(lab, std::move(instead));
     }
     if (place.path) workspace.path = *place.path;
     if (place.camera) workspace.camera = *place.camera;
@@ -139,7 +139,7 @@ void add_time_commands(CommandTable& table) {
                         .type = ArgumentType::Integer,
                         .help = "ticks of 1/60 s before the last one",
                         .low = 0,
-                        .high = Rewind::most_ticks}},
+                        .high = Rewind::max_ticks}},
          .help =
              "Pauses and goes back to an earlier moment, from which time continues. Going back over a change "
              "can be undone",
@@ -160,7 +160,7 @@ void add_time_commands(CommandTable& table) {
                               .required = false,
                               .help = "which of the state's events, 0 is the oldest; none when left out",
                               .low = 0,
-                              .high = Rewind::most_incidents - 1,
+                              .high = Rewind::max_incidents - 1,
                               .known = known_incidents}},
                .help = "Goes to a moment at which a joint jumped, and shows what was before it and what came "
                        "of it",

@@ -28,8 +28,7 @@ std::string format_of(const Field& field, const FieldText& text) {
     return "%." + std::to_string(text.decimals) + "f" + shown_unit(unit);
 }
 
-/// A number field over the usual range; what is beyond it can be typed. `value` and `range` as they are
-/// shown.
+/// A number field over the usual range; what is beyond it can be typed. `value` as shown.
 bool usual_number_field(const char* label, float& value, const Field& field, const FieldText& text) {
     const FieldRange range = field.slider();
     const auto low = static_cast<float>(text.scale * range.low),
@@ -107,7 +106,7 @@ void FieldRows::pair_row(const Field& field, const FieldText& text) const {
         auto value = static_cast<float>(text.scale * now[i]);
         if (!usual_number_field(label.c_str(), value, field, text)) continue;
         FieldValue changed = now;
-        changed[i] = static_cast<double>(value) / text.scale;
+        changed[i] = shortest_decimal(value / static_cast<float>(text.scale));
         emit_.continuously(command_, arguments(field, SharedJson(Json{changed[0], changed[1]})));
     }
 }

@@ -84,7 +84,8 @@ std::string unit_sentence(std::string_view unit) {
 Argument argument(const Field& field, const FieldText& text) {
     Argument result{.name = field.name,
                     .required = false,
-                    .help = text.help + unit_sentence(field.unit),
+                    .help = text.help + unit_sentence(field.unit) +
+                            (field.type == FieldType::Pair ? " A list [low, high]." : ""),
                     .low = written(field.range.low),
                     .high = written(field.range.high)};
     switch (field.type) {

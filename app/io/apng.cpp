@@ -13,7 +13,7 @@ namespace tendril::app {
 namespace {
 
 constexpr std::size_t source_channels = 4;
-constexpr std::size_t most_chunk_bytes = 1u << 16;  ///< so that no frame is packed as a whole
+constexpr std::size_t max_chunk_bytes = 1u << 16;  ///< so that no frame is packed as a whole
 constexpr int filter_kinds = 5;
 
 void put_32(std::string& to, std::uint32_t value) {
@@ -80,7 +80,7 @@ class Deflate {
     /// Packs all of it, and gives `take` part after part.
     template <class Take>
     void run(std::vector<std::uint8_t>& bytes, const Take& take) {
-        std::vector<std::uint8_t> out(most_chunk_bytes);
+        std::vector<std::uint8_t> out(max_chunk_bytes);
         std::size_t begin = 0;
         for (int result = Z_OK; result != Z_STREAM_END;) {
             if (stream_.avail_in == 0) {  // zlib counts in 32 bits

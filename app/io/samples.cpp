@@ -186,7 +186,7 @@ TimedSamples parse_timed_samples(std::string_view text, const std::string& name)
             rows.times.push_back(time);
         }
         rows.samples.push_back({columns.absolute ? 0.0 : time, input});
-        if (rows.samples.size() > most_samples) table.fail(" is one too many: the most is 1000000 samples");
+        if (rows.samples.size() > max_samples) table.fail(" is one too many: the most is 1000000 samples");
     }
     if (rows.samples.empty()) table.fail_whole("has no samples");
     if (columns.absolute)

@@ -16,7 +16,7 @@
 
 namespace tendril::app {
 
-inline constexpr std::size_t most_samples = 1'000'000;
+inline constexpr std::size_t max_samples = 1'000'000;
 
 /// Samples, and the time of each as the file has it: where it has dt, the time after that.
 struct TimedSamples {

@@ -90,6 +90,7 @@ std::vector<Card> read_cards(std::string_view text) {
     JsonPlace(json, "cards").for_each("cards", max_cards, [&](const JsonPlace& each) {
         cards.push_back(read_card(each));
     });
+    if (cards.empty()) throw std::runtime_error("cards: expected a card, found none");
     return cards;
 }
 

@@ -8,12 +8,16 @@
 namespace tendril::app {
 namespace {
 
-std::size_t card_numbered(const Arguments& given, const std::string& lab) {
-    const std::size_t count = read_cards(cards_source(lab)).size();
-    const auto number = given.integer("number");
+/// The index of the card to show: the given one, or the last one shown.
+std::size_t card_index(const Workspace& w, const Arguments& given) {
+    if (!given.has("number")) {
+        const auto shown = w.ui.cards.find(w.lab);
+        return shown == w.ui.cards.end() ? 0 : shown->second.card;
+    }
+    const int number = given.integer("number");
+    const std::size_t count = read_cards(cards_source(w.lab)).size();
     if (number < 1 || static_cast<std::size_t>(number) > count)
-        throw Refused("number " + std::to_string(number) + ": this lab has cards 1 to " +
-                      std::to_string(count));
+        throw Refused("number must be 1 to " + std::to_string(count) + ", got " + std::to_string(number));
     return static_cast<std::size_t>(number) - 1;
 }
 
@@ -25,17 +29,16 @@ void add_card_commands(CommandTable& table) {
                .arguments = {{.name = "open",
                               .type = ArgumentType::Boolean,
                               .required = false,
-                              .help = "true begins it anew; toggles when left out"},
+                              .help = "true restarts the card; toggles when left out, but for a number"},
                              {.name = "number",
                               .type = ArgumentType::Integer,
                               .required = false,
-                              .help = "which of this lab's cards, from 1; the same as before when left out"}},
+                              .help = "card number, from 1; the last one shown when left out"}},
                .help = "Shows one of this lab's cards of things to try, or puts it away for good",
                .effect = Effect::Look,
                .apply = [](Workspace& w, const Arguments& given) {
                    if (cards_source(w.lab).empty()) throw Refused("this lab has no card");
-                   const std::size_t card =
-                       given.has("number") ? card_numbered(given, w.lab) : w.ui.cards[w.lab].card;
+                   const std::size_t card = card_index(w, given);
                    const bool seen = card_shown(w.settings, w.lab) && w.settings.right_open;
                    const bool open = given.has("open") ? given.boolean("open") : given.has("number") || !seen;
                    show_card(w.settings, w.lab, open);

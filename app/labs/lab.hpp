@@ -1,6 +1,6 @@
-// The one interface between the frame and a lab. A lab keeps nothing of its own: what it shows is in the
-// workspace, what it changes it changes by commands, so undo, scripts and recordings hold for every lab
-// alike. Solvers and other scratch memory it keeps in its runtime (runtime.hpp), which the workspace holds.
+// The interface between the frame and a lab. A lab has no state: it shows what is in the workspace and
+// changes it by commands, so undo, scripts and recordings work in every lab. Solvers and other scratch memory
+// live in its runtime (runtime.hpp), which the workspace owns.
 #pragma once
 
 #include <cstdint>
@@ -25,160 +25,156 @@ namespace tendril::app {
 
 class CommandTable;
 
-/// What a lab may look at to draw itself.
+/// Everything a lab needs to draw itself.
 struct View {
     const Workspace& workspace;
     const Camera& camera;
     const Palette& palette;
     PickId hovered = no_pick;
     PickId dragged = no_pick;
-    float scale = 1.0f;    ///< of everything measured in pixels
-    std::size_t pane = 0;  ///< of Lab::panes()
+    float scale = 1.0f;    ///< multiplies every size in pixels
+    std::size_t pane = 0;  ///< index into Lab::panes()
 };
 
-/// A frame that a person can take hold of. Dragged by what is drawn there it moves in the plane of the view
-/// or along a held axis, if it may move; its gizmo, where one is shown, has a part for all else.
+/// A frame that can be grabbed. Dragging it moves it in the view plane or along a held axis, if `drag` allows
+/// that; its gizmo, if shown, does the rest.
 struct Handle {
     using Frame = HandleFrame;
-    std::string name;       ///< as --state has it: "target", "segment.3"
-    PickId pick = no_pick;  ///< of what is drawn there
+    std::string name;       ///< as in --state: "target", "segment.3"
+    PickId pick = no_pick;  ///< of what is drawn at the frame
     Frame frame;
     Drag drag = Drag::Position;
-    /// Dragging it is dragging this part of a gizmo: a knob on its rail, a ring that is always there.
+    /// Dragging it drags this part of a gizmo: a knob on its rail, a ring that is always shown.
     std::optional<GizmoPart> part{};
 };
 
-/// What one gizmo drags where several are selected.
+/// What one gizmo drags when several things are selected.
 struct Together {
     std::vector<Handle> handles;
-    std::string staying;  ///< which of those selected stay, and why; empty where none does
+    std::string staying;  ///< which of the selected stay behind, and why; empty if none
 };
 
-/// A sphere around what should be in view.
+/// A sphere that should be in view.
 struct Bounds {
     glm::vec3 centre{0.0f};
     float radius = 1.0f;
 };
 
-/// Around a box along the axes, of a radius of `smallest` metres or more.
+/// The sphere around an axis-aligned box; its radius is at least `smallest` metres.
 Bounds bounds_of(glm::vec3 low, glm::vec3 high, float smallest = 0.5f);
 
-/// What a colour of the picture means here.
+/// A colour of the picture and what it means.
 struct LegendRow {
     std::string name;
     glm::vec3 colour{1.0f};
     bool ring = false;
 };
 
-/// A scene that the tests which run over every lab begin with: random events and commands are let loose on
-/// it, and it has to come out the same when it is played again. The fuzzer's scene files begin with it too,
-/// where it is small.
+/// A starting scene for the tests that run over every lab: they send it random events and commands, and the
+/// replay must end in the same state. Small ones also seed the scene fuzzer.
 struct TestScene {
     std::string name;
-    std::vector<CommandCall> commands;  ///< that set it up, from a blank document
-    std::vector<std::string>
-        words;        ///< what commands may find here where they take any text: names of things
-    int ticks = 120;  ///< to let pass where its state is compared
+    std::vector<CommandCall> commands;  ///< set it up from a blank document
+    std::vector<std::string> words;     ///< names that exist here, for commands that take any text
+    int ticks = 120;                    ///< to run before its state is compared
 };
 
-/// What a lab must say has no default: what it is called, what it saves, which commands change that, and how
-/// it looks. All else a lab adds as it needs it.
+/// Only the first functions must be overridden: names, blank part, commands, drawing. The rest have defaults.
 class Lab {
   public:
     virtual ~Lab() = default;
 
     virtual std::string name() const = 0;   ///< in files and commands
-    virtual std::string title() const = 0;  ///< on its tab
+    virtual std::string title() const = 0;  ///< shown on its tab
     virtual std::shared_ptr<Part> blank() const = 0;
     virtual void add_commands(CommandTable& table) const = 0;
     virtual void draw(const View& view, DrawList& list) const = 0;
 
-    /// Where several things are compared side by side: the views that the scene is divided into, all with one
-    /// camera. Each is drawn by itself (View::pane), and the mouse works in each. Empty: one view.
+    /// Splits the scene into views side by side that share one camera. Each is drawn on its own (View::pane)
+    /// and takes the mouse. Empty: one view.
     virtual std::vector<PaneTitle> panes(const Workspace&) const { return {}; }
 
-    // what is first seen
+    // opening
     virtual CameraPose first_view() const { return {}; }
-    /// What to try first: "Drag the orange ball." Empty: nothing is said.
+    /// What to try first: "Drag the orange ball." Empty: none.
     virtual const char* invitation() const { return ""; }
 
-    /// The scene that a window opens on where nothing else is asked for: commands, from the blank document.
-    /// One that makes a setting counts only where the person has not chosen yet.
+    /// Commands that turn the blank document into the scene that a new window opens on. Those that change a
+    /// setting are skipped if the person has already chosen it.
     virtual std::vector<CommandCall> opening() const { return {}; }
 
     // time
-    /// Whether time changes anything here now; a lab at rest lets the window idle.
+    /// Whether a tick would change anything; a lab at rest lets the window idle.
     virtual bool moving(const Workspace&) const { return false; }
-    /// One tick of tick_seconds, in which clock.speed times as much passes in the lab.
+    /// One tick: clock.speed * tick_seconds pass in the lab.
     virtual void step(Workspace&) const {}
-    /// Elementary steps that a tick would take, roughly; 0: too few to count. Who runs through millions of
-    /// scenes leaves out those that take long.
+    /// Rough number of elementary steps in a tick; 0: too few to count. The fuzzer skips scenes that are
+    /// slow.
     virtual std::uint64_t tick_work(const Workspace&) const { return 0; }
-    /// What the clock in the top bar shows: seconds that have passed in the lab.
+    /// Seconds that have passed in the lab, for the clock in the top bar.
     virtual double seconds(const Workspace& workspace) const {
         return static_cast<double>(workspace.clock.tick) * tick_seconds;
     }
-    /// What a person may ask about that came of a change or a tick: a joint that jumped. Parts of this lab;
-    /// the workspace is for what is worked out of them. The ticks are filled in by who asks.
+    /// What in a change or a tick a person may ask about, such as a joint that jumped. `before` and `after`
+    /// are parts of this lab; the workspace gives access to its runtime. The caller sets the ticks.
     virtual std::vector<Incident> review(const Workspace&, const Part& /*before*/,
                                          const Part& /*after*/) const {
         return {};
     }
-    /// Whether something long is being worked out, a share of it in every tick, paused or not.
+    /// Whether a long computation is running; work() does a share of it each tick, even while paused.
     virtual bool working(const Workspace&) const { return false; }
     virtual void work(Workspace&) const {}
-    /// The strip of time below the scene: how high it is, in pixels at scale 1. 0: there is none.
+    /// Height of the timeline below the scene, in pixels at scale 1; 0: none.
     static constexpr float strip_height = 46.0f;
     virtual float timeline_height(const Workspace&) const { return 0.0f; }
     virtual void timeline(const Workspace&, Emit&) const {}
 
-    // a flat picture beside the scene: plots, for a lab that is mostly numbers over time
-    /// How much of the middle of the window it takes from the 3D view, from the left: 0 to 1.
+    // plots beside the scene
+    /// Share of the window's middle, from the left, that they take from the 3D view: 0 to 1.
     virtual float canvas_share(const Workspace&) const { return 0.0f; }
     virtual void canvas(const Workspace&, Emit&) const {}
 
     // the mouse
     virtual std::vector<Handle> handles(const Workspace&) const { return {}; }
-    /// What is picked, if it is there. Of handles() unless there is more to pick than has a name.
+    /// The handle with that pick, if any. Searches handles() by default.
     virtual std::optional<Handle> handle(const Workspace& workspace, PickId pick) const;
-    /// The handle whose gizmo is shown, the one that is selected; --state has its parts as "head.move_x".
-    /// What it drags comes to drag() with the handle's pick.
+    /// The handle whose gizmo is shown; --state names its parts "head.move_x". Its drags go to drag() with
+    /// the handle's pick.
     virtual std::optional<Handle> gizmo(const Workspace&) const { return std::nullopt; }
-    /// The handle is dragged to a frame; called each time the pointer moves.
+    /// Drags a handle to a frame; called each time the pointer moves.
     virtual void drag(const Workspace&, PickId, const Handle::Frame&, Emit&) const {}
-    /// Where several are selected: what an arrow (Drag::Position) or a ring (Drag::Rotation) of the gizmo
-    /// takes along. No handles: the gizmo's own alone is dragged.
+    /// What an arrow (Drag::Position) or a ring (Drag::Rotation) of the gizmo drags when several are
+    /// selected. No handles: only the gizmo's own.
     virtual Together together(const Workspace&, Drag) const { return {}; }
-    /// All of these are dragged, each to the frame that it has here.
+    /// Drags each of these to its frame.
     virtual void drag_together(const Workspace&, const std::vector<Handle>&, Emit&) const {}
-    /// The handle that was dragged is let go, wherever it is now.
+    /// Ends the drag of a handle.
     virtual void drop(const Workspace&, PickId, Emit&) const {}
-    /// The handle, or with no_pick the empty scene, is clicked.
+    /// A click on a handle; no_pick: on empty space.
     virtual void click(const Workspace&, PickId, Emit&) const {}
-    /// Esc, where nothing else takes it: nothing is selected any more.
+    /// Clears the selection: Esc, if nothing else takes it.
     virtual void deselect(const Workspace& workspace, Emit& emit) const { click(workspace, no_pick, emit); }
-    /// Clicked with Shift held: adds to what is selected, or takes it out, where several can be selected.
+    /// Shift and a click: toggles whether the handle is selected.
     virtual void click_more(const Workspace& workspace, PickId pick, Emit& emit) const {
         click(workspace, pick, emit);
     }
-    /// Whether a box can be drawn that selects: Ctrl and a drag on nothing.
+    /// Whether Ctrl and a drag on empty space selects by a box.
     virtual bool selects_by_box() const { return false; }
-    /// What a box selects where its middle is inside.
+    /// What a box can select, by its middle.
     virtual std::vector<Handle> selectable(const Workspace& workspace) const { return handles(workspace); }
-    /// The handles that are in the box are selected, with `add` beside those that were. One that stays as it
-    /// is may be among them.
+    /// Selects the handles in the box; `add` keeps the selection there was. Some may be selected already.
     virtual void select(const Workspace&, const std::vector<PickId>&, bool /*add*/, Emit&) const {}
-    /// The second click on a handle; the first was a click too.
+    /// The second click on a handle; the first one called click().
     virtual void double_click(const Workspace& workspace, PickId pick, Emit& emit) const {
         click(workspace, pick, emit);
     }
-    /// What the mouse would do there, for the status line.
+    /// What the mouse would do at that pick, for the status line.
     virtual std::string hint(const Workspace&, PickId) const { return {}; }
-    /// What the camera frames; all handles unless the lab knows better.
+    /// What the camera frames: all handles by default.
     virtual Bounds bounds(const Workspace& workspace, bool selection_only) const;
 
-    /// Takes a file that is dropped on the window, by a command. False where it is none of the lab's: then it
-    /// opens as a scene.
+    /// Emits a command for a file that was dropped on the window. False if the lab does not read such files;
+    /// it is then opened as a scene.
     virtual bool take_file(const std::string& /*path*/, Emit&) const { return false; }
 
     // the panels
@@ -186,16 +182,16 @@ class Lab {
     virtual void inspector(const Workspace&, Emit&) const {}
     virtual std::vector<LegendRow> legend(const Workspace&) const { return {}; }
 
-    // what the shell's tables get from it
+    // for the shell's tables
     virtual std::vector<Shortcut> shortcuts() const { return {}; }
     virtual std::vector<LabSetting> settings() const { return {}; }
-    /// What the mouse does here beside what it does in every lab.
+    /// What the mouse does here in addition to every lab.
     virtual std::vector<MouseHelp> mouse_help() const { return {}; }
 
-    // what goes out
-    /// What *copy as C++* puts on the clipboard, a whole program; empty where the lab has none.
+    // output
+    /// The program that *Copy as C++* puts on the clipboard; empty if the lab has none.
     virtual std::string code(const Workspace&) const { return {}; }
-    /// What --state writes, without handles and camera; what is saved unless the lab says more.
+    /// What --state writes, without handles and camera: save() by default.
     virtual Json state(const Workspace& workspace) const;
 
     virtual std::vector<TestScene> test_scenes() const { return {}; }

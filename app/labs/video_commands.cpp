@@ -15,15 +15,15 @@
 namespace tendril::app {
 namespace {
 
-constexpr double longest = static_cast<double>(Rewind::most_ticks) * tick_seconds;
+constexpr double longest = static_cast<double>(Rewind::max_ticks) * tick_seconds;
 
 Argument pixels(const char* name, const char* help) {
     return {.name = name,
             .type = ArgumentType::Integer,
             .required = false,
             .help = help,
-            .low = smallest_picture,
-            .high = largest_picture};
+            .low = min_picture,
+            .high = max_picture};
 }
 
 Argument seconds_back(const char* name, const char* help) {
@@ -39,7 +39,7 @@ int remembered_ticks(const Workspace& w) {
     const Rewind& past = w.rewind;
     if (past.empty()) return 0;
     const std::uint64_t now = std::max(past.newest(), w.moment);
-    return static_cast<int>(std::min(now - past.oldest(), Rewind::most_ticks));
+    return static_cast<int>(std::min(now - past.oldest(), Rewind::max_ticks));
 }
 
 void set_range(VideoRequest& wanted, const Workspace& w, const Arguments& given) {
@@ -72,10 +72,11 @@ VideoRequest video_request(const Workspace& w, const Arguments& given) {
         if (mp4 && given.has(side) && given.integer(side) % 2 != 0)
             throw Refused(std::string(side) + " of an MP4 must be even, got " +
                           std::to_string(given.integer(side)));
-    constexpr double most_a_second = 60.0;
-    if (!mp4 && wanted.speed * most_a_second > most_a_second * wanted.every + 1e-6)
-        throw Refused("speed of an animated PNG with every " + std::to_string(wanted.every) + " must be at most " +
-                      std::to_string(wanted.every) + ", got " + fixed_text(wanted.speed, 2) +
+    constexpr double max_per_second = 60.0;
+    if (!mp4 && wanted.speed * max_per_second > max_per_second * wanted.every + 1e-6)
+        throw Refused("speed of an animated PNG with every " + std::to_string(wanted.every) +
+                      " must be at most " + std::to_string(wanted.every) + ", got " +
+                      fixed_text(wanted.speed, 2) +
                       ": programs that show it slow down over 60 frames a second");
     set_range(wanted, w, given);
     check_writable(wanted.path);

@@ -16,7 +16,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr float most_of_panel = 0.5f;
+constexpr float max_panel_share = 0.5f;
 /// The handles of a larger part are not searched for the one that lights up.
 constexpr std::size_t max_shown_bytes = 1u << 20;
 
@@ -62,11 +62,11 @@ float height(const Card& card, const Measure& m, Fold fold, std::size_t current)
 
 Fold fold_of(const Card& card, const Measure& m, std::size_t current, float room) {
     for (const Fold fold : {Fold::Steps, Fold::Current})
-        if (height(card, m, fold, current) <= most_of_panel * room) return fold;
+        if (height(card, m, fold, current) <= max_panel_share * room) return fold;
     return Fold::Title;
 }
 
-/// Shows a card of the lab from its beginning, on the scene that it is about.
+/// Sets up a card's scene and restarts the card.
 void begin_card(const ShellFrame& frame, std::size_t index, Emit& emit) {
     for (const Card::Line& line : frame.cards[index].scene) emit.typed(line.command, line.arguments);
     emit("view.card", {{"open", true}, {"number", index + 1}});

@@ -63,13 +63,13 @@ std::vector<std::string> known_values(const Argument& argument, const Workspace&
 
 /// Those that have what is typed, and of half a million joints only the first.
 std::vector<std::string> first_of(std::vector<std::string> values, const std::string& typed) {
-    if (values.size() <= most_rows) return values;
+    if (values.size() <= max_rows) return values;
     const std::string wanted = lower_case(typed);
     std::vector<std::string> first, rest;
     for (std::string& value : values) {
         const std::size_t at = lower_case(value).find(wanted);
-        if (at == 0 && first.size() < most_rows) first.push_back(std::move(value));
-        if (at != 0 && at != std::string::npos && rest.size() < most_rows) rest.push_back(std::move(value));
+        if (at == 0 && first.size() < max_rows) first.push_back(std::move(value));
+        if (at != 0 && at != std::string::npos && rest.size() < max_rows) rest.push_back(std::move(value));
     }
     first.insert(first.end(), std::make_move_iterator(rest.begin()), std::make_move_iterator(rest.end()));
     return first;
@@ -112,7 +112,7 @@ std::vector<CompletionRow> element_rows(const TypedLine& typed, const TypedValue
             {each, "", list.help,
              line.substr(0, typed.last_at) + list.name + "=" + value.before + as_element(each, *of)});
     sort_by(rows, bare(value.text));
-    if (rows.size() > most_rows) rows.erase(rows.begin() + most_rows, rows.end());
+    if (rows.size() > max_rows) rows.erase(rows.begin() + max_rows, rows.end());
     if (whole) offer_ends(rows, line);
     return rows;
 }
@@ -129,7 +129,7 @@ std::vector<CompletionRow> value_rows(const TypedLine& typed, const Argument& ar
             {each, each == now ? "now" : "", argument.help,
              line.substr(0, typed.last_at) + argument.name + "=" + (text ? quoted(each) : each) + " "});
     sort_by(rows, bare(value.text));
-    if (rows.size() > most_rows) rows.erase(rows.begin() + most_rows, rows.end());
+    if (rows.size() > max_rows) rows.erase(rows.begin() + max_rows, rows.end());
     return rows;
 }
 

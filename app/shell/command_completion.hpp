@@ -21,7 +21,7 @@ struct CompletionRow {
 };
 
 /// More would not be read; typing narrows them down.
-inline constexpr std::size_t most_rows = 200;
+inline constexpr std::size_t max_rows = 200;
 
 /// At most that many. Values that begin with what is typed come first, then those that have it in the middle;
 /// where an argument has none to offer, and before its "=", the arguments: required ones first, given ones

@@ -15,7 +15,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t most_recent = 8;
+constexpr std::size_t max_recent = 8;
 
 /// Below the list: the chosen row's help, and a line that says what is wrong or which keys there are.
 float height_below(const std::string& help) {
@@ -23,7 +23,8 @@ float height_below(const std::string& help) {
     const float wrapped = ImGui::CalcTextSize(help.c_str(), nullptr, false, width).y;
     // Room for two lines keeps the list still; where few rows fit, they come first.
     const float fewest = ImGui::GetWindowHeight() < 18.0f * line ? 1.0f : 2.0f;
-    return line + std::clamp(wrapped, fewest * ImGui::GetTextLineHeight(), 4.0f * ImGui::GetTextLineHeight()) +
+    return line +
+           std::clamp(wrapped, fewest * ImGui::GetTextLineHeight(), 4.0f * ImGui::GetTextLineHeight()) +
            3.0f * ImGui::GetStyle().ItemSpacing.y + 0.25f * ImGui::GetTextLineHeight();
 }
 
@@ -198,7 +199,7 @@ void CommandPalette::status(const Offer& offer) const {
 void CommandPalette::run(const std::string& name, SharedJson arguments, Emit& emit) {
     std::erase(recent_, name);
     recent_.insert(recent_.begin(), name);
-    if (recent_.size() > most_recent) recent_.pop_back();
+    if (recent_.size() > max_recent) recent_.pop_back();
     emit("view.palette", {{"open", false}});
     emit.typed(name, std::move(arguments));
 }
@@ -236,7 +237,8 @@ void CommandPalette::enter(const ShellFrame& frame, const Offer& offer, Emit& em
     const auto row = static_cast<std::size_t>(chosen_);
     if (line.empty() && !moved_ && recent_.empty()) return;  // nothing was asked for
     if (offer.typed.command == nullptr) {
-        if (line.find('=') == std::string::npos && row < offer.found.size()) return choose(frame, offer, row, emit);
+        if (line.find('=') == std::string::npos && row < offer.found.size())
+            return choose(frame, offer, row, emit);
         return run(frame, emit);
     }
     const bool goes_on = row < offer.ways.size() && offer.ways[row].line != line;

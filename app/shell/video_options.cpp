@@ -13,7 +13,7 @@ namespace {
 /// `pixels` is 0 while it is the view's.
 void size_field(const char* name, int& pixels, int view, const char* help) {
     int shown = pixels > 0 ? pixels : view;
-    if (integer_field(name, shown, smallest_picture, largest_picture)) pixels = shown == view ? 0 : shown;
+    if (integer_field(name, shown, min_picture, max_picture)) pixels = shown == view ? 0 : shown;
     explain(help);
 }
 
@@ -22,7 +22,7 @@ void size_field(const char* name, int& pixels, int view, const char* help) {
 void VideoOptions::start(const Workspace& workspace) {
     const Rewind& past = workspace.rewind;
     const std::uint64_t now = past.empty() ? 0 : std::max(past.newest(), workspace.moment);
-    const std::uint64_t ticks = past.empty() ? 0 : std::min(now - past.oldest(), Rewind::most_ticks);
+    const std::uint64_t ticks = past.empty() ? 0 : std::min(now - past.oldest(), Rewind::max_ticks);
     remembered_ = static_cast<float>(static_cast<double>(ticks) * tick_seconds);
     from_ = remembered_;
     to_ = 0.0f;

@@ -27,10 +27,10 @@ CameraPose in_range(CameraPose pose) {
 }
 
 Rect in_range(const Rect& viewport) {
-    constexpr float most_pixels = 1e5f;
+    constexpr float max_pixels = 1e5f;
     const auto pixels = [](glm::vec2 p) {
-        return glm::vec2(bounded(p.x, -most_pixels, most_pixels, 0.0f),
-                         bounded(p.y, -most_pixels, most_pixels, 0.0f));
+        return glm::vec2(bounded(p.x, -max_pixels, max_pixels, 0.0f),
+                         bounded(p.y, -max_pixels, max_pixels, 0.0f));
     };
     const glm::vec2 low = pixels(viewport.min);
     return {low, glm::max(pixels(viewport.max), low + 1.0f)};

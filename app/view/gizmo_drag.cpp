@@ -10,9 +10,9 @@
 namespace tendril::app {
 namespace {
 
-constexpr float smallest_slant = 0.1f;  ///< sine below which an axis or a plane is dragged evenly
-constexpr float ring_slant = 0.3f;      ///< below which a ring is pulled like a rope
-constexpr float smallest_factor = 0.01f;
+constexpr float min_slant = 0.1f;   ///< sine below which an axis or a plane is dragged evenly
+constexpr float ring_slant = 0.3f;  ///< below which a ring is pulled like a rope
+constexpr float min_factor = 0.01f;
 
 bool finite(glm::vec3 v) {
     return std::isfinite(v.x + v.y + v.z) && glm::dot(v, v) < 1e30f;
@@ -88,14 +88,14 @@ float GizmoDrag::along_axis(glm::vec3 at, glm::vec3 axis) const {
     const float slant = glm::length(across);
     if (slant < 1e-6f) return 0.0f;
     const float seen = glm::dot(at, across) / slant;
-    return seen / std::max(slant - seen * away * nearness_, smallest_slant);
+    return seen / std::max(slant - seen * away * nearness_, min_slant);
 }
 
 /// Where the line of sight through `at` meets the part's plane.
 glm::vec2 GizmoDrag::in_plane(glm::vec3 at) const {
     const float height = glm::dot(at, axis_), upright = glm::dot(sight_, axis_);
     const float side = upright < 0.0f ? -1.0f : 1.0f;
-    const float slant = side * std::max(side * (upright + height * nearness_), smallest_slant);
+    const float slant = side * std::max(side * (upright + height * nearness_), min_slant);
     const glm::vec3 met = at - height / slant * (sight_ + nearness_ * at);
     return {glm::dot(met, u_), glm::dot(met, v_)};
 }
@@ -140,7 +140,7 @@ HandleFrame GizmoDrag::to(const Ray& ray) {
     } else if (changed_by(part_) == Drag::Position) {
         frame.position += by.x * axis_;
     } else if (changed_by(part_) == Drag::Scale) {
-        frame.scale[axis_of(part_)] *= std::max(1.0f + by.x / reach_, smallest_factor);
+        frame.scale[axis_of(part_)] *= std::max(1.0f + by.x / reach_, min_factor);
     } else {
         constexpr double round = 2.0 * glm::pi<double>();
         const double step = static_cast<double>(now.x) - static_cast<double>(last_angle_);

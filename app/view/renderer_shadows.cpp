@@ -11,7 +11,7 @@ namespace {
 /// The shadows' picture has one pixel for this many of the frame's, each way.
 constexpr int coarseness = 4;
 /// More than this many window pixels of shadow are thinned out; see thin_out().
-constexpr float most_pixels = 3e7f;
+constexpr float max_pixels = 3e7f;
 /// A shadow paler than this part of the darkest is a faint one.
 constexpr float faint = 0.4f;
 
@@ -107,7 +107,7 @@ void ShadowPass::collect(const DrawList& list, const Camera& camera, float darkn
 /// the darkest winning a few of them are as good as all. Those close to the ground are all kept.
 void ShadowPass::thin_out() {
     constexpr std::size_t few = 500;
-    const auto step = static_cast<std::size_t>(area_ / most_pixels) + 1;
+    const auto step = static_cast<std::size_t>(area_ / max_pixels) + 1;
     if (step == 1 || shadows_.size() <= few) return;
     std::size_t seen = 0;
     std::erase_if(shadows_,

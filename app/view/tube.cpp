@@ -166,7 +166,7 @@ class Tube {
 void tube(DrawList& list, const Camera& camera, std::span<const glm::vec3> centres, float radius, int sides,
           std::span<const glm::vec3> colours) {
     if (!(radius > 0.0f && radius <= farthest_built)) return;
-    Tube(list, camera, radius).build(centres, std::clamp(sides, 3, TubeSkin::most_sides), colours);
+    Tube(list, camera, radius).build(centres, std::clamp(sides, 3, TubeSkin::max_sides), colours);
 }
 
 }  // namespace tendril::app

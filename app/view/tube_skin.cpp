@@ -25,9 +25,7 @@ glm::vec3 within(glm::vec3 normal, glm::vec3 sight, float part) {
 }  // namespace
 
 TubeSkin::TubeSkin(DrawList& list, const Camera& camera, int sides)
-    : list_(list),
-      edges_(list, camera),
-      sides_(static_cast<std::uint32_t>(std::clamp(sides, 3, most_sides))) {
+    : list_(list), edges_(list, camera), sides_(static_cast<std::uint32_t>(std::clamp(sides, 3, max_sides))) {
     for (std::uint32_t j = 0; j < sides_; ++j) {
         const float angle = glm::two_pi<float>() * static_cast<float>(j) / static_cast<float>(sides_);
         circle_[j] = {std::cos(angle), std::sin(angle)};

@@ -27,7 +27,7 @@ struct Ring {
 
 class TubeSkin {
   public:
-    static constexpr int most_sides = 64;
+    static constexpr int max_sides = 64;
 
     TubeSkin(DrawList& list, const Camera& camera, int sides);
 
@@ -37,7 +37,7 @@ class TubeSkin {
   private:
     /// Where the tube bends more sharply than it is thick, the inner side of the bend lies inside the tube.
     enum class Facing : std::uint8_t { Away, Front, Inside };
-    using PerSide = std::array<Facing, most_sides>;
+    using PerSide = std::array<Facing, max_sides>;
 
     std::uint32_t corners(const Ring& ring);
     void band(std::uint32_t from, std::uint32_t to, bool joined);
@@ -50,7 +50,7 @@ class TubeSkin {
     DrawList& list_;
     Edges edges_;
     std::uint32_t sides_;
-    std::array<glm::vec2, most_sides> circle_{};
+    std::array<glm::vec2, max_sides> circle_{};
     PerSide last_{};         ///< of the last band
     float outwards_ = 1.0f;  ///< how much farther out than the last ring the middle of its outline is
 };

@@ -35,7 +35,9 @@ class Requirement {
     /// 1e+09 as people write it: 1e9.
     Requirement& add_plain(std::string_view text) noexcept {
         for (const char& c : text) {
-            const bool after_e = size_ > 0 && buffer_[size_ - 1] == 'e';
+            const bool after_e =
+                size_ > 0 && (buffer_[size_ - 1] == 'e' ||
+                              (size_ > 1 && buffer_[size_ - 1] == '-' && buffer_[size_ - 2] == 'e'));
             if (c != '+' && !(c == '0' && after_e)) add({&c, 1});
         }
         return *this;

@@ -29,8 +29,8 @@ using tendril::bench::take_flag;
 constexpr std::size_t sizes[] = {10, 100, 1'000, 10'000, 100'000, 1'000'000};
 constexpr const char* modes[] = {"forward", "backward", "with_index", "fixed"};
 constexpr int repetitions = 7;
-constexpr double most_ratio = 1.3;
-constexpr double most_exponent = 1.05;
+constexpr double max_ratio = 1.3;
+constexpr double max_exponent = 1.05;
 
 /// Two targets in turn, so that every pull has something to do.
 glm::vec3 target(std::size_t turn) {
@@ -197,8 +197,8 @@ bool report(const std::map<std::string, double>& seconds) {
     std::printf("\n");
     bool all = true;
     for (const char* mode : {"forward", "backward", "with_index"}) {
-        all &= claim(mode, "worst ratio to a plain loop", results[mode].worst_ratio, most_ratio);
-        all &= claim(mode, "exponent of growth", results[mode].exponent, most_exponent);
+        all &= claim(mode, "worst ratio to a plain loop", results[mode].worst_ratio, max_ratio);
+        all &= claim(mode, "exponent of growth", results[mode].exponent, max_exponent);
     }
     return all;
 }

@@ -188,7 +188,7 @@ TEST(IkPole, APoleThatIsNewOrJumpsIsFacedAtOnce) {
 class Walk {
   public:
     Walk(glm::vec3 pole, double least, double most, Random& random)
-        : random_(random), pole_(pole), least_(least), most_(most), distance_(0.5 * (least + most)) {
+        : random_(random), pole_(pole), least_(least), max_(most), distance_(0.5 * (least + most)) {
         do {
             direction_ = glm::dvec3(some_direction(random));
         } while (!is_clear());
@@ -198,19 +198,19 @@ class Walk {
         spin_ = spin_ * 0.999 + glm::dvec3(random_.point(0.05f));
         speed_ = speed_ * 0.999 + static_cast<double>(random_.around(0.05f));
         if (distance_ < least_ + 0.02) speed_ = std::abs(speed_);
-        if (distance_ > most_ - 0.02) speed_ = -std::abs(speed_);
+        if (distance_ > max_ - 0.02) speed_ = -std::abs(speed_);
         if (size(off(pole_, direction_)) < 0.07) spin_ = cross(direction_, -off(pole_, direction_)) * 50.0;
         const glm::dvec3 velocity = cross(spin_, direction_) + direction_ * speed_;
         glm::dvec3 at = direction_ * distance_ + velocity * (1e-4 / std::max(size(velocity), 1e-9));
         direction_ = at / size(at);
-        distance_ = std::clamp(size(at), least_, most_);
+        distance_ = std::clamp(size(at), least_, max_);
         return direction_ * distance_;
     }
 
   private:
     Random& random_;
     glm::dvec3 pole_, direction_, spin_{0.0};
-    double least_, most_, distance_, speed_ = 0.0;
+    double least_, max_, distance_, speed_ = 0.0;
 };
 
 struct Jumps {

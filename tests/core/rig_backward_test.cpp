@@ -14,15 +14,15 @@ namespace {
 double around(test::Random& random, double range) {
     return static_cast<double>(random.around(1.0f)) * range;
 }
-glm::dquat any_rotation(test::Random& random, double most_degrees) {
+glm::dquat any_rotation(test::Random& random, double max_degrees) {
     const double x = around(random, 1), y = around(random, 1), z = around(random, 1);
-    const double angle = around(random, most_degrees);
+    const double angle = around(random, max_degrees);
     return turned(angle, glm::dvec3(x, y, z) + glm::dvec3(1e-3)).rotation;
 }
 
 /// Sets every control to something random, solves, keeps the pose of the bones, puts the controls back to
 /// rest, and solves backward: how much is left.
-BackwardReport there_and_back(const Definition& definition, std::uint64_t seed, double most_degrees) {
+BackwardReport there_and_back(const Definition& definition, std::uint64_t seed, double max_degrees) {
     test::Random random(seed);
     Held rig(definition);
     const std::vector<Value> rest = rig.state.controls;
@@ -33,7 +33,7 @@ BackwardReport there_and_back(const Definition& definition, std::uint64_t seed, 
         if (std::holds_alternative<bool>(value)) value = random.chance(2);
         if (auto* vector = std::get_if<glm::dvec3>(&value))
             for (int axis = 0; axis < 3; ++axis) (*vector)[axis] += around(random, 0.8);
-        if (std::holds_alternative<glm::dquat>(value)) value = any_rotation(random, most_degrees);
+        if (std::holds_alternative<glm::dquat>(value)) value = any_rotation(random, max_degrees);
         EXPECT_TRUE(rig.rig.set_control(rig.state, i, value));
     }
     rig.solve();

@@ -78,7 +78,7 @@ TEST(RopeFriction, WhatMovesCarries) {
 /// weight:
 ///     T' = rho g r cos + mu (T + rho g r sin) around it, so long = (short + k) e^(mu pi) + k, k = 2 mu r /
 ///     (1 + mu^2)
-double most_ratio(double friction, double r) {
+double max_ratio(double friction, double r) {
     const double euler = std::exp(friction * pi), k = 2.0 * friction * r / (1.0 + friction * friction);
     const double shorter = (2.0 - k - k * euler) / (1.0 + euler);
     return (2.0 - shorter) / shorter;
@@ -120,7 +120,7 @@ double runs_off(Solver solver, float friction, double ratio, int segments, doubl
 /// costs up to an eighth of the friction.
 TEST(RopeFriction, APostHoldsUpToEulersRatio) {
     for (const float friction : {0.1f, 0.2f, 0.3f, 0.5f}) {
-        const double holds = most_ratio(0.87 * friction, 0.1), slips = most_ratio(1.05 * friction, 0.1);
+        const double holds = max_ratio(0.87 * friction, 0.1), slips = max_ratio(1.05 * friction, 0.1);
         EXPECT_LE(std::abs(runs_off(Solver::Direct, friction, holds, 128, 2.0)), 0.012)
             << friction << ' ' << holds;
         EXPECT_GE(std::abs(runs_off(Solver::Direct, friction, slips, 128, 2.0)), 0.05)

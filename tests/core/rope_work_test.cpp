@@ -6,7 +6,7 @@ namespace {
 
 /// Links and contacts that a substep may look at: so many passes over everything, what a way out may take,
 /// and what links near thin colliders do.
-std::uint64_t most_work(const World& world) {
+std::uint64_t max_work(const World& world) {
     const std::size_t particles = world.size(), links = world.state().links.size();
     const std::size_t pairs = world.state().colliders.size() * (particles + 14 * links);
     const std::size_t passes = 2 * rope::unbounded_passes;
@@ -42,7 +42,7 @@ TEST(RopeWork, OfASubstepIsBounded) {
                     ASSERT_EQ(done.substeps, 1);
                     most = std::max(most, done.work);
                 }
-                EXPECT_LE(most, most_work(world)) << name(solver) << ' ' << iterations << ' ' << trap;
+                EXPECT_LE(most, max_work(world)) << name(solver) << ' ' << iterations << ' ' << trap;
                 EXPECT_TRUE(all_finite(world));
             }
         }

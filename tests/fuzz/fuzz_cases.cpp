@@ -12,7 +12,7 @@ using tendril::fuzz::check;
 
 namespace {
 
-constexpr std::size_t most_bones = 64, most_cases = 16;
+constexpr std::size_t max_bones = 64, max_cases = 16;
 
 bool finite(const glm::vec3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
@@ -54,8 +54,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         std::size_t cases = 0;
         app::read_cases(text, [&](const app::Case& each, double part) {
             check(part >= 0.0 && part <= 1.0, "how far the reading is lies between none and all");
-            if (each.lengths.size() <= most_bones) solve(each);
-            return ++cases < most_cases;
+            if (each.lengths.size() <= max_bones) solve(each);
+            return ++cases < max_cases;
         });
     } catch (const std::runtime_error& error) {
         check(error.what()[0] != '\0', "a refusal says why");

@@ -12,7 +12,7 @@ using tendril::fuzz::check;
 
 namespace {
 
-constexpr std::size_t most_filters = 16;
+constexpr std::size_t max_filters = 16;
 
 /// A jump, a stretch at rest, a ramp, a spike, frames of several lengths.
 std::vector<signal::Sample> rows() {
@@ -30,12 +30,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const std::vector<signal::Sample> samples = rows();
     std::vector<signal::Filter> filters;
     try {
-        filters = app::filters_from_json(app::parse_json(fuzz::text_of(data, size)), "filters", most_filters);
+        filters = app::filters_from_json(app::parse_json(fuzz::text_of(data, size)), "filters", max_filters);
     } catch (const std::runtime_error& error) {
         check(error.what()[0] != '\0', "a refusal says why");
         return 0;
     }
-    check(filters.size() <= most_filters, "no more than may be");
+    check(filters.size() <= max_filters, "no more than may be");
     for (const signal::Filter& filter : filters) {
         check(static_cast<bool>(signal::check(filter)), "the library takes it");
         check(app::filter_from_json(app::filter_json(filter), "filter") == filter,

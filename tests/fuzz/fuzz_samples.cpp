@@ -11,7 +11,7 @@ using tendril::fuzz::check;
 
 namespace {
 
-constexpr std::size_t most_rows = 200;
+constexpr std::size_t max_rows = 200;
 
 bool number(const std::optional<double>& value) {
     return !value || std::isfinite(*value);
@@ -22,7 +22,7 @@ void use(std::vector<signal::Sample> samples) {
     for (const signal::Sample& each : samples)
         text += app::decimal(each.dt) + "," + app::decimal(each.input) + "\n";
     check(app::parse_samples(text, "again.csv") == samples, "what is written reads back as it was");
-    if (samples.size() > most_rows) samples.resize(most_rows);
+    if (samples.size() > max_rows) samples.resize(max_rows);
     const std::vector<double> time = signal::times_of(samples);
     std::vector<double> input;
     for (const signal::Sample& each : samples) input.push_back(each.input);

@@ -17,8 +17,8 @@ using tendril::fuzz::check;
 namespace {
 
 /// What takes long is shown, but no time passes in it: a fuzzer goes through many scenes instead.
-constexpr std::uint64_t most_work = 20'000;
-constexpr std::size_t most_bytes = 8192;  ///< of a scene to begin with
+constexpr std::uint64_t max_work = 20'000;
+constexpr std::size_t max_bytes = 8192;  ///< of a scene to begin with
 
 struct Fixture {
     Labs labs;
@@ -57,7 +57,7 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
             for (const CommandCall& command : scene.commands)
                 with.commands.run(workspace, command.name, to_json(command.arguments));
             const std::string text = save_scene(workspace).dump();
-            if (text.size() <= most_bytes)
+            if (text.size() <= max_bytes)
                 std::ofstream(folder / (lab->name() + "_" + scene.name + ".json")) << text;
         }
     return 0;
@@ -82,7 +82,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         lab->state(workspace);
         lab->handles(workspace);
         lab->bounds(workspace, false);
-        for (int tick = 0; tick < 2 && lab->tick_work(workspace) <= most_work; ++tick) lab->step(workspace);
+        for (int tick = 0; tick < 2 && lab->tick_work(workspace) <= max_work; ++tick) lab->step(workspace);
     }
     load_scene(again, save_scene(workspace));  // what time has made of it opens again
     return 0;

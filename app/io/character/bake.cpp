@@ -44,8 +44,8 @@ Channel finished(Channel channel, const rig::Transform& rest) {
 }  // namespace
 
 Clip baked(const Skeleton& skeleton, const Clip& clip, double rate, const PoseStep& step) {
-    constexpr double most_keys = 50'000'000;
-    if (clip.duration * rate * static_cast<double>(skeleton.size()) > most_keys)
+    constexpr double max_keys = 50'000'000;
+    if (clip.duration * rate * static_cast<double>(skeleton.size()) > max_keys)
         throw std::runtime_error("clip " + clip.name + " would have more than 50000000 keys");
     std::vector<Recording> nodes(skeleton.size());
     std::vector<rig::Transform> before(skeleton.size()), pose;

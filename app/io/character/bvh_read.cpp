@@ -14,8 +14,8 @@ namespace {
 
 using humanoid::Node;
 
-constexpr std::size_t most_frames = 1'000'000;
-constexpr std::size_t most_values = 100'000'000;
+constexpr std::size_t max_frames = 1'000'000;
+constexpr std::size_t max_values = 100'000'000;
 
 /// Goes through the text word by word.
 class Words {
@@ -191,10 +191,10 @@ rig::Transform local_of(const BvhJoint& joint, bool is_root, const double* value
 humanoid::Clip read_motion(Words& words, const Hierarchy& hierarchy, LoadProgress* progress) {
     words.expect("Frames:");
     const double count = words.number();
-    if (count < 0 || count > static_cast<double>(most_frames) || count != std::floor(count))
+    if (count < 0 || count > static_cast<double>(max_frames) || count != std::floor(count))
         words.fail("expected 0 to 1000000 frames");
     const auto frames = static_cast<std::size_t>(count);
-    if (frames * hierarchy.channels > most_values) words.fail("more than 100000000 numbers");
+    if (frames * hierarchy.channels > max_values) words.fail("more than 100000000 numbers");
     // A number and what parts it from the next are two characters at least.
     if (2 * frames * hierarchy.channels > words.left() + 1)
         words.fail("claims " + std::to_string(frames) + " frames of " + std::to_string(hierarchy.channels) +

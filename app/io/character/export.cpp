@@ -136,10 +136,10 @@ ExportReport export_clip(const Export& what, const fs::path& path) {
     const std::string name = path.filename().string(), ending = lower_case(path.extension().string());
     if (!ends_as_export(path))
         throw std::runtime_error(name + ": expected a name that ends in .gltf, .glb or .bvh");
-    if (!(what.rate >= smallest_rate && what.rate <= largest_rate))
+    if (!(what.rate >= min_rate && what.rate <= largest_rate))
         throw std::runtime_error(name + ": expected 1 to 1000 frames a second");
-    constexpr double most_frames = 1'000'000;
-    if (what.corrected.duration * what.rate > most_frames)
+    constexpr double max_frames = 1'000'000;
+    if (what.corrected.duration * what.rate > max_frames)
         throw std::runtime_error(name + ": would have more than 1000000 frames");
     check_writable(path);
     try {

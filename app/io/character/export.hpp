@@ -29,7 +29,7 @@ struct Export {
     double rate = 60.0;               ///< frames a second
 };
 
-inline constexpr double smallest_rate = 1.0, largest_rate = 1000.0;
+inline constexpr double min_rate = 1.0, largest_rate = 1000.0;
 
 /// Whether the name ends as one of the files that can be written: .gltf, .glb and .bvh.
 bool ends_as_export(const std::filesystem::path& path);

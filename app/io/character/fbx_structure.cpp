@@ -10,12 +10,12 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t most_nested = 64;  // records in records; files have up to 10
-constexpr std::size_t most_deep = 1000;  // models on models: Assimp goes down by recursion
-constexpr std::size_t most_models = 100'000;
+constexpr std::size_t max_nested = 64;   // records in records; files have up to 10
+constexpr std::size_t max_depth = 1000;  // models on models: Assimp goes down by recursion
+constexpr std::size_t max_models = 100'000;
 constexpr std::size_t max_curve_keys = 50'000'000;
-constexpr std::uint64_t most_array_bytes = std::uint64_t{1} << 30;  // of all arrays together
-constexpr std::uint64_t most_packed = 1032;                         // bytes that zlib can make of one
+constexpr std::uint64_t max_array_bytes = std::uint64_t{1} << 30;  // of all arrays together
+constexpr std::uint64_t max_packed = 1032;                         // bytes that zlib can make of one
 
 using std::to_string;
 
@@ -46,8 +46,8 @@ class BinaryFbx {
             if (record.end <= begin || record.end > limit)
                 fail("a record that ends at byte " + to_string(record.end) + ", of " + to_string(limit));
             properties(record);
-            if (open_.size() >= most_nested)
-                fail("more than " + to_string(most_nested) + " records in each other");
+            if (open_.size() >= max_nested)
+                fail("more than " + to_string(max_nested) + " records in each other");
             open_.push_back(record);
             if (at_ == record.end) close();
         }
@@ -161,10 +161,10 @@ class BinaryFbx {
         const std::uint64_t length = take<std::uint32_t>();
         need(length);
         if (encoding > 1 || (encoding == 0 && length != count * size) ||
-            (encoding == 1 && count * size > most_packed * length))
+            (encoding == 1 && count * size > max_packed * length))
             fail("an array that claims " + to_string(count) + " numbers in " + to_string(length) + " bytes");
         all_arrays_ += count * size;
-        if (all_arrays_ > most_array_bytes) fail("arrays of more than 1 GB together");
+        if (all_arrays_ > max_array_bytes) fail("arrays of more than 1 GB together");
         at_ += static_cast<std::size_t>(length);
         if (record.name == "KeyTime" && open_.size() == 2 && open_.back().name == "AnimationCurve")
             objects_.add_curve(open_.back().ids[0], static_cast<std::size_t>(count));
@@ -227,9 +227,9 @@ FbxObjects text_objects(std::string_view text) {
             if (quoted) continue;
             if (c == '}' && depth-- == 0)
                 throw std::runtime_error("line " + to_string(line_number) + ": } without its {");
-            if (c == '{' && ++depth > most_nested)
+            if (c == '{' && ++depth > max_nested)
                 throw std::runtime_error("line " + to_string(line_number) + ": more than " +
-                                         to_string(most_nested) + " records in each other");
+                                         to_string(max_nested) + " records in each other");
         }
     }
     if (depth > 0) throw std::runtime_error("the file ends inside of a record");
@@ -272,10 +272,10 @@ void FbxObjects::check() const {
         const Seen from = seen[id];
         done += id != 0;
         times += from.times;
-        if (from.depth > most_deep)
-            throw std::runtime_error("models that hang on each other more than " + to_string(most_deep) +
+        if (from.depth > max_depth)
+            throw std::runtime_error("models that hang on each other more than " + to_string(max_depth) +
                                      " deep");
-        if (times > most_models) throw std::runtime_error("more than " + to_string(most_models) + " models");
+        if (times > max_models) throw std::runtime_error("more than " + to_string(max_models) + " models");
         for (const std::int64_t child : below[id]) {
             Seen& to = seen[child];
             to = {std::max(to.depth, from.depth + 1), to.times + from.times};

@@ -8,7 +8,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t most_rows = 50'000'000;
+constexpr std::size_t max_rows = 50'000'000;
 
 [[noreturn]] void fail(const std::string& what, const std::string& why) {
     throw std::runtime_error(what + ": " + why);
@@ -106,7 +106,7 @@ void put_sparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor
 
 std::size_t accessor_count(const tinygltf::Model& model, int index, const std::string& what) {
     const tinygltf::Accessor& accessor = named(model.accessors, index, what, "accessor");
-    if (accessor.count > most_rows) fail(what, "claims " + std::to_string(accessor.count) + " rows");
+    if (accessor.count > max_rows) fail(what, "claims " + std::to_string(accessor.count) + " rows");
     return accessor.count;
 }
 

@@ -12,7 +12,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t most_vertices = 2'000'000;
+constexpr std::size_t max_vertices = 2'000'000;
 
 glm::dmat4 local_of(const tinygltf::Node& node) {
     glm::dmat4 matrix(1.0);
@@ -66,8 +66,8 @@ class Collector {
         if (position == primitive.attributes.end()) return;
         const std::size_t first = found_.vertices.size();
         const std::size_t count = accessor_count(model_, position->second, "POSITION");
-        if (count > most_vertices - first)
-            throw std::runtime_error("it has more than " + std::to_string(most_vertices) + " vertices");
+        if (count > max_vertices - first)
+            throw std::runtime_error("it has more than " + std::to_string(max_vertices) + " vertices");
         const std::vector<double> rows = accessor_rows(model_, position->second, 3, "POSITION");
         for (std::size_t i = 0; i + 2 < rows.size(); i += 3)
             found_.vertices.emplace_back(placed * glm::dvec4(rows[i], rows[i + 1], rows[i + 2], 1.0));
@@ -77,8 +77,8 @@ class Collector {
                     found_.triangles.push_back(static_cast<std::uint32_t>(first + i + k));
             return;
         }
-        if (accessor_count(model_, primitive.indices, "indices") > 3 * most_vertices)
-            throw std::runtime_error("it has more than " + std::to_string(most_vertices) + " triangles");
+        if (accessor_count(model_, primitive.indices, "indices") > 3 * max_vertices)
+            throw std::runtime_error("it has more than " + std::to_string(max_vertices) + " triangles");
         const std::vector<double> indices = accessor_rows(model_, primitive.indices, 1, "indices");
         for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
             for (std::size_t k = 0; k < 3; ++k) {

@@ -16,7 +16,7 @@ using humanoid::Skeleton;
 
 constexpr const char* kind = "bone map";
 constexpr int newest_version = 1;
-constexpr std::size_t longest_name = 10'000;
+constexpr std::size_t max_name_size = 10'000;
 
 std::string name_of(std::size_t bone) {
     return humanoid::name(static_cast<Bone>(bone));
@@ -24,7 +24,7 @@ std::string name_of(std::size_t bone) {
 
 std::string node_name(const Json& json, const std::string& where) {
     const std::string name = json_text(json, where);
-    if (name.size() > longest_name) throw std::runtime_error(where + ": longer than 10000 bytes");
+    if (name.size() > max_name_size) throw std::runtime_error(where + ": longer than 10000 bytes");
     return name;
 }
 

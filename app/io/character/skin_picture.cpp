@@ -15,7 +15,7 @@ namespace tendril::app {
 namespace {
 
 constexpr int longest_side = 2048;
-constexpr int most_pixels = 1 << 26;  // 256 MB
+constexpr int max_pixels = 1 << 26;  // 256 MB
 
 /// Each pixel the mean of four.
 Picture halved(const Picture& whole) {
@@ -42,7 +42,7 @@ Picture halved(const Picture& whole) {
 std::int32_t SkinBuilder::add_picture(const unsigned char* bytes, std::size_t size) {
     int x = 0, y = 0, channels = 0;
     const int length = static_cast<int>(std::min<std::size_t>(size, 1u << 30));
-    if (!stbi_info_from_memory(bytes, length, &x, &y, &channels) || x <= 0 || y <= 0 || x > most_pixels / y)
+    if (!stbi_info_from_memory(bytes, length, &x, &y, &channels) || x <= 0 || y <= 0 || x > max_pixels / y)
         return -1;
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
         stbi_load_from_memory(bytes, length, &x, &y, &channels, 4), &stbi_image_free);

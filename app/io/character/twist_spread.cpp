@@ -15,8 +15,8 @@ using humanoid::Placement;
 
 constexpr double places = 100.0;  // along a bone
 /// What every GL holds in a texture of joints' matrices.
-constexpr std::size_t most_joints = 65536 / 3;
-constexpr double smallest_twist = 1e-7;  // radians
+constexpr std::size_t max_joints = 65536 / 3;
+constexpr double min_twist = 1e-7;  // radians
 
 std::optional<Placement> inverse(const Placement& of) {
     const double volume = glm::determinant(of.axes);
@@ -119,7 +119,7 @@ void TwistSpread::spread(const Skin& skin, const humanoid::Skeleton& skeleton,
             by.joints[k] = static_cast<std::uint16_t>(found->second);
         }
     }
-    if (skin.joints.size() + copies_.size() > most_joints) copies_.clear();
+    if (skin.joints.size() + copies_.size() > max_joints) copies_.clear();
     if (!copies_.empty()) weights_ = std::move(weights);
 }
 
@@ -139,7 +139,7 @@ std::vector<AffineRows> TwistSpread::matrices(const Skin& skin, std::span<const 
         const double by = twists[copy.arm].at(copy.part);
         const SkinJoint& joint = skin.joints[copy.joint];
         const auto back = inverse(placements[bone.node]);
-        if (!(std::abs(by) > smallest_twist) || !back) {
+        if (!(std::abs(by) > min_twist) || !back) {
             rows.push_back(rows[copy.joint]);
             continue;
         }

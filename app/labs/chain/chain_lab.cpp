@@ -87,7 +87,7 @@ bool ChainLab::working(const Workspace& workspace) const {
 
 void ChainLab::work(Workspace& workspace) const {
     const auto trace = shown_chain(workspace).trace;
-    const bool modified = workspace.modified();  // looking is nothing that wants saving
+    const bool modified = workspace.modified();  // looking does not mark the scene as modified
     auto& part = workspace.document.edit<ChainPart>(chain_lab);
     part.study.play(tick_seconds * static_cast<double>(workspace.clock.speed), trace ? trace->frames() : 0);
     if (!modified) workspace.saved = workspace.document;

@@ -24,7 +24,7 @@ class ChainProgram {
   private:
     bool solves() const { return part_.mode == ChainMode::Reach && part_.chain.size() >= 2; }
     std::size_t limit_count() const;
-    bool tables() const { return part_.chain.size() > most_in_a_list; }
+    bool tables() const { return part_.chain.size() > max_listed; }
 
     void head();
     void chain();
@@ -55,10 +55,9 @@ class ChainProgram {
 
 std::string ChainProgram::text() {
     head();
-    if (part_.chain.size() > most_in_a_list)
-        line(number_table("segment_numbers", segment_numbers(part_.chain)));
-    if (limit_count() > most_in_a_list) line(limit_table(part_.reach.limits));
-    if (solves() && rotations_to_write().size() > most_in_a_list)
+    if (part_.chain.size() > max_listed) line(number_table("segment_numbers", segment_numbers(part_.chain)));
+    if (limit_count() > max_listed) line(limit_table(part_.reach.limits));
+    if (solves() && rotations_to_write().size() > max_listed)
         line(number_table("rotation_numbers", rotation_numbers(rotations_to_write())));
     line("int main() {");
     chain();
@@ -92,7 +91,7 @@ void ChainProgram::head() {
 void ChainProgram::chain() {
     say("// Where each segment is, and how far it is from the one before; metres.");
     const auto segments = part_.chain.segments();
-    if (segments.size() > most_in_a_list) {
+    if (segments.size() > max_listed) {
         say("std::vector<tendril::Segment> segments;");
         say("for (std::size_t i = 0; i < std::size(segment_numbers); i += 4) {");
         say("    const float* const n = segment_numbers + i;");
@@ -188,7 +187,7 @@ void ChainProgram::limits() {
     line("");
     say("// For each bone how its first joint may turn; angles in radians.");
     say("std::vector<ik::Limit> limits(" + std::to_string(limits.size()) + ");");
-    if (limit_count() > most_in_a_list) {
+    if (limit_count() > max_listed) {
         say("for (const JointLimit& each : joint_limits) limits[each.joint] = each.limit;");
     } else {
         for (std::size_t i = 0; i < limits.size(); ++i)
@@ -202,7 +201,7 @@ void ChainProgram::rotations() {
     const auto rotations = rotations_to_write();
     if (rotations.empty()) return;
     say("// How each bone was turned about itself when it was exported (w, x, y, z).");
-    if (rotations.size() > most_in_a_list) {
+    if (rotations.size() > max_listed) {
         say("std::vector<glm::quat> rotations;");
         say("for (std::size_t i = 0; i < std::size(rotation_numbers); i += 4) {");
         say("    const float* const n = rotation_numbers + i;");
@@ -220,22 +219,9 @@ void ChainProgram::rotations() {
 
 /// What the last solve left in the state, so that the next one goes on from there.
 void ChainProgram::memory() {
-    const auto set = [&](const char* what, const std::string& value) {
-        say("state." + std::string(what) + " = " + value + ";");
-    };
-    if (const ik::LimitMemory& limits = part_.reach.state.limits; limits.valid) {
-        set("limits.valid", "true");
-        if (limits.limited) set("limits.limited", "true");
-        set("limits.target", "glm::vec3" + braced(limits.target));
-        set("limits.damping", literal(limits.damping));
-    }
+    for (const std::string& each : ik_memory_texts("state", part_.reach.state)) say(each);
     const ik::PoleMemory& pole = part_.reach.state.pole;
     if (!pole.valid) return;
-    set("pole.valid", "true");
-    if (pole.turn == ik::PoleTurn::EachJoint) set("pole.turn", "ik::PoleTurn::EachJoint");
-    set("pole.pole", "glm::vec3" + braced(pole.pole));
-    set("pole.target", "glm::vec3" + braced(pole.target));
-    if (pole.twist != 0.0f) set("pole.twist", literal(pole.twist));
     say("state.pole.joints.clear();");
     if (pole.joints == from_root(positions(part_.chain))) {
         say("for (const tendril::Segment& each : segments)");

@@ -14,7 +14,7 @@
 namespace tendril::app {
 
 /// More values than this stand in a table of plain numbers: less to read, and compiled in no time.
-inline constexpr std::size_t most_in_a_list = 64;
+inline constexpr std::size_t max_listed = 64;
 
 /// "22.5"
 std::string degrees_text(float radians);

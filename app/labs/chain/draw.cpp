@@ -10,7 +10,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t most_labels = 2000;  ///< more would never find space beside one another
+constexpr std::size_t max_labels = 2000;  ///< more would never find space beside one another
 
 /// How large a joint's ball is, in pixels: a handle of steady size, smaller only where the joints crowd
 /// together.
@@ -177,7 +177,7 @@ class Drawing {
 
     void labels() {
         if (view_.workspace.settings.labels == LabelMode::Always) {
-            const std::size_t stride = part_.chain.size() / most_labels + 1;
+            const std::size_t stride = part_.chain.size() / max_labels + 1;
             for (std::size_t i = 0; i < part_.chain.size(); i += stride) {
                 const bool end = i == 0 || i + 1 == part_.chain.size();
                 label(i, part_.selection.has(i) ? 2 : end ? 1 : 0);

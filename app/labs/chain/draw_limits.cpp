@@ -11,7 +11,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t most_limits =
+constexpr std::size_t max_limits =
     24;  ///< drawn; in longer chains those of the selected joints and of the active limit
 
 class LimitDrawing {
@@ -28,7 +28,7 @@ class LimitDrawing {
     void run() {
         const std::size_t bones = joints_.size() - 1;
         for (std::size_t i = 0; i < bones; ++i) {
-            const bool shown = bones <= most_limits || is_active(i) || part_.selection.has(i);
+            const bool shown = bones <= max_limits || is_active(i) || part_.selection.has(i);
             if (shown && limit_of(part_.reach, i).kind != ik::JointKind::Free) joint(i);
         }
     }

@@ -9,7 +9,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr int most_ghosts = 6;
+constexpr int max_ghosts = 6;
 
 class MicroscopeDrawing {
   public:
@@ -56,8 +56,8 @@ class MicroscopeDrawing {
         polyline(trace.start, ghost(0.8f), 2.0f);
         for (const glm::vec3& joint : trace.start) list_.sphere(joint, px(3.0f), Unit::Pixels, ghost(0.8f));
         const int now = trace.iteration(step);
-        for (int i = std::max(1, now - most_ghosts); i < now; ++i) {
-            const float age = static_cast<float>(now - i) / static_cast<float>(most_ghosts + 1);
+        for (int i = std::max(1, now - max_ghosts); i < now; ++i) {
+            const float age = static_cast<float>(now - i) / static_cast<float>(max_ghosts + 1);
             const std::vector<glm::vec3> pose = trace.pose(trace.end_of_iteration(i));
             polyline(pose, ghost(0.75f * (1.0f - age)), 1.5f);
             for (const glm::vec3& joint : pose) {

@@ -142,8 +142,8 @@ void add_mode_commands(CommandTable& table) {
     table.add(chain_command("chain.motion", "Move the target along a path",
                             {choice_argument("path", true, "the path", motion_paths.names()),
                              number_argument("radius", "metres", 0, static_cast<double>(max_motion_radius)),
-                             number_argument("period", "seconds per round", shortest_decimal(shortest_period),
-                                             shortest_decimal(longest_period))},
+                             number_argument("period", "seconds per round", shortest_decimal(min_period),
+                                             shortest_decimal(max_period))},
                             "Moves the target along a path while the simulation runs", set_motion));
     table.add(chain_command(
         "chain.seek", "Place the target on its path",

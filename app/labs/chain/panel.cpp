@@ -104,8 +104,7 @@ void target_rows(const ChainPart& part, bool playing, Emit& emit) {
     float radius = part.motion.radius, period = part.motion.period;
     if (number_field("radius", radius, 0.01f, 0.0f, 1000.0f, "%.2f m")) with("radius", radius);
     explain("How far the path goes to each side of its middle.");
-    if (number_field("period", period, 0.02f, shortest_period, longest_period, "%.2f s"))
-        with("period", period);
+    if (number_field("period", period, 0.02f, min_period, max_period, "%.2f s")) with("period", period);
     explain("How long one round takes. Shorter is faster.");
 }
 

@@ -18,9 +18,9 @@
 #include <vector>
 
 #include "app/document/json.hpp"
-#include "app/document/names.hpp"
 #include "app/fields/fields.hpp"
 #include "app/io/solver_text.hpp"
+#include "app/labs/kit/ik_state_json.hpp"
 
 namespace tendril::ik {
 struct Options;
@@ -29,7 +29,6 @@ struct Options;
 namespace tendril::app {
 
 class ChainRuntime;
-class JsonPlace;
 
 inline constexpr int max_iterations = 10'000, max_restarts = 1000;
 inline constexpr float min_damping = 1e-4f, max_damping = 10.0f;
@@ -117,8 +116,6 @@ const char* solver_help(ik::Method method);
 /// What a status means, in a sentence.
 const char* status_help(ik::Status status);
 const char* kind_title(ik::JointKind kind);
-inline constexpr EnumNames<ik::PoleTurn, 2> pole_turns{
-    "pole turn", {{"whole_chain", "whole chain"}, {"each_joint", "each joint"}}};
 inline constexpr std::array all_joint_kinds{
     ik::JointKind::Free,   ik::JointKind::Suture, ik::JointKind::Hinge,        ik::JointKind::Gliding,
     ik::JointKind::Saddle, ik::JointKind::Pivot,  ik::JointKind::BallAndSocket};

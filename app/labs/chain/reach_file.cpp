@@ -17,81 +17,22 @@ std::optional<JsonPlace> bone_list(const JsonPlace& owner, const char* key, std:
     return list;
 }
 
-/// A place from the root: two coordinates of at most 1e9 may lie twice as far apart.
-glm::vec3 offset(const JsonPlace& place) {
-    place.check_size(3, "numbers [x, y, z]");
-    glm::vec3 at;
-    for (int axis = 0; axis < 3; ++axis)
-        at[axis] = static_cast<float>(place.element(static_cast<std::size_t>(axis)).real(-4e9, 4e9));
-    return at;
-}
-
-/// Its joints are left out where they are the chain's, as they are right after a solve.
-Json save_memory(const ik::PoleMemory& memory, const std::vector<glm::vec3>& joints) {
-    Json json{{"turn", pole_turns.name(memory.turn)},
-              {"pole", point(memory.pole)},
-              {"target", point(memory.target)},
-              {"twist_deg", degrees(memory.twist)}};
-    if (memory.joints != from_root(joints)) {
-        for (const glm::vec3& joint : memory.joints) json["joints"].push_back(point(joint));
-    }
-    return json;
-}
-
-ik::PoleMemory load_memory(const JsonPlace& place, const std::vector<glm::vec3>& joints) {
-    ik::PoleMemory memory;
-    memory.valid = true;
-    memory.turn = pole_turns.value(place["turn"].text());
-    memory.pole = offset(place["pole"]);
-    memory.target = offset(place["target"]);
-    memory.twist = place["twist_deg"].degrees();
-    const auto list = place.optional("joints");
-    if (!list) {
-        memory.joints = from_root(joints);
-        return memory;
-    }
-    list->check_size(joints.size(), "places, one a joint");
-    for (std::size_t i = 0; i < joints.size(); ++i) memory.joints.push_back(offset(list->element(i)));
-    return memory;
-}
-
 }  // namespace
 
 void save_state(Json& json, const ik::State& state, const std::vector<glm::vec3>& joints) {
     // One of another chain counts for nothing: the next solve begins anew.
     const std::size_t bones = joints.empty() ? 0 : joints.size() - 1;
     if (state.bones() == 0 || !ik::check(state, bones)) return;
-    Json& saved = json["state"] = Json::object();
+    Json& saved = json["state"] = save_ik_state(state);
     const auto turned = [](const glm::quat& q) { return q != glm::quat(1, 0, 0, 0); };
-    if (std::any_of(state.rotations.begin(), state.rotations.end(), turned)) {
-        for (const glm::quat& q : state.rotations)
-            saved["rotations"].push_back(Json::array({number(q.x), number(q.y), number(q.z), number(q.w)}));
-    }
-    if (state.limits.valid) {
-        saved["limits"] = {{"limited", state.limits.limited},
-                           {"target", point(state.limits.target)},
-                           {"damping", number(state.limits.damping)}};
-    }
-    if (state.pole.valid) saved["pole"] = save_memory(state.pole, joints);
+    if (std::none_of(state.rotations.begin(), state.rotations.end(), turned)) saved.erase("rotations");
+    if (state.pole.valid && state.pole.joints == from_root(joints)) saved["pole"].erase("joints");
 }
 
 ik::State load_state(const JsonPlace& owner, const std::vector<glm::vec3>& joints) {
     const auto saved = owner.optional("state");
-    if (!saved) return {};
     const std::size_t bones = joints.empty() ? 0 : joints.size() - 1;
-    ik::State state(bones);
-    if (const auto list = bone_list(*saved, "rotations", bones)) {
-        for (std::size_t i = 0; i < bones; ++i) state.rotations[i] = list->element(i).rotation();
-    }
-    if (const auto limits = saved->optional("limits")) {
-        state.limits.valid = true;
-        state.limits.limited = (*limits)["limited"].flag();
-        state.limits.target = offset((*limits)["target"]);
-        state.limits.damping = (*limits)["damping"].number();
-    }
-    if (const auto pole = saved->optional("pole")) state.pole = load_memory(*pole, joints);
-    if (const Result bad = ik::check(state, bones); !bad) saved->fail(bad.message());
-    return state;
+    return saved ? load_ik_state(*saved, bones, from_root(joints)) : ik::State();
 }
 
 Json save_reach(const ReachSettings& settings, const Chain& chain) {

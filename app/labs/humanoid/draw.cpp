@@ -18,7 +18,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t most_labels = 60;
+constexpr std::size_t max_labels = 60;
 constexpr float see_through = 0.35f;  // of a skin that shows its bones
 
 class Drawing {
@@ -255,7 +255,7 @@ class Drawing {
     }
     void labels() {
         const bool always = view_.workspace.settings.labels == LabelMode::Always;
-        const std::size_t stride = part_.skeleton().size() / most_labels + 1;
+        const std::size_t stride = part_.skeleton().size() / max_labels + 1;
         const PickId pointed = view_.dragged != no_pick ? view_.dragged : view_.hovered;
         if (const auto which = picked_effector(pointed)) {
             const auto& target = part_.ik.target(*which);

@@ -101,7 +101,7 @@ Playback read_playback(const JsonPlace& place, const LoadedCharacter& character)
     const double duration = character.clips()[*playback.clip].duration;
     if (const auto time = place.optional("time")) playback.time = time->real(0.0, duration);
     if (const auto rounds = place.optional("rounds"))
-        playback.rounds = static_cast<std::int64_t>(rounds->count(most_rounds));
+        playback.rounds = static_cast<std::int64_t>(rounds->count(max_rounds));
     return playback;
 }
 
@@ -117,8 +117,8 @@ Json cures_json(const std::vector<ClipCure>& cures) {
 
 /// Done again, one after another, on what was read from the character's file.
 void read_cures(const JsonPlace& place, HumanoidPart& part) {
-    constexpr std::size_t most_cures = 10'000;
-    place.for_each("cures", most_cures, [&](const JsonPlace& each) {
+    constexpr std::size_t max_cures = 10'000;
+    place.for_each("cures", max_cures, [&](const JsonPlace& each) {
         ClipCure cure{.clip = each["clip"].text()};
         const auto fault = fault_named(each["kind"].text());
         if (!fault) each["kind"].fail("there is no such fault");
@@ -160,8 +160,7 @@ std::shared_ptr<Part> HumanoidPart::load(const Json& json, const std::string& wh
     const std::string file = place["file"].text();
     SharedCharacter character = file.empty() ? load_character(file) : read_again(place, file);
     if (const auto scale = place.optional("scale"))
-        if (const double metres = scale->real(smallest_unit, largest_unit);
-            metres != character->character.scale)
+        if (const double metres = scale->real(min_unit, max_unit); metres != character->character.scale)
             character = rescaled(*character, metres);
     auto part = std::make_shared<HumanoidPart>(std::move(character));
     if (const auto bones = place.optional("bones")) read_corrections(*bones, *part);

@@ -53,7 +53,7 @@ void HumanoidLab::step(Workspace& workspace) const {
     const ShownPose shown = solve_pose(part, runtime.solvers, seconds, part.ik_state);
     advance(part.attachments, wearer_of(part, runtime.solvers, shown), runtime.ropes, seconds);
     if (follows) workspace.camera.target += standing_at(workspace) - before;
-    if (!modified) workspace.saved = workspace.document;  // that time passes is nothing that wants saving
+    if (!modified) workspace.saved = workspace.document;  // time does not mark the scene as modified
 }
 
 bool HumanoidLab::working(const Workspace& workspace) const {

@@ -21,7 +21,7 @@ namespace tendril::app {
 
 inline constexpr const char* humanoid_lab = "humanoid";
 /// Metres of a unit of a file.
-inline constexpr double smallest_unit = 1e-6, largest_unit = 1e6;
+inline constexpr double min_unit = 1e-6, max_unit = 1e6;
 
 /// What a character wears: not drawn, drawn as it is, or so that its bones show through.
 enum class SkinLook : std::uint8_t { None, Solid, Transparent };

@@ -5,22 +5,26 @@
 #include <charconv>
 #include <cmath>
 
-#include "app/io/samples.hpp"
-
 namespace tendril::app {
 
-std::string double_text(double value) {
-    std::string text = decimal(value);
-    if (text.find_first_of(".e") == text.npos) text += ".0";
-    return text;
-}
+namespace {
 
-std::string literal(float value) {
+std::string shortest_text(auto value) {
     std::array<char, 32> digits{};
     const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
     std::string text(digits.data(), end);
     if (text.find_first_of(".e") == text.npos) text += ".0";
-    return text + 'f';
+    return text;
+}
+
+}  // namespace
+
+std::string double_text(double value) {
+    return shortest_text(value);
+}
+
+std::string literal(float value) {
+    return shortest_text(value) + 'f';
 }
 
 std::string braced(const glm::vec3& value) {
@@ -87,6 +91,27 @@ std::vector<std::string> member_texts(FieldsOf of, const std::string& scope) {
         const FieldValue value = field.get(of.object);
         if (!std::isnan(value[0]))
             texts.push_back('.' + std::string(field.name) + " = " + field_text(field, value, scope));
+    }
+    return texts;
+}
+
+std::vector<std::string> ik_memory_texts(const std::string& name, const ik::State& state) {
+    std::vector<std::string> texts;
+    const auto set = [&](const char* what, const std::string& value) {
+        texts.push_back(name + '.' + what + " = " + value + ';');
+    };
+    if (state.limits.valid) {
+        set("limits.valid", "true");
+        if (state.limits.limited) set("limits.limited", "true");
+        set("limits.target", "glm::vec3" + braced(state.limits.target));
+        set("limits.damping", literal(state.limits.damping));
+    }
+    if (state.pole.valid) {
+        set("pole.valid", "true");
+        if (state.pole.turn == ik::PoleTurn::EachJoint) set("pole.turn", "tendril::ik::PoleTurn::EachJoint");
+        set("pole.pole", "glm::vec3" + braced(state.pole.pole));
+        set("pole.target", "glm::vec3" + braced(state.pole.target));
+        if (state.pole.twist != 0.0f) set("pole.twist", literal(state.pole.twist));
     }
     return texts;
 }

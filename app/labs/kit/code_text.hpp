@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 #include <string>
 #include <string_view>
+#include <tendril/ik/state.hpp>
 #include <tendril/signal/curve.hpp>
 #include <vector>
 
@@ -27,6 +28,9 @@ std::string pascal_text(std::string_view name);
 std::vector<std::string> member_texts(FieldsOf of, const std::string& scope = {});
 /// ", " between them.
 std::string joined(const std::vector<std::string>& texts);
+
+/// Statements that give `name`, an ik::State, what it remembers but for rotations and the pole's joints.
+std::vector<std::string> ik_memory_texts(const std::string& name, const ik::State& state);
 
 /// "{{.time = 0.0, .value = 0.0, ...}, ...}", each key on a line of its own that begins with `margin`.
 std::string keys_text(const signal::Curve& curve, const std::string& margin);

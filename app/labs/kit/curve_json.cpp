@@ -9,7 +9,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t most_keys = 1'000;
+constexpr std::size_t max_keys = 1'000;
 
 struct End {
     const char* name;
@@ -56,11 +56,11 @@ Json curve_keys_json(const signal::Curve& curve) {
 
 std::vector<signal::CurveKey> read_curve_keys(const JsonPlace& place) {
     if (!place.json().is_array() || place.json().empty()) {
-        place.fail("expected a list of 1 to " + std::to_string(most_keys) + " keys, found " +
+        place.fail("expected a list of 1 to " + std::to_string(max_keys) + " keys, found " +
                    json_summary(place.json()));
     }
     std::vector<signal::CurveKey> keys;
-    place.for_each("keys", most_keys, [&](const JsonPlace& each) { keys.push_back(read_key(each)); });
+    place.for_each("keys", max_keys, [&](const JsonPlace& each) { keys.push_back(read_key(each)); });
     return keys;
 }
 

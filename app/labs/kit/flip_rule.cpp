@@ -15,7 +15,7 @@ Json save_flip_rule(const FlipRule& rule) {
 }
 
 FlipRule load_flip_rule(const JsonPlace& place) {
-    return {.degrees = place["degrees"].number(fewest_flip_degrees, most_flip_degrees),
+    return {.degrees = place["degrees"].number(min_flip_degrees, max_flip_degrees),
             .angle_share = place["angle_share"].number(0.0f, 1.0f),
             .reach_share = place["reach_share"].number(0.0f, 1.0f)};
 }
@@ -23,7 +23,7 @@ FlipRule load_flip_rule(const JsonPlace& place) {
 std::vector<Argument> flip_arguments(const FlipWords& words) {
     const std::string turns = std::string("while ") + words.seen + " turns by less than this share of it";
     const std::string moves = std::string("or moves by less than this share of ") + words.whole;
-    return {number_argument("degrees", "a bone turns by more than this", fewest_flip_degrees, most_flip_degrees),
+    return {number_argument("degrees", "a bone turns by more than this", min_flip_degrees, max_flip_degrees),
             number_argument("angle_share", turns.c_str(), 0, 1),
             number_argument("reach_share", moves.c_str(), 0, 1)};
 }
@@ -42,7 +42,7 @@ void flip_rows(const FlipRule& rule, const FlipWords& words, Emit& emit) {
         explain(help.c_str());
     };
     const std::string mover = words.mover;
-    row("flip over", "degrees", rule.degrees, 0.5f, fewest_flip_degrees, most_flip_degrees, "%.0f deg",
+    row("flip over", "degrees", rule.degrees, 0.5f, min_flip_degrees, max_flip_degrees, "%.0f deg",
         "A bone that turns by more than this in a tick, while the " + mover +
             " hardly moves, is marked as a flip");
     row(mover + " turns", "angle_share", rule.angle_share, 0.005f, 0.0f, 1.0f, "< %.2f of it",

@@ -9,12 +9,12 @@
 
 namespace tendril::app {
 
-inline constexpr float fewest_flip_degrees = 1.0f, most_flip_degrees = 180.0f;
+inline constexpr float min_flip_degrees = 1.0f, max_flip_degrees = 180.0f;
 
 /// A bone turned by more than `degrees`, while the target (of a rig: each control that was moved), as the
 /// bone's root sees it, turned by less than a share of that, or moved by less than a share of the reach.
 struct FlipRule {
-    float degrees = 30.0f;      ///< fewest_flip_degrees to most_flip_degrees
+    float degrees = 30.0f;      ///< min_flip_degrees to max_flip_degrees
     float angle_share = 0.2f;   ///< 0 to 1
     float reach_share = 0.02f;  ///< 0 to 1
 

@@ -10,7 +10,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t most_rows = 5;
+constexpr std::size_t max_rows = 5;
 
 /// "1.4 s ago"
 std::string age_text(const Workspace& workspace, const Incident& incident) {
@@ -54,7 +54,7 @@ void incident_rows(const Workspace& workspace, const Palette& palette, Emit& emi
         ImGui::PopTextWrapPos();
     }
     std::size_t rows = 0;
-    for (std::size_t i = incidents.size(); i-- > 0 && rows < most_rows; ++rows)
+    for (std::size_t i = incidents.size(); i-- > 0 && rows < max_rows; ++rows)
         incident_row(workspace, i, palette, emit);
 }
 

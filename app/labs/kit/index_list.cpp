@@ -24,7 +24,7 @@ std::vector<std::size_t> index_list(const Arguments& given, const char* name, st
     std::vector<std::size_t> indices;
     for (const Json& each : given.json(name)) {
         if (!each.is_number_integer() || each.get<std::int64_t>() < 0)
-            throw Refused(std::string(name) + ": " + json_summary(each) + " is no whole number from 0 on");
+            throw Refused(std::string(name) + ": " + json_summary(each) + " must be a non-negative integer");
         if (each.get<std::size_t>() >= count)
             throw Refused(std::string(name) + ": " + json_summary(each) + " is out of range, there are " +
                           std::to_string(count));

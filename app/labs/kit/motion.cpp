@@ -58,7 +58,7 @@ Motion load_motion(const JsonPlace& place) {
     motion.path = motion_paths.value(place["path"].text());
     motion.centre = place["centre"].point();
     motion.radius = place["radius"].number(0.0f, max_motion_radius);
-    motion.period = place["period"].number(shortest_period, longest_period);
+    motion.period = place["period"].number(min_period, max_period);
     const int last = static_cast<int>(ticks_per_round(motion)) - 1;
     motion.ticks = static_cast<std::uint32_t>(place["ticks"].integer(0, last));
     return motion;

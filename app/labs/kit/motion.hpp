@@ -14,7 +14,7 @@ namespace tendril::app {
 
 class JsonPlace;
 
-inline constexpr float shortest_period = 0.1f, longest_period = 600.0f;  ///< seconds a round
+inline constexpr float min_period = 0.1f, max_period = 600.0f;  ///< seconds a round
 
 /// How far around it is after so many seconds, from 0 to 2 pi.
 double round_angle(double seconds, float period);

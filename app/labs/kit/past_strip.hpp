@@ -22,7 +22,7 @@ struct PastTicks {
 };
 PastTicks past_ticks(const Workspace& workspace);
 /// As long as the strip is, whatever is remembered.
-inline constexpr int past_strip_ticks = static_cast<int>(Rewind::most_ticks) + 1;
+inline constexpr int past_strip_ticks = static_cast<int>(Rewind::max_ticks) + 1;
 /// Goes to the moment at a place: for the last item, while it is dragged.
 void go_to_past(const Workspace& workspace, int place, Emit& emit);
 

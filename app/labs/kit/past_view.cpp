@@ -211,10 +211,10 @@ void draw_past_ghosts(const View& view, const PastView& past,
     const Rewind& rewind = view.workspace.rewind;
     for (const Rewind::Moment* const moment : ghost_moments(view.workspace, past)) {
         const auto age =
-            static_cast<float>(rewind.newest() - moment->tick) / static_cast<float>(Rewind::most_ticks);
+            static_cast<float>(rewind.newest() - moment->tick) / static_cast<float>(Rewind::max_ticks);
         const glm::vec4 colour = faded(view.palette, view.palette.ghost, 0.75f - 0.55f * age);
         const PoseLines& lines = poses.of(moment->part, [&] { return pose(moment->part); });
-        if (lines.size() > most_ghost_lines) continue;
+        if (lines.size() > max_ghost_lines) continue;
         for (const auto& [from, to] : lines) list.line(from, to, 1.5f * view.scale, colour);
     }
     poses.trim(rewind);

@@ -88,7 +88,7 @@ using PoseLines = std::vector<std::pair<glm::vec3, glm::vec3>>;
 /// The moments that are shown as ghosts, by tick: of what has the joints that there are now.
 std::vector<const Rewind::Moment*> ghost_moments(const Workspace& workspace, const PastView& view);
 /// A pose of more lines than this is not drawn: twenty of them would drown the picture.
-inline constexpr std::size_t most_ghost_lines = 1000;
+inline constexpr std::size_t max_ghost_lines = 1000;
 inline constexpr const char* ghost_legend = "past poses";
 void draw_past_ghosts(const View& view, const PastView& past,
                       const std::function<PoseLines(const SharedPart&)>& pose, DrawList& list);

@@ -218,7 +218,7 @@ Json save_world(const NamedWorld& world) {
 
 NamedWorld load_world(const JsonPlace& place) {
     constexpr std::uint64_t most = std::uint64_t{1} << 53;
-    constexpr std::size_t most_links = 8 * max_lab_particles;  // a cloth has six to a particle
+    constexpr std::size_t max_links = 8 * max_lab_particles;  // a cloth has six to a particle
     rope::State state;
     Names body_names, collider_names;
     // The sizes first: what is too large is refused before anything of it is read.
@@ -241,7 +241,7 @@ NamedWorld load_world(const JsonPlace& place) {
     place["pins"].for_each("pins", size, [&](const JsonPlace& each) {
         state.pins.push_back(load_pin(each, size, collider_names));
     });
-    place["links"].for_each("links", most_links,
+    place["links"].for_each("links", max_links,
                             [&](const JsonPlace& row) { state.links.push_back(load_link(row, size)); });
     return {std::move(state), body_names, collider_names};
 }

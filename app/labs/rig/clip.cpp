@@ -14,9 +14,9 @@ namespace tendril::app {
 namespace {
 
 // Steps of some 30 ns, as Rig::work counts them.
-constexpr std::uint64_t most_record_work = 40'000'000, most_frame_work = 20'000'000,
+constexpr std::uint64_t max_record_work = 40'000'000, max_frame_work = 20'000'000,
                         clip_work_per_tick = 300'000;
-constexpr std::size_t most_frames_a_tick = 16;
+constexpr std::size_t max_frames_per_tick = 16;
 constexpr double farthest = 1e9;
 
 /// A bone of the rig, in the order of a clip.
@@ -111,12 +111,12 @@ RigClip record_clip(const RigPart& part, std::size_t frames, rig::Workspace& scr
     TakeRunner take(part, scratch);
     const std::vector<ClipBone> bones = clip_bones(part.rig, take.state().elements);
     if (bones.empty()) throw std::invalid_argument("the rig has no bones to record");
-    if (frames > most_clip_frames || (frames + 1) * bones.size() > most_clip_poses)
+    if (frames > max_clip_frames || (frames + 1) * bones.size() > max_clip_poses)
         throw std::invalid_argument("a clip of " + std::to_string(frames) + " frames of " +
                                     std::to_string(bones.size()) + " bones is larger than the most, " +
-                                    std::to_string(most_clip_frames) + " frames and " +
-                                    std::to_string(most_clip_poses) + " poses");
-    if (frames * part.rig.work() > most_record_work)
+                                    std::to_string(max_clip_frames) + " frames and " +
+                                    std::to_string(max_clip_poses) + " poses");
+    if (frames * part.rig.work() > max_record_work)
         throw std::invalid_argument("a clip of " + std::to_string(frames) +
                                     " frames of so large a rig would take too long to record");
     RigClip clip{.bones = {}, .poses = {}, .began = part.take.began};
@@ -138,7 +138,7 @@ void check_clip_solve(const RigPart& part) {
         bones.push_back(part.rig.definition().elements[bone.element].name);
     if (bones != part.clip->bones)
         throw std::invalid_argument("the clip is of other bones than the rig has now; record it anew");
-    if (frame_work(part) > most_frame_work)
+    if (frame_work(part) > max_frame_work)
         throw std::invalid_argument("the rig is so large that a frame of the clip would take too long");
 }
 
@@ -155,11 +155,11 @@ void continue_clip_solve(RigPart& part, rig::Workspace& scratch) {
     state.controls = solve.controls;
     const std::vector<ClipBone> bones = clip_bones(part.rig, state.elements);
     const std::size_t frames =
-        std::clamp<std::size_t>(clip_work_per_tick / frame_work(part), 1, most_frames_a_tick);
+        std::clamp<std::size_t>(clip_work_per_tick / frame_work(part), 1, max_frames_per_tick);
     for (std::size_t i = 0; i < frames && solve.done() < part.clip->frames(); ++i) {
         pose_bones(&part.clip->poses[solve.done() * bones.size()], bones, state.elements);
         solve.left.push_back(
-            left_of(rig::solve_backward(part.rig, state, scratch, {.max_work = most_frame_work}), bones));
+            left_of(rig::solve_backward(part.rig, state, scratch, {.max_work = max_frame_work}), bones));
     }
     solve.controls = std::move(state.controls);
     solve.running = solve.done() < part.clip->frames();
@@ -174,7 +174,7 @@ double amount(const FrameLeft& left) {
 
 std::string left_text(double mm, double degrees, double scale) {
     std::string text = fixed_text(mm, 1) + " mm, " + fixed_text(degrees, 1) + "\u00b0";
-    if (scale >= smallest_shown_scale) text += ", scale " + fixed_text(scale, 3);
+    if (scale >= min_shown_scale) text += ", scale " + fixed_text(scale, 3);
     return text;
 }
 

@@ -109,7 +109,7 @@ ClipSolve read_solve(const JsonPlace& place, const RigPart& part) {
         if (!element.control) continue;
         const JsonPlace stored = place["controls"][element.name.c_str()];
         const rig::Value value =
-            read_control_value(stored, element.control->kind, solve.controls[i], most_reached);
+            read_control_value(stored, element.control->kind, solve.controls[i], max_reached);
         check_unit(stored, value);
         solve.controls[i] = rig::clamped(*element.control, value);
     }
@@ -136,13 +136,13 @@ Json clip_json(const RigPart& part) {
 void load_clip(const JsonPlace& place, RigPart& part) {
     check_members(place, {"began", "frames", "bones", "solve"});
     RigClip clip{.bones = {}, .poses = {}, .began = place["began"].count(max_clip_tick)};
-    const std::size_t frames = place["frames"].index(most_clip_frames + 1);
+    const std::size_t frames = place["frames"].index(max_clip_frames + 1);
     const JsonPlace bones = place["bones"];
     if (!bones.json().is_object() || bones.json().empty()) bones.fail("expected an object of bones");
     if (frames == 0) place["frames"].fail("expected a frame or more");
     for (const auto& [name, stored] : bones.json().items()) clip.bones.push_back(name);
-    if (frames * clip.bones.size() > most_clip_poses)
-        place.fail("the clip has more poses than the most, " + std::to_string(most_clip_poses));
+    if (frames * clip.bones.size() > max_clip_poses)
+        place.fail("the clip has more poses than the most, " + std::to_string(max_clip_poses));
     clip.poses.resize(frames * clip.bones.size());
     for (std::size_t i = 0; i < clip.bones.size(); ++i)
         read_bone(bones[clip.bones[i].c_str()], clip, i, frames);

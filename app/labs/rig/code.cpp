@@ -32,7 +32,7 @@ std::string control_code(const rig::Control& control) {
             ", .axes = {" + std::to_string(control.axes[0]) + ", " + std::to_string(control.axes[1]) + '}';
     }
     const auto end = [&](const char* name, const std::optional<glm::dvec3>& value) {
-        if (value) text += std::string(", .") + name + " = glm::dvec3" + vector_code(*value);
+        if (value) text += std::string(", .") + name + " = glm::dvec3" + braced(*value);
     };
     end("minimum", control.minimum);
     end("maximum", control.maximum);
@@ -70,7 +70,7 @@ std::string inputs_code(const RigPart& part) {
         const JsonPlace place(poses.at("input").at(global ? "global" : "local"), "");
         text += "    state.elements.put(id(" + string_text(name) +
                 "), rig::Space::" + (global ? "Global" : "Local") + ", " +
-                transform_code(read_transform(place, {}, most_reached)) +
+                transform_code(read_transform(place, {}, max_reached)) +
                 ",\n                       rig::Propagate::Yes, rig::Pose::Input);\n";
     }
     for (std::size_t i = 0; i < part.state.controls.size(); ++i)

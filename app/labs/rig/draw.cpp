@@ -15,7 +15,7 @@ namespace tendril::app {
 namespace {
 
 constexpr glm::vec4 unseen{0.0f};  ///< of strokes that can be caught, but are drawn otherwise
-constexpr std::size_t most_labels = 2000;
+constexpr std::size_t max_labels = 2000;
 constexpr float gizmo_clearance = 84.0f;  ///< a name stands beyond the gizmo
 constexpr const char* before_units = "before any unit";
 
@@ -164,7 +164,7 @@ class Drawing {
 
     void labels() {
         const bool always = p_.view.workspace.settings.labels == LabelMode::Always;
-        const std::size_t count = p_.part.state.controls.size(), stride = count / most_labels + 1;
+        const std::size_t count = p_.part.state.controls.size(), stride = count / max_labels + 1;
         for (std::size_t i = 0; i < count; ++i) {
             if (p_.part.rig.definition().elements[i].control) continue;  // has its own
             const bool marked = p_.is_lit(i) || p_.is_active(i);

@@ -9,12 +9,12 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t most_ghosts = 5000;  ///< bones
+constexpr std::size_t max_ghosts = 5000;  ///< bones
 
 /// The bones and nothing else.
 void draw_skeleton(const RigPicture& picture, const rig::Hierarchy& elements, const glm::vec4& paint) {
     std::size_t count = 0;
-    for (std::size_t i = 0; i < picture.part.state.controls.size() && count < most_ghosts; ++i) {
+    for (std::size_t i = 0; i < picture.part.state.controls.size() && count < max_ghosts; ++i) {
         const rig::ElementId id = picture.part.rig.id(i);
         if (elements.kind(id) != rig::ElementKind::Bone) continue;
         ++count;

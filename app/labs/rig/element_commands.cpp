@@ -119,7 +119,7 @@ std::vector<ControlValue> differing(const RigPart& part, std::vector<ControlValu
 
 /// One that has the value already is left alone: units may have moved it since.
 void set_values(RigPart& part, std::vector<ControlValue> values) {
-    constexpr std::size_t most_keys_at_once = 64;  // each takes as long as all that are there
+    constexpr std::size_t max_keys_at_once = 64;  // each takes as long as all that are there
     values = differing(part, std::move(values));
     if (values.empty()) return;
     if (!part.last_solved) part.last_solved = std::make_shared<const rig::State>(part.state);
@@ -136,7 +136,7 @@ void set_values(RigPart& part, std::vector<ControlValue> values) {
                             const auto at = part.rig.element(walk.control);
                             return at && is_set[*at];
                         }) > 0;
-    if (walked || values.size() > most_keys_at_once) return begin_take(part);
+    if (walked || values.size() > max_keys_at_once) return begin_take(part);
     for (const ControlValue& each : values) key_control(part, each.element);
 }
 

@@ -12,7 +12,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t most_of_a_kind = 8;  ///< in one tick: a rig may have thousands of bones
+constexpr std::size_t max_of_a_kind = 8;  ///< in one tick: a rig may have thousands of bones
 
 void add_flips(const RigPart& before, const RigPart& after, std::vector<Incident>& incidents) {
     if (before.edited || after.edited) return;
@@ -20,10 +20,10 @@ void add_flips(const RigPart& before, const RigPart& after, std::vector<Incident
     if (was.controls == is.controls && !before.moving) return;
     std::vector<BoneFlip> flips = bone_flips(after.rig, was, is, after.flips);
     if (flips.empty()) return;
-    flips.resize(std::min<std::size_t>(flips.size(), 16 * most_of_a_kind));
+    flips.resize(std::min<std::size_t>(flips.size(), 16 * max_of_a_kind));
     const std::vector<FlipCause> causes = flip_causes(after, was, is, flips);
     std::set<std::optional<std::size_t>> told;
-    for (std::size_t i = 0; i < flips.size() && told.size() < most_of_a_kind; ++i) {
+    for (std::size_t i = 0; i < flips.size() && told.size() < max_of_a_kind; ++i) {
         if (!told.insert(causes[i].unit).second) continue;
         incidents.push_back({.kind = Incident::Kind::Flip,
                              .joint = flips[i].element,
@@ -38,7 +38,7 @@ void add_reports(const RigPart& before, const RigPart& after, std::vector<Incide
     for (const UnitRow& row : unit_rows(after)) {
         const rig::Warning was = before.state.units[row.at].warning, is = after.state.units[row.at].warning;
         if (is == was || is == rig::Warning::None) continue;
-        if (++count > most_of_a_kind) return;
+        if (++count > max_of_a_kind) return;
         incidents.push_back({.kind = Incident::Kind::Status,
                              .name = row.unit->name,
                              .cause = "unit " + row.unit->name + " has a problem: " + rig::message(is)});
@@ -99,7 +99,7 @@ void add_limits(const RigPart& before, const RigPart& after, std::vector<Inciden
             for (const bool maximum : {false, true}) {
                 const bool was = at_limit(control, before.state.controls[i], axis, maximum),
                            is = at_limit(control, after.state.controls[i], axis, maximum);
-                if (was == is || ++count > most_of_a_kind) continue;
+                if (was == is || ++count > max_of_a_kind) continue;
                 incidents.push_back({.kind = Incident::Kind::Limit,
                                      .joint = i,
                                      .name = elements[i].name,

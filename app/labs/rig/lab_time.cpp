@@ -23,7 +23,7 @@ void RigLab::step(Workspace& workspace) const {
     const bool modified = workspace.modified();
     RigPart& part = workspace.document.edit<RigPart>(rig_lab);
     for (int i = 0; i < due; ++i) pass_tick(part, rig_runtime(workspace), workspace.clock.measured);
-    if (!modified) workspace.saved = workspace.document;  // that time passes is nothing that wants saving
+    if (!modified) workspace.saved = workspace.document;  // time does not mark the scene as modified
 }
 
 std::uint64_t RigLab::tick_work(const Workspace& workspace) const {

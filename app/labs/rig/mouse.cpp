@@ -17,7 +17,7 @@ namespace tendril::app {
 namespace {
 
 /// Bones and nulls have names among the handles where they are no more than this.
-constexpr std::size_t most_named = 400;
+constexpr std::size_t max_named = 400;
 
 /// Who selects elements leaves the unit selected that is.
 ArgumentList and_the_unit(const RigPart& part, ArgumentList arguments) {
@@ -56,7 +56,7 @@ std::vector<Handle> RigLab::handles(const Workspace& workspace) const {
     const std::size_t count = part.state.controls.size();
     std::vector<Handle> handles;
     for (std::size_t i = 0; i < count; ++i)
-        if (count <= most_named || part.rig.definition().elements[i].control)
+        if (count <= max_named || part.rig.definition().elements[i].control)
             handles.push_back(element_handle(workspace, i));
     return handles;
 }

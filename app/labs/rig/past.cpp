@@ -113,7 +113,7 @@ std::optional<PastCurve> rig_past_curve(const Workspace& workspace) {
 PoseLines rig_lines(const SharedPart& part) {
     const RigPart& then = rig_of(part);
     PoseLines lines;
-    if (then.state.controls.size() > 2 * most_ghost_lines) return lines;
+    if (then.state.controls.size() > 2 * max_ghost_lines) return lines;
     rig::Hierarchy elements = then.state.elements;
     elements.resolve_all();
     for (std::size_t i = 0; i < then.state.controls.size(); ++i) {

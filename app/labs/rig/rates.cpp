@@ -12,7 +12,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::uint64_t most_work = 20'000'000, rates_work_per_tick = 300'000;  ///< steps of some 30 ns
+constexpr std::uint64_t max_work = 20'000'000, rates_work_per_tick = 300'000;  ///< steps of some 30 ns
 constexpr double rounding = 1e-9;
 
 /// The take at one frame rate, stopped at the end of each frame of the slowest.
@@ -75,7 +75,7 @@ std::uint64_t solves_of(const signal::RateComparison& rates) {
 
 void start_rates(RigPart& part, std::uint32_t ticks) {
     const signal::RateComparison rates = runs_over(ticks);
-    if (solves_of(rates) * part.rig.work() > most_work)
+    if (solves_of(rates) * part.rig.work() > max_work)
         throw std::invalid_argument("the rig is so large that this would take too long");
     RateDifference begun;
     begun.ticks = static_cast<double>(ticks);

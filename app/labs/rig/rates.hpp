@@ -11,8 +11,8 @@
 
 namespace tendril::app {
 
-inline constexpr double most_rate_seconds = 10.0;
-inline constexpr std::size_t most_rate_frames = 1000;  ///< of the slowest rate
+inline constexpr double max_rate_seconds = 10.0;
+inline constexpr std::size_t max_rate_frames = 1000;  ///< of the slowest rate
 
 /// Begins with the first so many ticks of the take. Throws std::invalid_argument where that would take too
 /// long.

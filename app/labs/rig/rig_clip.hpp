@@ -11,7 +11,7 @@
 
 namespace tendril::app {
 
-inline constexpr std::size_t most_clip_frames = 3'600, most_clip_poses = 100'000;
+inline constexpr std::size_t max_clip_frames = 3'600, max_clip_poses = 100'000;
 
 /// Within the nearest bone above, or within the world where there is none.
 struct ClipPose {
@@ -31,7 +31,7 @@ struct RigClip {
 };
 
 /// What is left of a bone, and is less than that, nobody sees, and a clip's numbers do not tell.
-inline constexpr double smallest_shown_mm = 0.1, smallest_shown_degrees = 0.01, smallest_shown_scale = 0.001;
+inline constexpr double min_shown_mm = 0.1, min_shown_degrees = 0.01, min_shown_scale = 0.001;
 
 /// Of the bone with the most left in a frame.
 struct FrameLeft {
@@ -40,9 +40,8 @@ struct FrameLeft {
     float scale = 0.0f;      ///< the largest difference of a component
     bool stopped = false;    ///< by the work it took: there may be values that come nearer
     bool expressed() const {
-        return static_cast<double>(mm) <= smallest_shown_mm &&
-               static_cast<double>(degrees) <= smallest_shown_degrees &&
-               static_cast<double>(scale) <= smallest_shown_scale;
+        return static_cast<double>(mm) <= min_shown_mm && static_cast<double>(degrees) <= min_shown_degrees &&
+               static_cast<double>(scale) <= min_shown_scale;
     }
     bool operator==(const FrameLeft&) const = default;
 };

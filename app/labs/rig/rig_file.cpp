@@ -37,7 +37,7 @@ BackwardLeft load_backward(const JsonPlace& place, const rig::Definition& defini
         if (definition.elements[i].kind != rig::ElementKind::Bone) continue;
         const JsonPlace numbers = place["left"][definition.elements[i].name.c_str()];
         numbers.check_size(3, "numbers: metres, radians, scale");
-        const auto left_of = [&](std::size_t part) { return numbers.element(part).real(0.0, most_reached); };
+        const auto left_of = [&](std::size_t part) { return numbers.element(part).real(0.0, max_reached); };
         left.elements[i] = {left_of(0), left_of(1), left_of(2)};
     }
     return left;

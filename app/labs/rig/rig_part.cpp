@@ -46,8 +46,8 @@ double BackwardLeft::worst_scale() const {
 }
 
 bool BackwardLeft::expressed() const {
-    return worst_mm() < smallest_shown_mm && worst_degrees() < smallest_shown_degrees &&
-           worst_scale() < smallest_shown_scale;
+    return worst_mm() < min_shown_mm && worst_degrees() < min_shown_degrees &&
+           worst_scale() < min_shown_scale;
 }
 
 double amount(const rig::Residual& left) {

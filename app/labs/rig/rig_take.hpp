@@ -17,9 +17,9 @@
 namespace tendril::app {
 
 /// Ten minutes. One that grows longer goes on as another.
-inline constexpr std::uint32_t most_take_ticks = 36'000;
+inline constexpr std::uint32_t max_take_ticks = 36'000;
 /// Likewise.
-inline constexpr std::size_t most_take_keys = 3'600;
+inline constexpr std::size_t max_take_keys = 3'600;
 
 /// A control follows a path, which lies flat within the control's space: its y stays.
 struct RigWalk {

@@ -5,7 +5,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t most_bytes = 32u << 20;
+constexpr std::size_t max_bytes = 32u << 20;
 constexpr std::uint32_t first_stride = 8;
 
 /// The first tick whose keys are not the same in both: what comes after it is not known any more.
@@ -50,7 +50,7 @@ void TakeSnapshots::keep(const RigPart& part) {
     if (by_tick_.contains(part.take.tick)) return;
     by_tick_.emplace(part.take.tick, Snapshot{part.state, part.moving});
     bytes_ += state_bytes(part.state);
-    while (bytes_ > most_bytes && stride_ < most_take_ticks) {  // every other one goes
+    while (bytes_ > max_bytes && stride_ < max_take_ticks) {  // every other one goes
         stride_ *= 2;
         std::erase_if(by_tick_, [&](const auto& each) {
             if (each.first % stride_ == 0) return false;

@@ -81,9 +81,9 @@ void take_preset(Workspace& workspace, const Arguments& given) {
 }
 
 BackwardLeft solve_backward(RigPart& part, rig::Workspace& scratch) {
-    constexpr std::uint64_t most_work = 40'000'000;  // a second or so
+    constexpr std::uint64_t max_work = 40'000'000;  // a second or so
     const rig::BackwardReport report =
-        rig::solve_backward(part.rig, part.state, scratch, {.max_work = most_work});
+        rig::solve_backward(part.rig, part.state, scratch, {.max_work = max_work});
     if (report.stopped && report.iterations == 0)
         throw std::invalid_argument(
             "the rig is so large, and has so many controls, that a backward solve would take too long");

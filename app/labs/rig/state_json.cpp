@@ -56,7 +56,7 @@ void load_pose(const JsonPlace& place, rig::Hierarchy& tree, rig::ElementId id, 
     check_members(place, {"local", "global"});
     const bool global = place.has("global");
     const JsonPlace stored = place[global ? "global" : "local"];
-    const rig::Transform transform = read_transform(stored, {}, most_reached);
+    const rig::Transform transform = read_transform(stored, {}, max_reached);
     check_unit(stored, transform.rotation);
     tree.put(id, global ? Space::Global : Space::Local, transform, rig::Propagate::Yes, pose);
 }
@@ -90,7 +90,7 @@ void load_controls(const JsonPlace& place, const rig::Rig& rig, rig::State& stat
         if (!element.control) continue;
         const JsonPlace stored = place[element.name.c_str()];
         const rig::Value value =
-            read_control_value(stored, element.control->kind, state.controls[i], most_reached);
+            read_control_value(stored, element.control->kind, state.controls[i], max_reached);
         check_unit(stored, value);
         state.controls[i] = rig::clamped(*element.control, value);
     }

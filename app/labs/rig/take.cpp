@@ -10,7 +10,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::uint64_t most_seek_work = 40'000'000;  ///< a second or so
+constexpr std::uint64_t max_seek_work = 40'000'000;  ///< a second or so
 
 bool same_keys(const RigTake& a, const RigTake& b) {
     if (a.keys == b.keys) return true;
@@ -99,7 +99,7 @@ std::vector<TakeKey> keys_so_far(const RigPart& part) {
 }
 
 bool too_far(const RigPart& part, std::uint32_t ticks) {
-    return ticks * part.rig.work() > most_seek_work;
+    return ticks * part.rig.work() > max_seek_work;
 }
 
 /// To a tick, from the nearest one before it that is known. False where that is too far away.
@@ -154,7 +154,7 @@ void begin_take(RigPart& part) {
 
 void key_control(RigPart& part, std::size_t element) {
     const std::size_t count = part.take.keys ? part.take.keys->size() : 0;
-    if (part.take.tick == 0 || count >= most_take_keys) return begin_take(part);
+    if (part.take.tick == 0 || count >= max_take_keys) return begin_take(part);
     const std::uint32_t tick = part.take.tick, at = static_cast<std::uint32_t>(element);
     std::vector<TakeKey> keys = keys_so_far(part);
     // What was set before the rig was last solved at this tick has been seen by its units.
@@ -176,7 +176,7 @@ void solve_now(RigPart& part, RigRuntime& runtime, bool measured) {
     const std::vector<TakeKey> set_here = as_one({here, keys.end()}, tick);
     const bool again = std::ranges::find(here, keys.end(), TakeKey::solve, &TakeKey::element) != keys.end();
     keys.erase(here, keys.end());
-    bool remembered = tick > 0 && keys.size() + set_here.size() <= most_take_keys;
+    bool remembered = tick > 0 && keys.size() + set_here.size() <= max_take_keys;
     if (remembered && again && !undo_keys_here(part, keys, runtime)) {
         part = before;
         remembered = false;
@@ -205,7 +205,7 @@ bool time_moves(const RigPart& part) {
 }
 
 void pass_tick(RigPart& part, RigRuntime& runtime, bool measured) {
-    if (part.take.tick >= most_take_ticks) begin_take(part);
+    if (part.take.tick >= max_take_ticks) begin_take(part);
     ensure_start(part);
     pass(part, runtime, measured);
 }

@@ -18,7 +18,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr double longest_clip = static_cast<double>(most_clip_frames) * tick_seconds;
+constexpr double max_clip = static_cast<double>(max_clip_frames) * tick_seconds;
 
 RigRuntime& runtime_of(const Workspace& workspace) {
     return workspace.runtimes.of<RigRuntime>(rig_lab);
@@ -89,15 +89,15 @@ void go(Workspace& workspace, const Arguments& given) {
     if (tick < 0.0)
         throw std::invalid_argument("the take begins at tick " + std::to_string(take.began) +
                                     ", after tick " + said(wanted));
-    if (tick > most_take_ticks)
-        throw std::invalid_argument("the take can be " + std::to_string(most_take_ticks) +
+    if (tick > max_take_ticks)
+        throw std::invalid_argument("the take can be " + std::to_string(max_take_ticks) +
                                     " ticks long, which ends before tick " + said(wanted));
     const bool modified = workspace.modified();
     RigPart& part = workspace.document.edit<RigPart>(rig_lab);
     go_to(part, static_cast<std::uint32_t>(tick), runtime_of(workspace));
     workspace.clock.playing = workspace.clock.replaying = false;
     workspace.ui.incident.reset();
-    if (!modified) workspace.saved = workspace.document;  // that time passes is nothing that wants saving
+    if (!modified) workspace.saved = workspace.document;  // time does not mark the scene as modified
 }
 
 /// What was played, or ten seconds of what would walk by itself.
@@ -111,7 +111,7 @@ void record(Workspace& workspace, const Arguments& given) {
     change_part<RigPart>(workspace, rig_lab, [&](RigPart& part, const RigPart&) {
         const std::size_t frames =
             given.has("seconds") ? static_cast<std::size_t>(std::lround(given.real("seconds") / tick_seconds))
-                                 : std::min<std::size_t>(ticks_worth_looking_at(part), most_clip_frames);
+                                 : std::min<std::size_t>(ticks_worth_looking_at(part), max_clip_frames);
         RigClip clip = record_clip(part, frames, runtime_of(workspace).workspace(part.rig));
         part.clip = std::make_shared<const RigClip>(std::move(clip));
         part.clip_left.reset();
@@ -164,7 +164,7 @@ void add_clip_commands(CommandTable& table) {
         {.name = "rig.clip.record",
          .title = "Record the take as a clip",
          .arguments = {number_argument("seconds", "from the take's start; where left out, what was played",
-                                       tick_seconds, longest_clip)},
+                                       tick_seconds, max_clip)},
          .help = "Records the bones of the take as a clip, a pose a frame, 60 a second",
          .effect = Effect::Edit,
          .apply = record});
@@ -188,8 +188,8 @@ void add_time_commands(CommandTable& table) {
          point_argument("centre", false,
                         "within the control's space; where left out, the path starts at the control"),
          number_argument("radius", "metres", 0, static_cast<double>(max_motion_radius)),
-         number_argument("period", "seconds per round", shortest_decimal(shortest_period),
-                         shortest_decimal(longest_period)),
+         number_argument("period", "seconds per round", shortest_decimal(min_period),
+                         shortest_decimal(max_period)),
          switch_argument("turn", "a transform control looks along the path, with its z axis")},
         "Moves controls along a path while the simulation runs", set_motions));
     table.add({.name = "rig.time",
@@ -206,7 +206,7 @@ void add_time_commands(CommandTable& table) {
          .arguments = {number_argument("seconds",
                                        "from the take's start; where left out, what was played, "
                                        "ten seconds at most",
-                                       tick_seconds, most_rate_seconds)},
+                                       tick_seconds, max_rate_seconds)},
          .help = "Compares the take at 15, 30, 60, 144 Hz and at uneven frames: how far apart its bones come",
          .effect = Effect::Edit,
          .apply = compare_rates,

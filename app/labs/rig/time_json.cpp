@@ -33,16 +33,16 @@ Json keys_json(const RigPart& part) {
 
 TakeKey read_key(const JsonPlace& place, const RigPart& part) {
     if (place.json().is_array() && place.json().size() == 1)
-        return {static_cast<std::uint32_t>(place.element(0).count(most_take_ticks)), TakeKey::solve};
+        return {static_cast<std::uint32_t>(place.element(0).count(max_take_ticks)), TakeKey::solve};
     place.check_size(3, "values: tick, control, value");
     const auto at = part.rig.element(place.element(1).text());
     if (!at || !part.rig.definition().elements[*at].control)
         place.element(1).fail("there is no control " + json_summary(place.element(1).json()));
     const rig::Control& control = *part.rig.definition().elements[*at].control;
     const rig::Value value =
-        read_control_value(place.element(2), control.kind, part.state.controls[*at], most_reached);
+        read_control_value(place.element(2), control.kind, part.state.controls[*at], max_reached);
     check_unit(place.element(2), value);
-    return {static_cast<std::uint32_t>(place.element(0).count(most_take_ticks)),
+    return {static_cast<std::uint32_t>(place.element(0).count(max_take_ticks)),
             static_cast<std::uint32_t>(*at), rig::clamped(control, value)};
 }
 
@@ -67,11 +67,11 @@ RigTake read_take(const JsonPlace& place, const RigPart& part) {
     if (!place.has("start")) return take;
     check_members(place["start"], {"controls", "curves", "poses", "units"});
     take.start = std::make_shared<const rig::State>(read_rig_state(place["start"], part.rig));
-    take.last = static_cast<std::uint32_t>(place["last"].count(most_take_ticks));
+    take.last = static_cast<std::uint32_t>(place["last"].count(max_take_ticks));
     take.tick = static_cast<std::uint32_t>(place["tick"].count(take.last));
     if (const auto stored = place.optional("keys")) {
         std::vector<TakeKey> keys;
-        stored->for_each("keys", most_take_keys,
+        stored->for_each("keys", max_take_keys,
                          [&](const JsonPlace& each) { keys.push_back(read_key(each, part)); });
         if (!std::ranges::is_sorted(keys, {}, &TakeKey::tick))
             stored->fail("expected the keys in the order of their ticks");
@@ -101,10 +101,10 @@ RateDifference read_rates(const JsonPlace& place) {
     check_members(place, {"mm", "degrees", "scale", "bone", "between", "seconds", "ticks", "frames", "done",
                           "running"});
     const auto scale = place.optional("scale");
-    const std::size_t frames = place.has("frames") ? place["frames"].index(most_rate_frames) : 0;
-    return {.mm = place["mm"].real(0.0, most_reached),
+    const std::size_t frames = place.has("frames") ? place["frames"].index(max_rate_frames) : 0;
+    return {.mm = place["mm"].real(0.0, max_reached),
             .degrees = place["degrees"].real(0.0, 360.0),
-            .scale = scale ? scale->real(0.0, most_reached) : 0.0,
+            .scale = scale ? scale->real(0.0, max_reached) : 0.0,
             .bone = place["bone"].text(),
             .between = place["between"].text(),
             .seconds = place["seconds"].real(0.0, 1e9),
@@ -119,9 +119,9 @@ RateDifference read_rates(const JsonPlace& place, const RigPart& part) {
     RateDifference rates = read_rates(place);
     if (!rates.running) return rates;
     RigPart begun = part;
-    const double most_ticks = most_rate_seconds / tick_seconds;
-    if (!(rates.ticks >= 1.0 && rates.ticks <= most_ticks && rates.ticks == std::floor(rates.ticks)))
-        place["ticks"].fail("expected 1 to " + std::to_string(std::lround(most_ticks)) + ", whole");
+    const double max_ticks = max_rate_seconds / tick_seconds;
+    if (!(rates.ticks >= 1.0 && rates.ticks <= max_ticks && rates.ticks == std::floor(rates.ticks)))
+        place["ticks"].fail("expected 1 to " + std::to_string(std::lround(max_ticks)) + ", whole");
     try {
         start_rates(begun, static_cast<std::uint32_t>(rates.ticks));
     } catch (const std::invalid_argument& refusal) {

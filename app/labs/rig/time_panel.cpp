@@ -65,7 +65,7 @@ void walk_fields(const RigPart& part, const std::vector<std::size_t>& controls, 
     float radius = walk.motion.radius, period = walk.motion.period;
     if (number_field("radius", radius, 0.01f, 0.0f, 10.0f, "%.2f m")) set("radius", radius);
     explain("How far the path goes to each side of its middle.");
-    if (number_field("period", period, 0.02f, shortest_period, 60.0f, "%.2f s")) set("period", period);
+    if (number_field("period", period, 0.02f, min_period, 60.0f, "%.2f s")) set("period", period);
     explain("How long one round takes.");
     if (!turns) return;
     bool turn = walk.turn;
@@ -128,7 +128,7 @@ void rate_rows(const RigPart& part, Emit& emit) {
     reading("apart", "%s mm, %s\u00b0", fixed_text(most.mm, most.mm < 10.0 ? 3 : 1).c_str(),
             fixed_text(most.degrees, most.degrees < 10.0 ? 3 : 1).c_str());
     explain("The most that any bone differs between two frame rates");
-    if (most.scale >= smallest_shown_scale) reading("", "scale %s", fixed_text(most.scale, 3).c_str());
+    if (most.scale >= min_shown_scale) reading("", "scale %s", fixed_text(most.scale, 3).c_str());
     if (most.mm > 0.0 || most.degrees > 0.0 || most.scale > 0.0)
         note("Most: " + most.bone + ", " + most.between + ", " + fixed_text(most.seconds, 2) +
              " s into the take.");

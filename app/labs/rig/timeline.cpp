@@ -17,7 +17,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::uint64_t shortest = 600, longest = 2ull * most_take_ticks, lead = 60;  ///< ticks
+constexpr std::uint64_t shortest = 600, longest = 2ull * max_take_ticks, lead = 60;  ///< ticks
 
 /// From a little before the take, or from the clip where that is near, to what is farthest to the right.
 struct Window {
@@ -102,7 +102,7 @@ std::vector<TimeMark> take_marks(const Workspace& workspace, const Window& windo
 
 /// To the tick before or after this one, of the take.
 void step_button(const RigPart& part, bool back, Emit& emit) {
-    const bool possible = back ? part.take.tick > 0 : part.take.tick < most_take_ticks;
+    const bool possible = back ? part.take.tick > 0 : part.take.tick < max_take_ticks;
     if (icon_button(back ? "back" : "forward", back ? Icon::ChevronLeft : Icon::ChevronRight,
                     back ? "Pauses, and goes back by a tick of the take" : "Pauses, and goes on by a tick",
                     possible))

@@ -22,8 +22,7 @@ std::string literal_code(double value) {
     return double_text(value);
 }
 std::string literal_code(const glm::dvec3& value) {
-    return "glm::dvec3(" + double_text(value.x) + ", " + double_text(value.y) + ", " + double_text(value.z) +
-           ')';
+    return "glm::dvec3" + braced(value);
 }
 std::string literal_code(const glm::dquat& value) {
     return rotation_code(value);
@@ -164,10 +163,6 @@ struct FieldsCode {
 
 }  // namespace
 
-std::string vector_code(const glm::dvec3& vector) {
-    return '{' + double_text(vector.x) + ", " + double_text(vector.y) + ", " + double_text(vector.z) + '}';
-}
-
 std::string rotation_code(const glm::dquat& rotation) {
     return "glm::dquat(" + double_text(rotation.w) + ", " + double_text(rotation.x) + ", " +
            double_text(rotation.y) + ", " + double_text(rotation.z) + ')';
@@ -179,9 +174,9 @@ std::string transform_code(const rig::Transform& transform) {
     const auto add = [&](const char* name, const std::string& value) {
         text += (text.empty() ? "." : ", .") + std::string(name) + " = " + value;
     };
-    if (transform.translation != usual.translation) add("translation", vector_code(transform.translation));
+    if (transform.translation != usual.translation) add("translation", braced(transform.translation));
     if (transform.rotation != usual.rotation) add("rotation", rotation_code(transform.rotation));
-    if (transform.scale != usual.scale) add("scale", vector_code(transform.scale));
+    if (transform.scale != usual.scale) add("scale", braced(transform.scale));
     return "rig::Transform{" + text + '}';
 }
 
@@ -204,14 +199,6 @@ std::string unit_code(const rig::Unit& unit, const std::string& margin) {
 
 namespace {
 
-std::string point_code(const glm::vec3& p) {
-    return "glm::vec3(glm::dvec3" + vector_code(p) + ')';  // exact: each of its doubles is a float
-}
-
-std::string float_code(float value) {
-    return "static_cast<float>(" + double_text(static_cast<double>(value)) + ')';
-}
-
 struct MemoryCode {
     std::string place;
 
@@ -232,29 +219,18 @@ struct MemoryCode {
     }
     std::string operator()(const ik::State& state) const {
         std::string text =
-            "    {\n        tendril::ik::State chain(" + std::to_string(state.bones()) + ");\n";
+            "    {\n        tendril::ik::State solved(" + std::to_string(state.bones()) + ");\n";
         const auto say = [&](const std::string& what, const std::string& value) {
-            text += "        chain." + what + " = " + value + ";\n";
+            text += "        solved." + what + " = " + value + ";\n";
         };
         say("rotations", list_code(state.rotations, [](const glm::quat& q) {
                 return "glm::quat(" + rotation_code(glm::dquat(q)) + ')';
             }));
-        if (state.pole.valid) {
-            say("pole.valid", "true");
-            if (state.pole.turn == ik::PoleTurn::EachJoint)
-                say("pole.turn", "tendril::ik::PoleTurn::EachJoint");
-            say("pole.pole", point_code(state.pole.pole));
-            say("pole.target", point_code(state.pole.target));
-            say("pole.twist", float_code(state.pole.twist));
-            say("pole.joints", list_code(state.pole.joints, point_code));
-        }
-        if (state.limits.valid) {
-            say("limits.valid", "true");
-            say("limits.limited", literal_code(state.limits.limited));
-            say("limits.target", point_code(state.limits.target));
-            say("limits.damping", float_code(state.limits.damping));
-        }
-        return text + "        " + place + ".held = chain;\n    }\n";
+        for (const std::string& each : ik_memory_texts("solved", state)) text += "        " + each + '\n';
+        if (state.pole.valid)
+            say("pole.joints",
+                list_code(state.pole.joints, [](const glm::vec3& p) { return "glm::vec3" + braced(p); }));
+        return text + "        " + place + ".held = solved;\n    }\n";
     }
 
   private:

@@ -6,8 +6,7 @@
 
 namespace tendril::app {
 
-/// "{1.0, 2.0, 3.0}"; "glm::dquat(w, x, y, z)"; "rig::Transform{...}", without what is as it is by itself.
-std::string vector_code(const glm::dvec3& vector);
+/// "glm::dquat(w, x, y, z)"; "rig::Transform{...}", without what is as it is by itself.
 std::string rotation_code(const glm::dquat& rotation);
 std::string transform_code(const rig::Transform& transform);
 /// "rig::Value(0.5)"

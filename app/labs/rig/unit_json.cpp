@@ -12,7 +12,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t most_parents = 1'000, most_roots = 1'000;
+constexpr std::size_t max_parents = 1'000, max_roots = 1'000;
 
 /// Fields that an operation cannot do without, whatever it is.
 template <class T>
@@ -62,7 +62,7 @@ class Reader {
     }
     static void read(const JsonPlace& place, std::vector<rig::ParentInputs>& parents) {
         parents.clear();
-        place.for_each("parents", most_parents,
+        place.for_each("parents", max_parents,
                        [&](const JsonPlace& each) { all(each, parents.emplace_back()); });
     }
     static void read(const JsonPlace& place, rig::TransformFilter& filter) {
@@ -78,7 +78,7 @@ class Reader {
         axes("scale", filter.scale);
     }
     static void read(const JsonPlace& place, std::vector<std::string>& roots) {
-        place.for_each("roots", most_roots, [&](const JsonPlace& each) { roots.push_back(each.text()); });
+        place.for_each("roots", max_roots, [&](const JsonPlace& each) { roots.push_back(each.text()); });
     }
     static void read(const JsonPlace& place, rig::Body& body) { body.units() = read_units(place); }
     static void read(const JsonPlace& place, bool& flag) { flag = place.flag(); }

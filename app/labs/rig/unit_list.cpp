@@ -181,10 +181,10 @@ void unit_list(const RigPanel& panel) {
     const std::vector<double> times =
         panel.workspace.clock.measured ? panel.runtime.microseconds(panel.part.rig) : std::vector<double>();
     const float line = ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
-    constexpr float most_lines = 26.0f;
+    constexpr float max_lines = 26.0f;
     // As high as what is in it, as long as that is not too much: then it scrolls.
     const bool many = rows.size() > 20;
-    if (many) ImGui::BeginChild("units", {0.0f, most_lines * line}, false);
+    if (many) ImGui::BeginChild("units", {0.0f, max_lines * line}, false);
     for (const UnitRow& row : rows) {
         const rig::Warning warning = panel.part.state.units[row.at].warning;
         const bool selected = panel.part.selected.unit == row.unit->name;

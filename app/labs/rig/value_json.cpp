@@ -33,12 +33,12 @@ glm::dvec3 read_vector(const JsonPlace& place, double most) {
 
 /// Calls with each component of a vector, or of a transform's vectors, and what stands there in `other`.
 void for_each_in_vectors(Json& value, const Json& other, const auto& take) {
-    constexpr std::size_t longest_vector = 3;
+    constexpr std::size_t max_vector = 3;
     if (value.is_object() && other.is_object())
         for (auto& [key, member] : value.items())
             if (other.contains(key)) for_each_in_vectors(member, other.at(key), take);
     if (!value.is_array() || !other.is_array() || value.size() != other.size()) return;
-    for (std::size_t i = 0; i < value.size() && value.size() <= longest_vector; ++i) take(value[i], other[i]);
+    for (std::size_t i = 0; i < value.size() && value.size() <= max_vector; ++i) take(value[i], other[i]);
 }
 
 }  // namespace
@@ -131,7 +131,7 @@ void check_unit(const JsonPlace& place, const rig::Value& value) {
 }
 
 rig::Value read_stored(const JsonPlace& place, rig::Type type) {
-    rig::Value value = read_value(place, type, most_reached);
+    rig::Value value = read_value(place, type, max_reached);
     check_unit(place, value);
     return value;
 }

@@ -25,7 +25,7 @@ inline std::size_t read_name(const JsonPlace& place, std::initializer_list<std::
 }
 
 /// What a person or a file may give, and what a rig may come to by itself.
-inline constexpr double most_given = 1e9, most_reached = 1e100;
+inline constexpr double most_given = 1e9, max_reached = 1e100;
 
 // Numbers over `most` in magnitude are refused.
 Json rotation_json(const glm::dquat& rotation);

@@ -11,7 +11,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr double most_particles = static_cast<double>(max_lab_particles);
+constexpr double max_particles = static_cast<double>(max_lab_particles);
 constexpr const char* pins_names[] = {"none", "corners", "row"};
 
 std::string name_of(const Arguments& given) {
@@ -180,7 +180,7 @@ void add_adding_commands(CommandTable& table) {
     table.add(rope_command("rope.add", "Add a rope",
                            {point_argument("from", true, "metres"), point_argument("to", true, "metres"),
                             own_name("\"rope\", \"rope 2\", ... when left out"),
-                            integer_argument("segments", "32 when left out", 1, most_particles - 1),
+                            integer_argument("segments", "32 when left out", 1, max_particles - 1),
                             number_argument("length", "metres; the distance when left out", 0.0, 1e9),
                             number_argument("radius", "metres; 0.02 when left out", 0.0, 1e9),
                             switch_argument("pin_start", "pins its first particle"),
@@ -193,8 +193,8 @@ void add_adding_commands(CommandTable& table) {
          point_argument("along", true, "from the corner to the other end of the first row"),
          point_argument("down", true, "from the corner to the last row"),
          own_name("\"cloth\", \"cloth 2\", ... when left out"),
-         integer_argument("columns", "particles; 24 when left out", 2, most_particles),
-         integer_argument("rows", "particles; 24 when left out", 2, most_particles),
+         integer_argument("columns", "particles; 24 when left out", 2, max_particles),
+         integer_argument("rows", "particles; 24 when left out", 2, max_particles),
          number_argument("radius", "metres; 0.01 when left out", 0.0, 1e9),
          choice_argument("material", false, "its density, shear and bend; cotton when left out",
                          names(rope::cloth_materials,
@@ -212,10 +212,10 @@ void add_adding_commands(CommandTable& table) {
          point_argument("centre", false, "of the patch that it grows from"),
          collider_argument("attach", false, "a collider that it grows from, instead of a centre"),
          point_argument("direction", false, "of growth; down, or outwards from a collider"),
-         integer_argument("strands", "32 when left out", 1, most_particles),
+         integer_argument("strands", "32 when left out", 1, max_particles),
          number_argument("spread", "the patch's radius, metres; 0.1 when left out", 0.0, 1e9),
          number_argument("length", "metres; 0.5 when left out", 0.0, 1e9),
-         integer_argument("segments", "of a strand; 16 when left out", 2, most_particles - 1),
+         integer_argument("segments", "of a strand; 16 when left out", 2, max_particles - 1),
          number_argument("radius", "metres; 0.004 when left out", 0.0, 1e9),
          number_argument("density", "kg/m; 0.05 when left out", 0.0, 1e9),
          number_argument("bend", "compliance, m/N", 0.0, 1e9)},
@@ -253,7 +253,7 @@ void add_body_commands(CommandTable& table) {
                              .type = ArgumentType::Integer,
                              .help = "the one to remove",
                              .low = 0,
-                             .high = most_particles - 1}},
+                             .high = max_particles - 1}},
                            "Cuts a rope in two", cut));
 }
 

@@ -48,7 +48,7 @@ std::string shape_text(const rope::Shape& shape) {
            literal(q.x) + ", " + literal(q.y) + ", " + literal(q.z) + "}}";
 }
 
-/// The place of a collider in the state; slots are numbered like that in the program.
+/// Index in state.colliders; number_slots() numbers them in this order.
 std::size_t place_of(const rope::State& state, rope::ColliderId collider) {
     const auto found = std::ranges::find(state.colliders, collider, &rope::Collider::id);
     return static_cast<std::size_t>(found - state.colliders.begin());
@@ -77,8 +77,8 @@ class RopeProgram {
 
     void head() {
         const rope::State& state = world_.state();
-        line("// Ropes, exported from Tendril: " + std::to_string(state.position.size()) +
-             " particles as they were, and a second of their time.");
+        line("// A rope world of " + std::to_string(state.position.size()) +
+             " particles, exported from Tendril. Simulates one second.");
         line("//");
         line("// CMake: find_package(tendril REQUIRED)");
         line("//        target_link_libraries(your_program PRIVATE tendril::core)");
@@ -97,7 +97,7 @@ class RopeProgram {
         std::string row = opening;
         for (std::size_t i = 0; i < entries.size(); ++i) {
             const std::string next = entries[i] + (i + 1 < entries.size() ? "," : closing);
-            if (row.size() + next.size() > max_line)
+            if (i > 0 && row.size() + 1 + next.size() > max_line)
                 line(std::exchange(row, margin + next));
             else
                 row += (i == 0 ? "" : " ") + next;
@@ -113,8 +113,10 @@ class RopeProgram {
         list("    ", entries, "};");
         line("");
     }
-    /// What a person called it.
-    void name(const std::string& name) { say("// " + json_summary(Json(name))); }
+    /// The user's name, as a comment.
+    void name(const std::string& name) {
+        say("// " + Json(name).dump(-1, ' ', false, Json::error_handler_t::replace));
+    }
     /// A body, collider or pin.
     void add(const std::string& what, const std::vector<std::string>& members) {
         list("    state." + what + ".push_back({", members, "});", "        ");

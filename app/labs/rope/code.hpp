@@ -7,7 +7,8 @@
 
 namespace tendril::app {
 
-/// A whole program: the world as it is, without what a drag holds, and a second of its time.
+/// Complete program: the world without drags, simulated for one second in ticks of 1/60 s. Part of a tick
+/// that slow motion or frame-time jitter left over is not in it.
 std::string rope_code(const RopePart& part);
 
 }  // namespace tendril::app

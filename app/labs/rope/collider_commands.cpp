@@ -171,11 +171,11 @@ void add_collider_commands(CommandTable& table) {
                            "Moves a collider; it pushes what it meets", move));
     table.add(rope_command("rope.collider.remove", "Remove a collider", {name_argument()},
                            "Removes a collider", remove_collider));
-    table.add(rope_command("rope.collider.swing", "Swing a collider",
-                           {name_argument(), point_argument("by", true, "metres to each side; 0: off"),
-                            number_argument("period", "seconds", shortest_decimal(shortest_period),
-                                            shortest_decimal(longest_period))},
-                           "Makes a collider swing to and fro", set_swing));
+    table.add(rope_command(
+        "rope.collider.swing", "Swing a collider",
+        {name_argument(), point_argument("by", true, "metres to each side; 0: off"),
+         number_argument("period", "seconds", shortest_decimal(min_period), shortest_decimal(max_period))},
+        "Makes a collider swing to and fro", set_swing));
 }
 
 }  // namespace tendril::app

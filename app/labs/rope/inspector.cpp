@@ -146,7 +146,7 @@ void collider_rows(const RopePart& part, const rope::Collider& collider, Emit& e
     if (point_field("swings by", by, 0.01f)) swing();
     explain("How far the collider swings to each side of where it is. With 0, 0, 0 it stands still.");
     if (swings) {
-        if (number_field("period", period, 0.02f, shortest_period, longest_period, "%.2f s")) swing();
+        if (number_field("period", period, 0.02f, min_period, max_period, "%.2f s")) swing();
         explain("How long it takes to swing there and back.");
     }
     if (row_button("Remove", 3, true, "Removes the collider")) emit("rope.collider.remove", {{"name", name}});

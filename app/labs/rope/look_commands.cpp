@@ -10,7 +10,7 @@ std::span<const tendril::Field> tendril::fields<tendril::app::RopeView>() noexce
     using app::RopeView;
     static constexpr Field rows[] = {field<&RopeView::particles>("particles"),
                                      field<&RopeView::strain>("strain"),
-                                     field<&RopeView::sides>("sides", {app::fewest_sides, app::most_sides})};
+                                     field<&RopeView::sides>("sides", {app::min_sides, app::max_sides})};
     return rows;
 }
 

@@ -7,7 +7,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t most_pins = 32;  ///< of a body, that are compared with each other
+constexpr std::size_t max_pins = 32;  ///< of a body, that are compared with each other
 
 /// How far its links let two particles of a body be from each other, along rows and columns.
 class Reach {
@@ -104,7 +104,7 @@ std::optional<OverPulled> over_pulled(const NamedWorld& world) {
         const auto in_body = [&](const rope::Pin& pin) { return pin.particle - body.first < body.count; };
         std::vector<std::size_t> pinned;
         for (const rope::Pin& pin : state.pins)
-            if (in_body(pin) && pinned.size() < most_pins) pinned.push_back(pin.particle);
+            if (in_body(pin) && pinned.size() < max_pins) pinned.push_back(pin.particle);
         for (auto a = pinned.begin(); a != pinned.end(); ++a) {
             for (auto b = a + 1; b != pinned.end(); ++b) {
                 const double apart = glm::distance(state.position[*a], state.position[*b]);

@@ -102,7 +102,7 @@ void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
     if (open("Last ten seconds")) past_view_rows(workspace, rope_past(), past_help, emit);
     if (!open("Export")) return;
     if (row_button("Copy as C++", 1, true,
-                   "Ropes and colliders as they are, as a program against the library"))
+                   "Copies ropes and colliders as a C++ program that uses the library"))
         emit("rope.copy");
     end_row();
 }

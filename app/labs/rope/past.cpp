@@ -12,8 +12,8 @@ namespace tendril::app {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t most_threads = 200;  ///< of a past pose
-constexpr std::size_t most_lines = 400;    ///< of a past pose
+constexpr std::size_t max_threads = 200;  ///< of a past pose
+constexpr std::size_t max_lines = 400;    ///< of a past pose
 
 enum class Number { Tension, Error, Energy, Speed };  // in the order of rope_past()
 
@@ -157,8 +157,8 @@ PoseLines rope_lines(const SharedPart& part) {
     const std::vector<Thread> threads = threads_of(world);
     PoseLines lines;
     if (threads.empty()) return lines;
-    const std::size_t every = (threads.size() + most_threads - 1) / most_threads;
-    const std::size_t each = most_lines / ((threads.size() + every - 1) / every);
+    const std::size_t every = (threads.size() + max_threads - 1) / max_threads;
+    const std::size_t each = max_lines / ((threads.size() + every - 1) / every);
     for (std::size_t t = 0; t < threads.size(); t += every) {
         const Thread& thread = threads[t];
         const std::size_t links = thread.count - 1, strokes = std::min(links, each);

@@ -10,7 +10,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t most_handles = 400;
+constexpr std::size_t max_handles = 400;
 
 ArgumentList of_particle(const NamedWorld& world, const ParticlePlace& place) {
     return {{"rope", world.name(*place.body)}, {"particle", place.index}};
@@ -83,7 +83,7 @@ std::optional<ParticlePlace> picked_particle(const NamedWorld& world, PickId pic
 }
 
 std::size_t handle_stride(const NamedWorld& world) {
-    return world.size() / most_handles + 1;
+    return world.size() / max_handles + 1;
 }
 
 std::vector<Handle> RopeLab::handles(const Workspace& workspace) const {
@@ -91,7 +91,7 @@ std::vector<Handle> RopeLab::handles(const Workspace& workspace) const {
     const std::size_t stride = handle_stride(world);
     std::vector<bool> shown(world.size());
     for (const rope::Pin& pin : world.state().pins)
-        shown[pin.particle] = world.state().pins.size() <= most_handles;
+        shown[pin.particle] = world.state().pins.size() <= max_handles;
     std::vector<Handle> handles;
     for (const rope::Body& body : world.state().bodies) {
         for (std::size_t i = 0; i < body.count; ++i) {

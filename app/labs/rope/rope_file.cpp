@@ -25,7 +25,7 @@ Swing load_swing(const JsonPlace& place) {
     swing.collider = place["collider"].text();
     swing.middle = place["middle"].point();
     swing.swing = place["swing"].point();
-    swing.period = place["period"].number(shortest_period, longest_period);
+    swing.period = place["period"].number(min_period, max_period);
     try {
         require(swing);
     } catch (const std::invalid_argument& error) {
@@ -86,7 +86,7 @@ Jitter load_jitter(const JsonPlace& place) {
     jitter.dial = place["dial"].number(0.0f, 1.0f);
     jitter.frames = static_cast<std::uint32_t>(place["frames"].count(0xffffffffu));
     jitter.owed = place["owed"].real(0.0, 10.0);
-    jitter.frame = place["frame"].real(0.0, longest_jitter_frame);
+    jitter.frame = place["frame"].real(0.0, max_jitter_frame);
     return jitter;
 }
 
@@ -102,13 +102,14 @@ RopeView load_view(const JsonPlace& place) {
 Json RopePart::save() const {
     Json moving = Json::array();
     for (const Swing& swing : swings) moving.push_back(save_swing(swing));
-    return Json{{"time", time},
-                {"tool", rope_tools.name(tool)},
-                {"selected", save_selection(selection)},
-                {"view", save_fields(view)},
-                {"jitter", save_jitter(jitter)},
-                {"swings", std::move(moving)},
-                {"world", save_world(released_world(*this))}};
+    return Json{
+        {"time", time},
+        {"tool", rope_tools.name(tool)},
+        {"selected", save_selection(selection)},
+        {"view", save_fields(view)},
+        {"jitter", save_jitter(jitter)},
+        {"swings", std::move(moving)},
+        {"world", held_particles(*this).empty() ? save_world(*world) : save_world(released_world(*this))}};
 }
 
 std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where) const {

@@ -54,7 +54,7 @@ void include(const rope::Shape& shape, glm::vec3& low, glm::vec3& high) {
 }
 
 void take_sample(RopePart& part, const RopeReport& report) {
-    if (part.samples.size() >= most_rope_samples) part.samples.erase(part.samples.begin());
+    if (part.samples.size() >= max_rope_samples) part.samples.erase(part.samples.begin());
     part.samples.push_back(sample_of(part, report));
 }
 
@@ -114,7 +114,7 @@ void RopeLab::step(Workspace& workspace) const {
         workspace.clock.playing = false;
         workspace.toast("The simulation is paused: " + *stopped, ToastKind::Refusal);
     } else if (!modified) {
-        workspace.saved = workspace.document;  // that time passes is nothing that wants saving
+        workspace.saved = workspace.document;  // time does not mark the scene as modified
     }
 }
 

@@ -10,8 +10,8 @@
 
 namespace tendril::app {
 
-inline constexpr int fewest_sides = 3, most_sides = 64;
-inline constexpr double shortest_jitter_frame = 0.001, longest_jitter_frame = 0.25;  ///< seconds
+inline constexpr int min_sides = 3, max_sides = 64;
+inline constexpr double min_jitter_frame = 0.001, max_jitter_frame = 0.25;  ///< seconds
 
 inline constexpr EnumNames<RopeTool, 3> rope_tools{
     "tool", {{"move", "Select"}, {"pin", "Pin or unpin"}, {"cut", "Cut"}}};

@@ -24,7 +24,7 @@ RopePart first_ropes() {
     return part;
 }
 
-std::shared_ptr<const Part> RopePart::brought_back() const {
+std::shared_ptr<const Part> RopePart::after_undo() const {
     if (!hold) return nullptr;
     auto part = std::make_shared<RopePart>(*this);
     let_go(*part);

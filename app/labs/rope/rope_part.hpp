@@ -82,7 +82,7 @@ struct RopeSample {
     RopeReport report;
     bool operator==(const RopeSample&) const = default;
 };
-inline constexpr std::size_t most_rope_samples = 600;  ///< ten seconds of them
+inline constexpr std::size_t max_rope_samples = 600;  ///< ten seconds of them
 
 struct RopePart final : Part {
     std::shared_ptr<const NamedWorld> world = std::make_shared<const NamedWorld>();
@@ -101,7 +101,7 @@ struct RopePart final : Part {
     std::shared_ptr<Part> clone() const override { return std::make_shared<RopePart>(*this); }
     Json save() const override;
     std::shared_ptr<Part> load(const Json& json, const std::string& where) const override;
-    std::shared_ptr<const Part> brought_back() const override;
+    std::shared_ptr<const Part> after_undo() const override;
     std::shared_ptr<const Part> at_moment(std::shared_ptr<const Part> then) const override;
     std::size_t bytes() const override;
 };

@@ -114,10 +114,10 @@ std::uint64_t work_of_substep(const NamedWorld& world) {
 
 double jitter_frame(float dial, std::uint32_t number) {
     const double where = 2.0 * shuffled(number) - 1.0;
-    const double end = where < 0.0 ? shortest_jitter_frame : longest_jitter_frame;
+    const double end = where < 0.0 ? min_jitter_frame : max_jitter_frame;
     const double frame =
         tick_seconds * std::pow(end / tick_seconds, std::abs(where) * static_cast<double>(dial));
-    return std::clamp(frame, shortest_jitter_frame, longest_jitter_frame);
+    return std::clamp(frame, min_jitter_frame, max_jitter_frame);
 }
 
 glm::vec3 swing_point(const Swing& swing, double time) {

@@ -15,7 +15,7 @@ InputRows hand_rows(const SignalPart& part) {
     InputRows rows;
     if (part.past.empty()) return rows;
     const double until = std::floor((part.time + same) / every) * every;
-    const double from = until - (part.past.back().dt * static_cast<double>(most_past) - every);
+    const double from = until - (part.past.back().dt * static_cast<double>(max_past) - every);
     double time = part.time;
     for (std::size_t i = part.past.size(); i-- > 0; time -= std::max(part.past[i].dt, 0.0)) {
         if (time > until + same) continue;

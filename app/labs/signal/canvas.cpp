@@ -137,17 +137,17 @@ void plot_choice(const SignalPart& part, Emit& emit) {
 
 /// What colours mean, in as many lines as that takes; of very many in three, and how many more there are.
 void colour_key(const std::vector<std::pair<std::string, glm::vec3>>& rows) {
-    constexpr int most_lines = 3;
+    constexpr int max_lines = 3;
     ImGui::PushFont(small_font());
     int lines = 1;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const auto& [name, colour] = rows[i];
         if (i > 0) {
             ImGui::SameLine(0.0f, ImGui::GetFontSize());
-            const float more = lines == most_lines ? ImGui::CalcTextSize("and 99 more").x : 0.0f;
+            const float more = lines == max_lines ? ImGui::CalcTextSize("and 99 more").x : 0.0f;
             const float needed = ImGui::CalcTextSize(name.c_str()).x + 1.4f * ImGui::GetFontSize() + more;
             if (ImGui::GetContentRegionAvail().x < needed) {
-                if (++lines > most_lines) {
+                if (++lines > max_lines) {
                     if (ImGui::GetContentRegionAvail().x < more) ImGui::NewLine();
                     ImGui::AlignTextToFramePadding();
                     ImGui::TextDisabled("and %zu more", rows.size() - i);

@@ -20,15 +20,20 @@ Argument filter_argument(Argument place) {
     });
 }
 
-/// The names that filters of any kind can be given, each once.
+/// The fields of all kinds, each name once: in the range of any kind that has it.
 std::vector<Argument> parameter_arguments() {
     std::vector<Argument> arguments;
+    std::vector<std::string> owners;  // of each argument
     const auto add = [&](Argument argument, const signal::Kind& kind) {
         const auto known = std::ranges::find(arguments, argument.name, &Argument::name);
-        const std::string of = std::string("Of ") + kind.name + ": ";
-        if (known != arguments.end()) return;
-        argument.help = of + argument.help;
-        arguments.push_back(std::move(argument));
+        if (known == arguments.end()) {
+            arguments.push_back(std::move(argument));
+            owners.emplace_back(kind.name);
+            return;
+        }
+        known->low = std::min(known->low, argument.low);
+        known->high = std::max(known->high, argument.high);
+        owners[static_cast<std::size_t>(known - arguments.begin())] += std::string(", ") + kind.name;
     };
     for (const signal::Kind& kind : signal::kinds()) {
         if (std::holds_alternative<signal::Curve>(kind.blank()))
@@ -39,6 +44,8 @@ std::vector<Argument> parameter_arguments() {
                 kind);
         for (Argument& each : field_arguments(kind.fields, filter_texts(kind))) add(std::move(each), kind);
     }
+    for (std::size_t i = 0; i < arguments.size(); ++i)
+        arguments[i].help = "Of " + owners[i] + ": " + arguments[i].help;
     return arguments;
 }
 
@@ -68,8 +75,8 @@ std::size_t stage_index(const SignalPart& part, const Arguments& given, const ch
 void add(SignalPart& part, const Arguments& given) {
     const signal::Kind& kind = *signal::find_kind(given.text("kind"));
     check_names(given, kind);
-    if (part.stages.size() >= most_stages)
-        throw Refused("there are " + std::to_string(most_stages) + " filters, as many as there can be");
+    if (part.stages.size() >= max_stages)
+        throw Refused("there are " + std::to_string(max_stages) + " filters, as many as there can be");
     SignalStage stage{kind.blank()};
     set_parameters(stage.filter, given.json(), "");
     const std::size_t at = given.has("at") ? stage_index(part, given, "at", true) : part.stages.size();
@@ -123,15 +130,15 @@ void remove_selected(SignalPart& part, const Arguments&) {
 }  // namespace
 
 void add_filter_commands(CommandTable& table) {
-    const Argument at = filter_argument(index_argument("at", true, "which filter, from 0", most_stages));
+    const Argument at = filter_argument(index_argument("at", true, "which filter, from 0", max_stages));
     std::vector<Argument> adding{choice_argument("kind", true, "which kind", all_kind_names())};
     std::vector<Argument> setting{at};
     for (const Argument& parameter : parameter_arguments()) {
         adding.push_back(parameter);
         setting.push_back(parameter);
     }
-    adding.push_back(index_argument("at", false, "before which filter, from 0; at the end when left out",
-                                    most_stages + 1));
+    adding.push_back(
+        index_argument("at", false, "before which filter, from 0; at the end when left out", max_stages + 1));
     table.add(part_command<SignalPart>(signal_lab, "signal.filter.add", "Add a filter", adding,
                                        "Adds a filter to the chain; parameters left out have their defaults",
                                        add));
@@ -140,7 +147,7 @@ void add_filter_commands(CommandTable& table) {
     table.add(part_command<SignalPart>(signal_lab, "signal.filter.remove", "Remove a filter", {at},
                                        "Removes a filter", remove));
     table.add(part_command<SignalPart>(signal_lab, "signal.filter.move", "Move a filter in the chain",
-                                       {at, index_argument("to", true, "its new place", most_stages)},
+                                       {at, index_argument("to", true, "its new place", max_stages)},
                                        "Moves a filter to another place in the chain", move));
     table.add(part_command<SignalPart>(signal_lab, "signal.filter.enable", "Switch a filter on or off",
                                        {at, switch_argument("on", "the other way round when left out")},
@@ -150,7 +157,7 @@ void add_filter_commands(CommandTable& table) {
                                        "Removes the filter that is selected", remove_selected));
     table.add(part_command<SignalPart>(
         signal_lab, "signal.select", "Select a filter",
-        {filter_argument(index_argument("at", false, "which filter; none when left out", most_stages))},
+        {filter_argument(index_argument("at", false, "which filter; none when left out", max_stages))},
         "Selects a filter", select, Effect::Look));
 }
 

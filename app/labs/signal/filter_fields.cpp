@@ -67,9 +67,9 @@ constexpr FieldText one_euro[]{
     text("derivative_cutoff", "derivative cutoff",
          "The cutoff of the low pass on the speed itself. Lower it where noise is taken for speed."),
     text("reset_jump", "reset jump",
-         "Where the input is farther than this from the output, the filter starts anew there: for hands that "
-         "are lost "
-         "and found. At 0 it never does.")};
+         "Restarts the filter at the input where both are farther apart than this, as when a tracked hand is "
+         "lost and "
+         "found. 0: never.")};
 constexpr FieldText moving_average[]{
     text("window", "window",
          "The output is the mean of the input over this time. More is smoother and lags more.")};

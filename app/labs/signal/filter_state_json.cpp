@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t max_entries = 1'000'000;
 
-/// Unlike other numbers in files these may be as large as outputs get.
+/// Up to max_output, not 1e9 as other numbers in files.
 constexpr FieldRange outputs{-signal::max_output, signal::max_output};
 
 template <class State>
@@ -95,7 +95,7 @@ template <class State>
 bool load(const JsonPlace& place, signal::FilterState& into) {
     if (!place.has(Form<State>::name)) return false;
     const JsonPlace own = place[Form<State>::name];
-    for (const Field& field : Form<State>::fields) own[field.name];  // a state is whole
+    for (const Field& field : Form<State>::fields) own[field.name];  // throws if one is missing
     State state;
     load_fields(own, {Form<State>::fields, &state});
     if constexpr (std::is_same_v<State, signal::MovingAverageState>) load_entries(state, own);

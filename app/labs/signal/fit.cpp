@@ -42,7 +42,7 @@ class KindFit final : public FitTask {
         for (std::size_t d = 0; d < space_.size(); ++d)
             if (space_[d].stepped) search.stepped.push_back(d);
         search.starts.push_back(place_of(kind_.blank()));
-        if (like != nullptr && &signal::kind_of(*like) == &kind_) search.starts.push_back(place_of(*like));
+        if (like != nullptr) search.starts.push_back(place_of(*like));
         for (const signal::Filter& guess : first_guesses(kind_, problem, FitFacts(problem)))
             search.starts.push_back(place_of(guess));
         return search;

@@ -20,7 +20,7 @@ void draw(SignalPart& part, const Arguments& given) {
         part.fit_input = rows_to_answer(part);
         if (part.fit_input.size() < 2) throw Refused("there is no input yet to answer");
         part.wanted = signal::run(enabled_filters(part), part.fit_input);
-        for (double& value : part.wanted) value = std::clamp(value, -most_amplitude, most_amplitude);
+        for (double& value : part.wanted) value = std::clamp(value, -max_amplitude, max_amplitude);
     }
     double from = given.real("from"), to = given.real("to");
     double from_value = given.real("from_value"), to_value = given.real("to_value");
@@ -60,9 +60,9 @@ void take_file(SignalPart& part, const std::string& path) {
         rows = rows_to_answer(part);
     }
     std::vector<double> wanted = parse_response(text, path, rows.size());
-    if (wanted.size() < 2 || wanted.size() > most_wanted)
+    if (wanted.size() < 2 || wanted.size() > max_wanted)
         throw Refused(path + " has " + std::to_string(wanted.size()) + " rows, expected 2 to " +
-                      std::to_string(most_wanted));
+                      std::to_string(max_wanted));
     part.fit_input = std::move(rows);
     part.wanted = std::move(wanted);
 }
@@ -167,8 +167,8 @@ void add_fit_commands(CommandTable& table) {
                                        "Ends a fit that is running; what is fitted so far stays", cancel));
     table.add(part_command<SignalPart>(
         signal_lab, "signal.fit.draw", "Draw the wanted response",
-        {number("from", "seconds", 1e3), number("from_value", "the response there", most_amplitude),
-         number("to", "seconds", 1e3), number("to_value", "the response there", most_amplitude)},
+        {number("from", "seconds", 1e3), number("from_value", "the response there", max_amplitude),
+         number("to", "seconds", 1e3), number("to_value", "the response there", max_amplitude)},
         "Draws a stroke of the response that is wanted", draw));
     table.add({.name = "signal.fit.record",
                .title = "Record the wanted response",
@@ -177,7 +177,7 @@ void add_fit_commands(CommandTable& table) {
                        "the response that is wanted",
                .apply = begin});
     table.add(part_command<SignalPart>(signal_lab, "signal.fit.hand", "Move the recorded output",
-                                       {number("value", "where the output should be now", most_amplitude)},
+                                       {number("value", "where the output should be now", max_amplitude)},
                                        "Shows the response that is being recorded", show));
     table.add(part_command<SignalPart>(signal_lab, "signal.fit.stop", "Stop recording the response", {},
                                        "Ends the recording of a response; what is there is kept", stop));

@@ -11,7 +11,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t most_fitted_keys = 12;
+constexpr std::size_t max_fitted_keys = 12;
 constexpr double closest_keys = 1e-4;  ///< times apart
 
 /// Solves a symmetric, positive definite system in place, by Cholesky's factors. Unknowns that nothing says
@@ -73,7 +73,7 @@ class CurveFit final : public FitTask {
     int evaluations() const override { return evaluations_; }
 
   private:
-    bool wants_another() const { return left_ > exact_residual && keys_.size() < most_fitted_keys; }
+    bool wants_another() const { return left_ > exact_residual && keys_.size() < max_fitted_keys; }
 
     /// Of a key: its value, the slope that arrives at it and the one that leaves it.
     static std::size_t unknown(std::size_t key, std::size_t which) { return 3 * key + which; }

@@ -61,7 +61,7 @@ void FitWork::advance(SignalPart& part) {
     part.fitting->shares = task_->shares;
     if (task_->more) return;
     part.fits.push_back(task_->task->fit());
-    part.fits.back().residual = std::min(part.fits.back().residual, most_residual);
+    part.fits.back().residual = std::min(part.fits.back().residual, max_residual);
     rank(part.fits);
     part.fitting->shares = 0;
     if (part.fits.size() == signal::kinds().size()) part.fitting.reset();

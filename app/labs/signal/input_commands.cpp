@@ -29,9 +29,9 @@ void reset(SignalPart& part, const Arguments&) {
 
 std::shared_ptr<const InputRows> read_rows(const std::string& path) {
     InputRows rows = read_samples(path);
-    if (rows.size() > most_input_rows) {
+    if (rows.size() > max_input_rows) {
         throw Refused(path + " has " + std::to_string(rows.size()) + " rows; the most is " +
-                      std::to_string(most_input_rows));
+                      std::to_string(max_input_rows));
     }
     if (length_of(&rows) <= 0.0) throw Refused(path + ": no time passes in its rows");
     return std::make_shared<const InputRows>(std::move(rows));
@@ -85,14 +85,13 @@ void add_input_commands(CommandTable& table) {
     table.add(part_command<SignalPart>(
         signal_lab, "signal.input", "Set the input",
         {choice_argument("kind", false, "what goes in", input_kinds.names()),
-         number_argument("amplitude", "of square, sine and noise", -most_amplitude, most_amplitude),
-         number_argument("period", "seconds, of square, sine and noise", shortest_input_period,
-                         longest_input_period),
+         number_argument("amplitude", "of square, sine and noise", -max_amplitude, max_amplitude),
+         number_argument("period", "seconds, of square, sine and noise", min_input_period, max_input_period),
          text_argument("path", false, "of csv: rows of dt,input")},
         "Sets what goes into the first filter; what is left out stays", set_input));
     table.add(part_command<SignalPart>(
         signal_lab, "signal.hand", "Move the hand",
-        {{.name = "value", .help = "where the hand is", .low = -most_amplitude, .high = most_amplitude}},
+        {{.name = "value", .help = "where the hand is", .low = -max_amplitude, .high = max_amplitude}},
         "Moves the hand, which takes the input over", move_hand));
     table.add(part_command<SignalPart>(signal_lab, "signal.plot", "Choose the lower plot",
                                        {choice_argument("name", true, "which", signal_plots.names())},

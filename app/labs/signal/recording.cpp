@@ -8,12 +8,12 @@ namespace tendril::app {
 
 InputRows rows_to_answer(const SignalPart& part) {
     if (part.input.kind == InputKind::Hand) {
-        const auto count = static_cast<std::ptrdiff_t>(std::min(part.past.size(), most_wanted));
+        const auto count = static_cast<std::ptrdiff_t>(std::min(part.past.size(), max_wanted));
         return {part.past.end() - count, part.past.end()};
     }
     InputRows rows = measuring_rows(part.input, 60.0);
     if (!rows.empty()) rows.erase(rows.begin());  // the input at 0, which no tick plays
-    if (rows.size() > most_wanted) rows.resize(most_wanted);
+    if (rows.size() > max_wanted) rows.resize(max_wanted);
     return rows;
 }
 
@@ -36,7 +36,7 @@ void begin_recording(SignalPart& part) {
     part.fit_input = rows_to_answer(part);
     if (part.fit_input.size() < 2) throw Refused("there is no input yet to answer");
     const double start = signal::run(enabled_filters(part), std::span(part.fit_input).first(1)).front();
-    const double within = std::clamp(start, -most_amplitude, most_amplitude);
+    const double within = std::clamp(start, -max_amplitude, max_amplitude);
     part.wanted.assign(part.fit_input.size(), within);
     part.recording = Recording{.value = within};
     part.fits.clear();

@@ -40,13 +40,13 @@ Json save_input(const SignalInput& input) {
 SignalInput load_input(const JsonPlace& place) {
     SignalInput input;
     input.kind = place["kind"].choice(input_kinds);
-    input.amplitude = place["amplitude"].real(-most_amplitude, most_amplitude);
-    input.period = place["period"].real(shortest_input_period, longest_input_period);
-    input.hand = place["hand"].real(-most_amplitude, most_amplitude);
+    input.amplitude = place["amplitude"].real(-max_amplitude, max_amplitude);
+    input.period = place["period"].real(min_input_period, max_input_period);
+    input.hand = place["hand"].real(-max_amplitude, max_amplitude);
     if (const auto rows = place.optional("recording"))
-        input.recording = std::make_shared<const InputRows>(load_rows(*rows, "rows", most_input_rows));
+        input.recording = std::make_shared<const InputRows>(load_rows(*rows, "rows", max_input_rows));
     if (const auto rows = place.optional("rows")) {
-        input.file = std::make_shared<const InputRows>(load_rows(*rows, "rows", most_input_rows));
+        input.file = std::make_shared<const InputRows>(load_rows(*rows, "rows", max_input_rows));
         input.path = place["path"].text();
     }
     const bool missing = (input.kind == InputKind::Recorded && length_of(input.recording.get()) <= 0.0) ||
@@ -74,7 +74,7 @@ Json save_fits(const SignalPart& part) {
     Json fits = Json::array();
     for (const Fit& fit : part.fits)
         fits.push_back(
-            {{"filter", filter_json(fit.filter)}, {"residual", std::min(fit.residual, most_residual)}});
+            {{"filter", filter_json(fit.filter)}, {"residual", std::min(fit.residual, max_residual)}});
     Json json{{"input", save_rows(part.fit_input)}, {"wanted", part.wanted}, {"ranking", std::move(fits)}};
     if (const auto& recording = part.recording)
         json["recording"] = {
@@ -89,27 +89,27 @@ Json save_fits(const SignalPart& part) {
 
 /// What is still to come of the fits.
 Fitting load_fitting(const SignalPart& part, const JsonPlace& place) {
-    constexpr std::size_t most_shares = 1000;
+    constexpr std::size_t max_shares = 1000;
     if (part.wanted.size() < 2 || part.recording) place.fail("there is no response to fit to");
     if (part.fits.size() >= signal::kinds().size()) place.fail("every kind is fitted already");
     const JsonPlace from = place["from"];
-    return {filters_from_json(from.json(), from.where(), most_stages), place["shares"].index(most_shares)};
+    return {filters_from_json(from.json(), from.where(), max_stages), place["shares"].index(max_shares)};
 }
 
 void load_fits(SignalPart& part, const JsonPlace& place) {
-    part.fit_input = load_rows(place["input"], "rows", most_wanted);
-    place["wanted"].for_each("values", most_wanted,
+    part.fit_input = load_rows(place["input"], "rows", max_wanted);
+    place["wanted"].for_each("values", max_wanted,
                              [&](const JsonPlace& each) { part.wanted.push_back(each.real()); });
     if (part.wanted.size() != part.fit_input.size()) place.fail("input and wanted are of different lengths");
     if (const auto recording = place.optional("recording")) {
         if (part.wanted.size() < 2) recording->fail("there is no input to answer");
-        part.recording = {(*recording)["value"].real(-most_amplitude, most_amplitude),
+        part.recording = {(*recording)["value"].real(-max_amplitude, max_amplitude),
                           (*recording)["rows"].index(part.wanted.size() - 1), (*recording)["begun"].flag()};
     }
     place["ranking"].for_each("fits", 100, [&](const JsonPlace& each) {
         const JsonPlace filter = each["filter"];
         part.fits.push_back(
-            {filter_from_json(filter.json(), filter.where()), each["residual"].real(0.0, most_residual), 0});
+            {filter_from_json(filter.json(), filter.where()), each["residual"].real(0.0, max_residual), 0});
     });
     if (const auto fitting = place.optional("fitting")) part.fitting = load_fitting(part, *fitting);
 }
@@ -131,11 +131,11 @@ Json SignalPart::save() const {
 std::shared_ptr<Part> SignalPart::load(const Json& json, const std::string& where) const {
     const JsonPlace place(json, where);
     auto part = std::make_shared<SignalPart>();
-    place["filters"].for_each("filters", most_stages,
+    place["filters"].for_each("filters", max_stages,
                               [&](const JsonPlace& each) { part->stages.push_back(load_stage(each)); });
     part->input = load_input(place["input"]);
     part->time = place["time"].real(0.0, 1e9);
-    part->past = load_rows(place["past"], "rows", most_past);
+    part->past = load_rows(place["past"], "rows", max_past);
     if (const auto chosen = place.optional("selected")) {
         if (part->stages.empty()) chosen->fail("there is no filter");
         part->selected = chosen->index(part->stages.size() - 1);

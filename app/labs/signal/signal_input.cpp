@@ -77,7 +77,7 @@ InputRows measuring_rows(const SignalInput& input, double rate) {
         seconds = length_of(input.kind == InputKind::Csv ? input.file.get() : input.recording.get());
     else if (input.kind != InputKind::Hand)
         seconds = input.period * std::max(2.0, std::ceil(4.0 / input.period));
-    seconds = std::min(seconds, most_measured_seconds);
+    seconds = std::min(seconds, max_measured_seconds);
     InputRows rows;
     if (seconds <= 0.0) return rows;
     rows.push_back({signal::min_dt, input_at(input, 0.0)});

@@ -22,9 +22,9 @@ inline constexpr EnumNames<InputKind, 6> input_kinds{
      {"recorded", "Recorded", "What the hand did last, over and over."},
      {"csv", "CSV", "The rows of a file, over and over."}}};
 
-inline constexpr double shortest_input_period = 0.02, longest_input_period = 60.0;  ///< seconds
-inline constexpr double most_amplitude = 1e6;
-inline constexpr std::size_t most_input_rows = 36'000;  ///< of a recording: ten minutes at 60 Hz
+inline constexpr double min_input_period = 0.02, max_input_period = 60.0;  ///< seconds
+inline constexpr double max_amplitude = 1e6;
+inline constexpr std::size_t max_input_rows = 36'000;  ///< of a recording: ten minutes at 60 Hz
 
 using InputRows = std::vector<signal::Sample>;
 
@@ -52,6 +52,6 @@ double length_of(const InputRows* rows);
 /// `most_seconds`. The first row is at 0, and takes next to no
 /// time: it is what filters start from. `rate`: rows a second. Of the hand there are none.
 InputRows measuring_rows(const SignalInput& input, double rate);
-inline constexpr double most_measured_seconds = 10.0;
+inline constexpr double max_measured_seconds = 10.0;
 
 }  // namespace tendril::app

@@ -57,7 +57,7 @@ void SignalLab::add_commands(CommandTable& table) const {
 bool SignalLab::moving(const Workspace& workspace) const {
     const SignalPart& part = signal_part(workspace);
     if (part.recording && !part.recording->begun) return false;
-    if (part.input.kind != InputKind::Hand || part.past.size() < most_past) return true;
+    if (part.input.kind != InputKind::Hand || part.past.size() < max_past) return true;
     const double first = part.past.front().input;
     const bool still = std::all_of(part.past.begin(), part.past.end(),
                                    [&](const signal::Sample& row) { return row.input == first; });
@@ -68,7 +68,7 @@ void SignalLab::step(Workspace& workspace) const {
     const bool modified = workspace.modified();
     pass_signal_time(workspace.document.edit<SignalPart>(signal_lab),
                      tick_seconds * static_cast<double>(workspace.clock.speed));
-    if (!modified) workspace.saved = workspace.document;  // that time passes is nothing that wants saving
+    if (!modified) workspace.saved = workspace.document;  // time does not mark the scene as modified
 }
 
 void SignalLab::work(Workspace& workspace) const {
@@ -94,7 +94,7 @@ std::vector<Handle> SignalLab::handles(const Workspace& workspace) const {
 
 void SignalLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const {
     const double height = static_cast<double>(frame.position.y - ball_level);
-    const double value = std::clamp(height, -most_amplitude, most_amplitude);
+    const double value = std::clamp(height, -max_amplitude, max_amplitude);
     if (pick == hand_pick) emit.continuously("signal.hand", {{"value", value}});
     if (pick == output_pick && signal_part(workspace).recording)
         emit.continuously("signal.fit.hand", {{"value", value}});

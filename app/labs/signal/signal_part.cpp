@@ -44,7 +44,7 @@ void pass_signal_time(SignalPart& part, double dt) {
     double value = input;
     for (SignalStage& stage : part.stages)
         if (stage.enabled) value = signal::step(stage.filter, stage.state, value, dt);
-    if (part.past.size() >= most_past) part.past.erase(part.past.begin());
+    if (part.past.size() >= max_past) part.past.erase(part.past.begin());
     part.past.push_back({dt, input});
     record(part);
 }

@@ -14,9 +14,9 @@
 namespace tendril::app {
 
 inline constexpr const char* signal_lab = "signal";
-inline constexpr std::size_t most_stages = 16;
-inline constexpr std::size_t most_past = 600;    ///< ticks of input that are remembered
-inline constexpr std::size_t most_wanted = 300;  ///< rows of a response to fit to: more would take too long
+inline constexpr std::size_t max_stages = 16;
+inline constexpr std::size_t max_past = 600;    ///< ticks of input that are remembered
+inline constexpr std::size_t max_wanted = 300;  ///< rows of a response to fit to: more would take too long
 
 /// One filter of the chain.
 struct SignalStage {
@@ -50,7 +50,7 @@ struct Fitting {
     std::size_t shares = 0;            ///< ticks that the kind at hand has had
     bool operator==(const Fitting&) const = default;
 };
-inline constexpr double most_residual = 1e9;  ///< of a fit, as a file has it
+inline constexpr double max_residual = 1e9;  ///< of a fit, as a file has it
 
 struct SignalPart final : Part {
     std::vector<SignalStage> stages;

@@ -50,8 +50,8 @@ struct Field {
     bool optional = false;  ///< may be empty, which reads as NaN
     FieldRange range{};     ///< 0 to 1 of a flag, 0 to the last of choices
     std::span<const char* const> choices{};
-    FieldRange usual{};  ///< where most values lie, for sliders and random ones; empty for all of `range`
-    FieldScale scale = FieldScale::Linear;  ///< of a slider over `usual`
+    FieldRange usual{};                     ///< of sliders and random tests; empty: `range`
+    FieldScale scale = FieldScale::Linear;  ///< how sliders map it
     FieldValue (*get)(const void* object) noexcept = nullptr;
     void (*set)(void* object, const FieldValue& value) noexcept = nullptr;
 
@@ -60,7 +60,7 @@ struct Field {
     bool whole() const noexcept {
         return type == FieldType::Flag || type == FieldType::Integer || type == FieldType::Choice;
     }
-    /// One of its numbers, and that number set alone.
+    /// Reads or sets one number; the others stay.
     double number(const void* object, int axis = 0) const noexcept {
         return get(object)[static_cast<std::size_t>(axis)];
     }

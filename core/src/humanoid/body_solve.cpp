@@ -25,7 +25,7 @@ constexpr double back_per_metre = 3.0;
 constexpr double joints_per_target = 12.0, pace_kept = 0.5;
 /// What is left in the next solve of the way that a contact moved a limb without a target.
 constexpr double comes_back = 0.7;
-constexpr double largest_pace = 3.0;  ///< metres
+constexpr double max_pace = 3.0;  ///< metres
 /// Metres. How far a step of least squares holds good is about what is left of the way times this.
 constexpr double lever = 0.5;
 constexpr double largest_turn = 0.5;  ///< radians that a joint turns in a step
@@ -53,7 +53,7 @@ std::optional<BodyReport> BodySolve::run(std::span<rig::Transform> pose, BodySta
     const double moved = goals_moved(state);
     double budget = back_per_metre * moved;
     for (std::size_t k = 0; k < count_; ++k) goals_[k].stuck = state.left[goals_[k].effector];
-    const double pace = std::min(std::max(joints_per_target * moved, pace_kept * state.pace), largest_pace);
+    const double pace = std::min(std::max(joints_per_target * moved, pace_kept * state.pace), max_pace);
     while (result.iterations < options_.max_iterations) {
         ++result.iterations;
         const double damping = std::max(caution * lever * std::sqrt(2.0 * cost), 1e-8);
@@ -64,8 +64,8 @@ std::optional<BodyReport> BodySolve::run(std::span<rig::Transform> pose, BodySta
             break;
         }
         keep();
-        std::array<double, effector_count> lefts{};
-        for (std::size_t k = 0; k < count_; ++k) lefts[k] = length(goals_[k].left);
+        std::array<double, effector_count> residuals{};
+        for (std::size_t k = 0; k < count_; ++k) residuals[k] = length(goals_[k].left);
         const double part = std::min(1.0, largest_turn / size), before = farthest();
         apply(part);
         const double next = measure();
@@ -82,7 +82,7 @@ std::optional<BodyReport> BodySolve::run(std::span<rig::Transform> pose, BodySta
             part_back = std::min(part_back * 2.0, 0.5);
             for (std::size_t k = 0; k < count_; ++k) {
                 Goal& goal = goals_[k];
-                const double now = length(goal.left), was = lefts[k];
+                const double now = length(goal.left), was = residuals[k];
                 goal.stuck = times(goal.left, was > now ? now / was : 1.0);
             }
             if (result.settled) break;

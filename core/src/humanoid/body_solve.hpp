@@ -77,7 +77,7 @@ class BodySolve {
     void solve_rows(double damping) noexcept;
     /// Blocks what would leave its limit in this step, and lets capsules touch that would pass into each
     /// other; false where nothing new does.
-    bool change_held() noexcept;
+    bool update_active_set() noexcept;
     bool block_limits() noexcept;
     bool hold_contacts() noexcept;
     void find_contacts() noexcept;

@@ -18,7 +18,7 @@ constexpr double shift_mobility = 0.004;
 /// What cannot be brought nearer pulls a limb straight, more so the more it turns: that is stiffness, which
 /// least squares leave out. Times this, for joints one above the other turn together.
 constexpr double bends_away = 2.0;
-constexpr int most_changes = 3;  ///< of the limits that hold, in a step
+constexpr int max_changes = 3;  ///< of the limits that hold, in a step
 
 }  // namespace
 
@@ -111,7 +111,7 @@ void BodySolve::find_step(double damping, double part_back, double budget) noexc
     shift_back_ = times(shift_, -part_back);
     add_goal_rows();
     solve_rows(damping);
-    for (int i = 0; i < most_changes && change_held(); ++i) solve_rows(damping);
+    for (int i = 0; i < max_changes && update_active_set(); ++i) solve_rows(damping);
 }
 
 void BodySolve::add_goal_rows() noexcept {
@@ -163,7 +163,7 @@ void BodySolve::solve_rows(double damping) noexcept {
     }
 }
 
-bool BodySolve::change_held() noexcept {
+bool BodySolve::update_active_set() noexcept {
     const bool limits = block_limits(), contacts = hold_contacts();
     return limits || contacts;
 }

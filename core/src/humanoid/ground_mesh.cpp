@@ -75,7 +75,7 @@ void Ground::Mesh::sort() {
                     std::max(wide, deep) / static_cast<double>(max_side));
     // Where large triangles lie on many squares each, fewer squares: the lists stay in proportion to the
     // mesh.
-    const std::size_t most_entries = 12 * triangles.size() + 64;
+    const std::size_t max_entries = 12 * triangles.size() + 64;
     for (;; cell *= 2.0) {
         columns = static_cast<std::size_t>(wide / cell) + 1;
         rows = static_cast<std::size_t>(deep / cell) + 1;
@@ -87,7 +87,7 @@ void Ground::Mesh::sort() {
             };
             entries += count(t.a.x, t.b.x, t.c.x, x, columns) * count(t.a.z, t.b.z, t.c.z, z, rows);
         }
-        if (entries <= most_entries || columns * rows == 1) break;
+        if (entries <= max_entries || columns * rows == 1) break;
     }
     first.assign(columns * rows + 1, 0);
     for (const Triangle& t : triangles) for_squares(t, [&](std::size_t at) { ++first[at + 1]; });

@@ -19,7 +19,7 @@ constexpr glm::dquat no_turn{1.0, 0.0, 0.0, 0.0};
 /// Squared cosines of half a swing of 160 and of 175 degrees.
 constexpr double told = 0.0302, lost = 0.0019;
 /// Radians; a change below it is the arithmetic's own.
-constexpr double smallest_twist = 1e-9;
+constexpr double min_twist = 1e-9;
 
 /// The nodes from below `above` down to `node`; empty where that does not hang on it.
 std::vector<std::size_t> path(const Skeleton& skeleton, std::size_t above, std::size_t node) {
@@ -141,7 +141,7 @@ void TwistNodes::follow(const ArmTurns& before, std::span<rig::Transform> pose) 
     for (const Helper& each : nodes_) {
         const BoneTwist& twist = twists[each.arm];
         const double by = twist.at(each.part) - (each.hangs_on_twist ? twist.at(each.part_above) : 0.0);
-        if (std::abs(by) < smallest_twist) continue;
+        if (std::abs(by) < min_twist) continue;
         const glm::dvec3& way = arms_[each.arm].bone.way;
         const glm::dvec3 axis = rotated(conjugate(each.above), times(way, 1.0 / length(way)));
         glm::dquat& local = pose[each.node].rotation;

@@ -16,11 +16,11 @@ using glm::dvec3;
 constexpr int max_steps = 16;
 constexpr int few_steps = 4;        ///< after which a larger error is accepted
 constexpr int steps_to_let_go = 8;  ///< in which contacts may go again
-constexpr int most_rejected = 3;    ///< steps in a row that are taken again
+constexpr int max_rejected = 3;     ///< steps in a row that are taken again
 /// Of a link, over h^2, by the inverse mass of its ends: what cannot be as short as it should be is so much
 /// longer that its tension is finite. A metre of rope, 64 segments, that carries a hundred times its weight
 /// gets a millionth longer.
-constexpr double smallest_compliance = 1e-8;
+constexpr double min_compliance = 1e-8;
 constexpr double accepted = 1e-5;  ///< relative length error
 constexpr double first_stiffer = 10.0;
 constexpr double grown_too_far = 0.25, turned_too_far = 0.5;
@@ -52,7 +52,7 @@ void ChainNewton::begin() {
         bond.rest = link.rest;
         bond.compliance = detail::compliance(state_.settings, link) / square;
         const double weights = scratch_.weight[i] + scratch_.weight[particle(k + 1)];
-        bond.compliance = std::max(bond.compliance, smallest_compliance * weights);
+        bond.compliance = std::max(bond.compliance, min_compliance * weights);
         bond.multiplier = std::max(0.0, static_cast<double>(link.tension) * square);
         bond.contact = -1;
     }
@@ -129,7 +129,7 @@ void ChainNewton::solve() {
         local_.done.work += s_.bonds.size();
         system.evaluate(stiffer);
         const bool wild = went_too_far(turned);
-        if (wild && rejected < most_rejected) {
+        if (wild && rejected < max_rejected) {
             ++rejected;
             stiffer = std::max(first_stiffer, 100.0 * stiffer);
             go_back(0.0);

@@ -6,9 +6,9 @@
 namespace tendril::rope::detail {
 namespace {
 
-constexpr double softness = 1e-8;        ///< of contacts with links, over the inverse mass
-constexpr double most_stiffness = 1e9;   ///< over the mass
-constexpr double most_multiplier = 1e9;  ///< over mass and rest
+constexpr double softness = 1e-8;       ///< of contacts with links, over the inverse mass
+constexpr double max_stiffness = 1e9;   ///< over the mass
+constexpr double max_multiplier = 1e9;  ///< over mass and rest
 constexpr double enough_freedom = 0.05;
 
 /// What nodes that are eliminated leave to the next.
@@ -129,7 +129,7 @@ void ChainSystem::evaluate(double stiffer) noexcept {
             const double tension = std::max(bond.multiplier, 0.0);
             bond.error = is - bond.rest - bond.compliance * bond.multiplier;
             bond.stiffness = tension / std::max(bond.rest + bond.compliance * tension, 1e-9);
-            bond.stiffness = std::min(bond.stiffness + stiffer * node.mass, most_stiffness * node.mass);
+            bond.stiffness = std::min(bond.stiffness + stiffer * node.mass, max_stiffness * node.mass);
             bond.pliant = std::max(1.0 - bond.compliance * bond.stiffness, 1e-9);
             pull = bond.multiplier * bond.along;
             if (bond.contact >= 0) {
@@ -204,7 +204,7 @@ void ChainSystem::step() noexcept {
         }
         const dvec3 by = here.offset + here.mobility * (change * along + push);
         // The stiffness acted along the link too: what it did there is tension.
-        const double most = most_multiplier * bond.rest * here.mass;
+        const double most = max_multiplier * bond.rest * here.mass;
         bond.multiplier =
             std::clamp(bond.multiplier + change + bond.stiffness * dot(along, next_by - by), -most, most);
         here.x += by;

@@ -18,7 +18,7 @@ constexpr double min_stiffness = 1e4, max_stiffness = 1e6;
 constexpr double residual_tolerance = 1e-3;  ///< of the residual
 /// Strain of a stretch link up to which two steps are enough.
 constexpr double accepted_strain = 0.01;
-constexpr int most_halvings = 6;
+constexpr int max_halvings = 6;
 
 }  // namespace
 
@@ -150,7 +150,7 @@ int ClothSolver::step(int iterations) {
     const double before = potential();
     go(1.0f);
     float part = 1.0f;
-    for (int i = 0; i < most_halvings && !(after <= before); ++i) {
+    for (int i = 0; i < max_halvings && !(after <= before); ++i) {
         part *= 0.5f;
         go(-part);
         after = potential();
@@ -187,13 +187,13 @@ double ClothSolver::potential() {
 
 int ClothSolver::solve(int iterations) {
     // After a single step a swinging cloth gains energy. Two that are half as exact lose some.
-    constexpr int rounds = 2, rounds_in_contact = 3, most_rounds = 6, most_rounds_in_contact = 4;
+    constexpr int rounds = 2, rounds_in_contact = 3, max_rounds = 6, max_rounds_in_contact = 4;
     load();
     int most = 0;
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < max_rounds; ++round) {
         find_contacts(round == 0);
         const bool touches = !local_.cloth_contacts.empty();
-        const int enough = strain_ > accepted_strain ? (touches ? most_rounds_in_contact : most_rounds)
+        const int enough = strain_ > accepted_strain ? (touches ? max_rounds_in_contact : max_rounds)
                            : touches                 ? rounds_in_contact
                                                      : rounds;
         if (round >= enough) break;

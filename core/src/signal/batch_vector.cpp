@@ -22,8 +22,8 @@ namespace HWY_NAMESPACE {
 
 constexpr float two_pi = 6.28318531f;
 constexpr float weakest = static_cast<float>(no_strength);
-constexpr float largest_state = static_cast<float>(max_output);
-constexpr float smallest_state = 1e-25f;  ///< below, it is 0: denormal numbers take a hundred times longer
+constexpr float max_state = static_cast<float>(max_output);
+constexpr float min_state = 1e-25f;  ///< below, it is 0: denormal numbers take a hundred times longer
 
 HWY_INLINE Mask both(Mask a, Mask b) {
     return hn::And(a, b);
@@ -36,10 +36,10 @@ HWY_INLINE Mask is_between(Lanes x, float low, float high) {
     return both(hn::Ge(x, all(low)), hn::Le(x, all(high)));
 }
 HWY_INLINE Lanes bounded(Lanes x) {
-    const Lanes high = all(largest_state), low = all(-largest_state);
+    const Lanes high = all(max_state), low = all(-max_state);
     x = hn::IfThenElse(hn::Gt(x, high), high, x);
     x = hn::IfThenElse(hn::Lt(x, low), low, x);
-    return hn::IfThenElseZero(hn::Ge(hn::Abs(x), all(smallest_state)), x);
+    return hn::IfThenElseZero(hn::Ge(hn::Abs(x), all(min_state)), x);
 }
 
 /// C and S / t of motion.hpp.
@@ -91,7 +91,7 @@ HWY_INLINE void step_register(const SpringRows& rows, std::size_t i, Lanes dt, L
                       is_between(damping, 0.0f, static_cast<float>(max_damping)));
     valid = both(valid, both(is_within(force, max_magnitude), is_between(amount, 0.0f, 1.0f)));
     valid = both(valid, both(is_within(target, max_magnitude), is_within(previous, max_magnitude)));
-    valid = both(valid, both(is_within(value, largest_state), is_within(velocity, largest_state)));
+    valid = both(valid, both(is_within(value, max_state), is_within(velocity, max_state)));
 
     const Mask is_spring = hn::Ge(strength, all(weakest));
     const Lanes hz = hn::IfThenElseZero(is_spring, strength), w = times(hz, two_pi);

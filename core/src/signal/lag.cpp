@@ -8,7 +8,7 @@
 namespace tendril::signal {
 namespace {
 
-constexpr double most_shifts = 1e4;
+constexpr double max_shifts = 1e4;
 constexpr int refinements = 28;  ///< to a millionth of a row
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 /// Of the input's spread, by how much a fit may be worse than the best and still be as good: what is held
@@ -121,7 +121,7 @@ std::optional<double> lag(const Response& response, double longest) {
     if (time.size() < 3 || wanted.size() != time.size() || output.size() != time.size()) return std::nullopt;
     if (!changes(wanted) || !changes(output) || !(longest > 0.0 && longest <= max_dt)) return std::nullopt;
     longest = std::min(longest, 0.25 * (time.back() - time.front()));
-    const double spacing = std::max(median_dt(time), 2.0 * longest / most_shifts);
+    const double spacing = std::max(median_dt(time), 2.0 * longest / max_shifts);
     if (!(spacing > 0.0)) return std::nullopt;
     const int reach = static_cast<int>(std::ceil(longest / spacing));
 

@@ -241,7 +241,7 @@ TEST(Rewind, IncidentsGoWithTheMomentsTheyBelongTo) {
     remember(rewind, 612, 612);
     EXPECT_TRUE(rewind.incidents().empty()) << "ten seconds have passed";
     for (int i = 0; i < 1000; ++i) rewind.note({.tick = 612, .cause = std::to_string(i)});
-    EXPECT_EQ(rewind.incidents().size(), Rewind::most_incidents);
+    EXPECT_EQ(rewind.incidents().size(), Rewind::max_incidents);
     EXPECT_EQ(rewind.incidents().back().cause, "999");
     rewind.clear();
     EXPECT_TRUE(rewind.incidents().empty());

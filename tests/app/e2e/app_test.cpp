@@ -49,17 +49,17 @@ TEST_F(AppTest, draw_calls_do_not_grow_with_segments) {
 
 TEST_F(AppTest, rests_when_nothing_moves_and_not_while_something_does) {
     for (int i = 0; i < 10; ++i) app_.tick(nullptr);
-    EXPECT_FALSE(app_.restless());
+    EXPECT_FALSE(app_.needs_ticks());
     take(MouseMove{{640, 400}});
-    EXPECT_TRUE(app_.restless());  // the panels may follow a few ticks later
+    EXPECT_TRUE(app_.needs_ticks());  // the panels may follow a few ticks later
     for (int i = 0; i < 10; ++i) app_.tick(nullptr);
-    EXPECT_FALSE(app_.restless());
+    EXPECT_FALSE(app_.needs_ticks());
     run("chain.motion", {{"path", "circle"}});
     for (int i = 0; i < 10; ++i) app_.tick(nullptr);
-    EXPECT_TRUE(app_.restless());
+    EXPECT_TRUE(app_.needs_ticks());
     run("time.pause", Json::object());
     for (int i = 0; i < 10; ++i) app_.tick(nullptr);
-    EXPECT_FALSE(app_.restless());
+    EXPECT_FALSE(app_.needs_ticks());
 }
 
 TEST_F(AppTest, losing_the_focus_in_mid_drag_ends_the_drag) {

@@ -190,7 +190,6 @@ TEST_P(LabCard, leaves_room_beside_it) {
     }
 }
 
-/// As the chevron beside the title does it.
 TEST(CardsTest, follow_one_another) {
     const auto window = open_offscreen({1280, 720});
     App app(*window);
@@ -205,9 +204,30 @@ TEST(CardsTest, follow_one_another) {
         EXPECT_EQ(app.state().at("card").at("title"), cards[i].title) << "begun anew it is the same";
     }
     const Json before = app.state().at("card");
-    for (const int number : {0, 4, -1})
+    for (const int number : {0, static_cast<int>(cards.size()) + 1, -1})
         EXPECT_THROW(run("view.card", {{"number", number}}), Refused) << number;
     EXPECT_EQ(app.state().at("card"), before);
+}
+
+/// The chevron is left of the button that puts the card away, near the right edge.
+TEST(CardsTest, the_chevron_shows_the_next_card_on_its_scene) {
+    CardOnScene scene({"rope", 1});
+    const std::vector<Card> cards = read_cards(cards_source("rope"));
+    const auto title = [&] { return scene.app().state().at("card").at("title").get<std::string>(); };
+    const auto click_chevron = [&] {
+        const std::string before = title();
+        for (float y = 700.0f; y > 60.0f && title() == before; y -= 6.0f)
+            for (const Event& event :
+                 {Event(MouseMove{{1236.0f, y}}), Event(MousePress{MouseButton::Left, true}),
+                  Event(MousePress{MouseButton::Left, false})})
+                scene.app().tick(&event);
+    };
+    for (std::size_t i = 1; i <= cards.size(); ++i) {
+        click_chevron();
+        EXPECT_EQ(title(), cards[i % cards.size()].title);
+        scene.wait(2);
+    }
+    EXPECT_FALSE(scene.app().state().at("ropes").empty());
 }
 
 TEST(CardsTest, are_hidden_without_a_window) {

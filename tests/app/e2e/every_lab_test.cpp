@@ -92,13 +92,14 @@ TEST_P(EveryScene, StandsRandomEventsAndCommandsAndReplaysThem) {
         all_labs);
 }
 
-/// So many random scenes are made from each of the labs' own; TENDRIL_RANDOM_SCENES sets another number.
+/// Random scenes per test scene; TENDRIL_RANDOM_SCENES sets another number.
 unsigned random_scenes() {
     const char* const given = std::getenv("TENDRIL_RANDOM_SCENES");
     return given == nullptr ? 3u : static_cast<unsigned>(std::strtoul(given, nullptr, 10));
 }
 
 TEST_P(EveryScene, OpensAsItWasSavedWhateverWasDoneToIt) {
+    ASSERT_GT(random_scenes(), 0u);
     const auto window = open_offscreen({1280, 720});
     App app(*window, false, all_labs());
     for (unsigned seed = 0; seed < random_scenes() && !HasFailure(); ++seed) {
@@ -121,7 +122,7 @@ void try_to_set_up(App& app, const LabScene& scene) {
     }
 }
 
-/// Scenes of the same lab: its own, the next two, and the one half around.
+/// Scenes of the same lab: its own, the next two, and the one halfway round.
 std::vector<LabScene> some_others(const LabScene& scene) {
     std::vector<LabScene> all = all_scenes();
     std::erase_if(

@@ -220,17 +220,17 @@ class LivePlot : public testing::Test {
 };
 
 TEST_F(LivePlot, ComesInSharesWhileThePausedWindowGoesOnDrawing) {
-    EXPECT_FALSE(app_.restless());
+    EXPECT_FALSE(app_.needs_ticks());
     app_.run({"view.humanoid_plot", Json{{"of", "swing"}}});
     std::size_t before = poses();
     EXPECT_LE(before, 32u);
-    for (int i = 0; i < 100 && app_.restless(); ++i) {
+    for (int i = 0; i < 100 && app_.needs_ticks(); ++i) {
         turns(1);
         EXPECT_LE(poses(), before + 32) << "a turn has two ticks at most";
         before = poses();
     }
     EXPECT_EQ(poses(), moments());
-    EXPECT_FALSE(app_.restless());
+    EXPECT_FALSE(app_.needs_ticks());
     app_.run({"view.humanoid_plot", Json{{"of", "nothing"}}});
     EXPECT_EQ(poses(), 0u);
 }

@@ -201,7 +201,7 @@ Difference compare(const Image& expected, const Image& actual, const Tolerance& 
             mark(result.picture, box.min.x + x, box.min.y + y);
         }
     }
-    result.same = result.pixels <= tolerance.most_pixels;
+    result.same = result.pixels <= tolerance.max_pixels;
     return result;
 }
 

@@ -1,7 +1,7 @@
 // Whether two pictures look the same to a person.
 //
 // Two measures, in CIELAB, where a difference of about 2.3 is just noticeable. Each has a limit; a picture
-// differs when more pixels are beyond one of them than `most_pixels`.
+// differs when more pixels are beyond one of them than `max_pixels`.
 //
 // Colour: how far a pixel lies outside the range of colours that the other picture has within one pixel of it
 // (both ways), as a mean over 3 x 3. An edge that is smoothed a little differently, or lies a fraction of a
@@ -23,7 +23,7 @@ namespace tendril::test {
 struct Tolerance {
     float colour = 2.0f;
     float shape = 9.0f;
-    int most_pixels = 16;  ///< a lone pixel that fell the other way spoils thirteen
+    int max_pixels = 16;  ///< a lone pixel that fell the other way spoils thirteen
 };
 
 struct Difference {

@@ -154,7 +154,7 @@ class EveryField : public LabTest, public testing::WithParamInterface<Row> {
                 break;
             case FieldType::Pair:
                 all.insert(all.end(), {Json::array({0, high + by}), Json::array({low - by, 0}), 0,
-                                       Json::array({0, 1, 2})});
+                                       Json::array({0, 1, 2}), Json::array({0, "1"})});
                 break;
             case FieldType::Point:
                 all.insert(all.end(), {Json::array({0, high + by, 0}), Json::array({low - by, 0, 0}),
@@ -174,6 +174,20 @@ class EveryField : public LabTest, public testing::WithParamInterface<Row> {
         if (!first.empty()) run(of().command, first);
     }
 };
+
+/// A field without a text would have neither argument nor row.
+TEST(FilterFields, EachHasItsText) {
+    for (const signal::Kind& kind : signal::kinds()) {
+        const std::span<const FieldText> texts = filter_texts(kind);
+        ASSERT_EQ(texts.size(), kind.fields.size()) << kind.name;
+        for (std::size_t i = 0; i < texts.size(); ++i) {
+            EXPECT_STREQ(texts[i].name, kind.fields[i].name) << kind.name;
+            std::string label = texts[i].name;
+            std::ranges::replace(label, '_', ' ');
+            EXPECT_EQ(texts[i].label, label);
+        }
+    }
+}
 
 TEST_P(EveryField, IsSavedLoadedAndUndone) {
     const Json before = saved(), wanted = other(before);

@@ -154,7 +154,7 @@ TEST_F(RopePast, APoseOfManyLinksHasSomeHundredLinesFromEndToEnd) {
     for (const auto& [from, to] : lines) length += glm::length(to - from);
     EXPECT_NEAR(length, 28.0f, 1e-3f) << "nothing is left out of ropes that are straight";
     run("rope.preset", {{"name", "hair"}});
-    EXPECT_LE(rope_lines(shared()).size(), most_ghost_lines);
+    EXPECT_LE(rope_lines(shared()).size(), max_ghost_lines);
     EXPECT_GT(rope_lines(shared()).size(), 100u);
 }
 

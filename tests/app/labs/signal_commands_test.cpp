@@ -242,14 +242,14 @@ TEST_F(SignalCommands, ARecordingStartsAfreshAndIsNoLongerThanAFitTakes) {
     wait(50);
     run("signal.fit.record");
     EXPECT_TRUE(part().past.empty());
-    EXPECT_EQ(part().wanted.size(), most_wanted);
+    EXPECT_EQ(part().wanted.size(), max_wanted);
     EXPECT_FALSE(signal::started(part().stages[0].state)) << "filters remember nothing";
     for (int i = 0; i < 400; ++i) {
         run("signal.hand", {{"value", 0.01 * i}});
         wait(1);
     }
     run("signal.fit.draw", {{"from", 0}, {"from_value", 0}, {"to", 0.1}, {"to_value", 1}});
-    ASSERT_EQ(part().wanted.size(), most_wanted);
+    ASSERT_EQ(part().wanted.size(), max_wanted);
     EXPECT_EQ(part().fit_input.back().input, part().past.back().input) << "of a hand the last rows";
 }
 
@@ -355,7 +355,7 @@ TEST_F(SignalCommands, BadInputIsRefusedAndChangesNothing) {
         const std::string said = refused(bad.command, bad.arguments);
         EXPECT_NE(said.find(bad.says), said.npos) << bad.command << " " << bad.arguments << ": " << said;
     }
-    for (std::size_t i = part().stages.size(); i < most_stages; ++i)
+    for (std::size_t i = part().stages.size(); i < max_stages; ++i)
         run("signal.filter.add", {{"kind", "interp_to"}});
     refused("signal.filter.add", {{"kind", "interp_to"}});
 }

@@ -109,7 +109,7 @@ TEST_F(Completion, OffersTheValuesOfAnArgument) {
         EXPECT_EQ(row.detail, row.text == "dark" ? "now" : "");
     EXPECT_EQ(texts("time.speed factor="), (Strings{"1.0"})) << "what it is now";
     table_.run(workspace_, "chain.preset", {{"name", "coil"}, {"count", 5000}});
-    EXPECT_EQ(rows("chain.select index=").size(), most_rows);
+    EXPECT_EQ(rows("chain.select index=").size(), max_rows);
     EXPECT_TRUE(has(texts("chain.select index=4999"), "4999"));
 }
 
@@ -269,7 +269,7 @@ TEST_F(Completion, TenThousandHostileLinesAreAnswered) {
         (void)missing(typed);
         (void)search_commands(table_, line, "chain");
         const auto offered = completions(typed, line, workspace_);
-        EXPECT_LE(offered.size(), most_rows);
+        EXPECT_LE(offered.size(), max_rows);
         if (typed.command == nullptr) {
             EXPECT_TRUE(offered.empty());
         }

@@ -12,14 +12,14 @@
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::AttachmentShape>() noexcept {
     using namespace app;
-    constexpr FieldRange size{shortest_attachment, longest_attachment};
+    constexpr FieldRange size{min_attachment, max_attachment};
     constexpr FieldRange anywhere{-max_magnitude, max_magnitude};
     static constexpr Field rows[] = {
         field<&AttachmentShape::length>("length", size, "m"),
         field<&AttachmentShape::width>("width", size, "m"),
         field<&AttachmentShape::thickness>("thickness", size, "m"),
-        field<&AttachmentShape::segments>("segments", {1, most_attached_segments}),
-        field<&AttachmentShape::strands>("strands", {1, most_attached_strands}),
+        field<&AttachmentShape::segments>("segments", {1, max_attached_segments}),
+        field<&AttachmentShape::strands>("strands", {1, max_attached_strands}),
         field<&AttachmentShape::offset>("offset", anywhere, "m"),
         field<&AttachmentShape::direction>("direction", anywhere)};
     return rows;

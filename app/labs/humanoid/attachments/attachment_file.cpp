@@ -68,10 +68,10 @@ Attachments read_attachments(const JsonPlace& place, const humanoid::Skeleton& s
         world_place.fail(error.what());
     }
     const NamedWorld& world = *attachments.world;
-    if (world.size() > most_attached_particles)
-        world_place.fail("expected at most " + std::to_string(most_attached_particles) +
-                         " particles, found " + std::to_string(world.size()));
-    place["list"].for_each("attachments", most_attachments, [&](const JsonPlace& each) {
+    if (world.size() > max_attached_particles)
+        world_place.fail("expected at most " + std::to_string(max_attached_particles) + " particles, found " +
+                         std::to_string(world.size()));
+    place["list"].for_each("attachments", max_attachments, [&](const JsonPlace& each) {
         Attachment attachment = read_attachment(each, skeleton, world);
         if (attachments.find(attachment.name) != nullptr)
             each["name"].fail("another attachment has the name \"" + attachment.name + "\"");

@@ -60,7 +60,7 @@ void attachment_rows(const HumanoidPanel& panel) {
     explain(
         "What it hangs on. On Hips a rope is a tail, on Head hair is a ponytail, on Chest a cloth is a "
         "cape.");
-    const bool room = panel.part.attachments.list.size() < most_attachments;
+    const bool room = panel.part.attachments.list.size() < max_attachments;
     if (row_button("Add", 1, room, room ? "Hangs it on that bone" : "There are as many as there may be"))
         panel.emit("humanoid.attach", {{"bone", kept.attach_to}, {"kind", attachment_kinds.name(kind)}});
     end_row();

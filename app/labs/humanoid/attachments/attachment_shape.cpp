@@ -25,9 +25,9 @@ double distance_to_body(const Wearer& wearer, const dvec3& point) {
 
 /// How far one goes along `way`, of length 1, until a ball of that radius is off the body.
 double way_off(const Wearer& wearer, const dvec3& from, const dvec3& way, double radius) {
-    constexpr int most_steps = 200;
+    constexpr int max_steps = 200;
     double far = 0.0;
-    for (int i = 0; i < most_steps; ++i) {
+    for (int i = 0; i < max_steps; ++i) {
         const double inside = radius + clearance - distance_to_body(wearer, from + far * way);
         if (inside <= 0.0) break;
         far += std::max(inside, 0.5 * clearance);
@@ -57,7 +57,7 @@ double height_of(const Wearer& wearer) {
 
 int columns_of(const AttachmentShape& shape) {
     const double cells = (1.0 + 0.5 * flare) * shape.width * shape.segments / shape.length;
-    return 1 + static_cast<int>(std::clamp(std::round(cells), 1.0, double{most_attached_segments}));
+    return 1 + static_cast<int>(std::clamp(std::round(cells), 1.0, double{max_attached_segments}));
 }
 
 /// So many points of a curve, from end to end, at equal ways along it.
@@ -155,7 +155,7 @@ AttachmentShape fitting_shape(const Wearer& wearer, AttachmentKind kind, std::si
 
 void scale_lengths(AttachmentShape& shape, double by) {
     for (double* length : {&shape.length, &shape.width, &shape.thickness})
-        *length = std::clamp(*length * by, shortest_attachment, longest_attachment);
+        *length = std::clamp(*length * by, min_attachment, max_attachment);
 }
 
 AttachmentShape default_shape(const Wearer& wearer, AttachmentKind kind, std::size_t node) {

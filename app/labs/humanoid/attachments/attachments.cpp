@@ -150,8 +150,8 @@ NodeFrame Wearer::frame(std::size_t node) const {
 }
 
 void add_attachment(Attachments& attachments, const Wearer& wearer, Attachment wanted) {
-    if (attachments.list.size() >= most_attachments)
-        throw std::invalid_argument("there are " + std::to_string(most_attachments) +
+    if (attachments.list.size() >= max_attachments)
+        throw std::invalid_argument("there are " + std::to_string(max_attachments) +
                                     " attachments, as many as there may be");
     if (wanted.name.empty()) wanted.name = free_name(attachments, wanted.kind);
     if (attachments.find(wanted.name) != nullptr)
@@ -159,10 +159,10 @@ void add_attachment(Attachments& attachments, const Wearer& wearer, Attachment w
     const std::size_t node = *wearer.loaded.skeleton().find(wanted.node);
     const glm::dvec3 rest = wearer.loaded.rest[node].position;
     const std::size_t there = attachments.world->size(), more = particles_of(wanted.kind, wanted.shape);
-    if (more > most_attached_particles - std::min(there, most_attached_particles))
+    if (more > max_attached_particles - std::min(there, max_attached_particles))
         throw std::invalid_argument("its " + std::to_string(more) + " particles with the " +
                                     std::to_string(there) + " that there are would be more than " +
-                                    std::to_string(most_attached_particles));
+                                    std::to_string(max_attached_particles));
     const Made made = make(wanted, wearer, rest);
     wanted.frame = wearer.frame(node);
     const auto move = [&](const glm::dvec3& at) { return wanted.frame.apply(at - rest); };

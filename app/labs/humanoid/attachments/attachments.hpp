@@ -25,9 +25,9 @@ inline constexpr EnumNames<AttachmentKind, 3> attachment_kinds{
      {"hair", "hair", "Many thin strands that keep their direction at the root: a ponytail."},
      {"cloth", "cloth", "A cloth whose first row is held: on the chest, a cape between both shoulders."}}};
 
-inline constexpr std::size_t most_attachments = 16, most_attached_particles = 4000;
-inline constexpr int most_attached_segments = 200, most_attached_strands = 200;
-inline constexpr double shortest_attachment = 0.001, longest_attachment = 100.0;  ///< metres
+inline constexpr std::size_t max_attachments = 16, max_attached_particles = 4000;
+inline constexpr int max_attached_segments = 200, max_attached_strands = 200;
+inline constexpr double min_attachment = 0.001, max_attachment = 100.0;  ///< metres
 
 /// Of their world: hair and cloth in air, so that what swings comes to rest within seconds.
 inline constexpr rope::Settings attachment_settings{.damping = 1.5f};

@@ -163,10 +163,8 @@ void add_character_commands(CommandTable& table) {
         "Says which node of the character is a bone", map)));
     table.add({.name = "humanoid.scale",
                .title = "Correct the character's scale",
-               .arguments = {{.name = "metres",
-                              .help = "of a unit of the file",
-                              .low = smallest_unit,
-                              .high = largest_unit}},
+               .arguments =
+                   {{.name = "metres", .help = "of a unit of the file", .low = min_unit, .high = max_unit}},
                .help = "Corrects the unit of the character's file",
                .effect = Effect::Edit,
                .apply = rescale});

@@ -113,7 +113,7 @@ void add_humanoid_file_commands(CommandTable& table) {
                .title = "Export a clip",
                .arguments = {text_argument("path", true, "a .gltf, .glb or .bvh file to write"),
                              clip_argument("clip", "which one; the chosen one, or the first"),
-                             number_argument("fps", "frames a second; 60", smallest_rate, largest_rate)},
+                             number_argument("fps", "frames a second; 60", min_rate, largest_rate)},
                .help = "Writes a clip with all that IK does to it, and says how near the file comes",
                .effect = Effect::Look,
                .apply = export_shown});

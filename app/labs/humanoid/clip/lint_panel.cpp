@@ -14,7 +14,7 @@ namespace {
 
 using humanoid::Finding;
 
-constexpr std::size_t most_rows = 20;
+constexpr std::size_t max_rows = 20;
 
 const char* fault_title(humanoid::Fault fault) {
     constexpr const char* titles[] = {"skates",    "floats",         "sinks",
@@ -94,9 +94,9 @@ void lint_rows(const HumanoidPanel& panel) {
     if (findings.empty()) return note("Nothing was found.");
     note(std::to_string(findings.size()) + (findings.size() == 1 ? " finding" : " findings") + ", at " +
          fixed_text(report->rate, report->rate == std::floor(report->rate) ? 0 : 2) + " frames a second");
-    for (std::size_t i = 0; i < std::min(findings.size(), most_rows); ++i)
+    for (std::size_t i = 0; i < std::min(findings.size(), max_rows); ++i)
         finding_row(panel, findings[i], static_cast<int>(i));
-    if (findings.size() > most_rows) note("and " + std::to_string(findings.size() - most_rows) + " more");
+    if (findings.size() > max_rows) note("and " + std::to_string(findings.size() - max_rows) + " more");
 }
 
 void export_rows(const HumanoidPanel& panel) {

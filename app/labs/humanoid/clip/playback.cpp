@@ -73,8 +73,7 @@ void advance(Playback& playback, const LoadedCharacter& character, double second
     }
     const double whole = std::ceil(playback.time / duration) - 1.0;
     playback.time = std::clamp(playback.time - whole * duration, 0.0, duration);
-    playback.rounds =
-        std::min(playback.rounds + static_cast<std::int64_t>(std::min(whole, 1e6)), most_rounds);
+    playback.rounds = std::min(playback.rounds + static_cast<std::int64_t>(std::min(whole, 1e6)), max_rounds);
 }
 
 void go_to(Playback& playback, const LoadedCharacter& character, double seconds) {
@@ -82,7 +81,7 @@ void go_to(Playback& playback, const LoadedCharacter& character, double seconds)
     playback.rounds = 0;
     playback.time = std::clamp(seconds, 0.0, duration);
     if (!playback.loop || !(seconds > duration) || !(duration > 0.0)) return;
-    const double whole = std::min(std::ceil(seconds / duration) - 1.0, static_cast<double>(most_rounds));
+    const double whole = std::min(std::ceil(seconds / duration) - 1.0, static_cast<double>(max_rounds));
     playback.rounds = static_cast<std::int64_t>(whole);
     playback.time = std::clamp(seconds - whole * duration, 0.0, duration);
 }

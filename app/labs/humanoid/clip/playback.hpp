@@ -15,7 +15,7 @@
 namespace tendril::app {
 
 inline constexpr double fastest_clip = 10.0;
-inline constexpr std::int64_t most_rounds = 1'000'000;
+inline constexpr std::int64_t max_rounds = 1'000'000;
 
 struct Playback {
     std::optional<std::size_t> clip;  ///< in the character's list; none: the rest pose

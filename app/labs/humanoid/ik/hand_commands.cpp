@@ -71,7 +71,7 @@ void set_self_collision(const IkNow& now, HumanoidPart& part, const Arguments& g
 
 void add_hand_commands(CommandTable& table) {
     const auto seconds = [](const char* name, const char* help) {
-        return number_argument(name, help, 0.0, longest_curve);
+        return number_argument(name, help, 0.0, max_curve);
     };
     std::vector<Argument> hands = field_arguments<HandIkSetting>();
     for (Argument& each : std::vector<Argument>{

@@ -18,7 +18,7 @@ void curve_fields(const HumanoidPanel& panel, std::size_t hand, const HandCurve&
     const auto set = [&](const char* argument, float value) {
         panel.emit.continuously("humanoid.hand_ik", {{"hand", side}, {argument, value}});
     };
-    constexpr auto far = static_cast<float>(longest_curve);
+    constexpr auto far = static_cast<float>(max_curve);
     auto begin = static_cast<float>(curve.begin), full = static_cast<float>(curve.full),
          until = static_cast<float>(curve.until), end = static_cast<float>(curve.end);
     if (number_field((side + " from").c_str(), begin, 0.005f, 0.0f, full, "%.2f s")) set("begin", begin);

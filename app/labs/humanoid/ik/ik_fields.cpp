@@ -24,7 +24,7 @@ std::span<const Field> fields<app::FootIkSetting>() noexcept {
         field<&FootIkSetting::on>("on"),
         field<&FootIkSetting::enter_speed>("enter_speed", {0.0, fastest_foot}, "m/s"),
         field<&FootIkSetting::leave_speed>("leave_speed", {0.0, fastest_foot}, "m/s"),
-        field<&FootIkSetting::max_angle_deg>("max_angle_deg", {0.0, largest_foot_angle}, "deg")};
+        field<&FootIkSetting::max_angle_deg>("max_angle_deg", {0.0, max_foot_angle}, "deg")};
     return rows;
 }
 

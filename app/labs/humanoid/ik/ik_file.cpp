@@ -235,7 +235,7 @@ void read_hand_ik(const JsonPlace& place, HandIkSetting& setting) {
         times->check_size(4, "times, none before the one before it");
         std::array<double, 4> seconds{};
         for (std::size_t i = 0; i < 4; ++i)
-            seconds[i] = times->element(i).real(i == 0 ? 0.0 : seconds[i - 1], longest_curve);
+            seconds[i] = times->element(i).real(i == 0 ? 0.0 : seconds[i - 1], max_curve);
         setting.curves[hand] = HandCurve{seconds[0], seconds[1], seconds[2], seconds[3]};
     }
 }

@@ -42,7 +42,7 @@ struct FootIkSetting {
     double max_angle_deg = 35.0;  ///< by which the ground turns a foot at most
     bool operator==(const FootIkSetting&) const = default;
 };
-inline constexpr double fastest_foot = 100.0, largest_foot_angle = 80.0;
+inline constexpr double fastest_foot = 100.0, max_foot_angle = 80.0;
 
 /// How much a hand goes to its target over the clip's time: 0 until `begin`, 1 from `full` to `until`, 0 from
 /// `end` on; seconds.
@@ -50,7 +50,7 @@ struct HandCurve {
     double begin = 0.3, full = 0.55, until = 0.62, end = 0.85;
     bool operator==(const HandCurve&) const = default;
 };
-inline constexpr double longest_curve = 1e4, widest_view_deg = 180.0;
+inline constexpr double max_curve = 1e4, widest_view_deg = 180.0;
 
 /// Hands that the clip moves, blended to their targets by the arm alone. Half angles of the cone of view.
 struct HandIkSetting {

@@ -211,8 +211,8 @@ glm::vec3 standing_at(const Workspace& workspace) {
 void solve_now(Workspace& workspace) {
     IkState state = humanoid_part(workspace).ik_state;
     // A solve goes part of a long way: what comes after it is done at once.
-    constexpr int most_solves = 40;
-    for (int i = 0; i < most_solves; ++i) {
+    constexpr int max_solves = 40;
+    for (int i = 0; i < max_solves; ++i) {
         const ShownPose shown =
             solve_pose(humanoid_part(workspace), humanoid_runtime(workspace).solvers, 0.0, state);
         if (!shown.refused.empty()) throw std::invalid_argument(shown.refused);

@@ -14,7 +14,7 @@ void draw_humanoid_incident(const View& view, const ShownPose& shown, DrawList& 
     if (!was || was->loaded != part.loaded || incident->joint >= part.skeleton().size()) return;
     const PoseLines lines = humanoid_lines(view.workspace, before);
     const glm::vec4 ghost = faded(view.palette, view.palette.ghost, 0.9f);
-    if (lines.size() <= most_ghost_lines)
+    if (lines.size() <= max_ghost_lines)
         for (const auto& [from, to] : lines)
             list.line(from, to, 2.5f * view.scale, ghost).layer = Layer::Overlay;
     const glm::vec3 at = shown.point(incident->joint);

@@ -26,8 +26,8 @@ std::size_t added(HumanoidPart& part, std::size_t node) {
     if (const std::string why = why_no_spring(part, node); !why.empty()) throw std::invalid_argument(why);
     if (const auto chain = humanoid::SpringChain::make(part.skeleton(), *part.map, node); !chain)
         throw std::invalid_argument(chain.error().message());
-    if (part.springs.size() >= most_springs)
-        throw std::invalid_argument("there are " + std::to_string(most_springs) + " springs already");
+    if (part.springs.size() >= max_springs)
+        throw std::invalid_argument("there are " + std::to_string(max_springs) + " springs already");
     part.springs.push_back({.node = part.skeleton()[node].name});
     part.ik_state.springs.resize(part.springs.size());
     return part.springs.size() - 1;

@@ -61,8 +61,8 @@ void put_on_springs_row(const HumanoidPanel& panel) {
     for (const std::size_t node : selected_for_springs(panel.part))
         nodes.push_back(panel.part.skeleton()[node].name);
     if (nodes.empty()) return;
-    const bool free = panel.part.springs.size() + nodes.size() <= most_springs;
-    const std::string too_many = "There are " + std::to_string(most_springs) + " springs at most";
+    const bool free = panel.part.springs.size() + nodes.size() <= max_springs;
+    const std::string too_many = "There are " + std::to_string(max_springs) + " springs at most";
     if (row_button(nodes.size() == 1 ? "Put on a spring" : "Put on springs", 1, free,
                    free ? "It and all that hangs on it trail behind the clip" : too_many.c_str()))
         panel.emit("humanoid.spring", {of_nodes(nodes)});
@@ -88,7 +88,7 @@ void spring_rows(const HumanoidPanel& panel) {
     if (panel.part.springs.empty())
         note("Ears, antennae and tails that the file has trail behind the head or the hips.");
     for (std::size_t i = 0; i < panel.part.springs.size(); ++i) spring_row(panel, i);
-    if (panel.part.springs.size() < most_springs) add_row(panel);
+    if (panel.part.springs.size() < max_springs) add_row(panel);
 }
 
 void spring_inspector(const HumanoidPanel& panel) {

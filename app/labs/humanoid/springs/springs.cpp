@@ -11,8 +11,9 @@ template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::SpringSetting>() noexcept {
     using app::SpringSetting;
     static constexpr Field rows[] = {
-        field<&SpringSetting::strength>("strength", {app::softest_spring, app::stiffest_spring}, "Hz"),
-        field<&SpringSetting::critical_damping>("critical_damping", {0.0, app::most_spring_damping}),
+        field<&SpringSetting::strength>("strength", {app::min_spring_strength, app::max_spring_strength},
+                                        "Hz"),
+        field<&SpringSetting::critical_damping>("critical_damping", {0.0, app::max_spring_damping}),
         field<&SpringSetting::weight>("weight"),
         field<&SpringSetting::max_angle_deg>("max_angle_deg", {0.0, app::widest_swing_deg}, "deg")};
     return rows;
@@ -142,7 +143,7 @@ Json springs_json(const HumanoidPart& part) {
 }
 
 void read_springs(const JsonPlace& place, HumanoidPart& part) {
-    place.for_each("springs", most_springs, [&](const JsonPlace& each) {
+    place.for_each("springs", max_springs, [&](const JsonPlace& each) {
         SpringSetting spring{.node = each["node"].text()};
         const auto node = part.skeleton().find(spring.node);
         if (!node) each["node"].fail("the character has no node \"" + spring.node + "\"");

@@ -15,9 +15,9 @@ namespace tendril::app {
 struct HumanoidPart;
 class JsonPlace;
 
-inline constexpr std::size_t most_springs = 64;
-inline constexpr double softest_spring = 0.01, stiffest_spring = 100.0;  ///< Hz
-inline constexpr double most_spring_damping = 10.0, widest_swing_deg = 179.0;
+inline constexpr std::size_t max_springs = 64;
+inline constexpr double min_spring_strength = 0.01, max_spring_strength = 100.0;  ///< Hz
+inline constexpr double max_spring_damping = 10.0, widest_swing_deg = 179.0;
 
 /// Of a node and all that hangs on it; as humanoid::SpringOptions has it.
 struct SpringSetting {

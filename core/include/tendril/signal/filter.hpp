@@ -63,7 +63,8 @@ std::span<const Kind> kinds() noexcept;
 /// Null for an unknown name.
 const Kind* find_kind(std::string_view name) noexcept;
 const Kind& kind_of(const Filter& filter) noexcept;
-/// The struct that it holds, for the rows of kind_of(filter).fields.
+/// The struct that the filter holds. Use only with kind_of(filter).fields: a row of another kind would read
+/// or write memory that is not its own.
 void* fields_in(Filter& filter) noexcept;
 const void* fields_in(const Filter& filter) noexcept;
 /// The name of its kind.

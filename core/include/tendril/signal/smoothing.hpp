@@ -63,7 +63,7 @@ struct OneEuro {
     double min_cutoff = 1.0;         ///< Hz, 0 to 1e6
     double beta = 0.1;               ///< Hz per 1/s, 0 to 1e6
     double derivative_cutoff = 1.0;  ///< Hz, 0 to 1e6
-    double reset_jump = 0.0;  ///< starts anew if the input is farther than this from the output; 0: never
+    double reset_jump = 0.0;         ///< restart where input and output are farther apart, 0 to 1e9; 0: never
     bool operator==(const OneEuro&) const = default;
 };
 double step(const OneEuro& parameters, MotionState& state, double input, double dt) noexcept;

@@ -11,9 +11,9 @@ using namespace rig::detail;
 
 // Stances: slower than `enter` to begin, over `leave` to end, and lower than `low`. A standing foot that is
 // pulled away for a moment without being lifted has not taken a step.
-constexpr double enter = 0.6, leave = 1.2, low = 0.03;    // m/s, m
-constexpr double lifted = 0.025, shortest_step = 0.1;     // m, s
-constexpr double landing = 0.05, shortest_stance = 0.15;  // s
+constexpr double enter = 0.6, leave = 1.2, low = 0.03;  // m/s, m
+constexpr double lifted = 0.025, shortest_step = 0.1;   // m, s
+constexpr double landing = 0.05, min_stance = 0.15;     // s
 
 struct Stretch {
     std::size_t first, last;
@@ -104,7 +104,7 @@ void check_floating(Check& check, const Foot& foot, double limit) {
     // Without toes a foot on tiptoe looks as if it floated.
     const double tilt = foot.points.size() > 1 ? 20.0 : 8.0;
     for (const Stretch& each :
-         stretches(foot.height.size(), check.report.rate, shortest_stance, [&](std::size_t i) {
+         stretches(foot.height.size(), check.report.rate, min_stance, [&](std::size_t i) {
              const double above = foot.height[i] - floor;
              return foot.still[i] && foot.tilt[i] < tilt && above > limit && above < most;
          })) {
@@ -165,7 +165,7 @@ std::optional<double> floor_of(const FeetMotion& motion, double rate) {
             if (std::abs(foot.height[i]) < 0.5 * width) at_rest.push_back(foot.height[i]);
         }
     }
-    if (static_cast<double>(heights.size()) < shortest_stance * rate) return std::nullopt;
+    if (static_cast<double>(heights.size()) < min_stance * rate) return std::nullopt;
     const bool use_rest = motion.rests_on_ground && 5 * at_rest.size() >= heights.size();
     std::vector<double>& used = use_rest ? at_rest : heights;
     std::sort(used.begin(), used.end());

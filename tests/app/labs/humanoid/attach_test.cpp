@@ -175,7 +175,7 @@ TEST_F(HumanoidAttach, RefusesWhatDoesNotFit) {
     run("humanoid.attach", {{"bone", "Hips"}, {"kind", "rope"}, {"name", "tail"}});
     expect_refused("humanoid.attach", {{"bone", "Hips"}, {"kind", "rope"}, {"name", "tail"}},
                    {"name \"tail\" is another attachment's"});
-    for (std::size_t i = 1; i < most_attachments; ++i)
+    for (std::size_t i = 1; i < max_attachments; ++i)
         run("humanoid.attach", {{"bone", "Hips"}, {"kind", "rope"}, {"segments", 2}});
     expect_refused("humanoid.attach", {{"bone", "Hips"}, {"kind", "rope"}}, {"there are 16 attachments"});
     run("humanoid.map", {{"bone", "UpperChest"}});

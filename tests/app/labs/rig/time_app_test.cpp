@@ -121,9 +121,9 @@ TEST_F(RigTimeApp, AClipIsSolvedThoughTimeIsPausedAndStaysResponsive) {
     app_.run({"time.pause"});
     app_.run({"rig.clip.record", Json{{"seconds", 1.0}}});
     app_.run({"rig.clip.solve"});
-    EXPECT_TRUE(app_.restless());
+    EXPECT_TRUE(app_.needs_ticks());
     int ticks = 0;
-    for (; app_.restless() && ticks < 600; ++ticks) app_.tick(nullptr);
+    for (; app_.needs_ticks() && ticks < 600; ++ticks) app_.tick(nullptr);
     EXPECT_FALSE(part_of(app_).clip_left->running);
     EXPECT_GT(ticks, 5);
     EXPECT_EQ(part_of(app_).take.now(), 0u);

@@ -280,10 +280,10 @@ TEST_F(RigTime, SlowMotionShowsTheSamePoses) {
 TEST_F(RigTime, ALongTakeGoesOnAsAnother) {
     control("dial", "position");
     run("rig.motion", {{"name", "dial"}, {"path", "circle"}});
-    go(most_take_ticks - 1);
+    go(max_take_ticks - 1);
     play(3);
-    EXPECT_EQ(part().take.began, most_take_ticks);
-    EXPECT_EQ(part().take.now(), most_take_ticks + 2);
+    EXPECT_EQ(part().take.began, max_take_ticks);
+    EXPECT_EQ(part().take.now(), max_take_ticks + 2);
 }
 
 TEST_F(RigTime, ThatTimePassesIsNothingToSaveAndNothingToUndo) {

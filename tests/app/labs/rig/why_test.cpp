@@ -36,7 +36,7 @@ class RigWhy : public RigTest {
         return {{"translation", {a, b, c}}, {"rotation", {b, c, d, a}}};
     }
     static rig::Transform read(const Json& json) {
-        return read_transform(JsonPlace(json, ""), {}, most_reached);
+        return read_transform(JsonPlace(json, ""), {}, max_reached);
     }
     static void expect_same(const rig::Transform& a, const rig::Transform& b, const std::string& what) {
         EXPECT_LT(glm::length(a.translation - b.translation), 1e-5) << what;
