@@ -34,7 +34,7 @@ configure_file(assets.cpp.in ${CMAKE_CURRENT_BINARY_DIR}/assets.cpp @ONLY)
 set_source_files_properties(${CMAKE_CURRENT_BINARY_DIR}/assets.cpp PROPERTIES OBJECT_DEPENDS "${asset_files}")
 
 add_library(tendril_assets STATIC ${CMAKE_CURRENT_BINARY_DIR}/assets.cpp)
-# A compiler cache does not see what .incbin takes in: it would hand out the assets of before.
+# A compiler cache does not track what .incbin reads and would return stale assets.
 set_target_properties(tendril_assets PROPERTIES CXX_COMPILER_LAUNCHER "")
 target_include_directories(tendril_assets PUBLIC ${PROJECT_SOURCE_DIR})
 target_link_libraries(tendril_assets PRIVATE tendril_warnings)

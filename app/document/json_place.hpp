@@ -30,7 +30,7 @@ class JsonPlace {
     /// One that may be missing, or null.
     std::optional<JsonPlace> optional(const char* key) const;
     JsonPlace element(std::size_t index) const;
-    /// Of a list of at most `most`, which messages call `what`: "segments".
+    /// Size of a list of at most `most` elements, which messages call `what`: "segments".
     std::size_t list_size(const char* what, std::size_t most) const;
     /// Every element of such a list.
     void for_each(const char* what, std::size_t most, auto take) const {

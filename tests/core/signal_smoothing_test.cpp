@@ -73,7 +73,7 @@ TEST(SignalSmoothing, TheSemiImplicitSpringExplodesUnder60Point7Frames) {
     EXPECT_LE(largest_at(15.0), signal::max_output) << "never more than that";
 }
 
-/// A hand that is lost and found elsewhere is there at once, and steady from then on as from a first sample.
+/// After a jump the filter continues exactly like a fresh one.
 TEST(SignalSmoothing, OneEuroStartsAnewAtAJump) {
     const signal::OneEuro plain{.min_cutoff = 1.0, .beta = 0.5},
         resets{.min_cutoff = 1.0, .beta = 0.5, .reset_jump = 0.5};

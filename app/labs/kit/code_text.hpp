@@ -23,13 +23,13 @@ std::string string_text(std::string_view text);
 /// "one_euro" as "OneEuro"
 std::string pascal_text(std::string_view name);
 
-/// ".damping = 0.5" of each field, in the order of the table; members are called as their fields are.
+/// ".damping = 0.5" for each field, in table order. Members must have the names of their fields.
 /// Choices are enumerators of `scope`: "rope::Solver::".
 std::vector<std::string> member_texts(FieldsOf of, const std::string& scope = {});
 /// ", " between them.
 std::string joined(const std::vector<std::string>& texts);
 
-/// Statements that give `name`, an ik::State, what it remembers but for rotations and the pole's joints.
+/// Statements that restore the limits and pole of `name`, an ik::State, without the pole's joints.
 std::vector<std::string> ik_memory_texts(const std::string& name, const ik::State& state);
 
 /// "{{.time = 0.0, .value = 0.0, ...}, ...}", each key on a line of its own that begins with `margin`.

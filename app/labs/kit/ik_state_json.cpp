@@ -5,7 +5,7 @@
 
 namespace {
 
-/// A place from the root: two coordinates of at most 1e9 may lie twice as far apart.
+/// Range of an offset from the root: two coordinates of at most 1e9 can be 2e9 apart.
 constexpr tendril::FieldRange offsets{-4e9, 4e9};
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What a reach remembers from solve to solve, in scene files.
+// The state that an IK solver keeps between solves, in scene files.
 //
 //     {"rotations": [[x, y, z, w], ...],
 //      "pole": {"turn": "whole_chain", "pole": [...], "target": [...], "twist_deg": 0, "joints": [...]},

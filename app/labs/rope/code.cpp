@@ -113,7 +113,7 @@ class RopeProgram {
         list("    ", entries, "};");
         line("");
     }
-    /// The user's name, as a comment.
+    /// A comment with the user's name for it.
     void name(const std::string& name) {
         say("// " + Json(name).dump(-1, ' ', false, Json::error_handler_t::replace));
     }

@@ -1,4 +1,4 @@
-// The world of the Rope lab as a C++ program against the library.
+// The world of the Rope lab as a C++ program that uses the library.
 #pragma once
 
 #include <string>

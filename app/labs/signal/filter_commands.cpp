@@ -20,7 +20,7 @@ Argument filter_argument(Argument place) {
     });
 }
 
-/// The fields of all kinds, each name once: in the range of any kind that has it.
+/// The fields of all kinds, each name once, with a range that covers every kind that has it.
 std::vector<Argument> parameter_arguments() {
     std::vector<Argument> arguments;
     std::vector<std::string> owners;  // of each argument

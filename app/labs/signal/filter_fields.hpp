@@ -1,4 +1,4 @@
-// The fields of filters as users see them; what they are is in the library's table, signal::kinds().
+// Labels and help for the fields of filters. The fields themselves are in signal::kinds().
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ inline FieldsIn filter_fields(signal::Filter& filter) {
     return {signal::kind_of(filter).fields, signal::fields_in(filter)};
 }
 
-/// One for each field of a kind, in its order.
+/// One per field of the kind, in the same order.
 std::span<const FieldText> filter_texts(const signal::Kind& kind);
 
 }  // namespace tendril::app

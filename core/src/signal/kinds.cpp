@@ -8,7 +8,7 @@ namespace {
 
 using enum FieldScale;
 
-/// A number or a pair of numbers: the range that check() lets pass, and the usual one.
+/// A number or a pair: `range` is what check() accepts.
 template <auto member>
 constexpr Field number(const char* name, const char* unit, FieldRange range, FieldRange usual,
                        FieldScale scale = Linear) noexcept {

@@ -61,7 +61,7 @@ TEST_F(CommandArguments, ANumberOrAPoint) {
     EXPECT_TRUE(test::says(refused("test.pull", Json::object()), "test.pull by missing number point"));
 }
 
-/// What a scene file could not hold is refused; a file may be called anything.
+/// Text that a scene file could not store is refused; a path may hold any bytes.
 TEST_F(CommandArguments, ATextIsUtf8) {
     std::string taken;
     for (const char* const name : {"name", "path"})

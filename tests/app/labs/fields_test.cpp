@@ -38,7 +38,7 @@ Table table_of(const char* lab, const char* command, const char* path, Json with
     return {lab, command, path, fields<Struct>(), field_texts<Struct>(), std::move(with), std::move(first)};
 }
 
-/// The only filter of the lab, of a kind; what bounds another of its fields is out of the way.
+/// A filter of that kind, alone in the lab. Fields that bound others are set to their maximum first.
 Table table_of(const signal::Kind& kind) {
     Json first{{"at", 0}};
     for (const char* const high : {"clamp_max", "high"})

@@ -1,4 +1,4 @@
-// What a reach remembers, in files of today and of before.
+// IK states in current and older scene files.
 #include "app/labs/kit/ik_state_json.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ ik::State remembering() {
     state.pole = {.valid = true,
                   .turn = ik::PoleTurn::EachJoint,
                   .pole = {1, 2, 3},
-                  .target = {2e9f, 0, -1},  // from the root, it may be twice as far as a coordinate
+                  .target = {2e9f, 0, -1},  // an offset may exceed the range of a coordinate
                   .twist = 0.25f,
                   .joints = {{0, 0, 0}, {0, 1, 0}, {0, 2, 0}}};
     state.limits = {.valid = true, .limited = true, .target = {4, 5, 6}, .damping = 0.125f};

@@ -54,7 +54,7 @@ Result check(const Filter& filter) noexcept;
 struct Kind {
     const char* name;            ///< "one_euro"
     Filter (*blank)() noexcept;  ///< with every parameter's default
-    /// Of the struct that a filter of this kind holds; the keys of a curve are not among them.
+    /// Of the struct that a filter of this kind holds, without the keys of a curve.
     std::span<const Field> fields;
 };
 
